@@ -1,0 +1,73 @@
+// The scene as flat records cut into pages, ready for nodes (built on the host).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/record.h"
+#include "core/scene.h"
+
+namespace dmpc::core {
+
+struct BuildOptions {
+  std::size_t page_size_bytes = 1024;  ///< a power of two, 512 B to 64 KiB
+  double top_cells_per_primitive = 0.125;
+  int voxel_primitives_max = 8;        ///< a voxel with more becomes a brick of its own, as long as that helps
+};
+
+/// Where a primitive came from, for messages, for the oracle and for counting; host only.
+struct PrimitiveSource {
+  std::uint32_t object = 0;  ///< index into Scene::objects; triangles of one polygon share it
+};
+
+/// One primitive as its records hold it, for the oracle and the referee. Rows as in BlockHeader.
+struct PrimitiveValues {
+  PrimitiveKind kind{};
+  std::array<float, 9> value{};
+};
+
+class Database {
+ public:
+  const DatabaseHeader& header() const { return header_; }
+  std::size_t page_size() const { return page_size_; }
+  std::size_t page_count() const { return bytes_.size() / page_size_; }
+  /// page_count() * page_size() bytes (overread_bytes more are readable).
+  std::span<const std::byte> bytes() const { return {bytes_.data(), page_count() * page_size_}; }
+  std::span<const std::byte> page(std::size_t index) const { return bytes().subspan(index * page_size_, page_size_); }
+
+  /// All primitives, by id: grid-local, the very floats of the records. Ids follow the file's order.
+  std::span<const PrimitiveValues> primitives() const { return primitives_; }
+  std::span<const PrimitiveSource> sources() const { return sources_; }
+  /// Where some copy of primitive `id` lies: what Hit::block and Hit::lane of a hit on it may be.
+  struct Place {
+    Address block = no_address;
+    std::uint32_t lane = 0;
+  };
+  std::span<const Place> places() const { return places_; }
+
+  /// Degenerate primitives (zero area or length, radius 0, not finite) that were left out, by reason in total.
+  std::uint32_t dropped() const { return dropped_; }
+  /// Copies of primitives in blocks, at least one each.
+  std::uint64_t references() const { return references_; }
+  /// Half the width of the slab within which a primitive counts as touching a cell, grid-local.
+  double pad() const { return pad_; }
+
+ private:
+  friend class DatabaseBuilder;
+  DatabaseHeader header_;
+  std::size_t page_size_ = 0;
+  std::vector<std::byte> bytes_;
+  std::vector<PrimitiveValues> primitives_;
+  std::vector<PrimitiveSource> sources_;
+  std::vector<Place> places_;
+  std::uint32_t dropped_ = 0;
+  std::uint64_t references_ = 0;
+  double pad_ = 0;
+};
+
+/// Throws InputError if the database would exceed 16 GiB.
+Database build_database(const Scene& scene, const BuildOptions& options);
+
+}  // namespace dmpc::core

@@ -1,0 +1,53 @@
+// The picture's sums, in fixed point, so that they do not depend on the order of the deposits.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/vec.h"
+
+namespace dmpc::core {
+
+/// RGB sums in units of 2^-32. A sum reaches 2^31 before it saturates: 2^15 samples of radiance 2^16. Deposits are >= 0, so a
+/// saturating sum does not depend on the order either.
+struct FixedColor {
+  std::array<std::int64_t, 3> channel{};
+  constexpr bool operator==(const FixedColor&) const = default;
+};
+inline constexpr double film_resolution = 1.0 / 4294967296.0;
+
+/// Rounds a deposit once, where it arises. Negative or NaN channels deposit 0, too large ones saturate.
+FixedColor to_fixed(const Color& light);
+/// Adds, saturating; returns whether a channel saturated.
+bool add(FixedColor& sum, const FixedColor& deposit);
+
+/// A pixel's sums over its even and over its odd samples: their difference estimates the error.
+struct PixelSums {
+  std::array<FixedColor, 2> plane;
+  constexpr bool operator==(const PixelSums&) const = default;
+};
+static_assert(sizeof(PixelSums) == 48);
+
+/// All pixels, row by row from the top left. Not thread-safe; the host owns it.
+class Film {
+ public:
+  Film(int width, int height);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  /// Adds a node's sums of one pixel; returns whether a channel saturated. Requires pixel < width * height.
+  bool deposit(std::uint32_t pixel, const PixelSums& sums);
+  std::span<const PixelSums> pixels() const { return pixels_; }
+  /// Mean linear radiance of a pixel over `samples` samples; requires samples > 0.
+  Vec3d radiance(std::uint32_t pixel, int samples) const;
+  /// FNV-1a over the integers and the size: equal pictures, equal hashes.
+  std::uint64_t hash() const;
+
+ private:
+  int width_, height_;
+  std::vector<PixelSums> pixels_;
+};
+
+}  // namespace dmpc::core

@@ -1,0 +1,30 @@
+// Counts of the work that core does. The machine model of nodes/ alone knows what each costs.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/ray.h"
+#include "core/record.h"
+
+namespace dmpc::core {
+
+/// Counted in one place each, the same under every runner and strategy.
+struct Operations {
+  std::uint64_t cell_steps = 0;    ///< steps from one cell to the next, on any level
+  std::uint64_t brick_reads = 0;
+  std::array<std::uint64_t, primitive_kind_count> primitive_tests{};  ///< lanes tested, by kind
+  std::uint64_t shadings = 0;      ///< hits that were shaded
+
+  std::array<std::uint64_t, ray_kind_count> rays{};  ///< shot, hit or miss, by kind
+  std::uint64_t primary_hits = 0;
+  std::uint64_t secondary_hits = 0;  ///< reflected and refracted rays that hit
+  std::uint64_t shadow_blocked = 0;
+  std::uint64_t total_internal_reflections = 0;
+  std::uint64_t deposits_saturated = 0;
+};
+
+/// Sums field by field.
+Operations& operator+=(Operations& sum, const Operations& more);
+
+}  // namespace dmpc::core

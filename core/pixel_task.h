@@ -1,0 +1,83 @@
+// One pixel under way: a bounded stack of hits and one ray, run against any tracer until it ends or needs an absent record.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/camera.h"
+#include "core/film.h"
+#include "core/operations.h"
+#include "core/shade.h"
+#include "core/traversal.h"
+
+namespace dmpc::core {
+
+/// Finds what a ray hits, and the records that shading reads. trace() has the contract of core/traversal.h's.
+template <class T>
+concept Tracer = requires(T& tracer, const Ray& ray, Cursor& cursor, Operations& operations, Address address) {
+  { tracer.trace(ray, cursor, operations) } -> std::same_as<Traced>;
+  { tracer.find(address) } -> std::same_as<const std::byte*>;
+};
+
+/// Our grid over any memory: the tracer of svm (records = the pager) and of replicated (records = the whole database).
+template <Records R>
+class GridTracer {
+ public:
+  GridTracer(R& records, const DatabaseHeader& header, const TraversalOptions& options)
+      : records_(&records), header_(header), options_(options) {}
+  Traced trace(const Ray& ray, Cursor& cursor, Operations& operations) {
+    return core::trace(ray, cursor, *records_, header_, options_, operations);
+  }
+  const std::byte* find(Address address) { return records_->find(address); }
+
+ private:
+  R* records_;
+  DatabaseHeader header_;
+  TraversalOptions options_;
+};
+
+/// What a pixel needs beside the records; by value in every node.
+struct RenderSettings {
+  DatabaseHeader header;
+  Camera camera;
+  ShadeOptions shade;
+};
+
+enum class TaskState : std::uint8_t { finished, more, absent };
+
+/// Renders one pixel, all its samples, depth first, last in first out: a hit is shaded one child at a time, and each child is traced to
+/// its end before the next is made, so the stack holds at most one hit a depth, whatever the number of lights.
+/// Lives in memory given by its owner; never allocates. Copyable as bytes.
+class PixelTask {
+ public:
+  /// `stack` has at least settings.shade.depth_max entries and outlives the task.
+  explicit PixelTask(std::span<HitState> stack) : stack_(stack) {}
+
+  void start(std::uint32_t pixel, const RenderSettings& settings, Operations& operations);
+
+  /// Goes on until the pixel is finished, a ray has ended (`more`), or a record is absent (see absent()). One call ends at
+  /// most one ray, so it is a bounded quantum.
+  template <Tracer T>
+  TaskState run(T& tracer, const RenderSettings& settings, Operations& operations);
+
+  Address absent() const { return absent_; }
+  std::uint32_t pixel() const { return pixel_; }
+  const PixelSums& sums() const { return sums_; }
+
+ private:
+  void shoot(const Ray& ray, Operations& operations);
+  void end_ray(Traced result, const RenderSettings& settings, Operations& operations);
+  bool next_sample(const RenderSettings& settings, Operations& operations);
+
+  std::span<HitState> stack_;
+  Ray ray_;
+  Cursor cursor_;
+  PixelSums sums_;
+  Address absent_ = no_address;
+  std::uint32_t pixel_ = 0;
+  std::uint32_t sample_ = 0;
+  std::uint32_t stack_size_ = 0;
+  bool tracing_ = false;
+};
+
+}  // namespace dmpc::core

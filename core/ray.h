@@ -1,0 +1,34 @@
+// The self-contained ray: its own continuation, stack entry in svm and message in dataflow.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "core/vec.h"
+
+namespace dmpc::core {
+
+enum class RayKind : std::uint8_t { primary, reflected, refracted, shadow };
+inline constexpr std::size_t ray_kind_count = 4;
+
+/// No primitive: a ray that missed, or one that starts on no flat primitive.
+inline constexpr std::uint32_t no_primitive = 0xffffffffU;
+
+/// A ray in grid-local coordinates (GridFrame in core/record.h). Nothing returns to whoever spawned it: where it ends, it
+/// deposits light at `pixel` or spawns further rays (as pbrt-v4's wavefront work items do).
+struct Ray {
+  Vec3f origin;
+  float t_max = std::numeric_limits<float>::infinity();  ///< hits count in (0, t_max)
+  Vec3f direction;                                       ///< of unit length, to rounding
+  std::uint32_t ignored_primitive = no_primitive;        ///< the triangle it starts on, which it cannot hit again
+  Color weight{1, 1, 1};       ///< factor of the light it finds; for a shadow ray the light that it brings if nothing blocks it
+  std::uint32_t pixel = 0;     ///< y * width + x
+  std::uint32_t sample = 0;    ///< below the samples per pixel
+  std::uint8_t depth = 1;      ///< 1 for a primary ray; a shadow ray has the depth of the ray whose hit cast it
+  RayKind kind = RayKind::primary;
+  std::uint16_t padding = 0;
+};
+static_assert(sizeof(Ray) == 56 && std::is_trivially_copyable_v<Ray>);
+
+}  // namespace dmpc::core

@@ -1,0 +1,157 @@
+// Addresses and fixed layouts of the database's records: position-independent, little-endian, no pointers.
+//
+// The database is an array of bytes cut into pages. A record lies wholly in one page, is at most record_bytes_max long and
+// starts at a multiple of record_alignment, so that a 32-bit address spans 32 GiB and page = address / (page_size / 8).
+//
+//   directory   one DirectoryEntry a top cell of the grid
+//   bricks      Brick with its arrays, followed by the primitive blocks that it names (both in Morton order)
+//   normals     PatchNormals of smooth triangles      } shading data, read for final hits only
+//   materials   MaterialRecord                        }
+//   lights      LightRecord                           }
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "core/vec.h"
+
+namespace dmpc::core {
+
+/// Where a record starts: its byte offset in the database divided by record_alignment.
+enum class Address : std::uint32_t {};
+inline constexpr Address no_address{0xffffffffU};
+inline constexpr std::size_t record_alignment = 8;
+inline constexpr std::size_t record_bytes_max = 448;
+
+constexpr std::uint64_t byte_offset(Address address) {
+  return std::uint64_t{static_cast<std::uint32_t>(address)} * record_alignment;
+}
+/// The address of the record at `base + bytes`; `bytes` is a multiple of record_alignment.
+constexpr Address advance(Address base, std::uint64_t bytes) {
+  return Address{static_cast<std::uint32_t>(static_cast<std::uint32_t>(base) + bytes / record_alignment)};
+}
+
+// ---- The grid ------------------------------------------------------------------------------------------------------------
+
+/// Each level cuts a cell into brick_side^3; level 0 is the directory's top cell, level 3 the finest.
+inline constexpr int brick_side = 4;
+inline constexpr int finest_level = 3;
+/// Cells of the finest level along the edge of a top cell.
+inline constexpr int finest_per_top = 64;
+/// Cells of the finest level along the edge of a cell of `level`.
+constexpr int span_of(int level) { return finest_per_top >> (2 * level); }
+
+/// One top cell: a brick's address, or empty with the Chebyshev radius r >= 1 of top cells around it that are empty too: all
+/// cells nearer than r are empty (Cohen & Sheffer 1994).
+struct DirectoryEntry {
+  static constexpr std::uint32_t empty_flag = 0x80000000U;
+  std::uint32_t bits = empty_flag | 1U;
+
+  constexpr bool empty() const { return (bits & empty_flag) != 0; }
+  constexpr int radius() const { return static_cast<int>(bits & ~empty_flag); }
+  constexpr Address brick() const { return Address{bits}; }
+};
+static_assert(sizeof(DirectoryEntry) == 4);
+inline constexpr int radius_max = 64;
+
+inline constexpr std::size_t blocks_per_sheet = 8;
+
+/// A cube of 4x4x4 voxels. Behind it lie, without gaps: the addresses of its blocks (4 B each), the addresses of its nested
+/// bricks (4 B each, one a set bit of `nested` in bit order), and one byte for each set bit of `occupied & ~nested`, whose bit b
+/// says that block b has a primitive in that voxel. More than 8 blocks continue in the brick at `next_sheet`.
+struct Brick {
+  std::uint64_t occupied = 0;  ///< bit x + 4 y + 16 z: the voxel holds a primitive (of this sheet) or a nested brick
+  std::uint64_t nested = 0;    ///< subset of `occupied`: the voxel is a brick of its own
+  Address next_sheet = no_address;
+  std::uint8_t block_count = 0;
+  std::array<std::uint8_t, 3> padding{};
+};
+static_assert(sizeof(Brick) == 24 && std::is_trivially_copyable_v<Brick>);
+static_assert(sizeof(Brick) + blocks_per_sheet * 4 + 64 * 4 <= record_bytes_max, "a brick fits a record");
+
+// ---- Primitive blocks ----------------------------------------------------------------------------------------------------
+
+enum class PrimitiveKind : std::uint8_t { triangle, sphere, cone };
+inline constexpr std::size_t primitive_kind_count = 3;
+
+inline constexpr std::size_t block_lanes = 8;
+
+/// Up to 8 primitives of one kind, as a structure of arrays with `count` lanes: `value_count(kind)` rows of floats, then a row of
+/// primitive ids (ascending), then a row of ShadingReference. Grid-local coordinates.
+///   triangle rows: v0.x v0.y v0.z v1.x .. v2.z    sphere rows: centre.x .y .z radius
+///   cone rows:     base.x .y .z radius, apex.x .y .z radius
+struct BlockHeader {
+  PrimitiveKind kind{};
+  std::uint8_t count = 0;
+  std::array<std::uint8_t, 6> padding{};
+};
+static_assert(sizeof(BlockHeader) == 8);
+
+constexpr std::size_t value_count(PrimitiveKind kind) {
+  return kind == PrimitiveKind::triangle ? 9 : kind == PrimitiveKind::sphere ? 4 : 8;
+}
+constexpr std::size_t block_bytes(PrimitiveKind kind, std::size_t count) {
+  return sizeof(BlockHeader) + count * 4 * (value_count(kind) + 2);
+}
+static_assert(block_bytes(PrimitiveKind::triangle, block_lanes) <= record_bytes_max);
+
+/// Where a primitive's shading data is: the index of its material, or the address of its PatchNormals.
+struct ShadingReference {
+  static constexpr std::uint32_t smooth_flag = 0x80000000U;
+  std::uint32_t bits = 0;
+
+  static constexpr ShadingReference flat(std::uint32_t material) { return {material}; }
+  static constexpr ShadingReference smooth(Address normals) { return {smooth_flag | static_cast<std::uint32_t>(normals)}; }
+  constexpr bool is_smooth() const { return (bits & smooth_flag) != 0; }
+  constexpr std::uint32_t material() const { return bits; }
+  constexpr Address normals() const { return Address{bits & ~smooth_flag}; }
+};
+
+// ---- Shading data --------------------------------------------------------------------------------------------------------
+
+/// Vertex normals of a smooth triangle, of unit length to rounding.
+struct PatchNormals {
+  std::array<Vec3f, 3> normal;
+  std::uint32_t material = 0;
+};
+static_assert(sizeof(PatchNormals) == 40);
+
+struct MaterialRecord {
+  Color color;
+  float diffuse = 0, specular = 0, shine = 0, transmittance = 0, refraction_index = 1;
+};
+static_assert(sizeof(MaterialRecord) == 32);
+
+struct LightRecord {
+  Vec3f position;  ///< grid-local
+  Color intensity;
+  std::array<std::uint32_t, 2> padding{};
+};
+static_assert(sizeof(LightRecord) == 32);
+
+// ---- What every node knows without asking --------------------------------------------------------------------------------
+
+/// How grid-local coordinates come from the world's: local = (world - origin) * scale, scale a power of two that brings the
+/// largest extent into (1/2, 1]. Keeps voxel arithmetic exact to the grid, not to the world (grid.h says why).
+struct GridFrame {
+  Vec3d origin;
+  double scale = 1;
+  std::array<std::int32_t, 3> resolution{1, 1, 1};  ///< top cells along x, y, z
+  float finest_cell = 1;                            ///< edge of a finest cell, grid-local
+};
+
+/// The database's table of contents, by value in every node.
+struct DatabaseHeader {
+  GridFrame frame;
+  Address directory = no_address;
+  Address materials = no_address;
+  Address lights = no_address;
+  std::uint32_t primitive_count = 0;
+  std::uint32_t light_count = 0;
+  Color background;
+};
+static_assert(std::is_trivially_copyable_v<DatabaseHeader>);
+
+}  // namespace dmpc::core

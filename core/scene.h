@@ -1,0 +1,98 @@
+// A scene as a file says it: objects in file order, materials, lights and a view, in double precision and world
+// coordinates. It lives on the host only; core/database.h turns it into flat records for the nodes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/vec.h"
+
+namespace dmpc::core {
+
+/// NFF's `f`: what an object's surface does with light (E. Haines, SPD, NFF.TXT).
+struct Material {
+  Vec3d color{0.5, 0.5, 0.5};      ///< of the diffuse part, 0..1
+  double diffuse = 1;              ///< Kd
+  double specular = 0;             ///< Ks: weight of the highlight and of the mirror
+  double shine = 0;                ///< Phong's cosine power
+  double transmittance = 0;        ///< T; above 0 the surface transmits
+  double refraction_index = 1;     ///< of the inside; meaningful when transmittance > 0 only
+
+  bool operator==(const Material&) const = default;
+};
+
+/// NFF's `l`: a point light without fall-off.
+struct PointLight {
+  Vec3d position;
+  Vec3d color{1, 1, 1};
+  bool has_color = false;  ///< false: the file gave no colour, and every such light gets 1/sqrt(number of lights)
+};
+
+/// NFF's `v`.
+struct View {
+  Vec3d from{0, 0, 1}, at{0, 0, 0}, up{0, 1, 0};
+  double angle_degrees = 45;  ///< from the centre of the first to the centre of the last pixel row
+  double hither = 0;          ///< kept for writing; tracing ignores it
+  int width = 512, height = 512;
+};
+
+/// Radius below 0: only the inside is visible.
+struct Sphere {
+  Vec3d center;
+  double radius = 1;
+};
+
+/// An open cone or (equal radii) cylinder. Both radii below 0: only the inside is visible.
+struct Cone {
+  Vec3d base;
+  double base_radius = 1;
+  Vec3d apex;
+  double apex_radius = 1;
+};
+
+enum class ObjectKind : std::uint8_t { polygon, patch, sphere, cone };
+
+/// One entity of the file. `first` indexes the pool of its kind: vertices (polygon, patch), spheres, cones.
+struct Object {
+  ObjectKind kind{};
+  std::uint32_t material = 0;      ///< index into Scene::materials
+  std::uint32_t first = 0;
+  std::uint32_t vertex_count = 0;  ///< polygon, patch: at least 3; else 0
+  std::uint32_t first_normal = 0;  ///< patch: index into Scene::normals, vertex_count of them
+};
+
+struct Scene {
+  std::string name;  ///< the file's path or the built-in name, for messages
+  View view;
+  Vec3d background;  ///< linear RGB, as the file gives it
+  std::vector<PointLight> lights;
+  std::vector<Material> materials;  ///< equal ones merged
+  std::vector<Object> objects;      ///< in file order
+  std::vector<Vec3d> vertices;
+  std::vector<Vec3d> normals;       ///< of patches; need not be of unit length
+  std::vector<Sphere> spheres;
+  std::vector<Cone> cones;
+};
+
+/// Adds objects in file order with one current material, as an NFF stream does. Equal materials are merged.
+class SceneBuilder {
+ public:
+  explicit SceneBuilder(Scene& scene) : scene_(scene) {}
+
+  void material(const Material& material);
+  void polygon(const std::vector<Vec3d>& vertices);
+  /// One normal for each vertex.
+  void patch(const std::vector<Vec3d>& vertices, const std::vector<Vec3d>& normals);
+  void sphere(const Vec3d& center, double radius);
+  void cone(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius);
+
+ private:
+  void add(ObjectKind kind, std::size_t first, std::size_t vertex_count, std::size_t first_normal);
+
+  Scene& scene_;
+  std::uint32_t material_ = 0;
+  bool has_material_ = false;
+};
+
+}  // namespace dmpc::core

@@ -1,0 +1,54 @@
+// What a hit does: NFF's surface (diffuse, Phong highlight, mirror, transmission), one child ray a step.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "core/hit.h"
+#include "core/operations.h"
+#include "core/ray.h"
+#include "core/record.h"
+#include "core/vec.h"
+
+namespace dmpc::core {
+
+/// Which shadow rays are cast. haines: one a light that the surface faces (SPD, rule 10). paper: one a light at every hit
+/// (Badouel, Bouatouch & Priol 1994, as recovered from their ray counts).
+enum class Convention : std::uint8_t { haines, paper };
+
+struct ShadeOptions {
+  Convention convention = Convention::haines;
+  int depth_max = 5;  ///< hits at this depth spawn shadow rays only; the primary ray has depth 1
+};
+
+/// A hit being shaded: a record on the ray stack, resumable between any two of its records. Each step reads exactly one record.
+struct HitState {
+  enum class Stage : std::uint8_t { geometry, normals, material, light, reflected, refracted, finished };
+
+  Ray ray;             ///< the ray that hit
+  Hit hit;
+  Vec3d point;         ///< on the primitive
+  Vec3d geometric_normal;  ///< true normal, unit length
+  Vec3d normal;        ///< shading normal on the ray's side, unit length
+  double u = 0, v = 0; ///< barycentric weights of vertices 1 and 2 (triangles)
+  MaterialRecord material;
+  ShadingReference shading;
+  std::uint32_t next_light = 0;
+  bool leaving = false;       ///< the ray goes along the true normal: out of the body
+  bool total_internal_reflection = false;
+  Stage stage = Stage::geometry;
+};
+static_assert(std::is_trivially_copyable_v<HitState>);
+
+/// The state of a fresh hit.
+HitState begin_shading(const Ray& ray, const Hit& hit);
+
+/// The record that the next step reads, or no_address if it reads none.
+Address record_needed(const HitState& state, const DatabaseHeader& header);
+
+/// One step. `record` is the record of record_needed() (nullptr if that was no_address). Returns whether `child` was set to a ray
+/// to be shot; the caller shoots it, then goes on, until state.stage is finished.
+bool shade_step(HitState& state, const std::byte* record, const DatabaseHeader& header, const ShadeOptions& options, Ray& child,
+                Operations& operations);
+
+}  // namespace dmpc::core

@@ -1,0 +1,48 @@
+// What one node sends another: a small header and a bounded payload, copied, without pointers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <type_traits>
+
+#include "core/expect.h"
+#include "nodes/node_id.h"
+
+namespace dmpc::nodes {
+
+/// A node program's own numbering of its packets, below packet_kind_count.
+using PacketKind = std::uint8_t;
+inline constexpr std::size_t packet_kind_count = 16;
+
+struct PacketHeader {
+  std::uint32_t bytes = 0;   ///< of the payload
+  std::uint16_t source = 0;  ///< index of the sending NodeId
+  PacketKind kind = 0;
+  std::uint8_t padding = 0;
+};
+static_assert(sizeof(PacketHeader) == 8 && std::is_trivially_copyable_v<PacketHeader>);
+
+/// A slot of a mailbox's small pool holds a header and so much payload; anything longer takes a bulk slot.
+inline constexpr std::size_t small_slot_bytes = 64;
+inline constexpr std::size_t small_payload_bytes = small_slot_bytes - sizeof(PacketHeader);
+
+/// A received packet: valid only during the call of Program::receive().
+struct Packet {
+  NodeId source{};
+  PacketKind kind = 0;
+  std::span<const std::byte> payload;
+
+  /// The payload as one value of a trivially copyable type; expects that the size is right.
+  template <class T>
+  T as() const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    core::expect(payload.size() == sizeof(T), "a packet has the size of its kind");
+    T value;
+    std::memcpy(&value, payload.data(), sizeof(T));
+    return value;
+  }
+};
+
+}  // namespace dmpc::nodes

@@ -1,0 +1,30 @@
+// The seam between the runners and the strategies: an event-driven object that never blocks.
+#pragma once
+
+#include <string>
+
+#include "nodes/packet.h"
+
+namespace dmpc::nodes {
+
+/// What a node runs. A runner calls it, never the reverse; a program cannot tell which runner does. Calls for one program never
+/// overlap. A program may touch only its own state, its Node (send, local memory, charge, count) and immutable data made before the
+/// start; it holds no reference into another node.
+class Program {
+ public:
+  virtual ~Program() = default;
+
+  /// Handles one packet. The payload is gone after the call.
+  virtual void receive(const Packet& packet) = 0;
+
+  /// One quantum: bounded, small. Returns whether there is more to do without a packet arriving first.
+  virtual bool work() = 0;
+
+  /// True once this program will neither work nor need to receive any more. The run ends when all programs are finished.
+  virtual bool finished() const = 0;
+
+  /// One line on queues and state, for the watchdog's report. Called only while the program is not running.
+  virtual std::string describe() const = 0;
+};
+
+}  // namespace dmpc::nodes
