@@ -2,8 +2,10 @@
 // coordinates. It lives on the host only; core/database.h turns it into flat records for the nodes.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "core/vec.h"
@@ -75,24 +77,53 @@ struct Scene {
   std::vector<Cone> cones;
 };
 
-/// Adds objects in file order with one current material, as an NFF stream does. Equal materials are merged.
-class SceneBuilder {
+/// What takes the entities of a scene one by one, in a file's order: a builder, a writer, or a step on the way to one. Objects
+/// get the material given last before them.
+class SceneSink {
  public:
-  explicit SceneBuilder(Scene& scene) : scene_(scene) {}
+  virtual ~SceneSink() = default;
 
-  void material(const Material& material);
-  void polygon(const std::vector<Vec3d>& vertices);
-  /// One normal for each vertex.
-  void patch(const std::vector<Vec3d>& vertices, const std::vector<Vec3d>& normals);
-  void sphere(const Vec3d& center, double radius);
-  void cone(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius);
+  virtual void background(const Vec3d& color) = 0;
+  virtual void view(const View& view) = 0;
+  virtual void light(const PointLight& light) = 0;
+  virtual void material(const Material& material) = 0;
+  /// At least 3 vertices.
+  virtual void polygon(const std::vector<Vec3d>& vertices) = 0;
+  /// At least 3 vertices and one normal for each.
+  virtual void patch(const std::vector<Vec3d>& vertices, const std::vector<Vec3d>& normals) = 0;
+  virtual void sphere(const Vec3d& center, double radius) = 0;
+  virtual void cone(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius) = 0;
+};
+
+/// Adds entities to a scene. Equal materials are merged; objects before the first material get Material{}. Throws InputError when a pool
+/// outgrows its 32-bit indices. The scene must outlive the builder, and only one builder may be at work on it.
+class SceneBuilder final : public SceneSink {
+ public:
+  explicit SceneBuilder(Scene& scene);
+
+  void background(const Vec3d& color) override;
+  void view(const View& view) override;
+  void light(const PointLight& light) override;
+  void material(const Material& material) override;
+  void polygon(const std::vector<Vec3d>& vertices) override;
+  void patch(const std::vector<Vec3d>& vertices, const std::vector<Vec3d>& normals) override;
+  void sphere(const Vec3d& center, double radius) override;
+  void cone(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius) override;
 
  private:
+  struct MaterialHash {
+    std::size_t operator()(const Material& material) const;
+  };
+
   void add(ObjectKind kind, std::size_t first, std::size_t vertex_count, std::size_t first_normal);
 
   Scene& scene_;
+  std::unordered_map<Material, std::uint32_t, MaterialHash> materials_;
   std::uint32_t material_ = 0;
   bool has_material_ = false;
 };
+
+/// Sends a whole scene in file order: background, view, lights, then the objects, with the material wherever it changes.
+void replay(const Scene& scene, SceneSink& sink);
 
 }  // namespace dmpc::core
