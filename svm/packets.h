@@ -1,0 +1,113 @@
+// What the nodes of svm and replicated tell each other and the host: values, without pointers.
+//
+//   kind                   from -> to          channel   size   its place in the target's mailbox is reserved by
+//   page_request           node -> home        request   small  the sender's request credits for that home
+//   page_reply             home -> node        bulk      bulk   the request
+//   work_request           node -> next node   ring      small  its asker: one under way for each node
+//   work_reply             giver -> asker      control   small  the work request
+//   film_sums              node -> host        bulk      bulk   the sender's film credits
+//   film_acknowledgement   host -> node        control   small  the film packet
+//   done                   node -> host        control   small  once a run
+//   stop                   host -> node        control   small  once a run
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "core/film.h"
+#include "nodes/node.h"
+#include "nodes/packet.h"
+#include "svm/page.h"
+#include "svm/work_items.h"
+
+namespace dmpc::svm {
+
+enum class Kind : nodes::PacketKind {
+  page_request,
+  page_reply,
+  work_request,
+  work_reply,
+  film_sums,
+  film_acknowledgement,
+  done,
+  stop
+};
+constexpr nodes::PacketKind number_of(Kind kind) { return static_cast<nodes::PacketKind>(kind); }
+static_assert(number_of(Kind::stop) < nodes::packet_kind_count);
+inline constexpr std::array<const char*, 8> kind_names = {"page_request", "page_reply",           "work_request", "work_reply",
+                                                          "film_sums",    "film_acknowledgement", "done",         "stop"};
+/// The packet's name, for reports.
+constexpr const char* name_of(Kind kind) { return kind_names[number_of(kind)]; }
+
+inline constexpr nodes::Channel request_channel = 0;
+inline constexpr nodes::Channel bulk_channel = 1;
+inline constexpr nodes::Channel ring_channel = 2;
+inline constexpr nodes::Channel control_channel = 3;
+static_assert(control_channel < nodes::channel_count);
+
+template <class T>
+inline constexpr bool is_small_packet = std::is_trivially_copyable_v<T> && sizeof(T) <= nodes::small_payload_bytes;
+
+struct PageRequest {
+  PageId page = no_page;
+};
+static_assert(is_small_packet<PageRequest>);
+
+/// Stands before the page's bytes.
+struct PageReplyHeader {
+  PageId page = no_page;
+  std::uint32_t padding = 0;
+};
+static_assert(sizeof(PageReplyHeader) == 8 && std::is_trivially_copyable_v<PageReplyHeader>);
+static_assert(sizeof(PageReplyHeader) + page_size_min_bytes > nodes::small_payload_bytes, "every page reply is bulk");
+
+/// The node `asker` has no pixels left. Hops from node to node along the ring until one answers or `visits_left` have been asked.
+struct WorkRequest {
+  std::uint32_t asker = 0;
+  std::uint32_t visits_left = 0;
+};
+static_assert(is_small_packet<WorkRequest>);
+
+/// An item of the sender's submap; an empty one says that the request has been all round the ring: there is no more work.
+struct WorkReply {
+  PixelRectangle item;
+};
+static_assert(is_small_packet<WorkReply>);
+
+/// A pixel, complete. Each is sent once.
+struct FilmEntry {
+  std::uint32_t pixel = 0;
+  std::uint32_t padding = 0;
+  core::PixelSums sums;
+};
+static_assert(sizeof(FilmEntry) == 56 && std::is_trivially_copyable_v<FilmEntry>);
+
+/// Stands before `count` entries.
+struct FilmHeader {
+  std::uint32_t count = 0;
+  std::uint32_t padding = 0;
+};
+static_assert(sizeof(FilmHeader) == 8 && std::is_trivially_copyable_v<FilmHeader>);
+static_assert(sizeof(FilmHeader) + sizeof(FilmEntry) > nodes::small_payload_bytes, "every film packet is bulk");
+static_assert(sizeof(FilmHeader) + sizeof(FilmEntry) <= page_size_min_bytes, "a film packet holds an entry, whatever the page size");
+
+struct FilmAcknowledgement {
+  std::uint32_t count = 0;  ///< entries received
+};
+static_assert(is_small_packet<FilmAcknowledgement>);
+
+/// The sender has no pixels left, knows of none elsewhere, and all that it sent has been acknowledged. It still serves pages.
+struct Done {
+  std::uint64_t pixels_rendered = 0;
+};
+static_assert(is_small_packet<Done>);
+
+/// Every node is done and the film is complete.
+struct Stop {
+  std::uint32_t pixels_total = 0;
+};
+static_assert(is_small_packet<Stop>);
+
+}  // namespace dmpc::svm

@@ -1,0 +1,94 @@
+// Renders a picture on N nodes: plans the memory, assembles nodes and host, runs them on threads, and reports.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "core/database.h"
+#include "core/film.h"
+#include "core/pixel_task.h"
+#include "core/traversal.h"
+#include "nodes/counters.h"
+#include "nodes/threads_runner.h"
+#include "svm/local_copy.h"
+#include "svm/node_program.h"
+#include "svm/plan.h"
+#include "svm/program.h"
+
+namespace dmpc::svm {
+
+/// What the user may choose; the fields of PlanRequest that the database and the picture do not give.
+struct RunOptions {
+  std::uint32_t node_count = 8;
+  std::optional<std::size_t> node_memory_bytes;
+  std::optional<std::uint32_t> cache_pages;
+  std::optional<std::uint32_t> in_flight;
+  std::uint32_t work_item_side = 3;
+  bool count_pages = false;
+  std::size_t stack_reserve_bytes = std::size_t{256} << 10U;
+  core::TraversalOptions traversal;
+  /// Called by the host's thread whenever finished pixels arrive: (pixels done, pixels in all). Must not throw.
+  std::function<void(std::uint32_t, std::uint32_t)> progress;
+};
+
+struct NodeReport {
+  ProgramReport program;
+  nodes::NodeCounters counters;
+  nodes::MemoryPlan memory_planned, memory_used;
+};
+
+struct Report {
+  core::Film film;
+  nodes::RunEnd end = nodes::RunEnd::finished;  ///< interrupted: the film is not complete
+  Plan plan;
+  std::vector<NodeReport> nodes;
+  nodes::NodeCounters host;
+
+  core::Operations operations() const;  ///< summed over the nodes
+  PageCounters pages() const;
+  WorkCounters work() const;
+  /// Packets and bytes sent by all nodes and the host, by Kind's number.
+  std::array<nodes::Traffic, nodes::packet_kind_count> sent() const;
+};
+
+/// The plan that a run with these options will follow, for messages before the run. Throws as make_plan() does.
+Plan plan_of(Strategy strategy, const core::Database& database, const core::RenderSettings& settings, const RunOptions& options);
+
+/// Renders with strategy svm. Throws as make_plan() does before anything is rendered; core::InternalError if a law of conservation is
+/// broken. One call at a time in a process needs no care; several are independent.
+Report run_svm(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options, std::stop_token stop);
+
+/// Makes the program of node `index`; called before the start, in order, on the calling thread.
+using MakeProgram = std::function<std::unique_ptr<NodeProgram>(std::uint32_t index, nodes::Node& node)>;
+
+/// Runs any programs of this family under `plan`, checks the laws of conservation and reports.
+Report run_programs(const Plan& plan, const MakeProgram& make_program,
+                    const std::function<void(std::uint32_t, std::uint32_t)>& progress, std::stop_token stop);
+
+/// Renders with strategy replicated and a tracer of one's own: make_tracer(index, copy) returns node `index`'s core::Tracer over its own
+/// copy of the database (a std::span<const std::byte>, overread_bytes more readable). It is called before the start.
+template <class MakeTracer>
+Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
+                      std::stop_token stop, const MakeTracer& make_tracer) {
+  using Tracer = std::invoke_result_t<const MakeTracer&, std::uint32_t, std::span<const std::byte>>;
+  const Plan plan = plan_of(Strategy::replicated, database, settings, options);
+  const auto make_program = [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
+    const auto tracer_over = [&](LocalCopy& copy) { return make_tracer(index, copy.bytes()); };
+    return std::make_unique<ControlProgram<LocalCopy, Tracer>>(node, plan, settings, database.bytes(), tracer_over);
+  };
+  return run_programs(plan, make_program, options.progress, std::move(stop));
+}
+
+/// Renders with strategy replicated and our own grid.
+Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
+                      std::stop_token stop);
+
+}  // namespace dmpc::svm

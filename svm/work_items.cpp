@@ -1,0 +1,80 @@
+#include "svm/work_items.h"
+
+#include <algorithm>
+
+#include "core/expect.h"
+#include "core/units.h"
+
+namespace dmpc::svm {
+namespace {
+
+/// The share of `length` that `part` of `whole` nodes get, rounded to the nearest.
+std::uint32_t share(std::uint32_t length, std::uint32_t part, std::uint32_t whole) {
+  return static_cast<std::uint32_t>((std::uint64_t{length} * part + whole / 2) / whole);
+}
+
+/// Keeps the first `part` (or, with `second`, all but the first part) of `whole` nodes' rectangle, cut across its longer side.
+PixelRectangle half(PixelRectangle rectangle, std::uint32_t part, std::uint32_t whole, bool second) {
+  const bool wide = rectangle.width >= rectangle.height;
+  std::uint32_t& length = wide ? rectangle.width : rectangle.height;
+  std::uint32_t& start = wide ? rectangle.x : rectangle.y;
+  const std::uint32_t cut = share(length, part, whole);
+  start += second ? cut : 0;
+  length = second ? length - cut : cut;
+  return rectangle;
+}
+
+}  // namespace
+
+PixelRectangle submap_of(const PixelRectangle& image, std::uint32_t index, std::uint32_t node_count) {
+  core::expect(index < node_count, "a submap belongs to one of the nodes");
+  PixelRectangle submap = image;
+  while (node_count > 1) {
+    const std::uint32_t first = node_count / 2;
+    const bool second = index >= first;
+    submap = half(submap, first, node_count, second);
+    index -= second ? first : 0;
+    node_count = second ? node_count - first : first;
+  }
+  return submap;
+}
+
+WorkItems::WorkItems(const PixelRectangle& submap, std::uint32_t side)
+    : submap_(submap),
+      side_x_(side == 0 ? std::max(submap.width, 1U) : side),
+      side_y_(side == 0 ? std::max(submap.height, 1U) : side) {
+  if (submap.pixel_count() > 0) {
+    columns_ = core::ceil_divide<std::uint64_t>(submap.width, side_x_);
+    end_ = columns_ * core::ceil_divide<std::uint64_t>(submap.height, side_y_);
+  }
+}
+
+std::optional<PixelRectangle> WorkItems::take() {
+  if (empty()) {
+    return std::nullopt;
+  }
+  return item(next_++);
+}
+
+std::optional<PixelRectangle> WorkItems::give() {
+  if (empty()) {
+    return std::nullopt;
+  }
+  return item(--end_);
+}
+
+PixelRectangle WorkItems::item(std::uint64_t index) const {
+  const auto left = static_cast<std::uint32_t>(index % columns_ * side_x_);
+  const auto top = static_cast<std::uint32_t>(index / columns_ * side_y_);
+  return {submap_.x + left, submap_.y + top, std::min(side_x_, submap_.width - left), std::min(side_y_, submap_.height - top)};
+}
+
+std::uint32_t PixelScan::next(std::uint32_t image_width) {
+  core::expect(!empty(), "a scan gives each pixel of its item once");
+  const std::uint64_t x = item_.x + next_ % item_.width;
+  const std::uint64_t y = item_.y + next_ / item_.width;
+  ++next_;
+  return static_cast<std::uint32_t>(y * image_width + x);
+}
+
+}  // namespace dmpc::svm

@@ -1,0 +1,59 @@
+// The image cut into submaps, one a node, and a submap as work items: taken in scan order, given away from the far end.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace dmpc::svm {
+
+/// A rectangle of pixels: [x, x + width) x [y, y + height).
+struct PixelRectangle {
+  std::uint32_t x = 0, y = 0, width = 0, height = 0;
+
+  constexpr std::uint64_t pixel_count() const { return std::uint64_t{width} * height; }
+  constexpr bool operator==(const PixelRectangle&) const = default;
+};
+
+/// The part of the image that node `index` of `node_count` starts with. The submaps of all nodes cover each pixel exactly once; they are
+/// nearly square and of nearly equal area (the longer side is cut in proportion to the nodes on each side, again and again); where there
+/// are more nodes than pixels, some are empty. Requires index < node_count.
+PixelRectangle submap_of(const PixelRectangle& image, std::uint32_t index, std::uint32_t node_count);
+
+/// What is left of a submap, as items of side x side pixels, clipped at the submap's edge. Needs no memory beside itself.
+class WorkItems {
+ public:
+  /// `side` 0 makes the whole submap one item.
+  WorkItems(const PixelRectangle& submap, std::uint32_t side);
+
+  bool empty() const { return next_ == end_; }
+  std::uint64_t count() const { return end_ - next_; }
+  /// The next item in scan order, for the node itself.
+  std::optional<PixelRectangle> take();
+  /// The last item in scan order, for another node: the one that its owner would have come to last.
+  std::optional<PixelRectangle> give();
+
+ private:
+  PixelRectangle item(std::uint64_t index) const;
+
+  PixelRectangle submap_;
+  std::uint32_t side_x_, side_y_;  ///< of an item that is not clipped
+  std::uint64_t columns_ = 0;      ///< items side by side
+  std::uint64_t next_ = 0, end_ = 0;
+};
+
+/// The pixels of one item, row by row.
+class PixelScan {
+ public:
+  PixelScan() = default;
+  explicit PixelScan(const PixelRectangle& item) : item_(item) {}
+
+  bool empty() const { return next_ == item_.pixel_count(); }
+  /// The next pixel's index in an image of this width. Requires !empty().
+  std::uint32_t next(std::uint32_t image_width);
+
+ private:
+  PixelRectangle item_;
+  std::uint64_t next_ = 0;
+};
+
+}  // namespace dmpc::svm
