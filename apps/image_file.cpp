@@ -1,0 +1,148 @@
+#include "apps/image_file.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "apps/output_file.h"
+#include "apps/srgb.h"
+#include "core/expect.h"
+
+namespace dmpc::apps {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int channels = 3;
+
+std::string lower_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return extension;
+}
+
+bool takes_floats(const fs::path& path) {
+  const std::string extension = lower_extension(path);
+  for (const char* known : {".exr", ".tif", ".tiff", ".hdr"}) {
+    if (extension == known) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::unique_ptr<OIIO::ImageOutput> create_output(const fs::path& path) {
+  // OpenImageIO's "null" and "term" write no file.
+  const std::string extension = lower_extension(path);
+  std::unique_ptr<OIIO::ImageOutput> output;
+  if (!extension.empty() && extension != ".null" && extension != ".term") {
+    output = OIIO::ImageOutput::create(path.string());
+  }
+  if (!output) {
+    static_cast<void>(OIIO::geterror());  // clears OpenImageIO's message
+    throw core::InputError(path.string() + ": cannot write pictures " +
+                           (extension.empty() ? "without an extension" : "of the kind " + extension) +
+                           ", use .exr or .tif (linear floats), .png or .jpg (8 bits, sRGB)");
+  }
+  return output;
+}
+
+OIIO::ImageSpec specification(const fs::path& path, const Image& image) {
+  const bool floats = takes_floats(path);
+  OIIO::ImageSpec spec(image.width, image.height, channels, floats ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", floats ? "Linear" : "sRGB");
+  spec.attribute("Software", "dmpc");
+  if (floats) {
+    spec.attribute("compression", "zip");
+  } else {
+    spec.attribute("CompressionQuality", 95);
+  }
+  return spec;
+}
+
+std::vector<std::uint8_t> srgb_bytes(const Image& image) {
+  std::vector<std::uint8_t> bytes(image.rgb.size());
+  std::transform(image.rgb.begin(), image.rgb.end(), bytes.begin(), srgb_byte);
+  return bytes;
+}
+
+bool write_pixels(OIIO::ImageOutput& output, const fs::path& path, const Image& image) {
+  return takes_floats(path) ? output.write_image(OIIO::TypeDesc::FLOAT, image.rgb.data())
+                            : output.write_image(OIIO::TypeDesc::UINT8, srgb_bytes(image).data());
+}
+
+/// Writes `image` to `file` in the format that `path` asks for.
+void write_to(const fs::path& file, const fs::path& path, const Image& image) {
+  const std::unique_ptr<OIIO::ImageOutput> output = create_output(path);
+  const bool written =
+      output->open(file.string(), specification(path, image)) && write_pixels(*output, path, image) && output->close();
+  std::error_code error;
+  if (!written || !fs::exists(file, error)) {
+    throw core::InputError(path.string() + ": cannot be written: " + output->geterror());
+  }
+}
+
+std::vector<float> read_channels(OIIO::ImageInput& input, const fs::path& path, int count) {
+  const OIIO::ImageSpec& spec = input.spec();
+  const auto pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+  std::vector<float> values(pixels * static_cast<std::size_t>(count));
+  if (!input.read_image(0, 0, 0, count, OIIO::TypeDesc::FLOAT, values.data())) {
+    throw core::InputError(path.string() + ": cannot be read: " + input.geterror());
+  }
+  return values;
+}
+
+void make_linear(std::vector<float>& values) {
+  for (float& value : values) {
+    value = static_cast<float>(linear_from_srgb(static_cast<double>(value)));
+  }
+}
+
+std::vector<float> spread(const std::vector<float>& gray) {
+  std::vector<float> rgb;
+  rgb.reserve(gray.size() * channels);
+  for (const float value : gray) {
+    rgb.insert(rgb.end(), channels, value);
+  }
+  return rgb;
+}
+
+}  // namespace
+
+void check_image_path(const fs::path& path) {
+  static_cast<void>(create_output(path));
+  check_output_path(path, "-o");
+  const OutputFile probe(path);
+  write_to(probe.temporary(), path, Image(1, 1));
+}
+
+void write_image(const fs::path& path, const Image& image) {
+  core::expect(image.width > 0 && image.height > 0, "a picture to be written has at least one pixel");
+  OutputFile file(path);
+  write_to(file.temporary(), path, image);
+  file.commit();
+}
+
+Image read_image(const fs::path& path) {
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
+  if (!input) {
+    throw core::InputError(path.string() + ": cannot be read as a picture: " + OIIO::geterror());
+  }
+  const OIIO::ImageSpec spec = input->spec();
+  const int count = spec.nchannels < channels ? 1 : channels;
+  std::vector<float> values = read_channels(*input, path, count);
+  if (!spec.format.is_floating_point()) {
+    make_linear(values);
+  }
+  Image image(spec.width, spec.height);
+  image.rgb = count == 1 ? spread(values) : std::move(values);
+  return image;
+}
+
+}  // namespace dmpc::apps

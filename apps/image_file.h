@@ -1,0 +1,36 @@
+// Pictures in files. Its .cpp is the only one that names OpenImageIO.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace dmpc::apps {
+
+/// Linear RGB radiance, row by row from the top left, three floats a pixel.
+struct Image {
+  Image() = default;
+  /// Black. Requires width, height >= 0.
+  Image(int image_width, int image_height)
+      : width(image_width),
+        height(image_height),
+        rgb(static_cast<std::size_t>(image_width) * static_cast<std::size_t>(image_height) * 3) {}
+
+  int width = 0, height = 0;
+  std::vector<float> rgb;
+};
+
+/// Throws core::InputError unless a picture can be written at `path`: the extension is one that OpenImageIO writes, the folder is
+/// there, and a picture of one pixel can be written in it (it is removed again).
+void check_image_path(const std::filesystem::path& path);
+
+/// Writes the picture whole or not at all. EXR, TIFF and HDR get 32-bit linear floats (HDR its own shared exponents); every other
+/// format gets 8 bits, clamped to 0..1, with the sRGB curve. Throws core::InputError if that fails.
+void write_image(const std::filesystem::path& path, const Image& image);
+
+/// Reads the first three channels (one channel is taken thrice). Floats are taken as linear radiance; integers as sRGB and made linear.
+/// Throws core::InputError if there is no such picture.
+Image read_image(const std::filesystem::path& path);
+
+}  // namespace dmpc::apps

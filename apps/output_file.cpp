@@ -1,0 +1,88 @@
+#include "apps/output_file.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include "core/expect.h"
+
+namespace dmpc::apps {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+
+/// The file behind a chain of symbolic links; `path` itself if there is none or if it leads nowhere.
+fs::path resolve(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_symlink(path, error)) {
+    return path;
+  }
+  fs::path resolved = fs::weakly_canonical(path, error);
+  return error ? path : resolved;
+}
+
+fs::path temporary_name(const fs::path& target) {
+  return folder_of(target) / (".dmpc-" + std::to_string(::getpid()) + "-" + target.filename().string());
+}
+
+}  // namespace
+
+void check_output_path(const fs::path& path, std::string_view option) {
+  const std::string what = std::string(option) + " " + path.string() + ": ";
+  std::error_code error;
+  if (path.empty() || !path.has_filename() || fs::is_directory(path, error)) {
+    throw core::InputError(what + "this is a folder, expected the name of a file");
+  }
+  const fs::path folder = folder_of(resolve(path));
+  if (!fs::is_directory(folder, error)) {
+    throw core::InputError(what + "there is no folder " + folder.string() + ", make it first");
+  }
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {
+    return;
+  }
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw core::InputError(what + "cannot write into the folder " + folder.string() + ": " + std::strerror(errno));
+  }
+}
+
+OutputFile::OutputFile(const fs::path& path) : target_(resolve(path)) {
+  std::error_code error;
+  const bool special = fs::exists(target_, error) && !fs::is_regular_file(target_, error);
+  temporary_ = special ? target_ : temporary_name(target_);
+}
+
+OutputFile::~OutputFile() {
+  if (!committed_ && temporary_ != target_) {
+    std::error_code error;
+    fs::remove(temporary_, error);
+  }
+}
+
+void OutputFile::commit() {
+  if (temporary_ != target_) {
+    std::error_code error;
+    fs::rename(temporary_, target_, error);
+    if (error) {
+      throw core::InputError(target_.string() + ": cannot be written: " + error.message());
+    }
+  }
+  committed_ = true;
+}
+
+void OutputFile::write(std::string_view text) {
+  std::ofstream stream(temporary_, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) {
+    throw core::InputError(target_.string() + ": cannot be written: " + std::strerror(errno));
+  }
+  commit();
+}
+
+}  // namespace dmpc::apps

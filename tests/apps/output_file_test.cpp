@@ -1,0 +1,91 @@
+#include "apps/output_file.h"
+
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "core/expect.h"
+#include "tests/support/temporary_folder.h"
+
+namespace dmpc::apps {
+
+using tests::file_text;
+using tests::TemporaryFolder;
+using tests::write_text;
+
+TEST_CASE("a written file has its name and nothing else is left in the folder") {
+  const TemporaryFolder folder;
+  OutputFile(folder / "a.json").write("{}");
+  CHECK(file_text(folder / "a.json") == "{}");
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("a file that is not committed leaves nothing behind") {
+  const TemporaryFolder folder;
+  {
+    const OutputFile file(folder / "a.png");
+    write_text(file.temporary(), "half");
+    CHECK(folder.entry_count() == 1);
+  }
+  CHECK(folder.entry_count() == 0);
+}
+
+TEST_CASE("an older file stays whole until the new one is committed") {
+  const TemporaryFolder folder;
+  write_text(folder / "a.txt", "old");
+  OutputFile file(folder / "a.txt");
+  write_text(file.temporary(), "new");
+  CHECK(file_text(folder / "a.txt") == "old");
+  file.commit();
+  CHECK(file_text(folder / "a.txt") == "new");
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("the temporary name lies in the same folder and keeps the extension") {
+  const TemporaryFolder folder;
+  const OutputFile file(folder / "a.exr");
+  CHECK(file.temporary().parent_path() == folder.path());
+  CHECK(file.temporary().extension() == ".exr");
+}
+
+TEST_CASE("a symbolic link stays and the file behind it is replaced") {
+  const TemporaryFolder folder;
+  write_text(folder / "real.txt", "old");
+  std::filesystem::create_symlink("real.txt", folder / "link.txt");
+  OutputFile(folder / "link.txt").write("new");
+  CHECK(std::filesystem::is_symlink(folder / "link.txt"));
+  CHECK(file_text(folder / "real.txt") == "new");
+}
+
+TEST_CASE("what is no ordinary file is written to directly and never renamed over") {
+  const OutputFile file("/dev/null");
+  CHECK(file.temporary() == "/dev/null");
+}
+
+TEST_CASE("a path into a missing folder is refused with the folder's name") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH_AS(check_output_path(folder / "nowhere/a.png", "-o"),
+                       ("-o " + (folder / "nowhere/a.png").string() + ": there is no folder " + (folder / "nowhere").string() +
+                        ", make it first")
+                           .c_str(),
+                       core::InputError);
+}
+
+TEST_CASE("a folder or an empty name is no output") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_AS(check_output_path(folder.path(), "-o"), core::InputError);
+  CHECK_THROWS_AS(check_output_path("", "-o"), core::InputError);
+  CHECK_THROWS_AS(check_output_path(folder.path().string() + "/", "-o"), core::InputError);
+}
+
+TEST_CASE("a bare name lies in the current folder") { CHECK_NOTHROW(check_output_path("a.png", "-o")); }
+
+TEST_CASE("a write that fails says so and leaves nothing") {
+  const TemporaryFolder folder;
+  OutputFile file(folder / "gone/a.json");
+  CHECK_THROWS_AS(file.write("{}"), core::InputError);
+  CHECK(folder.entry_count() == 0);
+}
+
+}  // namespace dmpc::apps
