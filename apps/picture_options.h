@@ -1,0 +1,34 @@
+// What decides a picture on the command line: the scene and how it is looked at. Shared by `render` and `check`.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/database.h"
+#include "core/pixel_task.h"
+#include "core/scene.h"
+#include "core/shade.h"
+
+namespace dmpc::apps {
+
+struct Resolution {
+  int width = 0, height = 0;  ///< both above 0
+};
+
+struct PictureOptions {
+  std::string scene;                     ///< an NFF file or a built-in name
+  std::optional<Resolution> resolution;  ///< the view's own if not given
+  int samples = 1;                       ///< per pixel, 1 to 32768 (core/film.h says why)
+  int depth = 5;                         ///< hits of this depth cast shadow rays only; 1 to 255
+  core::Convention convention = core::Convention::haines;
+};
+
+/// What the nodes need beside the records.
+inline core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database) {
+  const Resolution size = options.resolution.value_or(Resolution{scene.view.width, scene.view.height});
+  return {.header = database.header(),
+          .camera = core::Camera(scene.view, database.header().frame, size.width, size.height, options.samples),
+          .shade = {.convention = options.convention, .depth_max = options.depth}};
+}
+
+}  // namespace dmpc::apps
