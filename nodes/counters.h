@@ -8,21 +8,31 @@
 
 namespace dmpc::nodes {
 
+/// How much of one kind has passed.
 struct Traffic {
   std::uint64_t packets = 0;
   std::uint64_t bytes = 0;  ///< header and payload
+
+  /// Counts one packet with so much payload.
+  void add(std::size_t payload_bytes) {
+    ++packets;
+    bytes += sizeof(PacketHeader) + payload_bytes;
+  }
 };
 
+/// One node's account of a run. Belongs to the node's thread while the run is going.
 struct NodeCounters {
   std::array<Traffic, packet_kind_count> sent{};
   std::array<Traffic, packet_kind_count> received{};
-  std::uint64_t refused = 0;        ///< try_send without credit
-  std::uint64_t quanta = 0;         ///< calls of work()
-  std::uint64_t sleeps = 0;         ///< times the node's thread went to sleep
-  std::uint64_t busy_ns = 0;        ///< wall clock of the threads runner spent in receive() and work(); 0 if not measured
-  std::uint64_t wall_ns = 0;        ///< from the start to the end of this node's loop; idle = wall - busy
+  std::uint64_t refused = 0;    ///< try_send without credit
+  std::uint64_t quanta = 0;     ///< calls of work()
+  std::uint64_t sleeps = 0;     ///< times the node's thread went to sleep
+  std::uint64_t busy_ns = 0;    ///< processor time of the node's thread (threads runner); time without a core does not count
+  std::uint64_t asleep_ns = 0;  ///< wall clock spent asleep for want of packets
+  std::uint64_t wall_ns = 0;    ///< from the start to the end of this node's loop; wall - busy - asleep = waited for a core
 };
 
+/// The sum over all kinds.
 Traffic total(const std::array<Traffic, packet_kind_count>& traffic);
 
 }  // namespace dmpc::nodes

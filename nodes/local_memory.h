@@ -9,31 +9,48 @@
 #include <span>
 #include <type_traits>
 
+#include "core/expect.h"
+
 namespace dmpc::nodes {
 
+/// What a node's bytes are for.
 enum class Category : std::uint8_t {
-  home_pages, cache_frames, page_table, ray_stacks, mailbox, queues, film_tiles, constants, reserve
+  home_pages,
+  cache_frames,
+  page_table,
+  ray_stacks,
+  mailbox,
+  queues,
+  film_tiles,
+  constants,
+  reserve,
 };
 inline constexpr std::size_t category_count = 9;
+
+/// The category in words, for messages and tables: "home pages".
 const char* name_of(Category category);
 
 /// Bytes by category: what a program will need, known before anything is allocated.
 struct MemoryPlan {
   std::array<std::size_t, category_count> bytes{};
 
+  /// Bytes of one category.
   std::size_t& operator[](Category category) { return bytes[static_cast<std::size_t>(category)]; }
   std::size_t operator[](Category category) const { return bytes[static_cast<std::size_t>(category)]; }
+  /// Bytes of all categories.
   std::size_t total() const;
 };
 
-/// One block of memory, cut from the front and never given back; each allocation is rounded up to a cache line and counts against its
-/// category's share of the plan. Thread safety: none; belongs to one node. Under ASan the bytes not handed out are poisoned.
+/// One block of memory, cut from the front and never given back; each allocation is rounded up to a cache line and counts against
+/// its category's share of the plan. Thread safety: none; belongs to one node. Under ASan the bytes not handed out are poisoned,
+/// the remainders of cache lines too.
 class LocalMemory {
  public:
   static constexpr std::size_t alignment = 64;
 
-  /// Reserves plan.total() bytes at once (pages are touched so that the real computer backs them). The `reserve` category is accounted but
-  /// not allocated here: it is the thread's stack, which the runner makes.
+  /// Reserves plan.total() bytes at once (pages are touched so that the real computer backs them), but for the `reserve`
+  /// category: that is the thread's stack, which the runner makes; it counts as used from the start. Throws core::InputError if
+  /// the real computer has not so much.
   explicit LocalMemory(const MemoryPlan& plan);
 
   /// `count` value-initialised objects; expects that the memory is not sealed and that the category's plan has room.
@@ -41,11 +58,12 @@ class LocalMemory {
   template <class T>
   std::span<T> allocate(Category category, std::size_t count) {
     static_assert(std::is_trivially_destructible_v<T> && alignof(T) <= alignment);
-    T* first = static_cast<T*>(allocate_bytes(category, bytes_for<T>(count)));
+    core::expect(count <= plan_[category] / sizeof(T), "an allocation stays within its category's plan");
+    std::byte* const first = allocate_bytes(category, count * sizeof(T));
     for (std::size_t i = 0; i < count; ++i) {
-      ::new (static_cast<void*>(first + i)) T();
+      ::new (static_cast<void*>(first + i * sizeof(T))) T();
     }
-    return {first, count};
+    return {std::launder(reinterpret_cast<T*>(first)), count};
   }
   /// What `allocate<T>(category, count)` takes: for plans.
   template <class T>
@@ -55,17 +73,21 @@ class LocalMemory {
 
   /// From now on allocate() is a broken invariant.
   void seal() { sealed_ = true; }
+  /// Whether seal() has been called.
   bool sealed() const { return sealed_; }
+  /// What the constructor was given.
   const MemoryPlan& plan() const { return plan_; }
   /// Bytes in use by category; since nothing is given back, this is the high-water mark.
   const MemoryPlan& used() const { return used_; }
 
  private:
-  void* allocate_bytes(Category category, std::size_t bytes);
+  using Block = std::unique_ptr<std::byte[], void (*)(std::byte*)>;
+  static Block reserve(std::size_t bytes);
+  std::byte* allocate_bytes(Category category, std::size_t bytes);
 
   MemoryPlan plan_;
   MemoryPlan used_;
-  std::unique_ptr<std::byte[], void (*)(std::byte*)> block_;
+  Block block_;
   std::size_t offset_ = 0;
   bool sealed_ = false;
 };

@@ -1,9 +1,13 @@
 // All that a node program can touch of the computer: its id, its local memory, try_send, and its counters.
 #pragma once
 
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
+#include "core/expect.h"
 #include "nodes/counters.h"
 #include "nodes/local_memory.h"
 #include "nodes/node_id.h"
@@ -11,15 +15,23 @@
 
 namespace dmpc::nodes {
 
-/// A class of packets with credits of its own: a program's numbering, below channel_count. Packets of one channel are all small or
-/// all bulk.
+/// A class of packets with credits of its own: a program's numbering, below channel_count. Packets of one channel are all small
+/// or all bulk.
 using Channel = std::uint8_t;
 inline constexpr std::size_t channel_count = 4;
+/// The most credits that one node can have for one target and channel.
+inline constexpr std::uint32_t credits_max = 0xFFFF;
 
-/// What a runner does with a packet that its sender may send: carries it to the target's mailbox. Never refuses: credits made room.
+/// What may be sent as a value: trivially copyable, and not a view of bytes elsewhere.
+template <class T>
+concept PacketValue = std::is_trivially_copyable_v<T> && !std::convertible_to<const T&, std::span<const std::byte>>;
+
+/// What a runner does with a packet that its sender may send: carries it to the target's mailbox. Never refuses: credits made
+/// room.
 class Network {
  public:
   virtual ~Network() = default;
+  /// Copies the packet into the mailbox of `target`, on the sender's thread.
   virtual void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) = 0;
 };
 
@@ -29,34 +41,46 @@ class Node {
   /// `peer_count` = nodes + host. The table of credits (peer_count * channel_count * 2 bytes) is taken from `memory`.
   Node(NodeId id, std::uint32_t peer_count, LocalMemory& memory, Network& network);
 
-  NodeId id() const;
-  std::uint32_t peer_count() const;
-  LocalMemory& memory();
-  NodeCounters& counters();
+  /// Its own name.
+  NodeId id() const { return id_; }
+  /// How many processors there are, the host and this one included: ids are 0 .. peer_count() - 1.
+  std::uint32_t peer_count() const { return peer_count_; }
+  /// The only memory that its program may allocate from, until it is sealed.
+  LocalMemory& memory() { return *memory_; }
+  /// Its account of the run.
+  NodeCounters& counters() { return counters_; }
 
-  /// Gives this node the right to have `count` more packets of `channel` under way to `target`: at the set-up, and whenever the program
-  /// learns (by a reply, an acknowledgement) that one of its packets has been taken from the target's mailbox.
+  /// Gives this node the right to have `count` more packets of `channel` under way to `target`: at the set-up, and whenever the
+  /// program learns (by a reply, an acknowledgement) that one of its packets has been taken from the target's mailbox. At most
+  /// credits_max in all.
   void grant(NodeId target, Channel channel, std::uint32_t count = 1);
-  std::uint32_t credits(NodeId target, Channel channel) const;
+  /// The credits left.
+  std::uint32_t credits(NodeId target, Channel channel) const { return credit(target, channel); }
 
   /// Sends if a credit for (target, channel) is left and spends it; else refuses: keep the packet in a bounded queue of your own
   /// and go on receiving. A node may send to itself.
   [[nodiscard]] bool try_send(NodeId target, Channel channel, PacketKind kind, std::span<const std::byte> payload);
 
   /// The same for a trivially copyable value.
-  template <class T>
+  template <PacketValue T>
   [[nodiscard]] bool try_send(NodeId target, Channel channel, PacketKind kind, const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
     return try_send(target, channel, kind, std::as_bytes(std::span(&value, 1)));
   }
   /// Sends a packet whose place is reserved by the protocol (a reply): expects that a credit is left.
-  template <class T>
+  void send_reserved(NodeId target, Channel channel, PacketKind kind, std::span<const std::byte> payload) {
+    core::expect(try_send(target, channel, kind, payload), "a reply always has room");
+  }
+  /// The same for a trivially copyable value.
+  template <PacketValue T>
   void send_reserved(NodeId target, Channel channel, PacketKind kind, const T& value) {
-    core::expect(try_send(target, channel, kind, value), "a reply always has room");
+    send_reserved(target, channel, kind, std::as_bytes(std::span(&value, 1)));
   }
 
  private:
-  std::uint16_t& credit(NodeId target, Channel channel) const;
+  std::uint16_t& credit(NodeId target, Channel channel) const {
+    core::expect(index_of(target) < peer_count_ && channel < channel_count, "a packet has a target and a channel that exist");
+    return credits_[index_of(target) * channel_count + channel];
+  }
 
   NodeId id_;
   std::uint32_t peer_count_;

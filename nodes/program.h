@@ -8,8 +8,8 @@
 namespace dmpc::nodes {
 
 /// What a node runs. A runner calls it, never the reverse; a program cannot tell which runner does. Calls for one program never
-/// overlap. A program may touch only its own state, its Node (send, local memory, charge, count) and immutable data made before the
-/// start; it holds no reference into another node.
+/// overlap. A program may touch only its own state, its Node (send, local memory, charge, count) and immutable data made before
+/// the start; it holds no reference into another node.
 class Program {
  public:
   virtual ~Program() = default;

@@ -14,20 +14,13 @@
 
 namespace dmpc::nodes {
 
-/// Room in a node's mailbox, derived by the strategy from who can have how many packets under way.
-struct MailboxCapacity {
-  std::uint32_t small_slots = 0;
-  std::uint32_t bulk_slots = 0;
-  std::size_t bulk_payload_bytes = 0;
+/// The least thread stack that a plan may reserve (Category::reserve), in bytes. Sanitizers get a larger one, outside the plan.
+inline constexpr std::size_t thread_stack_bytes_min = std::size_t{64} << 10U;
 
-  /// What such a mailbox takes of the local memory (Category::mailbox).
-  std::size_t bytes() const;
-};
-
-/// One node or the host as the runner needs it. `make_program` is called once, on the calling thread, before the start, and may allocate
-/// from node.memory(); the memory is sealed after it.
+/// One node or the host as the runner needs it. `make_program` is called once, on the calling thread, before the start, and may
+/// allocate from node.memory(); the memory is sealed after it.
 struct NodeSpecification {
-  MemoryPlan plan;                 ///< includes mailbox, credits table (Category::queues) and thread stack (Category::reserve)
+  MemoryPlan plan;  ///< includes mailbox, credits table (Category::queues) and thread stack (Category::reserve)
   MailboxCapacity mailbox;
   std::function<std::unique_ptr<Program>(Node&)> make_program;
 };
@@ -44,9 +37,10 @@ class ThreadsRunner {
   explicit ThreadsRunner(std::span<const NodeSpecification> specifications);
   ~ThreadsRunner();
 
-  /// Starts a thread for each, returns when all programs are finished or `stop` is requested (then every thread has ended within a quantum).
-  /// Rethrows the first exception of a program. Throws core::InternalError with every node's describe() if all nodes sleep, nothing is
-  /// under way and the work is unfinished (exact, no time-out). At a regular end it expects that packets sent = packets received.
+  /// Starts a thread for each, returns when all programs are finished or `stop` is requested (then every thread has ended within
+  /// a quantum). Rethrows the first exception of a program. Throws core::InternalError with every node's describe() if all nodes
+  /// sleep, nothing is under way and the work is unfinished (exact, no time-out). At a regular end it expects that packets sent =
+  /// packets received.
   RunEnd run(std::stop_token stop);
 
   /// After run().

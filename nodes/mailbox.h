@@ -1,0 +1,245 @@
+// A node's bounded inbox: many senders, one receiver, two classes of slots, and a place for the receiver to sleep.
+//
+// A packet is copied into a slot of its class (slot_pool.h) and the slot's index is put on the inbox, a stack of slots whose head
+// is one word. The receiver takes the whole stack at once and turns it round, so packets come out in the order in which they went
+// in; in particular the order of each sender is kept.
+//
+// Thread safety: push() and rouse() from any thread, the receiver's own included; everything else from the one receiver.
+//
+// Progress: push() is lock-free: its three loops (take a slot, put it on the inbox, and the receiver's give in between) repeat
+// only because another thread has succeeded. Who may stall whom: nobody. A sender stopped before its packet is on the inbox is
+// invisible to all; it keeps one slot, which its credit has paid for. One stopped after that is done, but may owe a wake-up to a
+// receiver that was asleep: then this receiver, and nobody else, waits for that sender's next step (no packet is lost, the others
+// go on sending to it and cannot run out of slots but by their own credits). The receiver stopped half-way holds what it took;
+// senders go on while they have credits. drain() is wait-free but for give(), which is lock-free.
+//
+// Invariants
+// (1) The inbox word is EMPTY, ASLEEP, or the index of the slot pushed last. Only the receiver writes ASLEEP, and only over
+// EMPTY;
+//     whoever replaces ASLEEP wakes the receiver. It is one word with one order of changes, so no wake-up is lost and no
+//     fence is needed.
+// (2) Every change of the inbox word is a read-modify-write, so the release of each push and rouse reaches the receiver's next
+// acquire,
+//     whatever came between.
+// (3) A slot is on the free list, with one sender, on the inbox, or with the receiver. The receiver gives a slot back as soon as
+// its
+//     packet has been received, before it receives the next: at most one slot is held beyond those that credits account for. That
+//     is the one spare slot a class has above its capacity.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+#include "core/expect.h"
+#include "core/units.h"
+#include "nodes/atomics.h"
+#include "nodes/awake_count.h"
+#include "nodes/local_memory.h"
+#include "nodes/packet.h"
+#include "nodes/slot_pool.h"
+
+namespace dmpc::nodes {
+
+/// Room in a node's mailbox, derived by the strategy from who can have how many packets under way.
+struct MailboxCapacity {
+  std::uint32_t small_slots = 0;
+  std::uint32_t bulk_slots = 0;
+  std::size_t bulk_payload_bytes = 0;  ///< the largest payload; at least what the small class holds if bulk_slots > 0
+
+  /// What such a mailbox takes of the local memory (Category::mailbox).
+  std::size_t bytes() const;
+};
+
+template <class Atomics>
+class BasicMailbox {
+ public:
+  /// Empty, awake, all its memory taken from `memory` (Category::mailbox, exactly bytes(capacity)).
+  BasicMailbox(const MailboxCapacity& capacity, LocalMemory& memory)
+      : small_slots_(slot_count(capacity.small_slots)),
+        bulk_payload_bytes_(capacity.bulk_slots == 0 ? 0 : capacity.bulk_payload_bytes),
+        inbox_(&memory.allocate<Inbox>(Category::mailbox, 1).front().word),
+        links_(memory.allocate<Atomic<SlotIndex>>(Category::mailbox, link_count(capacity))),
+        small_(make_pool(memory, 0, capacity.small_slots, small_slot_bytes)),
+        bulk_(make_pool(memory, small_slots_, capacity.bulk_slots, bulk_slot_bytes(capacity))) {}
+
+  /// Copies the packet in, wakes the receiver if it sleeps, and returns true; false if the class has no free slot (then nothing
+  /// has happened). A payload of at most small_payload_bytes takes a small slot, a longer one a bulk slot; expects that it fits.
+  /// `awake` counts the receiver; the caller is counted itself.
+  [[nodiscard]] bool push(const PacketHeader& header, std::span<const std::byte> payload, BasicAwakeCount<Atomics>& awake) {
+    core::expect(header.bytes == payload.size(), "a header says how long its payload is");
+    const bool is_small = payload.size() <= small_payload_bytes;
+    core::expect(is_small || payload.size() <= bulk_payload_bytes_, "a payload fits the slots of its class");
+    Pool& pool = is_small ? small_ : bulk_;
+    const SlotIndex slot = pool.take();
+    if (slot == no_slot) {
+      return false;
+    }
+    fill(pool.slot(slot), header, payload);
+    publish(slot, awake);
+    return true;
+  }
+
+  /// Takes all packets at once and calls receive(packet) for each, oldest first; returns how many. Packets that come meanwhile
+  /// stay for the next call. The payload is valid during its call only.
+  template <class Receive>
+  std::size_t drain(Receive&& receive) {
+    if (is_empty()) {
+      return 0;
+    }
+    // Acquire: partner of the release of every push whose packet is taken.
+    SlotIndex slot = turned_round(inbox_->exchange(empty, std::memory_order_acquire));
+    std::size_t count = 0;
+    for (; slot != empty; ++count) {
+      const SlotIndex next = links_[slot].load(std::memory_order_relaxed);
+      Pool& pool = slot < small_slots_ ? small_ : bulk_;
+      read(pool.slot(slot), receive);
+      pool.give(slot);
+      slot = next;
+    }
+    return count;
+  }
+
+  /// A look without taking anything, of a receiver that is awake: may miss a packet that is just arriving.
+  bool is_empty() const { return inbox_->load(std::memory_order_relaxed) == empty; }
+
+  /// Whether a packet lies in it; after a run, when nobody sends.
+  bool has_packets() const {
+    const SlotIndex head = inbox_->load(std::memory_order_relaxed);
+    return head != empty && head != asleep;
+  }
+
+  /// Announces sleep, unless a packet has come: then false, and drain() finds it. After true call wait(), or end for good.
+  /// Acquire: after true the caller sees what any thread wrote before a rouse() that came too early to find it asleep.
+  [[nodiscard]] bool fall_asleep() {
+    SlotIndex expected = empty;
+    return inbox_->compare_exchange_strong(expected, asleep, std::memory_order_acquire, std::memory_order_relaxed);
+  }
+
+  /// After fall_asleep() returned true: blocks until a push() or a rouse() has replaced ASLEEP. Orders nothing: drain() and
+  /// fall_asleep() do.
+  void wait() const {
+    while (inbox_->load(std::memory_order_relaxed) == asleep) {
+      Atomics::sleep(*inbox_, asleep);
+    }
+  }
+
+  /// Wakes the receiver without a packet, or makes its next fall_asleep() see what the caller wrote before. For the end of a run:
+  /// it does not touch the count of awake nodes.
+  void rouse() {
+    SlotIndex head = inbox_->load(std::memory_order_relaxed);
+    // Release, also where the word stays the same: partner of the acquire in fall_asleep() and drain().
+    while (!inbox_->compare_exchange_weak(head, head == asleep ? empty : head, std::memory_order_release,
+                                          std::memory_order_relaxed)) {
+    }
+    if (head == asleep) {
+      Atomics::wake(*inbox_);
+    }
+  }
+
+  /// What a mailbox of this capacity takes of the local memory, in bytes.
+  static std::size_t bytes(const MailboxCapacity& capacity) {
+    return LocalMemory::bytes_for<Inbox>(1) + LocalMemory::bytes_for<Atomic<SlotIndex>>(link_count(capacity)) +
+           2 * LocalMemory::bytes_for<Head>(1) + slot_count(capacity.small_slots) * small_slot_bytes +
+           slot_count(capacity.bulk_slots) * bulk_slot_bytes(capacity);
+  }
+
+ private:
+  template <class T>
+  using Atomic = typename Atomics::template Atomic<T>;
+  using Pool = BasicSlotPool<Atomics>;
+  using Head = typename Pool::Head;
+
+  static constexpr SlotIndex empty = no_slot;
+  static constexpr SlotIndex asleep = 0xFFFFFFFE;
+
+  struct alignas(cache_line_bytes) Inbox {
+    Atomic<SlotIndex> word{empty};
+  };
+  static_assert(small_slot_bytes % cache_line_bytes == 0, "two packets never share a cache line");
+  static_assert(LocalMemory::alignment % cache_line_bytes == 0, "local memory hands out whole cache lines");
+  static_assert(sizeof(Inbox) % cache_line_bytes == 0 && sizeof(Head) % cache_line_bytes == 0,
+                "senders of small, senders of bulk and the inbox disturb each other only where they must");
+
+  static SlotIndex slot_count(std::uint32_t capacity) { return capacity == 0 ? 0 : capacity + 1; }
+  static std::size_t link_count(const MailboxCapacity& capacity) {
+    return std::size_t{slot_count(capacity.small_slots)} + slot_count(capacity.bulk_slots);
+  }
+  static std::size_t bulk_slot_bytes(const MailboxCapacity& capacity) {
+    return core::round_up(sizeof(PacketHeader) + capacity.bulk_payload_bytes, cache_line_bytes);
+  }
+
+  Pool make_pool(LocalMemory& memory, SlotIndex first, std::uint32_t capacity, std::size_t stride_bytes) {
+    core::expect(link_count_limit > links_.size(), "slots are numbered below EMPTY and ASLEEP");
+    Head& head = memory.allocate<Head>(Category::mailbox, 1).front();
+    const auto slots = memory.allocate<std::byte>(Category::mailbox, slot_count(capacity) * stride_bytes);
+    return Pool(head, links_, first, slots, stride_bytes);
+  }
+
+  static void fill(std::span<std::byte> slot, const PacketHeader& header, std::span<const std::byte> payload) {
+    Atomics::writes(slot.data());
+    std::memcpy(slot.data(), &header, sizeof(header));
+    if (!payload.empty()) {
+      std::memcpy(slot.data() + sizeof(header), payload.data(), payload.size());
+    }
+  }
+
+  template <class Receive>
+  static void read(std::span<const std::byte> slot, Receive& receive) {
+    Atomics::reads(slot.data());
+    PacketHeader header;
+    std::memcpy(&header, slot.data(), sizeof(header));
+    receive(Packet{NodeId{header.source}, header.kind, slot.subspan(sizeof(header), header.bytes)});
+  }
+
+  void publish(SlotIndex slot, BasicAwakeCount<Atomics>& awake) {
+    SlotIndex head = inbox_->load(std::memory_order_relaxed);
+    while (!try_publish(slot, head, awake)) {
+    }
+  }
+
+  /// One attempt to put `slot` on the inbox whose word was `head`; sets `head` anew if that failed.
+  bool try_publish(SlotIndex slot, SlotIndex& head, BasicAwakeCount<Atomics>& awake) {
+    const bool wakes = head == asleep;
+    links_[slot].store(wakes ? empty : head, std::memory_order_relaxed);
+    if (wakes) {
+      awake.raise();
+    }
+    // Release: partner of the acquire in drain(), for the slot's bytes and its link.
+    const bool published = inbox_->compare_exchange_weak(head, slot, std::memory_order_release, std::memory_order_relaxed);
+    if (wakes) {
+      published ? Atomics::wake(*inbox_) : awake.withdraw();
+    }
+    return published;
+  }
+
+  /// Reverses a stack taken from the inbox; returns its oldest slot.
+  SlotIndex turned_round(SlotIndex newest) {
+    SlotIndex done = empty;
+    while (newest != empty) {
+      const SlotIndex older = links_[newest].load(std::memory_order_relaxed);
+      links_[newest].store(done, std::memory_order_relaxed);
+      done = newest;
+      newest = older;
+    }
+    return done;
+  }
+
+  static constexpr std::size_t link_count_limit = asleep;
+
+  SlotIndex small_slots_;
+  std::size_t bulk_payload_bytes_;
+  Atomic<SlotIndex>* inbox_;
+  std::span<Atomic<SlotIndex>> links_;
+  Pool small_;
+  Pool bulk_;
+};
+
+using Mailbox = BasicMailbox<SystemAtomics>;
+
+inline std::size_t MailboxCapacity::bytes() const {
+  return Mailbox::bytes(*this);
+}
+
+}  // namespace dmpc::nodes

@@ -1,0 +1,91 @@
+// Equal slots of plain bytes that any thread may take and only the receiver gives back: a stack of free slots with a tagged head.
+//
+// Thread safety: take() from any thread; give() from the one receiver, for a slot that nobody else holds.
+//
+// Invariants
+// (1) A slot is free (on the stack) or held by exactly one thread or mailbox.
+// (2) The link of a slot is meaningful to the one who holds it, or while it is free. It is atomic because a slow take() may still
+// read it
+//     when the slot has gone to another; such a take() then fails, because the head has changed.
+// (3) The head's tag grows by 1 with every take, so a head that looks the same is the same (no ABA). The tag has 32 bits: wrong
+// only if
+//     exactly a multiple of 2^32 takes happen while one take() is suspended between its load and its compare-exchange and the
+//     same slot is on top again.
+// Progress: lock-free. A take() or give() repeats only because another one has succeeded meanwhile; a thread stopped half-way has
+// either not changed the head yet or is done, so nobody waits for it. At worst it keeps one slot.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "nodes/atomics.h"
+
+namespace dmpc::nodes {
+
+/// The name of a slot among all slots of a mailbox.
+using SlotIndex = std::uint32_t;
+inline constexpr SlotIndex no_slot = 0xFFFFFFFF;
+
+template <class Atomics>
+class BasicSlotPool {
+ public:
+  template <class T>
+  using Atomic = typename Atomics::template Atomic<T>;
+
+  /// The head of the stack of free slots: index below, tag above.
+  struct alignas(cache_line_bytes) Head {
+    Atomic<std::uint64_t> word{no_slot};
+  };
+
+  /// Owns the slots first .. first + bytes.size() / stride_bytes - 1, all free. `links` has a place for every slot of the
+  /// mailbox. The caller's memory must outlive the pool. Before any other thread knows the pool.
+  BasicSlotPool(Head& head, std::span<Atomic<SlotIndex>> links, SlotIndex first, std::span<std::byte> bytes,
+                std::size_t stride_bytes)
+      : head_(&head), links_(links), bytes_(bytes), stride_bytes_(stride_bytes), first_(first) {
+    for (std::size_t i = bytes.size() / stride_bytes; i > 0; --i) {
+      give(first + static_cast<SlotIndex>(i) - 1);
+    }
+  }
+
+  /// A free slot, now the caller's, or no_slot.
+  [[nodiscard]] SlotIndex take() {
+    std::uint64_t head = head_->word.load(std::memory_order_acquire);  // partner: the release in give()
+    while (index_of_head(head) != no_slot) {
+      const SlotIndex next = links_[index_of_head(head)].load(std::memory_order_relaxed);
+      // Success needs no order: the load that read this very head has acquired it. Failure: partner as above.
+      if (head_->word.compare_exchange_weak(head, after_take(head, next), std::memory_order_relaxed, std::memory_order_acquire)) {
+        return index_of_head(head);
+      }
+    }
+    return no_slot;
+  }
+
+  /// Makes a slot free that the caller holds and has finished reading.
+  void give(SlotIndex slot) {
+    std::uint64_t head = head_->word.load(std::memory_order_relaxed);
+    do {
+      links_[slot].store(index_of_head(head), std::memory_order_relaxed);
+      // Release: the taker's acquire sees the link, and writes only after our reads.
+    } while (
+        !head_->word.compare_exchange_weak(head, with_index(head, slot), std::memory_order_release, std::memory_order_relaxed));
+  }
+
+  /// The bytes of a slot that the caller holds.
+  std::span<std::byte> slot(SlotIndex index) const { return bytes_.subspan((index - first_) * stride_bytes_, stride_bytes_); }
+
+ private:
+  static SlotIndex index_of_head(std::uint64_t head) { return static_cast<SlotIndex>(head); }
+  static std::uint64_t with_index(std::uint64_t head, SlotIndex slot) { return (head >> 32U << 32U) | slot; }
+  static std::uint64_t after_take(std::uint64_t head, SlotIndex next) {
+    return with_index(head + (std::uint64_t{1} << 32U), next);
+  }
+
+  Head* head_;
+  std::span<Atomic<SlotIndex>> links_;
+  std::span<std::byte> bytes_;
+  std::size_t stride_bytes_;
+  SlotIndex first_;
+};
+
+}  // namespace dmpc::nodes

@@ -1,0 +1,34 @@
+// A thread of the real computer with a stack of a given size.
+#pragma once
+
+#include <pthread.h>
+
+#include <cstddef>
+
+namespace dmpc::nodes {
+
+/// Not started, running, or joined. Thread safety: none; belongs to who starts it.
+class Thread {
+ public:
+  Thread() = default;
+  Thread(const Thread&) = delete;
+  Thread& operator=(const Thread&) = delete;
+  /// Joins if started.
+  ~Thread() { join(); }
+
+  /// Runs body(argument) on a thread with at least `stack_bytes` of stack (more under sanitizers). `body` must not throw. Throws
+  /// core::InputError if the real computer has no room for another thread.
+  void start(std::size_t stack_bytes, void (*body)(void*), void* argument);
+  /// Waits until the body has returned.
+  void join();
+
+ private:
+  static void* enter(void* self);
+
+  pthread_t handle_{};
+  void (*body_)(void*) = nullptr;
+  void* argument_ = nullptr;
+  bool started_ = false;
+};
+
+}  // namespace dmpc::nodes

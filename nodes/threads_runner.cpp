@@ -1,0 +1,257 @@
+#include "nodes/threads_runner.h"
+
+#include <sched.h>
+#include <time.h>
+
+#include <atomic>
+#include <exception>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/expect.h"
+#include "nodes/atomics.h"
+#include "nodes/awake_count.h"
+#include "nodes/thread.h"
+
+namespace dmpc::nodes {
+namespace {
+
+/// Looks at an empty mailbox, with a sched_yield before each, before a node goes to sleep. A sleep and a wake-up cost some
+/// microseconds (tens across cores), a yield a fraction of one when other nodes have work; more looks gain nothing and burn an
+/// idle node's core.
+constexpr int looks_before_sleep = 4;
+
+/// How the run ends. The first to say so decides.
+enum class Ending : std::uint8_t { none, finished, stalled, failed, interrupted };
+
+std::uint64_t nanoseconds(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000U + static_cast<std::uint64_t>(now.tv_nsec);
+}
+
+/// One node with all that belongs to it. On cache lines of its own, so that neighbours do not disturb each other's counters.
+struct alignas(cache_line_bytes) Processor {
+  Processor(const NodeSpecification& specification, NodeId id, std::uint32_t peer_count, Network& network)
+      : memory(specification.plan), mailbox(specification.mailbox, memory), node(id, peer_count, memory, network) {
+    core::expect(specification.plan[Category::reserve] >= thread_stack_bytes_min, "a plan reserves room for the thread's stack");
+    program = specification.make_program(node);
+    core::expect(program != nullptr, "a specification makes a program");
+    memory.seal();
+  }
+
+  LocalMemory memory;
+  Mailbox mailbox;
+  Node node;
+  std::unique_ptr<Program> program;
+  Thread thread;
+};
+
+}  // namespace
+
+std::size_t credit_table_bytes(std::uint32_t peer_count) {
+  return LocalMemory::bytes_for<std::uint16_t>(peer_count * channel_count);
+}
+
+/// Thread safety: deliver() and the members called from run_node() run on the nodes' threads; `ending_` and `awake_` are atomic,
+/// a Processor's parts belong to its thread but for the mailbox. Everything else runs on the caller's thread while no node's
+/// thread exists.
+struct ThreadsRunner::Implementation final : Network {
+  explicit Implementation(std::span<const NodeSpecification> specifications)
+      : awake_(static_cast<std::uint32_t>(specifications.size())) {
+    core::expect(!specifications.empty(), "a computer has at least the host");
+    const auto peer_count = static_cast<std::uint32_t>(specifications.size());
+    for (std::uint32_t i = 0; i < peer_count; ++i) {
+      processors_.push_back(std::make_unique<Processor>(specifications[i], NodeId{i}, peer_count, *this));
+    }
+  }
+
+  void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) override {
+    core::expect(processors_[index_of(target)]->mailbox.push(header, payload, awake_),
+                 "credits leave room in the target's mailbox");
+  }
+
+  RunEnd run(std::stop_token stop) {
+    core::expect(!started_, "a runner runs once");
+    started_ = true;
+    {
+      const std::stop_callback on_stop(std::move(stop), [this] { end(Ending::interrupted); });
+      start_threads();
+      for (const auto& processor : processors_) {
+        processor->thread.join();
+      }
+    }
+    return judge();
+  }
+
+  Processor& processor(std::size_t index) { return *processors_.at(index); }
+
+ private:
+  struct Start {
+    Implementation* runner;
+    Processor* processor;
+  };
+
+  void start_threads() {
+    starts_.reserve(processors_.size());
+    try {
+      for (const auto& processor : processors_) {
+        starts_.push_back({this, processor.get()});
+        processor->thread.start(processor->memory.plan()[Category::reserve], enter, &starts_.back());
+      }
+    } catch (...) {
+      fail(std::current_exception());
+    }
+  }
+
+  static void enter(void* start) {
+    const Start& self = *static_cast<Start*>(start);
+    self.runner->run_node(*self.processor);
+  }
+
+  void run_node(Processor& self) {
+    NodeCounters& counters = self.node.counters();
+    const std::uint64_t start_ns = nanoseconds(CLOCK_MONOTONIC);
+    try {
+      while (ending_.load(std::memory_order_acquire) == Ending::none) {  // partner: end()
+        step(self);
+      }
+    } catch (...) {
+      fail(std::current_exception());
+    }
+    counters.busy_ns = nanoseconds(CLOCK_THREAD_CPUTIME_ID);
+    counters.wall_ns = nanoseconds(CLOCK_MONOTONIC) - start_ns;
+  }
+
+  /// Receives all that has come and works one quantum; with nothing to do, sleeps until a packet comes or the run ends.
+  void step(Processor& self) {
+    self.mailbox.drain([&self](const Packet& packet) {
+      self.node.counters().received[packet.kind].add(packet.payload.size());
+      self.program->receive(packet);
+    });
+    if (!work(self) && !packet_comes_soon(self.mailbox)) {
+      sleep(self);
+    }
+  }
+
+  static bool work(Processor& self) {
+    if (self.program->finished()) {
+      return false;
+    }
+    ++self.node.counters().quanta;
+    return self.program->work();
+  }
+
+  static bool packet_comes_soon(const Mailbox& mailbox) {
+    for (int i = 0; i < looks_before_sleep && mailbox.is_empty(); ++i) {
+      sched_yield();
+    }
+    return !mailbox.is_empty();
+  }
+
+  void sleep(Processor& self) {
+    // The order matters: ASLEEP first, so that end() either finds it or is seen; then the count, so that zero means all ASLEEP.
+    if (!self.mailbox.fall_asleep() || ending_.load(std::memory_order_acquire) != Ending::none) {
+      return;
+    }
+    if (awake_.leave()) {
+      end(all_finished() ? Ending::finished : Ending::stalled);
+      return;
+    }
+    ++self.node.counters().sleeps;
+    const std::uint64_t start_ns = nanoseconds(CLOCK_MONOTONIC);
+    self.mailbox.wait();
+    self.node.counters().asleep_ns += nanoseconds(CLOCK_MONOTONIC) - start_ns;
+  }
+
+  /// Called when every node sleeps: their programs stand still.
+  bool all_finished() const {
+    for (const auto& processor : processors_) {
+      if (!processor->program->finished()) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  void fail(std::exception_ptr failure) {
+    if (!failing_.exchange(true, std::memory_order_relaxed)) {
+      failure_ = std::move(failure);
+      end(Ending::failed);
+    }
+  }
+
+  /// Ends the run, unless something else has; every thread leaves within a quantum.
+  void end(Ending ending) {
+    Ending none = Ending::none;
+    // Release: partner of the loads in run_node() and sleep().
+    if (ending_.compare_exchange_strong(none, ending, std::memory_order_release, std::memory_order_relaxed)) {
+      for (const auto& processor : processors_) {
+        processor->mailbox.rouse();
+      }
+    }
+  }
+
+  RunEnd judge() {
+    switch (ending_.load(std::memory_order_relaxed)) {
+      case Ending::failed:
+        std::rethrow_exception(failure_);
+      case Ending::stalled:
+        throw core::InternalError("all nodes sleep, nothing is under way, and the work is unfinished:" + description());
+      case Ending::interrupted:
+        return RunEnd::interrupted;
+      default:
+        expect_nothing_lost();
+        return RunEnd::finished;
+    }
+  }
+
+  std::string description() const {
+    std::string lines;
+    for (const auto& processor : processors_) {
+      const std::uint32_t index = index_of(processor->node.id());
+      const bool is_host = index + 1 == processors_.size();
+      lines += "\n  " + (is_host ? std::string("host") : "node " + std::to_string(index)) +
+               (processor->program->finished() ? " (finished): " : ": ") + processor->program->describe();
+    }
+    return lines;
+  }
+
+  void expect_nothing_lost() const {
+    std::uint64_t sent = 0;
+    std::uint64_t received = 0;
+    for (const auto& processor : processors_) {
+      core::expect(!processor->mailbox.has_packets(), "at the end all mailboxes are empty");
+      sent += total(processor->node.counters().sent).packets;
+      received += total(processor->node.counters().received).packets;
+    }
+    core::expect(sent == received, "packets sent are packets received");
+  }
+
+  AwakeCount awake_;
+  alignas(cache_line_bytes) std::atomic<Ending> ending_{Ending::none};
+  std::atomic<bool> failing_{false};
+  std::exception_ptr failure_;  ///< written once, before the release in end(); read after the joins
+  std::vector<std::unique_ptr<Processor>> processors_;
+  std::vector<Start> starts_;
+  bool started_ = false;
+};
+
+ThreadsRunner::ThreadsRunner(std::span<const NodeSpecification> specifications)
+    : implementation_(std::make_unique<Implementation>(specifications)) {}
+ThreadsRunner::~ThreadsRunner() = default;
+
+RunEnd ThreadsRunner::run(std::stop_token stop) {
+  return implementation_->run(std::move(stop));
+}
+
+Node& ThreadsRunner::node(std::size_t index) {
+  return implementation_->processor(index).node;
+}
+Program& ThreadsRunner::program(std::size_t index) {
+  return *implementation_->processor(index).program;
+}
+
+}  // namespace dmpc::nodes
