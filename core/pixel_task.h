@@ -65,7 +65,10 @@ class PixelTask {
   const PixelSums& sums() const { return sums_; }
 
  private:
+  template <Tracer T>
+  TaskState shade(T& tracer, const RenderSettings& settings, Operations& operations);
   void shoot(const Ray& ray, Operations& operations);
+  void deposit(const Color& light, Operations& operations);
   void end_ray(Traced result, const RenderSettings& settings, Operations& operations);
   bool next_sample(const RenderSettings& settings, Operations& operations);
 
@@ -79,5 +82,46 @@ class PixelTask {
   std::uint32_t stack_size_ = 0;
   bool tracing_ = false;
 };
+
+template <Tracer T>
+TaskState PixelTask::run(T& tracer, const RenderSettings& settings, Operations& operations) {
+  if (!tracing_) {
+    const TaskState shaded = shade(tracer, settings, operations);
+    if (shaded != TaskState::more) {
+      return shaded;
+    }
+  }
+  const Traced result = tracer.trace(ray_, cursor_, operations);
+  if (result == Traced::absent) {
+    absent_ = cursor_.absent;
+    return TaskState::absent;
+  }
+  end_ray(result, settings, operations);
+  return TaskState::more;
+}
+
+/// Shades the newest hit until it yields a ray to be traced (`more`), needs an absent record, or no hit and no sample is left.
+template <Tracer T>
+TaskState PixelTask::shade(T& tracer, const RenderSettings& settings, Operations& operations) {
+  while (stack_size_ > 0) {
+    HitState& state = stack_[stack_size_ - 1];
+    if (state.stage == HitState::Stage::finished) {
+      --stack_size_;
+      continue;
+    }
+    const Address address = record_needed(state, settings.header);
+    const std::byte* record = address == no_address ? nullptr : tracer.find(address);
+    if (address != no_address && record == nullptr) {
+      absent_ = address;
+      return TaskState::absent;
+    }
+    Ray child;
+    if (shade_step(state, record, settings.header, settings.shade, child, operations)) {
+      shoot(child, operations);
+      return TaskState::more;
+    }
+  }
+  return next_sample(settings, operations) ? TaskState::more : TaskState::finished;
+}
 
 }  // namespace dmpc::core

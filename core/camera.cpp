@@ -1,0 +1,39 @@
+#include "core/camera.h"
+
+#include <algorithm>
+
+#include "core/elementary.h"
+#include "core/expect.h"
+#include "core/sampling.h"
+
+namespace dmpc::core {
+
+Camera::Camera(const View& view, const GridFrame& frame, int width, int height, int samples)
+    : width_(width), height_(height), samples_(samples) {
+  expect(width > 0 && height > 0 && samples > 0, "a camera has pixels and samples");
+  origin_ = Vec3f((view.from - frame.origin) * frame.scale);
+  forward_ = normalize(view.at - view.from);
+  const Vec3d right = normalize(cross(forward_, view.up)), up = cross(right, forward_);
+  // A picture one pixel wide has no spacing of its own: its pixel spans the whole angle.
+  const int intervals = std::max(1, std::min(width, height) - 1);
+  const double pixel = 2.0 * tan_degrees(view.angle_degrees / 2) / intervals;
+  right_ = right * pixel;
+  down_ = up * -pixel;
+}
+
+Ray Camera::primary_ray(std::uint32_t pixel, std::uint32_t sample) const {
+  double column = static_cast<double>(pixel % static_cast<std::uint32_t>(width_)) - 0.5 * (width_ - 1);
+  double row = static_cast<double>(pixel / static_cast<std::uint32_t>(width_)) - 0.5 * (height_ - 1);
+  if (samples_ > 1) {
+    column += sample_value(pixel, sample, 0) - 0.5;
+    row += sample_value(pixel, sample, 1) - 0.5;
+  }
+  Ray ray;
+  ray.origin = origin_;
+  ray.direction = Vec3f(normalize(forward_ + right_ * column + down_ * row));
+  ray.pixel = pixel;
+  ray.sample = sample;
+  return ray;
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,41 @@
+// Where the directory keeps a top cell's entry: tiles of 4x4x4 entries, so that neighbours in space share a page.
+#pragma once
+
+#include <array>
+#include <cstring>
+
+#include "core/record.h"
+#include "core/units.h"
+
+namespace dmpc::core {
+
+/// The number of entries, those that pad the last tiles included.
+constexpr std::uint64_t directory_entry_count(const std::array<std::int32_t, 3>& resolution) {
+  std::uint64_t count = 1;
+  for (const std::int32_t cells : resolution) {
+    count *= static_cast<std::uint64_t>(round_up(cells, 4));
+  }
+  return count;
+}
+
+/// The index of the entry of the top cell whose lower corner is `cell` (in finest cells).
+constexpr std::uint64_t directory_index(const std::array<std::int32_t, 3>& resolution, const std::array<std::int32_t, 3>& cell) {
+  const auto top = [&](std::size_t axis) { return static_cast<std::uint64_t>(cell[axis] / finest_per_top); };
+  const auto tiles = [&](std::size_t axis) { return static_cast<std::uint64_t>(ceil_divide(resolution[axis], 4)); };
+  const std::uint64_t tile = top(0) / 4 + tiles(0) * (top(1) / 4 + tiles(1) * (top(2) / 4));
+  return tile * 64 + top(0) % 4 + 4 * (top(1) % 4) + 16 * (top(2) % 4);
+}
+
+/// The record that holds the entry: two entries share one, since addresses count in 8 bytes.
+constexpr Address directory_address(const DatabaseHeader& header, const std::array<std::int32_t, 3>& cell) {
+  return advance(header.directory, directory_index(header.frame.resolution, cell) / 2 * record_alignment);
+}
+
+/// The entry of `cell` in its record: neighbours along x alternate.
+inline DirectoryEntry directory_entry(const std::byte* record, const std::array<std::int32_t, 3>& cell) {
+  DirectoryEntry entry;
+  std::memcpy(&entry, record + static_cast<std::size_t>(cell[0] / finest_per_top % 2) * sizeof(DirectoryEntry), sizeof(entry));
+  return entry;
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,72 @@
+#include "core/frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dmpc::core {
+namespace {
+
+constexpr double flat_share = 1e-4;
+/// Margin in voxels (quarters of a top cell) between the grid's first plane and the scene.
+constexpr double margin_voxels = 0.3137;
+constexpr double top_cells_min = 1.0;
+/// The extent given to a scene that is one point.
+constexpr double point_extent = 1e-6;
+
+double largest(const Vec3d& v) { return std::max({v.x, v.y, v.z}); }
+
+/// How many cubic cells of edge `cell` cover the extent, margins included.
+std::array<std::int32_t, 3> cells_along(const Vec3d& extent, double cell) {
+  std::array<std::int32_t, 3> count{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    count[axis] = static_cast<std::int32_t>(std::floor(extent[axis] / cell + 2 * margin_voxels / brick_side)) + 1;
+  }
+  return count;
+}
+
+/// The edge of a top cell: cubic, about `wanted` of them over the box, with a bound for boxes that are flat or long.
+double top_cell_edge(const Vec3d& extent, double wanted) {
+  double cell = std::cbrt(extent.x * extent.y * extent.z / wanted);
+  for (;;) {
+    const auto count = cells_along(extent, cell);
+    if (static_cast<double>(count[0]) * count[1] * count[2] <= 2 * wanted + 8) {
+      return cell;
+    }
+    cell *= 1.0625;
+  }
+}
+
+}  // namespace
+
+GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double top_cells_per_primitive) {
+  GridFrame frame;
+  if (bounds.empty()) {
+    frame.finest_cell = 1.0F / finest_per_top;
+    return frame;
+  }
+  Vec3d extent = bounds.high - bounds.low;
+  const double size = largest(extent) > 0 ? largest(extent) : point_extent;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    extent[axis] = std::max(extent[axis], flat_share * size);
+  }
+  const double wanted = std::max(top_cells_min, static_cast<double>(primitive_count) * top_cells_per_primitive);
+  const double cell = top_cell_edge(extent, wanted);
+  int exponent = 0;
+  std::frexp(size, &exponent);
+  frame.scale = std::ldexp(1.0, -exponent);
+  frame.resolution = cells_along(extent, cell);
+  frame.finest_cell = static_cast<float>(cell * frame.scale / finest_per_top);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double slack = (extent[axis] - (bounds.high[axis] - bounds.low[axis])) / 2;  // a flat scene lies in the middle
+    frame.origin[axis] = bounds.low[axis] - slack - margin_voxels * cell / brick_side;
+  }
+  return frame;
+}
+
+double insertion_pad(const GridFrame& frame, double distance) {
+  const double finest = double{frame.finest_cell};
+  const double extent = finest * finest_per_top * *std::max_element(frame.resolution.begin(), frame.resolution.end());
+  return std::max(1e-3 * finest, 0x1p-21 * extent * (1.0 + distance)) + 1e-6 * extent;
+}
+
+}  // namespace dmpc::core

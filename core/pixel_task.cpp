@@ -1,0 +1,58 @@
+#include "core/pixel_task.h"
+
+#include "core/expect.h"
+
+namespace dmpc::core {
+
+void PixelTask::start(std::uint32_t pixel, const RenderSettings& settings, Operations& operations) {
+  expect(stack_.size() >= static_cast<std::size_t>(settings.shade.depth_max), "the ray stack holds a hit a depth");
+  pixel_ = pixel;
+  sample_ = 0;
+  sums_ = {};
+  stack_size_ = 0;
+  shoot(settings.camera.primary_ray(pixel, 0), operations);
+}
+
+void PixelTask::shoot(const Ray& ray, Operations& operations) {
+  ray_ = ray;
+  cursor_ = {};
+  tracing_ = true;
+  ++operations.rays[static_cast<std::size_t>(ray.kind)];
+}
+
+void PixelTask::deposit(const Color& light, Operations& operations) {
+  if (add(sums_.plane[ray_.sample % 2], to_fixed(light))) {
+    ++operations.deposits_saturated;
+  }
+}
+
+/// What a traced ray leaves: light on the film, or a hit on the stack.
+void PixelTask::end_ray(Traced result, const RenderSettings& settings, Operations& operations) {
+  tracing_ = false;
+  const bool hit = result == Traced::hit;
+  if (ray_.kind == RayKind::shadow) {
+    operations.shadow_blocked += hit ? 1 : 0;
+    if (!hit) {
+      deposit(ray_.weight, operations);
+    }
+    return;
+  }
+  if (!hit) {
+    deposit(ray_.weight * settings.header.background, operations);
+    return;
+  }
+  ++(ray_.kind == RayKind::primary ? operations.primary_hits : operations.secondary_hits);
+  expect(stack_size_ < stack_.size(), "the ray stack holds a hit a depth");
+  stack_[stack_size_++] = begin_shading(ray_, cursor_.best);
+}
+
+/// With no hit left to shade: the pixel's next sample, if there is one.
+bool PixelTask::next_sample(const RenderSettings& settings, Operations& operations) {
+  if (++sample_ >= static_cast<std::uint32_t>(settings.camera.samples())) {
+    return false;
+  }
+  shoot(settings.camera.primary_ray(pixel_, sample_), operations);
+  return true;
+}
+
+}  // namespace dmpc::core

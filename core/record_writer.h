@@ -1,0 +1,66 @@
+// Lays records out in pages: in order, none across a page's border.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "core/expect.h"
+#include "core/record.h"
+#include "core/records.h"
+#include "core/units.h"
+
+namespace dmpc::core {
+
+/// Addresses come out in ascending order, so what is allocated one after the other shares pages.
+class RecordWriter {
+ public:
+  static constexpr std::uint64_t bytes_max = std::uint64_t{16} << 30U;  ///< what 31 bits of address span
+
+  explicit RecordWriter(std::size_t page_size) : page_size_(page_size) {}
+
+  /// Room for a record of `bytes` in one page.
+  Address allocate(std::size_t bytes) {
+    expect(bytes > 0 && bytes <= record_bytes_max, "a record is at most 448 bytes long");
+    std::size_t offset = round_up(bytes_.size(), record_alignment);
+    if (offset % page_size_ + bytes > page_size_) {
+      offset = round_up(offset, page_size_);
+    }
+    return take(offset, bytes);
+  }
+  /// Room for `count` records of T one behind the other; T's size is a power of two, so that none crosses a page's border.
+  template <class T>
+  Address allocate_array(std::size_t count) {
+    static_assert((sizeof(T) & (sizeof(T) - 1)) == 0);
+    return take(round_up(bytes_.size(), std::max(sizeof(T), record_alignment)), count * sizeof(T));
+  }
+  void write(Address address, std::size_t offset, std::span<const std::byte> bytes) {
+    std::memcpy(bytes_.data() + byte_offset(address) + offset, bytes.data(), bytes.size());
+  }
+  template <class T>
+  void write(Address address, std::size_t offset, const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    write(address, offset, std::as_bytes(std::span(&value, 1)));
+  }
+  /// The pages, the last one filled up, with overread_bytes behind.
+  std::vector<std::byte> finish() && {
+    bytes_.resize(std::max(page_size_, round_up(bytes_.size(), page_size_)) + overread_bytes);
+    return std::move(bytes_);
+  }
+
+ private:
+  Address take(std::size_t offset, std::size_t bytes) {
+    if (offset + bytes > bytes_max) {
+      throw InputError("the scene's database would exceed 16 GiB: render a smaller scene");
+    }
+    bytes_.resize(offset + bytes);
+    return Address{static_cast<std::uint32_t>(offset / record_alignment)};
+  }
+
+  std::size_t page_size_;
+  std::vector<std::byte> bytes_;
+};
+
+}  // namespace dmpc::core

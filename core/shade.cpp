@@ -1,0 +1,254 @@
+#include "core/shade.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/elementary.h"
+#include "core/expect.h"
+
+namespace dmpc::core {
+namespace {
+
+using Stage = HitState::Stage;
+
+/// How far a secondary ray starts from its surface, along the true normal, grid-local. Coordinates are below about 1, so rounding a point
+/// to float moves it by at most 2^-25 an axis, and the float plane of a neighbouring triangle is off by a few times that: 2^-21 is
+/// ten times their sum (after M. Pharr, W. Jakob, G. Humphreys, Physically Based Rendering, section 6.8, with the bound made a constant
+/// by the grid-local frame).
+constexpr double surface_offset = 0x1p-21;
+/// A shadow ray ends this share of its length before the light.
+constexpr double light_gap = 1e-6;
+
+template <class T>
+T read(const std::byte* from) {
+  T value;
+  std::memcpy(&value, from, sizeof(T));
+  return value;
+}
+
+/// One lane of a block's values, in double.
+struct Lane {
+  const float* rows;
+  std::size_t stride, lane;
+
+  double value(std::size_t row) const { return double{rows[row * stride + lane]}; }
+  Vec3d vector(std::size_t row) const { return {value(row), value(row + 1), value(row + 2)}; }
+};
+
+Vec3d along(const Ray& ray, double t) { return Vec3d(ray.origin) + Vec3d(ray.direction) * t; }
+
+/// Point, true normal and barycentric weights in double, after T. Moeller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle
+/// Intersection", 1997; weights clamped, so that the point lies on the triangle even where the float test let the ray in by rounding.
+void triangle_geometry(HitState& state, const Lane& lane) {
+  const Vec3d v0 = lane.vector(0), edge1 = lane.vector(3) - v0, edge2 = lane.vector(6) - v0;
+  const Vec3d direction(state.ray.direction), p = cross(direction, edge2);
+  const double determinant = dot(edge1, p);
+  if (determinant != 0.0) {
+    const Vec3d from_v0 = Vec3d(state.ray.origin) - v0;
+    state.u = std::clamp(dot(from_v0, p) / determinant, 0.0, 1.0);
+    state.v = std::clamp(dot(direction, cross(from_v0, edge1)) / determinant, 0.0, 1.0 - state.u);
+  }
+  state.point = v0 + edge1 * state.u + edge2 * state.v;
+  state.geometric_normal = normalize(cross(edge1, edge2));
+}
+
+void sphere_geometry(HitState& state, const Lane& lane) {
+  const Vec3d center = lane.vector(0);
+  state.geometric_normal = normalize(along(state.ray, double{state.hit.t}) - center);
+  state.point = center + state.geometric_normal * std::fabs(lane.value(3));
+}
+
+void cone_geometry(HitState& state, const Lane& lane) {
+  const Vec3d base = lane.vector(0), axis = lane.vector(4) - base, from_base = along(state.ray, double{state.hit.t}) - base;
+  const double base_radius = std::fabs(lane.value(3)), widening = std::fabs(lane.value(7)) - base_radius;
+  const double height = std::clamp(dot(from_base, axis) / dot(axis, axis), 0.0, 1.0);
+  const Vec3d outward = from_base - axis * height;
+  const double distance = length(outward), radius = base_radius + widening * height;
+  const Vec3d radial = distance > 0.0 ? outward * (1.0 / distance) : Vec3d{};
+  state.point = base + axis * height + radial * radius;
+  const Vec3d normal = radial * dot(axis, axis) - axis * widening;
+  state.geometric_normal = normalize(normal);
+}
+
+void read_geometry(HitState& state, const std::byte* record) {
+  const auto header = read<BlockHeader>(record);
+  const auto* rows = reinterpret_cast<const float*>(record + sizeof(BlockHeader));
+  const Lane lane{rows, header.count, state.hit.lane};
+  switch (header.kind) {
+    case PrimitiveKind::triangle:
+      triangle_geometry(state, lane);
+      break;
+    case PrimitiveKind::sphere:
+      sphere_geometry(state, lane);
+      break;
+    case PrimitiveKind::cone:
+      cone_geometry(state, lane);
+      break;
+  }
+  const std::size_t references = (value_count(header.kind) + 1) * header.count;
+  state.shading = read<ShadingReference>(record + sizeof(BlockHeader) + 4 * (references + state.hit.lane));
+  state.leaving = dot(Vec3d(state.ray.direction), state.geometric_normal) > 0.0;
+  state.normal = state.leaving ? -state.geometric_normal : state.geometric_normal;
+  state.stage = state.shading.is_smooth() ? Stage::normals : Stage::material;
+}
+
+/// Blends the vertex normals, turned to the winding's side and then to the ray's.
+void read_normals(HitState& state, const std::byte* record) {
+  const auto normals = read<PatchNormals>(record);
+  const Vec3d blend = Vec3d(normals.normal[0]) * (1.0 - state.u - state.v) + Vec3d(normals.normal[1]) * state.u +
+                      Vec3d(normals.normal[2]) * state.v;
+  const double size = length(blend);
+  if (size > 0.0) {
+    const double side = dot(blend, state.normal) < 0.0 ? -1.0 : 1.0;
+    state.normal = blend * (side / size);
+  }
+  state.shading = ShadingReference::flat(normals.material);
+  state.stage = Stage::material;
+}
+
+bool reflects(const MaterialRecord& material) { return material.specular > 0.0F || material.transmittance > 0.0F; }
+
+/// The square of the cosine behind the surface by Snell's law; below 0 there is no refracted ray.
+double refracted_cosine_squared(const HitState& state, double relative_index) {
+  const double cosine = dot(Vec3d(state.ray.direction), state.normal);
+  return 1.0 - relative_index * relative_index * (1.0 - cosine * cosine);
+}
+
+double relative_index(const HitState& state) {
+  const double inside = state.material.refraction_index > 0.0F ? double{state.material.refraction_index} : 1.0;
+  return state.leaving ? inside : 1.0 / inside;
+}
+
+/// The stage after the lights: children only while depth is left.
+Stage after_lights(const HitState& state, const ShadeOptions& options) {
+  return state.ray.depth < options.depth_max && reflects(state.material) ? Stage::reflected : Stage::finished;
+}
+
+void read_material(HitState& state, const std::byte* record, const DatabaseHeader& header, const ShadeOptions& options,
+                   Operations& operations) {
+  state.material = read<MaterialRecord>(record);
+  const Stage later = after_lights(state, options);
+  if (later == Stage::reflected && state.material.transmittance > 0.0F) {
+    state.total_internal_reflection = refracted_cosine_squared(state, relative_index(state)) < 0.0;
+    operations.total_internal_reflections += state.total_internal_reflection ? 1 : 0;
+  }
+  ++operations.shadings;
+  state.stage = header.light_count > 0 ? Stage::light : later;
+}
+
+/// A child that starts beside the hit, on the side that it goes to.
+Ray child_ray(const HitState& state, const Vec3d& towards, RayKind kind) {
+  const double side = dot(towards, state.geometric_normal) < 0.0 ? -1.0 : 1.0;
+  Ray ray;
+  ray.origin = Vec3f(state.point + state.geometric_normal * (side * surface_offset));
+  ray.direction = Vec3f(normalize(towards));
+  ray.ignored_primitive = state.hit.primitive;
+  ray.pixel = state.ray.pixel;
+  ray.sample = state.ray.sample;
+  ray.depth = static_cast<std::uint8_t>(state.ray.depth + (kind == RayKind::shadow ? 0 : 1));
+  ray.kind = kind;
+  return ray;
+}
+
+Vec3d mirrored(const Vec3d& direction, const Vec3d& normal) { return direction - normal * (2.0 * dot(direction, normal)); }
+
+/// Diffuse plus Phong's highlight (NFF) for light from the unit direction `to_light`.
+Color reflected_light(const HitState& state, const LightRecord& light, const Vec3d& to_light, double cosine) {
+  const MaterialRecord& material = state.material;
+  const double lobe = std::clamp(dot(mirrored(Vec3d(state.ray.direction), state.normal), to_light), 0.0, 1.0);
+  const double highlight = material.specular > 0.0F ? double{material.specular} * pow_unit(lobe, double{material.shine}) : 0.0;
+  const Vec3d surface = Vec3d(material.color) * (double{material.diffuse} * cosine) + Vec3d{highlight, highlight, highlight};
+  return Color(Vec3d(state.ray.weight) * Vec3d(light.intensity) * surface);
+}
+
+bool read_light(HitState& state, const std::byte* record, const DatabaseHeader& header, const ShadeOptions& options, Ray& child) {
+  const auto light = read<LightRecord>(record);
+  if (++state.next_light == header.light_count) {
+    state.stage = after_lights(state, options);
+  }
+  const Vec3d towards = Vec3d(light.position) - state.point;
+  const double distance = length(towards);
+  const double cosine = distance > 0.0 ? dot(towards, state.normal) / distance : 0.0;
+  if (!(cosine > 0.0) && options.convention == Convention::haines) {
+    return false;
+  }
+  child = child_ray(state, towards, RayKind::shadow);
+  const Vec3d from_start = Vec3d(light.position) - Vec3d(child.origin);
+  child.direction = Vec3f(normalize(from_start));
+  child.t_max = static_cast<float>(length(from_start) * (1.0 - light_gap));
+  child.weight = cosine > 0.0 ? reflected_light(state, light, towards * (1.0 / distance), cosine) : Color{};
+  return true;
+}
+
+bool reflect(HitState& state, Ray& child) {
+  const MaterialRecord& material = state.material;
+  child = child_ray(state, mirrored(Vec3d(state.ray.direction), state.normal), RayKind::reflected);
+  // What cannot be transmitted is reflected.
+  const float share = material.specular + (state.total_internal_reflection ? material.transmittance : 0.0F);
+  child.weight = state.ray.weight * share;
+  const bool transmits = material.transmittance > 0.0F && !state.total_internal_reflection;
+  state.stage = transmits ? Stage::refracted : Stage::finished;
+  return true;
+}
+
+bool refract(HitState& state, Ray& child) {
+  const double index = relative_index(state), cosine = -dot(Vec3d(state.ray.direction), state.normal);
+  const double behind = std::sqrt(refracted_cosine_squared(state, index));
+  const Vec3d towards = Vec3d(state.ray.direction) * index + state.normal * (index * cosine - behind);
+  child = child_ray(state, towards, RayKind::refracted);
+  child.weight = state.ray.weight * state.material.transmittance;
+  state.stage = Stage::finished;
+  return true;
+}
+
+}  // namespace
+
+HitState begin_shading(const Ray& ray, const Hit& hit) {
+  HitState state;
+  state.ray = ray;
+  state.hit = hit;
+  return state;
+}
+
+Address record_needed(const HitState& state, const DatabaseHeader& header) {
+  switch (state.stage) {
+    case Stage::geometry:
+      return state.hit.block;
+    case Stage::normals:
+      return state.shading.normals();
+    case Stage::material:
+      return advance(header.materials, state.shading.material() * sizeof(MaterialRecord));
+    case Stage::light:
+      return advance(header.lights, state.next_light * sizeof(LightRecord));
+    default:
+      return no_address;
+  }
+}
+
+bool shade_step(HitState& state, const std::byte* record, const DatabaseHeader& header, const ShadeOptions& options, Ray& child,
+                Operations& operations) {
+  switch (state.stage) {
+    case Stage::geometry:
+      read_geometry(state, record);
+      return false;
+    case Stage::normals:
+      read_normals(state, record);
+      return false;
+    case Stage::material:
+      read_material(state, record, header, options, operations);
+      return false;
+    case Stage::light:
+      return read_light(state, record, header, options, child);
+    case Stage::reflected:
+      return reflect(state, child);
+    case Stage::refracted:
+      return refract(state, child);
+    case Stage::finished:
+      break;
+  }
+  expect(false, "a finished hit is not shaded again");
+  return false;
+}
+
+}  // namespace dmpc::core
