@@ -1,0 +1,271 @@
+#include "apps/oracle.h"
+
+#if __has_include(<embree3/rtcore.h>)
+#include <embree3/rtcore.h>
+#else
+#include <embree4/rtcore.h>
+#endif
+
+#include <array>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "apps/curved.h"
+#include "core/expect.h"
+#include "core/primitive.h"
+
+namespace dmpc::apps {
+namespace {
+
+// Embree 4 renamed the context and moved it into an arguments structure. That branch is untested: Debian 12 has 3.13.
+#if RTC_VERSION_MAJOR >= 4
+using Context = RTCRayQueryContext;
+void start(Context& context) { rtcInitRayQueryContext(&context); }
+void intersect(RTCScene scene, Context& context, RTCRayHit& ray_hit) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context;
+  rtcIntersect1(scene, &ray_hit, &arguments);
+}
+void occlude(RTCScene scene, Context& context, RTCRay& ray) {
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &context;
+  rtcOccluded1(scene, &ray, &arguments);
+}
+#else
+using Context = RTCIntersectContext;
+void start(Context& context) { rtcInitIntersectContext(&context); }
+void intersect(RTCScene scene, Context& context, RTCRayHit& ray_hit) { rtcIntersect1(scene, &context, &ray_hit); }
+void occlude(RTCScene scene, Context& context, RTCRay& ray) { rtcOccluded1(scene, &context, &ray); }
+#endif
+
+/// What the callbacks know of the query under way. Embree hands back the address of `context`, the first member.
+struct Query {
+  Context context;
+  const core::Ray* ray = nullptr;
+  core::Hit best;
+};
+static_assert(std::is_standard_layout_v<Query>);
+
+Query& query_of(Context* context) { return *reinterpret_cast<Query*>(context); }
+
+/// Whether primitive `id` at distance `t` is the query's best so far; if so it is noted.
+bool improves(Query& query, float t, std::uint32_t id) {
+  if (!(t > 0) || !(t < query.ray->t_max) || !nearer(t, id, query.best)) {
+    return false;
+  }
+  query.best.t = t;
+  query.best.primitive = id;
+  return true;
+}
+
+const std::uint32_t* ids_of(void* user_data) { return static_cast<const std::uint32_t*>(user_data); }
+
+/// Called for each triangle that Embree found at or before the ray's present end, ties included. Also serves as the filter of
+/// occlusion queries, where the first acceptance ends the walk.
+void filter_triangle(const RTCFilterFunctionNArguments* arguments) {
+  const float t = RTCRayN_tfar(arguments->ray, arguments->N, 0);
+  const std::uint32_t id = ids_of(arguments->geometryUserPtr)[RTCHitN_primID(arguments->hit, arguments->N, 0)];
+  Query& query = query_of(arguments->context);
+  if (id == query.ray->ignored_primitive || !improves(query, t, id)) {
+    arguments->valid[0] = 0;
+  }
+}
+
+}  // namespace
+
+struct EmbreeScene::Parts {
+  RTCDevice device = rtcNewDevice(nullptr);
+  RTCScene scene = nullptr;
+  std::span<const core::PrimitiveValues> primitives;
+  std::vector<std::uint32_t> triangles, curved;  ///< Embree's index -> primitive id
+
+  ~Parts() {
+    if (scene != nullptr) {
+      rtcReleaseScene(scene);
+    }
+    rtcReleaseDevice(device);
+  }
+  void attach(RTCGeometry geometry) const {
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+  }
+  void add_triangles();
+  void add_curved();
+
+  /// Tests one curved primitive, by Embree's index; returns whether it is the query's best so far.
+  bool test_curved(unsigned index, Query& query) const {
+    const std::uint32_t id = curved[index];
+    const std::optional<double> t = nearest_on_curved(primitives[id], *query.ray);
+    return t && improves(query, static_cast<float>(*t), id);
+  }
+  static const Parts& of(const void* user_data) { return *static_cast<const Parts*>(user_data); }
+  static void bounds_callback(const RTCBoundsFunctionArguments* arguments);
+  static void intersect_callback(const RTCIntersectFunctionNArguments* arguments);
+  static void occluded_callback(const RTCOccludedFunctionNArguments* arguments);
+};
+
+namespace {
+
+RTCRay embree_ray(const core::Ray& ray) {
+  RTCRay result{};
+  result.org_x = ray.origin.x, result.org_y = ray.origin.y, result.org_z = ray.origin.z;
+  result.dir_x = ray.direction.x, result.dir_y = ray.direction.y, result.dir_z = ray.direction.z;
+  result.tnear = 0;
+  result.tfar = ray.t_max;
+  result.mask = ~0U;
+  return result;
+}
+
+Query start_query(const core::Ray& ray) {
+  Query query;
+  start(query.context);
+  query.ray = &ray;
+  return query;
+}
+
+bool can_hit(const core::Ray& ray) { return is_finite(ray.origin) && is_finite(ray.direction) && ray.t_max > 0; }
+
+}  // namespace
+
+void EmbreeScene::Parts::bounds_callback(const RTCBoundsFunctionArguments* arguments) {
+  const Parts& parts = of(arguments->geometryUserPtr);
+  const std::array<float, 6> box = bounds_of_curved(parts.primitives[parts.curved[arguments->primID]]);
+  RTCBounds& bounds = *arguments->bounds_o;
+  bounds.lower_x = box[0], bounds.lower_y = box[1], bounds.lower_z = box[2];
+  bounds.upper_x = box[3], bounds.upper_y = box[4], bounds.upper_z = box[5];
+}
+
+void EmbreeScene::Parts::intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
+  Query& query = query_of(arguments->context);
+  if (arguments->valid[0] == 0 || !of(arguments->geometryUserPtr).test_curved(arguments->primID, query)) {
+    return;
+  }
+  RTCRayN_tfar(RTCRayHitN_RayN(arguments->rayhit, arguments->N), arguments->N, 0) = query.best.t;
+  RTCHitN* hit = RTCRayHitN_HitN(arguments->rayhit, arguments->N);
+  RTCHitN_primID(hit, arguments->N, 0) = arguments->primID;
+  RTCHitN_geomID(hit, arguments->N, 0) = arguments->geomID;
+}
+
+void EmbreeScene::Parts::occluded_callback(const RTCOccludedFunctionNArguments* arguments) {
+  Query& query = query_of(arguments->context);
+  if (arguments->valid[0] != 0 && of(arguments->geometryUserPtr).test_curved(arguments->primID, query)) {
+    RTCRayN_tfar(arguments->ray, arguments->N, 0) = -std::numeric_limits<float>::infinity();
+  }
+}
+
+void EmbreeScene::Parts::add_triangles() {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                               3 * sizeof(float), 3 * triangles.size()));
+  auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                 3 * sizeof(unsigned), triangles.size()));
+  core::expect(vertices != nullptr && indices != nullptr, "Embree has memory for the triangles");
+  for (std::size_t index = 0; index < triangles.size(); ++index) {
+    for (std::size_t k = 0; k < 9; ++k) {
+      vertices[9 * index + k] = primitives[triangles[index]].value[k];
+    }
+    for (std::size_t k = 3 * index; k < 3 * index + 3; ++k) {
+      indices[k] = static_cast<unsigned>(k);
+    }
+  }
+  rtcSetGeometryUserData(geometry, triangles.data());
+  rtcSetGeometryIntersectFilterFunction(geometry, filter_triangle);
+  rtcSetGeometryOccludedFilterFunction(geometry, filter_triangle);
+  attach(geometry);
+}
+
+void EmbreeScene::Parts::add_curved() {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(curved.size()));
+  rtcSetGeometryUserData(geometry, this);
+  rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, intersect_callback);
+  rtcSetGeometryOccludedFunction(geometry, occluded_callback);
+  attach(geometry);
+}
+
+EmbreeScene::EmbreeScene(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode) : parts_(std::make_unique<Parts>()) {
+  core::expect(parts_->device != nullptr, "Embree opens its device");
+  parts_->primitives = primitives;
+  for (std::uint32_t id = 0; id < primitives.size(); ++id) {
+    (primitives[id].kind == core::PrimitiveKind::triangle ? parts_->triangles : parts_->curved).push_back(id);
+  }
+  parts_->scene = rtcNewScene(parts_->device);
+  rtcSetSceneFlags(parts_->scene, mode == EmbreeMode::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+  rtcSetSceneBuildQuality(parts_->scene, RTC_BUILD_QUALITY_HIGH);
+  if (!parts_->triangles.empty()) {
+    parts_->add_triangles();
+  }
+  if (!parts_->curved.empty()) {
+    parts_->add_curved();
+  }
+  rtcCommitScene(parts_->scene);
+  core::expect(rtcGetDeviceError(parts_->device) == RTC_ERROR_NONE, "Embree builds the scene without an error");
+}
+
+EmbreeScene::~EmbreeScene() = default;
+
+core::Hit EmbreeScene::closest(const core::Ray& ray) const {
+  Query query = start_query(ray);
+  if (can_hit(ray)) {
+    RTCRayHit ray_hit{};
+    ray_hit.ray = embree_ray(ray);
+    ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    intersect(parts_->scene, query.context, ray_hit);
+  }
+  return query.best;
+}
+
+bool EmbreeScene::occluded(const core::Ray& ray) const {
+  if (!can_hit(ray)) {
+    return false;
+  }
+  Query query = start_query(ray);
+  RTCRay embree = embree_ray(ray);
+  occlude(parts_->scene, query.context, embree);
+  return query.best.found();
+}
+
+namespace {
+
+/// t of lane `lane` of the block at `record` by our own kernels, so that its bits do not depend on who named the primitive. Where
+/// they deny the hit (the ray brushes the silhouette), Embree's t stays.
+float own_distance(const core::Ray& ray, const std::byte* record, std::uint32_t lane, float embree_t) {
+  core::BlockHeader header;
+  std::memcpy(&header, record, sizeof(header));
+  const auto* rows = reinterpret_cast<const float*>(record + sizeof(header));
+  const float t = header.kind == core::PrimitiveKind::triangle
+                      ? core::intersect_triangle(core::ShearedRay(ray), rows, header.count, lane)
+                  : header.kind == core::PrimitiveKind::sphere ? core::intersect_sphere(ray, rows, header.count, lane)
+                                                               : core::intersect_cone(ray, rows, header.count, lane);
+  return t > 0 && t < ray.t_max ? t : embree_t;
+}
+
+}  // namespace
+
+core::Traced EmbreeTracer::trace(const core::Ray& ray, core::Cursor& cursor, core::Operations&) {
+  cursor.best = {};
+  cursor.stage = core::Cursor::Stage::finished;
+  if (ray.kind == core::RayKind::shadow) {
+    return scene_->occluded(ray) ? core::Traced::hit : core::Traced::miss;
+  }
+  core::Hit& best = cursor.best = scene_->closest(ray);
+  if (!best.found()) {
+    return core::Traced::miss;
+  }
+  const core::Database::Place place = places_[best.primitive];
+  best.block = place.block;
+  best.lane = place.lane;
+  best.t = own_distance(ray, find(place.block), place.lane, best.t);
+  return core::Traced::hit;
+}
+
+const char* embree_version() { return RTC_VERSION_STRING; }
+
+}  // namespace dmpc::apps
