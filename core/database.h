@@ -14,7 +14,7 @@ namespace dmpc::core {
 struct BuildOptions {
   std::size_t page_size_bytes = 1024;  ///< a power of two, 512 B to 64 KiB
   double top_cells_per_primitive = 0.125;
-  int voxel_primitives_max = 8;        ///< a voxel with more becomes a brick of its own, as long as that helps
+  int voxel_primitives_max = 32;       ///< a voxel with more becomes a brick of its own, as long as that helps
 };
 
 /// Where a primitive came from, for messages, for the oracle and for counting; host only.

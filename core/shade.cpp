@@ -88,6 +88,7 @@ void read_geometry(HitState& state, const std::byte* record) {
   }
   const std::size_t references = (value_count(header.kind) + 1) * header.count;
   state.shading = read<ShadingReference>(record + sizeof(BlockHeader) + 4 * (references + state.hit.lane));
+  state.curved = header.kind != PrimitiveKind::triangle;
   state.leaving = dot(Vec3d(state.ray.direction), state.geometric_normal) > 0.0;
   state.normal = state.leaving ? -state.geometric_normal : state.geometric_normal;
   state.stage = state.shading.is_smooth() ? Stage::normals : Stage::material;
@@ -143,7 +144,7 @@ Ray child_ray(const HitState& state, const Vec3d& towards, RayKind kind) {
   Ray ray;
   ray.origin = Vec3f(state.point + state.geometric_normal * (side * surface_offset));
   ray.direction = Vec3f(normalize(towards));
-  ray.ignored_primitive = state.hit.primitive;
+  ray.ignored_primitive = state.curved ? no_primitive : state.hit.primitive;
   ray.pixel = state.ray.pixel;
   ray.sample = state.ray.sample;
   ray.depth = static_cast<std::uint8_t>(state.ray.depth + (kind == RayKind::shadow ? 0 : 1));

@@ -34,6 +34,7 @@ struct HitState {
   MaterialRecord material;
   ShadingReference shading;
   std::uint32_t next_light = 0;
+  bool curved = false;        ///< a ray from here may meet the same primitive again
   bool leaving = false;       ///< the ray goes along the true normal: out of the body
   bool total_internal_reflection = false;
   Stage stage = Stage::geometry;
