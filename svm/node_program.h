@@ -35,6 +35,7 @@ struct ProgramReport {
   core::Operations operations;
   PageCounters pages;
   WorkCounters work;
+  std::uint64_t rays_ended = 0;  ///< hit or miss; at the end of a run as many as were shot
 };
 
 /// A node program that reports. Call report() only while the program is not running.

@@ -70,9 +70,10 @@ struct WorkRequest {
 };
 static_assert(is_small_packet<WorkRequest>);
 
-/// An item of the sender's submap; an empty one says that the request has been all round the ring: there is no more work.
+/// An item of `giver`'s submap; an empty one says that the request has been all round the ring: there is no more work.
 struct WorkReply {
   PixelRectangle item;
+  std::uint32_t giver = 0;
 };
 static_assert(is_small_packet<WorkReply>);
 

@@ -1,6 +1,7 @@
 // Renders a picture on N nodes: plans the memory, assembles nodes and host, runs them on threads, and reports.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -18,6 +19,7 @@
 #include "core/traversal.h"
 #include "nodes/counters.h"
 #include "nodes/threads_runner.h"
+#include "svm/host.h"
 #include "svm/local_copy.h"
 #include "svm/node_program.h"
 #include "svm/plan.h"
@@ -35,8 +37,7 @@ struct RunOptions {
   bool count_pages = false;
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;
   core::TraversalOptions traversal;
-  /// Called by the host's thread whenever finished pixels arrive: (pixels done, pixels in all). Must not throw.
-  std::function<void(std::uint32_t, std::uint32_t)> progress;
+  Progress progress;  ///< called by the host's thread
 };
 
 struct NodeReport {
@@ -70,8 +71,7 @@ Report run_svm(const core::Database& database, const core::RenderSettings& setti
 using MakeProgram = std::function<std::unique_ptr<NodeProgram>(std::uint32_t index, nodes::Node& node)>;
 
 /// Runs any programs of this family under `plan`, checks the laws of conservation and reports.
-Report run_programs(const Plan& plan, const MakeProgram& make_program,
-                    const std::function<void(std::uint32_t, std::uint32_t)>& progress, std::stop_token stop);
+Report run_programs(const Plan& plan, const MakeProgram& make_program, const Progress& progress, std::stop_token stop);
 
 /// Renders with strategy replicated and a tracer of one's own: make_tracer(index, copy) returns node `index`'s core::Tracer over its own
 /// copy of the database (a std::span<const std::byte>, overread_bytes more readable). It is called before the start.

@@ -1,0 +1,69 @@
+#include "svm/film_gather.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/expect.h"
+
+namespace dmpc::svm {
+
+using nodes::Category;
+using nodes::LocalMemory;
+
+/// A packet that is being gathered, and behind it the pixels in flight, which may all finish before it can leave; and the header.
+std::size_t FilmGather::room_bytes(std::uint32_t film_entries, std::uint32_t in_flight) {
+  return sizeof(FilmEntry) * (std::size_t{film_entries} + in_flight + header_entries);
+}
+
+void FilmGather::add_needs(nodes::MemoryPlan& plan, std::uint32_t film_entries, std::uint32_t in_flight) {
+  plan[Category::film_tiles] += LocalMemory::bytes_for<std::byte>(room_bytes(film_entries, in_flight));
+}
+
+FilmGather::FilmGather(nodes::Node& node, const Plan& plan)
+    : node_(&node),
+      host_(nodes::NodeId{plan.request.node_count}),
+      packet_entries_(plan.film_entries),
+      room_(node.memory().allocate<std::byte>(Category::film_tiles, room_bytes(plan.film_entries, plan.in_flight))) {
+  node.grant(host_, bulk_channel, plan.film_credits);
+}
+
+void FilmGather::add(std::uint32_t pixel, const core::PixelSums& sums) {
+  core::expect(has_room_for(1), "the gathered film has room for every pixel that was started");
+  const FilmEntry finished{pixel, 0, sums};
+  std::memcpy(entry(count_), &finished, sizeof(finished));
+  ++count_;
+  if (count_ >= packet_entries_) {
+    send();
+  }
+}
+
+void FilmGather::flush() {
+  while (count_ > 0 && send()) {
+  }
+}
+
+void FilmGather::acknowledged() {
+  core::expect(under_way_ > 0, "the host acknowledges what was sent");
+  --under_way_;
+  node_->grant(host_, bulk_channel);
+  if (count_ >= packet_entries_) {
+    send();
+  }
+}
+
+/// Sends the oldest entries, at most a packet full, and moves the others to the front. Returns whether a credit was left.
+bool FilmGather::send() {
+  const FilmHeader header{std::min(count_, packet_entries_)};
+  std::memcpy(room_.data(), &header, sizeof(header));
+  const std::size_t bytes = sizeof(header) + header.count * sizeof(FilmEntry);
+  if (node_->credits(host_, bulk_channel) == 0 ||
+      !node_->try_send(host_, bulk_channel, number_of(Kind::film_sums), std::span<const std::byte>(room_.first(bytes)))) {
+    return false;
+  }
+  count_ -= header.count;
+  std::memmove(entry(0), entry(header.count), count_ * sizeof(FilmEntry));
+  ++under_way_;
+  return true;
+}
+
+}  // namespace dmpc::svm

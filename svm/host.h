@@ -1,0 +1,55 @@
+// The host's program: takes the finished pixels, counts who is done, and stops the run.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+#include "core/film.h"
+#include "nodes/node.h"
+#include "nodes/program.h"
+#include "svm/packets.h"
+#include "svm/plan.h"
+
+namespace dmpc::svm {
+
+/// Called on the host's thread whenever finished pixels arrive: (pixels done, pixels in all). If it throws, the run ends with that.
+using Progress = std::function<void(std::uint32_t, std::uint32_t)>;
+
+/// Every pixel arrives exactly once, which it checks; when every node is done and the film complete, it sends each node a Stop.
+class HostProgram final : public nodes::Program {
+ public:
+  /// `film` outlives the program and is written by it alone until the run's end. `progress` may be empty.
+  HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, Progress progress);
+  /// Adds to `plan` exactly what the constructor takes.
+  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t pixel_count);
+
+  void receive(const nodes::Packet& packet) override;
+  bool work() override { return false; }
+  bool finished() const override { return stopped_; }
+  std::string describe() const override;
+
+  /// Deposits that saturated a sum on the host's film.
+  std::uint64_t deposits_saturated() const { return deposits_saturated_; }
+  std::uint32_t pixels_done() const { return pixels_done_; }
+
+ private:
+  void take_film(const nodes::Packet& packet);
+  void take_pixel(const FilmEntry& entry);
+  void take_done(const Done& done);
+
+  nodes::Node* node_;
+  core::Film* film_;
+  Progress progress_;
+  std::span<std::uint64_t> arrived_;  ///< a bit a pixel
+  std::uint32_t node_count_;
+  std::uint32_t pixels_total_;
+  std::uint32_t pixels_done_ = 0;
+  std::uint32_t nodes_done_ = 0;
+  std::uint64_t pixels_announced_ = 0;
+  std::uint64_t deposits_saturated_ = 0;
+  bool stopped_ = false;
+};
+
+}  // namespace dmpc::svm

@@ -1,0 +1,45 @@
+// The whole database in a node's local memory: what replicated has in place of a pager.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+#include "core/expect.h"
+#include "core/records.h"
+#include "nodes/node.h"
+#include "svm/node_program.h"
+#include "svm/plan.h"
+
+namespace dmpc::svm {
+
+/// A core::Records that is never absent. Thread safety: belongs to one node.
+class LocalCopy {
+ public:
+  static constexpr bool pages_travel = false;
+
+  /// Copies `database` into the node's local memory.
+  LocalCopy(nodes::Node& node, const Plan& plan, std::span<const std::byte> database)
+      : bytes_(node.memory().allocate<std::byte>(nodes::Category::home_pages, database.size() + core::overread_bytes)),
+        database_(bytes_.first(database.size())) {
+    core::expect(database.size() == plan.request.page_count * plan.request.page_size_bytes, "the plan is the database's");
+    std::copy(database.begin(), database.end(), bytes_.begin());
+  }
+  /// Adds to `plan` exactly what the constructor takes.
+  static void add_needs(nodes::MemoryPlan& plan, std::size_t database_bytes) {
+    plan[nodes::Category::home_pages] += nodes::LocalMemory::bytes_for<std::byte>(database_bytes + core::overread_bytes);
+  }
+
+  const std::byte* find(core::Address address) const { return bytes_.data() + core::byte_offset(address); }
+  /// The copy, without the bytes that are readable behind it.
+  std::span<const std::byte> bytes() const { return database_; }
+  /// No pages, so all zero.
+  PageCounters counters() const { return {}; }
+
+ private:
+  std::span<std::byte> bytes_;
+  std::span<const std::byte> database_;
+};
+static_assert(core::Records<LocalCopy>);
+
+}  // namespace dmpc::svm

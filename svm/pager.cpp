@@ -1,0 +1,126 @@
+#include "svm/pager.h"
+
+#include <algorithm>
+
+#include "core/expect.h"
+#include "svm/packets.h"
+
+namespace dmpc::svm {
+namespace {
+
+using nodes::Category;
+using nodes::LocalMemory;
+
+std::size_t home_bytes(std::uint32_t page_count, std::size_t page_size_bytes) {
+  return page_count * page_size_bytes + core::overread_bytes;
+}
+
+}  // namespace
+
+void Pager::add_needs(nodes::MemoryPlan& plan, std::uint32_t home_page_count, std::uint32_t frame_count, std::uint32_t in_flight,
+                      std::size_t page_size_bytes) {
+  plan[Category::home_pages] += LocalMemory::bytes_for<std::byte>(home_bytes(home_page_count, page_size_bytes));
+  plan[Category::queues] += LocalMemory::bytes_for<std::byte>(sizeof(PageReplyHeader) + page_size_bytes);
+  Cache::add_needs(plan, frame_count, page_size_bytes);
+  Faults::add_needs(plan, in_flight);
+}
+
+Pager::Pager(nodes::Node& node, const Plan& plan, std::span<const std::byte> database)
+    : geometry_(plan.request.page_size_bytes),
+      homes_(plan.request.node_count),
+      self_(nodes::index_of(node.id())),
+      home_bytes_(node.memory().allocate<std::byte>(
+          Category::home_pages, home_bytes(plan.pages_at(nodes::index_of(node.id())), plan.request.page_size_bytes))),
+      cache_(node.memory(), plan.frames, plan.request.page_size_bytes),
+      faults_(node.memory(), plan.in_flight),
+      node_(&node),
+      reply_(node.memory().allocate<std::byte>(Category::queues, sizeof(PageReplyHeader) + plan.request.page_size_bytes)),
+      home_page_count_(plan.pages_at(nodes::index_of(node.id()))) {
+  core::expect(database.size() == plan.request.page_count * plan.request.page_size_bytes, "the plan is the database's");
+  copy_home_pages(database);
+  for (std::uint32_t home = 0; home < plan.request.node_count; ++home) {
+    if (home != self_) {
+      node.grant(nodes::NodeId{home}, request_channel, plan.request_credits);
+    }
+  }
+}
+
+void Pager::copy_home_pages(std::span<const std::byte> database) {
+  const std::size_t size = geometry_.size_bytes();
+  for (std::uint32_t slot = 0; slot < home_page_count_; ++slot) {
+    const std::span<const std::byte> page = database.subspan(index_of(homes_.page_at({self_, slot})) * size, size);
+    std::copy(page.begin(), page.end(), home_bytes_.begin() + static_cast<std::ptrdiff_t>(slot * size));
+  }
+}
+
+const std::byte* Pager::find_other(PageId page, std::size_t offset) {
+  const Homes::Place place = homes_.place_of(page);
+  const std::byte* bytes = nullptr;
+  if (place.node == self_) {
+    last_hits_ = &counters_.home_hits;
+    bytes = home_page(place.slot).data();
+  } else {
+    bytes = cache_.find(page);
+    if (bytes == nullptr) {
+      ++counters_.misses;
+      return nullptr;
+    }
+    last_hits_ = &counters_.cache_hits;
+  }
+  ++*last_hits_;
+  last_page_ = page;
+  last_bytes_ = bytes;
+  return bytes + offset;
+}
+
+void Pager::park(std::uint32_t slot, core::Address address) {
+  const PageId page = geometry_.page_of(address);
+  if (Faults::Fault* fault = faults_.park(slot, page, homes_.place_of(page).node)) {
+    ++counters_.faults;
+    request(*fault);
+  }
+}
+
+/// Refused for want of credit, the fault stays in the list and is requested when a reply from its home brings the credit back.
+void Pager::request(Faults::Fault& fault) {
+  fault.requested = node_->try_send(nodes::NodeId{fault.home}, request_channel, number_of(Kind::page_request), PageRequest{fault.page});
+}
+
+std::uint32_t Pager::install(const nodes::Packet& reply) {
+  core::expect(reply.payload.size() == sizeof(PageReplyHeader) + geometry_.size_bytes(), "a page reply carries one page");
+  PageReplyHeader header;
+  std::memcpy(&header, reply.payload.data(), sizeof(header));
+  core::expect(homes_.place_of(header.page).node == nodes::index_of(reply.source), "a page comes from its home");
+  ++replies_;
+  node_->grant(reply.source, request_channel);
+  const std::uint32_t first = faults_.arrived(header.page);
+  if (Faults::Fault* refused = faults_.oldest_refused(nodes::index_of(reply.source))) {
+    request(*refused);
+  }
+  last_page_ = no_page;
+  counters_.evictions += cache_.install(header.page, reply.payload.subspan(sizeof(header))) == no_page ? 0 : 1;
+  return first;
+}
+
+void Pager::serve(const nodes::Packet& request) {
+  const auto page = request.as<PageRequest>().page;
+  const Homes::Place place = homes_.place_of(page);
+  core::expect(place.node == self_ && place.slot < home_page_count_, "a request reaches its page's home");
+  const PageReplyHeader header{page};
+  std::memcpy(reply_.data(), &header, sizeof(header));
+  const std::span<const std::byte> bytes = home_page(place.slot);
+  std::copy(bytes.begin(), bytes.end(), reply_.begin() + sizeof(header));
+  node_->grant(request.source, bulk_channel);
+  core::expect(node_->try_send(request.source, bulk_channel, number_of(Kind::page_reply), std::span<const std::byte>(reply_)),
+               "a reply always has room");
+  ++counters_.served;
+}
+
+PageCounters Pager::counters() const {
+  PageCounters counters = counters_;
+  counters.cache_hits -= retries_;
+  counters.references = counters.home_hits + counters.cache_hits + counters.misses;
+  return counters;
+}
+
+}  // namespace dmpc::svm

@@ -1,0 +1,87 @@
+// Turns page misses into faults and requests, replies into installed pages, and serves other nodes' requests.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/records.h"
+#include "nodes/node.h"
+#include "svm/cache.h"
+#include "svm/faults.h"
+#include "svm/home.h"
+#include "svm/node_program.h"
+#include "svm/page.h"
+#include "svm/plan.h"
+
+namespace dmpc::svm {
+
+/// A node's part of the shared virtual memory: its home pages, its cache, its faults. A core::Records whose find() answers nullptr for a
+/// page that is neither at home nor cached. The victim of a page is chosen when the page arrives. Thread safety: none.
+class Pager {
+ public:
+  /// Programs with this kind of records exchange page requests and replies.
+  static constexpr bool pages_travel = true;
+
+  /// Copies the node's home pages from `database` into its local memory and takes the credits for its requests.
+  Pager(nodes::Node& node, const Plan& plan, std::span<const std::byte> database);
+  /// Adds to `plan` exactly what the constructor takes at a node with `home_page_count` pages.
+  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t home_page_count, std::uint32_t frame_count, std::uint32_t in_flight,
+                        std::size_t page_size_bytes);
+
+  /// One reference. The pointer is valid until the next call of install(). Repeated references of one page, the usual case, do not change
+  /// the order of use, so they cost a comparison.
+  const std::byte* find(core::Address address) {
+    const PageId page = geometry_.page_of(address);
+    const std::size_t offset = geometry_.offset_of(address);
+    if (page == last_page_) [[likely]] {
+      ++*last_hits_;
+      return last_bytes_ + offset;
+    }
+    return find_other(page, offset);
+  }
+
+  /// `slot` goes on when the page of `address`, which find() has just said is absent, arrives. Requests the page if nobody has.
+  void park(std::uint32_t slot, core::Address address);
+  /// Takes a page reply: installs the page and returns the first slot that waited for it. Whoever runs those slots calls retried() before
+  /// each and runs them all before the next install().
+  std::uint32_t install(const nodes::Packet& reply);
+  /// The slot that waits for the same page behind `slot`, or no_slot. Read it before the slot runs.
+  std::uint32_t next_waiting(std::uint32_t slot) const { return faults_.next(slot); }
+  /// The next reference is the repetition of one that was counted as a page miss.
+  void retried() { ++retries_; }
+  /// Takes a page request and replies at once: the request has reserved the reply's place.
+  void serve(const nodes::Packet& request);
+
+  /// Faults that have not ended.
+  std::uint32_t faults() const { return faults_.count(); }
+  PageCounters counters() const;
+
+ private:
+  const std::byte* find_other(PageId page, std::size_t offset);
+  std::span<const std::byte> home_page(std::uint32_t slot) const {
+    return home_bytes_.subspan(slot * geometry_.size_bytes(), geometry_.size_bytes());
+  }
+  void copy_home_pages(std::span<const std::byte> database);
+  void request(Faults::Fault& fault);
+
+  // What a reference reads comes first.
+  PageGeometry geometry_;
+  PageId last_page_ = no_page;
+  const std::byte* last_bytes_ = nullptr;
+  std::uint64_t* last_hits_ = nullptr;
+  Homes homes_;
+  std::uint32_t self_;
+  std::span<std::byte> home_bytes_;
+  PageCounters counters_;
+  std::uint64_t retries_ = 0;
+  Cache cache_;
+  Faults faults_;
+  nodes::Node* node_;
+  std::span<std::byte> reply_;  ///< where a reply is put together
+  std::uint32_t home_page_count_;
+  std::uint64_t replies_ = 0;   ///< received
+};
+static_assert(core::Records<Pager>);
+
+}  // namespace dmpc::svm

@@ -1,0 +1,256 @@
+#include "svm/plan.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "core/expect.h"
+#include "core/pixel_task.h"
+#include "core/units.h"
+#include "svm/counting_pager.h"
+#include "svm/film_gather.h"
+#include "svm/host.h"
+#include "svm/local_copy.h"
+#include "svm/packets.h"
+#include "svm/pager.h"
+#include "svm/slots.h"
+
+namespace dmpc::svm {
+namespace {
+
+using nodes::Category;
+using nodes::LocalMemory;
+
+constexpr std::uint32_t default_in_flight = 16;
+constexpr std::uint32_t auto_cache_pages_min = 64;
+/// Two film packets a node: one travels while the next is gathered.
+constexpr std::uint32_t film_credits = 2;
+/// Longer film packets would save nothing worth the memory of their mailbox slots.
+constexpr std::size_t film_packet_max_bytes = 4096;
+/// Small slots that a home keeps for page requests, about; 16 KiB of them.
+constexpr std::uint32_t request_slots_wanted = 256;
+/// More requests to one home than this wait no shorter: it serves them one after another.
+constexpr std::uint32_t request_credits_max = 4;
+constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
+
+bool pages_travel(const PlanRequest& request) { return request.strategy == Strategy::svm && request.node_count > 1; }
+
+/// Pages that are not at home, at the node that has the fewest at home.
+std::uint32_t foreign_pages_max(const PlanRequest& request) {
+  return pages_travel(request) ? request.page_count - request.page_count / request.node_count : 0;
+}
+
+/// At least one for each home, so that every fault can be requested in the end; no more than pixels that can fault.
+std::uint32_t request_credits_of(const PlanRequest& request, std::uint32_t in_flight) {
+  if (!pages_travel(request)) {
+    return 0;
+  }
+  return std::min(in_flight, std::clamp(request_slots_wanted / (request.node_count - 1), 1U, request_credits_max));
+}
+
+std::uint32_t film_entries_of(const PlanRequest& request) {
+  const std::size_t packet_bytes = std::min(request.page_size_bytes, film_packet_max_bytes);
+  return static_cast<std::uint32_t>((packet_bytes - sizeof(FilmHeader)) / sizeof(FilmEntry));
+}
+
+/// What a node's mailbox must be able to hold, whoever sends when; the mailbox itself adds the slot of the packet being received.
+nodes::MailboxCapacity node_mailbox_of(const PlanRequest& request, std::uint32_t in_flight, std::uint32_t request_credits) {
+  const std::uint32_t others = request.node_count - 1;
+  const bool ring = request.work_item_side > 0;
+  nodes::MailboxCapacity capacity;
+  capacity.small_slots = others * request_credits  // page requests: each other node's credits for this home
+                         + (ring ? others : 0)     // work requests: each other node has at most one on the ring
+                         + (ring ? 1 : 0)          // the reply to this node's own work request
+                         + film_credits            // acknowledgements: one for each film packet of this node's
+                         + 1;                      // Stop
+  if (pages_travel(request)) {
+    // Replies: one for each fault under way; a fault has at least one pixel in flight, and a pixel waits for one page.
+    capacity.bulk_slots = in_flight;
+    capacity.bulk_payload_bytes = sizeof(PageReplyHeader) + request.page_size_bytes;
+  }
+  return capacity;
+}
+
+nodes::MailboxCapacity host_mailbox_of(const PlanRequest& request, std::uint32_t film_entries) {
+  return {.small_slots = request.node_count,                 // Done: one from each node
+          .bulk_slots = request.node_count * film_credits,   // film packets: each node's credits
+          .bulk_payload_bytes = sizeof(FilmHeader) + film_entries * sizeof(FilmEntry)};
+}
+
+/// The plan with this cache and these pixels in flight, whether or not it fits.
+Plan plan_with(const PlanRequest& request, std::uint32_t frames, std::uint32_t in_flight) {
+  Plan plan;
+  plan.request = request;
+  plan.frames = frames;
+  plan.in_flight = in_flight;
+  plan.request_credits = request_credits_of(request, in_flight);
+  plan.film_credits = film_credits;
+  plan.film_entries = film_entries_of(request);
+  plan.node_mailbox = node_mailbox_of(request, in_flight, plan.request_credits);
+  plan.host_mailbox = host_mailbox_of(request, plan.film_entries);
+  return plan;
+}
+
+std::size_t bytes_with(const PlanRequest& request, std::uint32_t frames, std::uint32_t in_flight) {
+  return plan_with(request, frames, in_flight).node_memory_max_bytes();
+}
+
+void check_use(bool right, const std::string& sentence) {
+  if (!right) {
+    throw core::UsageError(sentence);
+  }
+}
+
+void check(const PlanRequest& request) {
+  check_use(is_page_size(request.page_size_bytes),
+            "--page-size=" + size_text(request.page_size_bytes) + ": a page is a power of two from 512B to 64KiB");
+  check_use(request.node_count >= 1 && request.node_count <= node_count_max,
+            "--nodes=" + std::to_string(request.node_count) + ": from 1 to " + std::to_string(node_count_max) + " nodes");
+  const std::uint32_t in_flight = request.in_flight.value_or(1);
+  check_use(in_flight >= 1 && in_flight <= in_flight_max,
+            "--in-flight=" + std::to_string(in_flight) + ": from 1 to " + std::to_string(in_flight_max) + " pixels");
+  check_use(request.strategy == Strategy::svm || !request.cache_pages,
+            "--cache-pages goes with --strategy=svm: replicated has no cache, every node holds the whole database");
+  check_use(request.strategy == Strategy::svm || !request.count_pages, "distinct pages are counted with --strategy=svm only");
+  check_use(request.cache_pages.value_or(1) >= 1, "--cache-pages=0: a node needs at least one frame for the pages of others");
+  core::expect(request.page_count >= 1 && request.depth_max >= 1, "a database has a page, and a ray a depth");
+  core::expect(request.width >= 1 && request.height >= 1, "a picture has a pixel");
+}
+
+/// What the user asked for, or our choice, before the memory is looked at.
+std::uint32_t wanted_in_flight(const PlanRequest& request) {
+  return request.in_flight.value_or(request.strategy == Strategy::svm ? default_in_flight : 1);
+}
+
+/// The fewest frames that this request can do with.
+std::uint32_t frames_min(const PlanRequest& request) { return std::min(request.cache_pages.value_or(1), foreign_pages_max(request)); }
+
+std::uint32_t auto_frames(const PlanRequest& request) {
+  const std::uint32_t quarter = core::ceil_divide(request.page_count, 4U);
+  return std::min(request.cache_pages.value_or(std::max(quarter, auto_cache_pages_min)), foreign_pages_max(request));
+}
+
+/// The most frames that fit, at least frames_min() of which are known to fit.
+std::uint32_t most_frames(const PlanRequest& request, std::uint32_t in_flight, std::size_t memory_bytes) {
+  std::uint32_t fits = frames_min(request);
+  std::uint32_t too_many = (request.cache_pages ? fits : foreign_pages_max(request)) + 1;
+  while (too_many - fits > 1) {
+    const std::uint32_t middle = fits + (too_many - fits) / 2;
+    (bytes_with(request, middle, in_flight) <= memory_bytes ? fits : too_many) = middle;
+  }
+  return fits;
+}
+
+/// The most pixels in flight that leave room for the cache asked for, or else for a frame each: a pixel without one evicts another's page.
+std::uint32_t most_in_flight(const PlanRequest& request, std::size_t memory_bytes) {
+  std::uint32_t in_flight = wanted_in_flight(request);
+  const auto frames_for = [&](std::uint32_t pixels) {
+    return request.cache_pages ? frames_min(request) : std::min(pixels, foreign_pages_max(request));
+  };
+  while (in_flight > 1 && bytes_with(request, frames_for(in_flight), in_flight) > memory_bytes) {
+    --in_flight;
+  }
+  return in_flight;
+}
+
+std::optional<std::uint32_t> smallest_node_count(PlanRequest request) {
+  while (++request.node_count <= node_count_max) {
+    if (smallest_node_memory_bytes(request) <= *request.node_memory_bytes) {
+      return request.node_count;
+    }
+  }
+  return std::nullopt;
+}
+
+[[noreturn]] void say_too_small(const PlanRequest& request) {
+  std::string sentence = "--node-memory=" + size_text(*request.node_memory_bytes) + " is too small for --nodes=" +
+                         std::to_string(request.node_count) + ": the smallest that works is --node-memory=" +
+                         size_text(smallest_node_memory_bytes(request));
+  if (const auto nodes = smallest_node_count(request)) {
+    sentence += ", or with this memory --nodes=" + std::to_string(*nodes);
+  } else if (request.strategy == Strategy::replicated) {
+    sentence += "; every node of --strategy=replicated holds the whole database, --strategy=svm spreads it";
+  } else {
+    sentence += "; no number of nodes up to " + std::to_string(node_count_max) + " works with this memory";
+  }
+  throw core::InputError(sentence);
+}
+
+void note_reductions(Plan& plan) {
+  const PlanRequest& request = plan.request;
+  if (plan.in_flight < wanted_in_flight(request)) {
+    plan.notes.push_back("in-flight reduced from " + std::to_string(wanted_in_flight(request)) + " to " +
+                         std::to_string(plan.in_flight) + " to fit " + size_text(*request.node_memory_bytes));
+  }
+  if (request.cache_pages && plan.frames < *request.cache_pages) {
+    plan.notes.push_back("cache reduced from " + std::to_string(*request.cache_pages) + " to " + std::to_string(plan.frames) +
+                         " pages: no more are not at home");
+  }
+}
+
+}  // namespace
+
+std::uint32_t Plan::pages_at(std::uint32_t node) const {
+  return request.strategy == Strategy::replicated ? request.page_count
+                                                  : Homes(request.node_count).count_at(node, request.page_count);
+}
+
+nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
+  nodes::MemoryPlan plan;
+  if (request.strategy == Strategy::svm) {
+    Pager::add_needs(plan, pages_at(index), frames, in_flight, request.page_size_bytes);
+  } else {
+    LocalCopy::add_needs(plan, request.page_count * request.page_size_bytes);
+  }
+  if (request.count_pages) {
+    CountingPager::add_needs(plan, request.page_count, in_flight);
+  }
+  Slots<core::PixelTask>::add_needs(plan, in_flight, static_cast<std::uint32_t>(request.depth_max));
+  FilmGather::add_needs(plan, film_entries, in_flight);
+  plan[Category::constants] += LocalMemory::bytes_for<std::byte>(sizeof(core::RenderSettings));
+  plan[Category::mailbox] += node_mailbox.bytes();
+  plan[Category::queues] += nodes::credit_table_bytes(request.node_count + 1);
+  plan[Category::reserve] += request.stack_reserve_bytes;
+  return plan;
+}
+
+nodes::MemoryPlan Plan::host_memory() const {
+  nodes::MemoryPlan plan;
+  HostProgram::add_needs(plan, request.width * request.height);
+  plan[Category::mailbox] += host_mailbox.bytes();
+  plan[Category::queues] += nodes::credit_table_bytes(request.node_count + 1);
+  plan[Category::reserve] += host_stack_bytes;
+  return plan;
+}
+
+std::size_t smallest_node_memory_bytes(const PlanRequest& request) { return bytes_with(request, frames_min(request), 1); }
+
+Plan make_plan(const PlanRequest& request) {
+  check(request);
+  std::uint32_t in_flight = wanted_in_flight(request);
+  std::uint32_t frames = auto_frames(request);
+  if (request.node_memory_bytes) {
+    if (smallest_node_memory_bytes(request) > *request.node_memory_bytes) {
+      say_too_small(request);
+    }
+    in_flight = most_in_flight(request, *request.node_memory_bytes);
+    frames = most_frames(request, in_flight, *request.node_memory_bytes);
+  }
+  Plan plan = plan_with(request, frames, in_flight);
+  core::expect(plan.node_memory_max_bytes() <= request.node_memory_bytes.value_or(plan.node_memory_max_bytes()),
+               "a plan keeps within the node's memory");
+  note_reductions(plan);
+  return plan;
+}
+
+std::string size_text(std::size_t bytes) {
+  constexpr std::array<std::pair<std::size_t, const char*>, 3> units = {{{30, "GiB"}, {20, "MiB"}, {10, "KiB"}}};
+  for (const auto& [shift, name] : units) {
+    if (bytes != 0 && bytes % (std::size_t{1} << shift) == 0) {
+      return std::to_string(bytes >> shift) + name;
+    }
+  }
+  return std::to_string(bytes) + "B";
+}
+
+}  // namespace dmpc::svm

@@ -1,0 +1,212 @@
+// The node program of svm and replicated: pixels under way, work items, and the packets that concern them.
+//
+// A quantum runs one pixel until it has ended a ray, finished, or needs an absent page. Newest first: the pixel that ran last goes on,
+// another one starts only when none can run. With one pixel in flight this is the sequential ray tracer's order of references.
+//
+// Why the last node always moves: requests are served in receive(), whatever the node's own state. A reply's place was reserved when its
+// request left. A page that arrives runs every pixel that waited for it before the next packet is looked at, and one step reads one
+// record, so even one frame serves any number of pixels. A full film starts no pixel and waits for the host, which waits for nobody.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "core/expect.h"
+#include "core/pixel_task.h"
+#include "nodes/node.h"
+#include "svm/faults.h"
+#include "svm/film_gather.h"
+#include "svm/node_program.h"
+#include "svm/packets.h"
+#include "svm/plan.h"
+#include "svm/slots.h"
+#include "svm/work_source.h"
+
+namespace dmpc::svm {
+
+/// `Records` is Pager, CountingPager or LocalCopy; `Tracer` reads them; `Task` is core::PixelTask, or a test's.
+template <class Records, class Tracer, class Task = core::PixelTask>
+class ControlProgram final : public NodeProgram {
+ public:
+  /// Takes all its memory from `node`. `database` is read here and never again. make_tracer(Records&) returns the tracer.
+  template <class MakeTracer>
+  ControlProgram(nodes::Node& node, const Plan& plan, const core::RenderSettings& settings, std::span<const std::byte> database,
+                 const MakeTracer& make_tracer)
+      : settings_(*std::construct_at(
+            reinterpret_cast<core::RenderSettings*>(
+                node.memory().template allocate<std::byte>(nodes::Category::constants, sizeof(settings)).data()),
+            settings)),
+        node_(&node),
+        host_(nodes::NodeId{plan.request.node_count}),
+        records_(node, plan, database),
+        tracer_(make_tracer(records_)),
+        slots_(node.memory(), plan.in_flight, static_cast<std::uint32_t>(plan.request.depth_max)),
+        work_(node, plan),
+        film_(node, plan) {
+    node.grant(host_, control_channel, 1);  // for Done
+  }
+
+  void receive(const nodes::Packet& packet) override {
+    switch (Kind{packet.kind}) {
+      case Kind::page_request:
+        return serve(packet);
+      case Kind::page_reply:
+        return resume(packet);
+      case Kind::work_request:
+        return work_.answer(packet.as<WorkRequest>());
+      case Kind::work_reply:
+        return work_.take_reply(packet.as<WorkReply>());
+      case Kind::film_acknowledgement:
+        return film_.acknowledged();
+      case Kind::stop:
+        return stop();
+      case Kind::film_sums:
+      case Kind::done:
+        break;
+    }
+    core::expect(false, "a node receives only what is sent to nodes");
+  }
+
+  bool work() override {
+    if (!slots_.has_runnable() && can_start()) {
+      start();
+    }
+    if (slots_.has_runnable()) {
+      run(slots_.take_runnable());
+    }
+    const bool more = slots_.has_runnable() || can_start();
+    if (!more) {
+      fall_idle();
+    }
+    return more;
+  }
+
+  bool finished() const override { return stopped_; }
+
+  std::string describe() const override {
+    return std::to_string(slots_.active()) + " pixels in flight, " + std::to_string(pending_faults()) + " pages awaited, " +
+           std::to_string(film_.gathered()) + " pixels gathered, " + std::to_string(film_.under_way()) +
+           " film packets unacknowledged, " + work_.describe() + (stopped_ ? ", stopped" : done_ ? ", done" : "");
+  }
+
+  ProgramReport report() const override {
+    ProgramReport report{operations_, records_.counters(), work_.counters()};
+    report.work.pixels_rendered = pixels_rendered_;
+    report.rays_ended = rays_ended_;
+    return report;
+  }
+
+ private:
+  static constexpr bool counts_pages = requires(Records& records) { records.forget(); };
+
+  bool can_start() const { return slots_.has_free() && work_.has_pixel() && film_.has_room_for(slots_.active() + 1); }
+
+  void start() {
+    const std::uint32_t slot = slots_.take_free();
+    slots_.task(slot).start(work_.next_pixel(), settings_, operations_);
+    if constexpr (counts_pages) {
+      records_.select(slot);
+      records_.forget();
+    }
+    slots_.make_runnable(slot);
+  }
+
+  void run(std::uint32_t slot) {
+    if constexpr (counts_pages) {
+      records_.select(slot);
+    }
+    Task& task = slots_.task(slot);
+    switch (task.run(tracer_, settings_, operations_)) {
+      case core::TaskState::more:
+        ++rays_ended_;
+        return slots_.make_runnable(slot);
+      case core::TaskState::finished:
+        return finish(slot);
+      case core::TaskState::absent:
+        return park(slot);
+    }
+  }
+
+  void finish(std::uint32_t slot) {
+    film_.add(slots_.task(slot).pixel(), slots_.task(slot).sums());
+    ++pixels_rendered_;
+    slots_.make_free(slot);
+  }
+
+  void park(std::uint32_t slot) {
+    if constexpr (Records::pages_travel) {
+      records_.park(slot, slots_.task(slot).absent());
+    } else {
+      core::expect(false, "a whole copy of the database lacks no record");
+    }
+  }
+
+  void serve(const nodes::Packet& packet) {
+    if constexpr (Records::pages_travel) {
+      records_.serve(packet);
+    } else {
+      core::expect(false, "no page travels where every node has all");
+    }
+  }
+
+  /// Every pixel that waits for the page runs before anything else can evict it: until its ray ends or it needs another absent page.
+  void resume(const nodes::Packet& packet) {
+    if constexpr (Records::pages_travel) {
+      std::uint32_t slot = records_.install(packet);
+      while (slot != no_slot) {
+        const std::uint32_t next = records_.next_waiting(slot);
+        records_.retried();
+        run(slot);
+        slot = next;
+      }
+    } else {
+      core::expect(false, "no page travels where every node has all");
+    }
+  }
+
+  /// Nothing can run until a packet comes: ask for work, send what is gathered, or say that all is done.
+  void fall_idle() {
+    if (slots_.has_free() && !work_.has_pixel()) {
+      work_.ask();
+    }
+    if (slots_.active() == 0) {
+      film_.flush();
+    }
+    if (!done_ && slots_.active() == 0 && work_.exhausted() && film_.settled()) {
+      core::expect(pending_faults() == 0, "no page is awaited when no pixel is in flight");
+      node_->send_reserved(host_, control_channel, number_of(Kind::done), Done{pixels_rendered_});
+      done_ = true;
+    }
+  }
+
+  void stop() {
+    core::expect(done_ && !stopped_, "the host stops only nodes that are done, and once");
+    stopped_ = true;
+  }
+
+  std::uint32_t pending_faults() const {
+    if constexpr (Records::pages_travel) {
+      return records_.faults();
+    }
+    return 0;
+  }
+
+  const core::RenderSettings& settings_;
+  nodes::Node* node_;
+  nodes::NodeId host_;
+  Records records_;
+  Tracer tracer_;
+  Slots<Task> slots_;
+  WorkSource work_;
+  FilmGather film_;
+  core::Operations operations_;
+  std::uint64_t pixels_rendered_ = 0;
+  std::uint64_t rays_ended_ = 0;
+  bool done_ = false;
+  bool stopped_ = false;
+};
+
+}  // namespace dmpc::svm

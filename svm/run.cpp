@@ -1,0 +1,184 @@
+#include "svm/run.h"
+
+#include <memory>
+#include <string>
+
+#include "core/expect.h"
+#include "svm/counting_pager.h"
+#include "svm/host.h"
+#include "svm/pager.h"
+
+namespace dmpc::svm {
+namespace {
+
+PlanRequest request_of(Strategy strategy, const core::Database& database, const core::RenderSettings& settings,
+                       const RunOptions& options) {
+  return {.strategy = strategy,
+          .page_count = static_cast<std::uint32_t>(database.page_count()),
+          .page_size_bytes = database.page_size(),
+          .node_count = options.node_count,
+          .node_memory_bytes = options.node_memory_bytes,
+          .cache_pages = options.cache_pages,
+          .in_flight = options.in_flight,
+          .work_item_side = options.work_item_side,
+          .depth_max = settings.shade.depth_max,
+          .width = static_cast<std::uint32_t>(settings.camera.width()),
+          .height = static_cast<std::uint32_t>(settings.camera.height()),
+          .count_pages = options.count_pages,
+          .stack_reserve_bytes = options.stack_reserve_bytes};
+}
+
+std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const MakeProgram& make_program, core::Film& film,
+                                                        const Progress& progress) {
+  std::vector<nodes::NodeSpecification> specifications;
+  for (std::uint32_t i = 0; i < plan.request.node_count; ++i) {
+    specifications.push_back({plan.node_memory(i), plan.node_mailbox,
+                              [&make_program, i](nodes::Node& node) { return make_program(i, node); }});
+  }
+  specifications.push_back({plan.host_memory(), plan.host_mailbox, [&plan, &film, &progress](nodes::Node& node) {
+                              return std::make_unique<HostProgram>(node, plan, film, progress);
+                            }});
+  return specifications;
+}
+
+NodeReport report_of(nodes::Node& node, const nodes::Program& program) {
+  const auto& reporting = dynamic_cast<const NodeProgram&>(program);
+  return {reporting.report(), node.counters(), node.memory().plan(), node.memory().used()};
+}
+
+std::uint64_t packets_of(const std::array<nodes::Traffic, nodes::packet_kind_count>& traffic, Kind kind) {
+  return traffic[number_of(kind)].packets;
+}
+
+std::uint64_t rays_of(const core::Operations& operations) {
+  std::uint64_t rays = 0;
+  for (const std::uint64_t of_kind : operations.rays) {
+    rays += of_kind;
+  }
+  return rays;
+}
+
+void check_conservation(const NodeReport& report) {
+  const auto& [program, counters, planned, used] = report;
+  core::expect(rays_of(program.operations) == program.rays_ended, "every ray shot has ended");
+  core::expect(program.pages.faults == packets_of(counters.sent, Kind::page_request), "every fault was requested, once");
+  core::expect(program.pages.faults == packets_of(counters.received, Kind::page_reply), "every page request was replied to");
+  core::expect(program.pages.served == packets_of(counters.received, Kind::page_request), "every page request was served");
+  core::expect(program.work.items_asked == packets_of(counters.received, Kind::work_reply), "every work request was answered");
+  core::expect(packets_of(counters.sent, Kind::film_sums) == packets_of(counters.received, Kind::film_acknowledgement),
+               "every film packet was acknowledged");
+}
+
+void check_conservation(const Report& report) {
+  for (const NodeReport& node : report.nodes) {
+    check_conservation(node);
+  }
+  const WorkCounters work = report.work();
+  core::expect(work.items_given == work.items_taken, "every work item given was taken");
+  core::expect(work.pixels_rendered == report.film.pixels().size(), "every pixel was rendered once");
+  core::expect(packets_of(report.sent(), Kind::film_sums) == packets_of(report.host.received, Kind::film_sums),
+               "every film packet sent was received");
+}
+
+template <class Records>
+MakeProgram maker(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options, const Plan& plan) {
+  return [&](std::uint32_t, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
+    const auto make_tracer = [&](Records& records) { return core::GridTracer<Records>(records, settings.header, options.traversal); };
+    return std::make_unique<ControlProgram<Records, core::GridTracer<Records>>>(node, plan, settings, database.bytes(), make_tracer);
+  };
+}
+
+}  // namespace
+
+PageCounters& operator+=(PageCounters& sum, const PageCounters& more) {
+  sum.references += more.references;
+  sum.home_hits += more.home_hits;
+  sum.cache_hits += more.cache_hits;
+  sum.misses += more.misses;
+  sum.faults += more.faults;
+  sum.evictions += more.evictions;
+  sum.served += more.served;
+  sum.distinct_pages += more.distinct_pages;
+  return sum;
+}
+
+WorkCounters& operator+=(WorkCounters& sum, const WorkCounters& more) {
+  sum.pixels_rendered += more.pixels_rendered;
+  sum.items_asked += more.items_asked;
+  sum.items_taken += more.items_taken;
+  sum.items_given += more.items_given;
+  return sum;
+}
+
+core::Operations Report::operations() const {
+  core::Operations sum;
+  for (const NodeReport& node : nodes) {
+    sum += node.program.operations;
+  }
+  return sum;
+}
+
+PageCounters Report::pages() const {
+  PageCounters sum;
+  for (const NodeReport& node : nodes) {
+    sum += node.program.pages;
+  }
+  return sum;
+}
+
+WorkCounters Report::work() const {
+  WorkCounters sum;
+  for (const NodeReport& node : nodes) {
+    sum += node.program.work;
+  }
+  return sum;
+}
+
+std::array<nodes::Traffic, nodes::packet_kind_count> Report::sent() const {
+  std::array<nodes::Traffic, nodes::packet_kind_count> sum = host.sent;
+  for (const NodeReport& node : nodes) {
+    for (std::size_t kind = 0; kind < sum.size(); ++kind) {
+      sum[kind].packets += node.counters.sent[kind].packets;
+      sum[kind].bytes += node.counters.sent[kind].bytes;
+    }
+  }
+  return sum;
+}
+
+Plan plan_of(Strategy strategy, const core::Database& database, const core::RenderSettings& settings, const RunOptions& options) {
+  return make_plan(request_of(strategy, database, settings, options));
+}
+
+Report run_programs(const Plan& plan, const MakeProgram& make_program, const Progress& progress, std::stop_token stop) {
+  Report report{.film = core::Film(static_cast<int>(plan.request.width), static_cast<int>(plan.request.height)),
+                .end = nodes::RunEnd::finished,
+                .plan = plan,
+                .nodes = {},
+                .host = {}};
+  nodes::ThreadsRunner runner(specifications_of(plan, make_program, report.film, progress));
+  report.end = runner.run(std::move(stop));
+  for (std::uint32_t i = 0; i < plan.request.node_count; ++i) {
+    report.nodes.push_back(report_of(runner.node(i), runner.program(i)));
+  }
+  report.host = runner.node(plan.request.node_count).counters();
+  if (report.end == nodes::RunEnd::finished) {
+    check_conservation(report);
+  }
+  return report;
+}
+
+Report run_svm(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
+               std::stop_token stop) {
+  const Plan plan = plan_of(Strategy::svm, database, settings, options);
+  const MakeProgram make_program = options.count_pages ? maker<CountingPager>(database, settings, options, plan)
+                                                       : maker<Pager>(database, settings, options, plan);
+  return run_programs(plan, make_program, options.progress, std::move(stop));
+}
+
+Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
+                      std::stop_token stop) {
+  const Plan plan = plan_of(Strategy::replicated, database, settings, options);
+  return run_programs(plan, maker<LocalCopy>(database, settings, options, plan), options.progress, std::move(stop));
+}
+
+}  // namespace dmpc::svm

@@ -1,0 +1,55 @@
+// Where a node's next pixel comes from: its own submap, then items that other nodes give away, then nowhere.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "nodes/node.h"
+#include "svm/node_program.h"
+#include "svm/packets.h"
+#include "svm/plan.h"
+#include "svm/work_items.h"
+
+namespace dmpc::svm {
+
+/// A node without pixels sends one work request at a time. It hops along the ring of nodes, from i to i + 1 mod N; the first that has items
+/// left answers the asker directly; the last of all others to be asked tells it that there is no more work, and since submaps only shrink
+/// this stays true. The first request enters the ring at the next node, a later one at the node that gave last, because all before it had
+/// nothing. Thread safety: none.
+class WorkSource {
+ public:
+  WorkSource(nodes::Node& node, const Plan& plan);
+
+  /// A pixel of the current item, of the submap, or of an item received is left.
+  bool has_pixel() const { return !scan_.empty() || !items_.empty(); }
+  /// Requires has_pixel().
+  std::uint32_t next_pixel();
+  /// Sends a work request, unless one is under way or would be in vain. Requires !has_pixel().
+  void ask();
+  /// Gives an item to the asker or passes the request on.
+  void answer(const WorkRequest& request);
+  /// Takes the answer to this node's own request.
+  void take_reply(const WorkReply& reply);
+
+  /// No pixel is left here, and none anywhere else.
+  bool exhausted() const { return !has_pixel() && no_more_; }
+  WorkCounters counters() const { return counters_; }
+  std::string describe() const;
+
+ private:
+  std::uint32_t after(std::uint32_t node, std::uint32_t asker) const;
+  void reply(std::uint32_t asker, const PixelRectangle& item);
+
+  nodes::Node* node_;
+  std::uint32_t node_count_;
+  std::uint32_t self_;
+  std::uint32_t image_width_;
+  WorkItems items_;
+  PixelScan scan_;
+  WorkCounters counters_;
+  std::uint32_t last_giver_;
+  bool asking_ = false;
+  bool no_more_;
+};
+
+}  // namespace dmpc::svm
