@@ -60,8 +60,9 @@ double sin_reduced(double high, double low) {
 
 /// Taylor's series to the 18th power: the first term left out is below 4e-21 at pi/4.
 double cos_reduced(double high, double low) {
-  static constexpr std::array<double, 8> series = {-1 / 6402373705728000.0, 1 / 20922789888000.0, -1 / 87178291200.0, 1 / 479001600.0,
-                                                   -1 / 3628800.0,          1 / 40320.0,          -1 / 720.0,         1 / 24.0};
+  static constexpr std::array<double, 8> series = {
+      -1 / 6402373705728000.0, 1 / 20922789888000.0, -1 / 87178291200.0, 1 / 479001600.0,
+      -1 / 3628800.0,          1 / 40320.0,          -1 / 720.0,         1 / 24.0};
   const double square = high * high;
   const double half = 0.5 * square;
   const double leading = 1 - half;
@@ -74,7 +75,9 @@ double sin_of(const Reduced& angle) {
   return (angle.quarter & 2) != 0 ? -magnitude : magnitude;
 }
 
-double cos_of(const Reduced& angle) { return sin_of({(angle.quarter + 1) & 3, angle.high, angle.low}); }
+double cos_of(const Reduced& angle) {
+  return sin_of({(angle.quarter + 1) & 3, angle.high, angle.low});
+}
 
 /// Quarter turns, and the rest in degrees, |rest| <= 45: exact.
 std::pair<double, double> reduce_degrees(double degrees) {
@@ -90,7 +93,9 @@ Reduced radians_from_degrees(double quarters, double degrees) {
 }
 
 /// 2 ^ exponent; requires -1022 <= exponent <= 1023.
-double power_of_2(int exponent) { return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52U); }
+double power_of_2(int exponent) {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52U);
+}
 
 /// value * 2 ^ exponent for |exponent| <= 1100, rounded once if the result is not normal.
 double scale(double value, int exponent) {
@@ -100,9 +105,9 @@ double scale(double value, int exponent) {
 
 /// Taylor's series to the 14th power: the first term left out is below 1e-19 at log(2)/2.
 double exponential_reduced(double x) {
-  static constexpr std::array<double, 13> series = {1 / 87178291200.0, 1 / 6227020800.0, 1 / 479001600.0, 1 / 39916800.0, 1 / 3628800.0,
-                                                    1 / 362880.0,      1 / 40320.0,      1 / 5040.0,      1 / 720.0,      1 / 120.0,
-                                                    1 / 24.0,          1 / 6.0,          1 / 2.0};
+  static constexpr std::array<double, 13> series = {
+      1 / 87178291200.0, 1 / 6227020800.0, 1 / 479001600.0, 1 / 39916800.0, 1 / 3628800.0, 1 / 362880.0, 1 / 40320.0,
+      1 / 5040.0,        1 / 720.0,        1 / 120.0,       1 / 24.0,       1 / 6.0,       1 / 2.0};
   return 1 + std::fma(x * x, polynomial(x, series), x);
 }
 
@@ -120,8 +125,8 @@ Binary split(double value) {
   return significand > 0x1.6a09ep+0 ? Binary{significand / 2, exponent + 1} : Binary{significand, exponent};
 }
 
-/// log(significand) = 2 artanh(s) with s = (significand - 1) / (significand + 1), |s| < 0.1716: the series' first term left out, s^23,
-/// is below 2e-18 relative to the first.
+/// log(significand) = 2 artanh(s) with s = (significand - 1) / (significand + 1), |s| < 0.1716: the series' first term left out,
+/// s^23, is below 2e-18 relative to the first.
 double log_reduced(double significand) {
   static constexpr std::array<double, 10> series = {2 / 21.0, 2 / 19.0, 2 / 17.0, 2 / 15.0, 2 / 13.0,
                                                     2 / 11.0, 2 / 9.0,  2 / 7.0,  2 / 5.0,  2 / 3.0};
@@ -182,8 +187,12 @@ double round_by_text(double value) {
 
 }  // namespace
 
-double sin_radians(double radians) { return sin_of(reduce_radians(radians)); }
-double cos_radians(double radians) { return cos_of(reduce_radians(radians)); }
+double sin_radians(double radians) {
+  return sin_of(reduce_radians(radians));
+}
+double cos_radians(double radians) {
+  return cos_of(reduce_radians(radians));
+}
 
 double tan_radians(double radians) {
   const Reduced angle = reduce_radians(radians);
@@ -208,7 +217,9 @@ double cos_degrees(double degrees) {
   return cos_of(angle) + 0.0;
 }
 
-double tan_degrees(double degrees) { return sin_degrees(degrees) / cos_degrees(degrees); }
+double tan_degrees(double degrees) {
+  return sin_degrees(degrees) / cos_degrees(degrees);
+}
 
 double exponential(double x) {
   if (!(x > -745.2)) {

@@ -10,21 +10,23 @@ double cos_radians(double radians);
 /// Their quotient: relative error below 1e-15.
 double tan_radians(double radians);
 
-/// The same of an angle in degrees, |degrees| <= 1e6, with the same errors; exact where the value is 0, 1/2 or 1 in magnitude (the
-/// multiples of 30 and 90 degrees that have such a value).
+/// The same of an angle in degrees, |degrees| <= 1e6, with the same errors; exact where the value is 0, 1/2 or 1 in magnitude
+/// (the multiples of 30 and 90 degrees that have such a value).
 double sin_degrees(double degrees);
 double cos_degrees(double degrees);
 /// Relative error below 1e-15; requires an angle whose cosine is not 0.
 double tan_degrees(double degrees);
 
-/// e to the power x, for any x: relative error below 4e-16 where the result is a normal number; 0 below -745.2, infinity above 709.79.
+/// e to the power x, for any x: relative error below 4e-16 where the result is a normal number; 0 below -745.2, infinity above
+/// 709.79.
 double exponential(double x);
 
 /// The natural logarithm: relative error below 7e-16. Minus infinity at 0, not a number below 0; x must be finite.
 double natural_log(double x);
 
-/// base ^ exponent for 0 <= base <= 1 and exponent >= 0: the highlight of B. T. Phong, "Illumination for Computer Generated Pictures"
-/// (1975). The result lies in [0, 1] with an absolute error below 6e-16; 0 ^ 0 = 1. A base outside [0, 1] counts as its nearer end.
+/// base ^ exponent for 0 <= base <= 1 and exponent >= 0: the highlight of B. T. Phong, "Illumination for Computer Generated
+/// Pictures" (1975). The result lies in [0, 1] with an absolute error below 6e-16; 0 ^ 0 = 1. A base outside [0, 1] counts as its
+/// nearer end.
 double pow_unit(double base, double exponent);
 
 /// The number with 6 significant decimal digits nearest to `value`, an exact tie going to the even digit: what strtod reads from

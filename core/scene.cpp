@@ -50,8 +50,8 @@ void replay_object(const Scene& scene, const Object& object, SceneSink& sink) {
 
 std::size_t SceneBuilder::MaterialHash::operator()(const Material& material) const {
   std::size_t hash = 0;
-  for (const double value : {material.color.x, material.color.y, material.color.z, material.diffuse, material.specular, material.shine,
-                             material.transmittance, material.refraction_index}) {
+  for (const double value : {material.color.x, material.color.y, material.color.z, material.diffuse, material.specular,
+                             material.shine, material.transmittance, material.refraction_index}) {
     hash = mix(hash, value);
   }
   return hash;
@@ -63,9 +63,15 @@ SceneBuilder::SceneBuilder(Scene& scene) : scene_(scene) {
   }
 }
 
-void SceneBuilder::background(const Vec3d& color) { scene_.background = color; }
-void SceneBuilder::view(const View& view) { scene_.view = view; }
-void SceneBuilder::light(const PointLight& light) { scene_.lights.push_back(light); }
+void SceneBuilder::background(const Vec3d& color) {
+  scene_.background = color;
+}
+void SceneBuilder::view(const View& view) {
+  scene_.view = view;
+}
+void SceneBuilder::light(const PointLight& light) {
+  scene_.lights.push_back(light);
+}
 
 void SceneBuilder::material(const Material& material) {
   const auto [entry, is_new] = materials_.try_emplace(material, pool_index(scene_.materials.size()));

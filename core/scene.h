@@ -14,12 +14,12 @@ namespace dmpc::core {
 
 /// NFF's `f`: what an object's surface does with light (E. Haines, SPD, NFF.TXT).
 struct Material {
-  Vec3d color{0.5, 0.5, 0.5};      ///< of the diffuse part, 0..1
-  double diffuse = 1;              ///< Kd
-  double specular = 0;             ///< Ks: weight of the highlight and of the mirror
-  double shine = 0;                ///< Phong's cosine power
-  double transmittance = 0;        ///< T; above 0 the surface transmits
-  double refraction_index = 1;     ///< of the inside; meaningful when transmittance > 0 only
+  Vec3d color{0.5, 0.5, 0.5};   ///< of the diffuse part, 0..1
+  double diffuse = 1;           ///< Kd
+  double specular = 0;          ///< Ks: weight of the highlight and of the mirror
+  double shine = 0;             ///< Phong's cosine power
+  double transmittance = 0;     ///< T; above 0 the surface transmits
+  double refraction_index = 1;  ///< of the inside; meaningful when transmittance > 0 only
 
   bool operator==(const Material&) const = default;
 };
@@ -58,7 +58,7 @@ enum class ObjectKind : std::uint8_t { polygon, patch, sphere, cone };
 /// One entity of the file. `first` indexes the pool of its kind: vertices (polygon, patch), spheres, cones.
 struct Object {
   ObjectKind kind{};
-  std::uint32_t material = 0;      ///< index into Scene::materials
+  std::uint32_t material = 0;  ///< index into Scene::materials
   std::uint32_t first = 0;
   std::uint32_t vertex_count = 0;  ///< polygon, patch: at least 3; else 0
   std::uint32_t first_normal = 0;  ///< patch: index into Scene::normals, vertex_count of them
@@ -72,7 +72,7 @@ struct Scene {
   std::vector<Material> materials;  ///< equal ones merged
   std::vector<Object> objects;      ///< in file order
   std::vector<Vec3d> vertices;
-  std::vector<Vec3d> normals;       ///< of patches; need not be of unit length
+  std::vector<Vec3d> normals;  ///< of patches; need not be of unit length
   std::vector<Sphere> spheres;
   std::vector<Cone> cones;
 };
@@ -95,8 +95,8 @@ class SceneSink {
   virtual void cone(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius) = 0;
 };
 
-/// Adds entities to a scene. Equal materials are merged; objects before the first material get Material{}. Throws InputError when a pool
-/// outgrows its 32-bit indices. The scene must outlive the builder, and only one builder may be at work on it.
+/// Adds entities to a scene. Equal materials are merged; objects before the first material get Material{}. Throws InputError when
+/// a pool outgrows its 32-bit indices. The scene must outlive the builder, and only one builder may be at work on it.
 class SceneBuilder final : public SceneSink {
  public:
   explicit SceneBuilder(Scene& scene);

@@ -29,20 +29,40 @@ double power(double base, int exponent) {
   return result;
 }
 
-Counts count_balls(int n) { return {1, (power(9, n + 1) - 1) / 8, 0}; }
-Counts count_gears(int n) { return {power(n, 3) * 146 + 1, 0, 0}; }
-Counts count_jacks(int n) { return {0, 6 * (power(8, n) - 1) / 7, 3 * (power(8, n) - 1) / 7}; }
-Counts count_lattice(int n) { return {0, power(n + 1.0, 3), 3.0 * n * power(n + 1.0, 2)}; }
-Counts count_mount(int n) { return {2 * power(4, n), 4, 0}; }
+Counts count_balls(int n) {
+  return {1, (power(9, n + 1) - 1) / 8, 0};
+}
+Counts count_gears(int n) {
+  return {power(n, 3) * 146 + 1, 0, 0};
+}
+Counts count_jacks(int n) {
+  return {0, 6 * (power(8, n) - 1) / 7, 3 * (power(8, n) - 1) / 7};
+}
+Counts count_lattice(int n) {
+  return {0, power(n + 1.0, 3), 3.0 * n * power(n + 1.0, 2)};
+}
+Counts count_mount(int n) {
+  return {2 * power(4, n), 4, 0};
+}
 Counts count_rings(int n) {
   const double each = 5.0 * n * (n + 1.0) * (2.0 * n + 1);
   return {1, each, each};
 }
-Counts count_shells(int n) { return {0, 180 * power(2, n) + 1, 0}; }
-Counts count_sombrero(int n) { return {2 * power(32 * power(2, n - 1) - 1, 2), 0, 0}; }
-Counts count_teapot(int n) { return {64.0 * n * n - 8.0 * n + 1.0 * n * n, 0, 0}; }
-Counts count_tetra(int n) { return {power(4, n), 0, 0}; }
-Counts count_tree(int n) { return {1, power(2, n + 1) - 1, power(2, n + 1) - 1}; }
+Counts count_shells(int n) {
+  return {0, 180 * power(2, n) + 1, 0};
+}
+Counts count_sombrero(int n) {
+  return {2 * power(32 * power(2, n - 1) - 1, 2), 0, 0};
+}
+Counts count_teapot(int n) {
+  return {64.0 * n * n - 8.0 * n + 1.0 * n * n, 0, 0};
+}
+Counts count_tetra(int n) {
+  return {power(4, n), 0, 0};
+}
+Counts count_tree(int n) {
+  return {1, power(2, n + 1) - 1, power(2, n + 1) - 1};
+}
 
 struct Family {
   std::string_view name;
@@ -78,7 +98,9 @@ const Family* find_family(std::string_view name) {
 }
 
 /// The tessellation that a family's scenes really get.
-int used_tessellation(const Family& family, int tessellation) { return family.name == "jacks" && tessellation > 0 ? 2 : tessellation; }
+int used_tessellation(const Family& family, int tessellation) {
+  return family.name == "jacks" && tessellation > 0 ? 2 : tessellation;
+}
 
 double total(const Family& family, int size, int tessellation) {
   const Counts counts = family.count(size);
@@ -109,8 +131,8 @@ std::string family_list() {
 }
 
 [[noreturn]] void fail_on_family(std::string_view text) {
-  throw InputError("there is no built-in scene '" + std::string(text) + "'; expected FAMILY-SIZE[-tTESSELLATION], for example rings-4-t1; " +
-                   "the families are " + family_list());
+  throw InputError("there is no built-in scene '" + std::string(text) +
+                   "'; expected FAMILY-SIZE[-tTESSELLATION], for example rings-4-t1; " + "the families are " + family_list());
 }
 
 const Family& family_of(const SceneName& name) {
@@ -121,7 +143,9 @@ const Family& family_of(const SceneName& name) {
   return *family;
 }
 
-std::string range_text(const Family& family) { return "1 to " + std::to_string(size_max(family)); }
+std::string range_text(const Family& family) {
+  return "1 to " + std::to_string(size_max(family));
+}
 
 /// The digits that stand at the front of `text`, which they leave; -1 if there are none, any_size + 1 if too many.
 int take_number(std::string_view& text) {
@@ -135,7 +159,9 @@ int take_number(std::string_view& text) {
   return value;
 }
 
-bool starts_with_digit(std::string_view text) { return !text.empty() && text.front() >= '0' && text.front() <= '9'; }
+bool starts_with_digit(std::string_view text) {
+  return !text.empty() && text.front() >= '0' && text.front() <= '9';
+}
 
 /// Takes `-` and a tag before a number from the front of `text`; nothing if that is not what stands there.
 std::optional<int> take_part(std::string_view& text, std::string_view tag) {
@@ -154,8 +180,7 @@ std::optional<int> take_part(std::string_view& text, std::string_view tag) {
 }
 
 void check_tessellation(const Family& family, const SceneName& name) {
-  const int largest =
-      last_fitting(tessellation_max, [&](int n) { return total(family, name.size, n) <= primitives_max; });
+  const int largest = last_fitting(tessellation_max, [&](int n) { return total(family, name.size, n) <= primitives_max; });
   const std::string what = family.name == "jacks" ? name.family : name.text();
   if (name.tessellation < 0 || (name.tessellation > 0 && largest == 0)) {
     throw InputError("built-in scene " + what + ": too large to be tessellated; use a smaller size, or leave -t away");
@@ -221,18 +246,22 @@ std::uint64_t primitive_count(const SceneName& name) {
   return static_cast<std::uint64_t>(total(family_of(name), name.size, name.tessellation));
 }
 
-void generate_scene(const SceneName& name, SceneSink& sink) {
+void generate_unrounded_scene(const SceneName& name, SceneSink& sink) {
   check_scene_name(name);
   const Family& family = family_of(name);
-  scenes::RoundingSink rounded(sink);
   if (name.tessellation == 0) {
-    return family.make(name.size, rounded);
+    return family.make(name.size, sink);
   }
   if (family.name == "jacks") {
-    return scenes::make_jacks(name.size, true, rounded);
+    return scenes::make_jacks(name.size, true, sink);
   }
-  scenes::TessellatingSink tessellated(name.tessellation, rounded);
+  scenes::TessellatingSink tessellated(name.tessellation, sink);
   family.make(name.size, tessellated);
+}
+
+void generate_scene(const SceneName& name, SceneSink& sink) {
+  scenes::RoundingSink rounded(sink);
+  generate_unrounded_scene(name, rounded);
 }
 
 Scene built_in_scene(const SceneName& name) {

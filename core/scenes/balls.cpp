@@ -36,7 +36,8 @@ Frame frame_towards(const Vec3d& direction) {
   return rotation(normalize(cross(Vec3d{0, 0, 1}, direction)), {sine, direction.z});
 }
 
-void add_ball(int depth, const Vec3d& center, double radius, const Vec3d& direction, const Directions& directions, SceneSink& sink) {
+void add_ball(int depth, const Vec3d& center, double radius, const Vec3d& direction, const Directions& directions,
+              SceneSink& sink) {
   sink.sphere(center, radius);
   if (depth == 0) {
     return;

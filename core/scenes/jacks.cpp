@@ -9,8 +9,8 @@ namespace {
 
 constexpr int tessellation = 2;
 
-/// Carries entities out of a frame that turns, moves and scales evenly. Normals go by the inverse transpose and are not renormalised, as in
-/// the SPD's files: their length is one over the frame's scale.
+/// Carries entities out of a frame that turns, moves and scales evenly. Normals go by the inverse transpose and are not
+/// renormalised, as in the SPD's files: their length is one over the frame's scale.
 class FramedSink final : public SceneSink {
  public:
   FramedSink(const Frame& frame, SceneSink& target) : frame_(frame), scale_(length(frame.x)), target_(target) {}
@@ -74,9 +74,10 @@ void add_jacks(const Frame& frame, int levels, bool is_tessellated, SceneSink& s
 }  // namespace
 
 void make_jacks(int size, bool is_tessellated, SceneSink& sink) {
-  set_stage(sink,
-            {.from = {0, 0, -8}, .at = {0, 0, 0}, .up = {0, 1, 0}, .angle_degrees = 25, .hither = 0.001, .width = 256, .height = 256},
-            {{-10, 3, -20}}, {0.2, 0.05, 0.2});
+  set_stage(
+      sink,
+      {.from = {0, 0, -8}, .at = {0, 0, 0}, .up = {0, 1, 0}, .angle_degrees = 25, .hither = 0.001, .width = 256, .height = 256},
+      {{-10, 3, -20}}, {0.2, 0.05, 0.2});
   sink.material({.color = {0.737, 0.561, 0.561}, .diffuse = 0.7, .specular = 0.7, .shine = 11.1434, .refraction_index = 1});
   add_jacks(compose(rotation_x(turn_degrees(-30)), rotation_y(turn_degrees(-20))), size, is_tessellated, sink);
 }

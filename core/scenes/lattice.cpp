@@ -8,12 +8,12 @@ namespace dmpc::core::scenes {
 namespace {
 
 const Material ball_material = {
-    .color = {0.9, 0.9, 0.9}, .diffuse = 0.5, .specular = 0.5, .shine = soft_highlight, .refraction_index = 1};
+    .color = {0.9, 0.9, 0.9}, .diffuse = 0.5, .specular = 0.5, .shine = soft_highlight, .refraction_index = 0};
 
 Material rod_material(std::size_t axis) {
   Vec3d color = {0.1, 0.1, 0.1};
   color[axis] = 0.9;
-  return {.color = color, .diffuse = 0.99, .specular = 0, .shine = no_highlight, .refraction_index = 1};
+  return {.color = color, .diffuse = 0.99, .specular = 0, .shine = no_highlight, .refraction_index = 0};
 }
 
 /// The rod from a point to its neighbour along an axis, ends just inside the balls.
@@ -46,7 +46,11 @@ void make_lattice(int size, SceneSink& sink) {
   const double middle = (static_cast<double>(size / 2) + 0.5) / size;
   const double half_cell = 1 / (2.0 * size);
   set_stage(sink,
-            {.from = {middle, 1, 1 - half_cell}, .at = {middle, -1, -1 - half_cell}, .up = {0.2, 1, 0}, .angle_degrees = 60, .hither = 0},
+            {.from = {middle, 1, 1 - half_cell},
+             .at = {middle, -1, -1 - half_cell},
+             .up = {0.2, 1, 0},
+             .angle_degrees = 60,
+             .hither = 0},
             {{2, 0.5, 0.5}, {-1, 0.5, 0.5}, {0.5, 2, 0.5}, {0.5, -1, 0.5}, {0.5, 0.5, 2}, {0.5, 0.5, -1}});
   for (int x = 0; x <= size; ++x) {
     for (int y = 0; y <= size; ++y) {

@@ -70,8 +70,8 @@ class Mountain {
     const double right = (c.lower_right + c.upper_right) / 2 + step * displacement(x + width, y + half);
     const double upper = (c.upper_right + c.upper_left) / 2 + step * displacement(x + half, y + width);
     const double left = (c.upper_left + c.lower_left) / 2 + step * displacement(x, y + half);
-    const double middle = (c.lower_left + c.lower_right + c.upper_right + c.upper_left) / 4 +
-                          1.4142136 * step * displacement(x + half, y + half);
+    const double middle =
+        (c.lower_left + c.lower_right + c.upper_right + c.upper_left) / 4 + 1.4142136 * step * displacement(x + half, y + half);
     divide(half, x, y, {c.lower_left, lower, middle, left});
     divide(half, x + half, y, {lower, c.lower_right, right, middle});
     divide(half, x + half, y + half, {middle, right, c.upper_right, upper});
@@ -89,7 +89,8 @@ void add_glass(SceneSink& sink) {
   const double radius = 0.17;
   const Vec3d center = {-0.8, 0.8, 1};
   const Vec3d top = {0, 0, radius * std::sqrt(1.5)};
-  sink.material({.color = {1, 1, 1}, .diffuse = 0.1, .specular = 0.1, .shine = 101.148, .transmittance = 0.9, .refraction_index = 1.5});
+  sink.material(
+      {.color = {1, 1, 1}, .diffuse = 0.1, .specular = 0.1, .shine = 101.148, .transmittance = 0.9, .refraction_index = 1.5});
   sink.sphere(center + top, radius);
   const double d = 1 / std::sqrt(2.0);
   const Vec3d side = rotated(top, {d, d, 0}, {std::sqrt(8.0) / 3, -1.0 / 3});
@@ -101,7 +102,8 @@ void add_glass(SceneSink& sink) {
 }  // namespace
 
 void make_mount(int size, SceneSink& sink) {
-  set_stage(sink, {.from = {-1.6, 1.6, 1.7}, .at = {0, 0, 0}, .up = {0, 0, 1}, .angle_degrees = 45, .hither = 0.01}, {{-100, -100, 100}});
+  set_stage(sink, {.from = {-1.6, 1.6, 1.7}, .at = {0, 0, 0}, .up = {0, 0, 1}, .angle_degrees = 45, .hither = 0.01},
+            {{-100, -100, 100}});
   add_glass(sink);
   sink.material({.color = {0.5, 0.45, 0.35}, .diffuse = 1, .specular = 0, .shine = no_highlight, .refraction_index = 0});
   Mountain(size, sink).add();

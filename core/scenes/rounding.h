@@ -1,5 +1,5 @@
-// A step between a generator and its reader that rounds every number to the 6 significant digits of an NFF file, so that a built-in scene
-// and its written file are the same scene, bit for bit.
+// A step between a generator and its reader that rounds every number to the 6 significant digits of an NFF file, so that a
+// built-in scene and its written file are the same scene, bit for bit.
 #pragma once
 
 #include "core/scene.h"

@@ -1,4 +1,5 @@
-// A step between a generator and its reader that turns spheres, cones and cylinders into smooth-shaded triangles, as the SPD does.
+// A step between a generator and its reader that turns spheres, cones and cylinders into smooth-shaded triangles, as the SPD
+// does.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +10,8 @@
 
 namespace dmpc::core::scenes {
 
-/// Replaces each curved primitive in place by patches of 3 vertices with unit normals and passes everything else on: 12 N^2 for a sphere
-/// (each face of a cube divided N by N), 8 N for a cone or cylinder (4 N sides, no caps).
+/// Replaces each curved primitive in place by patches of 3 vertices with unit normals and passes everything else on: 12 N^2 for a
+/// sphere (each face of a cube divided N by N), 8 N for a cone or cylinder (4 N sides, no caps).
 class TessellatingSink final : public SceneSink {
  public:
   /// Requires tessellation >= 1. `target` must outlive the sink.

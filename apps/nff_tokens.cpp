@@ -1,0 +1,133 @@
+#include "apps/nff_tokens.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <istream>
+#include <optional>
+
+#include "core/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr std::string_view blanks = " \t\r\v\f";
+
+bool looks_like_number(std::string_view token) {
+  const std::size_t sign = token.starts_with('-') || token.starts_with('+') ? 1 : 0;
+  const std::string_view rest = token.substr(sign);
+  return !rest.empty() && ((rest.front() >= '0' && rest.front() <= '9') || (rest.front() == '.' && rest.size() > 1));
+}
+
+/// A plus sign is allowed, as strtod allows it.
+std::optional<double> number_from(std::string_view token) {
+  if (token.starts_with('+') && looks_like_number(token)) {
+    token.remove_prefix(1);
+  }
+  double value = 0;
+  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
+  const bool is_whole = error == std::errc() && end == token.data() + token.size();
+  return is_whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace
+
+std::string quoted(std::string_view token) {
+  constexpr std::size_t shown_max = 32;
+  std::string text = "'";
+  for (const char c : token.substr(0, shown_max)) {
+    text += c >= ' ' && c <= '~' ? c : '?';
+  }
+  return text + (token.size() > shown_max ? "...'" : "'");
+}
+
+std::string number_text(double value) {
+  std::array<char, 40> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+bool NffTokens::read_line() {
+  if (!std::getline(input_, text_)) {
+    if (input_.bad()) {
+      throw core::InputError(name_ + ": reading failed after line " + std::to_string(line_));
+    }
+    text_.clear();
+    position_ = 0;
+    return false;
+  }
+  ++line_;
+  position_ = 0;
+  return true;
+}
+
+std::string_view NffTokens::peek() {
+  while (token_.empty()) {
+    const std::size_t start = text_.find_first_not_of(blanks, position_);
+    if (start == std::string::npos || text_[start] == '#') {
+      if (!read_line()) {
+        break;
+      }
+      continue;
+    }
+    const std::size_t end = std::min(text_.find_first_of(" \t\r\v\f#", start), text_.size());
+    token_ = std::string_view(text_).substr(start, end - start);
+    position_ = end;
+  }
+  return token_;
+}
+
+std::string_view NffTokens::take() {
+  const std::string_view token = peek();
+  token_ = {};
+  taken_line_ = line_;
+  return token;
+}
+
+std::string NffTokens::found() {
+  const std::string_view token = peek();
+  return token.empty() ? "the file ends here" : "found " + quoted(token);
+}
+
+double NffTokens::number(const char* entity, const char* what) {
+  const std::optional<double> value = number_from(peek());
+  if (!value) {
+    const std::string expected = std::string(what) + " of " + entity;
+    fail_at_next(peek().empty() ? "the file ends here, expected " + expected + "; is it cut off?"
+                                : "found " + quoted(peek()) + ", expected " + expected +
+                                      ", a finite number; correct it or add what is missing");
+  }
+  take();
+  return *value;
+}
+
+int NffTokens::integer(const char* entity, const char* what, int low, int high) {
+  const double value = number(entity, what);
+  if (!(value >= low && value <= high) || value != std::floor(value)) {
+    fail("found " + number_text(value) + " as " + what + " of " + entity + ", expected an integer from " + std::to_string(low) +
+         " to " + std::to_string(high) + "; correct it");
+  }
+  return static_cast<int>(value);
+}
+
+bool NffTokens::next_is_number() {
+  return looks_like_number(peek());
+}
+
+void NffTokens::skip_numbers_on_line() {
+  const std::size_t line = taken_line_;
+  while (next_is_number() && line_ == line) {
+    take();
+  }
+}
+
+void NffTokens::fail(const std::string& message) const {
+  throw core::InputError(name_ + ":" + std::to_string(taken_line_) + ": " + message);
+}
+
+void NffTokens::fail_at_next(const std::string& message) {
+  peek();
+  throw core::InputError(name_ + ":" + std::to_string(line_) + ": " + message);
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,56 @@
+// The words and numbers of an NFF stream, with the line each stands on, and the errors that name it.
+#pragma once
+
+#include <cstddef>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+
+namespace dmpc::apps {
+
+/// Cuts a text stream at blanks and line ends; `#` starts a comment to the line's end. Holds one line at a time.
+class NffTokens {
+ public:
+  /// `name` is what messages call the stream. Both must outlive the object.
+  NffTokens(std::istream& input, const std::string& name) : input_(input), name_(name) {}
+
+  /// The next token, or empty at the end; valid until the token after it is taken. Throws core::InputError if reading fails.
+  std::string_view peek();
+  std::string_view take();
+
+  /// The next number, finite; `what` says which one was expected ("the radius of the sphere").
+  double number(const char* entity, const char* what);
+  /// The next token is an integer from `low` to `high`.
+  int integer(const char* entity, const char* what, int low, int high);
+
+  bool next_is_number();
+  /// Drops the numbers that are left on the line of the token taken last.
+  void skip_numbers_on_line();
+
+  /// Throws core::InputError "NAME:LINE: message", with the line of the token taken last (`fail`) or next (`fail_at_next`).
+  [[noreturn]] void fail(const std::string& message) const;
+  [[noreturn]] void fail_at_next(const std::string& message);
+
+  /// The next token for a message: "found 'x'", or "the file ends here".
+  std::string found();
+  /// The line of the token taken last.
+  std::size_t line() const { return taken_line_; }
+
+ private:
+  bool read_line();
+
+  std::istream& input_;
+  const std::string& name_;
+  std::string text_;            ///< the current line
+  std::string_view token_;      ///< in text_; empty if it is not cut yet
+  std::size_t position_ = 0;    ///< in text_, behind token_
+  std::size_t line_ = 0;        ///< of text_, from 1
+  std::size_t taken_line_ = 0;  ///< of the token taken last
+};
+
+/// A token as a message shows it: in quotes, short, printable.
+std::string quoted(std::string_view token);
+/// A number as a message shows it: the shortest text that reads as the same.
+std::string number_text(double value);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,116 @@
+// The built-in generators against files made by the SPD's own, which are no part of the project: a folder beside it, or the one
+// that DMPC_REFERENCE_NFF names.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "apps/nff_writer.h"
+#include "core/scenes.h"
+
+using namespace dmpc;
+
+namespace {
+
+std::filesystem::path reference_folder() {
+  const char* given = std::getenv("DMPC_REFERENCE_NFF");
+  return given != nullptr ? std::filesystem::path(given) : std::filesystem::path(DMPC_SOURCE_DIR) / "../shared/nff";
+}
+
+std::vector<std::filesystem::path> reference_files() {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(reference_folder(), error)) {
+    if (entry.path().extension() == ".nff") {
+      files.push_back(entry.path());
+    }
+  }
+  return files;
+}
+
+/// Half a unit of the 6th significant digit of `y`, and a little for values that should be 0.
+double tolerance(double y) {
+  return y == 0 ? 1e-12 : 0.5 * std::pow(10.0, std::floor(std::log10(std::abs(y))) - 5) + 1e-12;
+}
+
+bool same_token(const std::string& ours, const std::string& theirs) {
+  char* end = nullptr;
+  const double y = std::strtod(theirs.c_str(), &end);
+  if (end == theirs.c_str()) {
+    return ours == theirs;
+  }
+  const double x = std::strtod(ours.c_str(), &end);
+  return end != ours.c_str() && *end == '\0' && std::abs(x - y) <= tolerance(y);
+}
+
+struct Comparison {
+  std::size_t tokens = 0, differences = 0;
+  std::string first_difference;
+};
+
+/// Token by token in file order; a missing or surplus token is a difference.
+Comparison compare(std::istream& ours, std::istream& theirs) {
+  Comparison result;
+  std::string x, y;
+  while (true) {
+    const bool has_ours = static_cast<bool>(ours >> x), has_theirs = static_cast<bool>(theirs >> y);
+    if (!has_ours && !has_theirs) {
+      return result;
+    }
+    ++result.tokens;
+    if (has_ours != has_theirs || !same_token(x, y)) {
+      if (result.differences++ == 0) {
+        result.first_difference = "token " + std::to_string(result.tokens) + ": '" + x + "' against '" + y + "'";
+      }
+      if (has_ours != has_theirs) {
+        return result;
+      }
+    }
+  }
+}
+
+Comparison compare_with_file(const std::filesystem::path& path) {
+  std::stringstream ours;
+  apps::NffWriter writer(ours);
+  core::generate_unrounded_scene(core::parse_scene_name(path.stem().string()), writer);
+  std::ifstream theirs(path);
+  return compare(ours, theirs);
+}
+
+}  // namespace
+
+TEST_CASE("the comparison of token streams finds a number, a keyword and a length that differ") {
+  const auto differences = [](const char* ours, const char* theirs) {
+    std::istringstream x(ours), y(theirs);
+    return compare(x, y).differences;
+  };
+  CHECK(differences("s 0.123456 -0 1e-17", "s 0.123456 0 5.14e-18") == 0);
+  CHECK(differences("s 0.123457", "s 0.123456") == 1);
+  CHECK(differences("s 1e-11", "s 0") == 1);
+  CHECK(differences("pp 3", "p 3") == 1);
+  CHECK(differences("s 1x", "s 1") == 1);
+  CHECK(differences("s 1", "s 1 2") == 1);
+  CHECK(differences("s 1 2", "s 1") == 1);
+}
+
+TEST_CASE("the generators reproduce the reference files number for number in file order, where the files are there") {
+  const std::vector<std::filesystem::path> files = reference_files();
+  if (files.empty()) {
+    MESSAGE("SKIPPED: no reference files in ", reference_folder().string(),
+            " (set DMPC_REFERENCE_NFF to the folder of the SPD's own files), so nothing was compared");
+    return;
+  }
+  for (const std::filesystem::path& file : files) {
+    const Comparison result = compare_with_file(file);
+    CAPTURE(file.string());
+    CAPTURE(result.first_difference);
+    CHECK(result.tokens > 100);
+    CHECK(result.differences == 0);
+  }
+  MESSAGE("compared ", files.size(), " reference files");
+}
