@@ -22,7 +22,7 @@ struct Cursor {
 
   Hit best;
   Address absent = no_address;  ///< the record that trace() needs next, after Traced::absent
-  float t_enter = 0;
+  double t_enter = 0;
   std::array<std::int32_t, 3> cell{};      ///< lower corner of the current cell, in finest cells
   std::array<Level, finest_level> path;    ///< path[l]: the brick whose voxels are the cells of level l + 1
   std::array<Address, blocks_per_sheet> blocks{};  ///< still to be tested in the current voxel, the last first

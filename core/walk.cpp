@@ -14,8 +14,8 @@ namespace dmpc::core {
 namespace {
 
 constexpr std::uint8_t walk_starts = 3;
-constexpr float never = std::numeric_limits<float>::infinity();
-/// A direction component below this counts as 0: its reciprocal would overflow with the grid's extent.
+constexpr double never = std::numeric_limits<double>::infinity();
+/// A direction component below this counts as 0, denormals and -0 included.
 constexpr float smallest_component = 1e-18F;
 
 template <class T>
@@ -39,36 +39,36 @@ int rank(std::uint64_t mask, int bit) { return std::popcount(mask & ((std::uint6
 }  // namespace
 
 Walk::Walk(const Ray& ray, const GridFrame& frame)
-    : origin_(ray.origin), direction_(ray.direction), finest_cell_(frame.finest_cell) {
+    : origin_(ray.origin), direction_(ray.direction), finest_cell_(double{frame.finest_cell}) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     size_[axis] = frame.resolution[axis] * finest_per_top;
-    const float d = direction_[axis];
+    const float d = ray.direction[axis];
     step_[axis] = d >= smallest_component ? 1 : d <= -smallest_component ? -1 : 0;
     if (step_[axis] != 0) {
-      slope_[axis] = finest_cell_ / d;
-      offset_[axis] = -origin_[axis] / d;
+      const double reciprocal = 1.0 / double{d};
+      slope_[axis] = finest_cell_ * reciprocal;
+      offset_[axis] = -origin_[axis] * reciprocal;
     }
   }
 }
 
-float Walk::plane(std::size_t axis, std::int32_t index) const {
-  return step_[axis] == 0 ? never : std::fma(static_cast<float>(index), slope_[axis], offset_[axis]);
+double Walk::plane(std::size_t axis, std::int32_t index) const {
+  return step_[axis] == 0 ? never : static_cast<double>(index) * slope_[axis] + offset_[axis];
 }
 
 /// Whether the ray has crossed a plane when it enters a cell at t through a plane of `entry_axis`: planes of lower axes at equal t come
 /// first, those of higher axes come after it.
-bool Walk::crossed(std::size_t axis, std::int32_t index, float t, std::uint8_t entry_axis) const {
-  const float at = plane(axis, index);
+bool Walk::crossed(std::size_t axis, std::int32_t index, double t, std::uint8_t entry_axis) const {
+  const double at = plane(axis, index);
   return at < t || (at == t && (axis < entry_axis || entry_axis == walk_starts));
 }
 
 /// The lower corner of the cell of edge `span` in [low, high) that holds the ray at t.
-std::int32_t Walk::locate(std::size_t axis, float t, std::int32_t span, std::int32_t low, std::int32_t high,
+std::int32_t Walk::locate(std::size_t axis, double t, std::int32_t span, std::int32_t low, std::int32_t high,
                           std::uint8_t entry_axis) const {
-  const float along = step_[axis] == 0 ? origin_[axis] : std::fma(t, direction_[axis], origin_[axis]);
-  const float guess = std::floor(along / finest_cell_);
-  const float clamped = std::clamp(guess, static_cast<float>(low), static_cast<float>(high - span));
-  std::int32_t cell = static_cast<std::int32_t>(clamped) & -span;
+  const double along = step_[axis] == 0 ? origin_[axis] : origin_[axis] + t * direction_[axis];
+  const double guess = std::clamp(along / finest_cell_, static_cast<double>(low), static_cast<double>(high - 1));
+  std::int32_t cell = static_cast<std::int32_t>(guess) & -span;  // not negative: truncation is the floor
   if (step_[axis] > 0) {
     while (cell + span < high && crossed(axis, cell + span, t, entry_axis)) {
       cell += span;
@@ -91,11 +91,11 @@ bool Walk::enter(const Ray& ray, Cursor& cursor) const {
   if (!is_finite(origin_) || !is_finite(direction_)) {
     return false;
   }
-  float t_enter = 0.0F, t_exit = ray.t_max;
+  double t_enter = 0.0, t_exit = double{ray.t_max};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (step_[axis] == 0) {
-      const float at = std::floor(origin_[axis] / finest_cell_);
-      if (!(at >= 0.0F && at < static_cast<float>(size_[axis]))) {
+      const double at = origin_[axis] / finest_cell_;
+      if (!(at >= 0.0 && at < static_cast<double>(size_[axis]))) {
         return false;
       }
     } else {
@@ -221,16 +221,16 @@ bool Walk::leave_box(const Ray& ray, const Corner& low, const Corner& high, Curs
   ++operations.cell_steps;
   const std::int32_t span = span_of(cursor.level);
   std::size_t exit_axis = 0;
-  float t_exit = never;
+  double t_exit = never;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float t = plane(axis, step_[axis] > 0 ? high[axis] : low[axis]);
+    const double t = plane(axis, step_[axis] > 0 ? high[axis] : low[axis]);
     if (t < t_exit) {
       t_exit = t;
       exit_axis = axis;
     }
   }
   // At equality the next cell may hold the same t with a lower id.
-  if (cursor.best.t < t_exit || t_exit >= ray.t_max) {
+  if (double{cursor.best.t} < t_exit || t_exit >= double{ray.t_max}) {
     return false;
   }
   const Corner before = cursor.cell;

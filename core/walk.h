@@ -20,8 +20,8 @@ struct TraversalOptions {
 
 /// What a ray and a grid determine: nothing here is carried from step to step, everything is recomputed from the ray's bits.
 ///
-/// The one formula for a plane anywhere: plane i of an axis (in finest cells) is crossed at t = fma(i, slope, offset). It rises or falls
-/// with i without exception (fma rounds once), so "which planes has the ray crossed at t" has one answer on every level: the
+/// The one formula for a plane anywhere: plane i of an axis (in finest cells) is crossed at t = i * slope + offset, in double. Rounding
+/// keeps order, so t rises or falls with i without exception, and "which planes has the ray crossed at t" has one answer on every level: the
 /// cells of all levels are projections of one sequence of finest cells, and leaving a box of empty cells in one step leads to
 /// the same cell as leaving it cell by cell. Planes crossed at equal t are crossed in the order x, y, z.
 class Walk {
@@ -38,9 +38,9 @@ class Walk {
  private:
   using Corner = std::array<std::int32_t, 3>;
 
-  float plane(std::size_t axis, std::int32_t index) const;
-  bool crossed(std::size_t axis, std::int32_t index, float t, std::uint8_t entry_axis) const;
-  std::int32_t locate(std::size_t axis, float t, std::int32_t span, std::int32_t low, std::int32_t high,
+  double plane(std::size_t axis, std::int32_t index) const;
+  bool crossed(std::size_t axis, std::int32_t index, double t, std::uint8_t entry_axis) const;
+  std::int32_t locate(std::size_t axis, double t, std::int32_t span, std::int32_t low, std::int32_t high,
                       std::uint8_t entry_axis) const;
   bool read_directory(const Ray& ray, const std::byte* record, Cursor& cursor, const TraversalOptions& options,
                       Operations& operations) const;
@@ -51,11 +51,11 @@ class Walk {
   bool leave_cell(const Ray& ray, Cursor& cursor, Operations& operations) const;
   bool next_record(const Ray& ray, Cursor& cursor, Operations& operations) const;
 
-  Vec3f origin_, direction_;
-  std::array<float, 3> slope_{}, offset_{};
+  Vec3d origin_, direction_;
+  std::array<double, 3> slope_{}, offset_{};
   std::array<std::int32_t, 3> step_{};    ///< -1, 0 or +1
   Corner size_{};                         ///< of the grid, in finest cells
-  float finest_cell_;
+  double finest_cell_;
 };
 
 /// The record that the next step reads. Requires a walk that has been entered and is not finished.
