@@ -1,0 +1,69 @@
+// The program: reads the command line, calls one command, and turns what went wrong into an exit status.
+//   0 done    1 bad input    2 wrong usage    3 an internal check failed    130 interrupted
+
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "apps/check.h"
+#include "apps/compare.h"
+#include "apps/interrupt.h"
+#include "apps/options.h"
+#include "apps/render.h"
+#include "apps/scene.h"
+#include "core/expect.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+constexpr int input_status = 1, usage_status = 2, internal_status = 3;
+
+/// One overload a command.
+struct Execute {
+  Interrupt& interrupt;
+
+  int operator()(const HelpText& help) const {
+    std::cout << help.text;
+    return 0;
+  }
+  int operator()(const RenderOptions& options) const { return render_command(options, interrupt, std::cout); }
+  int operator()(const SceneOptions& options) const { return scene_command(options, interrupt, std::cout); }
+  int operator()(const CheckOptions& options) const {
+    const Interrupt::EndAtOnce end_at_once(interrupt);
+    return check_command(options);
+  }
+  int operator()(const CompareOptions& options) const { return compare_command(options, std::cout); }
+};
+
+int complain(const std::string& message, int status) {
+  std::cerr << "dmpc: " << message << std::endl;
+  return status;
+}
+
+int run(const std::vector<std::string>& arguments) {
+  try {
+    const Command command = parse_command_line(arguments);
+    Interrupt interrupt;
+    return std::visit(Execute{interrupt}, command);
+  } catch (const Interrupted&) {
+    return complain("interrupted, nothing was written", interrupted_status);
+  } catch (const core::InputError& error) {
+    return complain(error.what(), input_status);
+  } catch (const core::UsageError& error) {
+    return complain(error.what(), usage_status);
+  } catch (const std::bad_alloc&) {
+    return complain("this computer has not enough memory for that: try a smaller scene or --resolution", input_status);
+  } catch (const std::exception& error) {
+    return complain(std::string("this is a bug in dmpc, please report it: ") + error.what(), internal_status);
+  }
+}
+
+}  // namespace
+
+}  // namespace dmpc::apps
+
+int main(int count, char** values) { return dmpc::apps::run(std::vector<std::string>(values + 1, values + count)); }

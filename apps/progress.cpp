@@ -1,0 +1,72 @@
+#include "apps/progress.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+
+namespace dmpc::apps {
+
+namespace {
+
+constexpr std::uint64_t bar_width = 30;
+constexpr const char* back_and_clear = "\r\x1b[K";
+
+std::string bar(std::uint64_t done, std::uint64_t total) {
+  const auto full = static_cast<std::size_t>(bar_width * done / total);
+  std::string text(full, '=');
+  text += full < bar_width ? ">" : "";
+  text.resize(bar_width, ' ');
+  return text;
+}
+
+/// "1:02:03" or "2:03".
+std::string clock_text(double seconds) {
+  const auto whole = static_cast<std::uint64_t>(std::min(seconds, 1e9) + 0.5);
+  std::ostringstream text;
+  text << std::setfill('0');
+  if (whole >= 3600) {
+    text << whole / 3600 << ':' << std::setw(2);
+  }
+  text << whole / 60 % 60 << ':' << std::setw(2) << whole % 60;
+  return text.str();
+}
+
+}  // namespace
+
+std::string progress_line(std::uint64_t done, std::uint64_t total, double seconds) {
+  std::ostringstream text;
+  text << std::setw(3) << 100 * done / total << " % [" << bar(done, total) << "]";
+  if (done > 0 && seconds > 0) {
+    const double rate = static_cast<double>(done) / seconds;
+    text << ' ' << std::fixed << std::setprecision(0) << std::setw(8) << rate << " pixels/s, "
+         << clock_text(static_cast<double>(total - done) / rate) << " left";
+  }
+  return text.str();
+}
+
+bool stderr_is_terminal() { return ::isatty(STDERR_FILENO) == 1; }
+
+Progress::Progress(std::ostream& output, bool shown) : output_(output), shown_(shown), start_(Clock::now()), next_(start_) {}
+
+Progress::~Progress() {
+  if (shown_) {
+    output_ << back_and_clear << std::flush;
+  }
+}
+
+void Progress::update(std::uint64_t done, std::uint64_t total) {
+  if (!shown_) {
+    return;
+  }
+  const Clock::time_point now = Clock::now();
+  if (now < next_) {
+    return;
+  }
+  next_ = now + std::chrono::milliseconds(100);
+  output_ << back_and_clear << progress_line(done, total, std::chrono::duration<double>(now - start_).count()) << std::flush;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,38 @@
+// How far a render is, on one line of a terminal.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+
+namespace dmpc::apps {
+
+/// " 42 % [========>           ]  123456 pixels/s, 0:07 left", without a line end. `done` <= `total`, `total` > 0, `seconds` >= 0 since
+/// the start. What cannot be known yet is left out.
+std::string progress_line(std::uint64_t done, std::uint64_t total, double seconds);
+
+/// Whether stderr is a terminal.
+bool stderr_is_terminal();
+
+/// Rewrites its line at most ten times a second and takes it away in the end. Not thread-safe: one thread at a time.
+class Progress {
+ public:
+  /// Says nothing at all unless `shown`. `output` outlives it.
+  Progress(std::ostream& output, bool shown);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void update(std::uint64_t done, std::uint64_t total);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::ostream& output_;
+  bool shown_;
+  Clock::time_point start_;
+  Clock::time_point next_;  ///< no rewriting before
+};
+
+}  // namespace dmpc::apps

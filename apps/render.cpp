@@ -1,0 +1,158 @@
+#include "apps/render.h"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cstdint>
+#include <iostream>
+#include <optional>
+#include <ostream>
+#include <utility>
+
+#include "apps/load_scene.h"
+#include "apps/oracle.h"
+#include "apps/output_file.h"
+#include "apps/progress.h"
+#include "apps/stats.h"
+#include "apps/summary.h"
+#include "core/database.h"
+#include "core/records.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+/// Wall clock since the last call or the making.
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+struct ProcessorTime {
+  double user = 0, system = 0;
+};
+
+ProcessorTime processor_time() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
+  return {seconds(usage.ru_utime), seconds(usage.ru_stime)};
+}
+
+void check_outputs(const RenderOptions& options) {
+  check_image_path(options.image);
+  if (options.stats) {
+    check_output_path(*options.stats, "--stats");
+  }
+}
+
+struct Prepared {
+  core::Database database;
+  core::RenderSettings settings;
+};
+
+/// Reads and builds; a signal ends the process here and now.
+Prepared prepare(const RenderOptions& options, Interrupt& interrupt, Seconds& seconds) {
+  const Interrupt::EndAtOnce end_at_once(interrupt);
+  Stopwatch stopwatch;
+  const core::Scene scene = load_scene(options.picture.scene);
+  seconds.load = stopwatch.lap();
+  core::Database database = core::build_database(scene, {.page_size_bytes = options.page_size_bytes});
+  const core::RenderSettings settings = render_settings(options.picture, scene, database);
+  seconds.build = stopwatch.lap();
+  return {std::move(database), settings};
+}
+
+/// What the user should know before waiting for the picture.
+void print_remarks(const RenderOptions& options, const Prepared& prepared) {
+  if (prepared.database.dropped() > 0) {
+    std::cerr << "dmpc: " << prepared.database.dropped() << " degenerate primitives were left out\n";
+  }
+  const svm::Plan plan = svm::plan_of(options.strategy, prepared.database, prepared.settings, options.run);
+  if (options.quiet) {
+    return;
+  }
+  for (const std::string& note : plan.notes) {
+    std::cerr << "dmpc: " << note << '\n';
+  }
+}
+
+svm::Report run_with_embree(const Prepared& prepared, const svm::RunOptions& run, const std::stop_token& stop) {
+  const EmbreeScene scene(prepared.database.primitives(), EmbreeMode::robust);
+  return svm::run_replicated(prepared.database, prepared.settings, run, stop,
+                             [&](std::uint32_t, std::span<const std::byte> copy) {
+                               return EmbreeTracer(scene, prepared.database, core::LocalRecords(copy));
+                             });
+}
+
+svm::Report run(const RenderOptions& options, const Prepared& prepared, const std::stop_token& stop) {
+  Progress progress(std::cerr, !options.quiet && stderr_is_terminal());
+  svm::RunOptions run = options.run;
+  run.progress = [&progress](std::uint32_t done, std::uint32_t total) { progress.update(done, total); };
+  if (options.tracer == TracerChoice::embree) {
+    return run_with_embree(prepared, run, stop);
+  }
+  return options.strategy == svm::Strategy::svm ? svm::run_svm(prepared.database, prepared.settings, run, stop)
+                                                : svm::run_replicated(prepared.database, prepared.settings, run, stop);
+}
+
+svm::Report run_timed(const RenderOptions& options, const Prepared& prepared, const Interrupt& interrupt, Seconds& seconds) {
+  Stopwatch stopwatch;
+  const ProcessorTime before = processor_time();
+  svm::Report report = run(options, prepared, interrupt.token());
+  interrupt.check();
+  core::expect(report.end == nodes::RunEnd::finished, "a run that nobody stopped is finished");
+  const ProcessorTime after = processor_time();
+  seconds.render = stopwatch.lap();
+  seconds.render_user = after.user - before.user;
+  seconds.render_system = after.system - before.system;
+  return report;
+}
+
+void write_outputs(const RenderOptions& options, const Prepared& prepared, const svm::Report& report, Seconds seconds,
+                   std::ostream& output) {
+  Stopwatch stopwatch;
+  write_image(options.image, image_of(report.film, options.picture.samples));
+  seconds.write = stopwatch.lap();
+  const ProcessorTime all = processor_time();
+  seconds.user = all.user;
+  seconds.system = all.system;
+  const RenderRecord record{options, prepared.database, report, seconds};
+  if (options.stats) {
+    OutputFile(*options.stats).write(stats_json(record));
+  }
+  if (!options.quiet) {
+    print_summary(output, record);
+  }
+}
+
+}  // namespace
+
+Image image_of(const core::Film& film, int samples) {
+  Image image(film.width(), film.height());
+  for (std::uint32_t pixel = 0; pixel < film.pixels().size(); ++pixel) {
+    const core::Vec3d radiance = film.radiance(pixel, samples);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      image.rgb[std::size_t{pixel} * 3 + channel] = static_cast<float>(radiance[channel]);
+    }
+  }
+  return image;
+}
+
+int render_command(const RenderOptions& options, Interrupt& interrupt, std::ostream& output) {
+  check_outputs(options);
+  Seconds seconds;
+  const Prepared prepared = prepare(options, interrupt, seconds);
+  print_remarks(options, prepared);
+  const svm::Report report = run_timed(options, prepared, interrupt, seconds);
+  write_outputs(options, prepared, report, seconds, output);
+  return 0;
+}
+
+}  // namespace dmpc::apps
