@@ -1,0 +1,47 @@
+// Scenes small enough to render many times, that use everything: mirrors, glass, every kind of primitive, many lights.
+#pragma once
+
+#include <cmath>
+#include <string_view>
+
+#include "core/scene.h"
+#include "core/scenes.h"
+
+namespace dmpc::tests {
+
+inline core::Scene built_in(std::string_view name) { return core::built_in_scene(core::parse_scene_name(name)); }
+
+/// A floor, a mirror, a glass ball, a cylinder, a cone and a smooth patch under three lights, one of them coloured.
+inline core::Scene mirrors_and_glass() {
+  core::Scene scene;
+  scene.name = "mirrors and glass";
+  scene.view = {.from = {0.3, -4, 2}, .at = {0, 0, 0.5}, .up = {0, 0, 1}, .angle_degrees = 50};
+  scene.background = {0.1, 0.2, 0.4};
+  scene.lights = {{{3, -3, 5}}, {{-4, -1, 3}}, {{0, 2, 6}, {0.9, 0.5, 0.2}, true}};
+  core::SceneBuilder builder(scene);
+  builder.material({.color = {0.8, 0.7, 0.5}, .diffuse = 0.8, .specular = 0.2, .shine = 20});
+  builder.polygon({{-3, -3, 0}, {3, -3, 0}, {3, 3, 0}, {-3, 3, 0}});
+  builder.polygon({{-2, 2, 0}, {2, 2, 0}, {2, 2, 3}, {0, 2, 1}, {-2, 2, 3}});  // concave
+  builder.material({.color = {1, 1, 1}, .diffuse = 0.1, .specular = 0.2, .shine = 50, .transmittance = 0.8, .refraction_index = 1.5});
+  builder.sphere({-0.7, -0.6, 0.6}, 0.6);
+  builder.material({.color = {0.9, 0.9, 0.9}, .diffuse = 0.2, .specular = 0.7, .shine = 80});
+  builder.sphere({0.9, 0.3, 0.7}, 0.7);
+  builder.cone({-1.5, 1, 0}, 0.5, {-1.5, 1, 1.4}, 0.1);
+  builder.cone({0.2, -1.5, 0.3}, 0.2, {1.4, -1.2, 0.3}, 0.2);
+  builder.patch({{-0.4, 1.2, 0.2}, {0.6, 1.3, 0.2}, {0.1, 1.2, 1.4}}, {{-0.5, -1, 0}, {0.5, -1, 0}, {0, -1, 0.8}});
+  return scene;
+}
+
+/// Nothing but a small tetrahedron fractal under 1,000 lights.
+inline core::Scene thousand_lights() {
+  core::Scene scene = built_in("tetra-3");
+  scene.name = "a thousand lights";
+  scene.lights.clear();
+  for (int i = 0; i < 1000; ++i) {
+    const double height = (i + 0.5) / 500 - 1, angle = 2.399963 * i, radius = std::sqrt(1 - height * height);
+    scene.lights.push_back({{9 * radius * std::cos(angle), 9 * radius * std::sin(angle), 9 * height}});
+  }
+  return scene;
+}
+
+}  // namespace dmpc::tests
