@@ -181,12 +181,12 @@ std::optional<int> take_part(std::string_view& text, std::string_view tag) {
 
 void check_tessellation(const Family& family, const SceneName& name) {
   const int largest = last_fitting(tessellation_max, [&](int n) { return total(family, name.size, n) <= primitives_max; });
-  const std::string what = family.name == "jacks" ? name.family : name.text();
   if (name.tessellation < 0 || (name.tessellation > 0 && largest == 0)) {
-    throw InputError("built-in scene " + what + ": too large to be tessellated; use a smaller size, or leave -t away");
+    throw InputError("built-in scene " + name.text() + ": too large to be tessellated; use a smaller size, or leave -t away");
   }
   if (name.tessellation > largest) {
-    throw InputError("built-in scene " + what + ": the tessellation of this size lies between 1 and " + std::to_string(largest));
+    throw InputError("built-in scene " + name.text() + ": the tessellation of this size lies between 1 and " +
+                     std::to_string(largest));
   }
 }
 
