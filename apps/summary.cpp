@@ -87,7 +87,7 @@ void print_summary(std::ostream& output, const RenderRecord& record) {
          << " primitives in " << grouped(record.database.page_count()) << " pages of " << svm::size_text(record.database.page_size())
          << "\ncomputer " << report.nodes.size() << (report.nodes.size() == 1 ? " node, " : " nodes, ")
          << (paged ? "svm, " + grouped(plan.frames) + " cached pages a node, " : "replicated, ") << plan.in_flight
-         << " pixels in flight\nmemory   " << memory_text(report) << "\nrays     " << rays_text(report.operations(), seconds.render)
+         << (plan.in_flight == 1 ? " pixel" : " pixels") << " in flight\nmemory   " << memory_text(report) << "\nrays     " << rays_text(report.operations(), seconds.render)
          << '\n';
   if (paged) {
     output << "pages    " << pages_text(report) << '\n';

@@ -1,0 +1,171 @@
+// Who stands on whom: core <- nodes <- {svm, dataflow} <- apps <- tests, and which file alone names a foreign library.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dmpc::tests {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::vector<std::string>;
+
+/// The folders whose headers each folder may include.
+const std::map<std::string, Names> stands_on = {
+    {"core", {"core"}},
+    {"nodes", {"nodes", "core"}},
+    {"svm", {"svm", "nodes", "core"}},
+    {"dataflow", {"dataflow", "nodes", "core"}},
+    {"apps", {"apps", "svm", "dataflow", "nodes", "core"}},
+    {"tests", {"tests", "apps", "svm", "dataflow", "nodes", "core"}},
+};
+
+/// What begins so may be included by files that begin so, and by no others.
+struct Foreign {
+  std::string_view header;
+  Names files;
+};
+const std::vector<Foreign> foreign = {
+    {"embree", {"apps/oracle.cpp"}},
+    {"OpenImageIO/", {"apps/image_file.cpp"}},
+    {"CLI/", {"apps/options.cpp"}},
+    {"nlohmann/", {"apps/stats.cpp"}},
+    {"oneapi/", {"apps/inspection.cpp"}},
+    {"tbb/", {"apps/inspection.cpp"}},
+    {"hwy/", {"core/kernel.cpp"}},
+    {"doctest/", {"tests/"}},
+    // Threads are the computer's; the edge has one, which waits for signals.
+    {"thread", {"nodes/", "tests/", "apps/interrupt."}},
+    {"atomic", {"nodes/", "tests/", "apps/interrupt."}},
+    {"mutex", {"nodes/", "tests/"}},
+    {"shared_mutex", {"nodes/", "tests/"}},
+    {"condition_variable", {"nodes/", "tests/"}},
+    {"future", {"nodes/", "tests/"}},
+    {"semaphore", {"nodes/", "tests/"}},
+    {"latch", {"nodes/", "tests/"}},
+    {"barrier", {"nodes/", "tests/"}},
+    {"pthread.h", {"nodes/", "tests/", "apps/interrupt."}},
+};
+
+bool begins_with(std::string_view text, std::string_view beginning) { return text.substr(0, beginning.size()) == beginning; }
+
+std::string first_folder(std::string_view path) { return std::string(path.substr(0, path.find('/'))); }
+
+/// A word of `foreign` ending in a slash, or embree's numbered folder, is a beginning; any other is a whole header.
+bool is_header_of(std::string_view header, const Foreign& rule) {
+  return rule.header.back() == '/' || rule.header == "embree" ? begins_with(header, rule.header) : header == rule.header;
+}
+
+bool may_include_foreign(std::string_view file, std::string_view header) {
+  return std::all_of(foreign.begin(), foreign.end(), [&](const Foreign& rule) {
+    return !is_header_of(header, rule) || std::any_of(rule.files.begin(), rule.files.end(),
+                                                      [&](const std::string& allowed) { return begins_with(file, allowed); });
+  });
+}
+
+bool may_include(std::string_view file, std::string_view header) {
+  const std::string folder = first_folder(header);
+  if (header.find('/') == std::string_view::npos || !stands_on.contains(folder)) {
+    return may_include_foreign(file, header);
+  }
+  const Names& allowed = stands_on.at(first_folder(file));
+  return std::find(allowed.begin(), allowed.end(), folder) != allowed.end();
+}
+
+/// "file:line: header" for each include that is not allowed. `file` is relative to the project's root.
+Names violations(const std::string& file, std::istream& text) {
+  static const std::regex include(R"(^\s*#\s*include\s*["<]([^">]+)[">])");
+  Names found;
+  std::string line;
+  for (int number = 1; std::getline(text, line); ++number) {
+    std::smatch match;
+    if (std::regex_search(line, match, include) && !may_include(file, match[1].str())) {
+      found.push_back(file + ":" + std::to_string(number) + ": " + match[1].str());
+    }
+  }
+  return found;
+}
+
+Names violations_in(const std::string& file, const std::string& text) {
+  std::istringstream stream(text);
+  return violations(file, stream);
+}
+
+bool is_source(const fs::path& path) { return path.extension() == ".h" || path.extension() == ".cpp"; }
+
+/// All sources, relative to the root.
+Names source_files(const fs::path& root) {
+  Names files;
+  for (const auto& [folder, unused] : stands_on) {
+    if (!fs::is_directory(root / folder)) {
+      continue;
+    }
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
+      if (entry.is_regular_file() && is_source(entry.path())) {
+        files.push_back(fs::relative(entry.path(), root).generic_string());
+      }
+    }
+  }
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("every include goes downwards and every foreign library has its one file") {
+  const fs::path root = DMPC_SOURCE_DIR;
+  const Names files = source_files(root);
+  CHECK(files.size() > 50);
+  for (const std::string& file : files) {
+    std::ifstream text(root / file);
+    for (const std::string& violation : violations(file, text)) {
+      FAIL_CHECK(violation);
+    }
+  }
+}
+
+TEST_CASE("an upward include is found, with file and line") {
+  CHECK(violations_in("core/ray.h", "\n#include \"nodes/node.h\"\n") == Names{"core/ray.h:2: nodes/node.h"});
+  CHECK(violations_in("core/ray.h", "#include <svm/page.h>") == Names{"core/ray.h:1: svm/page.h"});
+  CHECK(violations_in("nodes/node.h", "  #  include \"apps/options.h\"").size() == 1);
+  CHECK(violations_in("svm/run.cpp", "#include \"tests/support/small_machine.h\"").size() == 1);
+}
+
+TEST_CASE("the two families never meet") {
+  CHECK(violations_in("svm/run.cpp", "#include \"dataflow/region.h\"").size() == 1);
+  CHECK(violations_in("dataflow/host.h", "#include \"svm/page.h\"").size() == 1);
+}
+
+TEST_CASE("a foreign header outside its file is found") {
+  CHECK(violations_in("apps/check.cpp", "#include <embree3/rtcore.h>").size() == 1);
+  CHECK(violations_in("apps/render.cpp", "#include <OpenImageIO/imageio.h>").size() == 1);
+  CHECK(violations_in("apps/options.h", "#include <CLI/CLI.hpp>").size() == 1);
+  CHECK(violations_in("apps/main.cpp", "#include \"nlohmann/json.hpp\"").size() == 1);
+  CHECK(violations_in("core/database.cpp", "#include <tbb/parallel_for.h>").size() == 1);
+  CHECK(violations_in("core/walk.h", "#include <hwy/highway.h>").size() == 1);
+  CHECK(violations_in("core/film.h", "#include <doctest/doctest.h>").size() == 1);
+}
+
+TEST_CASE("threads and atomics outside the computer are found") {
+  CHECK(violations_in("core/film.cpp", "#include <atomic>").size() == 1);
+  CHECK(violations_in("svm/pager.h", "#include <thread>").size() == 1);
+  CHECK(violations_in("apps/render.cpp", "#include <mutex>").size() == 1);
+}
+
+TEST_CASE("what is allowed is not found") {
+  CHECK(violations_in("svm/run.cpp", "#include \"core/film.h\"\n#include <nodes/node.h>\n#include <vector>\n").empty());
+  CHECK(violations_in("apps/oracle.cpp", "#include <embree3/rtcore.h>\n#include <embree4/rtcore.h>").empty());
+  CHECK(violations_in("nodes/mailbox.h", "#include <atomic>").empty());
+  CHECK(violations_in("tests/nodes/x_test.cpp", "#include <thread>\n#include \"nodes/node.h\"").empty());
+  CHECK(violations_in("core/film.cpp", "// #include of nothing\n#include <sys/stat.h>").empty());
+}
+
+}  // namespace dmpc::tests
