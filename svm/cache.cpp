@@ -23,7 +23,9 @@ std::size_t Cache::table_size(std::uint32_t frame_count) {
   return std::bit_ceil(std::max<std::size_t>(2 * std::size_t{frame_count}, 2));
 }
 
-std::size_t Cache::candidate_capacity(std::uint32_t frame_count) { return std::min(frame_count, candidate_count_max); }
+std::size_t Cache::candidate_capacity(std::uint32_t frame_count) {
+  return std::min(frame_count, candidate_count_max);
+}
 
 void Cache::add_needs(nodes::MemoryPlan& plan, std::uint32_t frame_count, std::size_t page_size_bytes) {
   plan[Category::cache_frames] += LocalMemory::bytes_for<std::byte>(frame_bytes(frame_count, page_size_bytes));
@@ -72,7 +74,8 @@ std::uint32_t Cache::least_recently_used() {
   }
 }
 
-/// One pass with a heap whose top is the youngest of the oldest. Stamp 0 may be shared by empty frames: these go in frame order.
+/// One pass with a heap whose top is the youngest of the oldest. Stamp 0 may be shared by empty frames: these go in frame
+/// order.
 void Cache::seek_candidates() {
   const auto older = [](const Candidate& a, const Candidate& b) {
     return a.stamp < b.stamp || (a.stamp == b.stamp && a.frame < b.frame);

@@ -1,8 +1,9 @@
 // Frames for pages of other homes, with exact least-recently-used replacement.
 //
-// Invariants: (1) a page is in at most one frame, and the table finds it there; (2) a frame without a page has stamp 0, which is older
-// than every reference; (3) the candidates from next_candidate_ on are, as long as their stamps have not changed, the frames with the
-// least stamps of all, in order: stamps only grow, so a frame that was not among the oldest cannot become older than one that was.
+// Invariants: (1) a page is in at most one frame, and the table finds it there; (2) a frame without a page has stamp 0, which
+// is older than every reference; (3) the candidates from next_candidate_ on are, as long as their stamps have not changed,
+// the frames with the least stamps of all, in order: stamps only grow, so a frame that was not among the oldest cannot become
+// older than one that was.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +15,9 @@
 
 namespace dmpc::svm {
 
-/// LRU is kept as a time stamp a frame, so that a reference costs one store; the victim is sought when one is needed, and one search
-/// yields the oldest few. The page's frame is found by a table with open addressing, at most half full. Everything lies in the node's
-/// local memory. Thread safety: none; belongs to one node.
+/// LRU is kept as a time stamp a frame, so that a reference costs one store; the victim is sought when one is needed, and one
+/// search yields the oldest few. The page's frame is found by a table with open addressing, at most half full. Everything
+/// lies in the node's local memory. Thread safety: none; belongs to one node.
 class Cache {
  public:
   /// `frame_count` 0 makes a cache that never finds anything and takes no page.
@@ -35,8 +36,9 @@ class Cache {
   }
   bool contains(PageId page) const { return frame_of(page) != no_frame; }
 
-  /// Copies an absent page into the frame that was used least recently (one that is empty, if there is one) and makes it the most
-  /// recently used. Returns the page that had to go, or no_page. Requires at least one frame and `bytes` of the page's size.
+  /// Copies an absent page into the frame that was used least recently (one that is empty, if there is one) and makes it the
+  /// most recently used. Returns the page that had to go, or no_page. Requires at least one frame and `bytes` of the page's
+  /// size.
   PageId install(PageId page, std::span<const std::byte> bytes);
 
   std::uint32_t frame_count() const { return static_cast<std::uint32_t>(stamps_.size()); }

@@ -1,4 +1,5 @@
-// A pager that also counts the different pages that each pixel references. A type of its own, so that normal runs pay nothing for it.
+// A pager that also counts the different pages that each pixel references. A type of its own, so that normal runs pay nothing
+// for it.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +12,8 @@
 
 namespace dmpc::svm {
 
-/// Keeps one bit a page for each pixel in flight. Whoever runs a slot calls select() before, and forget() when a pixel starts in it.
-/// Thread safety: none.
+/// Keeps one bit a page for each pixel in flight. Whoever runs a slot calls select() before, and forget() when a pixel starts
+/// in it. Thread safety: none.
 class CountingPager : public Pager {
  public:
   CountingPager(nodes::Node& node, const Plan& plan, std::span<const std::byte> database)

@@ -1,7 +1,7 @@
 // Pages that are on their way to a node, and which of its pixels wait for each.
 //
-// Invariants: (1) a page has at most one fault, so at most one request is under way for it; (2) a slot waits for at most one page, so
-// there are never more faults than slots; (3) faults stand in the order in which they arose.
+// Invariants: (1) a page has at most one fault, so at most one request is under way for it; (2) a slot waits for at most one
+// page, so there are never more faults than slots; (3) faults stand in the order in which they arose.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,8 @@ class Faults {
 
   /// `slot` waits for `page`. Returns the new fault if nobody waited for that page before, else nullptr.
   Fault* park(std::uint32_t slot, PageId page, std::uint32_t home);
-  /// Ends the fault of an arrived page; returns the first of the slots that waited for it. Expects that there was one, requested.
+  /// Ends the fault of an arrived page; returns the first of the slots that waited for it. Expects that there was one,
+  /// requested.
   std::uint32_t arrived(PageId page);
   /// The slot that waits for the same page behind `slot`, or no_slot. Read it before the slot runs on: it may park again.
   std::uint32_t next(std::uint32_t slot) const { return next_[slot]; }

@@ -10,7 +10,8 @@ namespace dmpc::svm {
 using nodes::Category;
 using nodes::LocalMemory;
 
-/// A packet that is being gathered, and behind it the pixels in flight, which may all finish before it can leave; and the header.
+/// A packet that is being gathered, and behind it the pixels in flight, which may all finish before it can leave; and the
+/// header.
 std::size_t FilmGather::room_bytes(std::uint32_t film_entries, std::uint32_t in_flight) {
   return sizeof(FilmEntry) * (std::size_t{film_entries} + in_flight + header_entries);
 }

@@ -12,7 +12,8 @@
 
 namespace dmpc::svm {
 
-/// Never refuses a finished pixel: a pixel may start only while has_room_for() the pixels in flight and it. Thread safety: none.
+/// Never refuses a finished pixel: a pixel may start only while has_room_for() the pixels in flight and it. Thread safety:
+/// none.
 class FilmGather {
  public:
   /// Takes the credits for film packets.

@@ -8,9 +8,10 @@
 
 namespace dmpc::svm {
 
-/// Page p lives at node p mod N, as the (p div N)-th of its home pages: spread evenly, without any strategy, as in the 1994 paper.
-/// The division is a multiplication by ceil(2^63 / N), exact for every 32-bit page and N < 2^16: the quotient's error
-/// p * e / (N * 2^63), with e < N, stays below 1 / N (T. Granlund, P. Montgomery, "Division by Invariant Integers using Multiplication", 1994).
+/// Page p lives at node p mod N, as the (p div N)-th of its home pages: spread evenly, without any strategy, as in the 1994
+/// paper. The division is a multiplication by ceil(2^63 / N), exact for every 32-bit page and N < 2^16: the quotient's error
+/// p * e / (N * 2^63), with e < N, stays below 1 / N (T. Granlund, P. Montgomery, "Division by Invariant Integers using
+/// Multiplication", 1994).
 class Homes {
  public:
   struct Place {

@@ -9,7 +9,9 @@
 namespace dmpc::svm {
 namespace {
 
-std::size_t words_for(std::uint32_t pixel_count) { return core::ceil_divide<std::size_t>(pixel_count, 64); }
+std::size_t words_for(std::uint32_t pixel_count) {
+  return core::ceil_divide<std::size_t>(pixel_count, 64);
+}
 
 }  // namespace
 
@@ -17,7 +19,8 @@ HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, 
     : node_(&node),
       film_(&film),
       progress_(std::move(progress)),
-      arrived_(node.memory().allocate<std::uint64_t>(nodes::Category::film_tiles, words_for(plan.request.width * plan.request.height))),
+      arrived_(node.memory().allocate<std::uint64_t>(nodes::Category::film_tiles,
+                                                     words_for(plan.request.width * plan.request.height))),
       node_count_(plan.request.node_count),
       pixels_total_(plan.request.width * plan.request.height) {
   for (std::uint32_t i = 0; i < node_count_; ++i) {
@@ -80,8 +83,8 @@ void HostProgram::take_done(const Done& done) {
 }
 
 std::string HostProgram::describe() const {
-  return std::to_string(pixels_done_) + " of " + std::to_string(pixels_total_) + " pixels arrived, " + std::to_string(nodes_done_) +
-         " of " + std::to_string(node_count_) + " nodes done";
+  return std::to_string(pixels_done_) + " of " + std::to_string(pixels_total_) + " pixels arrived, " +
+         std::to_string(nodes_done_) + " of " + std::to_string(node_count_) + " nodes done";
 }
 
 }  // namespace dmpc::svm

@@ -14,7 +14,8 @@
 
 namespace dmpc::svm {
 
-/// Called on the host's thread whenever finished pixels arrive: (pixels done, pixels in all). If it throws, the run ends with that.
+/// Called on the host's thread whenever finished pixels arrive: (pixels done, pixels in all). If it throws, the run ends with
+/// that.
 using Progress = std::function<void(std::uint32_t, std::uint32_t)>;
 
 /// Every pixel arrives exactly once, which it checks; when every node is done and the film complete, it sends each node a Stop.

@@ -8,8 +8,8 @@
 
 namespace dmpc::svm {
 
-/// References are look-ups of a page, counted once, when they are first answered: a step that is retried after its page arrived is not a
-/// second reference.
+/// References are look-ups of a page, counted once, when they are first answered: a step that is retried after its page
+/// arrived is not a second reference.
 struct PageCounters {
   std::uint64_t references = 0;      ///< home_hits + cache_hits + misses
   std::uint64_t home_hits = 0;       ///< the page is at home

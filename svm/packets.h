@@ -34,12 +34,16 @@ enum class Kind : nodes::PacketKind {
   done,
   stop
 };
-constexpr nodes::PacketKind number_of(Kind kind) { return static_cast<nodes::PacketKind>(kind); }
+constexpr nodes::PacketKind number_of(Kind kind) {
+  return static_cast<nodes::PacketKind>(kind);
+}
 static_assert(number_of(Kind::stop) < nodes::packet_kind_count);
 inline constexpr std::array<const char*, 8> kind_names = {"page_request", "page_reply",           "work_request", "work_reply",
                                                           "film_sums",    "film_acknowledgement", "done",         "stop"};
 /// The packet's name, for reports.
-constexpr const char* name_of(Kind kind) { return kind_names[number_of(kind)]; }
+constexpr const char* name_of(Kind kind) {
+  return kind_names[number_of(kind)];
+}
 
 inline constexpr nodes::Channel request_channel = 0;
 inline constexpr nodes::Channel bulk_channel = 1;
@@ -63,7 +67,8 @@ struct PageReplyHeader {
 static_assert(sizeof(PageReplyHeader) == 8 && std::is_trivially_copyable_v<PageReplyHeader>);
 static_assert(sizeof(PageReplyHeader) + page_size_min_bytes > nodes::small_payload_bytes, "every page reply is bulk");
 
-/// The node `asker` has no pixels left. Hops from node to node along the ring until one answers or `visits_left` have been asked.
+/// The node `asker` has no pixels left. Hops from node to node along the ring until one answers or `visits_left` have been
+/// asked.
 struct WorkRequest {
   std::uint32_t asker = 0;
   std::uint32_t visits_left = 0;
@@ -92,7 +97,8 @@ struct FilmHeader {
 };
 static_assert(sizeof(FilmHeader) == 8 && std::is_trivially_copyable_v<FilmHeader>);
 static_assert(sizeof(FilmHeader) + sizeof(FilmEntry) > nodes::small_payload_bytes, "every film packet is bulk");
-static_assert(sizeof(FilmHeader) + sizeof(FilmEntry) <= page_size_min_bytes, "a film packet holds an entry, whatever the page size");
+static_assert(sizeof(FilmHeader) + sizeof(FilmEntry) <= page_size_min_bytes,
+              "a film packet holds an entry, whatever the page size");
 
 struct FilmAcknowledgement {
   std::uint32_t count = 0;  ///< entries received

@@ -83,7 +83,8 @@ void Pager::park(std::uint32_t slot, core::Address address) {
 
 /// Refused for want of credit, the fault stays in the list and is requested when a reply from its home brings the credit back.
 void Pager::request(Faults::Fault& fault) {
-  fault.requested = node_->try_send(nodes::NodeId{fault.home}, request_channel, number_of(Kind::page_request), PageRequest{fault.page});
+  fault.requested =
+      node_->try_send(nodes::NodeId{fault.home}, request_channel, number_of(Kind::page_request), PageRequest{fault.page});
 }
 
 std::uint32_t Pager::install(const nodes::Packet& reply) {
@@ -91,7 +92,6 @@ std::uint32_t Pager::install(const nodes::Packet& reply) {
   PageReplyHeader header;
   std::memcpy(&header, reply.payload.data(), sizeof(header));
   core::expect(homes_.place_of(header.page).node == nodes::index_of(reply.source), "a page comes from its home");
-  ++replies_;
   node_->grant(reply.source, request_channel);
   const std::uint32_t first = faults_.arrived(header.page);
   if (Faults::Fault* refused = faults_.oldest_refused(nodes::index_of(reply.source))) {

@@ -16,8 +16,9 @@
 
 namespace dmpc::svm {
 
-/// A node's part of the shared virtual memory: its home pages, its cache, its faults. A core::Records whose find() answers nullptr for a
-/// page that is neither at home nor cached. The victim of a page is chosen when the page arrives. Thread safety: none.
+/// A node's part of the shared virtual memory: its home pages, its cache, its faults. A core::Records whose find() answers
+/// nullptr for a page that is neither at home nor cached. The victim of a page is chosen when the page arrives. Thread
+/// safety: none.
 class Pager {
  public:
   /// Programs with this kind of records exchange page requests and replies.
@@ -26,11 +27,11 @@ class Pager {
   /// Copies the node's home pages from `database` into its local memory and takes the credits for its requests.
   Pager(nodes::Node& node, const Plan& plan, std::span<const std::byte> database);
   /// Adds to `plan` exactly what the constructor takes at a node with `home_page_count` pages.
-  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t home_page_count, std::uint32_t frame_count, std::uint32_t in_flight,
-                        std::size_t page_size_bytes);
+  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t home_page_count, std::uint32_t frame_count,
+                        std::uint32_t in_flight, std::size_t page_size_bytes);
 
-  /// One reference. The pointer is valid until the next call of install(). Repeated references of one page, the usual case, do not change
-  /// the order of use, so they cost a comparison.
+  /// One reference. The pointer is valid until the next call of install(). Repeated references of one page, the usual case,
+  /// do not change the order of use, so they cost a comparison.
   const std::byte* find(core::Address address) {
     const PageId page = geometry_.page_of(address);
     const std::size_t offset = geometry_.offset_of(address);
@@ -43,8 +44,8 @@ class Pager {
 
   /// `slot` goes on when the page of `address`, which find() has just said is absent, arrives. Requests the page if nobody has.
   void park(std::uint32_t slot, core::Address address);
-  /// Takes a page reply: installs the page and returns the first slot that waited for it. Whoever runs those slots calls retried() before
-  /// each and runs them all before the next install().
+  /// Takes a page reply: installs the page and returns the first slot that waited for it. Whoever runs those slots calls
+  /// retried() before each and runs them all before the next install().
   std::uint32_t install(const nodes::Packet& reply);
   /// The slot that waits for the same page behind `slot`, or no_slot. Read it before the slot runs.
   std::uint32_t next_waiting(std::uint32_t slot) const { return faults_.next(slot); }
@@ -80,7 +81,6 @@ class Pager {
   nodes::Node* node_;
   std::span<std::byte> reply_;  ///< where a reply is put together
   std::uint32_t home_page_count_;
-  std::uint64_t replies_ = 0;   ///< received
 };
 static_assert(core::Records<Pager>);
 

@@ -33,7 +33,9 @@ constexpr std::uint32_t request_slots_wanted = 256;
 constexpr std::uint32_t request_credits_max = 4;
 constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 
-bool pages_travel(const PlanRequest& request) { return request.strategy == Strategy::svm && request.node_count > 1; }
+bool pages_travel(const PlanRequest& request) {
+  return request.strategy == Strategy::svm && request.node_count > 1;
+}
 
 /// Pages that are not at home, at the node that has the fewest at home.
 std::uint32_t foreign_pages_max(const PlanRequest& request) {
@@ -53,7 +55,8 @@ std::uint32_t film_entries_of(const PlanRequest& request) {
   return static_cast<std::uint32_t>((packet_bytes - sizeof(FilmHeader)) / sizeof(FilmEntry));
 }
 
-/// What a node's mailbox must be able to hold, whoever sends when; the mailbox itself adds the slot of the packet being received.
+/// What a node's mailbox must be able to hold, whoever sends when; the mailbox itself adds the slot of the packet being
+/// received.
 nodes::MailboxCapacity node_mailbox_of(const PlanRequest& request, std::uint32_t in_flight, std::uint32_t request_credits) {
   const std::uint32_t others = request.node_count - 1;
   const bool ring = request.work_item_side > 0;
@@ -72,8 +75,8 @@ nodes::MailboxCapacity node_mailbox_of(const PlanRequest& request, std::uint32_t
 }
 
 nodes::MailboxCapacity host_mailbox_of(const PlanRequest& request, std::uint32_t film_entries) {
-  return {.small_slots = request.node_count,                 // Done: one from each node
-          .bulk_slots = request.node_count * film_credits,   // film packets: each node's credits
+  return {.small_slots = request.node_count,                // Done: one from each node
+          .bulk_slots = request.node_count * film_credits,  // film packets: each node's credits
           .bulk_payload_bytes = sizeof(FilmHeader) + film_entries * sizeof(FilmEntry)};
 }
 
@@ -123,7 +126,9 @@ std::uint32_t wanted_in_flight(const PlanRequest& request) {
 }
 
 /// The fewest frames that this request can do with.
-std::uint32_t frames_min(const PlanRequest& request) { return std::min(request.cache_pages.value_or(1), foreign_pages_max(request)); }
+std::uint32_t frames_min(const PlanRequest& request) {
+  return std::min(request.cache_pages.value_or(1), foreign_pages_max(request));
+}
 
 std::uint32_t auto_frames(const PlanRequest& request) {
   const std::uint32_t quarter = core::ceil_divide(request.page_count, 4U);
@@ -141,7 +146,8 @@ std::uint32_t most_frames(const PlanRequest& request, std::uint32_t in_flight, s
   return fits;
 }
 
-/// The most pixels in flight that leave room for the cache asked for, or else for a frame each: a pixel without one evicts another's page.
+/// The most pixels in flight that leave room for the cache asked for, or else for a frame each: a pixel without one evicts
+/// another's page.
 std::uint32_t most_in_flight(const PlanRequest& request, std::size_t memory_bytes) {
   std::uint32_t in_flight = wanted_in_flight(request);
   const auto frames_for = [&](std::uint32_t pixels) {
@@ -163,9 +169,9 @@ std::optional<std::uint32_t> smallest_node_count(PlanRequest request) {
 }
 
 [[noreturn]] void say_too_small(const PlanRequest& request) {
-  std::string sentence = "--node-memory=" + size_text(*request.node_memory_bytes) + " is too small for --nodes=" +
-                         std::to_string(request.node_count) + ": the smallest that works is --node-memory=" +
-                         size_text(smallest_node_memory_bytes(request));
+  std::string sentence = "--node-memory=" + size_text(*request.node_memory_bytes) +
+                         " is too small for --nodes=" + std::to_string(request.node_count) +
+                         ": the smallest that works is --node-memory=" + size_text(smallest_node_memory_bytes(request));
   if (const auto nodes = smallest_node_count(request)) {
     sentence += ", or with this memory --nodes=" + std::to_string(*nodes);
   } else if (request.strategy == Strategy::replicated) {
@@ -223,7 +229,9 @@ nodes::MemoryPlan Plan::host_memory() const {
   return plan;
 }
 
-std::size_t smallest_node_memory_bytes(const PlanRequest& request) { return bytes_with(request, frames_min(request), 1); }
+std::size_t smallest_node_memory_bytes(const PlanRequest& request) {
+  return bytes_with(request, frames_min(request), 1);
+}
 
 Plan make_plan(const PlanRequest& request) {
   check(request);

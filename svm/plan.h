@@ -23,14 +23,15 @@ struct PlanRequest {
   std::uint32_t page_count = 0;
   std::size_t page_size_bytes = 1024;
   std::uint32_t node_count = 8;
-  /// The bound of each node's local memory. Without it the plan is the sum of all categories, for svm with a cache of a quarter of the
-  /// database, at least 64 pages and at most all pages that are not at home.
-  std::optional<std::size_t> node_memory_bytes;
+  /// The bound of each node's local memory. Without it the plan is the sum of all categories, for svm with a cache of a
+  /// quarter of the database, at least 64 pages and at most all pages that are not at home.
+  std::optional<std::size_t> node_memory_bytes = std::nullopt;
   /// Frames of each node's cache; svm only. With a memory bound and without this, the cache takes all that is left.
-  std::optional<std::uint32_t> cache_pages;
-  /// Pixels under way on a node. Without it 16 for svm: a node whose pixel waits for a page has others to go on with, while the stacks
-  /// and reply slots of 16 pixels take about 1 % of a 4 MiB node; and 1 for replicated, where nothing is ever waited for.
-  std::optional<std::uint32_t> in_flight;
+  std::optional<std::uint32_t> cache_pages = std::nullopt;
+  /// Pixels under way on a node. Without it 16 for svm: a node whose pixel waits for a page has others to go on with, while
+  /// the stacks and reply slots of 16 pixels take about 1 % of a 4 MiB node; and 1 for replicated, where nothing is ever
+  /// waited for.
+  std::optional<std::uint32_t> in_flight = std::nullopt;
   std::uint32_t work_item_side = 3;  ///< pixels along the side of a work item; 0: no node gives work to another
   int depth_max = 5;                 ///< entries of a pixel's ray stack
   std::uint32_t width = 0, height = 0;
@@ -44,13 +45,13 @@ inline constexpr std::uint32_t in_flight_max = 4096;
 /// The answer. Every capacity is derived in plan.cpp, as a sum with a comment for each term.
 struct Plan {
   PlanRequest request;
-  std::uint32_t frames = 0;          ///< of each node's cache
-  std::uint32_t in_flight = 1;       ///< pixels under way, after reduction
-  std::uint32_t request_credits = 0; ///< page requests that one node may have under way to one home
-  std::uint32_t film_credits = 0;    ///< film packets that one node may have under way to the host
-  std::uint32_t film_entries = 0;    ///< pixels in a full film packet
+  std::uint32_t frames = 0;           ///< of each node's cache
+  std::uint32_t in_flight = 1;        ///< pixels under way, after reduction
+  std::uint32_t request_credits = 0;  ///< page requests that one node may have under way to one home
+  std::uint32_t film_credits = 0;     ///< film packets that one node may have under way to the host
+  std::uint32_t film_entries = 0;     ///< pixels in a full film packet
   nodes::MailboxCapacity node_mailbox, host_mailbox;
-  std::vector<std::string> notes;    ///< sentences to print, such as what was reduced
+  std::vector<std::string> notes;  ///< sentences to print, such as what was reduced
 
   /// Exactly what node `index` takes, by category. Home pages differ by one page at most between nodes.
   nodes::MemoryPlan node_memory(std::uint32_t index) const;
@@ -61,9 +62,9 @@ struct Plan {
   std::uint32_t pages_at(std::uint32_t node) const;
 };
 
-/// Throws core::UsageError for a value out of range or a wrong combination, and core::InputError if the memory is too small; the latter
-/// names the smallest node memory that works for this node count and, if there is one up to node_count_max, the smallest node count that
-/// works with this memory.
+/// Throws core::UsageError for a value out of range or a wrong combination, and core::InputError if the memory is too small;
+/// the latter names the smallest node memory that works for this node count and, if there is one up to node_count_max, the
+/// smallest node count that works with this memory.
 Plan make_plan(const PlanRequest& request);
 
 /// The smallest node memory with which make_plan(request) succeeds, whatever request.node_memory_bytes says.

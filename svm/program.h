@@ -1,11 +1,13 @@
 // The node program of svm and replicated: pixels under way, work items, and the packets that concern them.
 //
-// A quantum runs one pixel until it has ended a ray, finished, or needs an absent page. Newest first: the pixel that ran last goes on,
-// another one starts only when none can run. With one pixel in flight this is the sequential ray tracer's order of references.
+// A quantum runs one pixel until it has ended a ray, finished, or needs an absent page. Newest first: the pixel that ran last
+// goes on, another one starts only when none can run. With one pixel in flight this is the sequential ray tracer's order of
+// references.
 //
-// Why the last node always moves: requests are served in receive(), whatever the node's own state. A reply's place was reserved when its
-// request left. A page that arrives runs every pixel that waited for it before the next packet is looked at, and one step reads one
-// record, so even one frame serves any number of pixels. A full film starts no pixel and waits for the host, which waits for nobody.
+// Why the last node always moves: requests are served in receive(), whatever the node's own state. A reply's place was
+// reserved when its request left. A page that arrives runs every pixel that waited for it before the next packet is looked
+// at, and one step reads one record, so even one frame serves any number of pixels. A full film starts no pixel and waits for
+// the host, which waits for nobody.
 #pragma once
 
 #include <cstdint>
@@ -89,7 +91,10 @@ class ControlProgram final : public NodeProgram {
   std::string describe() const override {
     return std::to_string(slots_.active()) + " pixels in flight, " + std::to_string(pending_faults()) + " pages awaited, " +
            std::to_string(film_.gathered()) + " pixels gathered, " + std::to_string(film_.under_way()) +
-           " film packets unacknowledged, " + work_.describe() + (stopped_ ? ", stopped" : done_ ? ", done" : "");
+           " film packets unacknowledged, " + work_.describe() +
+           (stopped_ ? ", stopped"
+            : done_  ? ", done"
+                     : "");
   }
 
   ProgramReport report() const override {
@@ -100,7 +105,7 @@ class ControlProgram final : public NodeProgram {
   }
 
  private:
-  static constexpr bool counts_pages = requires(Records& records) { records.forget(); };
+  static constexpr bool counts_pages = requires(Records & records) { records.forget(); };
 
   bool can_start() const { return slots_.has_free() && work_.has_pixel() && film_.has_room_for(slots_.active() + 1); }
 
@@ -152,7 +157,8 @@ class ControlProgram final : public NodeProgram {
     }
   }
 
-  /// Every pixel that waits for the page runs before anything else can evict it: until its ray ends or it needs another absent page.
+  /// Every pixel that waits for the page runs before anything else can evict it: until its ray ends or it needs another
+  /// absent page.
   void resume(const nodes::Packet& packet) {
     if constexpr (Records::pages_travel) {
       std::uint32_t slot = records_.install(packet);

@@ -32,8 +32,8 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
                                                         const Progress& progress) {
   std::vector<nodes::NodeSpecification> specifications;
   for (std::uint32_t i = 0; i < plan.request.node_count; ++i) {
-    specifications.push_back({plan.node_memory(i), plan.node_mailbox,
-                              [&make_program, i](nodes::Node& node) { return make_program(i, node); }});
+    specifications.push_back(
+        {plan.node_memory(i), plan.node_mailbox, [&make_program, i](nodes::Node& node) { return make_program(i, node); }});
   }
   specifications.push_back({plan.host_memory(), plan.host_mailbox, [&plan, &film, &progress](nodes::Node& node) {
                               return std::make_unique<HostProgram>(node, plan, film, progress);
@@ -81,10 +81,14 @@ void check_conservation(const Report& report) {
 }
 
 template <class Records>
-MakeProgram maker(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options, const Plan& plan) {
+MakeProgram maker(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
+                  const Plan& plan) {
   return [&](std::uint32_t, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
-    const auto make_tracer = [&](Records& records) { return core::GridTracer<Records>(records, settings.header, options.traversal); };
-    return std::make_unique<ControlProgram<Records, core::GridTracer<Records>>>(node, plan, settings, database.bytes(), make_tracer);
+    const auto make_tracer = [&](Records& records) {
+      return core::GridTracer<Records>(records, settings.header, options.traversal);
+    };
+    return std::make_unique<ControlProgram<Records, core::GridTracer<Records>>>(node, plan, settings, database.bytes(),
+                                                                                make_tracer);
   };
 }
 

@@ -30,9 +30,9 @@ namespace dmpc::svm {
 /// What the user may choose; the fields of PlanRequest that the database and the picture do not give.
 struct RunOptions {
   std::uint32_t node_count = 8;
-  std::optional<std::size_t> node_memory_bytes;
-  std::optional<std::uint32_t> cache_pages;
-  std::optional<std::uint32_t> in_flight;
+  std::optional<std::size_t> node_memory_bytes = std::nullopt;
+  std::optional<std::uint32_t> cache_pages = std::nullopt;
+  std::optional<std::uint32_t> in_flight = std::nullopt;
   std::uint32_t work_item_side = 3;
   bool count_pages = false;
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;
@@ -63,9 +63,10 @@ struct Report {
 /// The plan that a run with these options will follow, for messages before the run. Throws as make_plan() does.
 Plan plan_of(Strategy strategy, const core::Database& database, const core::RenderSettings& settings, const RunOptions& options);
 
-/// Renders with strategy svm. Throws as make_plan() does before anything is rendered; core::InternalError if a law of conservation is
-/// broken. One call at a time in a process needs no care; several are independent.
-Report run_svm(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options, std::stop_token stop);
+/// Renders with strategy svm. Throws as make_plan() does before anything is rendered; core::InternalError if a law of
+/// conservation is broken. One call at a time in a process needs no care; several are independent.
+Report run_svm(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
+               std::stop_token stop);
 
 /// Makes the program of node `index`; called before the start, in order, on the calling thread.
 using MakeProgram = std::function<std::unique_ptr<NodeProgram>(std::uint32_t index, nodes::Node& node)>;
@@ -73,8 +74,9 @@ using MakeProgram = std::function<std::unique_ptr<NodeProgram>(std::uint32_t ind
 /// Runs any programs of this family under `plan`, checks the laws of conservation and reports.
 Report run_programs(const Plan& plan, const MakeProgram& make_program, const Progress& progress, std::stop_token stop);
 
-/// Renders with strategy replicated and a tracer of one's own: make_tracer(index, copy) returns node `index`'s core::Tracer over its own
-/// copy of the database (a std::span<const std::byte>, overread_bytes more readable). It is called before the start.
+/// Renders with strategy replicated and a tracer of one's own: make_tracer(index, copy) returns node `index`'s core::Tracer
+/// over its own copy of the database (a std::span<const std::byte>, overread_bytes more readable). It is called before the
+/// start.
 template <class MakeTracer>
 Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                       std::stop_token stop, const MakeTracer& make_tracer) {

@@ -10,8 +10,8 @@
 
 namespace dmpc::svm {
 
-/// `count` tasks, each with a ray stack of `depth_max` hits. A slot is free, or active; an active one is runnable, or known to whoever took it
-/// (the pager, when it waits). Thread safety: none.
+/// `count` tasks, each with a ray stack of `depth_max` hits. A slot is free, or active; an active one is runnable, or known
+/// to whoever took it (the pager, when it waits). Thread safety: none.
 template <class Task>
 class Slots {
  public:

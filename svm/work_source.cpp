@@ -36,7 +36,8 @@ void WorkSource::ask() {
   asking_ = true;
   ++counters_.items_asked;
   node_->grant(nodes::NodeId{last_giver_}, ring_channel);  // its own place on the ring: one request a node
-  node_->send_reserved(nodes::NodeId{last_giver_}, ring_channel, number_of(Kind::work_request), WorkRequest{self_, node_count_ - 1});
+  node_->send_reserved(nodes::NodeId{last_giver_}, ring_channel, number_of(Kind::work_request),
+                       WorkRequest{self_, node_count_ - 1});
 }
 
 void WorkSource::answer(const WorkRequest& request) {

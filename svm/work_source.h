@@ -12,10 +12,10 @@
 
 namespace dmpc::svm {
 
-/// A node without pixels sends one work request at a time. It hops along the ring of nodes, from i to i + 1 mod N; the first that has items
-/// left answers the asker directly; the last of all others to be asked tells it that there is no more work, and since submaps only shrink
-/// this stays true. The first request enters the ring at the next node, a later one at the node that gave last, because all before it had
-/// nothing. Thread safety: none.
+/// A node without pixels sends one work request at a time. It hops along the ring of nodes, from i to i + 1 mod N; the first
+/// that has items left answers the asker directly; the last of all others to be asked tells it that there is no more work,
+/// and since submaps only shrink this stays true. The first request enters the ring at the next node, a later one at the node
+/// that gave last, because all before it had nothing. Thread safety: none.
 class WorkSource {
  public:
   WorkSource(nodes::Node& node, const Plan& plan);

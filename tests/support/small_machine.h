@@ -1,0 +1,295 @@
+// The tests' little language for node programs: a node alone, a whole small machine run in any legal order, pages without a
+// scene.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <deque>
+#include <memory>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/expect.h"
+#include "core/pixel_task.h"
+#include "nodes/node.h"
+#include "nodes/program.h"
+#include "svm/host.h"
+#include "svm/node_program.h"
+#include "svm/plan.h"
+#include "svm/program.h"
+
+namespace dmpc::tests {
+
+// ---- A node alone --------------------------------------------------------------------------------------------------------
+
+/// A packet on its way.
+struct Letter {
+  nodes::NodeId source{}, target{};
+  nodes::PacketKind kind = 0;
+  std::vector<std::byte> payload;
+
+  nodes::Packet packet() const { return {source, kind, payload}; }
+};
+
+/// A network that keeps what is sent, in order.
+struct Post final : nodes::Network {
+  void deliver(nodes::NodeId target, const nodes::PacketHeader& header, std::span<const std::byte> payload) override {
+    letters.push_back({nodes::NodeId{header.source}, target, header.kind, {payload.begin(), payload.end()}});
+  }
+  std::deque<Letter> letters;
+};
+
+template <class T>
+Letter letter_of(std::uint32_t source, svm::Kind kind, const T& value) {
+  const std::span<const std::byte> bytes = std::as_bytes(std::span(&value, 1));
+  return {nodes::NodeId{source}, nodes::NodeId{}, svm::number_of(kind), {bytes.begin(), bytes.end()}};
+}
+
+/// Node `index` of a plan, without a thread, and what it sends.
+struct LoneNode {
+  LoneNode(const svm::Plan& plan, std::uint32_t index)
+      : memory(index == plan.request.node_count ? plan.host_memory() : plan.node_memory(index)),
+        node(nodes::NodeId{index}, plan.request.node_count + 1, memory, post) {}
+
+  Post post;
+  nodes::LocalMemory memory;
+  nodes::Node node;
+};
+
+// ---- Pages without a scene -----------------------------------------------------------------------------------------------
+
+inline std::uint64_t mixed(std::uint64_t value) {
+  value = (value ^ (value >> 30U)) * 0xbf58476d1ce4e5b9U;
+  value = (value ^ (value >> 27U)) * 0x94d049bb133111ebU;
+  return value ^ (value >> 31U);
+}
+
+/// Pages full of numbers that depend on their place, and the overread behind them.
+struct FakePages {
+  FakePages(std::uint32_t page_count, std::size_t page_size_bytes)
+      : page_size(page_size_bytes), storage(page_count * page_size_bytes / 8 + core::overread_bytes / 8) {
+    for (std::size_t i = 0; i < storage.size(); ++i) {
+      storage[i] = mixed(i + 1);
+    }
+  }
+  std::span<const std::byte> bytes() const {
+    return std::as_bytes(std::span(storage)).first(storage.size() * 8 - core::overread_bytes);
+  }
+  std::span<const std::byte> page(std::size_t index) const { return bytes().subspan(index * page_size, page_size); }
+
+  std::size_t page_size;
+  std::vector<std::uint64_t> storage;
+};
+
+/// Reads the records of a database of a known size.
+template <class Records>
+struct FakeTracer {
+  Records* records;
+  std::uint64_t record_count;  ///< of 8 bytes
+};
+
+/// In place of core::PixelTask: a walk through the pages in which each number says where the next is read. Some rays of some
+/// steps.
+class FakeTask {
+ public:
+  explicit FakeTask(std::span<core::HitState>) {}
+
+  void start(std::uint32_t pixel, const core::RenderSettings&, core::Operations& operations) {
+    pixel_ = pixel;
+    state_ = mixed(pixel);
+    rays_left_ = static_cast<std::uint32_t>(state_ % 4) + 1;
+    begin_ray(operations);
+  }
+
+  template <class Records>
+  core::TaskState run(FakeTracer<Records>& tracer, const core::RenderSettings&, core::Operations& operations) {
+    if (steps_left_ == 0) {
+      if (rays_left_ == 0) {
+        return core::TaskState::finished;
+      }
+      begin_ray(operations);
+    }
+    for (; steps_left_ > 0; --steps_left_) {
+      absent_ = core::Address{static_cast<std::uint32_t>(state_ % tracer.record_count)};
+      const std::byte* record = tracer.records->find(absent_);
+      if (record == nullptr) {
+        return core::TaskState::absent;
+      }
+      std::uint64_t word = 0;
+      std::memcpy(&word, record, sizeof(word));
+      state_ = mixed(state_ ^ word);
+    }
+    return core::TaskState::more;
+  }
+
+  core::Address absent() const { return absent_; }
+  std::uint32_t pixel() const { return pixel_; }
+  core::PixelSums sums() const {
+    core::PixelSums sums;
+    for (std::size_t i = 0; i < 6; ++i) {
+      sums.plane[i / 3].channel[i % 3] = static_cast<std::int64_t>(mixed(state_ + i) >> 2U);
+    }
+    return sums;
+  }
+
+ private:
+  void begin_ray(core::Operations& operations) {
+    ++operations.rays[0];
+    --rays_left_;
+    steps_left_ = static_cast<std::uint32_t>(mixed(state_) % 6) + 1;
+  }
+
+  std::uint64_t state_ = 0;
+  std::uint32_t pixel_ = 0, rays_left_ = 0, steps_left_ = 0;
+  core::Address absent_ = core::no_address;
+};
+static_assert(sizeof(FakeTask) <= sizeof(core::PixelTask), "a plan for real tasks has room for these");
+
+/// Settings for a picture of this size; what they show does not matter.
+inline core::RenderSettings fake_settings(std::uint32_t width, std::uint32_t height) {
+  core::DatabaseHeader header;
+  return {header, core::Camera(core::View{}, header.frame, static_cast<int>(width), static_cast<int>(height), 1), {}};
+}
+
+/// The picture that every machine must produce: pixel after pixel from one array.
+inline core::Film fake_reference(const FakePages& pages, const core::RenderSettings& settings) {
+  core::Film film(settings.camera.width(), settings.camera.height());
+  core::LocalRecords records(pages.bytes());
+  FakeTracer<core::LocalRecords> tracer{&records, pages.bytes().size() / 8};
+  core::Operations operations;
+  for (std::uint32_t pixel = 0; pixel < settings.camera.pixel_count(); ++pixel) {
+    FakeTask task({});
+    task.start(pixel, settings, operations);
+    while (task.run(tracer, settings, operations) != core::TaskState::finished) {
+    }
+    film.deposit(pixel, task.sums());
+  }
+  return film;
+}
+
+/// The node program over fake pages. `Records` is Pager, CountingPager or LocalCopy.
+template <class Records>
+std::unique_ptr<svm::NodeProgram> fake_program(nodes::Node& node, const svm::Plan& plan, const core::RenderSettings& settings,
+                                               const FakePages& pages) {
+  const auto make_tracer = [&](Records& records) { return FakeTracer<Records>{&records, pages.bytes().size() / 8}; };
+  return std::make_unique<svm::ControlProgram<Records, FakeTracer<Records>, FakeTask>>(node, plan, settings, pages.bytes(),
+                                                                                       make_tracer);
+}
+
+// ---- A whole machine in any legal order ----------------------------------------------------------------------------------
+
+/// The programs of a plan on one thread. Each step picks, by a seeded generator, either the oldest packet between two nodes
+/// and gives it to its target, or a node that works a quantum: any order that mailboxes keeping each sender's order allow. It
+/// watches that no mailbox ever holds more than its capacity, counting the packet that is being received only where the
+/// mailbox has a slot to spare for it.
+class ShuffledMachine {
+ public:
+  ShuffledMachine(const svm::Plan& plan, core::Film& film, std::uint64_t seed)
+      : plan_(plan), generator_(seed), queues_((plan.request.node_count + 1) * (plan.request.node_count + 1)) {
+    for (std::uint32_t i = 0; i <= plan.request.node_count; ++i) {
+      peers_.push_back(std::make_unique<Peer>(*this, plan, i));
+    }
+    peers_.back()->program = std::make_unique<svm::HostProgram>(peers_.back()->node, plan, film, svm::Progress{});
+  }
+
+  nodes::Node& node(std::uint32_t index) { return peers_[index]->node; }
+  void set_program(std::uint32_t index, std::unique_ptr<svm::NodeProgram> program) {
+    reporting_.push_back(program.get());
+    peers_[index]->program = std::move(program);
+  }
+  const svm::NodeProgram& program(std::uint32_t index) const { return *reporting_[index]; }
+
+  /// Runs to the end. Throws core::InternalError if nothing can move, or a mailbox overflows.
+  void run() {
+    for (const auto& peer : peers_) {
+      peer->memory.seal();
+    }
+    while (!all_finished()) {
+      step();
+    }
+  }
+
+ private:
+  struct Peer final : nodes::Network {
+    Peer(ShuffledMachine& owner, const svm::Plan& plan, std::uint32_t index)
+        : machine(&owner),
+          memory(index == plan.request.node_count ? plan.host_memory() : plan.node_memory(index)),
+          node(nodes::NodeId{index}, plan.request.node_count + 1, memory, *this) {}
+    void deliver(nodes::NodeId target, const nodes::PacketHeader& header, std::span<const std::byte> payload) override {
+      machine->put({nodes::NodeId{header.source}, target, header.kind, {payload.begin(), payload.end()}});
+    }
+
+    ShuffledMachine* machine;
+    nodes::LocalMemory memory;
+    nodes::Node node;
+    std::unique_ptr<nodes::Program> program;
+    std::uint32_t small_held = 0, bulk_held = 0;
+    bool may_work = true;
+  };
+
+  std::deque<Letter>& queue(std::uint32_t source, std::uint32_t target) { return queues_[source * peers_.size() + target]; }
+
+  std::uint32_t& held(Peer& peer, const Letter& letter) {
+    return letter.payload.size() <= nodes::small_payload_bytes ? peer.small_held : peer.bulk_held;
+  }
+
+  void put(Letter letter) {
+    const std::uint32_t target = nodes::index_of(letter.target);
+    Peer& peer = *peers_[target];
+    ++held(peer, letter);
+    const nodes::MailboxCapacity& capacity = target == plan_.request.node_count ? plan_.host_mailbox : plan_.node_mailbox;
+    core::expect(peer.small_held <= capacity.small_slots && peer.bulk_held <= capacity.bulk_slots, "no mailbox overflows");
+    core::expect(letter.payload.size() <= std::max(nodes::small_payload_bytes, capacity.bulk_payload_bytes),
+                 "a packet fits its slot");
+    queue(nodes::index_of(letter.source), target).push_back(std::move(letter));
+  }
+
+  bool all_finished() const {
+    return std::all_of(peers_.begin(), peers_.end(), [](const auto& peer) { return peer->program->finished(); });
+  }
+
+  void step() {
+    const std::size_t choices = queues_.size() + peers_.size();
+    const std::size_t first = generator_() % choices;
+    for (std::size_t i = 0; i < choices; ++i) {
+      const std::size_t choice = (first + i) % choices;
+      if (choice < queues_.size() ? receive(queues_[choice]) : work(*peers_[choice - queues_.size()])) {
+        return;
+      }
+    }
+    core::expect(false, "something can move until the run has ended");
+  }
+
+  bool receive(std::deque<Letter>& letters) {
+    if (letters.empty()) {
+      return false;
+    }
+    const Letter letter = std::move(letters.front());
+    letters.pop_front();
+    Peer& peer = *peers_[nodes::index_of(letter.target)];
+    --held(peer, letter);
+    peer.program->receive(letter.packet());
+    peer.may_work = true;
+    return true;
+  }
+
+  bool work(Peer& peer) {
+    if (!peer.may_work || peer.program->finished()) {
+      return false;
+    }
+    peer.may_work = peer.program->work();
+    return true;
+  }
+
+  const svm::Plan& plan_;
+  std::mt19937_64 generator_;
+  std::vector<std::unique_ptr<Peer>> peers_;
+  std::vector<std::deque<Letter>> queues_;
+  std::vector<const svm::NodeProgram*> reporting_;
+};
+
+}  // namespace dmpc::tests

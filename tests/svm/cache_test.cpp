@@ -1,0 +1,132 @@
+#include "svm/cache.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <list>
+#include <random>
+#include <vector>
+
+#include "core/expect.h"
+
+using namespace dmpc;
+using svm::Cache;
+using svm::PageId;
+
+namespace {
+
+constexpr std::size_t page_size = 512;
+
+/// A cache in a memory of exactly the size that it says it needs.
+struct SmallCache {
+  explicit SmallCache(std::uint32_t frames) : memory(needs(frames)), cache(memory, frames, page_size) {}
+  static nodes::MemoryPlan needs(std::uint32_t frames) {
+    nodes::MemoryPlan plan;
+    Cache::add_needs(plan, frames, page_size);
+    return plan;
+  }
+  PageId install(std::uint32_t page) { return cache.install(PageId{page}, bytes_of(page)); }
+  bool refer(std::uint32_t page) {
+    const std::byte* bytes = cache.find(PageId{page});
+    return bytes != nullptr && std::equal(bytes, bytes + page_size, bytes_of(page).begin());
+  }
+  std::vector<std::byte> bytes_of(std::uint32_t page) { return std::vector<std::byte>(page_size, std::byte(page * 37 + 1)); }
+
+  nodes::LocalMemory memory;
+  Cache cache;
+};
+
+/// LRU as its definition says: a list, newest first.
+struct Model {
+  bool refer(std::uint32_t page) {
+    const auto place = std::find(pages.begin(), pages.end(), page);
+    if (place == pages.end()) {
+      return false;
+    }
+    pages.splice(pages.begin(), pages, place);
+    return true;
+  }
+  PageId install(std::uint32_t page) {
+    PageId evicted = svm::no_page;
+    if (pages.size() == frames) {
+      evicted = PageId{pages.back()};
+      pages.pop_back();
+    }
+    pages.push_front(page);
+    return evicted;
+  }
+  std::size_t frames;
+  std::list<std::uint32_t> pages;
+};
+
+void compare_with_model(std::uint32_t frames, std::uint32_t page_count, std::uint32_t seed, bool clustered) {
+  SmallCache small(frames);
+  Model model{frames, {}};
+  std::mt19937 generator(seed);
+  for (int i = 0; i < 3000; ++i) {
+    const auto random = static_cast<std::uint32_t>(generator() % page_count);
+    const std::uint32_t page = clustered ? random / (1U + static_cast<std::uint32_t>(generator()) % 8U) : random * 64U;
+    INFO("frames ", frames, ", page_count ", page_count, ", seed ", seed, ", i ", i);
+    const bool cached = model.refer(page);
+    REQUIRE(small.refer(page) == cached);
+    if (!cached) {
+      REQUIRE(small.install(page) == model.install(page));
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a cache finds and evicts what a brute-force LRU list does") {
+  for (const std::uint32_t frames : {1U, 2U, 3U, 4U, 7U, 16U, 63U, 64U, 65U, 100U, 300U}) {
+    for (const std::uint32_t seed : {1U, 2U}) {
+      compare_with_model(frames, frames + 1, seed, true);
+      compare_with_model(frames, 2 * frames + 3, seed, false);
+      compare_with_model(frames, 20 * frames, seed, true);
+    }
+  }
+}
+
+TEST_CASE("an empty cache finds nothing") {
+  SmallCache small(4);
+  CHECK(small.cache.find(PageId{0}) == nullptr);
+  CHECK(small.cache.find(svm::PageId{12345}) == nullptr);
+}
+
+TEST_CASE("a cache without frames finds nothing and takes nothing") {
+  SmallCache small(0);
+  CHECK_FALSE(small.refer(1));
+  CHECK_THROWS_AS(small.install(1), core::InternalError);
+}
+
+TEST_CASE("a cache of one frame holds the page installed last") {
+  SmallCache small(1);
+  CHECK(small.install(5) == svm::no_page);
+  CHECK(small.refer(5));
+  CHECK(small.install(6) == PageId{5});
+  CHECK_FALSE(small.refer(5));
+  CHECK(small.refer(6));
+}
+
+TEST_CASE("empty frames are filled before a page is evicted") {
+  SmallCache small(3);
+  for (std::uint32_t page = 0; page < 3; ++page) {
+    CHECK(small.install(page) == svm::no_page);
+  }
+  CHECK(small.refer(0));
+  CHECK(small.install(3) == PageId{1});
+}
+
+TEST_CASE("a page is installed whole, and only where it is absent") {
+  SmallCache small(2);
+  small.install(1);
+  CHECK_THROWS_AS(small.install(1), core::InternalError);
+  CHECK_THROWS_AS(small.cache.install(PageId{2}, std::vector<std::byte>(page_size - 1)), core::InternalError);
+}
+
+TEST_CASE("a cache takes exactly the memory that it says it needs") {
+  for (const std::uint32_t frames : {0U, 1U, 2U, 31U, 64U, 1000U}) {
+    SmallCache small(frames);
+    CHECK(small.memory.used().bytes == SmallCache::needs(frames).bytes);
+  }
+}

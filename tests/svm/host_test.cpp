@@ -1,0 +1,103 @@
+#include "svm/host.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/expect.h"
+#include "svm/packets.h"
+#include "tests/support/small_machine.h"
+
+using namespace dmpc;
+using namespace dmpc::tests;
+using svm::Kind;
+
+namespace {
+
+/// The host of two nodes and a picture of 3x1 pixels.
+struct SmallHost {
+  explicit SmallHost(svm::Progress progress = {})
+      : plan(svm::make_plan({.page_count = 4, .node_count = 2, .width = 3, .height = 1})),
+        lone(plan, 2),
+        film(3, 1),
+        host(lone.node, plan, film, std::move(progress)) {}
+  void film_from(std::uint32_t node, const std::vector<std::uint32_t>& pixels) {
+    Letter letter = letter_of(node, Kind::film_sums, svm::FilmHeader{static_cast<std::uint32_t>(pixels.size())});
+    for (const std::uint32_t pixel : pixels) {
+      svm::FilmEntry entry{pixel, 0, {}};
+      entry.sums.plane[1].channel[2] = pixel + 10;
+      const Letter bytes = letter_of(node, Kind::film_sums, entry);
+      letter.payload.insert(letter.payload.end(), bytes.payload.begin(), bytes.payload.end());
+    }
+    host.receive(letter.packet());
+  }
+  void done(std::uint32_t node, std::uint64_t pixels) { host.receive(letter_of(node, Kind::done, svm::Done{pixels}).packet()); }
+  std::size_t sent(Kind kind) const {
+    std::size_t count = 0;
+    for (const Letter& letter : lone.post.letters) {
+      count += letter.kind == svm::number_of(kind) ? 1 : 0;
+    }
+    return count;
+  }
+
+  svm::Plan plan;
+  LoneNode lone;
+  core::Film film;
+  svm::HostProgram host;
+};
+
+}  // namespace
+
+TEST_CASE("finished pixels go onto the film and are acknowledged") {
+  SmallHost small;
+  small.film_from(1, {2, 0});
+  CHECK(small.film.pixels()[2].plane[1].channel[2] == 12);
+  CHECK(small.film.pixels()[0].plane[1].channel[2] == 10);
+  CHECK(small.host.pixels_done() == 2);
+  CHECK(small.sent(Kind::film_acknowledgement) == 1);
+  CHECK(small.lone.post.letters.front().target == nodes::NodeId{1});
+}
+
+TEST_CASE("when all nodes are done and every pixel is there, every node is told to stop") {
+  SmallHost small;
+  small.film_from(0, {0, 1});
+  small.done(0, 2);
+  CHECK_FALSE(small.host.finished());
+  small.film_from(1, {2});
+  small.done(1, 1);
+  CHECK(small.host.finished());
+  CHECK(small.sent(Kind::stop) == 2);
+}
+
+TEST_CASE("a pixel that comes twice, or lies outside the picture, is an error") {
+  SmallHost small;
+  small.film_from(0, {1});
+  CHECK_THROWS_AS(small.film_from(1, {1}), core::InternalError);
+  CHECK_THROWS_AS(small.film_from(1, {3}), core::InternalError);
+}
+
+TEST_CASE("nodes that are done before every pixel has arrived are an error") {
+  SmallHost small;
+  small.film_from(0, {0, 1});
+  small.done(0, 2);
+  CHECK_THROWS_AS(small.done(1, 0), core::InternalError);
+}
+
+TEST_CASE("a film packet that is shorter than it says, and a packet for nodes, are errors") {
+  SmallHost small;
+  CHECK_THROWS_AS(small.host.receive(letter_of(0, Kind::film_sums, svm::FilmHeader{1}).packet()), core::InternalError);
+  CHECK_THROWS_AS(small.host.receive(letter_of(0, Kind::stop, svm::Stop{3}).packet()), core::InternalError);
+}
+
+TEST_CASE("the host tells how far the picture is") {
+  std::vector<std::uint32_t> calls;
+  SmallHost small([&](std::uint32_t done, std::uint32_t total) {
+    calls.push_back(done);
+    calls.push_back(total);
+  });
+  small.film_from(0, {0});
+  small.film_from(1, {1, 2});
+  CHECK(calls == std::vector<std::uint32_t>{1, 3, 3, 3});
+  CHECK(small.host.describe().find("3 of 3 pixels arrived, 0 of 2 nodes done") != std::string::npos);
+}

@@ -1,0 +1,178 @@
+#include "svm/pager.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <vector>
+
+#include "core/expect.h"
+#include "svm/packets.h"
+#include "tests/support/small_machine.h"
+
+using namespace dmpc;
+using namespace dmpc::tests;
+using svm::Kind;
+using svm::PageId;
+
+namespace {
+
+constexpr std::size_t page_size = 512;
+constexpr std::uint32_t page_count = 40;
+
+svm::Plan plan_with(std::uint32_t nodes, std::uint32_t cache_pages, std::uint32_t in_flight) {
+  return svm::make_plan({.page_count = page_count,
+                         .page_size_bytes = page_size,
+                         .node_count = nodes,
+                         .cache_pages = cache_pages,
+                         .in_flight = in_flight,
+                         .width = 1,
+                         .height = 1});
+}
+
+core::Address start_of(std::uint32_t page) {
+  return core::Address{static_cast<std::uint32_t>(page * page_size / core::record_alignment)};
+}
+
+/// The pager of node 0.
+struct SmallPager {
+  SmallPager(std::uint32_t nodes, std::uint32_t cache_pages, std::uint32_t in_flight)
+      : plan(plan_with(nodes, cache_pages, in_flight)),
+        lone(plan, 0),
+        pages(page_count, page_size),
+        pager(lone.node, plan, pages.bytes()) {}
+
+  bool finds(std::uint32_t page) {
+    const std::byte* record = pager.find(core::advance(start_of(page), 16));
+    return record != nullptr && std::memcmp(record, pages.page(page).data() + 16, page_size - 16) == 0;
+  }
+  /// The reply that the page's home would send; returns the slots that go on.
+  std::vector<std::uint32_t> reply(std::uint32_t page) {
+    Letter letter = letter_of(page % plan.request.node_count, Kind::page_reply, svm::PageReplyHeader{PageId{page}});
+    letter.payload.insert(letter.payload.end(), pages.page(page).begin(), pages.page(page).end());
+    std::vector<std::uint32_t> slots;
+    for (std::uint32_t slot = pager.install(letter.packet()); slot != svm::no_slot; slot = pager.next_waiting(slot)) {
+      slots.push_back(slot);
+    }
+    return slots;
+  }
+  /// The pages asked for since the last call.
+  std::vector<std::uint32_t> requests() {
+    std::vector<std::uint32_t> asked;
+    for (const Letter& letter : lone.post.letters) {
+      const auto page = svm::index_of(letter.packet().as<svm::PageRequest>().page);
+      CHECK(letter.target == nodes::NodeId{page % plan.request.node_count});
+      asked.push_back(page);
+    }
+    lone.post.letters.clear();
+    return asked;
+  }
+
+  svm::Plan plan;
+  LoneNode lone;
+  FakePages pages;
+  svm::Pager pager;
+};
+
+using Pages = std::vector<std::uint32_t>;
+
+}  // namespace
+
+TEST_CASE("a home page is found without asking") {
+  SmallPager small(4, 2, 2);
+  for (std::uint32_t page = 0; page < page_count; page += 4) {
+    CHECK(small.finds(page));
+  }
+  CHECK(small.requests() == Pages{});
+  CHECK(small.pager.counters().home_hits == 10);
+  CHECK(small.pager.counters().misses == 0);
+}
+
+TEST_CASE("one request leaves however many pixels wait for a page") {
+  SmallPager small(4, 2, 3);
+  for (std::uint32_t slot = 0; slot < 3; ++slot) {
+    CHECK_FALSE(small.finds(5));
+    small.pager.park(slot, start_of(5));
+  }
+  CHECK(small.requests() == Pages{5});
+  CHECK(small.pager.counters().misses == 3);
+  CHECK(small.pager.counters().faults == 1);
+  CHECK(small.reply(5) == Pages{0, 1, 2});
+  CHECK(small.finds(5));
+}
+
+TEST_CASE("a retried reference is not a second one") {
+  SmallPager small(4, 2, 1);
+  CHECK_FALSE(small.finds(5));
+  small.pager.park(0, start_of(5));
+  small.reply(5);
+  small.pager.retried();
+  CHECK(small.finds(5));
+  CHECK(small.pager.counters().references == 1);
+  CHECK(small.finds(5));
+  CHECK(small.pager.counters().references == 2);
+  CHECK(small.pager.counters().cache_hits == 1);
+}
+
+TEST_CASE("a page that was evicted is absent again, also when it was the last one referenced") {
+  SmallPager small(4, 1, 1);
+  small.pager.park(0, start_of(5));
+  small.reply(5);
+  CHECK(small.finds(5));
+  small.pager.park(0, start_of(6));
+  small.reply(6);
+  CHECK_FALSE(small.finds(5));
+  CHECK(small.finds(6));
+  CHECK(small.pager.counters().evictions == 1);
+}
+
+TEST_CASE("a request without credit waits for a reply from the same home") {
+  SmallPager small(2, 8, 8);
+  REQUIRE(small.plan.request_credits == 4);
+  for (std::uint32_t slot = 0; slot < 6; ++slot) {
+    small.pager.park(slot, start_of(2 * slot + 1));
+  }
+  CHECK(small.requests() == Pages{1, 3, 5, 7});
+  CHECK(small.pager.faults() == 6);
+  small.reply(3);
+  CHECK(small.requests() == Pages{9});
+  small.reply(1);
+  CHECK(small.requests() == Pages{11});
+  small.reply(5);
+  CHECK(small.requests() == Pages{});
+  CHECK(small.lone.node.credits(nodes::NodeId{1}, svm::request_channel) == 1);
+}
+
+TEST_CASE("a home replies with the page at once, to whoever asks") {
+  SmallPager small(4, 1, 1);
+  for (const std::uint32_t asker : {3U, 1U, 1U, 2U}) {
+    small.pager.serve(letter_of(asker, Kind::page_request, svm::PageRequest{PageId{8}}).packet());
+    REQUIRE(small.lone.post.letters.size() == 1);
+    const Letter letter = small.lone.post.letters.front();
+    small.lone.post.letters.clear();
+    CHECK(letter.target == nodes::NodeId{asker});
+    REQUIRE(letter.payload.size() == 8 + page_size);
+    CHECK(std::memcmp(letter.payload.data() + 8, small.pages.page(8).data(), page_size) == 0);
+  }
+  CHECK(small.pager.counters().served == 4);
+}
+
+TEST_CASE("a request at the wrong home, for a page that does not exist, or a reply of the wrong size is an error") {
+  SmallPager small(4, 1, 1);
+  CHECK_THROWS_AS(small.pager.serve(letter_of(1, Kind::page_request, svm::PageRequest{PageId{5}}).packet()), core::InternalError);
+  CHECK_THROWS_AS(small.pager.serve(letter_of(1, Kind::page_request, svm::PageRequest{PageId{page_count}}).packet()),
+                  core::InternalError);
+  CHECK_THROWS_AS(small.pager.install(letter_of(1, Kind::page_reply, svm::PageReplyHeader{PageId{5}}).packet()),
+                  core::InternalError);
+}
+
+TEST_CASE("bytes behind the last home page and the last frame are readable") {
+  SmallPager small(4, 1, 1);
+  small.pager.park(0, start_of(5));
+  small.reply(5);
+  std::array<std::byte, core::overread_bytes> beyond;
+  for (const std::uint32_t page : {36U, 5U}) {
+    const std::byte* bytes = small.pager.find(start_of(page));
+    REQUIRE(bytes != nullptr);
+    std::memcpy(beyond.data(), bytes + page_size, beyond.size());
+  }
+}

@@ -1,0 +1,206 @@
+#include "svm/plan.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "core/expect.h"
+#include "core/units.h"
+
+using namespace dmpc;
+using core::operator""_KiB;
+using core::operator""_MiB;
+using svm::make_plan;
+using svm::PlanRequest;
+
+namespace {
+
+PlanRequest request_with(std::uint32_t nodes, std::uint32_t pages) {
+  return {.page_count = pages, .node_count = nodes, .width = 64, .height = 64};
+}
+
+std::string error_of(const PlanRequest& request) {
+  try {
+    make_plan(request);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE(
+    "without a memory bound the cache takes a quarter of the database, at least 64 pages, at most all that are not at home") {
+  CHECK(make_plan(request_with(8, 4000)).frames == 1000);
+  CHECK(make_plan(request_with(8, 100)).frames == 64);
+  CHECK(make_plan(request_with(8, 40)).frames == 35);
+  CHECK(make_plan(request_with(1, 4000)).frames == 0);
+}
+
+TEST_CASE("in-flight is 16 for svm and 1 for replicated unless it is given") {
+  PlanRequest request = request_with(4, 100);
+  CHECK(make_plan(request).in_flight == 16);
+  request.in_flight = 3;
+  CHECK(make_plan(request).in_flight == 3);
+  request.strategy = svm::Strategy::replicated;
+  CHECK(make_plan(request).in_flight == 3);
+  request.in_flight.reset();
+  CHECK(make_plan(request).in_flight == 1);
+}
+
+TEST_CASE("with a memory bound the cache takes all that is left, and not a page more fits") {
+  for (const std::size_t page_size : {512U, 1024U, 4096U}) {
+    PlanRequest request = request_with(8, 20000);
+    request.page_size_bytes = page_size;
+    request.node_memory_bytes = 16_MiB;
+    const svm::Plan plan = make_plan(request);
+    CHECK(plan.node_memory_max_bytes() <= 16_MiB);
+    svm::Plan larger = plan;
+    ++larger.frames;
+    CHECK((larger.node_memory_max_bytes() > 16_MiB || plan.frames == 17500));
+  }
+}
+
+TEST_CASE("the cache never takes more than all pages that are not at home") {
+  PlanRequest request = request_with(3, 100);
+  request.node_memory_bytes = 16_MiB;
+  CHECK(make_plan(request).frames == 67);
+  CHECK(make_plan(request).notes.empty());
+}
+
+TEST_CASE("the smallest memory that is named works, and one byte less does not") {
+  for (const auto strategy : {svm::Strategy::svm, svm::Strategy::replicated}) {
+    for (const std::uint32_t nodes : {1U, 2U, 7U, 64U}) {
+      PlanRequest request = request_with(nodes, 3000);
+      request.strategy = strategy;
+      const std::size_t smallest = svm::smallest_node_memory_bytes(request);
+      request.node_memory_bytes = smallest;
+      const svm::Plan plan = make_plan(request);
+      CHECK(plan.node_memory_max_bytes() == smallest);
+      CHECK(plan.in_flight == 1);
+      request.node_memory_bytes = smallest - 1;
+      const std::string error = error_of(request);
+      INFO(error);
+      CHECK(error.find("--node-memory=" + svm::size_text(smallest)) != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("a memory that is too small names the smallest node count that works with it") {
+  PlanRequest request = request_with(2, 10000);
+  request.node_memory_bytes = 2_MiB;
+  const std::string error = error_of(request);
+  const std::size_t at = error.find("with this memory --nodes=");
+  REQUIRE(at != std::string::npos);
+  request.node_count = static_cast<std::uint32_t>(std::stoul(error.substr(at + 25)));
+  CHECK(request.node_count > 2);
+  CHECK(error_of(request).empty());
+  --request.node_count;
+  CHECK_FALSE(error_of(request).empty());
+}
+
+TEST_CASE("where no number of nodes helps, the message says so") {
+  PlanRequest request = request_with(2, 10000);
+  request.node_memory_bytes = 100_KiB;
+  CHECK(error_of(request).find("no number of nodes") != std::string::npos);
+  request.strategy = svm::Strategy::replicated;
+  CHECK(error_of(request).find("--strategy=svm") != std::string::npos);
+}
+
+TEST_CASE("in-flight is reduced to leave each pixel a frame, and that is noted") {
+  PlanRequest request = request_with(8, 10000);
+  request.node_memory_bytes = svm::smallest_node_memory_bytes(request) + 20_KiB;
+  request.in_flight = 64;
+  const svm::Plan plan = make_plan(request);
+  CHECK(plan.in_flight > 1);
+  CHECK(plan.in_flight < 64);
+  CHECK(plan.frames >= plan.in_flight);
+  REQUIRE(plan.notes.size() == 1);
+  CHECK(plan.notes[0] == "in-flight reduced from 64 to " + std::to_string(plan.in_flight) + " to fit " +
+                             svm::size_text(*request.node_memory_bytes));
+}
+
+TEST_CASE("a cache that was asked for is kept, or refused if it does not fit") {
+  PlanRequest request = request_with(8, 10000);
+  request.cache_pages = 1;
+  request.in_flight = 64;
+  request.node_memory_bytes = 4_MiB;
+  CHECK(make_plan(request).frames == 1);
+  CHECK(make_plan(request).in_flight == 64);
+  request.cache_pages = 5000;
+  CHECK(error_of(request).find("--node-memory=4MiB is too small") != std::string::npos);
+}
+
+TEST_CASE("a cache larger than all pages that are not at home is reduced, and that is noted") {
+  PlanRequest request = request_with(2, 10);
+  request.cache_pages = 50;
+  const svm::Plan plan = make_plan(request);
+  CHECK(plan.frames == 5);
+  CHECK(plan.notes.size() == 1);
+}
+
+TEST_CASE("home pages differ by one page between nodes, and node 0 takes the most") {
+  const svm::Plan plan = make_plan(request_with(3, 100));
+  const auto home_bytes = [&](std::uint32_t node) { return plan.node_memory(node)[nodes::Category::home_pages]; };
+  CHECK(home_bytes(0) == home_bytes(1) + 1024);
+  CHECK(home_bytes(1) == home_bytes(2));
+  CHECK(plan.node_memory_max_bytes() == plan.node_memory(0).total());
+}
+
+TEST_CASE("a mailbox has room for everything that may be under way to it") {
+  PlanRequest request = request_with(5, 100);
+  request.in_flight = 3;
+  const svm::Plan plan = make_plan(request);
+  CHECK(plan.request_credits == 3);
+  CHECK(plan.node_mailbox.small_slots == 4 * 3 + 4 + 1 + 2 + 1);
+  CHECK(plan.node_mailbox.bulk_slots == 3);
+  CHECK(plan.node_mailbox.bulk_payload_bytes == 1024 + 8);
+  CHECK(plan.host_mailbox.small_slots == 5);
+  CHECK(plan.host_mailbox.bulk_slots == 10);
+  CHECK(plan.host_mailbox.bulk_payload_bytes <= 1024);
+}
+
+TEST_CASE("a node of replicated keeps no room for pages of others") {
+  PlanRequest request = request_with(5, 100);
+  request.strategy = svm::Strategy::replicated;
+  const svm::Plan plan = make_plan(request);
+  CHECK(plan.node_mailbox.bulk_slots == 0);
+  CHECK(plan.frames == 0);
+  CHECK(plan.node_memory(0)[nodes::Category::cache_frames] == 0);
+  CHECK(plan.node_memory(4)[nodes::Category::home_pages] >= 100 * 1024);
+}
+
+TEST_CASE("request credits shrink as the nodes grow in number, but each home keeps one") {
+  CHECK(make_plan(request_with(2, 100)).request_credits == 4);
+  CHECK(make_plan(request_with(65, 100)).request_credits == 4);
+  CHECK(make_plan(request_with(129, 100)).request_credits == 2);
+  CHECK(make_plan(request_with(4096, 100)).request_credits == 1);
+}
+
+TEST_CASE("values out of range and wrong combinations are wrong use") {
+  const auto is_wrong = [](const auto& change) {
+    PlanRequest request = request_with(4, 100);
+    change(request);
+    CHECK_THROWS_AS(make_plan(request), core::UsageError);
+  };
+  is_wrong([](PlanRequest& request) { request.page_size_bytes = 1000; });
+  is_wrong([](PlanRequest& request) { request.node_count = 0; });
+  is_wrong([](PlanRequest& request) { request.node_count = svm::node_count_max + 1; });
+  is_wrong([](PlanRequest& request) { request.in_flight = 0; });
+  is_wrong([](PlanRequest& request) { request.in_flight = svm::in_flight_max + 1; });
+  is_wrong([](PlanRequest& request) { request.cache_pages = 0; });
+  is_wrong([](PlanRequest& request) {
+    request.strategy = svm::Strategy::replicated;
+    request.cache_pages = 3;
+  });
+}
+
+TEST_CASE("sizes are written exactly, in the largest unit that divides them") {
+  CHECK(svm::size_text(0) == "0B");
+  CHECK(svm::size_text(1000) == "1000B");
+  CHECK(svm::size_text(300_KiB) == "300KiB");
+  CHECK(svm::size_text(4_MiB) == "4MiB");
+  CHECK(svm::size_text(4_MiB + 1) == "4194305B");
+  CHECK(svm::size_text(2048_MiB) == "2GiB");
+}

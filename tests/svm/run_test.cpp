@@ -1,0 +1,121 @@
+#include "svm/run.h"
+
+#include <doctest/doctest.h>
+
+#include <stop_token>
+
+#include "core/render.h"
+#include "core/scenes.h"
+
+using namespace dmpc;
+
+namespace {
+
+/// A built-in scene, small, with what rendering it needs.
+struct SmallScene {
+  SmallScene(const char* name, std::size_t page_size_bytes, int side)
+      : scene(core::built_in_scene(core::parse_scene_name(name))),
+        database(core::build_database(scene, {.page_size_bytes = page_size_bytes})),
+        settings{database.header(), core::Camera(scene.view, database.header().frame, side, side, 1), {}} {}
+
+  core::Film reference(core::Operations& operations) const {
+    core::LocalRecords records(database.bytes());
+    core::GridTracer<core::LocalRecords> tracer(records, database.header(), {});
+    return core::render(tracer, settings, operations);
+  }
+
+  core::Scene scene;
+  core::Database database;
+  core::RenderSettings settings;
+};
+
+}  // namespace
+
+TEST_CASE("svm and replicated give the reference renderer's film and its counts of rays") {
+  const SmallScene small("rings-2", 512, 24);
+  core::Operations reference;
+  const std::uint64_t hash = small.reference(reference).hash();
+  for (const std::uint32_t nodes : {1U, 3U, 8U}) {
+    svm::RunOptions options;
+    options.node_count = nodes;
+    const svm::Report replicated = svm::run_replicated(small.database, small.settings, options, {});
+    options.cache_pages = 1;
+    const svm::Report paged = svm::run_svm(small.database, small.settings, options, {});
+    CHECK(replicated.film.hash() == hash);
+    CHECK(paged.film.hash() == hash);
+    CHECK(replicated.operations().rays == reference.rays);
+    CHECK(paged.operations().rays == reference.rays);
+    CHECK(paged.operations().cell_steps == reference.cell_steps);
+  }
+}
+
+TEST_CASE("a node uses exactly the memory of its plan, category by category, with real tasks") {
+  const SmallScene small("balls-2", 1024, 8);
+  svm::RunOptions options;
+  options.node_count = 3;
+  for (const bool count_pages : {false, true}) {
+    options.count_pages = count_pages;
+    for (const svm::NodeReport& node : svm::run_svm(small.database, small.settings, options, {}).nodes) {
+      CHECK(node.memory_used.bytes == node.memory_planned.bytes);
+    }
+  }
+  for (const svm::NodeReport& node : svm::run_replicated(small.database, small.settings, {}, {}).nodes) {
+    CHECK(node.memory_used.bytes == node.memory_planned.bytes);
+  }
+}
+
+TEST_CASE("the smallest memory that is named renders the picture") {
+  const SmallScene small("tetra-4", 512, 16);
+  svm::RunOptions options;
+  options.node_count = 5;
+  core::Operations operations;
+  const svm::Plan plan = svm::plan_of(svm::Strategy::svm, small.database, small.settings, options);
+  options.node_memory_bytes = svm::smallest_node_memory_bytes(plan.request);
+  const svm::Report report = svm::run_svm(small.database, small.settings, options, {});
+  CHECK(report.film.hash() == small.reference(operations).hash());
+  CHECK(report.plan.frames == 1);
+  CHECK(report.plan.in_flight == 1);
+  *options.node_memory_bytes -= 1;
+  CHECK_THROWS_AS(svm::run_svm(small.database, small.settings, options, {}), core::InputError);
+}
+
+TEST_CASE("a tracer of one's own may stand in for the grid in replicated") {
+  const SmallScene small("balls-2", 1024, 12);
+  struct OtherTracer {
+    core::LocalRecords records;
+    core::DatabaseHeader header;
+    core::Traced trace(const core::Ray& ray, core::Cursor& cursor, core::Operations& operations) {
+      return core::trace(ray, cursor, records, header, {}, operations);
+    }
+    const std::byte* find(core::Address address) { return records.find(address); }
+  };
+  svm::RunOptions options;
+  options.node_count = 2;
+  const auto make_tracer = [&](std::uint32_t index, std::span<const std::byte> copy) {
+    CHECK(index < 2);
+    CHECK(copy.size() == small.database.bytes().size());
+    CHECK(copy.data() != small.database.bytes().data());
+    return OtherTracer{core::LocalRecords(copy), small.settings.header};
+  };
+  core::Operations operations;
+  const svm::Report report = svm::run_replicated(small.database, small.settings, options, {}, make_tracer);
+  CHECK(report.film.hash() == small.reference(operations).hash());
+}
+
+TEST_CASE("a run that is stopped on the way says so and has not every pixel") {
+  const SmallScene small("balls-3", 1024, 64);
+  std::stop_source source;
+  svm::RunOptions options;
+  options.node_count = 2;
+  options.progress = [&](std::uint32_t, std::uint32_t) { source.request_stop(); };
+  const svm::Report report = svm::run_svm(small.database, small.settings, options, source.get_token());
+  CHECK(report.end == nodes::RunEnd::interrupted);
+  CHECK(report.work().pixels_rendered < 64 * 64);
+}
+
+TEST_CASE("an exception of the progress function ends the run and comes out") {
+  const SmallScene small("balls-2", 1024, 8);
+  svm::RunOptions options;
+  options.progress = [](std::uint32_t, std::uint32_t) { throw core::InputError("enough"); };
+  CHECK_THROWS_AS(svm::run_svm(small.database, small.settings, options, {}), core::InputError);
+}

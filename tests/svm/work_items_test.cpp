@@ -1,0 +1,115 @@
+#include "svm/work_items.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+#include "core/expect.h"
+
+using namespace dmpc;
+using svm::PixelRectangle;
+
+namespace {
+
+void count_pixels(const PixelRectangle& item, std::uint32_t image_width, std::vector<int>& visits) {
+  for (svm::PixelScan scan(item); !scan.empty();) {
+    ++visits.at(scan.next(image_width));
+  }
+}
+
+/// Takes and gives at random until every submap is empty; returns how often each pixel came up.
+std::vector<int> visits_of_all(std::uint32_t width, std::uint32_t height, std::uint32_t nodes, std::uint32_t side) {
+  std::mt19937 generator(width * 7 + height * 11 + nodes * 13 + side);
+  std::vector<int> visits(std::size_t{width} * height);
+  for (std::uint32_t node = 0; node < nodes; ++node) {
+    svm::WorkItems items(svm::submap_of({0, 0, width, height}, node, nodes), side);
+    while (const auto item = generator() % 2 == 0 ? items.take() : items.give()) {
+      count_pixels(*item, width, visits);
+    }
+    CHECK(items.empty());
+  }
+  return visits;
+}
+
+}  // namespace
+
+TEST_CASE("submaps and items, taken and given mixed, cover each pixel exactly once") {
+  for (const auto& [width, height] : {std::pair{1U, 1U}, {1U, 17U}, {16U, 16U}, {13U, 5U}, {31U, 64U}}) {
+    for (const std::uint32_t nodes : {1U, 2U, 3U, 7U, 8U, 64U, 101U}) {
+      for (const std::uint32_t side : {0U, 1U, 3U, 16U, 100U}) {
+        const std::vector<int> visits = visits_of_all(width, height, nodes, side);
+        INFO("width ", width, ", height ", height, ", nodes ", nodes, ", side ", side);
+        CHECK(std::count(visits.begin(), visits.end(), 1) == std::ptrdiff_t{width} * height);
+      }
+    }
+  }
+}
+
+TEST_CASE("submaps are of nearly equal area and at most three times as long as wide") {
+  for (const std::uint32_t nodes : {2U, 3U, 5U, 7U, 8U, 13U, 32U, 61U, 64U}) {
+    for (std::uint32_t node = 0; node < nodes; ++node) {
+      const PixelRectangle submap = svm::submap_of({0, 0, 512, 512}, node, nodes);
+      const double share = static_cast<double>(submap.pixel_count()) * nodes / (512.0 * 512.0);
+      CHECK(share > 0.95);
+      CHECK(share < 1.05);
+      CHECK(std::max(submap.width, submap.height) <= 3 * std::min(submap.width, submap.height) + 1);
+    }
+  }
+}
+
+TEST_CASE("sixty-four nodes on a square picture get equal squares") {
+  for (std::uint32_t node = 0; node < 64; ++node) {
+    const PixelRectangle submap = svm::submap_of({0, 0, 512, 512}, node, 64);
+    CHECK(submap.width == 64);
+    CHECK(submap.height == 64);
+  }
+}
+
+TEST_CASE("where there are more nodes than pixels, some submaps are empty") {
+  std::uint64_t pixels = 0;
+  for (std::uint32_t node = 0; node < 50; ++node) {
+    pixels += svm::submap_of({0, 0, 3, 2}, node, 50).pixel_count();
+  }
+  CHECK(pixels == 6);
+  CHECK_THROWS_AS(svm::submap_of({0, 0, 3, 2}, 50, 50), core::InternalError);
+}
+
+TEST_CASE("an empty submap has no items") {
+  for (const std::uint32_t side : {0U, 3U}) {
+    svm::WorkItems items({5, 5, 0, 7}, side);
+    CHECK(items.empty());
+    CHECK_FALSE(items.take());
+    CHECK_FALSE(items.give());
+  }
+}
+
+TEST_CASE("items are taken in scan order, given away from the far end, and clipped at the edge") {
+  svm::WorkItems items({10, 20, 7, 4}, 3);
+  CHECK(items.count() == 6);
+  CHECK(items.take() == PixelRectangle{10, 20, 3, 3});
+  CHECK(items.take() == PixelRectangle{13, 20, 3, 3});
+  CHECK(items.give() == PixelRectangle{16, 23, 1, 1});
+  CHECK(items.take() == PixelRectangle{16, 20, 1, 3});
+  CHECK(items.give() == PixelRectangle{13, 23, 3, 1});
+  CHECK(items.take() == PixelRectangle{10, 23, 3, 1});
+  CHECK_FALSE(items.take());
+}
+
+TEST_CASE("side 0 makes the whole submap one item") {
+  svm::WorkItems items({2, 3, 40, 30}, 0);
+  CHECK(items.take() == PixelRectangle{2, 3, 40, 30});
+  CHECK(items.empty());
+}
+
+TEST_CASE("a scan goes row by row and ends") {
+  svm::PixelScan scan({2, 1, 2, 2});
+  CHECK(scan.next(10) == 12);
+  CHECK(scan.next(10) == 13);
+  CHECK(scan.next(10) == 22);
+  CHECK(scan.next(10) == 23);
+  CHECK(scan.empty());
+  CHECK_THROWS_AS(scan.next(10), core::InternalError);
+  CHECK(svm::PixelScan().empty());
+}

@@ -1,0 +1,126 @@
+#include "svm/work_source.h"
+
+#include <doctest/doctest.h>
+
+#include "core/expect.h"
+#include "svm/packets.h"
+#include "tests/support/small_machine.h"
+
+using namespace dmpc;
+using namespace dmpc::tests;
+using svm::Kind;
+using svm::PixelRectangle;
+
+namespace {
+
+/// Node `index` of `nodes`, each with 3x3 pixels: one item, or with side 1 nine.
+struct SmallSource {
+  SmallSource(std::uint32_t index, std::uint32_t nodes, std::uint32_t side)
+      : plan(svm::make_plan({.page_count = 4, .node_count = nodes, .work_item_side = side, .width = 3 * nodes, .height = 3})),
+        lone(plan, index),
+        work(lone.node, plan) {}
+  void use_up() {
+    while (work.has_pixel()) {
+      work.next_pixel();
+    }
+  }
+  Letter sent() {
+    REQUIRE(lone.post.letters.size() == 1);
+    const Letter letter = lone.post.letters.front();
+    lone.post.letters.clear();
+    return letter;
+  }
+
+  svm::Plan plan;
+  LoneNode lone;
+  svm::WorkSource work;
+};
+
+}  // namespace
+
+TEST_CASE("a node without pixels asks the next one, once") {
+  SmallSource small(1, 4, 3);
+  CHECK_THROWS_AS(small.work.ask(), core::InternalError);
+  small.use_up();
+  small.work.ask();
+  small.work.ask();
+  const Letter letter = small.sent();
+  CHECK(letter.target == nodes::NodeId{2});
+  CHECK(letter.packet().as<svm::WorkRequest>().asker == 1);
+  CHECK(letter.packet().as<svm::WorkRequest>().visits_left == 3);
+}
+
+TEST_CASE("a node with items left answers the asker directly with its last one") {
+  SmallSource small(2, 4, 1);
+  small.work.answer({0, 2});
+  const Letter letter = small.sent();
+  CHECK(letter.target == nodes::NodeId{0});
+  CHECK(letter.kind == svm::number_of(Kind::work_reply));
+  CHECK(letter.packet().as<svm::WorkReply>().item == PixelRectangle{8, 2, 1, 1});
+  CHECK(letter.packet().as<svm::WorkReply>().giver == 2);
+  CHECK(small.work.counters().items_given == 1);
+}
+
+TEST_CASE("a node without items passes a request on along the ring, over the asker") {
+  SmallSource small(3, 4, 3);
+  small.use_up();
+  small.work.answer({1, 3});
+  Letter letter = small.sent();
+  CHECK(letter.target == nodes::NodeId{0});
+  CHECK(letter.packet().as<svm::WorkRequest>().visits_left == 2);
+  small.work.answer({0, 3});
+  letter = small.sent();
+  CHECK(letter.target == nodes::NodeId{1});
+}
+
+TEST_CASE("the last node to be asked tells the asker that there is no more work") {
+  SmallSource small(3, 4, 3);
+  small.use_up();
+  small.work.answer({1, 1});
+  const Letter letter = small.sent();
+  CHECK(letter.target == nodes::NodeId{1});
+  CHECK(letter.packet().as<svm::WorkReply>().item.pixel_count() == 0);
+}
+
+TEST_CASE("an item that was given becomes the asker's pixels, and the giver is asked first the next time") {
+  SmallSource small(1, 4, 3);
+  small.use_up();
+  small.work.ask();
+  small.sent();
+  small.work.take_reply({{9, 1, 2, 1}, 3});
+  REQUIRE(small.work.has_pixel());
+  CHECK(small.work.next_pixel() == 12 + 9);
+  CHECK(small.work.next_pixel() == 12 + 10);
+  CHECK_FALSE(small.work.has_pixel());
+  CHECK_FALSE(small.work.exhausted());
+  small.work.ask();
+  CHECK(small.sent().target == nodes::NodeId{3});
+}
+
+TEST_CASE("an empty item ends the asking") {
+  SmallSource small(1, 4, 3);
+  small.use_up();
+  small.work.ask();
+  small.sent();
+  small.work.take_reply({{}, 0});
+  CHECK(small.work.exhausted());
+  small.work.ask();
+  CHECK(small.lone.post.letters.empty());
+}
+
+TEST_CASE("a static run and a node alone never ask") {
+  for (const auto& [nodes, side] : {std::pair{4U, 0U}, {1U, 3U}}) {
+    SmallSource small(0, nodes, side);
+    small.use_up();
+    small.work.ask();
+    CHECK(small.lone.post.letters.empty());
+    CHECK(small.work.exhausted());
+  }
+}
+
+TEST_CASE("a reply to no request, and a request of one's own, are errors") {
+  SmallSource small(1, 4, 3);
+  CHECK_THROWS_AS(small.work.take_reply({{}, 0}), core::InternalError);
+  CHECK_THROWS_AS(small.work.answer({1, 2}), core::InternalError);
+  CHECK_THROWS_AS(small.work.answer({2, 0}), core::InternalError);
+}
