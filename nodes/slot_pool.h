@@ -50,15 +50,18 @@ class BasicSlotPool {
 
   /// A free slot, now the caller's, or no_slot.
   [[nodiscard]] SlotIndex take() {
-    std::uint64_t head = head_->word.load(std::memory_order_acquire);  // partner: the release in give()
-    while (index_of_head(head) != no_slot) {
-      const SlotIndex next = links_[index_of_head(head)].load(std::memory_order_relaxed);
-      // Success needs no order: the load that read this very head has acquired it. Failure: partner as above.
-      if (head_->word.compare_exchange_weak(head, after_take(head, next), std::memory_order_relaxed, std::memory_order_acquire)) {
-        return index_of_head(head);
+    while (true) {
+      std::uint64_t head = head_->word.load(std::memory_order_acquire);  // partner: the release in give()
+      const SlotIndex slot = index_of_head(head);
+      if (slot == no_slot) {
+        return no_slot;
+      }
+      const SlotIndex next = links_[slot].load(std::memory_order_relaxed);
+      // Relaxed: success proves that the head is the very one which the load has acquired.
+      if (head_->word.compare_exchange_weak(head, after_take(head, next), std::memory_order_relaxed, std::memory_order_relaxed)) {
+        return slot;
       }
     }
-    return no_slot;
   }
 
   /// Makes a slot free that the caller holds and has finished reading.
