@@ -1,0 +1,91 @@
+#include "apps/interrupt.h"
+
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <csignal>
+#include <mutex>
+
+#include "core/expect.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+/// What `body` returns, as the exit status of a process of its own: signals must find no other threads than Interrupt's.
+int in_child(int (*body)()) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::close(STDERR_FILENO);
+    ::_exit(body());
+  }
+  int status = 0;
+  core::expect(::waitpid(child, &status, 0) == child, "a child can be waited for");
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+}
+
+/// Sends the signal and waits until a stop was requested, ten seconds at most.
+bool stops_after(const Interrupt& interrupt, int signal) {
+  ::kill(::getpid(), signal);
+  std::mutex mutex;
+  std::condition_variable_any changed;
+  std::unique_lock lock(mutex);
+  changed.wait_for(lock, interrupt.token(), std::chrono::seconds(10), [] { return false; });
+  return interrupt.requested();
+}
+
+template <class Body>
+bool is_interrupted(const Body& body) {
+  try {
+    body();
+    return false;
+  } catch (const Interrupted&) {
+    return true;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("without a signal nothing is requested") {
+  const Interrupt interrupt;
+  CHECK_FALSE(interrupt.requested());
+  CHECK_NOTHROW(interrupt.check());
+}
+
+TEST_CASE("Ctrl-C and SIGTERM request a stop and end nothing") {
+  CHECK(in_child([] {
+          for (const int signal : {SIGINT, SIGTERM}) {
+            const Interrupt interrupt;
+            if (!stops_after(interrupt, signal) || !is_interrupted([&] { interrupt.check(); })) {
+              return 1;
+            }
+          }
+          return 0;
+        }) == 0);
+}
+
+TEST_CASE("a scope that would end the process at once is not entered after a signal") {
+  CHECK(in_child([] {
+          Interrupt interrupt;
+          { const Interrupt::EndAtOnce end_at_once(interrupt); }
+          if (!stops_after(interrupt, SIGINT)) {
+            return 1;
+          }
+          return is_interrupted([&] { const Interrupt::EndAtOnce end_at_once(interrupt); }) ? 0 : 2;
+        }) == 0);
+}
+
+TEST_CASE("in such a scope a signal ends the process with status 130") {
+  CHECK(in_child([] {
+          Interrupt interrupt;
+          const Interrupt::EndAtOnce end_at_once(interrupt);
+          ::kill(::getpid(), SIGTERM);
+          ::sleep(10);
+          return 0;
+        }) == interrupted_status);
+}
+
+}  // namespace dmpc::apps

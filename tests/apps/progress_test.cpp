@@ -1,0 +1,48 @@
+#include "apps/progress.h"
+
+#include <doctest/doctest.h>
+
+#include <sstream>
+#include <string>
+
+namespace dmpc::apps {
+
+TEST_CASE("a progress line at the start knows no speed yet") {
+  CHECK(progress_line(0, 100, 0) == "  0 % [>                             ]");
+  CHECK(progress_line(0, 100, 5) == "  0 % [>                             ]");
+}
+
+TEST_CASE("a progress line says percent, speed and the time left") {
+  CHECK(progress_line(500, 1000, 10) == " 50 % [===============>              ]       50 pixels/s, 0:10 left");
+  CHECK(progress_line(1000, 1000, 1) == "100 % [==============================]     1000 pixels/s, 0:00 left");
+}
+
+TEST_CASE("a long time left is said in hours") {
+  CHECK(progress_line(1, 3724, 1).find("1:02:03 left") != std::string::npos);
+  CHECK(progress_line(1, std::uint64_t{1} << 40U, 1e9).find(" left") != std::string::npos);
+}
+
+TEST_CASE("progress that is not shown writes nothing") {
+  std::ostringstream output;
+  {
+    Progress progress(output, false);
+    progress.update(1, 2);
+  }
+  CHECK(output.str().empty());
+}
+
+TEST_CASE("shown progress rewrites one line and takes it away in the end") {
+  std::ostringstream output;
+  {
+    Progress progress(output, true);
+    progress.update(1, 2);
+    progress.update(2, 2);  // too soon to be shown
+  }
+  const std::string text = output.str();
+  CHECK(text.find('\n') == std::string::npos);
+  CHECK(text.find(" 50 %") != std::string::npos);
+  CHECK(text.find("100 %") == std::string::npos);
+  CHECK(text.substr(text.size() - 4) == "\r\x1b[K");
+}
+
+}  // namespace dmpc::apps

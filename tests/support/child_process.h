@@ -1,0 +1,69 @@
+// A program run by a test, with what it said.
+#pragma once
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/expect.h"
+#include "tests/support/temporary_folder.h"
+
+namespace dmpc::tests {
+
+/// Started by its making; stdin is empty, stdout and stderr go to files.
+class ChildProcess {
+ public:
+  explicit ChildProcess(std::vector<std::string> command) {
+    std::vector<char*> arguments;
+    for (std::string& word : command) {
+      arguments.push_back(word.data());
+    }
+    arguments.push_back(nullptr);
+    id_ = ::fork();
+    if (id_ == 0) {
+      redirect("/dev/null", "r", stdin);
+      redirect(folder_ / "output", "w", stdout);
+      redirect(folder_ / "errors", "w", stderr);
+      ::execv(arguments.front(), arguments.data());
+      ::_exit(127);
+    }
+    core::expect(id_ > 0, "a process can be started");
+  }
+  ~ChildProcess() {
+    if (running_) {
+      ::kill(id_, SIGKILL);
+      ::waitpid(id_, nullptr, 0);
+    }
+  }
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  void send(int signal) const { ::kill(id_, signal); }
+  /// Waits for the end; the exit status, or 1000 + signal if a signal ended it.
+  int status() {
+    int status = 0;
+    core::expect(::waitpid(id_, &status, 0) == id_, "a child can be waited for");
+    running_ = false;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+  }
+  std::string output() const { return file_text(folder_ / "output"); }
+  std::string errors() const { return file_text(folder_ / "errors"); }
+
+ private:
+  static void redirect(const std::filesystem::path& path, const char* mode, std::FILE* stream) {
+    if (std::freopen(path.c_str(), mode, stream) == nullptr) {
+      ::_exit(126);
+    }
+  }
+
+  TemporaryFolder folder_;
+  pid_t id_ = 0;
+  bool running_ = true;
+};
+
+}  // namespace dmpc::tests
