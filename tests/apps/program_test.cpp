@@ -151,7 +151,7 @@ TEST_CASE("Ctrl-C and SIGTERM end a render with status 130 and leave an older pi
   const TemporaryFolder folder;
   write_text(folder / "a.png", "older");
   for (const int signal : {SIGINT, SIGTERM}) {
-    ChildProcess process(dmpc({"render", "balls-3", "--resolution=8192x8192", "--samples=64", "-o", folder / "a.png"}));
+    ChildProcess process(dmpc({"render", "balls-3", "--resolution=1024x1024", "--samples=32768", "-o", folder / "a.png"}));
     std::this_thread::sleep_for(std::chrono::milliseconds(800));
     process.send(signal);
     CHECK(process.status() == 130);
