@@ -121,7 +121,7 @@ class DatabaseBuilder {
       const double size = std::max({extent.x, extent.y, extent.z, 1e-30});
       distance = length(scene_.view.from - bounds.center()) / size;
     }
-    result_.pad_ = insertion_pad(header().frame, distance);
+    result_.pad_ = options_.pad_share * insertion_pad(header().frame, distance);
   }
 
   Vec3d local(const Vec3d& point) const { return to_local(result_.header_.frame, point); }
