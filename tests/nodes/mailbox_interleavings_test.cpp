@@ -156,10 +156,10 @@ struct TokenRing {
 
 /// Instrumented code is some fifty times slower, and a sanitizer has nothing to find in the other interleavings.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int preemptions = 1;
+constexpr int preemptions_max = 1;
 constexpr std::uint64_t executions_max = 5'000;
 #else
-constexpr int preemptions = 2;
+constexpr int preemptions_max = 2;
 constexpr std::uint64_t executions_max = 400'000;
 #endif
 
@@ -202,13 +202,13 @@ std::vector<OrderedSite> ordered_sites() {
 }
 
 TEST_CASE("two senders and a receiver are right in every interleaving with few preemptions") {
-  const Exploration result = Explorer({.preemptions_max = preemptions}).explore<TwoSenders>();
+  const Exploration result = Explorer({.preemptions_max = preemptions_max}).explore<TwoSenders>();
   CHECK(result.failure == "");
   CHECK(result.is_complete);
 }
 
 TEST_CASE("the last node awake is the last in every interleaving with few preemptions") {
-  const Exploration result = Explorer({.preemptions_max = preemptions}).explore<TokenRing>();
+  const Exploration result = Explorer({.preemptions_max = preemptions_max}).explore<TokenRing>();
   CHECK(result.failure == "");
   CHECK(result.is_complete);
 }

@@ -1,0 +1,105 @@
+#include "nodes/local_memory.h"
+
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <cstring>
+
+#include "nodes/packet.h"
+
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/asan_interface.h>
+#endif
+
+namespace dmpc::nodes {
+namespace {
+
+MemoryPlan queues_of(std::size_t bytes) {
+  MemoryPlan plan;
+  plan[Category::queues] = bytes;
+  return plan;
+}
+
+TEST_CASE("a plan's total is the sum of its categories") {
+  MemoryPlan plan;
+  CHECK(plan.total() == 0);
+  plan[Category::home_pages] = 4096;
+  plan[Category::reserve] = 100;
+  CHECK(plan.total() == 4196);
+}
+
+TEST_CASE("every category has a name of its own") {
+  for (std::size_t i = 0; i + 1 < category_count; ++i) {
+    CHECK(std::string(name_of(static_cast<Category>(i))) != name_of(static_cast<Category>(i + 1)));
+  }
+}
+
+TEST_CASE("a memory of nothing hands out nothing") {
+  LocalMemory memory{MemoryPlan{}};
+  CHECK(memory.allocate<int>(Category::queues, 0).empty());
+  CHECK_THROWS_AS(memory.allocate<int>(Category::queues, 1), core::InternalError);
+}
+
+TEST_CASE("allocations are zero, aligned, apart, and counted in whole cache lines") {
+  LocalMemory memory(queues_of(256));
+  const auto first = memory.allocate<std::uint32_t>(Category::queues, 17);
+  const auto second = memory.allocate<std::uint8_t>(Category::queues, 1);
+  CHECK(first.size() == 17);
+  CHECK(first[16] == 0);
+  CHECK(reinterpret_cast<std::uintptr_t>(first.data()) % LocalMemory::alignment == 0);
+  CHECK(reinterpret_cast<std::uintptr_t>(second.data()) - reinterpret_cast<std::uintptr_t>(first.data()) == 128);
+  CHECK(memory.used()[Category::queues] == 192);
+  CHECK(memory.used().total() == LocalMemory::bytes_for<std::uint32_t>(17) + LocalMemory::bytes_for<std::uint8_t>(1));
+}
+
+TEST_CASE("a category can be filled to its last byte and no further") {
+  LocalMemory memory(queues_of(128));
+  CHECK(memory.allocate<std::byte>(Category::queues, 128).size() == 128);
+  CHECK_THROWS_AS(memory.allocate<std::byte>(Category::queues, 1), core::InternalError);
+}
+
+TEST_CASE("a count whose bytes overflow is refused") {
+  LocalMemory memory(queues_of(128));
+  CHECK_THROWS_AS(memory.allocate<std::uint64_t>(Category::queues, SIZE_MAX / 4), core::InternalError);
+}
+
+TEST_CASE("one category does not live on another's share") {
+  MemoryPlan plan = queues_of(64);
+  plan[Category::mailbox] = 64;
+  LocalMemory memory(plan);
+  CHECK_THROWS_AS(memory.allocate<std::byte>(Category::mailbox, 65), core::InternalError);
+  CHECK(memory.allocate<std::byte>(Category::mailbox, 64).size() == 64);
+}
+
+TEST_CASE("the reserve counts as used and is not for allocation") {
+  MemoryPlan plan;
+  plan[Category::reserve] = 1024;
+  LocalMemory memory(plan);
+  CHECK(memory.used()[Category::reserve] == 1024);
+  CHECK_THROWS_AS(memory.allocate<std::byte>(Category::reserve, 1), core::InternalError);
+}
+
+TEST_CASE("a sealed memory hands out nothing") {
+  LocalMemory memory(queues_of(64));
+  CHECK_FALSE(memory.sealed());
+  memory.seal();
+  CHECK(memory.sealed());
+  CHECK_THROWS_AS(memory.allocate<std::byte>(Category::queues, 1), core::InternalError);
+}
+
+TEST_CASE("more memory than the real computer has is bad input") {
+  CHECK_THROWS_AS(LocalMemory(queues_of(std::size_t{1} << 60U)), core::InputError);
+}
+
+#if defined(__SANITIZE_ADDRESS__)
+TEST_CASE("bytes that were not handed out are poisoned, the rest of a cache line too") {
+  LocalMemory memory(queues_of(256));
+  const auto bytes = memory.allocate<std::byte>(Category::queues, 20);
+  CHECK(__asan_region_is_poisoned(bytes.data(), 20) == nullptr);
+  CHECK(__asan_address_is_poisoned(bytes.data() + 20) == 1);
+  CHECK(__asan_address_is_poisoned(bytes.data() + 64) == 1);
+}
+#endif
+
+}  // namespace
+}  // namespace dmpc::nodes

@@ -1,0 +1,196 @@
+#include "nodes/mailbox.h"
+
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace dmpc::nodes {
+namespace {
+
+struct OneMailbox {
+  explicit OneMailbox(const MailboxCapacity& capacity) : memory(plan_for(capacity)), mailbox(capacity, memory) {}
+
+  static MemoryPlan plan_for(const MailboxCapacity& capacity) {
+    MemoryPlan plan;
+    plan[Category::mailbox] = capacity.bytes();
+    return plan;
+  }
+  bool push(std::uint16_t source, const std::vector<std::byte>& payload, PacketKind kind = 0) {
+    return mailbox.push({.bytes = static_cast<std::uint32_t>(payload.size()), .source = source, .kind = kind}, payload, awake);
+  }
+  bool push_number(std::uint16_t source, std::uint8_t number) { return push(source, {std::byte{number}}); }
+  /// (source, first byte) of all packets that are taken now.
+  std::vector<std::pair<std::uint32_t, int>> take() {
+    std::vector<std::pair<std::uint32_t, int>> taken;
+    mailbox.drain([&taken](const Packet& packet) {
+      taken.emplace_back(index_of(packet.source), packet.payload.empty() ? -1 : static_cast<int>(packet.payload.front()));
+    });
+    return taken;
+  }
+
+  LocalMemory memory;
+  Mailbox mailbox;
+  AwakeCount awake{2};
+};
+
+using Taken = std::vector<std::pair<std::uint32_t, int>>;
+
+TEST_CASE("a new mailbox is empty and gives nothing") {
+  OneMailbox box({.small_slots = 1});
+  CHECK(box.mailbox.is_empty());
+  CHECK_FALSE(box.mailbox.has_packets());
+  CHECK(box.take().empty());
+}
+
+TEST_CASE("a mailbox takes exactly what it says of the local memory") {
+  for (const MailboxCapacity& capacity : {MailboxCapacity{}, MailboxCapacity{1, 0, 0}, MailboxCapacity{7, 3, 1000}}) {
+    OneMailbox box(capacity);
+    CHECK(box.memory.used()[Category::mailbox] == capacity.bytes());
+  }
+}
+
+TEST_CASE("a packet comes out as it went in") {
+  OneMailbox box({.small_slots = 1});
+  CHECK(box.push(3, {std::byte{1}, std::byte{2}}, 9));
+  CHECK(box.mailbox.has_packets());
+  std::size_t count = box.mailbox.drain([](const Packet& packet) {
+    CHECK(packet.source == NodeId{3});
+    CHECK(packet.kind == 9);
+    CHECK(packet.payload.size() == 2);
+    CHECK(packet.payload[1] == std::byte{2});
+  });
+  CHECK(count == 1);
+  CHECK(box.mailbox.is_empty());
+}
+
+TEST_CASE("packets come out in the order in which they went in") {
+  OneMailbox box({.small_slots = 4});
+  CHECK(box.push_number(1, 10));
+  CHECK(box.push_number(2, 20));
+  CHECK(box.push_number(1, 11));
+  CHECK(box.take() == Taken{{1, 10}, {2, 20}, {1, 11}});
+}
+
+TEST_CASE("a packet that comes while others are received waits for the next time") {
+  OneMailbox box({.small_slots = 2});
+  CHECK(box.push_number(1, 1));
+  CHECK(box.mailbox.drain([&box](const Packet&) { CHECK(box.push_number(1, 2)); }) == 1);
+  CHECK(box.take() == Taken{{1, 2}});
+}
+
+TEST_CASE("a full mailbox refuses a packet and loses none") {
+  OneMailbox box({.small_slots = 2});
+  for (std::uint8_t i = 0; i < 3; ++i) {  // the capacity, and the slot that is spare while no packet is being received
+    CHECK(box.push_number(1, i));
+  }
+  CHECK_FALSE(box.push_number(1, 3));
+  CHECK(box.take() == Taken{{1, 0}, {1, 1}, {1, 2}});
+  CHECK(box.push_number(1, 4));
+  CHECK(box.take() == Taken{{1, 4}});
+}
+
+TEST_CASE("as many packets as the capacity fit even while one is being received") {
+  OneMailbox box({.small_slots = 2});
+  CHECK(box.push_number(1, 0));
+  box.mailbox.drain([&box](const Packet&) {
+    CHECK(box.push_number(1, 1));
+    CHECK(box.push_number(1, 2));
+    CHECK_FALSE(box.push_number(1, 3));
+  });
+  CHECK(box.take() == Taken{{1, 1}, {1, 2}});
+}
+
+TEST_CASE("a mailbox without slots of a class refuses every packet of it") {
+  OneMailbox box({.small_slots = 0, .bulk_slots = 1, .bulk_payload_bytes = 100});
+  CHECK_FALSE(box.push_number(1, 0));
+  CHECK(box.push(1, std::vector<std::byte>(100)));
+}
+
+TEST_CASE("the classes have slots of their own") {
+  OneMailbox box({.small_slots = 1, .bulk_slots = 1, .bulk_payload_bytes = 1024});
+  const std::vector<std::byte> page(1024, std::byte{5});
+  CHECK(box.push(1, page));
+  CHECK(box.push(1, page));
+  CHECK_FALSE(box.push(1, page));
+  CHECK(box.push_number(1, 6));
+  CHECK(box.take() == Taken{{1, 5}, {1, 5}, {1, 6}});
+}
+
+TEST_CASE("a payload that just fits a small slot takes one, and one byte more takes a bulk slot") {
+  OneMailbox box({.small_slots = 0, .bulk_slots = 4, .bulk_payload_bytes = 64});
+  CHECK_FALSE(box.push(1, std::vector<std::byte>(small_payload_bytes)));
+  CHECK(box.push(1, std::vector<std::byte>(small_payload_bytes + 1)));
+}
+
+TEST_CASE("a payload may be empty") {
+  OneMailbox box({.small_slots = 1});
+  CHECK(box.push(4, {}));
+  CHECK(box.take() == Taken{{4, -1}});
+}
+
+TEST_CASE("a payload that no slot can hold is a broken invariant") {
+  OneMailbox box({.small_slots = 1, .bulk_slots = 1, .bulk_payload_bytes = 100});
+  CHECK_THROWS_AS(static_cast<void>(box.push(1, std::vector<std::byte>(101))), core::InternalError);
+  CHECK_THROWS_AS(static_cast<void>(box.mailbox.push({.bytes = 2}, {}, box.awake)), core::InternalError);
+}
+
+TEST_CASE("slots come back however often they are used") {
+  OneMailbox box({.small_slots = 1, .bulk_slots = 1, .bulk_payload_bytes = 60});
+  for (int i = 0; i < 1000; ++i) {
+    REQUIRE(box.push_number(1, 1));
+    REQUIRE(box.push(1, std::vector<std::byte>(60)));
+    REQUIRE(box.take().size() == 2);
+  }
+}
+
+TEST_CASE("the tag of the free list may wrap around") {
+  using Pool = BasicSlotPool<SystemAtomics>;
+  constexpr std::uint64_t last_tag = 0xFFFFFFFF;
+  Pool::Head head{last_tag << 32U | no_slot};
+  std::array<std::atomic<SlotIndex>, 2> links{};
+  std::array<std::byte, 128> bytes{};
+  Pool pool(head, links, 0, bytes, 64);
+  for (int i = 0; i < 3; ++i) {
+    const SlotIndex first = pool.take();
+    const SlotIndex second = pool.take();
+    CHECK(first + second == 1);
+    CHECK(pool.take() == no_slot);
+    pool.give(first);
+    pool.give(second);
+  }
+  CHECK((head.word.load() >> 32U) == 5);
+}
+
+TEST_CASE("a receiver with a packet does not fall asleep") {
+  OneMailbox box({.small_slots = 1});
+  CHECK(box.push_number(1, 1));
+  CHECK_FALSE(box.mailbox.fall_asleep());
+  CHECK(box.take().size() == 1);
+  CHECK(box.mailbox.fall_asleep());
+}
+
+TEST_CASE("a packet to a sleeper counts it as awake and ends its sleep") {
+  OneMailbox box({.small_slots = 1});
+  REQUIRE(box.mailbox.fall_asleep());
+  CHECK_FALSE(box.awake.leave());
+  CHECK_FALSE(box.mailbox.has_packets());
+  CHECK(box.push_number(1, 1));
+  box.mailbox.wait();  // returns at once
+  CHECK(box.take() == Taken{{1, 1}});
+  CHECK_FALSE(box.awake.leave());
+  CHECK(box.awake.leave());
+}
+
+TEST_CASE("a roused sleeper finds nothing and is not counted") {
+  OneMailbox box({.small_slots = 1});
+  REQUIRE(box.mailbox.fall_asleep());
+  CHECK_FALSE(box.awake.leave());
+  box.mailbox.rouse();
+  box.mailbox.wait();  // returns at once
+  CHECK(box.mailbox.is_empty());
+  CHECK(box.awake.leave());
+}
+
+}  // namespace
+}  // namespace dmpc::nodes
