@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -82,6 +83,20 @@ Comparison compare_with_file(const std::filesystem::path& path) {
   return compare(ours, theirs);
 }
 
+/// FNV-1a (Fowler, Noll, Vo).
+std::uint64_t hash_of(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : text) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  }
+  return hash;
+}
+
+struct KnownHash {
+  const char* name;
+  std::uint64_t hash;
+};
+
 }  // namespace
 
 TEST_CASE("the comparison of token streams finds a number, a keyword and a length that differ") {
@@ -113,4 +128,21 @@ TEST_CASE("the generators reproduce the reference files number for number in fil
     CHECK(result.differences == 0);
   }
   MESSAGE("compared ", files.size(), " reference files");
+}
+
+TEST_CASE("the written scenes are the same bytes on every machine and in every build") {
+  const std::vector<KnownHash> scenes = {
+      {"balls-3", 0xf619e4adbdafe379},    {"gears-2", 0xa1c5c0349b5bb361},    {"jacks-2", 0x90822eda4da64878},
+      {"jacks-2-t2", 0x0b66bca71c9ed96b}, {"lattice-3", 0x0044db31a832e859},  {"mount-5", 0xf9de36feab0b45c0},
+      {"mount-3-t6", 0x8c63f6e28bb51003}, {"rings-2", 0xadf50da73fe2a86f},    {"rings-2-t1", 0xad54c20ddeaa5a4e},
+      {"shells-2", 0x79be53187b6203d8},   {"sombrero-1", 0xbe9f3152380d8d0d}, {"teapot-6", 0x11e82790efbe043f},
+      {"tetra-5", 0xb7f32354b90e7cd2},    {"tree-6", 0xbc96567e295fcff7},     {"tree-3-t4", 0xe5ae896be7a3df98},
+  };
+  for (const KnownHash& scene : scenes) {
+    std::ostringstream output;
+    apps::NffWriter writer(output);
+    core::generate_scene(core::parse_scene_name(scene.name), writer);
+    CAPTURE(std::string(scene.name));
+    CHECK(hash_of(output.str()) == scene.hash);
+  }
 }

@@ -255,6 +255,12 @@ TEST_CASE("tessellation changes nothing where nothing is curved, and is always 2
   CHECK(census("jacks-2-t5").patches == census("jacks-2-t2").patches);
 }
 
+TEST_CASE("tessellated jacks have normals as long as their frame is small") {
+  const Scene scene = built_in_scene(parse_scene_name("jacks-2-t2"));
+  CHECK(length(scene.normals.front()) == doctest::Approx(4.0 / 3).epsilon(1e-5));
+  CHECK(length(scene.normals.back()) == doctest::Approx(8.0 / 3).epsilon(1e-5));
+}
+
 TEST_CASE("a built-in scene carries its name, and its merged materials") {
   const Scene scene = built_in_scene(parse_scene_name("lattice-2"));
   CHECK(scene.name == "lattice-2");
