@@ -9,12 +9,12 @@ namespace dmpc::apps {
 
 struct CheckOptions {
   PictureOptions picture;
-  std::uint32_t list = 10;          ///< differences to print in full, at most
-  std::uint64_t brute_force = 0;    ///< rays of the render that go to the referee too, whether they differ or not
+  std::uint32_t list = 10;        ///< differences to print in full, at most
+  std::uint64_t brute_force = 0;  ///< rays of the render that go to the referee too, whether they differ or not
 };
 
-/// Prints the report to stdout. Returns the exit status: 0 if no difference is unexplained, 3 otherwise. Throws core::InputError for a
-/// scene that cannot be read.
+/// Prints the report to stdout. Returns the exit status: 0 if no difference is unexplained, 3 otherwise. Throws core::InputError
+/// for a scene that cannot be read.
 int check_command(const CheckOptions& options);
 
 }  // namespace dmpc::apps

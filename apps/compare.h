@@ -11,13 +11,13 @@
 namespace dmpc::apps {
 
 struct CompareOptions {
-  std::filesystem::path picture;    ///< A
-  std::filesystem::path reference;  ///< B
+  std::filesystem::path picture;                    ///< A
+  std::filesystem::path reference;                  ///< B
   std::optional<std::filesystem::path> difference;  ///< where the picture |A - B| goes
 };
 
-/// Differences of linear floats over all channels of all pixels. A value that is not finite on one side only, or differently, makes
-/// the sums infinite.
+/// Differences of linear floats over all channels of all pixels. A value that is not finite on one side only, or differently,
+/// makes the sums infinite.
 struct Difference {
   double root_mean_square = 0;
   double largest = 0;
@@ -25,7 +25,7 @@ struct Difference {
   double peak_signal_to_noise_decibels = 0;  ///< for a peak of 1; infinite for equal pictures
   double relative_mean_square = 0;           ///< mean of (a - b)^2 / (b^2 + 0.01), b the reference
   std::uint64_t pixels = 0;
-  std::uint64_t differing_pixels = 0;        ///< with any channel that differs at all
+  std::uint64_t differing_pixels = 0;  ///< with any channel that differs at all
 };
 
 /// Throws core::InputError if the sizes differ.

@@ -29,8 +29,8 @@ void check_image_path(const std::filesystem::path& path);
 /// format gets 8 bits, clamped to 0..1, with the sRGB curve. Throws core::InputError if that fails.
 void write_image(const std::filesystem::path& path, const Image& image);
 
-/// Reads the first three channels (one channel is taken thrice). Floats are taken as linear radiance; integers as sRGB and made linear.
-/// Throws core::InputError if there is no such picture.
+/// Reads the first three channels (one channel is taken thrice). Floats are taken as linear radiance; integers as sRGB and made
+/// linear. Throws core::InputError if there is no such picture.
 Image read_image(const std::filesystem::path& path);
 
 }  // namespace dmpc::apps

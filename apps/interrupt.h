@@ -11,8 +11,9 @@ namespace dmpc::apps {
 struct Interrupted {};
 inline constexpr int interrupted_status = 130;
 
-/// While it lives, SIGINT and SIGTERM are blocked in the thread that made it and in all threads that this one starts afterwards; a thread
-/// of its own waits for them. So nothing of ours ever runs inside a signal handler. At most one at a time, made before any other thread.
+/// While it lives, SIGINT and SIGTERM are blocked in the thread that made it and in all threads that this one starts afterwards;
+/// a thread of its own waits for them. So nothing of ours ever runs inside a signal handler. At most one at a time, made before
+/// any other thread.
 ///
 /// Thread safety: token() and requested() from any thread, the rest from the thread that made it.
 class Interrupt {
@@ -28,8 +29,9 @@ class Interrupt {
   /// Throws Interrupted if a signal has come.
   void check() const;
 
-  /// A scope in which a signal ends the process at once, saying so, with status 130: for long steps that look at no token and have nothing
-  /// to clean up. Outside, a signal only requests the stop. Making one throws Interrupted if a signal has come before.
+  /// A scope in which a signal ends the process at once, saying so, with status 130: for long steps that look at no token and
+  /// have nothing to clean up. Outside, a signal only requests the stop. Making one throws Interrupted if a signal has come
+  /// before.
   class EndAtOnce {
    public:
     explicit EndAtOnce(Interrupt& interrupt);

@@ -53,7 +53,9 @@ void add_number(CLI::App& app, const std::string& name, T& value, Number least, 
 
 void add_path(CLI::App& app, const std::string& name, std::optional<std::filesystem::path>& value, const std::string& kind,
               const std::string& description) {
-  app.add_option_function<std::string>(name, [&value](const std::string& text) { value = text; }, description)->option_text(kind);
+  app.add_option_function<std::string>(
+         name, [&value](const std::string& text) { value = text; }, description)
+      ->option_text(kind);
 }
 
 void add_picture_options(CLI::App& app, PictureOptions& picture) {
@@ -65,7 +67,8 @@ void add_picture_options(CLI::App& app, PictureOptions& picture) {
          "Pixels of the picture")
       ->option_text("WxH [the scene's]");
   add_number(app, "--samples", picture.samples, 1, 32768, "1", "Rays through each pixel");
-  add_number(app, "--depth", picture.depth, 1, 255, "5", "Longest chain of reflections and refractions; 1 is the eye's ray alone");
+  add_number(app, "--depth", picture.depth, 1, 255, "5",
+             "Longest chain of reflections and refractions; 1 is the eye's ray alone");
   add_choice<core::Convention>(app, "--convention", picture.convention,
                                {{"haines", core::Convention::haines}, {"paper", core::Convention::paper}},
                                "When shadow rays are cast: towards lights that the surface faces, or towards all");
@@ -89,15 +92,18 @@ void add_computer_options(CLI::App& app, RenderOptions& options) {
   add_choice<svm::Strategy>(app, "--strategy", options.strategy,
                             {{"svm", svm::Strategy::svm}, {"replicated", svm::Strategy::replicated}},
                             "svm: the scene is spread over the nodes and its pages travel. replicated: every node holds it all");
-  app.add_option_function<std::string>("--node-memory", [&run](const std::string& text) { set_node_memory(run, text); },
-                                       "Bound of each node's memory, such as 4MiB")
+  app.add_option_function<std::string>(
+         "--node-memory", [&run](const std::string& text) { set_node_memory(run, text); },
+         "Bound of each node's memory, such as 4MiB")
       ->option_text("SIZE|auto [auto]");
-  app.add_option_function<std::string>("--page-size", [&options](const std::string& text) { set_page_size(options, text); },
-                                       "Size of a page, a power of two from 512B to 64KiB")
+  app.add_option_function<std::string>(
+         "--page-size", [&options](const std::string& text) { set_page_size(options, text); },
+         "Size of a page, a power of two from 512B to 64KiB")
       ->option_text("SIZE [1KiB]");
   add_number(app, "--cache-pages", run.cache_pages, 1U, 0x7fffffffU, "what the memory holds",
              "Pages of other nodes that a node can keep (svm)");
-  add_number(app, "--in-flight", run.in_flight, 1U, svm::in_flight_max, "16, replicated 1", "Pixels that a node works on at once");
+  add_number(app, "--in-flight", run.in_flight, 1U, svm::in_flight_max, "16, replicated 1",
+             "Pixels that a node works on at once");
   add_number(app, "--work-item", run.work_item_side, 0U, 1024U, "3",
              "Side in pixels of what a node gives to an idle one; 0: nothing is given");
 }
@@ -107,14 +113,14 @@ void add_study_options(CLI::App& app, RenderOptions& options) {
   add_choice<TracerChoice>(app, "--tracer", options.tracer, {{"grid", TracerChoice::grid}, {"embree", TracerChoice::embree}},
                            "Who finds what a ray hits; embree goes with --strategy=replicated only");
   app.add_option_function<std::vector<std::string>>(
-         "--no-skip",
-         [&options](const std::vector<std::string>&) { options.run.traversal.skip_empty_space = false; },
+         "--no-skip", [&options](const std::vector<std::string>&) { options.run.traversal.skip_empty_space = false; },
          "Switch off a short cut that does not change the picture")
       ->check(CLI::IsMember({"empty-space"}))
       ->type_name("")
       ->option_text("empty-space");
   add_path(app, "--stats", options.stats, "FILE.json", "Write all counters");
-  app.add_flag("--count-pages", options.run.count_pages, "Count the distinct pages of each pixel for --stats (takes memory and time)");
+  app.add_flag("--count-pages", options.run.count_pages,
+               "Count the distinct pages of each pixel for --stats (takes memory and time)");
   app.add_flag("--quiet", options.quiet, "No progress, no closing lines");
 }
 
@@ -138,8 +144,9 @@ CLI::App* add_render(CLI::App& app, RenderOptions& options) {
   CLI::App* render = app.add_subcommand("render", "Render a scene on N nodes");
   add_picture_options(*render, options.picture);
   render
-      ->add_option_function<std::string>("-o,--output", [&options](const std::string& text) { options.image = text; },
-                                         "The picture: .exr, .tif (linear floats), .png, .jpg (8 bits, sRGB), ...")
+      ->add_option_function<std::string>(
+          "-o,--output", [&options](const std::string& text) { options.image = text; },
+          "The picture: .exr, .tif (linear floats), .png, .jpg (8 bits, sRGB), ...")
       ->required()
       ->option_text("IMAGE");
   add_computer_options(*render, options);
@@ -157,21 +164,20 @@ CLI::App* add_render(CLI::App& app, RenderOptions& options) {
 
 CLI::App* add_scene(CLI::App& app, SceneOptions& options) {
   CLI::App* scene = app.add_subcommand("scene", "Write a built-in scene as an NFF file");
-  scene
-      ->add_option("NAME", options.name,
-                   "FAMILY, FAMILY-SIZE, or FAMILY-SIZE-tN for curved surfaces as triangles")
+  scene->add_option("NAME", options.name, "FAMILY, FAMILY-SIZE, or FAMILY-SIZE-tN for curved surfaces as triangles")
       ->required()
       ->option_text(" ");
   add_path(*scene, "-o,--output", options.output, "FILE.nff [stdout]", "Where it goes");
-  scene->footer(
-      "Families:\n" + core::describe_scene_families() + "\nExamples:\n"
-      "  dmpc scene teapot-12 -o teapot.nff\n"
-      "  dmpc scene rings-4-t1 | head");
+  scene->footer("Families:\n" + core::describe_scene_families() +
+                "\nExamples:\n"
+                "  dmpc scene teapot-12 -o teapot.nff\n"
+                "  dmpc scene rings-4-t1 | head");
   return scene;
 }
 
 CLI::App* add_check(CLI::App& app, CheckOptions& options) {
-  CLI::App* check = app.add_subcommand("check", "Trace every ray of a render with Embree too, and let a referee settle differences");
+  CLI::App* check =
+      app.add_subcommand("check", "Trace every ray of a render with Embree too, and let a referee settle differences");
   add_picture_options(*check, options.picture);
   add_number(*check, "--list", options.list, 0U, 1000000U, "10", "Differences to print in full");
   add_number(*check, "--brute-force", options.brute_force, std::uint64_t{0}, std::uint64_t{1} << 40U, "0",
@@ -187,7 +193,9 @@ CLI::App* add_check(CLI::App& app, CheckOptions& options) {
 CLI::App* add_compare(CLI::App& app, CompareOptions& options) {
   CLI::App* compare = app.add_subcommand("compare", "Measure how far two pictures lie apart");
   const auto add_picture = [&](const char* name, std::filesystem::path& path, const char* description) {
-    compare->add_option_function<std::string>(name, [&path](const std::string& text) { path = text; }, description)
+    compare
+        ->add_option_function<std::string>(
+            name, [&path](const std::string& text) { path = text; }, description)
         ->required()
         ->option_text(" ");
   };

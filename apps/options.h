@@ -22,12 +22,12 @@ enum class TracerChoice : std::uint8_t { grid, embree };
 struct RenderOptions {
   PictureOptions picture;
   svm::Strategy strategy = svm::Strategy::svm;
-  svm::RunOptions run;                    ///< progress is left unset
-  std::size_t page_size_bytes = 1024;     ///< a power of two, 512 B to 64 KiB
+  svm::RunOptions run;                 ///< progress is left unset
+  std::size_t page_size_bytes = 1024;  ///< a power of two, 512 B to 64 KiB
   TracerChoice tracer = TracerChoice::grid;
-  std::filesystem::path image;            ///< where the picture goes
+  std::filesystem::path image;                 ///< where the picture goes
   std::optional<std::filesystem::path> stats;  ///< where the counters go, as JSON
-  bool quiet = false;                     ///< no progress and no closing lines
+  bool quiet = false;                          ///< no progress and no closing lines
 };
 
 struct SceneOptions {
@@ -42,8 +42,8 @@ struct HelpText {
 
 using Command = std::variant<HelpText, RenderOptions, SceneOptions, CheckOptions, CompareOptions>;
 
-/// `arguments` without the program's name. Throws core::UsageError, whose message ends with a hint at the right --help, for anything
-/// wrong that can be seen without reading a file.
+/// `arguments` without the program's name. Throws core::UsageError, whose message ends with a hint at the right --help, for
+/// anything wrong that can be seen without reading a file.
 Command parse_command_line(std::span<const std::string> arguments);
 
 /// "300", "300B", "4KiB", "4MiB", "1GiB" in bytes. Throws core::UsageError naming `option` for anything else or more than 1 TiB.

@@ -7,8 +7,8 @@
 
 namespace dmpc::apps {
 
-/// Throws core::InputError unless a file can be made at `path`: its folder exists and is writable, and `path` is no folder. `option`
-/// names the option that gave it, for the message.
+/// Throws core::InputError unless a file can be made at `path`: its folder exists and is writable, and `path` is no folder.
+/// `option` names the option that gave it, for the message.
 void check_output_path(const std::filesystem::path& path, std::string_view option);
 
 /// One output under way. Whatever ends its life before commit() removes the temporary file. Not thread-safe.
@@ -20,8 +20,8 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Where to write: a hidden name in the same folder, with the same extension and this process's number in it. It is the target itself
-  /// if that exists and is no ordinary file (/dev/stdout, a pipe): those cannot be renamed over.
+  /// Where to write: a hidden name in the same folder, with the same extension and this process's number in it. It is the target
+  /// itself if that exists and is no ordinary file (/dev/stdout, a pipe): those cannot be renamed over.
   const std::filesystem::path& temporary() const { return temporary_; }
 
   /// Gives the finished file its name. Throws core::InputError if that fails.

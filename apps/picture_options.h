@@ -24,7 +24,8 @@ struct PictureOptions {
 };
 
 /// What the nodes need beside the records.
-inline core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database) {
+inline core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene,
+                                            const core::Database& database) {
   const Resolution size = options.resolution.value_or(Resolution{scene.view.width, scene.view.height});
   return {.header = database.header(),
           .camera = core::Camera(scene.view, database.header().frame, size.width, size.height, options.samples),

@@ -8,8 +8,8 @@
 
 namespace dmpc::apps {
 
-/// " 42 % [========>           ]  123456 pixels/s, 0:07 left", without a line end. `done` <= `total`, `total` > 0, `seconds` >= 0 since
-/// the start. What cannot be known yet is left out.
+/// " 42 % [========>           ]  123456 pixels/s, 0:07 left", without a line end. `done` <= `total`, `total` > 0, `seconds` >= 0
+/// since the start. What cannot be known yet is left out.
 std::string progress_line(std::uint64_t done, std::uint64_t total, double seconds);
 
 /// Whether stderr is a terminal.

@@ -171,18 +171,20 @@ Json options_json(const RenderRecord& record) {
 }
 
 Json seconds_json(const Seconds& seconds) {
-  return {{"load", seconds.load},     {"build", seconds.build},     {"render", seconds.render},
-          {"write", seconds.write},   {"user", seconds.user},       {"system", seconds.system},
-          {"render_user", seconds.render_user}, {"render_system", seconds.render_system}};
+  return {{"load", seconds.load},
+          {"build", seconds.build},
+          {"render", seconds.render},
+          {"write", seconds.write},
+          {"user", seconds.user},
+          {"system", seconds.system},
+          {"render_user", seconds.render_user},
+          {"render_system", seconds.render_system}};
 }
 
 Json database_json(const core::Database& database) {
-  return {{"bytes", database.bytes().size()},
-          {"pages", database.page_count()},
-          {"page_size", database.page_size()},
-          {"primitives", database.header().primitive_count},
-          {"references", database.references()},
-          {"dropped", database.dropped()}};
+  return {{"bytes", database.bytes().size()},    {"pages", database.page_count()},
+          {"page_size", database.page_size()},   {"primitives", database.header().primitive_count},
+          {"references", database.references()}, {"dropped", database.dropped()}};
 }
 
 }  // namespace
@@ -198,21 +200,20 @@ std::string hash_text(std::uint64_t hash) {
 std::string stats_json(const RenderRecord& record) {
   const svm::Report& report = record.report;
   const core::Operations operations = report.operations();
-  const Json all = {
-      {"program", "dmpc " DMPC_VERSION},
-      {"options", options_json(record)},
-      {"film_hash", hash_text(report.film.hash())},
-      {"rays", rays_json(operations)},
-      {"hits", hits_json(operations)},
-      {"operations", operations_json(operations)},
-      {"seconds", seconds_json(record.seconds)},
-      {"database", database_json(record.database)},
-      {"pages", pages_json(report.pages(), report.film.pixels().size(), report.plan.request.count_pages)},
-      {"packets", all_packets_json(report)},
-      {"work", work_json(report.work())},
-      {"skips", {{"empty_space", record.options.run.traversal.skip_empty_space}}},
-      {"nodes", nodes_json(report)},
-      {"host", host_json(report.host)}};
+  const Json all = {{"program", "dmpc " DMPC_VERSION},
+                    {"options", options_json(record)},
+                    {"film_hash", hash_text(report.film.hash())},
+                    {"rays", rays_json(operations)},
+                    {"hits", hits_json(operations)},
+                    {"operations", operations_json(operations)},
+                    {"seconds", seconds_json(record.seconds)},
+                    {"database", database_json(record.database)},
+                    {"pages", pages_json(report.pages(), report.film.pixels().size(), report.plan.request.count_pages)},
+                    {"packets", all_packets_json(report)},
+                    {"work", work_json(report.work())},
+                    {"skips", {{"empty_space", record.options.run.traversal.skip_empty_space}}},
+                    {"nodes", nodes_json(report)},
+                    {"host", host_json(report.host)}};
   return all.dump(2) + "\n";
 }
 

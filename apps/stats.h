@@ -25,9 +25,11 @@ struct RenderRecord {
   Seconds seconds;
 };
 
-/// One JSON object, indented, with a line end. The keys are an interface; what does not apply is null, and no number is NaN or infinite.
+/// One JSON object, indented, with a line end. The keys are an interface; what does not apply is null, and no number is NaN or
+/// infinite.
 ///   program        name and version
-///   options        what was asked for and what it became: scene, width, height, samples, depth, convention, tracer, strategy, nodes,
+///   options        what was asked for and what it became: scene, width, height, samples, depth, convention, tracer, strategy,
+///   nodes,
 ///                  node_memory (bytes a node, the most), page_size, cache_pages, in_flight, work_item, count_pages
 ///   film_hash      of the film's integers, 16 hexadecimal digits: equal pictures, equal hashes
 ///   rays           primary, reflected, refracted, shadow, total
@@ -39,7 +41,8 @@ struct RenderRecord {
 ///   packets        sent, received, bytes, overflow, and by_kind: packets and bytes
 ///   skips          empty_space: whether the short cut was on
 ///   work           pixels, items_asked, items_taken, items_given
-///   nodes          for each node: rays, hits, operations, pages, packets, work, memory {planned, used: bytes by category and in total},
+///   nodes          for each node: rays, hits, operations, pages, packets, work, memory {planned, used: bytes by category and in
+///   total},
 ///                  seconds {busy, idle, wall}, quanta, sleeps
 ///   host           packets, seconds, sleeps
 std::string stats_json(const RenderRecord& record);

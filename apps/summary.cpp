@@ -49,7 +49,8 @@ std::string memory_text(const svm::Report& report) {
   for (std::size_t index = 0; index < nodes::category_count; ++index) {
     const std::size_t bytes = fullest->memory_planned.bytes[index];
     if (bytes > 0) {
-      text += std::string(index == 0 ? " " : ", ") + nodes::name_of(static_cast<nodes::Category>(index)) + " " + bytes_text(bytes);
+      text +=
+          std::string(index == 0 ? " " : ", ") + nodes::name_of(static_cast<nodes::Category>(index)) + " " + bytes_text(bytes);
     }
   }
   return text;
@@ -66,9 +67,10 @@ std::string rays_text(const core::Operations& operations, double render_seconds)
 
 std::string pages_text(const svm::Report& report) {
   const svm::PageCounters pages = report.pages();
-  std::string text = grouped(pages.references) + " look-ups: at home " + percent(pages.home_hits, pages.references) + ", cached " +
-                     percent(pages.cache_hits, pages.references) + ", missed " + percent(pages.misses, pages.references) + "; " +
-                     grouped(pages.faults) + " faults, " + grouped(pages.evictions) + " evictions";
+  std::string text = grouped(pages.references) + " look-ups: at home " + percent(pages.home_hits, pages.references) +
+                     ", cached " + percent(pages.cache_hits, pages.references) + ", missed " +
+                     percent(pages.misses, pages.references) + "; " + grouped(pages.faults) + " faults, " +
+                     grouped(pages.evictions) + " evictions";
   if (report.plan.request.count_pages) {
     const auto pixels = static_cast<double>(report.film.pixels().size());
     text += ", " + fixed(static_cast<double>(pages.distinct_pages) / pixels, 2) + " distinct pages a pixel";
@@ -84,11 +86,12 @@ void print_summary(std::ostream& output, const RenderRecord& record) {
   const bool paged = record.options.strategy == svm::Strategy::svm;
   const Seconds& seconds = record.seconds;
   output << "scene    " << record.options.picture.scene << ", " << grouped(record.database.header().primitive_count)
-         << " primitives in " << grouped(record.database.page_count()) << " pages of " << svm::size_text(record.database.page_size())
-         << "\ncomputer " << report.nodes.size() << (report.nodes.size() == 1 ? " node, " : " nodes, ")
+         << " primitives in " << grouped(record.database.page_count()) << " pages of "
+         << svm::size_text(record.database.page_size()) << "\ncomputer " << report.nodes.size()
+         << (report.nodes.size() == 1 ? " node, " : " nodes, ")
          << (paged ? "svm, " + grouped(plan.frames) + " cached pages a node, " : "replicated, ") << plan.in_flight
-         << (plan.in_flight == 1 ? " pixel" : " pixels") << " in flight\nmemory   " << memory_text(report) << "\nrays     " << rays_text(report.operations(), seconds.render)
-         << '\n';
+         << (plan.in_flight == 1 ? " pixel" : " pixels") << " in flight\nmemory   " << memory_text(report) << "\nrays     "
+         << rays_text(report.operations(), seconds.render) << '\n';
   if (paged) {
     output << "pages    " << pages_text(report) << '\n';
   }

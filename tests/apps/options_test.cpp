@@ -61,8 +61,9 @@ TEST_CASE("a scene and an output are all that render needs") {
 }
 
 TEST_CASE("every option of the computer reaches its field") {
-  const RenderOptions options = render({"--nodes=64", "--node-memory=4MiB", "--page-size=4KiB", "--cache-pages=5", "--in-flight=7",
-                                        "--work-item=0", "--no-skip=empty-space", "--count-pages", "--stats=s.json", "--quiet"});
+  const RenderOptions options =
+      render({"--nodes=64", "--node-memory=4MiB", "--page-size=4KiB", "--cache-pages=5", "--in-flight=7", "--work-item=0",
+              "--no-skip=empty-space", "--count-pages", "--stats=s.json", "--quiet"});
   CHECK(options.run.node_count == 64);
   CHECK(options.run.node_memory_bytes == 4_MiB);
   CHECK(options.page_size_bytes == 4_KiB);
@@ -112,10 +113,9 @@ TEST_CASE("help shows examples and every option of its command") {
     CHECK_MESSAGE(says(general, word), word);
   }
   const std::string text = std::get<HelpText>(parse({"render", "--help"})).text;
-  for (const std::string word :
-       {"Examples:", "SCENE", "--nodes", "--strategy", "svm|replicated [svm]", "--node-memory", "--page-size", "--cache-pages",
-        "--in-flight", "--work-item", "--resolution", "--samples", "--depth", "--convention", "--tracer", "--no-skip", "--stats",
-        "--quiet", "-o"}) {
+  for (const std::string word : {"Examples:", "SCENE", "--nodes", "--strategy", "svm|replicated [svm]", "--node-memory",
+                                 "--page-size", "--cache-pages", "--in-flight", "--work-item", "--resolution", "--samples",
+                                 "--depth", "--convention", "--tracer", "--no-skip", "--stats", "--quiet", "-o"}) {
     CHECK_MESSAGE(says(text, word), word);
   }
 }
@@ -135,10 +135,11 @@ TEST_CASE("wrong usage ends with a hint at the command's help") {
 
 TEST_CASE("a value out of range or of the wrong kind names its option") {
   for (const std::string option :
-       {"--nodes=0", "--nodes=4097", "--nodes=-1", "--nodes=many", "--nodes=2.5", "--strategy=dataflow", "--tracer=magic",
-        "--samples=0", "--samples=32769", "--depth=0", "--depth=256", "--convention=mine", "--cache-pages=0", "--in-flight=0",
-        "--in-flight=4097", "--work-item=-1", "--work-item=1025", "--no-skip=everything", "--resolution=512", "--page-size=1000B",
-        "--page-size=256B", "--page-size=128KiB", "--node-memory=lots", "--unheard-of=1"}) {
+       {"--nodes=0",           "--nodes=4097",       "--nodes=-1",           "--nodes=many",     "--nodes=2.5",
+        "--strategy=dataflow", "--tracer=magic",     "--samples=0",          "--samples=32769",  "--depth=0",
+        "--depth=256",         "--convention=mine",  "--cache-pages=0",      "--in-flight=0",    "--in-flight=4097",
+        "--work-item=-1",      "--work-item=1025",   "--no-skip=everything", "--resolution=512", "--page-size=1000B",
+        "--page-size=256B",    "--page-size=128KiB", "--node-memory=lots",   "--unheard-of=1"}) {
     CAPTURE(option);
     CHECK(says(render_complaint(option), option.substr(0, option.find('='))));
     CHECK(says(render_complaint(option), "Try: dmpc render --help"));
@@ -167,7 +168,8 @@ TEST_CASE("a size is a whole number with a binary unit") {
   CHECK(parse_size_bytes("3KiB", "--x") == 3072);
   CHECK(parse_size_bytes("4MiB", "--x") == 4_MiB);
   CHECK(parse_size_bytes("1024GiB", "--x") == std::size_t{1} << 40U);
-  for (const char* text : {"", "MiB", "-1", "1.5MiB", "4MB", "4mib", "4 MiB", "1025GiB", "99999999999999999999", "0x10", "1KiBx"}) {
+  for (const char* text :
+       {"", "MiB", "-1", "1.5MiB", "4MB", "4mib", "4 MiB", "1025GiB", "99999999999999999999", "0x10", "1KiBx"}) {
     CAPTURE(std::string(text));
     CHECK_THROWS_AS(parse_size_bytes(text, "--x"), UsageError);
   }

@@ -65,11 +65,11 @@ TEST_CASE("what is no ordinary file is written to directly and never renamed ove
 
 TEST_CASE("a path into a missing folder is refused with the folder's name") {
   const TemporaryFolder folder;
-  CHECK_THROWS_WITH_AS(check_output_path(folder / "nowhere/a.png", "-o"),
-                       ("-o " + (folder / "nowhere/a.png").string() + ": there is no folder " + (folder / "nowhere").string() +
-                        ", make it first")
-                           .c_str(),
-                       core::InputError);
+  CHECK_THROWS_WITH_AS(
+      check_output_path(folder / "nowhere/a.png", "-o"),
+      ("-o " + (folder / "nowhere/a.png").string() + ": there is no folder " + (folder / "nowhere").string() + ", make it first")
+          .c_str(),
+      core::InputError);
 }
 
 TEST_CASE("a folder or an empty name is no output") {

@@ -10,7 +10,9 @@ namespace dmpc::apps {
 namespace {
 
 /// The curve's other direction, by libm.
-double encoded_from_linear(double linear) { return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055; }
+double encoded_from_linear(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
 
 }  // namespace
 

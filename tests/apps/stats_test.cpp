@@ -66,13 +66,17 @@ std::vector<std::string> keys(const std::string& json, std::size_t depth) {
 
 TEST_CASE("the keys of the counters are an interface") {
   const std::string json = Rendered(small()).json();
-  CHECK(keys(json, 1) == std::vector<std::string>{"program", "options", "film_hash", "rays", "hits", "operations", "seconds", "database",
-                                                  "pages", "packets", "work", "skips", "nodes", "host"});
-  for (const std::string key :
-       {"primary", "reflected", "refracted", "shadow", "total", "secondary", "shadow_blocked", "total_internal_reflections", "load",
-        "build", "render", "write", "user", "system", "bytes", "pages", "page_size", "primitives", "dropped", "references", "hits",
-        "faults", "evictions", "distinct_per_pixel", "sent", "received", "overflow", "memory", "busy", "idle", "scene", "width",
-        "node_memory", "home_pages", "reserve", "page_request"}) {
+  CHECK(keys(json, 1) == std::vector<std::string>{"program", "options", "film_hash", "rays", "hits", "operations", "seconds",
+                                                  "database", "pages", "packets", "work", "skips", "nodes", "host"});
+  for (const std::string key : {"primary",     "reflected",  "refracted",      "shadow",
+                                "total",       "secondary",  "shadow_blocked", "total_internal_reflections",
+                                "load",        "build",      "render",         "write",
+                                "user",        "system",     "bytes",          "pages",
+                                "page_size",   "primitives", "dropped",        "references",
+                                "hits",        "faults",     "evictions",      "distinct_per_pixel",
+                                "sent",        "received",   "overflow",       "memory",
+                                "busy",        "idle",       "scene",          "width",
+                                "node_memory", "home_pages", "reserve",        "page_request"}) {
     CHECK_MESSAGE(contains(json, "\"" + key + "\""), key);
   }
 }
@@ -123,8 +127,9 @@ TEST_CASE("a hash is sixteen digits") {
 TEST_CASE("the closing lines name scene, computer, memory, rays, pages, times and picture") {
   std::ostringstream output;
   print_summary(output, Rendered(small()).record());
-  for (const std::string part : {"scene    balls-1, ", "computer 3 nodes, svm, ", "memory   ", "home pages ", "rays     ", "(primary 192, ",
-                                 "pages    ", " look-ups: at home ", "time     load 0.500 s", "picture  ", "16x12"}) {
+  for (const std::string part :
+       {"scene    balls-1, ", "computer 3 nodes, svm, ", "memory   ", "home pages ", "rays     ", "(primary 192, ", "pages    ",
+        " look-ups: at home ", "time     load 0.500 s", "picture  ", "16x12"}) {
     CHECK_MESSAGE(contains(output.str(), part), part);
   }
 }

@@ -47,6 +47,8 @@ inline std::string file_text(const std::filesystem::path& path) {
   return text.str();
 }
 
-inline void write_text(const std::filesystem::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+inline void write_text(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
 
 }  // namespace dmpc::tests
