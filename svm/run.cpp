@@ -28,19 +28,6 @@ PlanRequest request_of(Strategy strategy, const core::Database& database, const 
           .stack_reserve_bytes = options.stack_reserve_bytes};
 }
 
-std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const MakeProgram& make_program, core::Film& film,
-                                                        const Progress& progress) {
-  std::vector<nodes::NodeSpecification> specifications;
-  for (std::uint32_t i = 0; i < plan.request.node_count; ++i) {
-    specifications.push_back(
-        {plan.node_memory(i), plan.node_mailbox, [&make_program, i](nodes::Node& node) { return make_program(i, node); }});
-  }
-  specifications.push_back({plan.host_memory(), plan.host_mailbox, [&plan, &film, &progress](nodes::Node& node) {
-                              return std::make_unique<HostProgram>(node, plan, film, progress);
-                            }});
-  return specifications;
-}
-
 NodeReport report_of(nodes::Node& node, const nodes::Program& program) {
   const auto& reporting = dynamic_cast<const NodeProgram&>(program);
   return {reporting.report(), node.counters(), node.memory().plan(), node.memory().used()};
@@ -151,6 +138,19 @@ std::array<nodes::Traffic, nodes::packet_kind_count> Report::sent() const {
 
 Plan plan_of(Strategy strategy, const core::Database& database, const core::RenderSettings& settings, const RunOptions& options) {
   return make_plan(request_of(strategy, database, settings, options));
+}
+
+std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const MakeProgram& make_program, core::Film& film,
+                                                        const Progress& progress) {
+  std::vector<nodes::NodeSpecification> specifications;
+  for (std::uint32_t i = 0; i < plan.request.node_count; ++i) {
+    specifications.push_back(
+        {plan.node_memory(i), plan.node_mailbox, [&make_program, i](nodes::Node& node) { return make_program(i, node); }});
+  }
+  specifications.push_back({plan.host_memory(), plan.host_mailbox, [&plan, &film, &progress](nodes::Node& node) {
+                              return std::make_unique<HostProgram>(node, plan, film, progress);
+                            }});
+  return specifications;
 }
 
 Report run_programs(const Plan& plan, const MakeProgram& make_program, const Progress& progress, std::stop_token stop) {

@@ -36,8 +36,8 @@ struct RunOptions {
   std::uint32_t work_item_side = 3;
   bool count_pages = false;
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;
-  core::TraversalOptions traversal;
-  Progress progress;  ///< called by the host's thread
+  core::TraversalOptions traversal = {};
+  Progress progress = {};  ///< called by the host's thread
 };
 
 struct NodeReport {
@@ -70,6 +70,10 @@ Report run_svm(const core::Database& database, const core::RenderSettings& setti
 
 /// Makes the program of node `index`; called before the start, in order, on the calling thread.
 using MakeProgram = std::function<std::unique_ptr<NodeProgram>(std::uint32_t index, nodes::Node& node)>;
+
+/// What a runner needs for `plan`: the nodes in order, then the host, which writes `film`. All arguments outlive the runner.
+std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const MakeProgram& make_program, core::Film& film,
+                                                        const Progress& progress);
 
 /// Runs any programs of this family under `plan`, checks the laws of conservation and reports.
 Report run_programs(const Plan& plan, const MakeProgram& make_program, const Progress& progress, std::stop_token stop);

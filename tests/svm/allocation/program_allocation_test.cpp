@@ -1,0 +1,60 @@
+// The node programs of svm and replicated, and the host's, allocate nothing between start and end. This executable has the
+// replaced global operators.
+#include <doctest/doctest.h>
+
+#include <memory>
+#include <vector>
+
+#include "core/scenes.h"
+#include "nodes/threads_runner.h"
+#include "svm/counting_pager.h"
+#include "svm/local_copy.h"
+#include "svm/pager.h"
+#include "svm/run.h"
+#include "tests/support/allocation_guard.h"
+
+namespace dmpc::tests {
+
+namespace {
+
+/// Renders a small scene with every node and the host under watch; returns what they allocated and freed.
+template <class Records>
+std::uint64_t allocated_by(svm::Strategy strategy, const svm::RunOptions& options) {
+  const core::Scene scene = core::built_in_scene(core::parse_scene_name("balls-2"));
+  const core::Database database = core::build_database(scene, {.page_size_bytes = 512});
+  const core::RenderSettings settings{database.header(), core::Camera(scene.view, database.header().frame, 16, 16, 1), {}};
+  const svm::Plan plan = svm::plan_of(strategy, database, settings, options);
+  const svm::MakeProgram make_program = [&](std::uint32_t, nodes::Node& node) {
+    const auto make_tracer = [&](Records& records) { return core::GridTracer<Records>(records, settings.header, {}); };
+    return std::make_unique<svm::ControlProgram<Records, core::GridTracer<Records>>>(node, plan, settings, database.bytes(),
+                                                                                     make_tracer);
+  };
+  core::Film film(16, 16);
+  const svm::Progress progress;
+  std::vector<nodes::NodeSpecification> specifications = svm::specifications_of(plan, make_program, film, progress);
+  for (nodes::NodeSpecification& specification : specifications) {
+    specification = watched(specification);
+  }
+  nodes::ThreadsRunner runner(specifications);
+  const Allocations before = watched_allocations();
+  static_cast<void>(runner.run({}));
+  const Allocations after = watched_allocations();
+  return after.allocated - before.allocated + after.freed - before.freed;
+}
+
+TEST_CASE("a node of svm allocates nothing while it renders, pages, asks for work and serves") {
+  svm::RunOptions options{.node_count = 5};
+  CHECK(allocated_by<svm::Pager>(svm::Strategy::svm, options) == 0);
+  options.cache_pages = 1;
+  options.in_flight = 64;
+  CHECK(allocated_by<svm::Pager>(svm::Strategy::svm, options) == 0);
+  options.count_pages = true;
+  CHECK(allocated_by<svm::CountingPager>(svm::Strategy::svm, options) == 0);
+}
+
+TEST_CASE("a node of replicated allocates nothing while it renders") {
+  CHECK(allocated_by<svm::LocalCopy>(svm::Strategy::replicated, {.node_count = 5}) == 0);
+}
+
+}  // namespace
+}  // namespace dmpc::tests
