@@ -67,9 +67,9 @@ void print_named(const Referee& referee, const core::Ray& ray, const char* who, 
 
 void print_doubtful(const Referee& referee, const core::Ray& ray) {
   for (const Encounter& seen : referee.encounters(ray)) {
-    std::cout << "    may block: #" << seen.primitive << " at t " << std::setprecision(17) << seen.t << " +- " << std::setprecision(3)
-              << seen.t_error << " of " << std::setprecision(9) << ray.t_max << ", margin " << std::setprecision(3) << seen.margin[0]
-              << ", " << seen.margin[1] << '\n';
+    std::cout << "    may block: #" << seen.primitive << " at t " << std::setprecision(17) << seen.t << " +- "
+              << std::setprecision(3) << seen.t_error << " of " << std::setprecision(9) << ray.t_max << ", margin "
+              << std::setprecision(3) << seen.margin[0] << ", " << seen.margin[1] << '\n';
   }
 }
 
@@ -79,8 +79,8 @@ void print_difference(const Referee& referee, const SettledRay& settled, std::ui
   const std::string exact = answer_text(settled.ruling.exact, shadow);
   std::cout << "  pixel (" << ray.pixel % width << ", " << ray.pixel / width << ") ray " << settled.traced.number << ", depth "
             << int{ray.depth} << ", " << kind_names[static_cast<std::size_t>(ray.kind)] << ": grid "
-            << answer_text(settled.traced.grid, shadow) << ", Embree " << answer_text(settled.traced.oracle, shadow) << ", exactly "
-            << exact << ": " << name_of(settled.ruling.verdict) << '\n';
+            << answer_text(settled.traced.grid, shadow) << ", Embree " << answer_text(settled.traced.oracle, shadow)
+            << ", exactly " << exact << ": " << name_of(settled.ruling.verdict) << '\n';
   if (shadow) {
     print_doubtful(referee, ray);
   } else {

@@ -46,9 +46,8 @@ std::optional<double> nearest_on_sphere(const std::array<float, 9>& value, const
   const Vec3d across = from_center - direction * (b / a);
   const double distance = length(from_center);
   const double c = (distance - std::fabs(radius)) * (distance + std::fabs(radius));
-  return first_of(roots(a, b, c, a * (radius * radius - dot(across, across))), ray.t_max, [&](double t) {
-    return radius > 0 || dot(from_center + direction * t, direction) > 0;
-  });
+  return first_of(roots(a, b, c, a * (radius * radius - dot(across, across))), ray.t_max,
+                  [&](double t) { return radius > 0 || dot(from_center + direction * t, direction) > 0; });
 }
 
 /// A cone with its axis, in double precision; radius(height) = base_radius + slope * height.
@@ -83,8 +82,8 @@ std::optional<double> nearest_on_cone(const std::array<float, 9>& value, const c
   const double c = (across_length - radius_origin) * (across_length + radius_origin);
   return first_of(roots(a, b, c, b * b - a * c), ray.t_max, [&](double t) {
     const double along = along_origin + t * along_direction;
-    const double turn = dot(across_origin + across_direction * t, direction) - cone.slope * (radius_origin + t * radius_direction) *
-                                                                                     along_direction;
+    const double turn = dot(across_origin + across_direction * t, direction) -
+                        cone.slope * (radius_origin + t * radius_direction) * along_direction;
     return along >= 0 && along <= cone.height && (!cone.inside_only || turn > 0);
   });
 }

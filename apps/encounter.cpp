@@ -1,25 +1,25 @@
-// Where the bounds come from. u = 2^-24 is half a unit in the last place of 1 in float; bounds are to first order in u, with every
-// constant rounded up. Let a, b, c be a triangle's vertices as seen from the ray's origin, D the ray's direction, and for each
-// edge N = D . (a x b): twice the signed area that the edge and the ray span in projection along D, times |D|. The ray is inside
-// where all three N have one sign. a' is the part of a across D.
+// Where the bounds come from. u = 2^-24 is half a unit in the last place of 1 in float; bounds are to first order in u, with
+// every constant rounded up. Let a, b, c be a triangle's vertices as seen from the ray's origin, D the ray's direction, and for
+// each edge N = D . (a x b): twice the signed area that the edge and the ray span in projection along D, times |D|. The ray is
+// inside where all three N have one sign. a' is the part of a across D.
 //
 // Grid (Woop). Subtraction of the origin costs u in each coordinate; the shear x - Sx z costs 2u |z| for Sx (a quotient and a
 // product), u |z| inherited, and u |x - Sx z|, in all at most u (2 |x| + 4 |z|), so a vertex moves by less than 7 u |a| in the
-// sheared plane. The plane is oblique by at most sqrt(3), which multiplies areas and lengths alike. Shared vertices move alike. The
-// two products of the edge function cost u |a'| |b'| sqrt(3) more. Hence
+// sheared plane. The plane is oblique by at most sqrt(3), which multiplies areas and lengths alike. Shared vertices move alike.
+// The two products of the edge function cost u |a'| |b'| sqrt(3) more. Hence
 //     |error of N| <= u |D| (7 (|a| |b'| + |b| |a'|) + 2 |a'| |b'|).
 // Embree robust (Pluecker coordinates). Vertices move by u |a|; edge e = a - b and sum s = a + b cost u each, their cross product
 // 2u, the product with D 3u, each times |e| |s| |D|, for 2 N; it then accepts down to one ulp = 2u of the sum of all three. Hence
 //     |error of N| <= u |D| (|a| |b'| + |b| |a'| + 3.5 |e| |s|) + 2 u |N1 + N2 + N3|.
 // Distance. Moved vertices shift the plane by 7 u R, R the largest of |a|, |b|, |c|, which is 7 u R / cos along the ray; Embree's
 // dot products cost as much. Rounded edge functions, or the rounded cross product of two edges, tilt the hit about the triangle:
-// with E the longest edge at most 6 u E^3 |D| / |N1 + N2 + N3|. Sums and quotients cost a few u R. No renderer returns a t outside
-// the triangle's own depths, so E bounds what remains. Hence
+// with E the longest edge at most 6 u E^3 |D| / |N1 + N2 + N3|. Sums and quotients cost a few u R. No renderer returns a t
+// outside the triangle's own depths, so E bounds what remains. Hence
 //     |error of t| <= min(E, u (8 R / cos + 6 E^3 |D| / |N1 + N2 + N3|)) + 8 u R.
 //
 // Spheres and cones are solved in double by both renderers and rounded to float once. Their quadratic A t^2 + 2 B t + C has
-// coefficients that cost at most 16 v |D|^2, 16 v |D| S and 16 v S^2 with v = 2^-53, S the extent of ray origin and body about each
-// other; where the roots are double, rounding moves them by the root of that.
+// coefficients that cost at most 16 v |D|^2, 16 v |D| S and 16 v S^2 with v = 2^-53, S the extent of ray origin and body about
+// each other; where the roots are double, rounding moves them by the root of that.
 #include "apps/encounter.h"
 
 #include <algorithm>
@@ -61,8 +61,8 @@ T spanned(const Ray& ray, const Vec3f& a, const Vec3f& b) {
 }
 
 struct Edge {
-  double area;                   ///< N above
-  std::array<double, 2> bound;   ///< of its error, by Renderer
+  double area;                  ///< N above
+  std::array<double, 2> bound;  ///< of its error, by Renderer
 };
 
 struct SeenTriangle {
@@ -193,7 +193,7 @@ std::size_t Quadratic::roots(std::array<Long, 2>& root) const {
 /// A body of revolution along an axis; a sphere has none and its surface has no ends.
 struct Curved {
   Quadratic quadratic;
-  Vec3l from_center, direction, axis;       ///< axis: of unit length, zero for a sphere
+  Vec3l from_center, direction, axis;  ///< axis: of unit length, zero for a sphere
   Long base_radius = 0, slope = 0, height = 0;
   bool inside_only = false;
 

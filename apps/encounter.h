@@ -23,8 +23,8 @@ struct Encounter {
   /// How far the ray is inside the silhouette, in units of that renderer's rounding bound: from 1 up the renderer must see the
   /// hit, from -1 down it must not, between them rounding decides. Indexed by Renderer.
   std::array<double, 2> margin{};
-  bool exact = false;  ///< the exact answer: inside the silhouette (edges included) and t in (0, t_max)
-  bool at_end = false; ///< t is within t_error of 0 or of t_max, so that rounding decides whether it counts
+  bool exact = false;   ///< the exact answer: inside the silhouette (edges included) and t in (0, t_max)
+  bool at_end = false;  ///< t is within t_error of 0 or of t_max, so that rounding decides whether it counts
 
   bool possible(Renderer renderer) const { return margin[static_cast<std::size_t>(renderer)] > -1; }
   bool certain(Renderer renderer) const { return margin[static_cast<std::size_t>(renderer)] >= 1 && !at_end; }

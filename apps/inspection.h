@@ -28,9 +28,9 @@ struct SettledRay {
 
 /// What came out; the same bits for every number of threads.
 struct Inspection {
-  core::Operations operations;             ///< of our grid; the render follows its answers
-  std::vector<SettledRay> differences;     ///< all of them, by pixel and shot
-  std::vector<SettledRay> brute_forced;    ///< the random rays, whose ruling says whether both answers can be explained
+  core::Operations operations;           ///< of our grid; the render follows its answers
+  std::vector<SettledRay> differences;   ///< all of them, by pixel and shot
+  std::vector<SettledRay> brute_forced;  ///< the random rays, whose ruling says whether both answers can be explained
 };
 
 struct InspectionOptions {

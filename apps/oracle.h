@@ -20,14 +20,16 @@ enum class EmbreeMode : std::uint8_t { robust, fast };
 /// and cones answered by apps/curved.h. Immutable once built; every query is thread-safe.
 class EmbreeScene {
  public:
-  /// `primitives` outlive the scene; their index is their id. Builds with all cores. Throws InternalError if Embree reports an error.
+  /// `primitives` outlive the scene; their index is their id. Builds with all cores. Throws InternalError if Embree reports an
+  /// error.
   EmbreeScene(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode);
   ~EmbreeScene();
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
-  /// The hit with the least (t, primitive) in (0, ray.t_max) by Embree's own t, the triangle ray.ignored_primitive left out; `block` and
-  /// `lane` stay unset. Among equal t Embree may have culled a lower id before it was tested. NaN or infinite rays miss.
+  /// The hit with the least (t, primitive) in (0, ray.t_max) by Embree's own t, the triangle ray.ignored_primitive left out;
+  /// `block` and `lane` stay unset. Among equal t Embree may have culled a lower id before it was tested. NaN or infinite rays
+  /// miss.
   core::Hit closest(const core::Ray& ray) const;
   /// Whether anything but the triangle ray.ignored_primitive lies in (0, ray.t_max). NaN or infinite rays are free.
   bool occluded(const core::Ray& ray) const;

@@ -13,10 +13,14 @@ using core::Ray;
 constexpr std::array<std::string_view, verdict_count> verdict_names{"tie",          "silhouette", "ray end",
                                                                     "oracle wrong", "grid wrong", "both wrong"};
 
-bool is_shadow(const Ray& ray) { return ray.kind == core::RayKind::shadow; }
+bool is_shadow(const Ray& ray) {
+  return ray.kind == core::RayKind::shadow;
+}
 
 /// Beyond doubt, f lies before e.
-bool before(const Encounter& f, const Encounter& e) { return f.t + f.t_error < e.t - e.t_error; }
+bool before(const Encounter& f, const Encounter& e) {
+  return f.t + f.t_error < e.t - e.t_error;
+}
 
 Answer exact_of(const Ray& ray, const std::vector<Encounter>& met) {
   const Encounter* nearest = nullptr;
@@ -42,8 +46,8 @@ Verdict reason(const Ray& ray, const std::vector<Encounter>& met, const std::arr
   bool at_end = false;
   for (const Encounter& encounter : met) {
     const bool involved = is_shadow(ray) || std::any_of(answers.begin(), answers.end(), [&](const Answer& answer) {
-      return answer.hit && answer.primitive == encounter.primitive;
-    });
+                            return answer.hit && answer.primitive == encounter.primitive;
+                          });
     if (involved && (encounter.margin[0] < 1 || encounter.margin[1] < 1)) {
       return Verdict::silhouette;
     }
@@ -54,7 +58,9 @@ Verdict reason(const Ray& ray, const std::vector<Encounter>& met, const std::arr
 
 }  // namespace
 
-std::string_view name_of(Verdict verdict) { return verdict_names[static_cast<std::size_t>(verdict)]; }
+std::string_view name_of(Verdict verdict) {
+  return verdict_names[static_cast<std::size_t>(verdict)];
+}
 
 std::vector<Encounter> Referee::encounters(const Ray& ray) const {
   std::vector<Encounter> met;
@@ -66,13 +72,14 @@ std::vector<Encounter> Referee::encounters(const Ray& ray) const {
       add_encounters(ray, primitives_[id], id, met);
     }
   }
-  std::sort(met.begin(), met.end(), [](const Encounter& a, const Encounter& b) {
-    return a.t < b.t || (a.t == b.t && a.primitive < b.primitive);
-  });
+  std::sort(met.begin(), met.end(),
+            [](const Encounter& a, const Encounter& b) { return a.t < b.t || (a.t == b.t && a.primitive < b.primitive); });
   return met;
 }
 
-Answer Referee::exact(const Ray& ray) const { return exact_of(ray, encounters(ray)); }
+Answer Referee::exact(const Ray& ray) const {
+  return exact_of(ray, encounters(ray));
+}
 
 bool Referee::admissible(const Ray& ray, const Answer& answer, Renderer renderer) const {
   return admissible(ray, encounters(ray), answer, renderer);
@@ -87,24 +94,22 @@ bool Referee::leaks(const Ray& ray, const std::vector<Encounter>& met, const Enc
   const std::vector<std::uint32_t> fan = closed_fan(ray, primitives_, passed.primitive);
   const auto holds = [&](std::uint32_t id) { return std::find(fan.begin(), fan.end(), id) != fan.end(); };
   // A triangle of the fan that meets the ray's end may be rounded away rightly.
-  const bool ends_here = std::any_of(met.begin(), met.end(), [&](const Encounter& encounter) {
-    return encounter.at_end && holds(encounter.primitive);
-  });
+  const bool ends_here = std::any_of(met.begin(), met.end(),
+                                     [&](const Encounter& encounter) { return encounter.at_end && holds(encounter.primitive); });
   return !fan.empty() && !ends_here && !(answer.hit && holds(answer.primitive));
 }
 
 bool Referee::admissible(const Ray& ray, const std::vector<Encounter>& met, const Answer& answer, Renderer renderer) const {
   // A hit is judged by the farthest of its encounters: the second root of a body that rounding let the ray enter unseen.
-  const auto may_pass = [&](const Encounter& f) {
-    return !f.certain(renderer) && !leaks(ray, met, f, answer, renderer);
-  };
+  const auto may_pass = [&](const Encounter& f) { return !f.certain(renderer) && !leaks(ray, met, f, answer, renderer); };
   if (!answer.hit) {
     return std::all_of(met.begin(), met.end(), may_pass);
   }
   return std::any_of(met.begin(), met.end(), [&](const Encounter& e) {
     const bool named = is_shadow(ray) || e.primitive == answer.primitive;
-    return named && e.possible(renderer) &&
-           (is_shadow(ray) || std::all_of(met.begin(), met.end(), [&](const Encounter& f) { return !before(f, e) || may_pass(f); }));
+    return named && e.possible(renderer) && (is_shadow(ray) || std::all_of(met.begin(), met.end(), [&](const Encounter& f) {
+                                               return !before(f, e) || may_pass(f);
+                                             }));
   });
 }
 

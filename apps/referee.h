@@ -31,19 +31,21 @@ enum class Verdict : std::uint8_t {
   both_wrong     ///< neither can
 };
 inline constexpr std::size_t verdict_count = 6;
-constexpr bool explained(Verdict verdict) { return verdict < Verdict::grid_wrong; }
+constexpr bool explained(Verdict verdict) {
+  return verdict < Verdict::grid_wrong;
+}
 /// One word or two for tables.
 std::string_view name_of(Verdict verdict);
 
 struct Ruling {
   Verdict verdict{};
-  Answer exact;                 ///< by exact geometry: edges belong to their triangle, equal distances go to the lower id
-  bool favours_grid = false;    ///< its answer is the exact one
+  Answer exact;               ///< by exact geometry: edges belong to their triangle, equal distances go to the lower id
+  bool favours_grid = false;  ///< its answer is the exact one
   bool favours_oracle = false;
 };
 
-/// Brute force over primitives whose index is their id; they outlive the referee. Immutable, thread-safe; a ray costs some 10 ns a
-/// primitive.
+/// Brute force over primitives whose index is their id; they outlive the referee. Immutable, thread-safe; a ray costs some 10 ns
+/// a primitive.
 class Referee {
  public:
   explicit Referee(std::span<const core::PrimitiveValues> primitives) : primitives_(primitives) {}

@@ -101,9 +101,7 @@ TEST_CASE("examine names the margin of a miss as well") {
 /// Random rays at random places of a random triangle, at its edges and its vertices; seed fixed.
 struct RandomTriangles {
   std::mt19937 engine{20260};
-  float uniform(float low, float high) {
-    return low + (high - low) * static_cast<float>(engine() >> 8U) * 0x1p-24F;
-  }
+  float uniform(float low, float high) { return low + (high - low) * static_cast<float>(engine() >> 8U) * 0x1p-24F; }
   Vec3f point() { return {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}; }
 };
 

@@ -37,8 +37,8 @@ std::uint64_t unexplained(const std::vector<apps::SettledRay>& rays) {
 }
 
 TEST_CASE("every ray of a small render of every family is explained") {
-  for (const char* name : {"balls-2", "gears-2", "jacks-2", "lattice-3", "mount-4", "mount-3-t2", "rings-2", "rings-1-t1", "shells-3",
-                           "sombrero-1", "teapot-4", "tetra-4", "tree-5"}) {
+  for (const char* name : {"balls-2", "gears-2", "jacks-2", "lattice-3", "mount-4", "mount-3-t2", "rings-2", "rings-1-t1",
+                           "shells-3", "sombrero-1", "teapot-4", "tetra-4", "tree-5"}) {
     CAPTURE(std::string(name));
     apps::InspectionOptions options;
     options.brute_force = 40;

@@ -1,6 +1,10 @@
-// How many rays a render shoots, against an independent counter: double precision, its own intersections and its own accelerator, run
-// over the SPD's own files. Rays are counted when shot, hit or miss. The counter takes hits from t = 1e-6 on and ends shadow rays 1e-6
-// before the light, so secondary counts may differ by about a thousandth; eye hits by the few rays that pass a silhouette within rounding.
+// How many rays a render shoots, against an independent counter: double precision, its own intersections and its own accelerator,
+// run over the SPD's own files. Rays are counted when shot, hit or miss. The counter takes hits from t = 1e-6 on and ends shadow
+// rays 1e-6 before the light, so secondary counts may differ by about a thousandth; eye hits by the few rays that pass a
+// silhouette within rounding. Seconds each when optimised, far longer otherwise, so not built then; inspection_test.cpp has small
+// renders of the same families.
+#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
+
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -26,22 +30,27 @@ constexpr Expected about(const char* scene, Convention convention, std::uint64_t
   return {scene, convention, eye_hits, all_rays, all_rays / 1000};
 }
 
-std::uint64_t apart(std::uint64_t a, std::uint64_t b) { return a > b ? a - b : b - a; }
+std::uint64_t apart(std::uint64_t a, std::uint64_t b) {
+  return a > b ? a - b : b - a;
+}
 
-std::uint64_t sum(const std::array<std::uint64_t, core::ray_kind_count>& rays) { return rays[0] + rays[1] + rays[2] + rays[3]; }
+std::uint64_t sum(const std::array<std::uint64_t, core::ray_kind_count>& rays) {
+  return rays[0] + rays[1] + rays[2] + rays[3];
+}
 
 apps::Inspection inspect_all(const std::string& name, Convention convention) {
   const core::Scene scene = core::built_in_scene(core::parse_scene_name(name));
   const core::Database database = core::build_database(scene, {});
   const int side = convention == Convention::haines ? 513 : 512;
-  const core::RenderSettings settings{database.header(), core::Camera(scene.view, database.header().frame, side, side, 1),
+  const core::RenderSettings settings{database.header(),
+                                      core::Camera(scene.view, database.header().frame, side, side, 1),
                                       {.convention = convention, .depth_max = 5}};
   const apps::EmbreeScene embree(database.primitives(), apps::EmbreeMode::robust);
   return apps::inspect(database, embree, settings, {});
 }
 
-/// Counts, and that no ray of the whole render is unexplained. An eye hit more or less than the counter's by more than 2 would have to
-/// be proved a silhouette; none is.
+/// Counts, and that no ray of the whole render is unexplained. An eye hit more or less than the counter's by more than 2 would
+/// have to be proved a silhouette; none is.
 void check_counts(const Expected& expected) {
   CAPTURE(std::string(expected.scene));
   const apps::Inspection inspection = inspect_all(expected.scene, expected.convention);
@@ -52,9 +61,6 @@ void check_counts(const Expected& expected) {
     CHECK(explained(difference.ruling.verdict));
   }
 }
-
-// Seconds each when optimised; far longer otherwise. Small renders of the same scenes are in inspection_test.cpp.
-#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
 
 TEST_CASE("tetra shoots the rays of the independent counter, and of the 1994 paper within 9") {
   check_counts(about("tetra-6", Convention::haines, 49950, 309430));
@@ -106,7 +112,7 @@ TEST_CASE("every ray of the remaining families at full size is explained") {
   }
 }
 
-#endif
-
 }  // namespace
 }  // namespace dmpc::tests
+
+#endif
