@@ -110,9 +110,7 @@ int NffTokens::integer(const char* entity, const char* what, int low, int high) 
   return static_cast<int>(value);
 }
 
-bool NffTokens::next_is_number() {
-  return looks_like_number(peek());
-}
+bool NffTokens::next_is_number() { return looks_like_number(peek()); }
 
 void NffTokens::skip_numbers_on_line() {
   const std::size_t line = taken_line_;

@@ -31,9 +31,7 @@ void NffWriter::add(const core::Vec3d& v) {
   add(v.z);
 }
 
-void NffWriter::count(std::size_t value) {
-  line_ += ' ' + std::to_string(value);
-}
+void NffWriter::count(std::size_t value) { line_ += ' ' + std::to_string(value); }
 
 /// A line that begins with a number begins with a blank until here.
 void NffWriter::end_line() {

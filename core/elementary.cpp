@@ -75,9 +75,7 @@ double sin_of(const Reduced& angle) {
   return (angle.quarter & 2) != 0 ? -magnitude : magnitude;
 }
 
-double cos_of(const Reduced& angle) {
-  return sin_of({(angle.quarter + 1) & 3, angle.high, angle.low});
-}
+double cos_of(const Reduced& angle) { return sin_of({(angle.quarter + 1) & 3, angle.high, angle.low}); }
 
 /// Quarter turns, and the rest in degrees, |rest| <= 45: exact.
 std::pair<double, double> reduce_degrees(double degrees) {
@@ -93,9 +91,7 @@ Reduced radians_from_degrees(double quarters, double degrees) {
 }
 
 /// 2 ^ exponent; requires -1022 <= exponent <= 1023.
-double power_of_2(int exponent) {
-  return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52U);
-}
+double power_of_2(int exponent) { return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52U); }
 
 /// value * 2 ^ exponent for |exponent| <= 1100, rounded once if the result is not normal.
 double scale(double value, int exponent) {
@@ -187,12 +183,8 @@ double round_by_text(double value) {
 
 }  // namespace
 
-double sin_radians(double radians) {
-  return sin_of(reduce_radians(radians));
-}
-double cos_radians(double radians) {
-  return cos_of(reduce_radians(radians));
-}
+double sin_radians(double radians) { return sin_of(reduce_radians(radians)); }
+double cos_radians(double radians) { return cos_of(reduce_radians(radians)); }
 
 double tan_radians(double radians) {
   const Reduced angle = reduce_radians(radians);
@@ -217,9 +209,7 @@ double cos_degrees(double degrees) {
   return cos_of(angle) + 0.0;
 }
 
-double tan_degrees(double degrees) {
-  return sin_degrees(degrees) / cos_degrees(degrees);
-}
+double tan_degrees(double degrees) { return sin_degrees(degrees) / cos_degrees(degrees); }
 
 double exponential(double x) {
   if (!(x > -745.2)) {

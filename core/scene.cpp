@@ -63,15 +63,9 @@ SceneBuilder::SceneBuilder(Scene& scene) : scene_(scene) {
   }
 }
 
-void SceneBuilder::background(const Vec3d& color) {
-  scene_.background = color;
-}
-void SceneBuilder::view(const View& view) {
-  scene_.view = view;
-}
-void SceneBuilder::light(const PointLight& light) {
-  scene_.lights.push_back(light);
-}
+void SceneBuilder::background(const Vec3d& color) { scene_.background = color; }
+void SceneBuilder::view(const View& view) { scene_.view = view; }
+void SceneBuilder::light(const PointLight& light) { scene_.lights.push_back(light); }
 
 void SceneBuilder::material(const Material& material) {
   const auto [entry, is_new] = materials_.try_emplace(material, pool_index(scene_.materials.size()));

@@ -29,40 +29,20 @@ double power(double base, int exponent) {
   return result;
 }
 
-Counts count_balls(int n) {
-  return {1, (power(9, n + 1) - 1) / 8, 0};
-}
-Counts count_gears(int n) {
-  return {power(n, 3) * 146 + 1, 0, 0};
-}
-Counts count_jacks(int n) {
-  return {0, 6 * (power(8, n) - 1) / 7, 3 * (power(8, n) - 1) / 7};
-}
-Counts count_lattice(int n) {
-  return {0, power(n + 1.0, 3), 3.0 * n * power(n + 1.0, 2)};
-}
-Counts count_mount(int n) {
-  return {2 * power(4, n), 4, 0};
-}
+Counts count_balls(int n) { return {1, (power(9, n + 1) - 1) / 8, 0}; }
+Counts count_gears(int n) { return {power(n, 3) * 146 + 1, 0, 0}; }
+Counts count_jacks(int n) { return {0, 6 * (power(8, n) - 1) / 7, 3 * (power(8, n) - 1) / 7}; }
+Counts count_lattice(int n) { return {0, power(n + 1.0, 3), 3.0 * n * power(n + 1.0, 2)}; }
+Counts count_mount(int n) { return {2 * power(4, n), 4, 0}; }
 Counts count_rings(int n) {
   const double each = 5.0 * n * (n + 1.0) * (2.0 * n + 1);
   return {1, each, each};
 }
-Counts count_shells(int n) {
-  return {0, 180 * power(2, n) + 1, 0};
-}
-Counts count_sombrero(int n) {
-  return {2 * power(32 * power(2, n - 1) - 1, 2), 0, 0};
-}
-Counts count_teapot(int n) {
-  return {64.0 * n * n - 8.0 * n + 1.0 * n * n, 0, 0};
-}
-Counts count_tetra(int n) {
-  return {power(4, n), 0, 0};
-}
-Counts count_tree(int n) {
-  return {1, power(2, n + 1) - 1, power(2, n + 1) - 1};
-}
+Counts count_shells(int n) { return {0, 180 * power(2, n) + 1, 0}; }
+Counts count_sombrero(int n) { return {2 * power(32 * power(2, n - 1) - 1, 2), 0, 0}; }
+Counts count_teapot(int n) { return {64.0 * n * n - 8.0 * n + 1.0 * n * n, 0, 0}; }
+Counts count_tetra(int n) { return {power(4, n), 0, 0}; }
+Counts count_tree(int n) { return {1, power(2, n + 1) - 1, power(2, n + 1) - 1}; }
 
 struct Family {
   std::string_view name;
@@ -143,9 +123,7 @@ const Family& family_of(const SceneName& name) {
   return *family;
 }
 
-std::string range_text(const Family& family) {
-  return "1 to " + std::to_string(size_max(family));
-}
+std::string range_text(const Family& family) { return "1 to " + std::to_string(size_max(family)); }
 
 /// The digits that stand at the front of `text`, which they leave; -1 if there are none, any_size + 1 if too many.
 int take_number(std::string_view& text) {
@@ -159,9 +137,7 @@ int take_number(std::string_view& text) {
   return value;
 }
 
-bool starts_with_digit(std::string_view text) {
-  return !text.empty() && text.front() >= '0' && text.front() <= '9';
-}
+bool starts_with_digit(std::string_view text) { return !text.empty() && text.front() >= '0' && text.front() <= '9'; }
 
 /// Takes `-` and a tag before a number from the front of `text`; nothing if that is not what stands there.
 std::optional<int> take_part(std::string_view& text, std::string_view tag) {

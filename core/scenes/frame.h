@@ -11,9 +11,7 @@ struct Turn {
   double sine = 0, cosine = 1;
 };
 
-inline Turn turn_degrees(double degrees) {
-  return {sin_degrees(degrees), cos_degrees(degrees)};
-}
+inline Turn turn_degrees(double degrees) { return {sin_degrees(degrees), cos_degrees(degrees)}; }
 
 /// An affine map of column vectors: the images of the axes and of the origin.
 struct Frame {
@@ -28,23 +26,13 @@ inline Frame compose(const Frame& outer, const Frame& inner) {
   return {outer.vector(inner.x), outer.vector(inner.y), outer.vector(inner.z), outer.point(inner.origin)};
 }
 
-inline Frame translation(const Vec3d& offset) {
-  return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, offset};
-}
-inline Frame scaling(double factor) {
-  return {{factor, 0, 0}, {0, factor, 0}, {0, 0, factor}, {}};
-}
+inline Frame translation(const Vec3d& offset) { return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, offset}; }
+inline Frame scaling(double factor) { return {{factor, 0, 0}, {0, factor, 0}, {0, 0, factor}, {}}; }
 
 /// Right-handed rotations about the axes.
-inline Frame rotation_x(const Turn& t) {
-  return {{1, 0, 0}, {0, t.cosine, t.sine}, {0, -t.sine, t.cosine}, {}};
-}
-inline Frame rotation_y(const Turn& t) {
-  return {{t.cosine, 0, -t.sine}, {0, 1, 0}, {t.sine, 0, t.cosine}, {}};
-}
-inline Frame rotation_z(const Turn& t) {
-  return {{t.cosine, t.sine, 0}, {-t.sine, t.cosine, 0}, {0, 0, 1}, {}};
-}
+inline Frame rotation_x(const Turn& t) { return {{1, 0, 0}, {0, t.cosine, t.sine}, {0, -t.sine, t.cosine}, {}}; }
+inline Frame rotation_y(const Turn& t) { return {{t.cosine, 0, -t.sine}, {0, 1, 0}, {t.sine, 0, t.cosine}, {}}; }
+inline Frame rotation_z(const Turn& t) { return {{t.cosine, t.sine, 0}, {-t.sine, t.cosine, 0}, {0, 0, 1}, {}}; }
 
 /// `v` turned about the unit vector `axis`, right-handed (Rodrigues' formula).
 inline Vec3d rotated(const Vec3d& v, const Vec3d& axis, const Turn& t) {

@@ -18,9 +18,7 @@ struct Gear {
 };
 
 /// .01 + the fraction of sevenths / 7, in integers so that a multiple of 7 gives exactly 0.
-double shade_of(int sevenths) {
-  return 0.01 + static_cast<double>(sevenths % 7) / 7;
-}
+double shade_of(int sevenths) { return 0.01 + static_cast<double>(sevenths % 7) / 7; }
 
 Material gear_material(int x, int y, int z) {
   const Vec3d color = {shade_of(5 * (3 * x + 2 * y + z + 1)), shade_of(3 * (3 * y + 2 * z + x + 1)),

@@ -5,13 +5,9 @@
 namespace dmpc::core::scenes {
 namespace {
 
-double rounded(double value) {
-  return round_to_6_digits(value);
-}
+double rounded(double value) { return round_to_6_digits(value); }
 
-Vec3d rounded(const Vec3d& v) {
-  return {rounded(v.x), rounded(v.y), rounded(v.z)};
-}
+Vec3d rounded(const Vec3d& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
 
 std::vector<Vec3d> rounded(const std::vector<Vec3d>& vectors) {
   std::vector<Vec3d> result;
@@ -24,9 +20,7 @@ std::vector<Vec3d> rounded(const std::vector<Vec3d>& vectors) {
 
 }  // namespace
 
-void RoundingSink::background(const Vec3d& color) {
-  target_.background(rounded(color));
-}
+void RoundingSink::background(const Vec3d& color) { target_.background(rounded(color)); }
 
 void RoundingSink::view(const View& view) {
   target_.view({rounded(view.from), rounded(view.at), rounded(view.up), rounded(view.angle_degrees), rounded(view.hither),
@@ -42,17 +36,13 @@ void RoundingSink::material(const Material& material) {
                     rounded(material.transmittance), rounded(material.refraction_index)});
 }
 
-void RoundingSink::polygon(const std::vector<Vec3d>& vertices) {
-  target_.polygon(rounded(vertices));
-}
+void RoundingSink::polygon(const std::vector<Vec3d>& vertices) { target_.polygon(rounded(vertices)); }
 
 void RoundingSink::patch(const std::vector<Vec3d>& vertices, const std::vector<Vec3d>& normals) {
   target_.patch(rounded(vertices), rounded(normals));
 }
 
-void RoundingSink::sphere(const Vec3d& center, double radius) {
-  target_.sphere(rounded(center), rounded(radius));
-}
+void RoundingSink::sphere(const Vec3d& center, double radius) { target_.sphere(rounded(center), rounded(radius)); }
 
 void RoundingSink::cone(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius) {
   target_.cone(rounded(base), rounded(base_radius), rounded(apex), rounded(apex_radius));

@@ -35,9 +35,7 @@ std::vector<std::filesystem::path> reference_files() {
 }
 
 /// Half a unit of the 6th significant digit of `y`, and a little for values that should be 0.
-double tolerance(double y) {
-  return y == 0 ? 1e-12 : 0.5 * std::pow(10.0, std::floor(std::log10(std::abs(y))) - 5) + 1e-12;
-}
+double tolerance(double y) { return y == 0 ? 1e-12 : 0.5 * std::pow(10.0, std::floor(std::log10(std::abs(y))) - 5) + 1e-12; }
 
 bool same_token(const std::string& ours, const std::string& theirs) {
   char* end = nullptr;

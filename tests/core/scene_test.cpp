@@ -15,12 +15,8 @@ const std::vector<Vec3d> triangle = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 const std::vector<Vec3d> square = {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 const std::vector<Vec3d> upright = {{0, 0, 1}, {0, 0, 2}, {0, 0, 3}};
 
-Material red() {
-  return {.color = {1, 0, 0}};
-}
-Material green() {
-  return {.color = {0, 1, 0}};
-}
+Material red() { return {.color = {1, 0, 0}}; }
+Material green() { return {.color = {0, 1, 0}}; }
 
 /// Notes the order of what arrives: a letter an entity.
 struct Notes final : SceneSink {
