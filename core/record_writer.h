@@ -1,8 +1,8 @@
 // Lays records out in pages: in order, none across a page's border.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -37,7 +37,7 @@ class RecordWriter {
     return take(round_up(bytes_.size(), std::max(sizeof(T), record_alignment)), count * sizeof(T));
   }
   void write(Address address, std::size_t offset, std::span<const std::byte> bytes) {
-    std::memcpy(bytes_.data() + byte_offset(address) + offset, bytes.data(), bytes.size());
+    std::copy(bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(byte_offset(address) + offset));
   }
   template <class T>
   void write(Address address, std::size_t offset, const T& value) {
