@@ -11,10 +11,12 @@
 namespace dmpc::core {
 namespace {
 
-/// A nested brick pays when a ray that crosses it meets clearly fewer primitives: it passes about three of its occupied voxels, each with
-/// the mean count, against all of them. Coincident or very large primitives lie in most voxels alike and fail this at once.
+/// A nested brick pays when a ray that crosses it meets clearly fewer primitives: it passes about three of its occupied voxels,
+/// each with the mean count, against all of them. Coincident or very large primitives lie in most voxels alike and fail this at
+/// once.
 constexpr double voxels_crossed = 3.0;
 constexpr double worthwhile_share = 0.6;
+constexpr std::size_t sample_size = 256;
 
 Corner voxel_corner(const Corner& corner, int voxel_level, std::size_t voxel) {
   const std::int32_t span = span_of(voxel_level);
@@ -91,6 +93,18 @@ bool BrickBuilder::worth_nesting(int voxel_level, std::span<const std::uint32_t>
   return voxel_level < finest_level && voxels_crossed * mean <= worthwhile_share * static_cast<double>(ids.size());
 }
 
+/// The same judged from a sample, so that long lists which nesting does not shorten cost no time.
+bool BrickBuilder::promising(int voxel_level, const Corner& corner, std::span<const std::uint32_t> ids) const {
+  if (ids.size() < 4 * sample_size) {
+    return true;
+  }
+  std::vector<std::uint32_t> sample;
+  for (std::size_t i = 0; i < sample_size; ++i) {
+    sample.push_back(ids[i * ids.size() / sample_size]);
+  }
+  return worth_nesting(voxel_level, sample, split(voxel_level, corner, sample));
+}
+
 /// Writes the brick of the cell of `level` at `corner`, then its blocks, further sheets and nested bricks.
 Address BrickBuilder::build(int level, const Corner& corner, const VoxelLists& lists) {
   struct Nested {
@@ -106,7 +120,8 @@ Address BrickBuilder::build(int level, const Corner& corner, const VoxelLists& l
       continue;
     }
     brick.occupied |= std::uint64_t{1} << voxel;
-    if (list.size() > voxel_primitives_max_ && level + 1 < finest_level) {
+    if (list.size() > voxel_primitives_max_ && level + 1 < finest_level &&
+        promising(level + 1, voxel_corner(corner, level + 1, voxel), list)) {
       VoxelLists inner = split(level + 1, voxel_corner(corner, level + 1, voxel), list);
       if (worth_nesting(level + 1, list, inner)) {
         brick.nested |= std::uint64_t{1} << voxel;
@@ -217,9 +232,8 @@ void BrickBuilder::sort_for_blocks(const Box& box, std::vector<std::uint32_t>& i
   keyed.reserve(ids.size());
   for (const std::uint32_t id : ids) {
     const Vec3d center = bounds_of(primitives_[id]).center();
-    const std::uint64_t code =
-        morton_code(quantised(center.x, box.low.x, box.high.x), quantised(center.y, box.low.y, box.high.y),
-                    quantised(center.z, box.low.z, box.high.z));
+    const std::uint64_t code = morton_code(quantised(center.x, box.low.x, box.high.x), quantised(center.y, box.low.y, box.high.y),
+                                           quantised(center.z, box.low.z, box.high.z));
     keyed.emplace_back(std::uint64_t{static_cast<std::uint8_t>(primitives_[id].kind)} << 60U | code, id);
   }
   std::sort(keyed.begin(), keyed.end());

@@ -15,7 +15,6 @@ namespace dmpc::core {
 /// A cell's lower corner, in finest cells.
 using Corner = std::array<std::int32_t, 3>;
 
-
 /// Ids sorted into the 64 voxels of a brick; ids of a voxel ascend.
 struct VoxelLists {
   std::array<std::uint32_t, 65> start{};
@@ -41,6 +40,7 @@ class BrickBuilder {
  private:
   VoxelLists split(int level, const Corner& corner, std::span<const std::uint32_t> ids) const;
   bool worth_nesting(int voxel_level, std::span<const std::uint32_t> ids, const VoxelLists& inner) const;
+  bool promising(int voxel_level, const Corner& corner, std::span<const std::uint32_t> ids) const;
   /// Up to 8 blocks, and for each voxel which of them have a primitive in it.
   struct Sheet {
     std::vector<std::span<const std::uint32_t>> blocks;

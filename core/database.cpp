@@ -13,12 +13,15 @@
 #include "core/overlap.h"
 #include "core/record_writer.h"
 #include "core/triangulate.h"
+#include "core/units.h"
 
 namespace dmpc::core {
 namespace {
 
 /// A coordinate beyond this share of float's range cannot be brought into a grid.
 constexpr double coordinate_max = 1e30;
+/// Top cells that list a primitive, on average. The SPD's scenes need 1 to 2.3, nested shells up to 5.
+constexpr std::size_t top_cells_max = 4;
 
 bool usable(const Vec3d& v) {
   return std::fabs(v.x) < coordinate_max && std::fabs(v.y) < coordinate_max && std::fabs(v.z) < coordinate_max;
@@ -34,7 +37,8 @@ Vec3d get(const PrimitiveValues& primitive, std::size_t row) {
   return {double{primitive.value[row]}, double{primitive.value[row + 1]}, double{primitive.value[row + 2]}};
 }
 
-/// Decided on the floats that are stored: equal vertices first, then area (a difference of exact products could be hidden by fusing).
+/// Decided on the floats that are stored: equal vertices first, then area (a difference of exact products could be hidden by
+/// fusing).
 bool degenerate_triangle(const PrimitiveValues& triangle) {
   const Vec3d a = get(triangle, 0), b = get(triangle, 3), c = get(triangle, 6);
   const Vec3d area = cross(b - a, c - a);
@@ -68,9 +72,10 @@ class DatabaseBuilder {
     for (std::uint32_t object = 0; object < scene_.objects.size(); ++object) {
       add_object(object);
     }
+    const TopLists lists = sort_into_top_cells();
     write_tables();
     write_normals();
-    write_grid();
+    write_grid(lists);
     header().primitive_count = static_cast<std::uint32_t>(result_.primitives_.size());
     result_.bytes_ = std::move(writer_).finish();
     return std::move(result_);
@@ -115,14 +120,15 @@ class DatabaseBuilder {
     const Box bounds = world_bounds();
     header().frame = fit_frame(bounds, scene_.objects.size(), options_.top_cells_per_primitive);
     header().background = Color(scene_.background);
-    double distance = 0;
     if (!bounds.empty()) {
       const Vec3d extent = bounds.high - bounds.low;
       const double size = std::max({extent.x, extent.y, extent.z, 1e-30});
-      distance = length(scene_.view.from - bounds.center()) / size;
+      view_distance_ = length(scene_.view.from - bounds.center()) / size;
     }
-    result_.pad_ = options_.pad_share * insertion_pad(header().frame, distance);
+    set_pad();
   }
+
+  void set_pad() { result_.pad_ = options_.pad_share * insertion_pad(header().frame, view_distance_); }
 
   Vec3d local(const Vec3d& point) const { return to_local(result_.header_.frame, point); }
 
@@ -234,40 +240,68 @@ class DatabaseBuilder {
 
   using TopLists = std::vector<std::pair<std::uint64_t, std::uint32_t>>;  ///< (Morton code of a top cell, primitive)
 
-  TopLists sort_into_top_cells() const {
-    const GridFrame& frame = result_.header_.frame;
-    const double cell = double{frame.finest_cell} * finest_per_top, pad = result_.pad_;
-    const Vec3d half{cell / 2 + pad, cell / 2 + pad, cell / 2 + pad};
+  /// Lists the primitives of every top cell. Where they are so large, so long, so far from the view or so much in one place that
+  /// the lists would be long, cells of twice the size are tried, at last a single one.
+  TopLists sort_into_top_cells() {
     TopLists lists;
-    for (std::uint32_t id = 0; id < result_.primitives_.size(); ++id) {
-      const Overlap overlap(result_.primitives_[id]);
-      const Box box = bounds_of(result_.primitives_[id]).padded({pad, pad, pad});
-      Corner first, last;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto clamped = [&](double at) {
-          return static_cast<std::int32_t>(std::clamp(std::floor(at / cell), 0.0, frame.resolution[axis] - 1.0));
-        };
-        first[axis] = clamped(box.low[axis]);
-        last[axis] = clamped(box.high[axis]);
-      }
-      for (std::int32_t z = first[2]; z <= last[2]; ++z) {
-        for (std::int32_t y = first[1]; y <= last[1]; ++y) {
-          for (std::int32_t x = first[0]; x <= last[0]; ++x) {
-            if (overlap.touches(Vec3d{x + 0.5, y + 0.5, z + 0.5} * cell, half)) {
-              lists.emplace_back(morton_code(static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y),
-                                             static_cast<std::uint64_t>(z)), id);
-            }
-          }
-        }
-      }
+    while (!fill_top_cells(lists)) {
+      coarsen();
     }
     std::sort(lists.begin(), lists.end());
     return lists;
   }
 
-  void write_grid() {
+  void coarsen() {
+    GridFrame& frame = header().frame;
+    for (std::int32_t& cells : frame.resolution) {
+      cells = ceil_divide(cells, 2);
+    }
+    frame.finest_cell *= 2;
+    set_pad();
+  }
+
+  /// Gives up, with false, where a primitive lies in more than top_cells_max cells on average; never with a single cell.
+  bool fill_top_cells(TopLists& lists) const {
+    const std::size_t bound = top_cells_max * (result_.primitives_.size() + 8);
+    lists.clear();
+    for (std::uint32_t id = 0; id < result_.primitives_.size(); ++id) {
+      list_top_cells(id, lists);
+      if (lists.size() > bound) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// Appends the top cells that primitive `id` touches.
+  void list_top_cells(std::uint32_t id, TopLists& lists) const {
+    const GridFrame& frame = result_.header_.frame;
+    const double cell = double{frame.finest_cell} * finest_per_top, pad = result_.pad_;
+    const Vec3d half{cell / 2 + pad, cell / 2 + pad, cell / 2 + pad};
+    const Overlap overlap(result_.primitives_[id]);
+    const Box box = bounds_of(result_.primitives_[id]).padded({pad, pad, pad});
+    Corner first, last;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto clamped = [&](double at) {
+        return static_cast<std::int32_t>(std::clamp(std::floor(at / cell), 0.0, frame.resolution[axis] - 1.0));
+      };
+      first[axis] = clamped(box.low[axis]);
+      last[axis] = clamped(box.high[axis]);
+    }
+    for (std::int32_t z = first[2]; z <= last[2]; ++z) {
+      for (std::int32_t y = first[1]; y <= last[1]; ++y) {
+        for (std::int32_t x = first[0]; x <= last[0]; ++x) {
+          if (overlap.touches(Vec3d{x + 0.5, y + 0.5, z + 0.5} * cell, half)) {
+            lists.emplace_back(
+                morton_code(static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y), static_cast<std::uint64_t>(z)), id);
+          }
+        }
+      }
+    }
+  }
+
+  void write_grid(const TopLists& lists) {
     const GridFrame& frame = header().frame;
-    const TopLists lists = sort_into_top_cells();
     BrickBuilder builder(result_.primitives_, shading_, result_.pad_, frame.finest_cell, options_.voxel_primitives_max, writer_);
     std::vector<DirectoryEntry> directory(directory_entry_count(frame.resolution));
     std::vector<std::uint32_t> ids;
@@ -340,6 +374,7 @@ class DatabaseBuilder {
   BuildOptions options_;
   RecordWriter writer_;
   Database result_;
+  double view_distance_ = 0;  ///< from the scene's middle, in extents
   std::vector<ShadingReference> shading_;
   std::vector<Smooth> smooth_;
 };
