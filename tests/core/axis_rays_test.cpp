@@ -56,7 +56,8 @@ double awkward(const Database& database, std::size_t axis, Random& random) {
   const int cells = frame.resolution[axis] * finest_per_top;
   switch (random.below(4)) {
     case 0:
-      return double{frame.finest_cell} * (random.below(static_cast<std::size_t>(cells)) & -static_cast<std::uint32_t>(span_of(static_cast<int>(random.below(4)))));
+      return double{frame.finest_cell} * (random.below(static_cast<std::size_t>(cells)) &
+                                          -static_cast<std::uint32_t>(span_of(static_cast<int>(random.below(4)))));
     case 1:
       return to_local(frame, random.bits() % 2 == 0 ? Vec3d{-1, -1, -1} : Vec3d{1, 1, 1})[axis];
     case 2:

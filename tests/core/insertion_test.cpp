@@ -17,7 +17,8 @@ namespace {
 Vec3d sample(const PrimitiveValues& primitive, Random& random) {
   switch (primitive.kind) {
     case PrimitiveKind::triangle: {
-      const double share = random.below(4) == 0 ? 0.0 : random.unit(), other = random.below(4) == 0 ? 0.0 : random.unit() * (1 - share);
+      const double share = random.below(4) == 0 ? 0.0 : random.unit(),
+                   other = random.below(4) == 0 ? 0.0 : random.unit() * (1 - share);
       const Vec3d a = point_of(primitive, 0);
       return a + (point_of(primitive, 3) - a) * share + (point_of(primitive, 6) - a) * other;
     }

@@ -47,7 +47,7 @@ std::size_t leaks(const Mesh& mesh, const Vec3d& center, double reach, std::size
   while (origins.size() < scaled(count)) {
     origins.push_back(center + random.direction() * (reach * random.unit()));
   }
-  return leaks(database_of(scene_of(mesh)), origins);
+  return leaks(database_of(seen_from(scene_of(mesh), 1)), origins);
 }
 
 constexpr Vec3d far_away{148376, 1234, -223423};
@@ -87,9 +87,10 @@ TEST_CASE("a closed mesh of any size holds every ray") {
 }
 
 TEST_CASE("scaling a scene by a power of two changes no bit of its primitives") {
-  const Database plain = database_of(scene_of(sphere_mesh(8, 16, 0.2)));
+  const Database plain = database_of(seen_from(scene_of(sphere_mesh(8, 16, 0.2)), 1));
   for (int exponent = -40; exponent <= 40; ++exponent) {
-    const Database other = database_of(scene_of(moved(sphere_mesh(8, 16, 0.2), std::ldexp(1.0, exponent), {})));
+    const Mesh mesh = moved(sphere_mesh(8, 16, 0.2), std::ldexp(1.0, exponent), {});
+    const Database other = database_of(seen_from(scene_of(mesh), 1));
     REQUIRE(other.primitives().size() == plain.primitives().size());
     std::size_t differences = 0;
     for (std::size_t i = 0; i < plain.primitives().size(); ++i) {

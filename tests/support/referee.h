@@ -23,8 +23,8 @@ struct Verdict {
   }
 };
 
-/// Merges one triangle (Cramer's rule, normal form): surely hit if every weight exceeds `margin`, surely missed if one is below -margin.
-/// A triangle seen nearly edge-on may be hit anywhere between its nearest and its farthest vertex.
+/// Merges one triangle (Cramer's rule, normal form): surely hit if every weight exceeds `margin`, surely missed if one is below
+/// -margin. A triangle seen nearly edge-on may be hit anywhere between its nearest and its farthest vertex.
 inline void merge(Verdict& verdict, const core::PrimitiveValues& triangle, const core::Ray& ray, double margin) {
   const core::Vec3d origin(ray.origin), d(ray.direction);
   const core::Vec3d a = point_of(triangle, 0) - origin, b = point_of(triangle, 3) - origin, c = point_of(triangle, 6) - origin;
