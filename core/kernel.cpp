@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstring>
 
+#include "core/mutation.h"
+
 // clang-format off
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
 #undef HWY_TARGET_INCLUDE
@@ -41,7 +43,12 @@ HWY_INLINE Vertices shear(const ShearedRay& ray, const float* vertex, std::size_
           hn::NegMulAdd(hn::Set(tag, ray.shear_y), z, relative(ray.axis_y)), z};
 }
 
-HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) { return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x)); }
+HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) {
+  if constexpr (mutation == Mutation::contracted_edges) {
+    return hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x));
+  }
+  return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
+}
 
 void triangles(const ShearedRay& ray, const float* rows, std::size_t count, float* times) {
   const Tag tag;
@@ -61,8 +68,7 @@ void triangles(const ShearedRay& ray, const float* rows, std::size_t count, floa
     return;
   }
   const Vector weighted =
-      hn::MulAdd(hn::Div(u, determinant), a.z,
-                 hn::MulAdd(hn::Div(v, determinant), b.z, hn::Mul(hn::Div(w, determinant), c.z)));
+      hn::MulAdd(hn::Div(u, determinant), a.z, hn::MulAdd(hn::Div(v, determinant), b.z, hn::Mul(hn::Div(w, determinant), c.z)));
   hn::StoreU(hn::IfThenElse(hit, hn::Mul(weighted, hn::Set(tag, ray.scale_z)), hn::Set(tag, missed)), tag, times);
   if (!hn::AllFalse(tag, on_edge)) [[unlikely]] {
     std::uint8_t bits[8] = {};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/mutation.h"
+
 namespace dmpc::core {
 namespace {
 
@@ -22,7 +24,12 @@ struct ShearedVertex {
   }
 };
 
-float edge(const ShearedVertex& a, const ShearedVertex& b) { return a.x * b.y - a.y * b.x; }
+float edge(const ShearedVertex& a, const ShearedVertex& b) {
+  if constexpr (mutation == Mutation::contracted_edges) {
+    return std::fma(a.x, b.y, -(a.y * b.x));
+  }
+  return a.x * b.y - a.y * b.x;
+}
 
 /// Products of floats are exact in double, so the sign of the difference is.
 float exact_edge(const ShearedVertex& a, const ShearedVertex& b) {
@@ -50,7 +57,8 @@ ShearedRay::ShearedRay(const Ray& ray) : origin(ray.origin) {
 }
 
 float intersect_triangle(const ShearedRay& ray, const float* rows, std::size_t stride, std::size_t lane) {
-  const ShearedVertex a(ray, rows + lane, stride), b(ray, rows + 3 * stride + lane, stride), c(ray, rows + 6 * stride + lane, stride);
+  const ShearedVertex a(ray, rows + lane, stride), b(ray, rows + 3 * stride + lane, stride),
+      c(ray, rows + 6 * stride + lane, stride);
   float u = edge(c, b), v = edge(a, c), w = edge(b, a);
   if (u == 0.0F || v == 0.0F || w == 0.0F) {
     u = exact_edge(c, b);

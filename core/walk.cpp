@@ -9,6 +9,7 @@
 #include "core/directory.h"
 #include "core/expect.h"
 #include "core/kernel.h"
+#include "core/mutation.h"
 
 namespace dmpc::core {
 namespace {
@@ -36,6 +37,11 @@ bool has(std::uint64_t mask, int bit) { return (mask >> bit & 1U) != 0; }
 /// How many bits of `mask` lie below `bit`.
 int rank(std::uint64_t mask, int bit) { return std::popcount(mask & ((std::uint64_t{1} << bit) - 1)); }
 
+/// What is left of a local coordinate that went through the world's, in single precision.
+[[maybe_unused]] double in_world_coordinates(double local, double grid_origin) {
+  return double{static_cast<float>(local + grid_origin)} - double{static_cast<float>(grid_origin)};
+}
+
 }  // namespace
 
 Walk::Walk(const Ray& ray, const GridFrame& frame)
@@ -44,8 +50,15 @@ Walk::Walk(const Ray& ray, const GridFrame& frame)
     size_[axis] = frame.resolution[axis] * finest_per_top;
     const float d = ray.direction[axis];
     step_[axis] = d >= smallest_component ? 1 : d <= -smallest_component ? -1 : 0;
+    double reciprocal = 1.0 / double{d};
+    if constexpr (mutation == Mutation::sign_of_minus_zero) {
+      step_[axis] = d >= 0.0F ? 1 : -1;
+      reciprocal = 1.0 / double{std::copysign(std::max(std::fabs(d), smallest_component), d)};
+    }
+    if constexpr (mutation == Mutation::world_coordinates) {
+      origin_[axis] = in_world_coordinates(origin_[axis], frame.origin[axis] * frame.scale);
+    }
     if (step_[axis] != 0) {
-      const double reciprocal = 1.0 / double{d};
       slope_[axis] = finest_cell_ * reciprocal;
       offset_[axis] = -origin_[axis] * reciprocal;
     }
@@ -56,8 +69,8 @@ double Walk::plane(std::size_t axis, std::int32_t index) const {
   return step_[axis] == 0 ? never : static_cast<double>(index) * slope_[axis] + offset_[axis];
 }
 
-/// Whether the ray has crossed a plane when it enters a cell at t through a plane of `entry_axis`: planes of lower axes at equal t come
-/// first, those of higher axes come after it.
+/// Whether the ray has crossed a plane when it enters a cell at t through a plane of `entry_axis`: planes of lower axes at equal
+/// t come first, those of higher axes come after it.
 bool Walk::crossed(std::size_t axis, std::int32_t index, double t, std::uint8_t entry_axis) const {
   const double at = plane(axis, index);
   return at < t || (at == t && (axis < entry_axis || entry_axis == walk_starts));
@@ -216,7 +229,8 @@ bool Walk::test(const Ray& ray, const ShearedRay& sheared, const std::byte* reco
   return leave_cell(ray, cursor, operations) && next_record(ray, cursor, operations);
 }
 
-/// Leaves the current cell, or a box of empty ones around it, for the next cell on the same or a coarser level; false if the walk ends.
+/// Leaves the current cell, or a box of empty ones around it, for the next cell on the same or a coarser level; false if the walk
+/// ends.
 bool Walk::leave_box(const Ray& ray, const Corner& low, const Corner& high, Cursor& cursor, Operations& operations) const {
   ++operations.cell_steps;
   const std::int32_t span = span_of(cursor.level);
