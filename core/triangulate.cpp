@@ -43,15 +43,16 @@ class Projection {
   double sign_;
 };
 
-bool is_convex(const Projection& seen, std::uint32_t count) {
+bool is_fan(const Projection& seen, std::uint32_t count) {
   for (std::uint32_t i = 0; i < count; ++i) {
     if (seen.turn(i, (i + 1) % count, (i + 2) % count) < 0) {
       return false;
     }
   }
-  // Every corner turns left, but a star may go round twice: then the fan has a triangle that turns right.
+  // Every corner turns left, but a star may go round twice: then the fan has a triangle that turns right. Nor does a fan do where
+  // a corner lies on a straight edge: a triangle without area would be dropped and leave a crack.
   for (std::uint32_t i = 1; i + 1 < count; ++i) {
-    if (seen.turn(0, i, i + 1) < 0) {
+    if (!(seen.turn(0, i, i + 1) > 0)) {
       return false;
     }
   }
@@ -104,7 +105,7 @@ std::vector<Triangle> triangulate(std::span<const Vec3d> vertices) {
     return {{0, 1, 2}};
   }
   const Projection seen(vertices, normal);
-  if (is_convex(seen, count)) {
+  if (is_fan(seen, count)) {
     for (std::uint32_t i = 1; i + 1 < count; ++i) {
       triangles.push_back({0, i, i + 1});
     }
