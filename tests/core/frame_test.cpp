@@ -1,0 +1,80 @@
+#include "core/frame.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/support/random.h"
+
+using namespace dmpc::core;
+using dmpc::tests::Random;
+
+namespace {
+
+Box box_of(const Vec3d& low, const Vec3d& high) {
+  Box box;
+  box.include(low);
+  box.include(high);
+  return box;
+}
+
+double cells(const GridFrame& frame) {
+  return static_cast<double>(frame.resolution[0]) * frame.resolution[1] * frame.resolution[2];
+}
+
+/// The box lies inside the grid, a margin from every side.
+void check_covers(const GridFrame& frame, const Box& box) {
+  const Vec3d low = to_local(frame, box.low), high = to_local(frame, box.high);
+  const double cell = double{frame.finest_cell} * finest_per_top;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    CHECK(low[axis] > 0.07 * cell);
+    CHECK(high[axis] < (frame.resolution[axis] - 0.07) * cell);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a frame covers its bounds with about the wanted number of cells") {
+  Random random(1);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3d low = random.in_box(-100, 100);
+    const Box box = box_of(low, low + random.in_box(0, 10));
+    const std::size_t count = 1 + random.below(100'000);
+    const GridFrame frame = fit_frame(box, count, 0.125);
+    check_covers(frame, box);
+    CHECK(cells(frame) <= 2 * std::max(1.0, 0.125 * static_cast<double>(count)) + 8);
+  }
+}
+
+TEST_CASE("the scale is a power of two that brings the largest extent into (1/2, 1]") {
+  for (const double size : {1e-20, 0.3, 0.5, 1.0, 1.5, 3.0, 1e6, 1e20}) {
+    const GridFrame frame = fit_frame(box_of({0, 0, 0}, {size, size / 2, size / 3}), 100, 0.125);
+    int exponent = 0;
+    CHECK(std::frexp(frame.scale, &exponent) == 0.5);
+    CHECK(size * frame.scale >= 0.5);
+    CHECK(size * frame.scale <= 1.0);
+  }
+}
+
+TEST_CASE("flat, line-like and point-like scenes get a thickness") {
+  for (const Vec3d& size : {Vec3d{1, 1, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 0}, Vec3d{1, 1e-9, 1}}) {
+    const Box box = box_of({5, 6, 7}, Vec3d{5, 6, 7} + size);
+    const GridFrame frame = fit_frame(box, 1000, 0.125);
+    check_covers(frame, box);
+    CHECK(cells(frame) <= 258);
+    CHECK(frame.finest_cell > 0);
+  }
+}
+
+TEST_CASE("no bounds give a frame of one cell") {
+  const GridFrame frame = fit_frame({}, 0, 0.125);
+  CHECK(cells(frame) == 1);
+  CHECK(frame.finest_cell * finest_per_top == 1.0F);
+}
+
+TEST_CASE("the insertion pad grows with the distance of the rays and never vanishes") {
+  const GridFrame frame = fit_frame(box_of({0, 0, 0}, {1, 1, 1}), 1000, 0.125);
+  CHECK(insertion_pad(frame, 0) >= 1e-3 * double{frame.finest_cell});
+  CHECK(insertion_pad(frame, 1000) >= 1000 * 0x1p-21 * 0.5);
+  CHECK(insertion_pad(frame, 1000) > insertion_pad(frame, 100));
+}
