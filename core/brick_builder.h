@@ -9,11 +9,9 @@
 #include "core/box.h"
 #include "core/database.h"
 #include "core/record_writer.h"
+#include "core/region.h"
 
 namespace dmpc::core {
-
-/// A cell's lower corner, in finest cells.
-using Corner = std::array<std::int32_t, 3>;
 
 /// Ids sorted into the 64 voxels of a brick; ids of a voxel ascend.
 struct VoxelLists {

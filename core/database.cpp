@@ -212,7 +212,9 @@ class DatabaseBuilder {
   }
 
   void write_tables() {
-    header().directory = writer_.allocate_array<DirectoryEntry>(directory_entry_count(header().frame.resolution));
+    header().region.high = grid_size(header().frame);
+    header().directory_size = header().frame.resolution;
+    header().directory = writer_.allocate_array<DirectoryEntry>(directory_entry_count(header().directory_size));
     header().light_count = static_cast<std::uint32_t>(scene_.lights.size());
     header().lights = writer_.allocate_array<LightRecord>(scene_.lights.size());
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
@@ -220,6 +222,7 @@ class DatabaseBuilder {
       writer_.write(header().lights, i * sizeof(LightRecord),
                     LightRecord{.position = Vec3f(local(light.position)), .intensity = intensity(light)});
     }
+    header().material_count = static_cast<std::uint32_t>(scene_.materials.size());
     header().materials = writer_.allocate_array<MaterialRecord>(scene_.materials.size());
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
       const Material& from = scene_.materials[i];

@@ -28,7 +28,9 @@ constexpr std::uint64_t directory_index(const std::array<std::int32_t, 3>& resol
 
 /// The record that holds the entry: two entries share one, since addresses count in 8 bytes.
 constexpr Address directory_address(const DatabaseHeader& header, const std::array<std::int32_t, 3>& cell) {
-  return advance(header.directory, directory_index(header.frame.resolution, cell) / 2 * record_alignment);
+  const Corner& low = header.directory_low;
+  const Corner relative{cell[0] - low[0], cell[1] - low[1], cell[2] - low[2]};
+  return advance(header.directory, directory_index(header.directory_size, relative) / 2 * record_alignment);
 }
 
 /// The entry of `cell` in its record: neighbours along x alternate.

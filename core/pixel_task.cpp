@@ -28,6 +28,7 @@ void PixelTask::deposit(const Color& light, Operations& operations) {
 
 /// What a traced ray leaves: light on the film, or a hit on the stack.
 void PixelTask::end_ray(Traced result, const RenderSettings& settings, Operations& operations) {
+  expect(result == Traced::hit || result == Traced::miss, "a pixel's tracer sees the whole scene");
   tracing_ = false;
   const bool hit = result == Traced::hit;
   if (ray_.kind == RayKind::shadow) {

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "core/region.h"
 #include "core/vec.h"
 
 namespace dmpc::core {
@@ -142,13 +143,22 @@ struct GridFrame {
   float finest_cell = 1;                            ///< edge of a finest cell, grid-local
 };
 
+/// The grid's size in finest cells.
+constexpr Corner grid_size(const GridFrame& frame) {
+  return {frame.resolution[0] * finest_per_top, frame.resolution[1] * finest_per_top, frame.resolution[2] * finest_per_top};
+}
+
 /// The database's table of contents, by value in every node.
 struct DatabaseHeader {
   GridFrame frame;
+  Region region;  ///< whose records are here: the whole grid, or a node's part of it
   Address directory = no_address;
+  Corner directory_low{};                        ///< finest cells, multiples of 4 top cells: where the directory begins
+  std::array<std::int32_t, 3> directory_size{};  ///< top cells along x, y, z
   Address materials = no_address;
   Address lights = no_address;
   std::uint32_t primitive_count = 0;
+  std::uint32_t material_count = 0;
   std::uint32_t light_count = 0;
   Color background;
 };

@@ -44,10 +44,14 @@ int rank(std::uint64_t mask, int bit) { return std::popcount(mask & ((std::uint6
 
 }  // namespace
 
-Walk::Walk(const Ray& ray, const GridFrame& frame)
-    : origin_(ray.origin), direction_(ray.direction), finest_cell_(double{frame.finest_cell}) {
+Walk::Walk(const Ray& ray, const GridFrame& frame, const Region& region)
+    : origin_(ray.origin),
+      direction_(ray.direction),
+      size_(grid_size(frame)),
+      region_(region),
+      whole_(region == Region{.high = grid_size(frame)}),
+      finest_cell_(double{frame.finest_cell}) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    size_[axis] = frame.resolution[axis] * finest_per_top;
     const float d = ray.direction[axis];
     step_[axis] = d >= smallest_component ? 1 : d <= -smallest_component ? -1 : 0;
     double reciprocal = 1.0 / double{d};
@@ -138,10 +142,11 @@ bool Walk::step(const Ray& ray, const ShearedRay& sheared, const std::byte* reco
       return next_record(ray, cursor, operations);
     case Cursor::Stage::sheet:
       ++operations.brick_reads;
-      return read_sheet(record, cursor) || (leave_cell(ray, cursor, operations) && next_record(ray, cursor, operations));
+      return read_sheet(record, cursor) || leave_occupied(ray, cursor, operations);
     case Cursor::Stage::block:
       return test(ray, sheared, record, cursor, operations);
     case Cursor::Stage::start:
+    case Cursor::Stage::left:
     case Cursor::Stage::finished:
       break;
   }
@@ -174,8 +179,13 @@ void Walk::read_brick(const std::byte* record, Cursor& cursor) const {
   const std::int32_t edge = span_of(cursor.level), span = span_of(cursor.level + 1);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::int32_t low = cursor.cell[axis], high = low + edge;
-    cursor.cell[axis] = axis == cursor.entry_axis ? (step_[axis] > 0 ? low : high - span)
-                                                  : locate(axis, cursor.t_enter, span, low, high, cursor.entry_axis);
+    if (cursor.arrived) {
+      cursor.cell[axis] = cursor.arrival[axis] & -span;
+    } else if (axis == cursor.entry_axis) {
+      cursor.cell[axis] = step_[axis] > 0 ? low : high - span;
+    } else {
+      cursor.cell[axis] = locate(axis, cursor.t_enter, span, low, high, cursor.entry_axis);
+    }
   }
   ++cursor.level;
 }
@@ -226,7 +236,7 @@ bool Walk::test(const Ray& ray, const ShearedRay& sheared, const std::byte* reco
     cursor.stage = Cursor::Stage::sheet;
     return true;
   }
-  return leave_cell(ray, cursor, operations) && next_record(ray, cursor, operations);
+  return leave_occupied(ray, cursor, operations);
 }
 
 /// Leaves the current cell, or a box of empty ones around it, for the next cell on the same or a coarser level; false if the walk
@@ -252,8 +262,8 @@ bool Walk::leave_box(const Ray& ray, const Corner& low, const Corner& high, Curs
   cursor.entry_axis = static_cast<std::uint8_t>(exit_axis);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (axis == exit_axis) {
-      cursor.cell[axis] = step_[axis] > 0 ? high[axis] : low[axis] - span;
-    } else if (high[axis] - low[axis] > span) {
+      cursor.cell[axis] = step_[axis] > 0 ? high[axis] : low[axis] - 1;
+    } else if (high[axis] - low[axis] > span) {  // a box of empty cells
       cursor.cell[axis] = locate(axis, t_exit, span, low[axis], high[axis], cursor.entry_axis);
     }
   }
@@ -268,7 +278,44 @@ bool Walk::leave_box(const Ray& ray, const Corner& low, const Corner& high, Curs
   for (std::int32_t& corner : cursor.cell) {
     corner &= -span_of(cursor.level);
   }
-  return true;
+  cursor.arrived = false;
+  return whole_ || stays(cursor, now);
+}
+
+/// The finest cell that the ray enters with the cursor's cell, through the plane beside finest index `face` of the entry axis.
+Corner Walk::finest_cell_of(const Cursor& cursor, std::int32_t face) const {
+  const std::int32_t span = span_of(cursor.level);
+  Corner finest;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int32_t low = cursor.cell[axis];
+    finest[axis] = axis == cursor.entry_axis ? face : locate(axis, cursor.t_enter, 1, low, low + span, cursor.entry_axis);
+  }
+  return finest;
+}
+
+/// Whether the cell just entered is this region's; if not, notes where the ray has gone.
+bool Walk::stays(Cursor& cursor, std::int32_t face) const {
+  if (region_.contains(cursor.cell, span_of(cursor.level))) {
+    return true;
+  }
+  cursor.arrival = finest_cell_of(cursor, face);
+  if (region_.contains(cursor.arrival)) {
+    return true;
+  }
+  cursor.stage = Cursor::Stage::left;
+  return false;
+}
+
+Corner Walk::first_cell(const Cursor& cursor) const { return finest_cell_of(cursor, 0); }
+
+/// Leaves a cell whose records have been read: one that the region's border cuts is left at the border.
+bool Walk::leave_occupied(const Ray& ray, Cursor& cursor, Operations& operations) const {
+  Corner low = cursor.cell, high = cursor.cell;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    high[axis] = std::min(low[axis] + span_of(cursor.level), region_.high[axis]);
+    low[axis] = std::max(low[axis], region_.low[axis]);
+  }
+  return leave_box(ray, low, high, cursor, operations) && next_record(ray, cursor, operations);
 }
 
 bool Walk::leave_cell(const Ray& ray, Cursor& cursor, Operations& operations) const {

@@ -1,0 +1,29 @@
+// The part of a database that touches a region: what a node of dataflow holds.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/database.h"
+#include "core/record.h"
+#include "core/records.h"
+
+namespace dmpc::core {
+
+/// Records and table of contents of one region, position-independent like the whole database's. trace() on it answers the same
+/// bits as on the whole while the ray is in the region.
+struct DatabasePart {
+  DatabaseHeader header;               ///< header.region is the region
+  std::vector<std::byte> bytes;        ///< overread_bytes more than the records take
+  std::uint64_t primitive_copies = 0;  ///< lanes of its blocks: summed over all parts and divided by the whole's, the duplication
+
+  /// The size of the records alone.
+  std::size_t record_bytes() const { return bytes.size() - overread_bytes; }
+};
+
+/// Copies the directory's entries, bricks, blocks and normals that cells in `region` need, and all materials and lights;
+/// addresses are made anew, values keep their bits. Voxels outside the region are left out of their bricks.
+DatabasePart extract(const Database& database, const Region& region);
+
+}  // namespace dmpc::core
