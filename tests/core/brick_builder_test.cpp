@@ -1,0 +1,95 @@
+#include "core/brick_builder.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "tests/support/listing.h"
+#include "tests/support/random.h"
+#include "tests/support/scaled.h"
+#include "tests/support/shooting.h"
+
+using namespace dmpc::core;
+using namespace dmpc::tests;
+
+namespace {
+
+/// `count` triangles, spheres and cones through one point.
+Scene heap(int count) {
+  Random random(1);
+  Scene scene;
+  SceneBuilder builder(scene);
+  for (int i = 0; i < count; ++i) {
+    const Vec3d across = random.direction(), other = cross(across, random.direction());
+    builder.polygon({across, other, (across + other) * -1.0});
+    builder.sphere(random.direction() * 0.5, 0.5);
+    builder.cone(across * -1.0, 0.1, across, 0.1);
+  }
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("more primitives in a voxel than a sheet has lanes are all listed") {
+  for (const int count : {1, 2, 21, 22, 60, 200}) {
+    CAPTURE(count);
+    for (const std::size_t page_size : {std::size_t{512}, std::size_t{4096}}) {
+      const Database database = build_database(heap(count), {.page_size_bytes = page_size});
+      auto ids = Listing(database).around(to_local(database.header().frame, {0, 0, 0}));
+      std::sort(ids.begin(), ids.end());
+      ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+      std::size_t through = 0;
+      for (std::uint32_t id = 0; id < database.primitives().size(); ++id) {
+        through +=
+            database.primitives()[id].kind != PrimitiveKind::cone && std::binary_search(ids.begin(), ids.end(), id) ? 1 : 0;
+      }
+      CHECK(through == 2 * static_cast<std::size_t>(count));
+    }
+  }
+}
+
+TEST_CASE("rays find the nearest of many sheets") {
+  const Database database = database_of(heap(100));
+  const GridFrame& frame = database.header().frame;
+  Random random(2);
+  std::size_t differences = 0, hits = 0;
+  for (std::size_t i = 0; i < scaled(5000); ++i) {
+    const Ray ray = ray_through(to_local(frame, random.direction() * 2.0), to_local(frame, random.in_box(-0.3, 0.3)));
+    const Hit hit = shoot(database, ray);
+    differences += same_hit(hit, brute_force(database, ray)) ? 0 : 1;
+    hits += hit.found() ? 1 : 0;
+  }
+  CHECK(differences == 0);
+  CHECK(hits > 0);
+}
+
+TEST_CASE("crowded voxels nest, and lists stay short") {
+  Random random(3);
+  Scene scene;
+  SceneBuilder builder(scene);
+  builder.polygon({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}});
+  for (std::size_t i = 0; i < scaled(20'000); ++i) {
+    builder.sphere(Vec3d{0.5, 0.5, 0.5} + random.in_box(-0.01, 0.01), 1e-4);
+  }
+  const Database database = database_of(scene);
+  const Listing listing(database);
+  const auto ids = listing.around(to_local(database.header().frame, {0.5, 0.5, 0.5}));
+  CHECK(ids.size() < 2000);
+  CHECK(database.references() < 4 * database.primitives().size());
+}
+
+TEST_CASE("hits stay the same however soon voxels nest") {
+  const Scene scene = heap(40);
+  const Database expected = database_of(scene);
+  for (const int most : {1, 8, 1000}) {
+    const Database database = build_database(scene, {.voxel_primitives_max = most});
+    Random random(4);
+    std::size_t differences = 0;
+    for (std::size_t i = 0; i < scaled(2000); ++i) {
+      const GridFrame& frame = expected.header().frame;
+      const Ray ray = ray_through(to_local(frame, random.direction() * 2.0), to_local(frame, random.in_box(-1, 1)));
+      differences += same_hit(shoot(database, ray), shoot(expected, ray)) ? 0 : 1;
+    }
+    CHECK(differences == 0);
+  }
+}

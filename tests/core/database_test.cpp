@@ -1,0 +1,133 @@
+#include "core/database.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "core/expect.h"
+#include "tests/support/mesh.h"
+#include "tests/support/shooting.h"
+
+using namespace dmpc::core;
+using namespace dmpc::tests;
+
+namespace {
+
+template <class T>
+T read(const Database& database, Address address) {
+  T value;
+  std::memcpy(&value, database.bytes().data() + byte_offset(address), sizeof(T));
+  return value;
+}
+
+/// The shading reference of a primitive's copy.
+ShadingReference reference_of(const Database& database, std::uint32_t id) {
+  const auto place = database.places()[id];
+  const auto header = read<BlockHeader>(database, place.block);
+  const std::size_t row = (value_count(header.kind) + 1) * header.count + place.lane;
+  ShadingReference reference;
+  std::memcpy(&reference, database.bytes().data() + byte_offset(place.block) + sizeof(BlockHeader) + 4 * row, sizeof(reference));
+  return reference;
+}
+
+}  // namespace
+
+TEST_CASE("degenerate primitives are dropped and counted") {
+  Scene scene;
+  SceneBuilder builder(scene);
+  builder.polygon({{0, 0, 0}, {0, 0, 0}, {1, 0, 0}});
+  builder.polygon({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}});
+  builder.sphere({0, 0, 0}, 0);
+  builder.cone({0, 0, 0}, 1, {0, 0, 0}, 1);
+  builder.cone({0, 0, 0}, 0, {0, 0, 1}, 0);
+  builder.sphere({0, 0, 0}, 1);
+  const Database database = database_of(scene);
+  CHECK(database.dropped() == 5);
+  CHECK(database.primitives().size() == 1);
+  CHECK(database.sources()[0].object == 5);
+  CHECK(database.header().primitive_count == 1);
+}
+
+TEST_CASE("ids follow the file's order and name their object") {
+  Scene scene;
+  SceneBuilder builder(scene);
+  builder.sphere({0, 0, 0}, 1);
+  builder.polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  builder.cone({0, 0, 0}, 1, {0, 0, 1}, 1);
+  const Database database = database_of(scene);
+  REQUIRE(database.primitives().size() == 4);
+  CHECK(database.primitives()[0].kind == PrimitiveKind::sphere);
+  CHECK(database.primitives()[3].kind == PrimitiveKind::cone);
+  CHECK(database.sources()[1].object == 1);
+  CHECK(database.sources()[2].object == 1);
+}
+
+TEST_CASE("every primitive's place holds the primitive") {
+  const Database database = database_of(scene_of(sphere_mesh(20, 30, 0)));
+  CHECK(database.references() >= database.primitives().size());
+  for (std::uint32_t id = 0; id < database.primitives().size(); ++id) {
+    const auto place = database.places()[id];
+    const auto header = read<BlockHeader>(database, place.block);
+    const std::byte* block = database.bytes().data() + byte_offset(place.block) + sizeof(BlockHeader);
+    REQUIRE(place.lane < header.count);
+    std::uint32_t found = 0;
+    std::memcpy(&found, block + std::size_t{4} * (value_count(header.kind) * header.count + place.lane), sizeof(found));
+    CHECK(found == id);
+    float first = 0;
+    std::memcpy(&first, block + std::size_t{4} * place.lane, sizeof(first));
+    CHECK(first == database.primitives()[id].value[0]);
+  }
+}
+
+TEST_CASE("a thousand lights are found by index, and lights without a colour share one") {
+  Scene scene;
+  SceneBuilder builder(scene);
+  for (int i = 0; i < 1000; ++i) {
+    builder.light({.position = {double(i), 0, 0}, .color = {0.25, 0.5, 0.75}, .has_color = i == 999});
+  }
+  builder.sphere({0, 0, 0}, 1);
+  const Database database = database_of(scene);
+  CHECK(database.header().light_count == 1000);
+  const GridFrame& frame = database.header().frame;
+  for (const std::uint32_t i : {0U, 17U, 999U}) {
+    const auto light = read<LightRecord>(database, advance(database.header().lights, i * sizeof(LightRecord)));
+    CHECK(light.position == Vec3f(to_local(frame, {double(i), 0, 0})));
+  }
+  const auto plain = read<LightRecord>(database, database.header().lights);
+  CHECK(plain.intensity.x == doctest::Approx(1 / std::sqrt(1000.0)));
+  const auto colored = read<LightRecord>(database, advance(database.header().lights, 999 * sizeof(LightRecord)));
+  CHECK(colored.intensity == Color{0.25F, 0.5F, 0.75F});
+}
+
+TEST_CASE("materials are found by the index that a primitive carries") {
+  Scene scene;
+  SceneBuilder builder(scene);
+  builder.material({.color = {1, 0, 0}, .diffuse = 0.25});
+  builder.sphere({0, 0, 0}, 1);
+  builder.material({.color = {0, 1, 0}, .specular = 0.5, .shine = 7});
+  builder.sphere({3, 0, 0}, 1);
+  const Database database = database_of(scene);
+  for (std::uint32_t id = 0; id < 2; ++id) {
+    const auto reference = reference_of(database, id);
+    CHECK_FALSE(reference.is_smooth());
+    const auto material =
+        read<MaterialRecord>(database, advance(database.header().materials, reference.material() * sizeof(MaterialRecord)));
+    CHECK(material.color == (id == 0 ? Color{1, 0, 0} : Color{0, 1, 0}));
+    CHECK(material.diffuse == (id == 0 ? 0.25F : 1.0F));
+    CHECK(material.shine == (id == 0 ? 0.0F : 7.0F));
+  }
+}
+
+TEST_CASE("pages of a size that is none are refused") {
+  for (const std::size_t bytes : {std::size_t{0}, std::size_t{256}, std::size_t{1000}, std::size_t{131072}}) {
+    CHECK_THROWS_AS(build_database({}, {.page_size_bytes = bytes}), InternalError);
+  }
+}
+
+TEST_CASE("a database is whole pages, and every page is a view into it") {
+  const Database database = build_database(scene_of(cube()), {.page_size_bytes = 512});
+  CHECK(database.bytes().size() == database.page_count() * 512);
+  CHECK(database.page(database.page_count() - 1).size() == 512);
+  CHECK(database.page(1).data() == database.bytes().data() + 512);
+}
