@@ -1,0 +1,87 @@
+// The rules that keep rays moving with bounded queues: what a node does next, which way a packet of rays takes, and when credits
+// go back. Pure functions: the node program and the exhaustive model in tests/dataflow decide by the same ones.
+//
+// Why nothing can stand still for ever:
+//   (1) A credit of (sender, target) is a place for one packet of rays in the target's backlog. So whatever is under way can be
+//       received by a node that is stuck, and nobody ever waits for a reception.
+//   (2) A full packet that finds no credit for its owner goes to the host. The host has room for every ray, depends on nobody,
+//   and so
+//       gives a credit for itself back as soon as the packet is there: a node waits for the host's credit for a bounded time.
+//   (3) Hence a node with anything to do will do it, its backlog empties, and its credits go back, batched while it is busy, all
+//   of
+//       them before it rests. So the host, too, gets every credit back, and every ray that it keeps goes on.
+//   (4) New primary rays start only when nothing received is left, and no work is taken up while a packet waits: one work() adds
+//   at most
+//       one ray to a gather, which had room.
+// The packets that the host forwards take the credits of (host, target), with places of their own.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace dmpc::dataflow {
+
+/// What a node has to do, as far as the choice of the next task asks.
+struct NodeState {
+  bool packet_waits = false;   ///< a packet of rays has left its gather (full, or flushed) and found no credit
+  bool is_tracing = false;     ///< a ray is being traced, or a hit has children to be made
+  bool has_backlog = false;    ///< received rays
+  bool has_primaries = false;  ///< own primary rays that have not started
+  bool has_gathered = false;   ///< rays in a packet that is not full
+};
+
+/// In the order of precedence.
+enum class Task : std::uint8_t {
+  send_waiting,   ///< try the waiting packet again, and nothing else
+  go_on,          ///< with the ray or hit under way: depth first
+  take_received,  ///< the deepest ray of the backlog
+  start_primary,
+  flush,  ///< send a packet that is not full: there is no other work
+  rest    ///< passive: return all credits owed, hand on the token, wait for a packet
+};
+
+/// The next quantum's task.
+constexpr Task next_task(const NodeState& state) {
+  if (state.packet_waits) {
+    return Task::send_waiting;
+  }
+  if (state.is_tracing) {
+    return Task::go_on;
+  }
+  if (state.has_backlog) {
+    return Task::take_received;
+  }
+  if (state.has_primaries) {
+    return Task::start_primary;
+  }
+  return state.has_gathered ? Task::flush : Task::rest;
+}
+
+/// Passive in the sense of termination: it will not send a ray packet unless it receives one.
+constexpr bool is_passive(const NodeState& state) { return next_task(state) == Task::rest; }
+
+/// Where a packet of rays goes.
+enum class Way : std::uint8_t {
+  to_owner,
+  to_host,  ///< overflow: the host keeps it and forwards it when it has a credit for the owner
+  wait      ///< until a packet brings either credit
+};
+
+/// By the sender's own credits alone, so the answer is the same under every runner.
+constexpr Way way_of(bool has_owner_credit, bool has_host_credit) {
+  if (has_owner_credit) {
+    return Way::to_owner;
+  }
+  return has_host_credit ? Way::to_host : Way::wait;
+}
+
+/// How many credits a busy node collects for one sender before it gives them back: half, so that the sender can go on meanwhile.
+constexpr std::uint32_t return_batch(std::uint32_t credits_each) { return std::max(1U, credits_each / 2); }
+
+/// Whether a node that owes a sender `owed` credits gives them all back now. A node that rests keeps none: the host may be
+/// waiting for them with rays for it.
+constexpr bool returns_credits(std::uint32_t owed, std::uint32_t batch, bool rests) {
+  return owed > 0 && (rests || owed >= batch);
+}
+
+}  // namespace dmpc::dataflow
