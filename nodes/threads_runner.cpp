@@ -13,6 +13,7 @@
 #include "core/expect.h"
 #include "nodes/atomics.h"
 #include "nodes/awake_count.h"
+#include "nodes/held_packets.h"
 #include "nodes/thread.h"
 
 namespace dmpc::nodes {
@@ -32,20 +33,68 @@ std::uint64_t nanoseconds(clockid_t clock) {
   return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000U + static_cast<std::uint64_t>(now.tv_nsec);
 }
 
+/// A place for the packets that chaos holds back at this node, if it does.
+std::optional<HeldPackets> held_packets_of(const std::optional<Chaos>& chaos, const NodeSpecification& specification, NodeId id,
+                                           LocalMemory& memory, Network& network) {
+  if (!chaos || specification.held_bytes == 0) {
+    return std::nullopt;
+  }
+  return HeldPackets(*chaos, id, memory, specification.held_bytes, network);
+}
+
+/// What all processors of a computer have in common.
+struct Computer {
+  std::uint32_t peer_count;
+  Network& network;
+  const std::optional<Chaos>& chaos;
+};
+
 /// One node with all that belongs to it. On cache lines of its own, so that neighbours do not disturb each other's counters.
 struct alignas(cache_line_bytes) Processor {
-  Processor(const NodeSpecification& specification, NodeId id, std::uint32_t peer_count, Network& network)
-      : memory(specification.plan), mailbox(specification.mailbox, memory), node(id, peer_count, memory, network) {
+  Processor(const NodeSpecification& specification, NodeId id, const Computer& computer)
+      : memory(specification.plan),
+        mailbox(specification.mailbox, memory),
+        held(held_packets_of(computer.chaos, specification, id, memory, computer.network)),
+        node(id, computer.peer_count, memory, held ? *held : computer.network) {
     core::expect(specification.plan[Category::reserve] >= thread_stack_bytes_min, "a plan reserves room for the thread's stack");
+    if (computer.chaos) {
+      pauses.emplace(*computer.chaos, id);
+    }
     program = specification.make_program(node);
     core::expect(program != nullptr, "a specification makes a program");
     memory.seal();
   }
 
+  /// Whether this node, being slow, lets the next quantum pass.
+  bool sits_out() {
+    if (!pauses) {
+      return false;
+    }
+    if (quanta_to_run == 0) {
+      quanta_to_run = pauses->next_quanta() + 1;
+    }
+    --quanta_to_run;
+    node.counters().sat_out += quanta_to_run > 0 ? 1 : 0;
+    return quanta_to_run > 0;
+  }
+
+  /// Hands on the packets whose time has come; returns whether others are still held back.
+  bool holds_packets() {
+    if (!held) {
+      return false;
+    }
+    held->pass_quantum();
+    node.counters().held = held->count();
+    return !held->empty();
+  }
+
   LocalMemory memory;
   Mailbox mailbox;
+  std::optional<HeldPackets> held;
   Node node;
   std::unique_ptr<Program> program;
+  std::optional<ChaosPauses> pauses;
+  std::uint32_t quanta_to_run = 0;  ///< this many quanta from now the node runs one
   Thread thread;
 };
 
@@ -59,12 +108,12 @@ std::size_t credit_table_bytes(std::uint32_t peer_count) {
 /// a Processor's parts belong to its thread but for the mailbox. Everything else runs on the caller's thread while no node's
 /// thread exists.
 struct ThreadsRunner::Implementation final : Network {
-  explicit Implementation(std::span<const NodeSpecification> specifications)
-      : awake_(static_cast<std::uint32_t>(specifications.size())) {
+  Implementation(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos)
+      : chaos_(chaos), awake_(static_cast<std::uint32_t>(specifications.size())) {
     core::expect(!specifications.empty(), "a computer has at least the host");
-    const auto peer_count = static_cast<std::uint32_t>(specifications.size());
-    for (std::uint32_t i = 0; i < peer_count; ++i) {
-      processors_.push_back(std::make_unique<Processor>(specifications[i], NodeId{i}, peer_count, *this));
+    const Computer computer{static_cast<std::uint32_t>(specifications.size()), *this, chaos_};
+    for (std::uint32_t i = 0; i < computer.peer_count; ++i) {
+      processors_.push_back(std::make_unique<Processor>(specifications[i], NodeId{i}, computer));
     }
   }
 
@@ -125,13 +174,20 @@ struct ThreadsRunner::Implementation final : Network {
     counters.wall_ns = nanoseconds(CLOCK_MONOTONIC) - start_ns;
   }
 
-  /// Receives all that has come and works one quantum; with nothing to do, sleeps until a packet comes or the run ends.
+  /// Receives all that has come and works one quantum; with nothing to do, sleeps until a packet comes or the run ends. A node
+  /// that holds packets back does not sleep: they are under way.
   void step(Processor& self) {
+    if (self.sits_out()) {
+      sched_yield();
+      return;
+    }
     self.mailbox.drain([&self](const Packet& packet) {
       self.node.counters().received[packet.kind].add(packet.payload.size());
       self.program->receive(packet);
     });
-    if (!work(self) && !packet_comes_soon(self.mailbox)) {
+    const bool has_more = work(self);
+    const bool holds_packets = self.holds_packets();
+    if (!has_more && !packet_comes_soon(self.mailbox) && !holds_packets) {
       sleep(self);
     }
   }
@@ -199,7 +255,8 @@ struct ThreadsRunner::Implementation final : Network {
       case Ending::failed:
         std::rethrow_exception(failure_);
       case Ending::stalled:
-        throw core::InternalError("all nodes sleep, nothing is under way, and the work is unfinished:" + description());
+        throw core::InternalError("all nodes sleep, nothing is under way, and the work is unfinished" +
+                                  (chaos_ ? " (chaos seed " + std::to_string(chaos_->seed) + "):" : ":") + description());
       case Ending::interrupted:
         return RunEnd::interrupted;
       default:
@@ -224,12 +281,14 @@ struct ThreadsRunner::Implementation final : Network {
     std::uint64_t received = 0;
     for (const auto& processor : processors_) {
       core::expect(!processor->mailbox.has_packets(), "at the end all mailboxes are empty");
+      core::expect(!processor->held || processor->held->empty(), "at the end no packet is held back");
       sent += total(processor->node.counters().sent).packets;
       received += total(processor->node.counters().received).packets;
     }
     core::expect(sent == received, "packets sent are packets received");
   }
 
+  std::optional<Chaos> chaos_;
   AwakeCount awake_;
   alignas(cache_line_bytes) std::atomic<Ending> ending_{Ending::none};
   std::atomic<bool> failing_{false};
@@ -239,19 +298,13 @@ struct ThreadsRunner::Implementation final : Network {
   bool started_ = false;
 };
 
-ThreadsRunner::ThreadsRunner(std::span<const NodeSpecification> specifications)
-    : implementation_(std::make_unique<Implementation>(specifications)) {}
+ThreadsRunner::ThreadsRunner(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos)
+    : implementation_(std::make_unique<Implementation>(specifications, chaos)) {}
 ThreadsRunner::~ThreadsRunner() = default;
 
-RunEnd ThreadsRunner::run(std::stop_token stop) {
-  return implementation_->run(std::move(stop));
-}
+RunEnd ThreadsRunner::run(std::stop_token stop) { return implementation_->run(std::move(stop)); }
 
-Node& ThreadsRunner::node(std::size_t index) {
-  return implementation_->processor(index).node;
-}
-Program& ThreadsRunner::program(std::size_t index) {
-  return *implementation_->processor(index).program;
-}
+Node& ThreadsRunner::node(std::size_t index) { return implementation_->processor(index).node; }
+Program& ThreadsRunner::program(std::size_t index) { return *implementation_->processor(index).program; }
 
 }  // namespace dmpc::nodes

@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stop_token>
 
+#include "nodes/chaos.h"
 #include "nodes/mailbox.h"
 #include "nodes/node.h"
 #include "nodes/program.h"
@@ -23,6 +25,8 @@ struct NodeSpecification {
   MemoryPlan plan;  ///< includes mailbox, credits table (Category::queues) and thread stack (Category::reserve)
   MailboxCapacity mailbox;
   std::function<std::unique_ptr<Program>(Node&)> make_program;
+  /// Under chaos: room for packets held back (HeldPackets::room_bytes(), in `plan` under Category::queues). 0: none is held back.
+  std::size_t held_bytes = 0;
 };
 
 /// The bytes that a Node's own table of credits takes of Category::queues.
@@ -33,8 +37,9 @@ enum class RunEnd : std::uint8_t { finished, interrupted };
 /// Thread safety: one thread constructs, runs and reads. While run() is going nothing else may be called.
 class ThreadsRunner {
  public:
-  /// `specifications`: the nodes in order, then the host, last.
-  explicit ThreadsRunner(std::span<const NodeSpecification> specifications);
+  /// `specifications`: the nodes in order, then the host, last. With `chaos` the computer delays and reorders packets, and some
+  /// of its nodes are slow; the credits are the strategy's to shrink (shrunk_credits()).
+  explicit ThreadsRunner(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos = std::nullopt);
   ~ThreadsRunner();
 
   /// Starts a thread for each, returns when all programs are finished or `stop` is requested (then every thread has ended within
