@@ -7,6 +7,7 @@
 #include "core/expect.h"
 #include "core/pixel_task.h"
 #include "core/units.h"
+#include "nodes/held_packets.h"
 #include "svm/counting_pager.h"
 #include "svm/film_gather.h"
 #include "svm/host.h"
@@ -33,9 +34,7 @@ constexpr std::uint32_t request_slots_wanted = 256;
 constexpr std::uint32_t request_credits_max = 4;
 constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 
-bool pages_travel(const PlanRequest& request) {
-  return request.strategy == Strategy::svm && request.node_count > 1;
-}
+bool pages_travel(const PlanRequest& request) { return request.strategy == Strategy::svm && request.node_count > 1; }
 
 /// Pages that are not at home, at the node that has the fewest at home.
 std::uint32_t foreign_pages_max(const PlanRequest& request) {
@@ -80,6 +79,14 @@ nodes::MailboxCapacity host_mailbox_of(const PlanRequest& request, std::uint32_t
           .bulk_payload_bytes = sizeof(FilmHeader) + film_entries * sizeof(FilmEntry)};
 }
 
+/// Fewer credits than the mailboxes have room for, and a place for packets held back.
+void plan_chaos(Plan& plan, const nodes::Chaos& chaos) {
+  plan.request_credits = nodes::shrunk_credits(chaos, plan.request_credits, request_channel);
+  plan.film_credits = nodes::shrunk_credits(chaos, plan.film_credits, bulk_channel);
+  plan.held_bytes = nodes::HeldPackets::room_bytes(
+      std::max(plan.node_mailbox.bulk_payload_bytes, plan.host_mailbox.bulk_payload_bytes));  // a page reply or film
+}
+
 /// The plan with this cache and these pixels in flight, whether or not it fits.
 Plan plan_with(const PlanRequest& request, std::uint32_t frames, std::uint32_t in_flight) {
   Plan plan;
@@ -91,6 +98,9 @@ Plan plan_with(const PlanRequest& request, std::uint32_t frames, std::uint32_t i
   plan.film_entries = film_entries_of(request);
   plan.node_mailbox = node_mailbox_of(request, in_flight, plan.request_credits);
   plan.host_mailbox = host_mailbox_of(request, plan.film_entries);
+  if (request.chaos) {
+    plan_chaos(plan, *request.chaos);
+  }
   return plan;
 }
 
@@ -215,7 +225,7 @@ nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
   FilmGather::add_needs(plan, film_entries, in_flight);
   plan[Category::constants] += LocalMemory::bytes_for<std::byte>(sizeof(core::RenderSettings));
   plan[Category::mailbox] += node_mailbox.bytes();
-  plan[Category::queues] += nodes::credit_table_bytes(request.node_count + 1);
+  plan[Category::queues] += nodes::credit_table_bytes(request.node_count + 1) + held_bytes;
   plan[Category::reserve] += request.stack_reserve_bytes;
   return plan;
 }
@@ -224,14 +234,12 @@ nodes::MemoryPlan Plan::host_memory() const {
   nodes::MemoryPlan plan;
   HostProgram::add_needs(plan, request.width * request.height);
   plan[Category::mailbox] += host_mailbox.bytes();
-  plan[Category::queues] += nodes::credit_table_bytes(request.node_count + 1);
+  plan[Category::queues] += nodes::credit_table_bytes(request.node_count + 1) + held_bytes;
   plan[Category::reserve] += host_stack_bytes;
   return plan;
 }
 
-std::size_t smallest_node_memory_bytes(const PlanRequest& request) {
-  return bytes_with(request, frames_min(request), 1);
-}
+std::size_t smallest_node_memory_bytes(const PlanRequest& request) { return bytes_with(request, frames_min(request), 1); }
 
 Plan make_plan(const PlanRequest& request) {
   check(request);

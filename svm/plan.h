@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "nodes/chaos.h"
 #include "nodes/local_memory.h"
 #include "nodes/threads_runner.h"
 #include "svm/home.h"
@@ -37,6 +38,8 @@ struct PlanRequest {
   std::uint32_t width = 0, height = 0;
   bool count_pages = false;  ///< count the distinct pages of each pixel; costs a bit a page for each pixel in flight
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;  ///< of each node's thread
+  /// Fewer credits, and room for packets held back; mailboxes stay as they are.
+  std::optional<nodes::Chaos> chaos = std::nullopt;
 };
 
 inline constexpr std::uint32_t node_count_max = 4096;
@@ -50,6 +53,7 @@ struct Plan {
   std::uint32_t request_credits = 0;  ///< page requests that one node may have under way to one home
   std::uint32_t film_credits = 0;     ///< film packets that one node may have under way to the host
   std::uint32_t film_entries = 0;     ///< pixels in a full film packet
+  std::size_t held_bytes = 0;         ///< room at each node and the host for packets that chaos holds back
   nodes::MailboxCapacity node_mailbox, host_mailbox;
   std::vector<std::string> notes;  ///< sentences to print, such as what was reduced
 

@@ -25,7 +25,8 @@ PlanRequest request_of(Strategy strategy, const core::Database& database, const 
           .width = static_cast<std::uint32_t>(settings.camera.width()),
           .height = static_cast<std::uint32_t>(settings.camera.height()),
           .count_pages = options.count_pages,
-          .stack_reserve_bytes = options.stack_reserve_bytes};
+          .stack_reserve_bytes = options.stack_reserve_bytes,
+          .chaos = options.chaos};
 }
 
 NodeReport report_of(nodes::Node& node, const nodes::Program& program) {
@@ -145,11 +146,13 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
   std::vector<nodes::NodeSpecification> specifications;
   for (std::uint32_t i = 0; i < plan.request.node_count; ++i) {
     specifications.push_back(
-        {plan.node_memory(i), plan.node_mailbox, [&make_program, i](nodes::Node& node) { return make_program(i, node); }});
+        {plan.node_memory(i), plan.node_mailbox, [&make_program, i](nodes::Node& node) { return make_program(i, node); },
+         plan.held_bytes});
   }
   specifications.push_back({plan.host_memory(), plan.host_mailbox, [&plan, &film, &progress](nodes::Node& node) {
                               return std::make_unique<HostProgram>(node, plan, film, progress);
-                            }});
+                            },
+                            plan.held_bytes});
   return specifications;
 }
 
@@ -159,7 +162,7 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Pro
                 .plan = plan,
                 .nodes = {},
                 .host = {}};
-  nodes::ThreadsRunner runner(specifications_of(plan, make_program, report.film, progress));
+  nodes::ThreadsRunner runner(specifications_of(plan, make_program, report.film, progress), plan.request.chaos);
   report.end = runner.run(std::move(stop));
   for (std::uint32_t i = 0; i < plan.request.node_count; ++i) {
     report.nodes.push_back(report_of(runner.node(i), runner.program(i)));

@@ -17,6 +17,7 @@
 #include "core/film.h"
 #include "core/pixel_task.h"
 #include "core/traversal.h"
+#include "nodes/chaos.h"
 #include "nodes/counters.h"
 #include "nodes/threads_runner.h"
 #include "svm/host.h"
@@ -37,6 +38,7 @@ struct RunOptions {
   bool count_pages = false;
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;
   core::TraversalOptions traversal = {};
+  std::optional<nodes::Chaos> chaos = std::nullopt;  ///< disturbs the run; the film stays the same
   Progress progress = {};  ///< called by the host's thread
 };
 
