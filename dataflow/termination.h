@@ -40,30 +40,30 @@ constexpr nodes::NodeId next_on_ring(nodes::NodeId member, std::uint32_t node_co
 class Termination {
  public:
   /// The host: it holds the token from the start, one that proves nothing.
-  static constexpr Termination initiator() { return Termination(true); }
+  static Termination initiator() { return Termination(true); }
   /// A node.
-  static constexpr Termination member() { return Termination(false); }
+  static Termination member() { return Termination(false); }
 
   /// Tell of every ray packet that leaves, whoever its target is.
-  constexpr void ray_packet_sent() { ++balance_; }
+  void ray_packet_sent() { ++balance_; }
   /// Tell of every ray packet that arrives (EWD 998, rules 0 and 3).
-  constexpr void ray_packet_received() {
+  void ray_packet_received() {
     --balance_;
     is_black_ = true;
   }
 
   /// Takes the token of the member before.
-  constexpr void take(const Token& token) {
+  void take(const Token& token) {
     core::expect(!holds_token_, "one token goes round the ring");
     token_ = token;
     holds_token_ = true;
   }
 
-  constexpr bool holds_token() const { return holds_token_; }
+  bool holds_token() const { return holds_token_; }
 
   /// Asks a *passive* member: the token to be handed to next_on_ring(), or nothing if it holds none, or, on the host, if the end
   /// is proved (is_terminated()). Rules 1, 2, 4, 5 and 7 of EWD 998.
-  constexpr std::optional<Token> hand_on() {
+  std::optional<Token> hand_on() {
     if (!holds_token_) {
       return std::nullopt;
     }
@@ -76,19 +76,19 @@ class Termination {
   }
 
   /// Only the host can know: no ray is left anywhere, and no ray packet is under way. For good.
-  constexpr bool is_terminated() const { return is_terminated_; }
+  bool is_terminated() const { return is_terminated_; }
 
   /// Ray packets that this member has sent minus those that it has received. Over all members the sum is 0 at the end.
-  constexpr std::int64_t balance() const { return balance_; }
-  constexpr bool is_black() const { return is_black_; }
-  constexpr const Token& token() const { return token_; }
+  std::int64_t balance() const { return balance_; }
+  bool is_black() const { return is_black_; }
+  const Token& token() const { return token_; }
 
  private:
-  constexpr explicit Termination(bool is_initiator)
+  explicit Termination(bool is_initiator)
       : is_initiator_(is_initiator), holds_token_(is_initiator), is_black_(is_initiator) {}
 
   /// The host's judgement on a round that has come back: the end, or a new round.
-  constexpr std::optional<Token> judge() {
+  std::optional<Token> judge() {
     is_terminated_ = is_terminated_ || (!is_black_ && token_.is_black == 0 && token_.balance + balance_ == 0);
     if (is_terminated_) {
       return std::nullopt;
@@ -97,7 +97,7 @@ class Termination {
     return Token{};
   }
 
-  constexpr void give_up_token() {
+  void give_up_token() {
     token_ = {};
     holds_token_ = false;
     is_black_ = false;
