@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <ostream>
 #include <sstream>
@@ -24,7 +25,7 @@ std::string bar(std::uint64_t done, std::uint64_t total) {
 
 /// "1:02:03" or "2:03".
 std::string clock_text(double seconds) {
-  const auto whole = static_cast<std::uint64_t>(std::min(seconds, 1e9) + 0.5);
+  const auto whole = static_cast<std::uint64_t>(std::llround(std::min(seconds, 1e9)));
   std::ostringstream text;
   text << std::setfill('0');
   if (whole >= 3600) {

@@ -20,6 +20,7 @@ class ChildProcess {
  public:
   explicit ChildProcess(std::vector<std::string> command) {
     std::vector<char*> arguments;
+    arguments.reserve(command.size() + 1);
     for (std::string& word : command) {
       arguments.push_back(word.data());
     }
