@@ -84,4 +84,10 @@ constexpr bool returns_credits(std::uint32_t owed, std::uint32_t batch, bool res
   return owed > 0 && (rests || owed >= batch);
 }
 
+/// Whether the host forwards a packet of the `kept` rays that it keeps for one owner: only into a place that is free.
+constexpr bool forwards(std::uint64_t kept, bool has_owner_credit) { return kept > 0 && has_owner_credit; }
+
+/// The host is passive in the sense of termination while it keeps no ray, for whatever owner.
+constexpr bool host_is_passive(std::uint64_t kept) { return kept == 0; }
+
 }  // namespace dmpc::dataflow

@@ -1,0 +1,59 @@
+#include "dataflow/flow_control.h"
+
+#include <doctest/doctest.h>
+
+namespace dmpc::tests {
+
+using dataflow::NodeState;
+using dataflow::Task;
+using dataflow::Way;
+
+TEST_CASE("a node sends what waits, goes on, treats received rays, starts its own and flushes, in this order") {
+  NodeState state{true, true, true, true, true};
+  CHECK(next_task(state) == Task::send_waiting);
+  state.packet_waits = false;
+  CHECK(next_task(state) == Task::go_on);
+  state.is_tracing = false;
+  CHECK(next_task(state) == Task::take_received);
+  state.has_backlog = false;
+  CHECK(next_task(state) == Task::start_primary);
+  state.has_primaries = false;
+  CHECK(next_task(state) == Task::flush);
+  state.has_gathered = false;
+  CHECK(next_task(state) == Task::rest);
+}
+
+TEST_CASE("a node is passive only when it has nothing at all") {
+  CHECK(dataflow::is_passive({}));
+  CHECK_FALSE(dataflow::is_passive({.packet_waits = true}));
+  CHECK_FALSE(dataflow::is_passive({.is_tracing = true}));
+  CHECK_FALSE(dataflow::is_passive({.has_backlog = true}));
+  CHECK_FALSE(dataflow::is_passive({.has_primaries = true}));
+  CHECK_FALSE(dataflow::is_passive({.has_gathered = true}));
+}
+
+TEST_CASE("a packet goes to its owner, else to the host, else waits") {
+  CHECK(dataflow::way_of(true, true) == Way::to_owner);
+  CHECK(dataflow::way_of(true, false) == Way::to_owner);
+  CHECK(dataflow::way_of(false, true) == Way::to_host);
+  CHECK(dataflow::way_of(false, false) == Way::wait);
+}
+
+TEST_CASE("a busy node returns credits by the batch, a resting one all of them") {
+  CHECK_FALSE(dataflow::returns_credits(0, 1, true));
+  CHECK_FALSE(dataflow::returns_credits(1, 2, false));
+  CHECK(dataflow::returns_credits(2, 2, false));
+  CHECK(dataflow::returns_credits(1, 2, true));
+  CHECK(dataflow::return_batch(1) == 1);
+  CHECK(dataflow::return_batch(8) == 4);
+}
+
+TEST_CASE("the host forwards into free places only and is passive when it keeps nothing") {
+  CHECK(dataflow::forwards(3, true));
+  CHECK_FALSE(dataflow::forwards(3, false));
+  CHECK_FALSE(dataflow::forwards(0, true));
+  CHECK(dataflow::host_is_passive(0));
+  CHECK_FALSE(dataflow::host_is_passive(1));
+}
+
+}  // namespace dmpc::tests

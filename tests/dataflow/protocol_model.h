@@ -1,0 +1,553 @@
+// Three nodes and a host as packets and queues, without rays' geometry: what a ray does where it is traced is left open, up to a
+// bounded number of children in all, so every scene's behaviour with that many rays is among those explored.
+//
+// The decisions are those of dataflow/flow_control.h and dataflow/termination.h, reached through `Rules`, so that a test can
+// break one of them. A step is one quantum of a node or of the host, or the reception of the oldest packet of one (sender,
+// target) pair.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "dataflow/flow_control.h"
+#include "dataflow/termination.h"
+
+namespace dmpc::tests {
+
+inline constexpr std::size_t model_nodes = 3;
+inline constexpr std::size_t model_host = model_nodes;
+inline constexpr std::size_t model_peers = model_nodes + 1;
+
+/// The rules as they are. Broken ones derive from this and hide a member.
+struct ProtocolRules {
+  using Termination = dataflow::Termination;
+  static constexpr bool counts_overflow = true;  ///< ray packets by way of the host count as ray packets
+  static constexpr bool host_returns_credit = true;
+  static constexpr bool token_waits_for_rest = true;  ///< a busy member keeps the token
+  static constexpr dataflow::Task next_task(const dataflow::NodeState& state) { return dataflow::next_task(state); }
+  static constexpr dataflow::Way way_of(bool owner, bool host) { return dataflow::way_of(owner, host); }
+  static constexpr bool forwards(std::uint64_t kept, bool credit) { return dataflow::forwards(kept, credit); }
+  static constexpr bool returns_credits(std::uint32_t owed, std::uint32_t batch, bool rests) {
+    return dataflow::returns_credits(owed, batch, rests);
+  }
+};
+
+struct ProtocolSettings {
+  std::array<std::uint8_t, model_nodes> primaries{1, 1, 0};
+  std::uint8_t children = 3;          ///< that all rays together may have
+  std::uint8_t credits_each = 1;      ///< packets of rays, for each (sender, target)
+  std::uint8_t rays_a_packet = 1;     ///< more than 1 only with one credit
+  std::uint8_t return_batch = 1;      ///< credits that a busy node collects
+  std::uint8_t owners = model_nodes;  ///< children go to the first so many nodes: fewer, and more children can be explored
+};
+
+struct ProtocolFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+inline void hold(bool condition, const char* sentence) {
+  if (!condition) {
+    throw ProtocolFailure(std::string("violated: ") + sentence);
+  }
+}
+
+template <class Rules>
+class ProtocolModel {
+ public:
+  enum class Kind : std::uint8_t { rays, overflow, credits, token, finish };
+
+  struct Message {
+    Kind kind{};
+    std::uint8_t count = 0;   ///< of rays or credits; of a token: whether it is black
+    std::uint8_t owner = 0;   ///< of overflowed rays
+    std::int8_t balance = 0;  ///< of a token
+  };
+  /// In the order sent.
+  struct Channel {
+    std::array<Message, 8> messages{};
+    std::uint8_t size = 0;
+  };
+  struct Member {
+    typename Rules::Termination termination;
+    std::uint8_t primaries = 0;
+    std::uint8_t children = 0;                         ///< of the hits under way, still to be made
+    std::array<std::uint8_t, model_peers> backlog{};   ///< rays by sender; of the host: rays kept, by owner
+    std::array<std::uint8_t, model_peers> owed{};      ///< credits to be given back, by sender
+    std::array<std::uint8_t, model_peers> credits{};   ///< by target
+    std::array<std::uint8_t, model_nodes> gathered{};  ///< rays by owner
+    std::uint8_t waiting = 0;                          ///< rays of the packet without credit
+    std::uint8_t waiting_owner = 0;
+    bool is_finished = false;
+  };
+  struct State {
+    std::array<Member, model_peers> member;
+    std::array<std::array<Channel, model_peers>, model_peers> channel{};  ///< [from][to]
+    std::uint8_t children_left = 0;
+    std::uint8_t alive = 0;  ///< rays that have been made and have not ended
+  };
+  struct Action {
+    const char* verb = "";
+    std::uint8_t actor = 0;
+    std::uint8_t other = 0;
+    std::uint8_t count = 0;
+    bool token = false;
+    bool is_idle() const { return token; }
+    std::string text() const { return name(actor) + " " + verb + " (" + name(other) + ", " + std::to_string(count) + ")"; }
+    static std::string name(std::size_t peer) { return peer == model_host ? "host" : "node " + std::to_string(peer); }
+  };
+
+  explicit ProtocolModel(const ProtocolSettings& settings) : settings_(settings) {}
+
+  State initial() const {
+    State state{.member{member(0), member(1), member(2), member(model_host)}, .children_left = settings_.children};
+    for (const std::uint8_t primaries : settings_.primaries) {
+      state.alive = static_cast<std::uint8_t>(state.alive + primaries);
+    }
+    return state;
+  }
+
+  /// Every byte that distinguishes two states.
+  std::string key(const State& state) const {
+    std::string bytes{static_cast<char>(state.children_left), static_cast<char>(state.alive)};
+    for (const Member& m : state.member) {
+      append(bytes, m);
+    }
+    for (const auto& row : state.channel) {
+      for (const Channel& channel : row) {
+        bytes += static_cast<char>(channel.size);
+        for (std::size_t i = 0; i < channel.size; ++i) {
+          const Message& message = channel.messages[i];
+          bytes += {static_cast<char>(message.kind), static_cast<char>(message.count), static_cast<char>(message.owner),
+                    static_cast<char>(message.balance)};
+        }
+      }
+    }
+    return bytes;
+  }
+
+  template <class Visit>
+  void for_each_step(const State& state, Visit visit) const {
+    for (std::size_t to = 0; to < model_peers; ++to) {
+      for (std::size_t from = 0; from < model_peers; ++from) {
+        receive(state, from, to, visit);
+      }
+    }
+    for (std::size_t node = 0; node < model_nodes; ++node) {
+      work(state, node, visit);
+    }
+    host_work(state, visit);
+  }
+
+  /// What holds in every state.
+  void check(const State& state) const {
+    hold(rays_in(state) == state.alive, "no ray is lost and none appears");
+    const Member& host = state.member[model_host];
+    if (host.termination.is_terminated()) {
+      hold(state.alive == 0, "termination is detected only when no ray is left");
+      hold(ray_packets_in(state) == 0, "termination is detected only when no ray packet is under way");
+    }
+    check_credits(state);
+  }
+
+  /// Everything is done: proved, told to all, and every credit is where it started.
+  bool is_end(const State& state) const {
+    bool is_done = true;
+    for (std::size_t node = 0; node < model_nodes; ++node) {
+      is_done = is_done && state.member[node].is_finished;
+    }
+    for (const auto& row : state.channel) {
+      for (const Channel& channel : row) {
+        is_done = is_done && channel.size == 0;
+      }
+    }
+    return is_done && state.alive == 0 && credits_are_home(state);
+  }
+
+  bool is_quiet(const State& state) const { return state.alive == 0; }
+
+ private:
+  using Task = dataflow::Task;
+  using Way = dataflow::Way;
+
+  Member member(std::size_t peer) const {
+    const bool is_host = peer == model_host;
+    Member m{.termination = is_host ? Rules::Termination::initiator() : Rules::Termination::member()};
+    m.primaries = is_host ? std::uint8_t{0} : settings_.primaries[peer];
+    for (std::size_t target = 0; target < model_peers; ++target) {
+      m.credits[target] = target == peer ? std::uint8_t{0} : target == model_host ? std::uint8_t{1} : settings_.credits_each;
+    }
+    return m;
+  }
+
+  static void append(std::string& bytes, const Member& m) {
+    const auto& token = m.termination.token();
+    const bool flags[] = {m.termination.is_black(), m.termination.holds_token(), m.termination.is_terminated(), m.is_finished,
+                          token.is_black != 0};
+    char bits = 0;
+    for (const bool flag : flags) {
+      bits = static_cast<char>(bits * 2 + (flag ? 1 : 0));
+    }
+    bytes += {bits,
+              static_cast<char>(m.termination.balance()),
+              static_cast<char>(token.balance),
+              static_cast<char>(m.primaries),
+              static_cast<char>(m.children),
+              static_cast<char>(m.waiting),
+              static_cast<char>(m.waiting_owner)};
+    const auto add = [&](const auto& counts) {
+      for (const std::uint8_t count : counts) {
+        bytes += static_cast<char>(count);
+      }
+    };
+    add(m.backlog);
+    add(m.owed);
+    add(m.credits);
+    add(m.gathered);
+  }
+
+  bool credits_are_home(const State& state) const {
+    bool is_home = true;
+    for (std::size_t peer = 0; peer < model_peers; ++peer) {
+      is_home = is_home && state.member[peer].credits == member(peer).credits;
+    }
+    return is_home;
+  }
+
+  static std::uint32_t rays_in(const State& state) {
+    std::uint32_t count = 0;
+    for (const Member& m : state.member) {
+      count += m.primaries + m.children + m.waiting;
+      for (const std::uint8_t rays : m.backlog) {
+        count += rays;
+      }
+      for (const std::uint8_t rays : m.gathered) {
+        count += rays;
+      }
+    }
+    for_each_message(state, [&](const Message& message) { count += carries_rays(message) ? message.count : 0U; });
+    return count;
+  }
+
+  static std::uint32_t ray_packets_in(const State& state) {
+    std::uint32_t count = 0;
+    for_each_message(state, [&](const Message& message) { count += carries_rays(message) ? 1U : 0U; });
+    return count;
+  }
+
+  template <class Visit>
+  static void for_each_message(const State& state, Visit visit) {
+    for (const auto& row : state.channel) {
+      for (const Channel& channel : row) {
+        std::for_each(channel.messages.begin(), channel.messages.begin() + channel.size, visit);
+      }
+    }
+  }
+
+  static bool carries_rays(const Message& message) { return message.kind == Kind::rays || message.kind == Kind::overflow; }
+
+  /// A credit is with its sender, under way, or stands for a packet in the target's backlog: none is lost and none is made.
+  void check_credits(const State& state) const {
+    for (std::size_t from = 0; from < model_peers; ++from) {
+      for (std::size_t to = 0; to < model_nodes; ++to) {
+        if (from != to) {
+          const Member& target = state.member[to];
+          const std::uint32_t rays = target.backlog[from], each = settings_.rays_a_packet;
+          std::uint32_t count = state.member[from].credits[to] + target.owed[from] + (rays + each - 1) / each;
+          count += count_in(state.channel[from][to], Kind::rays, false) + count_in(state.channel[to][from], Kind::credits, true);
+          hold(rays <= settings_.credits_each * each, "a received ray has its place in the backlog");
+          hold(count == settings_.credits_each || Rules::forwards(1, false), "no credit is lost and none is made");
+        }
+      }
+    }
+  }
+
+  static std::uint32_t count_in(const Channel& channel, Kind kind, bool by_count) {
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < channel.size; ++i) {
+      if (channel.messages[i].kind == kind) {
+        count += by_count ? channel.messages[i].count : 1U;
+      }
+    }
+    return count;
+  }
+
+  static void send(State& state, std::size_t from, std::size_t to, const Message& message) {
+    Channel& channel = state.channel[from][to];
+    hold(channel.size < channel.messages.size(), "a mailbox has room for everything that credits allow");
+    channel.messages[channel.size++] = message;
+  }
+
+  static Message pop(Channel& channel) {
+    const Message message = channel.messages[0];
+    std::copy(channel.messages.begin() + 1, channel.messages.begin() + channel.size, channel.messages.begin());
+    --channel.size;
+    return message;
+  }
+
+  // ---- Receptions --------------------------------------------------------------------------------------------------------
+
+  template <class Visit>
+  void receive(const State& state, std::size_t from, std::size_t to, Visit visit) const {
+    if (state.channel[from][to].size == 0) {
+      return;
+    }
+    State next = state;
+    const Message message = pop(next.channel[from][to]);
+    accept(next, from, to, message);
+    visit(Action{verb(message.kind), narrow(to), narrow(from), message.count, message.kind == Kind::token}, next);
+  }
+
+  static const char* verb(Kind kind) {
+    constexpr std::array<const char*, 5> verbs{"receives rays", "receives overflow", "receives credits", "receives the token",
+                                               "receives the end"};
+    return verbs[static_cast<std::size_t>(kind)];
+  }
+
+  void accept(State& state, std::size_t from, std::size_t to, const Message& message) const {
+    Member& m = state.member[to];
+    switch (message.kind) {
+      case Kind::rays:
+        hold(!m.is_finished, "no ray comes after the end");
+        m.termination.ray_packet_received();
+        m.backlog[from] = static_cast<std::uint8_t>(m.backlog[from] + message.count);
+        break;
+      case Kind::overflow:
+        count_overflow(m, &Rules::Termination::ray_packet_received);
+        m.backlog[message.owner] = static_cast<std::uint8_t>(m.backlog[message.owner] + message.count);
+        if (Rules::host_returns_credit) {
+          send(state, to, from, {.kind = Kind::credits, .count = 1});
+        }
+        break;
+      case Kind::credits:
+        m.credits[from] = static_cast<std::uint8_t>(m.credits[from] + message.count);
+        break;
+      case Kind::token:
+        m.termination.take({.balance = message.balance, .is_black = message.count});
+        break;
+      case Kind::finish:
+        m.is_finished = true;
+        break;
+    }
+  }
+
+  template <class Tell>
+  static void count_overflow(Member& m, Tell tell) {
+    if (Rules::counts_overflow) {
+      (m.termination.*tell)();
+    }
+  }
+
+  // ---- A node's quantum --------------------------------------------------------------------------------------------------
+
+  static dataflow::NodeState state_of(const Member& m) {
+    const auto any = [](const auto& counts) {
+      return std::any_of(counts.begin(), counts.end(), [](std::uint8_t count) { return count > 0; });
+    };
+    return {m.waiting > 0, m.children > 0, any(m.backlog), m.primaries > 0, any(m.gathered)};
+  }
+
+  template <class Visit>
+  void work(const State& state, std::size_t node, Visit visit) const {
+    const dataflow::NodeState what = state_of(state.member[node]);
+    const Task task = Rules::next_task(what);
+    if (task == Task::rest || !Rules::token_waits_for_rest) {
+      hand_on(state, node, visit);
+    }
+    switch (task) {
+      case Task::send_waiting:
+        return send_waiting(state, node, visit);
+      case Task::go_on:
+        return make_child(state, node, visit);
+      case Task::take_received:
+        return take_received(state, node, visit);
+      case Task::start_primary:
+        return start_primary(state, node, visit);
+      case Task::flush:
+        return flush(state, node, visit);
+      case Task::rest:
+        return rest(state, node, visit);
+    }
+  }
+
+  template <class Visit>
+  void send_waiting(State state, std::size_t node, Visit visit) const {
+    Member& m = state.member[node];
+    const std::size_t owner = m.waiting_owner;
+    const Way way = Rules::way_of(m.credits[owner] > 0, m.credits[model_host] > 0);
+    if (way == Way::wait) {
+      return;
+    }
+    const std::size_t target = way == Way::to_owner ? owner : model_host;
+    send_rays(state, node, target, {target == owner ? Kind::rays : Kind::overflow, m.waiting, m.waiting_owner});
+    visit(Action{"sends rays", narrow(node), narrow(target), m.waiting}, (m.waiting = 0, m.waiting_owner = 0, state));
+  }
+
+  void send_rays(State& state, std::size_t from, std::size_t to, const Message& message) const {
+    Member& m = state.member[from];
+    m.credits[to] = static_cast<std::uint8_t>(m.credits[to] - 1);
+    if (message.kind == Kind::overflow) {
+      count_overflow(m, &Rules::Termination::ray_packet_sent);
+    } else {
+      m.termination.ray_packet_sent();
+    }
+    send(state, from, to, {message.kind, message.count, message.kind == Kind::overflow ? message.owner : std::uint8_t{0}});
+  }
+
+  /// A child goes to another node: one that stays is what the next child may be.
+  template <class Visit>
+  void make_child(const State& state, std::size_t node, Visit visit) const {
+    for (std::size_t owner = 0; owner < settings_.owners; ++owner) {
+      if (owner != node) {
+        State next = state;
+        Member& m = next.member[node];
+        --m.children;
+        hold(m.gathered[owner] < settings_.rays_a_packet, "a new ray finds room in its gather");
+        if (++m.gathered[owner] == settings_.rays_a_packet) {
+          close(m, owner);
+        }
+        visit(Action{"makes a child", narrow(node), narrow(owner), 1}, next);
+      }
+    }
+  }
+
+  /// The rays gathered for `owner` become a packet, which waits until it is sent.
+  static void close(Member& m, std::size_t owner) {
+    hold(m.waiting == 0, "one packet at most waits");
+    m.waiting = m.gathered[owner];
+    m.waiting_owner = narrow(owner);
+    m.gathered[owner] = 0;
+  }
+
+  template <class Visit>
+  void take_received(const State& state, std::size_t node, Visit visit) const {
+    for (std::size_t sender = 0; sender < model_peers; ++sender) {
+      if (state.member[node].backlog[sender] > 0) {
+        State next = state;
+        Member& m = next.member[node];
+        --m.backlog[sender];
+        // With one credit a packet is used up when no ray of its sender is left; with several a packet has one ray.
+        const bool is_used_up = settings_.rays_a_packet == 1 || m.backlog[sender] == 0;
+        m.owed[sender] = static_cast<std::uint8_t>(m.owed[sender] + (is_used_up ? 1 : 0));
+        return_credits(next, node, sender, false);
+        trace(next, {"traces a received ray", narrow(node), narrow(sender)}, visit);
+      }
+    }
+  }
+
+  template <class Visit>
+  void start_primary(State state, std::size_t node, Visit visit) const {
+    --state.member[node].primaries;
+    trace(state, {"traces a primary ray", narrow(node), narrow(node)}, visit);
+  }
+
+  /// A traced ray ends and has no, one or two children, as far as the bound allows.
+  template <class Visit>
+  void trace(const State& state, Action action, Visit visit) const {
+    for (std::uint8_t children = 0; children <= 2 && children <= state.children_left; ++children) {
+      State next = state;
+      Member& m = next.member[action.actor];
+      m.children = static_cast<std::uint8_t>(m.children + children);
+      next.children_left = static_cast<std::uint8_t>(next.children_left - children);
+      next.alive = static_cast<std::uint8_t>(next.alive + children - 1);
+      action.count = children;
+      visit(action, next);
+    }
+  }
+
+  template <class Visit>
+  void flush(const State& state, std::size_t node, Visit visit) const {
+    for (std::size_t owner = 0; owner < model_nodes; ++owner) {
+      if (state.member[node].gathered[owner] > 0) {
+        State next = state;
+        close(next.member[node], owner);
+        visit(Action{"flushes a packet", narrow(node), narrow(owner)}, next);
+      }
+    }
+  }
+
+  template <class Visit>
+  void rest(const State& state, std::size_t node, Visit visit) const {
+    for (std::size_t sender = 0; sender < model_peers; ++sender) {
+      State next = state;
+      if (return_credits(next, node, sender, true)) {
+        visit(Action{"returns credits", narrow(node), narrow(sender)}, next);
+      }
+    }
+  }
+
+  bool return_credits(State& state, std::size_t node, std::size_t sender, bool rests) const {
+    Member& m = state.member[node];
+    if (!Rules::returns_credits(m.owed[sender], settings_.return_batch, rests)) {
+      return false;
+    }
+    send(state, node, sender, {.kind = Kind::credits, .count = m.owed[sender]});
+    m.owed[sender] = 0;
+    return true;
+  }
+
+  template <class Visit>
+  void hand_on(const State& state, std::size_t peer, Visit visit) const {
+    if (!state.member[peer].termination.holds_token()) {
+      return;
+    }
+    State next = state;
+    auto& termination = next.member[peer].termination;
+    const std::size_t target = index_of(dataflow::next_on_ring(nodes::NodeId{narrow(peer)}, model_nodes));
+    if (const auto token = termination.hand_on()) {
+      send(next, peer, target,
+           {Kind::token, static_cast<std::uint8_t>(token->is_black), 0, static_cast<std::int8_t>(token->balance)});
+    }
+    visit(Action{"hands on the token", narrow(peer), narrow(target), 0, !termination.is_terminated()}, next);
+  }
+
+  // ---- The host's quantum ------------------------------------------------------------------------------------------------
+
+  template <class Visit>
+  void host_work(const State& state, Visit visit) const {
+    const Member& host = state.member[model_host];
+    if (host.is_finished) {
+      return;
+    }
+    if (host.termination.is_terminated()) {
+      return finish(state, visit);
+    }
+    std::uint64_t kept = 0;
+    for (std::size_t owner = 0; owner < model_nodes; ++owner) {
+      kept += host.backlog[owner];
+      if (Rules::forwards(host.backlog[owner], host.credits[owner] > 0)) {
+        forward(state, owner, visit);
+      }
+    }
+    if (dataflow::host_is_passive(kept) || !Rules::token_waits_for_rest) {
+      hand_on(state, model_host, visit);
+    }
+  }
+
+  template <class Visit>
+  void forward(State state, std::size_t owner, Visit visit) const {
+    Member& host = state.member[model_host];
+    const std::uint8_t count = std::min(host.backlog[owner], settings_.rays_a_packet);
+    host.backlog[owner] = static_cast<std::uint8_t>(host.backlog[owner] - count);
+    host.credits[owner] = std::max(host.credits[owner], std::uint8_t{1});  // a host that does not wait for it makes one up
+    send_rays(state, model_host, owner, {Kind::rays, count});
+    visit(Action{"forwards rays", narrow(model_host), narrow(owner), count}, state);
+  }
+
+  template <class Visit>
+  void finish(State state, Visit visit) const {
+    for (std::size_t node = 0; node < model_nodes; ++node) {
+      send(state, model_host, node, {.kind = Kind::finish});
+    }
+    state.member[model_host].is_finished = true;
+    visit(Action{"tells the end", narrow(model_host), narrow(model_host)}, state);
+  }
+
+  static constexpr std::uint8_t narrow(std::size_t index) { return static_cast<std::uint8_t>(index); }
+
+  ProtocolSettings settings_;
+};
+
+}  // namespace dmpc::tests

@@ -1,0 +1,160 @@
+// The rules of flow control and termination, in every order of events, and what becomes of them when one rule is broken.
+
+#include "tests/dataflow/protocol_model.h"
+
+#include <doctest/doctest.h>
+
+#include <optional>
+
+#include "tests/dataflow/state_explorer.h"
+
+namespace dmpc::tests {
+
+namespace {
+
+template <class Rules = ProtocolRules>
+StateReport explore(const ProtocolSettings& settings) {
+  const ProtocolModel<Rules> model(settings);
+  return StateExplorer(model).explore();
+}
+
+/// No failure in any order of events; the way to it, step by step, otherwise.
+void check_all_orders(const ProtocolSettings& settings, std::uint64_t states_min) {
+  const StateReport report = explore(settings);
+  std::string way;
+  for (const std::string& step : report.way) {
+    way += step + "\n";
+  }
+  INFO(way);
+  CHECK(report.failure == "");
+  CHECK(report.states >= states_min);
+}
+
+/// Finds a failure that says `words`.
+template <class Rules>
+void check_found(const ProtocolSettings& settings, const std::string& words) {
+  const StateReport report = explore<Rules>(settings);
+  INFO(report.failure);
+  CHECK(report.failure.find(words) != std::string::npos);
+  CHECK_FALSE(report.way.empty());
+}
+
+/// Sanitizers look for other mistakes: they get smaller machines.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool is_quick = false;
+#else
+constexpr bool is_quick = true;
+#endif
+
+// ---- One rule broken each --------------------------------------------------------------------------------------------------
+
+struct WithoutOverflow : ProtocolRules {
+  static dataflow::Way way_of(bool owner, bool) { return owner ? dataflow::Way::to_owner : dataflow::Way::wait; }
+};
+
+struct ForwardingBlindly : ProtocolRules {
+  static bool forwards(std::uint64_t kept, bool) { return kept > 0; }
+};
+
+struct HostKeepingCredits : ProtocolRules {
+  static constexpr bool host_returns_credit = false;
+};
+
+struct RestingOnCredits : ProtocolRules {
+  static bool returns_credits(std::uint32_t owed, std::uint32_t batch, bool) {
+    return dataflow::returns_credits(owed, batch, false);
+  }
+};
+
+struct WorkingOn : ProtocolRules {
+  static dataflow::Task next_task(dataflow::NodeState state) {
+    state.packet_waits = state.packet_waits && !state.is_tracing;
+    return dataflow::next_task(state);
+  }
+};
+
+struct Colorless : ProtocolRules {
+  struct Termination : dataflow::Termination {
+    static Termination initiator() { return {dataflow::Termination::initiator()}; }
+    static Termination member() { return {dataflow::Termination::member()}; }
+    std::optional<dataflow::Token> hand_on() {
+      auto token = dataflow::Termination::hand_on();
+      if (token) {
+        token->is_black = 0;
+      }
+      return token;
+    }
+  };
+};
+
+struct BusyHandingOn : ProtocolRules {
+  static constexpr bool token_waits_for_rest = false;
+};
+
+struct OverflowUncounted : ProtocolRules {
+  static constexpr bool counts_overflow = false;
+};
+
+}  // namespace
+
+TEST_CASE("without any ray the end is proved") { check_all_orders({.primaries = {0, 0, 0}, .children = 0}, 10); }
+
+TEST_CASE("one ray without children ends") { check_all_orders({.primaries = {0, 1, 0}, .children = 0}, 20); }
+
+TEST_CASE("rays that branch end in every order of events, and the end is proved then and only then") {
+  check_all_orders({.primaries = {1, 1, 1}, .children = 2}, 20'000);
+  check_all_orders({.primaries = {1, 0, 0}, .children = 3}, 30'000);
+  if (is_quick) {
+    check_all_orders({.primaries = {1, 1, 0}, .children = 3}, 100'000);
+  }
+}
+
+TEST_CASE("two nodes that flood each other go on by way of the host") {
+  check_all_orders({.primaries = {2, 0, 0}, .children = 3, .owners = 2}, 10'000);
+  if (is_quick) {
+    check_all_orders({.primaries = {1, 1, 0}, .children = 4, .owners = 2}, 100'000);
+  }
+}
+
+TEST_CASE("packets of several rays end in every order of events") {
+  check_all_orders({.primaries = {1, 1, 0}, .children = 3, .rays_a_packet = 2}, 30'000);
+}
+
+TEST_CASE("several credits returned together end in every order of events") {
+  check_all_orders({.primaries = {1, 1, 0}, .children = 2, .credits_each = 2, .return_batch = 2}, 5'000);
+  check_all_orders({.primaries = {1, 1, 0}, .children = 2, .return_batch = 2}, 5'000);
+}
+
+TEST_CASE("without the way by the host there is a deadlock") {
+  check_found<WithoutOverflow>({.primaries = {1, 1, 0}, .children = 4, .owners = 2}, "deadlock");
+}
+
+TEST_CASE("a host that forwards without credit floods a backlog") {
+  check_found<ForwardingBlindly>({.primaries = {2, 0, 0}, .children = 3, .owners = 2}, "has its place in the backlog");
+}
+
+TEST_CASE("a host that keeps credits is found out") {
+  check_found<HostKeepingCredits>({.primaries = {1, 0, 0}, .children = 3, .owners = 2}, "deadlock");
+}
+
+TEST_CASE("a node that rests on credits leaves the host with its rays") {
+  check_found<RestingOnCredits>({.primaries = {2, 0, 0}, .children = 3, .return_batch = 2, .owners = 2}, "deadlock");
+}
+
+TEST_CASE("a node that works on while a packet waits has no room for the next") {
+  check_found<WorkingOn>({.primaries = {1, 0, 0}, .children = 2}, "one packet at most waits");
+}
+
+TEST_CASE("without colours the end is announced too early") {
+  check_found<Colorless>({.primaries = {1, 1, 0}, .children = 3}, "only when no ray is left");
+}
+
+TEST_CASE("a busy node that hands the token on lets the end be announced too early") {
+  check_found<BusyHandingOn>({.primaries = {1, 0, 0}, .children = 0}, "only when no ray is left");
+}
+
+TEST_CASE("rays that go by way of the host uncounted let the end be announced too early") {
+  check_found<OverflowUncounted>({.primaries = {1, 1, 0}, .children = 3}, "only when no ray is left");
+}
+
+}  // namespace dmpc::tests
