@@ -24,6 +24,10 @@ namespace {
 /// idle node's core.
 constexpr int looks_before_sleep = 4;
 
+/// Quanta that pass at a node which pauses, or only waits for packets held back to fall due, until it gives its core to others.
+/// Giving it away in each would cost a time slice each where other processes want the core.
+constexpr std::uint32_t quanta_per_yield = 16;
+
 /// How the run ends. The first to say so decides.
 enum class Ending : std::uint8_t { none, finished, stalled, failed, interrupted };
 
@@ -88,12 +92,20 @@ struct alignas(cache_line_bytes) Processor {
     return !held->empty();
   }
 
+  /// A quantum in which chaos alone keeps the node from sleeping.
+  void pass_idly() {
+    if (++quanta_idle % quanta_per_yield == 0) {
+      sched_yield();
+    }
+  }
+
   LocalMemory memory;
   Mailbox mailbox;
   std::optional<HeldPackets> held;
   Node node;
   std::unique_ptr<Program> program;
   std::optional<ChaosPauses> pauses;
+  std::uint32_t quanta_idle = 0;
   std::uint32_t quanta_to_run = 0;  ///< this many quanta from now the node runs one
   Thread thread;
 };
@@ -178,8 +190,7 @@ struct ThreadsRunner::Implementation final : Network {
   /// that holds packets back does not sleep: they are under way.
   void step(Processor& self) {
     if (self.sits_out()) {
-      sched_yield();
-      return;
+      return self.pass_idly();
     }
     self.mailbox.drain([&self](const Packet& packet) {
       self.node.counters().received[packet.kind].add(packet.payload.size());
@@ -187,7 +198,9 @@ struct ThreadsRunner::Implementation final : Network {
     });
     const bool has_more = work(self);
     const bool holds_packets = self.holds_packets();
-    if (!has_more && !packet_comes_soon(self.mailbox) && !holds_packets) {
+    if (!has_more && holds_packets) {
+      self.pass_idly();
+    } else if (!has_more && !packet_comes_soon(self.mailbox)) {
       sleep(self);
     }
   }

@@ -4,10 +4,11 @@
 // DMPC_CHAOS_SEEDS of the environment.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <iterator>
-#include <string>
 
 #include "core/database.h"
 #include "core/render.h"
@@ -104,12 +105,49 @@ void check_seeds(const Subject& subject, svm::Strategy strategy) {
   CHECK((damage.runs_with_fewer_credits > 0 || count < 20));
 }
 
+/// Some chaos that does everything often.
+constexpr nodes::Chaos storm{.seed = 11,
+                             .held_percent = 70,
+                             .delay_quanta_max = 30,
+                             .slow_link_percent = 30,
+                             .slow_node_percent = 30,
+                             .shrinks_credits = true};
+
 }  // namespace
 
 TEST_CASE("chaos: any seed leaves svm its picture") { check_seeds(Subject(mirrors_and_glass(), 16), svm::Strategy::svm); }
 
 TEST_CASE("chaos: any seed leaves replicated its picture") {
   check_seeds(Subject(mirrors_and_glass(), 16), svm::Strategy::replicated);
+}
+
+TEST_CASE("under chaos a node uses exactly the memory of its plan, the packets held back included") {
+  const Subject subject(mirrors_and_glass(), 8);
+  for (const svm::Strategy strategy : {svm::Strategy::svm, svm::Strategy::replicated}) {
+    const svm::Report calm = subject.run(strategy, {.node_count = 3});
+    const svm::Report disturbed = subject.run(strategy, {.node_count = 3, .chaos = storm});
+    for (std::size_t i = 0; i < 3; ++i) {
+      CHECK(disturbed.nodes[i].memory_used.bytes == disturbed.nodes[i].memory_planned.bytes);
+      CHECK(disturbed.nodes[i].memory_used.total() == calm.nodes[i].memory_used.total() + disturbed.plan.held_bytes);
+    }
+    CHECK(disturbed.plan.held_bytes > 0);
+    CHECK(calm.plan.held_bytes == 0);
+  }
+}
+
+TEST_CASE("under chaos mailboxes stay as large as the credits that were planned without it") {
+  const svm::PlanRequest calm{.page_count = 200, .node_count = 4, .in_flight = 8, .width = 8, .height = 8};
+  svm::PlanRequest disturbed = calm;
+  std::uint32_t fewest = svm::make_plan(calm).request_credits;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    disturbed.chaos = nodes::Chaos{.seed = seed};
+    const svm::Plan plan = svm::make_plan(disturbed);
+    CHECK(plan.node_mailbox.small_slots == svm::make_plan(calm).node_mailbox.small_slots);
+    CHECK(plan.node_mailbox.bulk_slots == svm::make_plan(calm).node_mailbox.bulk_slots);
+    CHECK(plan.host_mailbox.bulk_slots == svm::make_plan(calm).host_mailbox.bulk_slots);
+    fewest = std::min(fewest, plan.request_credits);
+  }
+  CHECK(fewest == 1);
 }
 
 }  // namespace dmpc::tests

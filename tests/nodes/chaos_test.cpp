@@ -3,12 +3,12 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "core/expect.h"
@@ -232,6 +232,47 @@ TEST_CASE("under any seed every packet arrives and the order of each pair holds"
   }
   CHECK(held > 1000);
   CHECK(sat_out > 1000);
+}
+
+/// The host waits for a packet more than node 0 sends it.
+class Expecting : public ToyProgram {
+ public:
+  Expecting(Node& node, std::uint32_t sent) : ToyProgram(node), left_(index() == 0 ? sent : sent + 1) {
+    node.grant(host(), 0, sent);
+  }
+  void receive(const Packet& /*packet*/) override { --left_; }
+  bool work() override {
+    if (index() == 0 && left_ > 0) {
+      --left_;
+      node().send_reserved(host(), 0, 0, 0);
+    }
+    return index() == 0 && left_ > 0;
+  }
+  bool finished() const override { return left_ == 0; }
+  std::string describe() const override { return std::to_string(left_) + " missing"; }
+
+ private:
+  std::uint32_t left_;
+};
+
+TEST_CASE("a stall is found out only when nothing is held back any more, and names the seed") {
+  const Chaos chaos{.seed = 77, .held_percent = 100, .delay_quanta_max = 5000, .slow_node_percent = 100};
+  ThreadsRunner runner(disturbed_nodes(2, {.small_slots = 10}, making<Expecting>(10U)), chaos);
+  std::string report;
+  try {
+    runner.run({});
+  } catch (const core::InternalError& error) {
+    report = error.what();
+  }
+  CHECK(report.find("chaos seed 77") != std::string::npos);
+  CHECK(report.find("host: 1 missing") != std::string::npos);
+}
+
+TEST_CASE("a node without room for it holds no packet back") {
+  const auto specifications = equal_nodes(3, Counting::mailbox(3, 2), making<Counting>(10U, 2U));
+  ThreadsRunner runner(specifications, Chaos{.seed = 1, .held_percent = 100});
+  CHECK(runner.run({}) == RunEnd::finished);
+  CHECK(runner.node(0).counters().held == 0);
 }
 
 /// Broken on purpose. In each round node 0 sends a number to node 1 and word of it to the host, which passes the word on to

@@ -2,8 +2,10 @@
 #include <doctest/doctest.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "nodes/held_packets.h"
 #include "tests/nodes/toy_machine.h"
 #include "tests/support/allocation_guard.h"
 
@@ -25,12 +27,14 @@ class Spendthrift final : public TokenRound {
   std::vector<int> kept_;
 };
 
-std::uint64_t allocated_by(const ProgramMaker& maker) {
+std::uint64_t allocated_by(const ProgramMaker& maker, const std::optional<nodes::Chaos>& chaos = std::nullopt) {
   auto specifications = equal_nodes(8, TokenRound::mailbox, maker);
   for (nodes::NodeSpecification& specification : specifications) {
     specification = watched(specification);
+    specification.held_bytes = nodes::HeldPackets::room_bytes(nodes::small_payload_bytes);
+    specification.plan[nodes::Category::queues] += specification.held_bytes;
   }
-  nodes::ThreadsRunner runner(specifications);
+  nodes::ThreadsRunner runner(specifications, chaos);
   const Allocations before = watched_allocations();
   static_cast<void>(runner.run({}));
   const Allocations after = watched_allocations();
@@ -39,6 +43,10 @@ std::uint64_t allocated_by(const ProgramMaker& maker) {
 
 TEST_CASE("from start to end no thread of a node allocates or frees, the runner's code included") {
   CHECK(allocated_by(making<TokenRound>(50U)) == 0);
+}
+
+TEST_CASE("packets held back take nothing but the node's own memory") {
+  CHECK(allocated_by(making<TokenRound>(50U), nodes::Chaos{.seed = 1, .slow_node_percent = 50}) == 0);
 }
 
 TEST_CASE("a program that allocates is found out") { CHECK(allocated_by(making<Spendthrift>(50U)) > 0); }
