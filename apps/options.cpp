@@ -121,6 +121,12 @@ void add_study_options(CLI::App& app, RenderOptions& options) {
   add_path(app, "--stats", options.stats, "FILE.json", "Write all counters");
   app.add_flag("--count-pages", options.run.count_pages,
                "Count the distinct pages of each pixel for --stats (takes memory and time)");
+  app.add_option_function<std::uint64_t>(
+         "--chaos", [&options](std::uint64_t seed) { options.run.chaos = nodes::chaos_of(seed); },
+         "Disturb the computer by this seed: packets late and out of order, slow nodes and links, few credits; the picture stays")
+      ->check(CLI::Range(std::uint64_t{0}, ~std::uint64_t{0}))
+      ->type_name("")
+      ->option_text("SEED [calm]");
   app.add_flag("--quiet", options.quiet, "No progress, no closing lines");
 }
 

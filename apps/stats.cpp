@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 #include <string>
 
 #include "svm/packets.h"
@@ -116,6 +117,25 @@ Json memory_json(const nodes::MemoryPlan& memory) {
   return result;
 }
 
+/// What a seed did to the computer, or null without one.
+Json chaos_json(const svm::Report& report) {
+  const std::optional<nodes::Chaos>& chaos = report.plan.request.chaos;
+  if (!chaos) {
+    return nullptr;
+  }
+  std::uint64_t held = report.host.held;
+  std::uint64_t sat_out = report.host.sat_out;
+  for (const svm::NodeReport& node : report.nodes) {
+    held += node.counters.held;
+    sat_out += node.counters.sat_out;
+  }
+  return {{"seed", chaos->seed},
+          {"packets_held", held},
+          {"quanta_sat_out", sat_out},
+          {"request_credits", report.plan.request_credits},
+          {"film_credits", report.plan.film_credits}};
+}
+
 Json node_seconds_json(const nodes::NodeCounters& counters) {
   const std::uint64_t idle_ns = counters.wall_ns > counters.busy_ns ? counters.wall_ns - counters.busy_ns : 0;
   return {{"busy", static_cast<double>(counters.busy_ns) * nanosecond},
@@ -211,6 +231,7 @@ std::string stats_json(const RenderRecord& record) {
                     {"pages", pages_json(report.pages(), report.film.pixels().size(), report.plan.request.count_pages)},
                     {"packets", all_packets_json(report)},
                     {"work", work_json(report.work())},
+                    {"chaos", chaos_json(report)},
                     {"skips", {{"empty_space", record.options.run.traversal.skip_empty_space}}},
                     {"nodes", nodes_json(report)},
                     {"host", host_json(report.host)}};

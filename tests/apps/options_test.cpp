@@ -76,6 +76,15 @@ TEST_CASE("every option of the computer reaches its field") {
   CHECK(options.quiet);
 }
 
+TEST_CASE("any seed makes chaos, and without one the computer is calm") {
+  CHECK_FALSE(render().run.chaos);
+  CHECK(render({"--chaos=0"}).run.chaos.value().seed == 0);
+  CHECK(render({"--chaos=18446744073709551615", "--strategy=replicated"}).run.chaos.value().seed == ~std::uint64_t{0});
+  CHECK(says(render_complaint("--chaos=-1"), "--chaos"));
+  CHECK(says(render_complaint("--chaos=18446744073709551616"), "--chaos"));
+  CHECK(says(render_complaint("--chaos=storm"), "--chaos"));
+}
+
 TEST_CASE("every option of the picture reaches its field") {
   const RenderOptions options = render({"--resolution=64x48", "--samples=4", "--depth=9", "--convention=paper",
                                         "--strategy=replicated", "--tracer=embree", "--node-memory=auto"});

@@ -67,7 +67,7 @@ std::vector<std::string> keys(const std::string& json, std::size_t depth) {
 TEST_CASE("the keys of the counters are an interface") {
   const std::string json = Rendered(small()).json();
   CHECK(keys(json, 1) == std::vector<std::string>{"program", "options", "film_hash", "rays", "hits", "operations", "seconds",
-                                                  "database", "pages", "packets", "work", "skips", "nodes", "host"});
+                                                  "database", "pages", "packets", "work", "chaos", "skips", "nodes", "host"});
   for (const std::string key : {"primary",     "reflected",  "refracted",      "shadow",
                                 "total",       "secondary",  "shadow_blocked", "total_internal_reflections",
                                 "load",        "build",      "render",         "write",
@@ -108,6 +108,16 @@ TEST_CASE("distinct pages are counted on demand") {
   options.run.count_pages = true;
   const std::string counted = value(Rendered(options).json(), "distinct_per_pixel");
   CHECK(std::stod(counted) >= 1);
+}
+
+TEST_CASE("chaos is told by its seed and what it did, and only where there was some") {
+  CHECK(value(Rendered(small()).json(), "chaos") == "null");
+  RenderOptions options = small();
+  options.run.chaos = nodes::Chaos{.seed = ~std::uint64_t{0}, .held_percent = 100};
+  const std::string json = Rendered(options).json();
+  CHECK(value(json, "seed") == "18446744073709551615");
+  CHECK(std::stoi(value(json, "packets_held")) > 0);
+  CHECK(value(json, "quanta_sat_out") == "0");
 }
 
 TEST_CASE("replicated has no cache to speak of") {
