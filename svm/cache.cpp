@@ -23,9 +23,7 @@ std::size_t Cache::table_size(std::uint32_t frame_count) {
   return std::bit_ceil(std::max<std::size_t>(2 * std::size_t{frame_count}, 2));
 }
 
-std::size_t Cache::candidate_capacity(std::uint32_t frame_count) {
-  return std::min(frame_count, candidate_count_max);
-}
+std::size_t Cache::candidate_capacity(std::uint32_t frame_count) { return std::min(frame_count, candidate_count_max); }
 
 void Cache::add_needs(nodes::MemoryPlan& plan, std::uint32_t frame_count, std::size_t page_size_bytes) {
   plan[Category::cache_frames] += LocalMemory::bytes_for<std::byte>(frame_bytes(frame_count, page_size_bytes));
@@ -49,7 +47,7 @@ Cache::Cache(LocalMemory& memory, std::uint32_t frame_count, std::size_t page_si
 PageId Cache::install(PageId page, std::span<const std::byte> bytes) {
   core::expect(!stamps_.empty(), "a page is installed only where there is a frame");
   core::expect(bytes.size() == page_size_bytes_, "an installed page is whole");
-  core::expect(!contains(page), "a page is in at most one frame");
+  core::expect(frame_of(page) == no_frame, "a page is in at most one frame");
   const std::uint32_t frame = least_recently_used();
   const PageId evicted = pages_[frame];
   if (evicted != no_page) {

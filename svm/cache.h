@@ -25,16 +25,23 @@ class Cache {
   /// Adds to `plan` exactly what the constructor takes.
   static void add_needs(nodes::MemoryPlan& plan, std::uint32_t frame_count, std::size_t page_size_bytes);
 
-  /// The page's first byte, or nullptr. The page is now the most recently used. The pointer is valid until the next install().
-  const std::byte* find(PageId page) {
-    const std::uint32_t frame = frame_of(page);
-    if (frame == no_frame) {
-      return nullptr;
+  static constexpr std::uint32_t no_frame = 0xffffffffU;
+
+  /// The frame that the page is in, or no_frame. It stays there until install() returns the page as evicted.
+  std::uint32_t frame_of(PageId page) const {
+    std::size_t place = start_of(page);
+    while (table_[place].page != page) {
+      if (table_[place].page == no_page) {
+        return no_frame;
+      }
+      place = after(place);
     }
-    stamps_[frame] = ++clock_;
-    return bytes_of(frame);
+    return table_[place].frame;
   }
-  bool contains(PageId page) const { return frame_of(page) != no_frame; }
+  /// The page in `frame` is now the most recently used.
+  void touch(std::uint32_t frame) { stamps_[frame] = ++clock_; }
+  /// The first byte of a frame.
+  const std::byte* bytes_of(std::uint32_t frame) const { return frames_.data() + frame * page_size_bytes_; }
 
   /// Copies an absent page into the frame that was used least recently (one that is empty, if there is one) and makes it the
   /// most recently used. Returns the page that had to go, or no_page. Requires at least one frame and `bytes` of the page's
@@ -53,7 +60,6 @@ class Cache {
     std::uint32_t frame = 0;
     std::uint32_t padding = 0;
   };
-  static constexpr std::uint32_t no_frame = 0xffffffffU;
   static constexpr std::uint32_t candidate_count_max = 64;
 
   static std::size_t table_size(std::uint32_t frame_count);
@@ -61,18 +67,6 @@ class Cache {
 
   std::size_t start_of(PageId page) const { return (index_of(page) * 0x9e3779b1U) >> hash_shift_; }
   std::size_t after(std::size_t place) const { return (place + 1) & (table_.size() - 1); }
-  std::uint32_t frame_of(PageId page) const {
-    std::size_t place = start_of(page);
-    while (table_[place].page != page) {
-      if (table_[place].page == no_page) {
-        return no_frame;
-      }
-      place = after(place);
-    }
-    return table_[place].frame;
-  }
-  const std::byte* bytes_of(std::uint32_t frame) const { return frames_.data() + frame * page_size_bytes_; }
-
   std::uint32_t least_recently_used();
   void seek_candidates();
   void insert(PageId page, std::uint32_t frame);

@@ -9,9 +9,7 @@
 namespace dmpc::svm {
 namespace {
 
-std::size_t words_for(std::uint32_t pixel_count) {
-  return core::ceil_divide<std::size_t>(pixel_count, 64);
-}
+std::size_t words_for(std::uint32_t pixel_count) { return core::ceil_divide<std::size_t>(pixel_count, 64); }
 
 }  // namespace
 

@@ -34,16 +34,12 @@ enum class Kind : nodes::PacketKind {
   done,
   stop
 };
-constexpr nodes::PacketKind number_of(Kind kind) {
-  return static_cast<nodes::PacketKind>(kind);
-}
+constexpr nodes::PacketKind number_of(Kind kind) { return static_cast<nodes::PacketKind>(kind); }
 static_assert(number_of(Kind::stop) < nodes::packet_kind_count);
 inline constexpr std::array<const char*, 8> kind_names = {"page_request", "page_reply",           "work_request", "work_reply",
                                                           "film_sums",    "film_acknowledgement", "done",         "stop"};
 /// The packet's name, for reports.
-constexpr const char* name_of(Kind kind) {
-  return kind_names[number_of(kind)];
-}
+constexpr const char* name_of(Kind kind) { return kind_names[number_of(kind)]; }
 
 inline constexpr nodes::Channel request_channel = 0;
 inline constexpr nodes::Channel bulk_channel = 1;

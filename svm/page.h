@@ -14,9 +14,7 @@ namespace dmpc::svm {
 enum class PageId : std::uint32_t {};
 inline constexpr PageId no_page{0xffffffffU};
 
-constexpr std::uint32_t index_of(PageId page) {
-  return static_cast<std::uint32_t>(page);
-}
+constexpr std::uint32_t index_of(PageId page) { return static_cast<std::uint32_t>(page); }
 
 inline constexpr std::size_t page_size_min_bytes = 512;
 inline constexpr std::size_t page_size_max_bytes = 65536;

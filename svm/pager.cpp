@@ -21,12 +21,14 @@ void Pager::add_needs(nodes::MemoryPlan& plan, std::uint32_t home_page_count, st
                       std::size_t page_size_bytes) {
   plan[Category::home_pages] += LocalMemory::bytes_for<std::byte>(home_bytes(home_page_count, page_size_bytes));
   plan[Category::queues] += LocalMemory::bytes_for<std::byte>(sizeof(PageReplyHeader) + page_size_bytes);
+  plan[Category::page_table] += LocalMemory::bytes_for<Translation>(translation_count);
   Cache::add_needs(plan, frame_count, page_size_bytes);
   Faults::add_needs(plan, in_flight);
 }
 
 Pager::Pager(nodes::Node& node, const Plan& plan, std::span<const std::byte> database)
     : geometry_(plan.request.page_size_bytes),
+      translations_(node.memory().allocate<Translation>(Category::page_table, translation_count)),
       homes_(plan.request.node_count),
       self_(nodes::index_of(node.id())),
       home_bytes_(node.memory().allocate<std::byte>(
@@ -54,23 +56,35 @@ void Pager::copy_home_pages(std::span<const std::byte> database) {
 }
 
 const std::byte* Pager::find_other(PageId page, std::size_t offset) {
-  const Homes::Place place = homes_.place_of(page);
-  const std::byte* bytes = nullptr;
-  if (place.node == self_) {
-    last_hits_ = &counters_.home_hits;
-    bytes = home_page(place.slot).data();
-  } else {
-    bytes = cache_.find(page);
-    if (bytes == nullptr) {
-      ++counters_.misses;
-      return nullptr;
-    }
-    last_hits_ = &counters_.cache_hits;
+  Translation& translation = translation_of(page);
+  if (translation.page != page && !translate(page, translation)) {
+    ++counters_.misses;
+    return nullptr;
   }
+  const bool at_home = translation.frame == Cache::no_frame;
+  if (!at_home) {
+    cache_.touch(translation.frame);
+  }
+  last_hits_ = at_home ? &counters_.home_hits : &counters_.cache_hits;
   ++*last_hits_;
   last_page_ = page;
-  last_bytes_ = bytes;
-  return bytes + offset;
+  last_bytes_ = translation.bytes;
+  return last_bytes_ + offset;
+}
+
+/// Returns whether the page is here; if not, `translation` stays as it was.
+bool Pager::translate(PageId page, Translation& translation) const {
+  const Homes::Place place = homes_.place_of(page);
+  if (place.node == self_) {
+    translation = {page, Cache::no_frame, home_page(place.slot).data()};
+    return true;
+  }
+  const std::uint32_t frame = cache_.frame_of(page);
+  if (frame == Cache::no_frame) {
+    return false;
+  }
+  translation = {page, frame, cache_.bytes_of(frame)};
+  return true;
 }
 
 void Pager::park(std::uint32_t slot, core::Address address) {
@@ -97,9 +111,19 @@ std::uint32_t Pager::install(const nodes::Packet& reply) {
   if (Faults::Fault* refused = faults_.oldest_refused(nodes::index_of(reply.source))) {
     request(*refused);
   }
-  last_page_ = no_page;
-  counters_.evictions += cache_.install(header.page, reply.payload.subspan(sizeof(header))) == no_page ? 0 : 1;
+  forget(cache_.install(header.page, reply.payload.subspan(sizeof(header))));
   return first;
+}
+
+void Pager::forget(PageId evicted) {
+  last_page_ = no_page;
+  if (evicted == no_page) {
+    return;
+  }
+  ++counters_.evictions;
+  if (translation_of(evicted).page == evicted) {
+    translation_of(evicted) = {};
+  }
 }
 
 void Pager::serve(const nodes::Packet& request) {

@@ -59,18 +59,31 @@ class Pager {
   PageCounters counters() const;
 
  private:
+  /// Where a page was found last: in front of the arithmetic and the cache's table, small enough to stay in the processor's
+  /// own cache.
+  struct Translation {
+    PageId page = no_page;
+    std::uint32_t frame = Cache::no_frame;  ///< no_frame: the page is at home
+    const std::byte* bytes = nullptr;
+  };
+  static constexpr std::size_t translation_count = 256;
+
+  Translation& translation_of(PageId page) { return translations_[index_of(page) % translation_count]; }
+  bool translate(PageId page, Translation& translation) const;
   const std::byte* find_other(PageId page, std::size_t offset);
   std::span<const std::byte> home_page(std::uint32_t slot) const {
     return home_bytes_.subspan(slot * geometry_.size_bytes(), geometry_.size_bytes());
   }
   void copy_home_pages(std::span<const std::byte> database);
   void request(Faults::Fault& fault);
+  void forget(PageId evicted);
 
   // What a reference reads comes first.
   PageGeometry geometry_;
   PageId last_page_ = no_page;
   const std::byte* last_bytes_ = nullptr;
   std::uint64_t* last_hits_ = nullptr;
+  std::span<Translation> translations_;
   Homes homes_;
   std::uint32_t self_;
   std::span<std::byte> home_bytes_;

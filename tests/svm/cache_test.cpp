@@ -27,8 +27,13 @@ struct SmallCache {
   }
   PageId install(std::uint32_t page) { return cache.install(PageId{page}, bytes_of(page)); }
   bool refer(std::uint32_t page) {
-    const std::byte* bytes = cache.find(PageId{page});
-    return bytes != nullptr && std::equal(bytes, bytes + page_size, bytes_of(page).begin());
+    const std::uint32_t frame = cache.frame_of(PageId{page});
+    if (frame == Cache::no_frame) {
+      return false;
+    }
+    cache.touch(frame);
+    const std::byte* bytes = cache.bytes_of(frame);
+    return std::equal(bytes, bytes + page_size, bytes_of(page).begin());
   }
   std::vector<std::byte> bytes_of(std::uint32_t page) { return std::vector<std::byte>(page_size, std::byte(page * 37 + 1)); }
 
@@ -89,8 +94,8 @@ TEST_CASE("a cache finds and evicts what a brute-force LRU list does") {
 
 TEST_CASE("an empty cache finds nothing") {
   SmallCache small(4);
-  CHECK(small.cache.find(PageId{0}) == nullptr);
-  CHECK(small.cache.find(svm::PageId{12345}) == nullptr);
+  CHECK(small.cache.frame_of(PageId{0}) == Cache::no_frame);
+  CHECK(small.cache.frame_of(PageId{12345}) == Cache::no_frame);
 }
 
 TEST_CASE("a cache without frames finds nothing and takes nothing") {
