@@ -4,6 +4,7 @@
 
 #include "core/elementary.h"
 #include "core/expect.h"
+#include "core/frame.h"
 #include "core/sampling.h"
 
 namespace dmpc::core {
@@ -11,9 +12,10 @@ namespace dmpc::core {
 Camera::Camera(const View& view, const GridFrame& frame, int width, int height, int samples)
     : width_(width), height_(height), samples_(samples) {
   expect(width > 0 && height > 0 && samples > 0, "a camera has pixels and samples");
-  origin_ = Vec3f((view.from - frame.origin) * frame.scale);
-  forward_ = normalize(view.at - view.from);
-  const Vec3d right = normalize(cross(forward_, view.up)), up = cross(right, forward_);
+  origin_ = Vec3f(to_local(frame, view.from));
+  const GridAxes screen = screen_axes(view);
+  const Vec3d right = turned(frame.axes, screen[0]), up = turned(frame.axes, screen[1]);
+  forward_ = -turned(frame.axes, screen[2]);
   // A picture one pixel wide has no spacing of its own: its pixel spans the whole angle.
   const int intervals = std::max(1, std::min(width, height) - 1);
   const double pixel = 2.0 * tan_degrees(view.angle_degrees / 2) / intervals;

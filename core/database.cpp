@@ -49,6 +49,11 @@ bool degenerate_cone(const PrimitiveValues& cone) {
   return get(cone, 0) == get(cone, 4) || (cone.value[3] == 0.0F && cone.value[7] == 0.0F);
 }
 
+void include_cube(Box& box, const Vec3d& center, double half) {
+  box.include(center - Vec3d{half, half, half});
+  box.include(center + Vec3d{half, half, half});
+}
+
 Vec3f unit_normal(const Vec3d& normal) {
   const double size = length(normal);
   return size > 0 && std::isfinite(size) ? Vec3f(normal * (1.0 / size)) : Vec3f{};
@@ -90,26 +95,25 @@ class DatabaseBuilder {
 
   DatabaseHeader& header() { return result_.header_; }
 
-  Box world_bounds() const {
+  /// In the directions of the grid's axes.
+  Box bounds_of_scene() const {
     Box box;
     for (const Vec3d& vertex : scene_.vertices) {
       if (usable(vertex)) {
-        box.include(vertex);
+        box.include(turned(options_.axes, vertex));
       }
     }
     for (const Sphere& sphere : scene_.spheres) {
       const double r = std::fabs(sphere.radius);
       if (usable(sphere.center) && r < coordinate_max) {
-        box.include(sphere.center - Vec3d{r, r, r});
-        box.include(sphere.center + Vec3d{r, r, r});
+        include_cube(box, turned(options_.axes, sphere.center), r);
       }
     }
     for (const Cone& cone : scene_.cones) {
       const double r = std::max(std::fabs(cone.base_radius), std::fabs(cone.apex_radius));
       for (const Vec3d& end : {cone.base, cone.apex}) {
         if (usable(end) && r < coordinate_max) {
-          box.include(end - Vec3d{r, r, r});
-          box.include(end + Vec3d{r, r, r});
+          include_cube(box, turned(options_.axes, end), r);
         }
       }
     }
@@ -117,13 +121,13 @@ class DatabaseBuilder {
   }
 
   void fit() {
-    const Box bounds = world_bounds();
-    header().frame = fit_frame(bounds, scene_.objects.size(), options_.top_cells_per_primitive);
+    const Box bounds = bounds_of_scene();
+    header().frame = fit_frame(bounds, scene_.objects.size(), options_.top_cells_per_primitive, options_.axes);
     header().background = Color(scene_.background);
     if (!bounds.empty()) {
       const Vec3d extent = bounds.high - bounds.low;
       const double size = std::max({extent.x, extent.y, extent.z, 1e-30});
-      view_distance_ = length(scene_.view.from - bounds.center()) / size;
+      view_distance_ = length(turned(options_.axes, scene_.view.from) - bounds.center()) / size;
     }
     set_pad();
   }
@@ -172,7 +176,7 @@ class DatabaseBuilder {
       for (std::size_t i = 0; i < 3; ++i) {
         put(triangle, 3 * i, local(vertices[corners[i]]));
         if (object.kind == ObjectKind::patch) {
-          normals.normal[i] = unit_normal(scene_.normals[object.first_normal + corners[i]]);
+          normals.normal[i] = unit_normal(turned(options_.axes, scene_.normals[object.first_normal + corners[i]]));
         }
       }
       const bool degenerate = degenerate_triangle(triangle);

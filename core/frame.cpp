@@ -38,8 +38,14 @@ double top_cell_edge(const Vec3d& extent, double wanted) {
 
 }  // namespace
 
-GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double top_cells_per_primitive) {
+GridAxes screen_axes(const View& view) {
+  const Vec3d forward = normalize(view.at - view.from), right = normalize(cross(forward, view.up));
+  return {right, cross(right, forward), -forward};
+}
+
+GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double top_cells_per_primitive, const GridAxes& axes) {
   GridFrame frame;
+  frame.axes = axes;
   if (bounds.empty()) {
     frame.finest_cell = 1.0F / finest_per_top;
     return frame;

@@ -5,20 +5,30 @@
 
 #include "core/box.h"
 #include "core/record.h"
+#include "core/scene.h"
 
 namespace dmpc::core {
 
-/// A frame for `primitive_count` primitives within `bounds` (world), with about `top_cells_per_primitive` cubic top cells each.
-/// The grid starts a fixed odd share of a voxel outside the bounds, so that regular scenes do not put all their vertices on voxel corners;
-/// flat scenes are given a thickness of 1e-4 of their largest extent.
-GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double top_cells_per_primitive);
+/// A frame for `primitive_count` primitives within `bounds` (in the directions of `axes`), with about `top_cells_per_primitive`
+/// cubic top cells each. The grid starts a fixed odd share of a voxel outside the bounds, so that regular scenes do not put all
+/// their vertices on voxel corners; flat scenes are given a thickness of 1e-4 of their largest extent.
+GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double top_cells_per_primitive,
+                    const GridAxes& axes = world_axes);
 
-/// Within which distance of a cell a primitive must be listed there, grid-local: at least twice the error of any plane of the walk, for
-/// rays that start up to `distance` scene extents away (the error grows with the origin's distance, measured in grid.h's terms:
-/// 2^-21 of the extent times 1 + distance), and never below 1e-3 of a finest cell.
+/// Within which distance of a cell a primitive must be listed there, grid-local: at least twice the error of any plane of the
+/// walk, for rays that start up to `distance` scene extents away (the error grows with the origin's distance, measured in
+/// grid.h's terms: 2^-21 of the extent times 1 + distance), and never below 1e-3 of a finest cell.
 double insertion_pad(const GridFrame& frame, double distance);
 
+/// The screen's axes: right, up, and from the scene towards the eye.
+GridAxes screen_axes(const View& view);
+
+/// A direction of the world in the grid's axes. World axes keep its bits.
+inline Vec3d turned(const GridAxes& axes, const Vec3d& v) { return {dot(axes[0], v), dot(axes[1], v), dot(axes[2], v)}; }
+
 /// A world point in grid-local coordinates, not rounded.
-inline Vec3d to_local(const GridFrame& frame, const Vec3d& point) { return (point - frame.origin) * frame.scale; }
+inline Vec3d to_local(const GridFrame& frame, const Vec3d& point) {
+  return (turned(frame.axes, point) - frame.origin) * frame.scale;
+}
 
 }  // namespace dmpc::core

@@ -134,10 +134,15 @@ static_assert(sizeof(LightRecord) == 32);
 
 // ---- What every node knows without asking --------------------------------------------------------------------------------
 
-/// How grid-local coordinates come from the world's: local = (world - origin) * scale, scale a power of two that brings the
+/// Three unit vectors of the world at right angles, right-handed.
+using GridAxes = std::array<Vec3d, 3>;
+inline constexpr GridAxes world_axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
+
+/// How grid-local coordinates come from the world's: local = (axes world - origin) * scale, scale a power of two that brings the
 /// largest extent into (1/2, 1]. Keeps voxel arithmetic exact to the grid, not to the world (grid.h says why).
 struct GridFrame {
-  Vec3d origin;
+  GridAxes axes = world_axes;  ///< the grid's x, y and z; the world's unless asked for the screen's
+  Vec3d origin;                ///< in the directions of `axes`
   double scale = 1;
   std::array<std::int32_t, 3> resolution{1, 1, 1};  ///< top cells along x, y, z
   float finest_cell = 1;                            ///< edge of a finest cell, grid-local
