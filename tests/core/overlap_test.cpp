@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "tests/support/random.h"
 #include "tests/support/scaled.h"
 
@@ -81,6 +83,18 @@ TEST_CASE("a box inside a sphere or outside it does not touch its surface") {
   CHECK(overlap.touches({1, 0, 0}, half));
   CHECK_FALSE(overlap.touches({0.8, 0.8, 0.8}, half));
   CHECK(overlap.touches({0, 0, 0}, {1, 1, 1}));
+}
+
+TEST_CASE("a box that only meets a sphere's extreme point touches") {
+  const Overlap overlap(values(PrimitiveKind::sphere, {0, 0, 0, 1}));
+  const double next = std::nextafter(1.125, 2.0);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Vec3d at;
+    at[axis] = 1.125;
+    CHECK(overlap.touches(at, {0.125, 0.125, 0.125}));
+    at[axis] = next;
+    CHECK_FALSE(overlap.touches(at, {0.125, 0.125, 0.125}));
+  }
 }
 
 TEST_CASE("a box inside a cylinder does not touch it") {

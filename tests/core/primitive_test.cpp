@@ -44,6 +44,14 @@ TEST_CASE("a triangle's edges and vertices belong to it") {
   }
 }
 
+TEST_CASE("a ray beside an edge by less than single precision resolves meets exactly one of two neighbours") {
+  const float e = 0x1p-23F;  // both products of the edge function round to the same, their difference is e squared
+  const Vec3f c{1 + 3 * e, 1 + 2 * e, 1}, b{-(1 + 2 * e), -(1 + e), 1};
+  const Ray ray = ray_from({0, 0, 0}, {0, 0, 1});
+  CHECK(misses(triangle({-1, 1, 1, b.x, b.y, b.z, c.x, c.y, c.z}, ray)));
+  CHECK(triangle({1, -1, 1, b.x, b.y, b.z, c.x, c.y, c.z}, ray) == 1.0F);
+}
+
 TEST_CASE("a triangle seen edge-on or without area is missed") {
   CHECK(misses(triangle(right_triangle, ray_from({-1, 0.25F, 0}, {1, 0, 0}))));
   CHECK(misses(triangle({0, 0, 0, 1, 1, 0, 2, 2, 0}, ray_from({1, 1, 1}, {0, 0, -1}))));

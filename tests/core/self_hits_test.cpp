@@ -21,6 +21,9 @@ const Material mirror{.specular = 0.5, .shine = 10};
 std::vector<Ray> children_of(const Database& database, const Ray& ray, const Hit& hit) {
   const LocalRecords records(database.bytes());
   std::vector<Ray> children;
+  if (!hit.found()) {
+    return children;
+  }
   HitState state = begin_shading(ray, hit);
   Operations operations;
   while (state.stage != HitState::Stage::finished) {
@@ -189,12 +192,13 @@ TEST_CASE("two sheets a ten-thousandth apart stay separate") {
   const Database database = database_of(seen_from(scene, 1));
   const GridFrame& frame = database.header().frame;
   Random random(45);
-  std::size_t passed = 0, blocked_above = 0;
+  std::size_t passed = 0, blocked_above = 0, between = 0;
   for (std::size_t i = 0; i < scaled(20'000); ++i) {
     const Vec3d at{random.between(-0.45, 0.45), random.between(-0.45, 0.45), 5e-5};
     const Ray down = ray_through(to_local(frame, at), to_local(frame, {at.x, at.y, -1}));
     const Hit lower = shoot(database, down);
     for (const Ray& child : children_of(database, down, lower)) {
+      ++between;  // the shadow ray and the reflected one
       passed += shoot(database, child).found() ? 0 : 1;
     }
     const Ray from_above = ray_through(to_local(frame, {at.x, at.y, 1}), to_local(frame, at));
@@ -204,4 +208,5 @@ TEST_CASE("two sheets a ten-thousandth apart stay separate") {
   }
   CHECK(passed == 0);
   CHECK(blocked_above == 0);
+  CHECK(between == 2 * scaled(20'000));
 }
