@@ -145,14 +145,13 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
                                                         const Progress& progress) {
   std::vector<nodes::NodeSpecification> specifications;
   for (std::uint32_t i = 0; i < plan.request.node_count; ++i) {
-    specifications.push_back(
-        {plan.node_memory(i), plan.node_mailbox, [&make_program, i](nodes::Node& node) { return make_program(i, node); },
-         plan.held_bytes});
+    specifications.push_back({plan.node_memory(i), plan.node_mailbox,
+                              [&make_program, i](nodes::Node& node) { return make_program(i, node); }, plan.held_bytes});
   }
-  specifications.push_back({plan.host_memory(), plan.host_mailbox, [&plan, &film, &progress](nodes::Node& node) {
-                              return std::make_unique<HostProgram>(node, plan, film, progress);
-                            },
-                            plan.held_bytes});
+  specifications.push_back(
+      {plan.host_memory(), plan.host_mailbox,
+       [&plan, &film, &progress](nodes::Node& node) { return std::make_unique<HostProgram>(node, plan, film, progress); },
+       plan.held_bytes});
   return specifications;
 }
 

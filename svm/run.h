@@ -39,7 +39,7 @@ struct RunOptions {
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;
   core::TraversalOptions traversal = {};
   std::optional<nodes::Chaos> chaos = std::nullopt;  ///< disturbs the run; the film stays the same
-  Progress progress = {};  ///< called by the host's thread
+  Progress progress = {};                            ///< called by the host's thread
 };
 
 struct NodeReport {
