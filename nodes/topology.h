@@ -1,0 +1,68 @@
+// How the nodes of a machine are wired, and which links a packet passes on its way.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nodes/node_id.h"
+
+namespace dmpc::nodes {
+
+/// crossbar: every two nodes share a link. hypercube: neighbours differ in one bit. mesh, torus: two dimensions, as near to
+/// square as the count allows, the torus closed to rings. fat_tree: nodes are the leaves of a tree of switches with 4 children
+/// each.
+enum class TopologyKind : std::uint8_t { crossbar, hypercube, mesh, torus, fat_tree };
+
+/// "crossbar", "hypercube", "mesh", "torus" or "fat-tree".
+std::string_view name_of(TopologyKind kind);
+/// The same read back; throws core::InputError, listing the names, for anything else.
+TopologyKind parse_topology(std::string_view name);
+
+/// One directed wire: from a place to a neighbouring place. Places below node_count() are nodes; the others are switches, or the
+/// unused corners of a machine that has more places than nodes, which only route.
+struct Link {
+  std::uint32_t from = 0, to = 0;
+  constexpr bool operator==(const Link&) const = default;
+};
+
+/// An immutable value. Routes are deterministic and depend on source and target alone, and are shortest.
+class Topology {
+ public:
+  /// Any node_count from 1 to 65,536: a hypercube is the smallest that holds them; mesh and torus have width >= height, height
+  /// being the largest divisor of the count that is at least half its root, or else the root rounded down, so that fewer than
+  /// `height` places stay unused.
+  Topology(TopologyKind kind, std::uint32_t node_count);
+
+  TopologyKind kind() const { return kind_; }
+  std::uint32_t node_count() const { return node_count_; }
+  /// Nodes, unused places and switches: the places that a Link can name are below this.
+  std::uint32_t place_count() const { return place_count_; }
+
+  /// The links on the way from one node to the other; 0 from a node to itself.
+  std::uint32_t hops(NodeId source, NodeId target) const;
+  /// These links, in order. Hypercube: e-cube, the lowest differing address bit first (H. Sullivan, T. R. Bashkow, 1977). Mesh
+  /// and torus: along x, then along y, on a ring the shorter way, upwards if both are equal. Fat tree: up to the lowest common
+  /// switch and down.
+  std::vector<Link> route(NodeId source, NodeId target) const;
+
+  /// The longest of all shortest ways.
+  std::uint32_t diameter() const;
+
+ private:
+  std::uint32_t ring_hops(std::uint32_t from, std::uint32_t to, std::uint32_t size) const;
+  std::uint32_t ring_step(std::uint32_t from, std::uint32_t to, std::uint32_t size) const;
+  std::uint32_t levels_to_common_switch(std::uint32_t a, std::uint32_t b) const;
+  std::uint32_t switch_above(std::uint32_t leaf, std::uint32_t level) const;
+  std::uint32_t next_place(std::uint32_t at, std::uint32_t target) const;
+  std::vector<Link> tree_route(std::uint32_t source, std::uint32_t target) const;
+
+  TopologyKind kind_;
+  std::uint32_t node_count_;
+  std::uint32_t place_count_;
+  std::uint32_t width_ = 1, height_ = 1;      ///< of mesh and torus
+  std::vector<std::uint32_t> level_first_{};  ///< fat tree: the first place of each level; level 0 are the nodes
+};
+
+}  // namespace dmpc::nodes
