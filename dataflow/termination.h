@@ -84,8 +84,7 @@ class Termination {
   const Token& token() const { return token_; }
 
  private:
-  explicit Termination(bool is_initiator)
-      : is_initiator_(is_initiator), holds_token_(is_initiator), is_black_(is_initiator) {}
+  explicit Termination(bool is_initiator) : is_initiator_(is_initiator), holds_token_(is_initiator), is_black_(is_initiator) {}
 
   /// The host's judgement on a round that has come back: the end, or a new round.
   std::optional<Token> judge() {

@@ -1,0 +1,51 @@
+// Static load balancing by subsampling: a sparse picture tells where in space the work is, and space is shared out accordingly.
+//
+// Source: D. Badouel, K. Bouatouch, T. Priol, "Distributing Data and Control for Ray Tracing in Parallel", 1994: neighbouring
+// pixels cost about the same, so one pixel of every 8x8 predicts the load of every column of space.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "core/database.h"
+#include "core/pixel_task.h"
+#include "dataflow/bsp.h"
+#include "dataflow/columns.h"
+
+namespace dmpc::dataflow {
+
+enum class Balance : std::uint8_t {
+  subsampled,  ///< regions of about equal predicted load
+  equal_size   ///< the naive split
+};
+
+struct BalanceOptions {
+  Balance balance = Balance::subsampled;
+  int subsample = 8;                    ///< one pixel of every subsample x subsample is traced; at least 1
+  std::int32_t columns_per_side = 256;  ///< of the lattice that the loads are counted on; at least 1
+  BspOptions bsp = {};
+};
+
+/// Regions, and what was known when they were made.
+struct Balanced {
+  Bsp bsp;
+  ColumnLoads loads;              ///< in picoseconds of the subsampled picture; all 0 for Balance::equal_size
+  std::vector<double> predicted;  ///< load of each region, by region number, in the same unit
+};
+
+/// The two grid axes most parallel to the screen, ascending: all but the one along which the camera looks most.
+CutAxes axes_facing(const core::Camera& camera);
+
+/// The pixels of the subsampled picture, in scan order: the middle one of every full subsample x subsample square, at least one.
+std::vector<std::uint32_t> subsampled_pixels(int width, int height, int subsample);
+
+/// The work that the rays of these pixels, of every kind, do in each column. Takes about as long as rendering them.
+ColumnLoads measure_loads(const core::Database& database, const core::RenderSettings& settings, const ColumnLattice& lattice,
+                          const std::vector<std::uint32_t>& pixels);
+
+/// Shares the grid out to `region_count` regions. Deterministic. Throws core::UsageError if an option is out of range.
+Balanced balance(const core::Database& database, const core::RenderSettings& settings, std::uint32_t region_count,
+                 const BalanceOptions& options);
+
+}  // namespace dmpc::dataflow

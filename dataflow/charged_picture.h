@@ -1,0 +1,112 @@
+// Renders pixels without a film, to see where in space the work is: every step of every ray is charged to the finest cell in
+// which it is done.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <type_traits>
+
+#include "core/database.h"
+#include "core/expect.h"
+#include "core/pixel_task.h"
+#include "core/shade.h"
+#include "core/traversal.h"
+#include "dataflow/work.h"
+
+namespace dmpc::dataflow {
+
+/// What is told of each piece of work: in which finest cell it was done, and how much, in picoseconds (not 0).
+template <class T>
+concept Charge = std::invocable<T&, const core::Corner&, std::uint64_t>;
+
+/// The finest cell in which the ray is at `t`, kept inside the cell of `level` at `cell`.
+inline core::Corner finest_cell_at(const core::Ray& ray, double t, const core::Corner& cell, int level,
+                                   const core::GridFrame& frame) {
+  core::Corner finest;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double along = (double{ray.origin[axis]} + t * double{ray.direction[axis]}) / double{frame.finest_cell};
+    const double low = cell[axis], high = cell[axis] + core::span_of(level) - 1;
+    finest[axis] = static_cast<std::int32_t>(std::clamp(along, low, high));
+  }
+  return finest;
+}
+
+/// A one-thread renderer of single pixels over the whole database, which outlives it.
+template <Charge C>
+class ChargedPicture {
+ public:
+  ChargedPicture(const core::Database& database, const core::RenderSettings& settings, C charge)
+      : records_(database.bytes()), settings_(settings), charge_(std::move(charge)) {}
+
+  /// Traces the pixel's first sample with everything that it spawns. A primary ray that misses the grid costs nothing here: it is
+  /// in no region.
+  void render(std::uint32_t pixel) { shoot(settings_.camera.primary_ray(pixel, 0)); }
+
+  const core::Operations& operations() const { return operations_; }
+
+ private:
+  /// The whole database as records; each look-up ends the step before, which is charged where it was done.
+  struct Watch {
+    ChargedPicture& picture;
+    const core::Ray& ray;
+    const core::Cursor& cursor;
+
+    const std::byte* find(core::Address address) {
+      picture.settle();
+      picture.place_ = finest_cell_at(ray, cursor.t_enter, cursor.cell, cursor.level, picture.settings_.header.frame);
+      return picture.records_.find(address);
+    }
+  };
+
+  /// Charges what has been done since the last call to the place where it was done.
+  void settle() {
+    const std::uint64_t now = work_of(operations_);
+    if (now > settled_) {
+      charge_(place_, now - settled_);
+      settled_ = now;
+    }
+  }
+
+  /// Not deeper than settings.shade.depth_max, since only hits above that depth spawn rays other than shadow rays.
+  void shoot(const core::Ray& ray) {
+    const auto start = core::first_passage(ray, settings_.header.frame);
+    if (!start) {
+      return;
+    }
+    settle();
+    place_ = start->cell;
+    ++operations_.rays[static_cast<std::size_t>(ray.kind)];
+    core::Cursor cursor;
+    Watch watch{*this, ray, cursor};
+    const core::Traced traced = core::trace(ray, cursor, watch, settings_.header, {}, operations_);
+    settle();
+    if (traced == core::Traced::hit && ray.kind != core::RayKind::shadow) {
+      shade(core::begin_shading(ray, cursor.best), place_);
+    }
+  }
+
+  /// Shading and making the children is done where the hit was found.
+  void shade(core::HitState state, const core::Corner& place) {
+    while (state.stage != core::HitState::Stage::finished) {
+      place_ = place;
+      const core::Address address = core::record_needed(state, settings_.header);
+      const std::byte* record = address == core::no_address ? nullptr : records_.find(address);
+      core::Ray child;
+      const bool has_child = core::shade_step(state, record, settings_.header, settings_.shade, child, operations_);
+      settle();
+      if (has_child) {
+        shoot(child);
+      }
+    }
+  }
+
+  core::LocalRecords records_;
+  core::RenderSettings settings_;
+  C charge_;
+  core::Operations operations_;
+  std::uint64_t settled_ = 0;
+  core::Corner place_{};
+};
+
+}  // namespace dmpc::dataflow
