@@ -10,6 +10,7 @@
 
 #include "core/expect.h"
 #include "core/scenes.h"
+#include "nodes/chaos.h"
 
 namespace dmpc::apps {
 
@@ -108,6 +109,17 @@ void add_computer_options(CLI::App& app, RenderOptions& options) {
              "Side in pixels of what a node gives to an idle one; 0: nothing is given");
 }
 
+/// CLI11 takes -1 and numbers that are too large for a seed.
+std::uint64_t parse_seed(const std::string& text, const std::string& option) {
+  std::uint64_t seed = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, seed);
+  if (error != std::errc() || rest != end) {
+    throw UsageError(option + "=" + text + ": expected a whole number from 0 to 18446744073709551615");
+  }
+  return seed;
+}
+
 void add_study_options(CLI::App& app, RenderOptions& options) {
   app.option_defaults()->group("Looking closer");
   add_choice<TracerChoice>(app, "--tracer", options.tracer, {{"grid", TracerChoice::grid}, {"embree", TracerChoice::embree}},
@@ -121,11 +133,9 @@ void add_study_options(CLI::App& app, RenderOptions& options) {
   add_path(app, "--stats", options.stats, "FILE.json", "Write all counters");
   app.add_flag("--count-pages", options.run.count_pages,
                "Count the distinct pages of each pixel for --stats (takes memory and time)");
-  app.add_option_function<std::uint64_t>(
-         "--chaos", [&options](std::uint64_t seed) { options.run.chaos = nodes::chaos_of(seed); },
+  app.add_option_function<std::string>(
+         "--chaos", [&options](const std::string& text) { options.run.chaos = nodes::chaos_of(parse_seed(text, "--chaos")); },
          "Disturb the computer by this seed: packets late and out of order, slow nodes and links, few credits; the picture stays")
-      ->check(CLI::Range(std::uint64_t{0}, ~std::uint64_t{0}))
-      ->type_name("")
       ->option_text("SEED [calm]");
   app.add_flag("--quiet", options.quiet, "No progress, no closing lines");
 }

@@ -80,9 +80,10 @@ TEST_CASE("any seed makes chaos, and without one the computer is calm") {
   CHECK_FALSE(render().run.chaos);
   CHECK(render({"--chaos=0"}).run.chaos.value().seed == 0);
   CHECK(render({"--chaos=18446744073709551615", "--strategy=replicated"}).run.chaos.value().seed == ~std::uint64_t{0});
-  CHECK(says(render_complaint("--chaos=-1"), "--chaos"));
-  CHECK(says(render_complaint("--chaos=18446744073709551616"), "--chaos"));
-  CHECK(says(render_complaint("--chaos=storm"), "--chaos"));
+  for (const std::string wrong : {"-1", "18446744073709551616", "storm", "1.5", "7x"}) {
+    CHECK_MESSAGE(says(render_complaint("--chaos=" + wrong), "--chaos=" + wrong + ": expected a whole number"), wrong);
+  }
+  CHECK(says(render_complaint("--chaos="), "--chaos"));
 }
 
 TEST_CASE("every option of the picture reaches its field") {
