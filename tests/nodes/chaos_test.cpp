@@ -256,7 +256,7 @@ class Expecting : public ToyProgram {
 };
 
 TEST_CASE("a stall is found out only when nothing is held back any more, and names the seed") {
-  const Chaos chaos{.seed = 77, .held_percent = 100, .delay_quanta_max = 5000, .slow_node_percent = 100};
+  const Chaos chaos{.seed = 77, .held_percent = 100, .delay_quanta_max = 1000, .slow_node_percent = 100};
   ThreadsRunner runner(disturbed_nodes(2, {.small_slots = 10}, making<Expecting>(10U)), chaos);
   std::string report;
   try {
