@@ -78,17 +78,10 @@ std::uint32_t Bsp::region_index_of(const core::Corner& cell) const {
 }
 
 core::Region Bsp::region_at(std::uint32_t index) const {
-  core::expect(index < region_count_, "a region has a number below the count");
   core::Region region{{}, grid_size_};
-  std::uint32_t first = 0, count = region_count_;
-  while (count > 1) {
-    const std::uint32_t low_count = count / 2;
-    const Cut& cut = cuts_[first + low_count - 1];
-    const bool is_low = index < first + low_count;
-    (is_low ? region.high : region.low)[static_cast<std::size_t>(cut.axis)] = cut.at;
-    first += is_low ? 0 : low_count;
-    count = is_low ? low_count : count - low_count;
-  }
+  for_each_cut(index, [&](const Cut& cut, bool is_high) {
+    (is_high ? region.low : region.high)[static_cast<std::size_t>(cut.axis)] = cut.at;
+  });
   return region;
 }
 

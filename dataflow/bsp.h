@@ -51,6 +51,15 @@ class Bsp {
   /// The box of region `index`, in finest cells; empty only if there are more regions than finest columns to share.
   core::Region region_at(std::uint32_t index) const;
 
+  /// A plane between regions.
+  struct Cut {
+    std::int32_t at = 0;  ///< the first finest index of the high side
+    std::int32_t axis = 0;
+  };
+  /// Calls visit(cut, is_high) for every cut above region `index`, the outermost first: on which side of it the region lies.
+  template <class Visit>
+  void for_each_cut(std::uint32_t index, Visit visit) const;
+
   /// The node that answers for a finest cell of the grid.
   nodes::NodeId owner_of(const core::Corner& cell) const { return nodes::NodeId{owner_[region_index_of(cell)]}; }
   /// What `node` answers for. Requires a node that owns a region.
@@ -63,10 +72,6 @@ class Bsp {
 
  private:
   friend class BspBuilder;
-  struct Cut {
-    std::int32_t at = 0;  ///< the first finest index of the high side
-    std::int32_t axis = 0;
-  };
 
   core::Corner grid_size_;
   std::uint32_t region_count_ = 1;
@@ -74,6 +79,19 @@ class Bsp {
   std::array<std::uint16_t, region_count_max> owner_{};
 };
 static_assert(std::is_trivially_copyable_v<Bsp>);
+
+template <class Visit>
+void Bsp::for_each_cut(std::uint32_t index, Visit visit) const {
+  core::expect(index < region_count_, "a region has a number below the count");
+  std::uint32_t first = 0, count = region_count_;
+  while (count > 1) {
+    const std::uint32_t low_count = count / 2;
+    const bool is_high = index >= first + low_count;
+    visit(cuts_[first + low_count - 1], is_high);
+    first += is_high ? low_count : 0;
+    count = is_high ? count - low_count : low_count;
+  }
+}
 
 /// Regions of about equal load. Throws core::UsageError unless 1 <= region_count <= region_count_max. Columns without load count
 /// a little by their area, so that loads of zero throughout give regions of equal size.
