@@ -76,7 +76,7 @@ void descend(Mapping& mapping, const Neighbours& neighbours, const nodes::Topolo
 /// Where the descents start, the most promising first.
 std::vector<Mapping> beginnings(const Bsp& bsp) {
   constexpr std::uint32_t random_regions_max = 128;  // beyond that each descent takes seconds
-  constexpr std::uint64_t random_count = 8;
+  constexpr std::uint64_t random_count = 24;
   std::vector<Mapping> mappings{gray_mapping(bsp), identity_mapping(bsp.region_count())};
   if (bsp.region_count() <= random_regions_max) {
     for (std::uint64_t seed = 0; seed < random_count; ++seed) {
