@@ -139,7 +139,7 @@ void test_block(const Ray& ray, const ShearedRay& sheared, const std::byte* reco
   operations.primitive_tests[static_cast<std::size_t>(header.kind)] += count;
   for (std::size_t lane = 0; lane < count; ++lane) {
     const float t = times[lane];
-    if (t > 0.0F && t < ray.t_max && nearer(t, ids[lane], best) && ids[lane] != ray.ignored_primitive) {
+    if (t > 0.0F && t < ray.t_max && replaces(t, ids[lane], best) && ids[lane] != ray.ignored_primitive) {
       best = {t, ids[lane], block, static_cast<std::uint32_t>(lane)};
     }
   }

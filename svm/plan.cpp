@@ -1,8 +1,6 @@
 #include "svm/plan.h"
 
 #include <algorithm>
-#include <array>
-#include <utility>
 
 #include "core/expect.h"
 #include "core/pixel_task.h"
@@ -257,16 +255,6 @@ Plan make_plan(const PlanRequest& request) {
                "a plan keeps within the node's memory");
   note_reductions(plan);
   return plan;
-}
-
-std::string size_text(std::size_t bytes) {
-  constexpr std::array<std::pair<std::size_t, const char*>, 3> units = {{{30, "GiB"}, {20, "MiB"}, {10, "KiB"}}};
-  for (const auto& [shift, name] : units) {
-    if (bytes != 0 && bytes % (std::size_t{1} << shift) == 0) {
-      return std::to_string(bytes >> shift) + name;
-    }
-  }
-  return std::to_string(bytes) + "B";
 }
 
 }  // namespace dmpc::svm

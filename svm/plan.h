@@ -9,6 +9,7 @@
 
 #include "nodes/chaos.h"
 #include "nodes/local_memory.h"
+#include "nodes/size_text.h"
 #include "nodes/threads_runner.h"
 #include "svm/home.h"
 #include "svm/page.h"
@@ -74,7 +75,6 @@ Plan make_plan(const PlanRequest& request);
 /// The smallest node memory with which make_plan(request) succeeds, whatever request.node_memory_bytes says.
 std::size_t smallest_node_memory_bytes(const PlanRequest& request);
 
-/// "4MiB", "300KiB" or "1000B", exact: as the command line reads sizes.
-std::string size_text(std::size_t bytes);
+using nodes::size_text;
 
 }  // namespace dmpc::svm

@@ -1,0 +1,70 @@
+#include "dataflow/distribution.h"
+
+#include <cmath>
+
+namespace dmpc::dataflow {
+namespace {
+
+/// More nodes than this are not tried for a memory that is too small: the database is cut up anew for each.
+constexpr std::uint32_t node_count_tried_max = 256;
+
+bool fits(PlanRequest& request, std::uint32_t node_count, const core::Database& database, const core::RenderSettings& settings,
+          const MakeBsp& make_bsp) {
+  request.shares = distribute(database, settings, make_bsp(node_count)).shares();
+  return smallest_node_memory_bytes(request) <= *request.node_memory_bytes;
+}
+
+}  // namespace
+
+std::vector<Share> Distribution::shares() const {
+  std::vector<Share> shares;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    shares.push_back({parts[i].record_bytes(), primaries[i].size()});
+  }
+  return shares;
+}
+
+double Distribution::duplication(const core::Database& database) const {
+  std::uint64_t copies = 0;
+  for (const core::DatabasePart& part : parts) {
+    copies += part.primitive_copies;
+  }
+  return database.references() == 0 ? 1.0 : static_cast<double>(copies) / static_cast<double>(database.references());
+}
+
+Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Bsp& bsp) {
+  Distribution distribution{bsp, {}, deal_primaries(settings.camera, database.header().frame, bsp)};
+  for (std::uint32_t node = 0; node < bsp.region_count(); ++node) {
+    distribution.parts.push_back(core::extract(database, bsp.region_of(nodes::NodeId{node})));
+  }
+  return distribution;
+}
+
+CutAxes cut_axes_of(const core::Camera& camera) {
+  const auto middle = static_cast<std::uint32_t>(camera.height() / 2 * camera.width() + camera.width() / 2);
+  const core::Vec3f forward = camera.primary_ray(middle, 0).direction;
+  std::uint8_t along = 0;
+  for (std::uint8_t axis = 1; axis < 3; ++axis) {
+    along = std::fabs(forward[axis]) > std::fabs(forward[along]) ? axis : along;
+  }
+  return {static_cast<std::uint8_t>(along == 0 ? 1 : 0), static_cast<std::uint8_t>(along == 2 ? 1 : 2)};
+}
+
+std::optional<std::uint32_t> smallest_node_count(PlanRequest request, const core::Database& database,
+                                                 const core::RenderSettings& settings, const MakeBsp& make_bsp) {
+  std::uint32_t too_few = request.node_count(), enough = 2 * too_few;
+  while (enough <= node_count_tried_max && !fits(request, enough, database, settings, make_bsp)) {
+    too_few = enough;
+    enough *= 2;
+  }
+  if (enough > node_count_tried_max) {
+    return std::nullopt;
+  }
+  while (enough - too_few > 1) {
+    const std::uint32_t middle = too_few + (enough - too_few) / 2;
+    (fits(request, middle, database, settings, make_bsp) ? enough : too_few) = middle;
+  }
+  return enough;
+}
+
+}  // namespace dmpc::dataflow

@@ -1,0 +1,42 @@
+// What the host deals to the nodes before the start: regions, the parts of the database that they touch, and primary rays.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/database.h"
+#include "core/extract.h"
+#include "core/pixel_task.h"
+#include "dataflow/bsp.h"
+#include "dataflow/plan.h"
+#include "dataflow/primaries.h"
+
+namespace dmpc::dataflow {
+
+/// Regions for a number of nodes, whichever way they are balanced.
+using MakeBsp = std::function<Bsp(std::uint32_t node_count)>;
+
+/// By node.
+struct Distribution {
+  Bsp bsp;
+  std::vector<core::DatabasePart> parts;
+  std::vector<std::vector<PrimaryRun>> primaries;
+
+  std::vector<Share> shares() const;
+  /// Copies of primitives in all parts over those in the database: at least about 1, more where cuts go through voxels.
+  double duplication(const core::Database& database) const;
+};
+
+/// Cuts the database up; values keep their bits.
+Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Bsp& bsp);
+
+/// The two axes of the grid that are most parallel to the screen, ascending: regions span the third.
+CutAxes cut_axes_of(const core::Camera& camera);
+
+/// The smallest number of nodes above the request's with which make_plan() succeeds under the request's memory bound, as far as
+/// halving the interval finds it: more nodes need less for their parts but more for their queues.
+std::optional<std::uint32_t> smallest_node_count(PlanRequest request, const core::Database& database,
+                                                 const core::RenderSettings& settings, const MakeBsp& make_bsp);
+
+}  // namespace dmpc::dataflow

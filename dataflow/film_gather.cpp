@@ -1,0 +1,61 @@
+#include "dataflow/film_gather.h"
+
+#include "core/expect.h"
+
+namespace dmpc::dataflow {
+
+using nodes::Category;
+using nodes::LocalMemory;
+
+FilmGather::FilmGather(nodes::Node& node, std::uint32_t node_count, std::uint32_t credits)
+    : node_(&node), host_(nodes::NodeId{node_count}), room_(node.memory().allocate<Room>(Category::film_tiles, 1).data()) {
+  node.grant(host_, film_channel, credits);
+}
+
+void FilmGather::add_needs(nodes::MemoryPlan& plan) { plan[Category::film_tiles] += LocalMemory::bytes_for<Room>(1); }
+
+void FilmGather::add(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light) {
+  core::expect(!waits(), "no light is gathered while a film packet waits");
+  ++counters_.deposits;
+  if (FilmEntry* const entry = find(pixel, plane)) {
+    counters_.saturated += core::add(entry->light, light) ? 1 : 0;
+    return;
+  }
+  room_->entries[count_++] = {pixel, plane, light};
+  if (waits()) {
+    flush();
+  }
+}
+
+FilmEntry* FilmGather::find(std::uint32_t pixel, std::uint32_t plane) {
+  for (std::uint32_t i = count_; i > 0; --i) {
+    FilmEntry& entry = room_->entries[i - 1];
+    if (entry.pixel == pixel && entry.plane == plane) {
+      return &entry;
+    }
+  }
+  return nullptr;
+}
+
+void FilmGather::flush() {
+  if (count_ == 0 || node_->credits(host_, film_channel) == 0) {
+    return;
+  }
+  room_->header.count = count_;
+  const auto packet = std::as_bytes(std::span(room_, 1)).first(film_packet_bytes(count_));
+  node_->send_reserved(host_, film_channel, number_of(Kind::film), packet);
+  counters_.entries += count_;
+  count_ = 0;
+  ++under_way_;
+}
+
+void FilmGather::acknowledged() {
+  core::expect(under_way_ > 0, "the host acknowledges what was sent");
+  --under_way_;
+  node_->grant(host_, film_channel);
+  if (waits()) {
+    flush();
+  }
+}
+
+}  // namespace dmpc::dataflow

@@ -1,0 +1,63 @@
+// Deposits on their way to the host: gathered, and merged where neighbours in time fall on the same pixel.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/film.h"
+#include "dataflow/packets.h"
+#include "nodes/node.h"
+
+namespace dmpc::dataflow {
+
+/// One open packet. A full one that finds no credit waits, and meanwhile nothing may be added: the host acknowledges every packet
+/// at once, so the wait is bounded. Thread safety: belongs to one node.
+class FilmGather {
+ public:
+  struct Counters {
+    std::uint64_t deposits = 0;
+    std::uint64_t entries = 0;    ///< sent
+    std::uint64_t saturated = 0;  ///< deposits that saturated an entry's channel
+  };
+
+  /// Takes `credits` for film packets to the host, node `node_count`.
+  FilmGather(nodes::Node& node, std::uint32_t node_count, std::uint32_t credits);
+  /// Adds to `plan` exactly what the constructor takes.
+  static void add_needs(nodes::MemoryPlan& plan);
+
+  /// Requires that the packet does not wait. Sends it if that fills it and a credit is left.
+  void add(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light);
+  /// Sends what is there, full or not, if a credit is left.
+  void flush();
+  /// The host has taken a packet. Sends the one that waits.
+  void acknowledged();
+
+  /// The packet is full and found no credit.
+  bool waits() const { return count_ == film_packet_entries; }
+  /// Everything that was added has been sent and acknowledged.
+  bool settled() const { return count_ == 0 && under_way_ == 0; }
+  std::uint32_t gathered() const { return count_; }
+  const Counters& counters() const { return counters_; }
+
+ private:
+  /// The entry for this plane of a pixel in the open packet, or nullptr; the newest first, since a pixel's deposits come
+  /// together.
+  FilmEntry* find(std::uint32_t pixel, std::uint32_t plane);
+
+  /// A packet as it is sent.
+  struct Room {
+    FilmHeader header;
+    FilmEntry entries[film_packet_entries];
+  };
+  static_assert(sizeof(Room) == film_packet_bytes(film_packet_entries));
+
+  nodes::Node* node_;
+  nodes::NodeId host_;
+  Room* room_;
+  std::uint32_t count_ = 0;
+  std::uint32_t under_way_ = 0;
+  Counters counters_;
+};
+
+}  // namespace dmpc::dataflow

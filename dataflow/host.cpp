@@ -1,0 +1,179 @@
+#include "dataflow/host.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "core/expect.h"
+#include "core/units.h"
+
+namespace dmpc::dataflow {
+namespace {
+
+using nodes::Category;
+using nodes::LocalMemory;
+
+std::size_t light_words(const Plan& plan) {
+  return core::ceil_divide<std::size_t>(std::size_t{plan.request.width} * plan.request.height, 64);
+}
+
+}  // namespace
+
+HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, Progress progress)
+    : node_(&node),
+      film_(&film),
+      progress_(std::move(progress)),
+      kept_(plan.node_count()),
+      packet_(node.memory().allocate<std::byte>(Category::queues, ray_packet_bytes(plan.ray_batch))),
+      has_light_(node.memory().allocate<std::uint64_t>(Category::film_tiles, light_words(plan))),
+      node_count_(plan.node_count()),
+      ray_batch_(plan.ray_batch),
+      pixels_total_(plan.request.width * plan.request.height) {
+  for (std::uint32_t i = 0; i < node_count_; ++i) {
+    node.grant(nodes::NodeId{i}, ray_channel, plan.host_credits);
+  }
+}
+
+void HostProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan) {
+  memory[Category::queues] += LocalMemory::bytes_for<std::byte>(ray_packet_bytes(plan.ray_batch));
+  memory[Category::film_tiles] += LocalMemory::bytes_for<std::uint64_t>(light_words(plan));
+}
+
+void HostProgram::receive(const nodes::Packet& packet) {
+  switch (Kind{packet.kind}) {
+    case Kind::overflow:
+      return take_overflow(packet);
+    case Kind::credits:
+      return node_->grant(packet.source, ray_channel, packet.as<Credits>().count);
+    case Kind::film:
+      return take_film(packet);
+    case Kind::token:
+      return termination_.take(packet.as<Token>());
+    case Kind::done:
+      return take_done(packet.as<Done>());
+    default:
+      core::expect(false, "the host receives only what is sent to the host");
+  }
+}
+
+/// Forwards all that it can; without a ray it hands on the token, and tells all when the end is proved.
+bool HostProgram::work() {
+  for (std::uint32_t owner = 0; owner < node_count_; ++owner) {
+    while (can_forward(owner)) {
+      forward(owner);
+    }
+  }
+  if (finishing_ || !host_is_passive(kept_.size())) {
+    return false;
+  }
+  if (const std::optional<Token> token = termination_.hand_on()) {
+    ++counters_.token_rounds;
+    send_control(*node_, next_on_ring(node_->id(), node_count_), Kind::token, *token);
+  } else if (termination_.is_terminated()) {
+    finishing_ = true;
+    tell_all(Kind::finish);
+  }
+  return false;
+}
+
+void HostProgram::take_overflow(const nodes::Packet& packet) {
+  core::expect(packet.payload.size() >= sizeof(RayPacketHeader), "a packet of rays has a header");
+  RayPacketHeader header;
+  std::memcpy(&header, packet.payload.data(), sizeof(header));
+  core::expect(packet.payload.size() == ray_packet_bytes(header.count), "a packet of rays is as long as it says");
+  core::expect(header.owner < node_count_, "rays have an owner");
+  termination_.ray_packet_received();
+  for (std::uint32_t i = 0; i < header.count; ++i) {
+    RayMessage message;
+    std::memcpy(&message, packet.payload.data() + ray_packet_bytes(i), sizeof(message));
+    kept_.put(header.owner, message);
+  }
+  counters_.rays_in += header.count;
+  send_control(*node_, packet.source, Kind::credits, Credits{1});
+}
+
+bool HostProgram::can_forward(std::uint32_t owner) const {
+  return forwards(kept_.count(owner), node_->credits(nodes::NodeId{owner}, ray_channel) > 0);
+}
+
+void HostProgram::forward(std::uint32_t owner) {
+  const auto count = static_cast<std::uint16_t>(std::min<std::uint64_t>(kept_.count(owner), ray_batch_));
+  const RayPacketHeader header{count, static_cast<std::uint16_t>(owner)};
+  std::memcpy(packet_.data(), &header, sizeof(header));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const RayMessage message = kept_.take(owner);
+    std::memcpy(packet_.data() + ray_packet_bytes(i), &message, sizeof(message));
+  }
+  node_->send_reserved(nodes::NodeId{owner}, ray_channel, number_of(Kind::forwarded),
+                       std::span<const std::byte>(packet_.first(ray_packet_bytes(count))));
+  termination_.ray_packet_sent();
+  counters_.rays_out += count;
+}
+
+void HostProgram::take_film(const nodes::Packet& packet) {
+  core::expect(packet.payload.size() >= sizeof(FilmHeader), "a film packet has a header");
+  FilmHeader header;
+  std::memcpy(&header, packet.payload.data(), sizeof(header));
+  core::expect(packet.payload.size() == film_packet_bytes(header.count), "a film packet is as long as it says");
+  for (std::uint32_t i = 0; i < header.count; ++i) {
+    FilmEntry entry;
+    std::memcpy(&entry, packet.payload.data() + film_packet_bytes(i), sizeof(entry));
+    take_entry(entry);
+  }
+  counters_.film_entries += header.count;
+  send_control(*node_, packet.source, Kind::film_acknowledgement, FilmAcknowledgement{header.count});
+  if (progress_) {
+    progress_(pixels_with_light_, pixels_total_);
+  }
+}
+
+void HostProgram::take_entry(const FilmEntry& entry) {
+  core::expect(entry.pixel < pixels_total_ && entry.plane < 2, "light falls on the picture");
+  core::PixelSums sums;
+  sums.plane[entry.plane] = entry.light;
+  counters_.deposits_saturated += film_->deposit(entry.pixel, sums) ? 1 : 0;
+  std::uint64_t& word = has_light_[entry.pixel / 64];
+  const std::uint64_t bit = std::uint64_t{1} << (entry.pixel % 64);
+  pixels_with_light_ += (word & bit) == 0 ? 1 : 0;
+  word |= bit;
+}
+
+void HostProgram::take_done(const Done& done) {
+  core::expect(finishing_, "a node is done after the end is proved");
+  ++nodes_done_;
+  entries_announced_ += done.entries;
+  if (nodes_done_ < node_count_) {
+    return;
+  }
+  core::expect(entries_announced_ == counters_.film_entries, "all light that was sent has arrived");
+  if (progress_) {
+    progress_(pixels_total_, pixels_total_);
+  }
+  tell_all(Kind::stop);
+  stopped_ = true;
+}
+
+void HostProgram::tell_all(Kind kind) {
+  for (std::uint32_t i = 0; i < node_count_; ++i) {
+    if (kind == Kind::finish) {
+      send_control(*node_, nodes::NodeId{i}, kind, Finish{});
+    } else {
+      send_control(*node_, nodes::NodeId{i}, kind, Stop{});
+    }
+  }
+}
+
+std::string HostProgram::describe() const {
+  return std::to_string(kept_.size()) + " rays kept, light on " + std::to_string(pixels_with_light_) + " of " +
+         std::to_string(pixels_total_) + " pixels, ray packets sent - received " + std::to_string(termination_.balance()) +
+         (termination_.holds_token() ? ", holds the token" : "") + (termination_.is_black() ? ", black, " : ", white, ") +
+         std::to_string(nodes_done_) + " of " + std::to_string(node_count_) + " nodes done" + (finishing_ ? ", finishing" : "");
+}
+
+HostCounters HostProgram::report() const {
+  HostCounters counters = counters_;
+  counters.rays_kept_max = kept_.high_water();
+  return counters;
+}
+
+}  // namespace dmpc::dataflow

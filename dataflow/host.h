@@ -1,0 +1,77 @@
+// The host's program: takes the film, keeps and forwards the rays that overflow, proves the end and stops the run.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+#include "core/film.h"
+#include "dataflow/flow_control.h"
+#include "dataflow/kept_rays.h"
+#include "dataflow/packets.h"
+#include "dataflow/plan.h"
+#include "dataflow/termination.h"
+#include "nodes/node.h"
+#include "nodes/program.h"
+
+namespace dmpc::dataflow {
+
+/// Called on the host's thread whenever light arrives: (pixels that have light, pixels in all), and at the end with all. If it
+/// throws, the run ends with that.
+using Progress = std::function<void(std::uint32_t, std::uint32_t)>;
+
+/// What the host counts beside the packets.
+struct HostCounters {
+  std::uint64_t rays_in = 0;             ///< overflowed
+  std::uint64_t rays_out = 0;            ///< forwarded: at the end the same
+  std::uint64_t rays_kept_max = 0;       ///< at once
+  std::uint64_t token_rounds = 0;        ///< of the termination's ring
+  std::uint64_t film_entries = 0;        ///< received
+  std::uint64_t deposits_saturated = 0;  ///< on the host's film
+};
+
+/// Depends on nobody: film and overflow are taken and acknowledged at once.
+class HostProgram final : public nodes::Program {
+ public:
+  /// `film` outlives the program and is written by it alone until the run's end. `progress` may be empty.
+  HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, Progress progress);
+  /// Adds to `memory` exactly what the constructor takes of the local memory.
+  static void add_needs(nodes::MemoryPlan& memory, const Plan& plan);
+
+  void receive(const nodes::Packet& packet) override;
+  bool work() override;
+  bool finished() const override { return stopped_; }
+  std::string describe() const override;
+
+  /// Call it only while the program is not running.
+  HostCounters report() const;
+
+ private:
+  void take_film(const nodes::Packet& packet);
+  void take_entry(const FilmEntry& entry);
+  void take_overflow(const nodes::Packet& packet);
+  void take_done(const Done& done);
+  bool can_forward(std::uint32_t owner) const;
+  void forward(std::uint32_t owner);
+  void tell_all(Kind kind);
+
+  nodes::Node* node_;
+  core::Film* film_;
+  Progress progress_;
+  KeptRays kept_;
+  Termination termination_ = Termination::initiator();
+  std::span<std::byte> packet_;         ///< where a packet is put together
+  std::span<std::uint64_t> has_light_;  ///< a bit a pixel
+  std::uint32_t node_count_;
+  std::uint32_t ray_batch_;
+  std::uint32_t pixels_total_;
+  std::uint32_t pixels_with_light_ = 0;
+  std::uint32_t nodes_done_ = 0;
+  std::uint64_t entries_announced_ = 0;
+  HostCounters counters_;
+  bool finishing_ = false;
+  bool stopped_ = false;
+};
+
+}  // namespace dmpc::dataflow

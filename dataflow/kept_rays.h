@@ -1,0 +1,67 @@
+// The rays that found no credit: kept in the host's large memory until their owners have room.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "core/expect.h"
+#include "dataflow/packets.h"
+
+namespace dmpc::dataflow {
+
+/// Rays by owner, of each owner the newest first: a ray's children go before the rays that came earlier, so fewer rays are kept
+/// at once. Grows as rays come: the host refuses none. Thread safety: belongs to the host.
+class KeptRays {
+ public:
+  explicit KeptRays(std::uint32_t node_count) : newest_(node_count, none), counts_(node_count) {}
+
+  void put(std::uint32_t owner, const RayMessage& message) {
+    if (free_ == none) {
+      free_ = static_cast<std::uint32_t>(entries_.size());
+      core::expect(free_ != none, "the host numbers the rays that it keeps");
+      entries_.emplace_back();
+    }
+    const std::uint32_t place = free_;
+    Entry& entry = entries_[place];
+    free_ = entry.older;
+    entry = {message, newest_.at(owner)};
+    newest_[owner] = place;
+    ++counts_[owner];
+    high_water_ = std::max(high_water_, ++size_);
+  }
+
+  /// Takes out the newest ray for `owner`. Requires that there is one.
+  RayMessage take(std::uint32_t owner) {
+    core::expect(counts_.at(owner) > 0, "a ray is forwarded that is kept");
+    const std::uint32_t place = newest_[owner];
+    Entry& entry = entries_[place];
+    newest_[owner] = entry.older;
+    entry.older = free_;
+    free_ = place;
+    --counts_[owner];
+    --size_;
+    return entry.message;
+  }
+
+  std::uint64_t count(std::uint32_t owner) const { return counts_.at(owner); }
+  std::uint64_t size() const { return size_; }
+  /// The most rays that were kept at once.
+  std::uint64_t high_water() const { return high_water_; }
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffffU;
+
+  struct Entry {
+    RayMessage message;
+    std::uint32_t older = none;  ///< the next of the same owner, or of the free ones
+  };
+
+  std::vector<Entry> entries_;
+  std::vector<std::uint32_t> newest_;  ///< by owner
+  std::vector<std::uint64_t> counts_;
+  std::uint32_t free_ = none;
+  std::uint64_t size_ = 0, high_water_ = 0;
+};
+
+}  // namespace dmpc::dataflow

@@ -1,0 +1,151 @@
+// What the nodes of dataflow and the host tell each other: values, without pointers.
+//
+//   kind                   from -> to            channel   size   its place in the target's mailbox is reserved by
+//   rays                   node -> owner         rays      bulk   the sender's ray credits for that owner
+//   overflow               node -> host          rays      bulk   the sender's ray credits for the host
+//   forwarded              host -> owner         rays      bulk   the host's ray credits for that owner
+//   credits                receiver -> sender    control   small  the ray packets whose credits it gives back
+//   film                   node -> host          film      bulk   the sender's film credits
+//   film_acknowledgement   host -> node          control   small  the film packet
+//   token                  member -> next        control   small  itself: one goes round the ring
+//   finish                 host -> node          control   small  once a run
+//   done                   node -> host          control   small  once a run
+//   stop                   host -> node          control   small  once a run
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "core/cursor.h"
+#include "core/film.h"
+#include "core/ray.h"
+#include "core/units.h"
+#include "dataflow/bsp.h"
+#include "dataflow/termination.h"
+#include "nodes/node.h"
+#include "nodes/packet.h"
+
+namespace dmpc::dataflow {
+
+using core::operator""_KiB;
+
+enum class Kind : nodes::PacketKind { rays, overflow, forwarded, credits, film, film_acknowledgement, token, finish, done, stop };
+constexpr nodes::PacketKind number_of(Kind kind) { return static_cast<nodes::PacketKind>(kind); }
+static_assert(number_of(Kind::stop) < nodes::packet_kind_count);
+inline constexpr std::array<const char*, 10> kind_names = {
+    "rays", "overflow", "forwarded", "credits", "film", "film_acknowledgement", "token", "finish", "done", "stop"};
+/// The packet's name, for reports.
+constexpr const char* name_of(Kind kind) { return kind_names[number_of(kind)]; }
+
+inline constexpr nodes::Channel ray_channel = 0;
+inline constexpr nodes::Channel film_channel = 1;
+inline constexpr nodes::Channel control_channel = 2;
+static_assert(control_channel < nodes::channel_count);
+
+/// What fits so many bytes is the default length of a packet of rays or film.
+inline constexpr std::size_t packet_bytes = 1_KiB;
+/// No packet is longer.
+inline constexpr std::size_t packet_bytes_max = 64_KiB;
+
+/// A ray on its way from region to region.
+struct RayMessage {
+  core::Ray ray;
+  double t_enter = 0;
+  core::Corner cell{};  ///< the finest cell that it enters; its owner is the target
+  std::uint8_t entry_axis = 3;
+  /// 1: `best` is the hit, known to be the nearest; the target is its finder, which alone has its block and shades it.
+  std::uint8_t is_confirmed = 0;
+  /// Index of the node in whose memory best.block is; without meaning if there is no candidate.
+  std::uint16_t finder = 0;
+  core::Hit best;
+
+  core::Passage passage() const { return {t_enter, cell, entry_axis, best}; }
+};
+static_assert(sizeof(RayMessage) == 96 && std::is_trivially_copyable_v<RayMessage>);
+static_assert(region_count_max <= 0x10000, "a finder's index fits a message");
+
+/// A fresh ray, or one that leaves a region.
+inline RayMessage message_of(const core::Ray& ray, const core::Passage& passage, nodes::NodeId finder) {
+  return {.ray = ray,
+          .t_enter = passage.t_enter,
+          .cell = passage.cell,
+          .entry_axis = passage.entry_axis,
+          .finder = static_cast<std::uint16_t>(nodes::index_of(finder)),
+          .best = passage.best};
+}
+
+/// Stands before `count` rays.
+struct RayPacketHeader {
+  std::uint16_t count = 0;
+  std::uint16_t owner = 0;  ///< for whom they are, by whatever way
+  std::uint32_t padding = 0;
+};
+static_assert(sizeof(RayPacketHeader) == 8 && std::is_trivially_copyable_v<RayPacketHeader>);
+
+/// What a packet of so many rays takes, in bytes.
+constexpr std::size_t ray_packet_bytes(std::size_t ray_count) { return sizeof(RayPacketHeader) + ray_count * sizeof(RayMessage); }
+static_assert(ray_packet_bytes(1) > nodes::small_payload_bytes, "every packet of rays is bulk");
+/// How many rays fit so many bytes.
+constexpr std::uint32_t rays_in(std::size_t bytes) {
+  return static_cast<std::uint32_t>((bytes - sizeof(RayPacketHeader)) / sizeof(RayMessage));
+}
+inline constexpr std::uint32_t ray_batch_max = rays_in(packet_bytes_max);
+
+/// The receiver has taken up the rays of so many packets.
+struct Credits {
+  std::uint32_t count = 0;
+};
+
+/// Light for a plane of a pixel: the sum of one or more deposits. A pixel's come from any number of nodes.
+struct FilmEntry {
+  std::uint32_t pixel = 0;
+  std::uint32_t plane = 0;
+  core::FixedColor light;
+};
+static_assert(sizeof(FilmEntry) == 32 && std::is_trivially_copyable_v<FilmEntry>);
+
+/// Stands before `count` entries.
+struct FilmHeader {
+  std::uint32_t count = 0;
+  std::uint32_t padding = 0;
+};
+static_assert(sizeof(FilmHeader) == 8 && std::is_trivially_copyable_v<FilmHeader>);
+
+constexpr std::size_t film_packet_bytes(std::size_t entry_count) { return sizeof(FilmHeader) + entry_count * sizeof(FilmEntry); }
+inline constexpr std::uint32_t film_packet_entries = (packet_bytes - sizeof(FilmHeader)) / sizeof(FilmEntry);
+
+struct FilmAcknowledgement {
+  std::uint32_t count = 0;  ///< entries received
+};
+
+/// No ray is left anywhere: send the rest of the film.
+struct Finish {
+  std::uint32_t padding = 0;
+};
+
+/// All that the sender put on the film has been acknowledged.
+struct Done {
+  std::uint64_t entries = 0;
+};
+
+/// Every node is done.
+struct Stop {
+  std::uint32_t padding = 0;
+};
+
+template <class T>
+inline constexpr bool is_small_packet = std::is_trivially_copyable_v<T> && sizeof(T) <= nodes::small_payload_bytes;
+static_assert(is_small_packet<Credits> && is_small_packet<FilmAcknowledgement> && is_small_packet<Token>);
+static_assert(is_small_packet<Finish> && is_small_packet<Done> && is_small_packet<Stop>);
+
+/// Sends a small packet for which the protocol keeps a place in the target's mailbox (the table above).
+template <class T>
+void send_control(nodes::Node& node, nodes::NodeId target, Kind kind, const T& value) {
+  static_assert(is_small_packet<T>);
+  node.grant(target, control_channel);
+  node.send_reserved(target, control_channel, number_of(kind), value);
+}
+
+}  // namespace dmpc::dataflow

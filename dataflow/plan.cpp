@@ -1,0 +1,196 @@
+#include "dataflow/plan.h"
+
+#include <algorithm>
+
+#include "core/expect.h"
+#include "core/records.h"
+#include "dataflow/film_gather.h"
+#include "dataflow/gather.h"
+#include "dataflow/host.h"
+#include "dataflow/packets.h"
+#include "dataflow/primaries.h"
+#include "dataflow/program.h"
+#include "dataflow/ray_queue.h"
+#include "dataflow/ray_task.h"
+#include "nodes/held_packets.h"
+#include "nodes/size_text.h"
+
+namespace dmpc::dataflow {
+namespace {
+
+using nodes::Category;
+using nodes::LocalMemory;
+using nodes::size_text;
+
+/// Four packets under way between each two nodes: with two, a receiver that is busy with a deep ray makes its neighbours' rays
+/// overflow now and then; more than four only cost memory.
+constexpr std::uint32_t default_ray_credits = 4;
+/// Two film packets a node: one travels while the next is gathered.
+constexpr std::uint32_t film_credits = 2;
+constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
+
+/// What a node's mailbox must be able to hold, whoever sends when; the mailbox itself adds the slot of the packet being received.
+nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
+  const std::uint32_t others = plan.node_count() - 1;
+  return {.small_slots = others * plan.ray_credits  // credits back from each other node, at least one a packet
+                         + plan.host_credits        // the same from the host
+                         + plan.film_credits        // acknowledgements: one for each film packet of this node's
+                         + 1                        // the token
+                         + 1                        // Finish
+                         + 1,                       // Stop
+          .bulk_slots = others * plan.ray_credits   // rays: each other node's credits for this one
+                        + plan.host_credits,        // forwarded rays: the host's
+          .bulk_payload_bytes = ray_packet_bytes(plan.ray_batch)};
+}
+
+nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
+  return {.small_slots = plan.node_count() * plan.host_credits  // credits back for forwarded rays
+                         + 1                                    // the token
+                         + plan.node_count(),                   // Done: one from each node
+          .bulk_slots = plan.node_count() * plan.host_credits   // overflow: each node's credits for the host
+                        + plan.node_count() * plan.film_credits,
+          .bulk_payload_bytes = std::max(ray_packet_bytes(plan.ray_batch), film_packet_bytes(film_packet_entries))};
+}
+
+/// Fewer credits than the mailboxes have room for, and a place for packets held back.
+void plan_chaos(Plan& plan, const nodes::Chaos& chaos) {
+  plan.ray_credits = nodes::shrunk_credits(chaos, plan.ray_credits, ray_channel);
+  plan.host_credits = nodes::shrunk_credits(chaos, plan.host_credits, nodes::channel_count);
+  plan.film_credits = nodes::shrunk_credits(chaos, plan.film_credits, film_channel);
+  plan.held_bytes = nodes::HeldPackets::room_bytes(plan.host_mailbox.bulk_payload_bytes);
+}
+
+/// The plan with these bounds, whether or not it fits.
+Plan plan_with(const PlanRequest& request, std::uint32_t ray_batch, std::uint32_t ray_credits) {
+  Plan plan;
+  plan.request = request;
+  plan.ray_batch = ray_batch;
+  plan.ray_credits = ray_credits;
+  plan.host_credits = std::max(1U, ray_credits);
+  plan.film_credits = film_credits;
+  plan.node_mailbox = node_mailbox_of(plan);
+  plan.host_mailbox = host_mailbox_of(plan);
+  if (request.chaos) {
+    plan_chaos(plan, *request.chaos);
+  }
+  return plan;
+}
+
+void check_use(bool right, const std::string& sentence) {
+  if (!right) {
+    throw core::UsageError(sentence);
+  }
+}
+
+void check(const PlanRequest& request) {
+  check_use(request.node_count() >= 1 && request.node_count() <= region_count_max,
+            "--nodes=" + std::to_string(request.node_count()) + ": from 1 to " + std::to_string(region_count_max) +
+                " nodes with --strategy=dataflow");
+  const std::uint32_t batch = request.ray_batch.value_or(1);
+  check_use(batch >= 1 && batch <= ray_batch_max,
+            "--ray-batch=" + std::to_string(batch) + ": from 1 to " + std::to_string(ray_batch_max) + " rays");
+  const std::uint32_t credits = request.ray_credits.value_or(1);
+  check_use(credits <= ray_credits_max,
+            "--ray-credits=" + std::to_string(credits) + ": at most " + std::to_string(ray_credits_max) + " packets");
+  core::expect(request.depth_max >= 1 && request.depth_max <= 255, "a ray has a depth that fits its record");
+  core::expect(request.width >= 1 && request.height >= 1, "a picture has a pixel");
+}
+
+std::uint32_t wanted_batch(const PlanRequest& request) { return request.ray_batch.value_or(rays_in(packet_bytes)); }
+std::uint32_t wanted_credits(const PlanRequest& request) { return request.ray_credits.value_or(default_ray_credits); }
+
+/// With the least of what the request leaves open.
+Plan smallest_plan(const PlanRequest& request) {
+  return plan_with(request, request.ray_batch.value_or(1), request.ray_credits.value_or(1));
+}
+
+/// Gives up credits first, then the length of packets, as far as the request leaves them open and the memory asks.
+Plan fitting_plan(const PlanRequest& request, std::size_t memory_bytes) {
+  std::uint32_t batch = wanted_batch(request), credits = wanted_credits(request);
+  Plan plan = plan_with(request, batch, credits);
+  while (plan.node_memory_max_bytes() > memory_bytes) {
+    if (!request.ray_credits && credits > 1) {
+      --credits;
+    } else {
+      core::expect(!request.ray_batch && batch > 1, "the smallest plan fits");
+      --batch;
+    }
+    plan = plan_with(request, batch, credits);
+  }
+  return plan;
+}
+
+[[noreturn]] void say_too_small(const PlanRequest& request, const OtherNodeCount& other_node_count) {
+  const Plan smallest = smallest_plan(request);
+  const std::uint32_t largest = smallest.largest_node();
+  std::string sentence = "--node-memory=" + size_text(*request.node_memory_bytes) +
+                         " is too small for --nodes=" + std::to_string(request.node_count()) + ": node " +
+                         std::to_string(largest) + " needs at least " + std::to_string(smallest.node_memory_max_bytes()) +
+                         " bytes, " + std::to_string(request.shares[largest].part_bytes) +
+                         " of them for its part of the scene; the smallest that works is --node-memory=" +
+                         size_text(smallest.node_memory_max_bytes());
+  const std::optional<std::uint32_t> other = other_node_count ? other_node_count() : std::nullopt;
+  throw core::InputError(other ? sentence + ", or with this memory --nodes=" + std::to_string(*other) : sentence);
+}
+
+void note_reductions(Plan& plan) {
+  const PlanRequest& request = plan.request;
+  const auto note = [&](const std::string& what, std::uint32_t wanted, std::uint32_t planned) {
+    if (planned < wanted) {
+      plan.notes.push_back(what + " reduced from " + std::to_string(wanted) + " to " + std::to_string(planned) + " to fit " +
+                           size_text(*request.node_memory_bytes));
+    }
+  };
+  note("credits for rays", wanted_credits(request), plan.ray_credits);
+  note("rays in a packet", wanted_batch(request), plan.ray_batch);
+}
+
+}  // namespace
+
+nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
+  nodes::MemoryPlan plan;
+  NodeProgram::add_needs(plan, *this, index);
+  plan[Category::mailbox] += node_mailbox.bytes();
+  plan[Category::queues] += nodes::credit_table_bytes(node_count() + 1) + held_bytes;
+  plan[Category::reserve] += request.stack_reserve_bytes;
+  return plan;
+}
+
+std::uint32_t Plan::largest_node() const {
+  std::uint32_t largest = 0;
+  std::size_t most_bytes = 0;
+  for (std::uint32_t i = 0; i < node_count(); ++i) {
+    const std::size_t bytes = node_memory(i).total();
+    largest = bytes > most_bytes ? i : largest;
+    most_bytes = std::max(most_bytes, bytes);
+  }
+  return largest;
+}
+
+nodes::MemoryPlan Plan::host_memory() const {
+  nodes::MemoryPlan plan;
+  HostProgram::add_needs(plan, *this);
+  plan[Category::mailbox] += host_mailbox.bytes();
+  plan[Category::queues] += nodes::credit_table_bytes(node_count() + 1) + held_bytes;
+  plan[Category::reserve] += host_stack_bytes;
+  return plan;
+}
+
+std::size_t smallest_node_memory_bytes(const PlanRequest& request) { return smallest_plan(request).node_memory_max_bytes(); }
+
+Plan make_plan(const PlanRequest& request, const OtherNodeCount& other_node_count) {
+  check(request);
+  if (!request.node_memory_bytes) {
+    return plan_with(request, wanted_batch(request), wanted_credits(request));
+  }
+  if (smallest_node_memory_bytes(request) > *request.node_memory_bytes) {
+    say_too_small(request, other_node_count);
+  }
+  Plan plan = fitting_plan(request, *request.node_memory_bytes);
+  if (!request.chaos) {
+    note_reductions(plan);
+  }
+  return plan;
+}
+
+}  // namespace dmpc::dataflow

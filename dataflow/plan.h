@@ -1,0 +1,82 @@
+// What a run needs, in bytes, slots and credits, known before anything is allocated: fits, or says what would.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dataflow/bsp.h"
+#include "nodes/chaos.h"
+#include "nodes/local_memory.h"
+#include "nodes/threads_runner.h"
+
+namespace dmpc::dataflow {
+
+/// What one node is dealt, as far as the memory asks.
+struct Share {
+  std::size_t part_bytes = 0;    ///< its part of the database, records alone
+  std::size_t primary_runs = 0;  ///< entries of its list of primary rays
+};
+
+/// What a plan is made from. `optional` without a value means: choose.
+struct PlanRequest {
+  std::vector<Share> shares;  ///< one a node: from 1 to region_count_max
+  /// The bound of each node's local memory. Without it a plan takes what it needs.
+  std::optional<std::size_t> node_memory_bytes = std::nullopt;
+  /// Rays in a full packet. Without it what fills a packet of 1 KiB, or fewer if the memory is scarce.
+  std::optional<std::uint32_t> ray_batch = std::nullopt;
+  /// Packets of rays that may be under way, or in the receiver's backlog, for each sender and receiver. Without it 4, or fewer if
+  /// the memory is scarce. 0: no node sends to another, every ray goes by way of the host.
+  std::optional<std::uint32_t> ray_credits = std::nullopt;
+  std::uint32_t depth_max = 5;  ///< of a ray
+  std::uint32_t width = 0, height = 0;
+  std::size_t stack_reserve_bytes = std::size_t{256} << 10U;  ///< of each node's thread
+  /// Fewer credits, and room for packets held back; mailboxes stay as they are.
+  std::optional<nodes::Chaos> chaos = std::nullopt;
+
+  std::uint32_t node_count() const { return static_cast<std::uint32_t>(shares.size()); }
+};
+
+inline constexpr std::uint32_t ray_credits_max = 64;
+
+/// The answer. Every capacity is derived in plan.cpp, as a sum with a comment for each term.
+struct Plan {
+  PlanRequest request;
+  std::uint32_t ray_batch = 1;     ///< rays in a full packet
+  std::uint32_t ray_credits = 1;   ///< from each node for each other
+  std::uint32_t host_credits = 1;  ///< packets of rays from each node for the host, and from the host for each node
+  std::uint32_t film_credits = 1;  ///< film packets from each node for the host
+  std::size_t held_bytes = 0;      ///< room at each node and the host for packets that chaos holds back
+  nodes::MailboxCapacity node_mailbox, host_mailbox;
+  std::vector<std::string> notes;  ///< sentences to print, such as what was reduced
+
+  std::uint32_t node_count() const { return request.node_count(); }
+  nodes::NodeId host() const { return nodes::NodeId{node_count()}; }
+  /// Packets that one sender can have in a node's backlog.
+  std::uint32_t packets_each() const { return ray_credits > host_credits ? ray_credits : host_credits; }
+
+  /// Exactly what node `index` takes, by category.
+  nodes::MemoryPlan node_memory(std::uint32_t index) const;
+  /// The node that takes most.
+  std::uint32_t largest_node() const;
+  /// The most that any node takes.
+  std::size_t node_memory_max_bytes() const { return node_memory(largest_node()).total(); }
+  /// But for the rays that overflow: these grow as they come (Report says how far).
+  nodes::MemoryPlan host_memory() const;
+};
+
+/// The smallest number of nodes above the request's that works with the request's memory, if there is one.
+using OtherNodeCount = std::function<std::optional<std::uint32_t>()>;
+
+/// Throws core::UsageError for a value out of range, and core::InputError if the memory is too small: naming the node that needs
+/// most, what it needs, the smallest node memory that works for this node count, and the node count that `other_node_count` finds
+/// (asked in this case only).
+Plan make_plan(const PlanRequest& request, const OtherNodeCount& other_node_count = {});
+
+/// The smallest node memory with which make_plan(request) succeeds, whatever request.node_memory_bytes says.
+std::size_t smallest_node_memory_bytes(const PlanRequest& request);
+
+}  // namespace dmpc::dataflow

@@ -1,0 +1,333 @@
+#include "dataflow/program.h"
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+
+#include "core/expect.h"
+#include "core/traversal.h"
+#include "dataflow/packets.h"
+
+namespace dmpc::dataflow {
+namespace {
+
+using nodes::Category;
+using nodes::LocalMemory;
+
+/// Copies `value`, which has no default, into local memory.
+template <class T>
+const T* keep(LocalMemory& memory, const T& value) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  const std::span<std::byte> bytes = memory.allocate<std::byte>(Category::constants, sizeof(T));
+  return std::construct_at(reinterpret_cast<T*>(bytes.data()), value);
+}
+
+std::span<std::byte> keep_part(LocalMemory& memory, std::span<const std::byte> part) {
+  const std::span<std::byte> bytes = memory.allocate<std::byte>(Category::home_pages, part.size());
+  std::copy(part.begin(), part.end(), bytes.begin());
+  return bytes;
+}
+
+core::RenderSettings settings_for(const NodeDeal& deal) { return {deal.part.header, deal.settings.camera, deal.settings.shade}; }
+
+}  // namespace
+
+RayCounters& operator+=(RayCounters& sum, const RayCounters& more) {
+  for (std::size_t kind = 0; kind < core::ray_kind_count; ++kind) {
+    sum.in[kind] += more.in[kind];
+    sum.out[kind] += more.out[kind];
+  }
+  sum.ended += more.ended;
+  sum.hits_sent_back += more.hits_sent_back;
+  sum.rests += more.rests;
+  return sum;
+}
+
+RayQueue::Capacity NodeProgram::backlog_capacity(const Plan& plan) {
+  return {.sender_count = plan.node_count() + 1,
+          .packets_each = plan.packets_each(),
+          .ray_batch = plan.ray_batch,
+          .depth_max = plan.request.depth_max};
+}
+
+NodeProgram::NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& deal)
+    : node_(&node),
+      host_(plan.host()),
+      return_batch_(return_batch(plan.ray_credits)),
+      return_batch_host_(return_batch(plan.host_credits)),
+      constants_(keep(node.memory(), Constants{settings_for(deal), deal.bsp})),
+      part_(keep_part(node.memory(), deal.part.bytes)),
+      records_(part_),
+      tracer_(records_, deal.part.header, deal.traversal),
+      primaries_(node.memory(), deal.primaries),
+      backlog_(node.memory(), backlog_capacity(plan)),
+      task_(node.memory(), node.id(), plan.request.depth_max),
+      gather_(node, plan.node_count(), plan.ray_batch),
+      film_(node, plan.node_count(), plan.film_credits),
+      rays_to_(node.memory().allocate<std::uint64_t>(Category::queues, plan.node_count())) {
+  for (std::uint32_t i = 0; i < plan.node_count(); ++i) {
+    if (nodes::NodeId{i} != node.id()) {
+      node.grant(nodes::NodeId{i}, ray_channel, plan.ray_credits);
+    }
+  }
+  node.grant(host_, ray_channel, plan.host_credits);
+}
+
+void NodeProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index) {
+  const Share& share = plan.request.shares[index];
+  memory[Category::constants] += LocalMemory::bytes_for<std::byte>(sizeof(Constants));
+  memory[Category::home_pages] += LocalMemory::bytes_for<std::byte>(share.part_bytes + core::overread_bytes);
+  Primaries::add_needs(memory, share.primary_runs);
+  RayQueue::add_needs(memory, backlog_capacity(plan));
+  RayTask::add_needs(memory, plan.request.depth_max);
+  Gather::add_needs(memory, plan.node_count(), plan.ray_batch);
+  FilmGather::add_needs(memory);
+  memory[Category::queues] += LocalMemory::bytes_for<std::uint64_t>(plan.node_count());
+}
+
+void NodeProgram::receive(const nodes::Packet& packet) {
+  switch (Kind{packet.kind}) {
+    case Kind::rays:
+    case Kind::forwarded:
+      return receive_rays(packet);
+    case Kind::credits:
+      return node_->grant(packet.source, ray_channel, packet.as<Credits>().count);
+    case Kind::film_acknowledgement:
+      return film_.acknowledged();
+    case Kind::token:
+      return termination_.take(packet.as<Token>());
+    case Kind::finish:
+      core::expect(is_passive(state()), "the end is proved only when every node is passive");
+      finishing_ = true;
+      return;
+    case Kind::stop:
+      core::expect(done_ && !stopped_, "the host stops only nodes that are done, and once");
+      stopped_ = true;
+      return;
+    default:
+      core::expect(false, "a node receives only what is sent to nodes");
+  }
+}
+
+void NodeProgram::receive_rays(const nodes::Packet& packet) {
+  core::expect(!finishing_, "no ray comes after the end");
+  core::expect(packet.payload.size() >= sizeof(RayPacketHeader), "a packet of rays has a header");
+  RayPacketHeader header;
+  std::memcpy(&header, packet.payload.data(), sizeof(header));
+  core::expect(packet.payload.size() == ray_packet_bytes(header.count), "a packet of rays is as long as it says");
+  core::expect(nodes::NodeId{header.owner} == node_->id(), "rays come to their owner");
+  termination_.ray_packet_received();
+  const std::uint32_t sender = nodes::index_of(packet.source);
+  backlog_.accept_packet(sender, header.count);
+  for (std::uint32_t i = 0; i < header.count; ++i) {
+    RayMessage message;
+    std::memcpy(&message, packet.payload.data() + ray_packet_bytes(i), sizeof(message));
+    backlog_.put(sender, message);
+    ++counters_.in[static_cast<std::size_t>(message.ray.kind)];
+  }
+}
+
+NodeState NodeProgram::state() const {
+  return {.packet_waits = gather_.waits() || film_.waits(),
+          .is_tracing = !task_.is_idle(),
+          .has_backlog = !backlog_.empty(),
+          .has_primaries = !primaries_.empty(),
+          .has_gathered = !gather_.empty()};
+}
+
+bool NodeProgram::work() {
+  perform(next_task(state()));
+  const Task next = next_task(state());
+  if (next == Task::rest) {
+    rest();
+  }
+  return next != Task::rest && next != Task::send_waiting;
+}
+
+void NodeProgram::perform(Task task) {
+  switch (task) {
+    case Task::send_waiting:
+      return send_waiting();
+    case Task::go_on:
+      return go_on();
+    case Task::take_received:
+      return take_received();
+    case Task::start_primary:
+      return start_primary();
+    case Task::flush:
+      gather_.close_fullest();
+      return send_waiting();
+    case Task::rest:
+      return;
+  }
+}
+
+/// A film packet that waits is sent as soon as the host acknowledges another.
+void NodeProgram::send_waiting() {
+  if (gather_.waits() && gather_.send() != Way::wait) {
+    termination_.ray_packet_sent();
+  }
+}
+
+void NodeProgram::take_received() {
+  std::uint32_t sender = 0;
+  const RayMessage message = backlog_.take(sender);
+  give_back(sender, false);
+  if (message.is_confirmed != 0) {
+    task_.resume_hit(message);
+    count_claim(message.ray.kind);
+  } else {
+    task_.enter(message);
+  }
+  go_on();
+}
+
+void NodeProgram::start_primary() {
+  const std::uint64_t number = primaries_.take();
+  const auto samples = static_cast<std::uint64_t>(constants_->settings.camera.samples());
+  shoot(constants_->settings.camera.primary_ray(static_cast<std::uint32_t>(number / samples),
+                                                static_cast<std::uint32_t>(number % samples)));
+  if (task_.is_tracing()) {
+    trace();
+  }
+}
+
+/// Traces the ray under way, or the next child of the hit under way.
+void NodeProgram::go_on() {
+  if (!task_.is_tracing()) {
+    core::Ray child;
+    if (!task_.next_child(tracer_, constants_->settings, child, operations_)) {
+      return;
+    }
+    shoot(child);
+  }
+  if (task_.is_tracing()) {
+    trace();
+  }
+}
+
+/// A fresh ray starts here, leaves at once, or misses the grid.
+void NodeProgram::shoot(const core::Ray& ray) {
+  ++operations_.rays[static_cast<std::size_t>(ray.kind)];
+  const auto passage = core::first_passage(ray, constants_->settings.header.frame);
+  if (!passage) {
+    return end_miss(ray);
+  }
+  const nodes::NodeId owner = constants_->bsp.owner_of(passage->cell);
+  const RayMessage message = message_of(ray, *passage, node_->id());
+  if (owner == node_->id()) {
+    task_.enter(message);
+  } else {
+    dispatch(owner, message);
+  }
+}
+
+void NodeProgram::trace() {
+  switch (task_.trace(tracer_, operations_)) {
+    case core::Traced::left: {
+      const RayMessage message = task_.leaving();
+      return dispatch(constants_->bsp.owner_of(message.cell), message);
+    }
+    case core::Traced::miss:
+      return end_miss(task_.ray());
+    default:
+      return end_hit();
+  }
+}
+
+/// A ray has met its nearest hit, or a shadow ray any.
+void NodeProgram::end_hit() {
+  if (task_.ray().kind == core::RayKind::shadow) {
+    ++operations_.shadow_blocked;
+    ++counters_.ended;
+  } else if (task_.found_here()) {
+    task_.shade_hit();
+    count_claim(task_.ray().kind);
+  } else {
+    ++counters_.hits_sent_back;
+    dispatch(task_.finder(), task_.confirmed_hit());
+  }
+}
+
+/// This node shades the hit of a ray, and no other does.
+void NodeProgram::count_claim(core::RayKind kind) {
+  ++counters_.ended;
+  ++(kind == core::RayKind::primary ? operations_.primary_hits : operations_.secondary_hits);
+}
+
+/// A shadow ray brings its light, any other the background's.
+void NodeProgram::end_miss(const core::Ray& ray) {
+  ++counters_.ended;
+  const core::Color background = constants_->settings.header.background;
+  const core::FixedColor light = core::to_fixed(ray.kind == core::RayKind::shadow ? ray.weight : ray.weight * background);
+  if (light != core::FixedColor{}) {
+    film_.add(ray.pixel, ray.sample % 2, light);
+  }
+}
+
+void NodeProgram::dispatch(nodes::NodeId owner, const RayMessage& message) {
+  ++counters_.out[static_cast<std::size_t>(message.ray.kind)];
+  ++rays_to_[nodes::index_of(owner)];
+  gather_.add(owner, message);
+  send_waiting();
+}
+
+void NodeProgram::give_back(std::uint32_t sender, bool rests) {
+  const std::uint32_t owed = backlog_.owed(sender);
+  const nodes::NodeId target{sender};
+  if (returns_credits(owed, target == host_ ? return_batch_host_ : return_batch_, rests)) {
+    backlog_.gave_back(sender, owed);
+    send_control(*node_, target, Kind::credits, Credits{owed});
+  }
+}
+
+/// Passive: keeps nobody's credit and no token, and once the end is proved no light.
+void NodeProgram::rest() {
+  ++counters_.rests;
+  for (std::uint32_t sender = 0; sender < backlog_.sender_count(); ++sender) {
+    give_back(sender, true);
+  }
+  if (const std::optional<Token> token = termination_.hand_on()) {
+    send_control(*node_, next_on_ring(node_->id(), nodes::index_of(host_)), Kind::token, *token);
+  }
+  if (finishing_ && !done_) {
+    settle();
+  }
+}
+
+void NodeProgram::settle() {
+  film_.flush();
+  if (film_.settled()) {
+    send_control(*node_, host_, Kind::done, Done{film_.counters().entries});
+    done_ = true;
+  }
+}
+
+std::string NodeProgram::describe() const {
+  return std::to_string(primaries_.left()) + " primary rays not started, " + std::to_string(backlog_.size()) +
+         " rays in the backlog, " +
+         (task_.is_idle()      ? "none"
+          : task_.is_tracing() ? "a ray"
+                               : "a hit") +
+         " under way, " + std::to_string(gather_.size()) + " rays gathered" +
+         (gather_.waits() ? " (a packet waits for credit), " : ", ") + std::to_string(film_.gathered()) + " film entries" +
+         (film_.waits() ? " (waiting)" : "") + ", ray packets sent - received " + std::to_string(termination_.balance()) +
+         (termination_.holds_token() ? ", holds the token" : "") + (termination_.is_black() ? ", black" : ", white") +
+         (stopped_     ? ", stopped"
+          : done_      ? ", done"
+          : finishing_ ? ", finishing"
+                       : "");
+}
+
+ProgramReport NodeProgram::report() const {
+  ProgramReport report{.operations = operations_,
+                       .rays = counters_,
+                       .gather = gather_.counters(),
+                       .film = film_.counters(),
+                       .backlog_high_water = backlog_.high_water(),
+                       .rays_to = {rays_to_.begin(), rays_to_.end()}};
+  report.operations.deposits_saturated += film_.counters().saturated;
+  return report;
+}
+
+}  // namespace dmpc::dataflow

@@ -1,0 +1,125 @@
+// The node program of dataflow: rays that come in, go on, hit, and leave for other regions.
+//
+// A quantum follows the table of flow_control.h: one ray is traced, from where it starts or enters until it ends or leaves the
+// region, and at most one ray goes out. What keeps the last node moving, and why every queue is bounded, is said there; the sums
+// are in plan.cpp.
+//
+// Who claims a hit: the owner of the cell in which the walk proves it the nearest. If that owner has met the same (t, primitive)
+// itself, it shades the hit with its own copy of the record. If not, the hit goes to its finder, which alone knows where the
+// record is. Either way one node shades it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/extract.h"
+#include "core/operations.h"
+#include "core/pixel_task.h"
+#include "dataflow/bsp.h"
+#include "dataflow/film_gather.h"
+#include "dataflow/flow_control.h"
+#include "dataflow/gather.h"
+#include "dataflow/plan.h"
+#include "dataflow/primaries.h"
+#include "dataflow/ray_queue.h"
+#include "dataflow/ray_task.h"
+#include "dataflow/termination.h"
+#include "nodes/node.h"
+#include "nodes/program.h"
+
+namespace dmpc::dataflow {
+
+/// What a node counts beside core's operations and the packets.
+struct RayCounters {
+  std::array<std::uint64_t, core::ray_kind_count> in{}, out{};  ///< rays received and sent, by kind; confirmed hits included
+  std::uint64_t ended = 0;                                      ///< hit or miss; over all nodes as many as were shot
+  std::uint64_t hits_sent_back = 0;                             ///< confirmed here, shaded by their finder
+  std::uint64_t rests = 0;                                      ///< times that the node ran out of work
+};
+RayCounters& operator+=(RayCounters& sum, const RayCounters& more);
+
+/// All that a program counted.
+struct ProgramReport {
+  core::Operations operations;
+  RayCounters rays;
+  Gather::Counters gather;
+  FilmGather::Counters film;
+  std::uint32_t backlog_high_water = 0;  ///< the most rays in the backlog at once
+  std::vector<std::uint64_t> rays_to;    ///< by owner, whichever way they took
+};
+
+/// What a node is given before the start, read in the constructor and never again.
+struct NodeDeal {
+  const core::DatabasePart& part;
+  std::span<const PrimaryRun> primaries;
+  const core::RenderSettings& settings;  ///< the whole picture's
+  const Bsp& bsp;
+  core::TraversalOptions traversal;
+};
+
+class NodeProgram final : public nodes::Program {
+ public:
+  /// Takes all its memory and credits from `node`.
+  NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& deal);
+  /// Adds to `memory` exactly what the constructor takes at node `index`.
+  static void add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index);
+
+  void receive(const nodes::Packet& packet) override;
+  bool work() override;
+  bool finished() const override { return stopped_; }
+  std::string describe() const override;
+
+  /// Call it only while the program is not running.
+  ProgramReport report() const;
+
+ private:
+  /// What never changes, in local memory.
+  struct Constants {
+    core::RenderSettings settings;  ///< header: the part's
+    Bsp bsp;
+  };
+
+  static RayQueue::Capacity backlog_capacity(const Plan& plan);
+  NodeState state() const;
+
+  void receive_rays(const nodes::Packet& packet);
+  void perform(Task task);
+  void send_waiting();
+  void take_received();
+  void start_primary();
+  void go_on();
+  void trace();
+  void shoot(const core::Ray& ray);
+  void end_hit();
+  void count_claim(core::RayKind kind);
+  void end_miss(const core::Ray& ray);
+  void dispatch(nodes::NodeId owner, const RayMessage& message);
+  void give_back(std::uint32_t sender, bool rests);
+  void rest();
+  void settle();
+
+  nodes::Node* node_;
+  nodes::NodeId host_;
+  std::uint32_t return_batch_, return_batch_host_;
+  const Constants* constants_;
+  std::span<std::byte> part_;
+  core::LocalRecords records_;
+  PartTracer tracer_;
+  Primaries primaries_;
+  RayQueue backlog_;
+  RayTask task_;
+  Gather gather_;
+  FilmGather film_;
+  Termination termination_ = Termination::member();
+  std::span<std::uint64_t> rays_to_;
+  core::Operations operations_;
+  RayCounters counters_;
+  bool finishing_ = false;  ///< the host has proved that no ray is left
+  bool done_ = false;
+  bool stopped_ = false;
+};
+
+}  // namespace dmpc::dataflow

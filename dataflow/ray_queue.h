@@ -1,0 +1,129 @@
+// The backlog: rays that a node has received and not taken up, the deepest first.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
+#include "core/expect.h"
+#include "core/units.h"
+#include "dataflow/packets.h"
+#include "nodes/local_memory.h"
+
+namespace dmpc::dataflow {
+
+/// A bounded set of rays in order of depth, and the account of whose credits its places stand for.
+///
+/// A sender's credit is a place for one full packet. So of the packets that have come from a sender, as many stay withheld as the
+/// rays of it that are still here would fill; the others are owed to it. Thread safety: belongs to one node.
+class RayQueue {
+ public:
+  struct Capacity {
+    std::uint32_t sender_count = 0;  ///< senders have indices below this
+    std::uint32_t packets_each = 0;  ///< that one sender's credits allow
+    std::uint32_t ray_batch = 1;     ///< rays in a full packet
+    std::uint32_t depth_max = 1;     ///< rays have depths 1 .. depth_max
+
+    /// All senders but the node itself.
+    std::uint32_t rays() const { return (sender_count - 1) * packets_each * ray_batch; }
+  };
+
+  /// Empty.
+  RayQueue(nodes::LocalMemory& memory, const Capacity& capacity)
+      : packets_each_(capacity.packets_each),
+        ray_batch_(capacity.ray_batch),
+        entries_(memory.allocate<Entry>(nodes::Category::queues, capacity.rays())),
+        newest_(memory.allocate<std::uint32_t>(nodes::Category::queues, capacity.depth_max + 1)),
+        senders_(memory.allocate<Sender>(nodes::Category::queues, capacity.sender_count)) {
+    for (std::uint32_t& newest : newest_) {
+      newest = none;
+    }
+    for (std::uint32_t i = capacity.rays(); i > 0; --i) {
+      entries_[i - 1].older = free_;
+      free_ = i - 1;
+    }
+  }
+  /// Adds to `plan` exactly what the constructor takes.
+  static void add_needs(nodes::MemoryPlan& plan, const Capacity& capacity) {
+    using nodes::LocalMemory;
+    plan[nodes::Category::queues] += LocalMemory::bytes_for<Entry>(capacity.rays()) +
+                                     LocalMemory::bytes_for<std::uint32_t>(capacity.depth_max + 1) +
+                                     LocalMemory::bytes_for<Sender>(capacity.sender_count);
+  }
+
+  /// A packet with `ray_count` rays from `sender` has come; put() them next.
+  void accept_packet(std::uint32_t sender, std::uint32_t ray_count) {
+    Sender& from = senders_[sender];
+    core::expect(ray_count >= 1 && ray_count <= ray_batch_, "a packet of rays has rays, no more than a full one");
+    core::expect(from.packets < packets_each_, "a sender's packets stay within its credits");
+    ++from.packets;
+  }
+
+  void put(std::uint32_t sender, const RayMessage& message) {
+    core::expect(free_ != none, "a received ray has its place in the backlog");
+    core::expect(message.ray.depth < newest_.size(), "a ray is no deeper than the picture's depth");
+    const std::uint32_t place = free_;
+    free_ = entries_[place].older;
+    entries_[place] = {message, newest_[message.ray.depth], sender};
+    newest_[message.ray.depth] = place;
+    deepest_ = std::max<std::uint32_t>(deepest_, message.ray.depth);
+    ++senders_[sender].rays;
+    high_water_ = std::max(high_water_, ++size_);
+  }
+
+  /// Takes out the deepest ray, of equally deep ones the newest, and says who sent it. Requires that there is one.
+  RayMessage take(std::uint32_t& sender) {
+    core::expect(size_ > 0, "a ray is taken from a backlog that has one");
+    while (newest_[deepest_] == none) {
+      --deepest_;
+    }
+    const std::uint32_t place = newest_[deepest_];
+    Entry& entry = entries_[place];
+    newest_[deepest_] = entry.older;
+    entry.older = free_;
+    free_ = place;
+    --size_;
+    sender = entry.sender;
+    --senders_[sender].rays;
+    return entry.message;
+  }
+
+  /// The credits that `sender` can have back: its packets that its rays still here would not fill.
+  std::uint32_t owed(std::uint32_t sender) const {
+    return senders_[sender].packets - core::ceil_divide(senders_[sender].rays, ray_batch_);
+  }
+  /// `count` of them, at most owed(), have been given back.
+  void gave_back(std::uint32_t sender, std::uint32_t count) {
+    core::expect(count <= owed(sender), "only credits that are owed are given back");
+    senders_[sender].packets -= count;
+  }
+
+  bool empty() const { return size_ == 0; }
+  std::uint32_t size() const { return size_; }
+  std::uint32_t sender_count() const { return static_cast<std::uint32_t>(senders_.size()); }
+  /// The most rays that were here at once.
+  std::uint32_t high_water() const { return high_water_; }
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffffU;
+
+  struct Entry {
+    RayMessage message;
+    std::uint32_t older = none;  ///< the next of the same depth, or of the free ones
+    std::uint32_t sender = 0;
+  };
+  struct Sender {
+    std::uint32_t packets = 0;  ///< received whose credits have not been given back
+    std::uint32_t rays = 0;     ///< here
+  };
+
+  std::uint32_t packets_each_, ray_batch_;
+  std::span<Entry> entries_;
+  std::span<std::uint32_t> newest_;  ///< by depth
+  std::span<Sender> senders_;
+  std::uint32_t free_ = none;
+  std::uint32_t deepest_ = 0;  ///< no ray is deeper
+  std::uint32_t size_ = 0, high_water_ = 0;
+};
+
+}  // namespace dmpc::dataflow

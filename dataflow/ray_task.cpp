@@ -1,0 +1,94 @@
+#include "dataflow/ray_task.h"
+
+#include "core/expect.h"
+#include "core/traversal.h"
+
+namespace dmpc::dataflow {
+
+using nodes::Category;
+using nodes::LocalMemory;
+
+RayTask::RayTask(LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max)
+    : self_(self),
+      flight_(memory.allocate<Flight>(Category::ray_stacks, 1).data()),
+      stack_(memory.allocate<core::HitState>(Category::ray_stacks, depth_max)) {}
+
+void RayTask::add_needs(nodes::MemoryPlan& plan, std::uint32_t depth_max) {
+  plan[Category::ray_stacks] += LocalMemory::bytes_for<Flight>(1) + LocalMemory::bytes_for<core::HitState>(depth_max);
+}
+
+void RayTask::enter(const RayMessage& message) {
+  core::expect(!is_tracing_, "one ray at a time is under way");
+  flight_->ray = message.ray;
+  flight_->cursor = core::arrive(message.passage());
+  flight_->finder = nodes::NodeId{message.finder};
+  flight_->block_at_finder = message.best.block;
+  if (flight_->finder != self_) {
+    flight_->cursor.best.block = core::no_address;
+  }
+  is_tracing_ = true;
+}
+
+void RayTask::resume_hit(const RayMessage& message) {
+  core::expect(!is_tracing_, "one ray at a time is under way");
+  core::expect(nodes::NodeId{message.finder} == self_, "a confirmed hit comes to its finder");
+  push(message.ray, message.best);
+}
+
+core::Traced RayTask::trace(PartTracer& tracer, core::Operations& operations) {
+  const core::Traced traced = tracer.trace(flight_->ray, flight_->cursor, operations);
+  core::expect(traced != core::Traced::absent, "a node has every record of its region");
+  is_tracing_ = false;
+  return traced;
+}
+
+void RayTask::shade_hit() {
+  core::expect(found_here(), "a hit is shaded where its block is");
+  push(flight_->ray, flight_->cursor.best);
+}
+
+void RayTask::push(const core::Ray& ray, const core::Hit& hit) {
+  core::expect(depth_ < stack_.size(), "the ray stack holds a hit a depth");
+  stack_[depth_++] = core::begin_shading(ray, hit);
+}
+
+core::Hit RayTask::travelling_candidate() const {
+  core::Hit candidate = flight_->cursor.best;
+  if (!found_here()) {
+    candidate.block = flight_->block_at_finder;
+  }
+  return candidate;
+}
+
+RayMessage RayTask::leaving() const {
+  core::Passage passage = core::passage_of(flight_->cursor);
+  passage.best = travelling_candidate();
+  return message_of(flight_->ray, passage, finder_of_candidate());
+}
+
+RayMessage RayTask::confirmed_hit() const {
+  core::expect(flight_->cursor.best.found() && !found_here(), "a hit found here is shaded here");
+  RayMessage message = message_of(flight_->ray, {.best = travelling_candidate()}, flight_->finder);
+  message.is_confirmed = 1;
+  return message;
+}
+
+bool RayTask::next_child(PartTracer& tracer, const core::RenderSettings& settings, core::Ray& child,
+                         core::Operations& operations) {
+  core::expect(!is_tracing_, "a child is made when its parent's ray has ended");
+  while (depth_ > 0) {
+    core::HitState& hit = stack_[depth_ - 1];
+    if (hit.stage == core::HitState::Stage::finished) {
+      --depth_;
+      continue;
+    }
+    const core::Address address = core::record_needed(hit, settings.header);
+    const std::byte* const record = address == core::no_address ? nullptr : tracer.find(address);
+    if (core::shade_step(hit, record, settings.header, settings.shade, child, operations)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace dmpc::dataflow

@@ -1,0 +1,78 @@
+// The one ray or hit under way on a node, with the hits that it descends from on this node.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/pixel_task.h"
+#include "core/records.h"
+#include "dataflow/packets.h"
+#include "nodes/local_memory.h"
+#include "nodes/node_id.h"
+
+namespace dmpc::dataflow {
+
+/// How a node finds what a ray hits: our grid over its part of the database.
+using PartTracer = core::GridTracer<core::LocalRecords>;
+
+/// Depth first: a hit is shaded one child at a time. A child that stays in the region is traced to its end, its own hit shaded
+/// and so on, before the next is made; so the stack holds at most one hit a depth, whatever the number of lights. A child that
+/// leaves is the caller's to send on; it leaves nothing behind. Thread safety: belongs to one node.
+class RayTask {
+ public:
+  /// Nothing under way. A stack of `depth_max` hits.
+  RayTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max);
+  /// Adds to `plan` exactly what the constructor takes.
+  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t depth_max);
+
+  /// A ray is to be traced on.
+  bool is_tracing() const { return is_tracing_; }
+  /// No ray, and no hit that has children to be made.
+  bool is_idle() const { return !is_tracing_ && depth_ == 0; }
+
+  /// Takes up a ray that enters the region, fresh or from elsewhere. Where its candidate was found on another node the block's
+  /// address is forgotten here, and kept for that node. Requires that no ray is being traced.
+  void enter(const RayMessage& message);
+  /// Takes up a hit of this node's that another has confirmed. Requires that no ray is being traced.
+  void resume_hit(const RayMessage& message);
+
+  /// Traces the ray until it ends here or leaves the region; it is no longer under way. Never absent.
+  core::Traced trace(PartTracer& tracer, core::Operations& operations);
+
+  // After trace():
+  const core::Ray& ray() const { return flight_->ray; }
+  /// The hit's block was read on this node.
+  bool found_here() const { return flight_->cursor.best.block != core::no_address; }
+  /// Takes up the hit that was found here.
+  void shade_hit();
+  /// The ray as it goes on to the owner of the cell that it enters.
+  RayMessage leaving() const;
+  /// The hit as it goes to its finder.
+  RayMessage confirmed_hit() const;
+  nodes::NodeId finder() const { return flight_->finder; }
+
+  /// Shades the newest hit until it makes a child (true), or no hit is left (false). Requires that no ray is being traced.
+  bool next_child(PartTracer& tracer, const core::RenderSettings& settings, core::Ray& child, core::Operations& operations);
+
+ private:
+  /// A ray, where it is, and where its candidate's block is if that is not here.
+  struct Flight {
+    core::Ray ray;
+    core::Cursor cursor;
+    nodes::NodeId finder{};
+    core::Address block_at_finder = core::no_address;
+  };
+
+  /// The candidate as another node may know it, with the finder's address.
+  core::Hit travelling_candidate() const;
+  nodes::NodeId finder_of_candidate() const { return found_here() ? self_ : flight_->finder; }
+  void push(const core::Ray& ray, const core::Hit& hit);
+
+  nodes::NodeId self_;
+  Flight* flight_;
+  std::span<core::HitState> stack_;
+  std::uint32_t depth_ = 0;  ///< hits on the stack
+  bool is_tracing_ = false;
+};
+
+}  // namespace dmpc::dataflow

@@ -1,0 +1,218 @@
+#include "dataflow/run.h"
+
+#include <memory>
+#include <utility>
+
+#include "core/expect.h"
+#include "dataflow/packets.h"
+
+namespace dmpc::dataflow {
+namespace {
+
+using TrafficByKind = std::array<nodes::Traffic, nodes::packet_kind_count>;
+
+PlanRequest request_of(const Distribution& distribution, const core::RenderSettings& settings, const RunOptions& options) {
+  return {.shares = distribution.shares(),
+          .node_memory_bytes = options.node_memory_bytes,
+          .ray_batch = options.ray_batch,
+          .ray_credits = options.ray_credits,
+          .depth_max = static_cast<std::uint32_t>(settings.shade.depth_max),
+          .width = static_cast<std::uint32_t>(settings.camera.width()),
+          .height = static_cast<std::uint32_t>(settings.camera.height()),
+          .stack_reserve_bytes = options.stack_reserve_bytes,
+          .chaos = options.chaos};
+}
+
+MakeBsp regions_of(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options) {
+  if (options.make_bsp) {
+    return options.make_bsp;
+  }
+  return [&](std::uint32_t node_count) {
+    return equal_size_bsp(core::grid_size(database.header().frame), cut_axes_of(settings.camera), node_count);
+  };
+}
+
+Plan plan_for(const Distribution& distribution, const core::Database& database, const core::RenderSettings& settings,
+              const RunOptions& options, const MakeBsp& make_bsp) {
+  const PlanRequest request = request_of(distribution, settings, options);
+  return make_plan(request, [&] { return smallest_node_count(request, database, settings, make_bsp); });
+}
+
+NodeReport report_of(nodes::Node& node, const nodes::Program& program, const Distribution& distribution) {
+  const std::uint32_t index = nodes::index_of(node.id());
+  const core::DatabasePart& part = distribution.parts[index];
+  NodeReport report{.program = dynamic_cast<const NodeProgram&>(program).report(),
+                    .counters = node.counters(),
+                    .memory_planned = node.memory().plan(),
+                    .memory_used = node.memory().used(),
+                    .region = part.header.region,
+                    .part_bytes = part.record_bytes(),
+                    .primitive_copies = part.primitive_copies};
+  for (const PrimaryRun& run : distribution.primaries[index]) {
+    report.primary_rays += run.count;
+  }
+  return report;
+}
+
+void add(TrafficByKind& sum, const TrafficByKind& more) {
+  for (std::size_t kind = 0; kind < sum.size(); ++kind) {
+    sum[kind].packets += more[kind].packets;
+    sum[kind].bytes += more[kind].bytes;
+  }
+}
+
+std::uint64_t sum_of(const std::array<std::uint64_t, core::ray_kind_count>& by_kind) {
+  std::uint64_t sum = 0;
+  for (const std::uint64_t of_kind : by_kind) {
+    sum += of_kind;
+  }
+  return sum;
+}
+
+void check_rays(const Report& report) {
+  const RayCounters rays = report.rays();
+  const core::Operations operations = report.operations();
+  core::expect(sum_of(operations.rays) == rays.ended, "every ray shot has ended");
+  core::expect(rays.in == rays.out, "every ray sent was received, of every kind");
+  core::expect(operations.shadings == operations.primary_hits + operations.secondary_hits, "each hit was claimed by one node");
+  core::expect(report.host_rays.rays_in == report.gathers().rays_overflowed, "every ray that overflowed came to the host");
+  core::expect(report.host_rays.rays_in == report.host_rays.rays_out, "every ray that overflowed was forwarded");
+  std::uint64_t dealt = 0;
+  for (const NodeReport& node : report.nodes) {
+    dealt += node.primary_rays;
+  }
+  core::expect(dealt == operations.rays[static_cast<std::size_t>(core::RayKind::primary)], "every primary ray was shot");
+}
+
+void check_packets(const Report& report) {
+  const TrafficByKind sent = report.sent(), received = report.received();
+  for (std::size_t kind = 0; kind < sent.size(); ++kind) {
+    core::expect(sent[kind].packets == received[kind].packets, "every packet sent was received, of every kind");
+  }
+  core::expect(sent[number_of(Kind::film)].packets == sent[number_of(Kind::film_acknowledgement)].packets,
+               "every film packet was acknowledged");
+}
+
+/// Every credit is back where it started.
+void check_credits(nodes::ThreadsRunner& runner, const Plan& plan) {
+  for (std::uint32_t i = 0; i <= plan.node_count(); ++i) {
+    for (std::uint32_t j = 0; j <= plan.node_count(); ++j) {
+      const bool with_host = i == plan.node_count() || j == plan.node_count();
+      const std::uint32_t planned = i == j ? 0 : with_host ? plan.host_credits : plan.ray_credits;
+      core::expect(runner.node(i).credits(nodes::NodeId{j}, ray_channel) == planned, "every credit has come back");
+    }
+  }
+}
+
+void fill(Report& report, nodes::ThreadsRunner& runner, const Distribution& distribution) {
+  const std::uint32_t node_count = report.plan.node_count();
+  for (std::uint32_t i = 0; i < node_count; ++i) {
+    report.nodes.push_back(report_of(runner.node(i), runner.program(i), distribution));
+  }
+  report.host = runner.node(node_count).counters();
+  report.host_rays = dynamic_cast<const HostProgram&>(runner.program(node_count)).report();
+  if (report.end == nodes::RunEnd::finished) {
+    check_rays(report);
+    check_packets(report);
+    check_credits(runner, report.plan);
+  }
+}
+
+}  // namespace
+
+core::Operations Report::operations() const {
+  core::Operations sum;
+  for (const NodeReport& node : nodes) {
+    sum += node.program.operations;
+  }
+  return sum;
+}
+
+RayCounters Report::rays() const {
+  RayCounters sum;
+  for (const NodeReport& node : nodes) {
+    sum += node.program.rays;
+  }
+  return sum;
+}
+
+Gather::Counters Report::gathers() const {
+  Gather::Counters sum;
+  for (const NodeReport& node : nodes) {
+    sum += node.program.gather;
+  }
+  return sum;
+}
+
+std::vector<std::uint64_t> Report::ray_matrix() const {
+  std::vector<std::uint64_t> matrix;
+  for (const NodeReport& node : nodes) {
+    matrix.insert(matrix.end(), node.program.rays_to.begin(), node.program.rays_to.end());
+  }
+  return matrix;
+}
+
+double Report::messages_per_ray() const {
+  const std::uint64_t shot = sum_of(operations().rays);
+  return shot == 0 ? 0.0 : static_cast<double>(sum_of(rays().out)) / static_cast<double>(shot);
+}
+
+double Report::mean_fill() const {
+  const Gather::Counters sum = gathers();
+  return sum.packets == 0 ? 1.0 : static_cast<double>(sum.rays) / static_cast<double>(sum.packets) / plan.ray_batch;
+}
+
+std::array<nodes::Traffic, nodes::packet_kind_count> Report::sent() const {
+  TrafficByKind sum = host.sent;
+  for (const NodeReport& node : nodes) {
+    add(sum, node.counters.sent);
+  }
+  return sum;
+}
+
+std::array<nodes::Traffic, nodes::packet_kind_count> Report::received() const {
+  TrafficByKind sum = host.received;
+  for (const NodeReport& node : nodes) {
+    add(sum, node.counters.received);
+  }
+  return sum;
+}
+
+Plan plan_of(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options) {
+  const MakeBsp make_bsp = regions_of(database, settings, options);
+  return plan_for(distribute(database, settings, make_bsp(options.node_count)), database, settings, options, make_bsp);
+}
+
+std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,
+                                                        const core::RenderSettings& settings,
+                                                        const core::TraversalOptions& traversal, core::Film& film,
+                                                        const Progress& progress) {
+  std::vector<nodes::NodeSpecification> specifications;
+  for (std::uint32_t i = 0; i < plan.node_count(); ++i) {
+    const auto make_program = [&, i](nodes::Node& node) {
+      return std::make_unique<NodeProgram>(
+          node, plan, NodeDeal{distribution.parts[i], distribution.primaries[i], settings, distribution.bsp, traversal});
+    };
+    specifications.push_back({plan.node_memory(i), plan.node_mailbox, make_program, plan.held_bytes});
+  }
+  const auto make_host = [&](nodes::Node& node) { return std::make_unique<HostProgram>(node, plan, film, progress); };
+  specifications.push_back({plan.host_memory(), plan.host_mailbox, make_host, plan.held_bytes});
+  return specifications;
+}
+
+Report run_dataflow(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
+                    std::stop_token stop) {
+  const MakeBsp make_bsp = regions_of(database, settings, options);
+  const Distribution distribution = distribute(database, settings, make_bsp(options.node_count));
+  Report report{.film = core::Film(settings.camera.width(), settings.camera.height()),
+                .plan = plan_for(distribution, database, settings, options, make_bsp),
+                .bsp = distribution.bsp,
+                .duplication = distribution.duplication(database)};
+  nodes::ThreadsRunner runner(
+      specifications_of(report.plan, distribution, settings, options.traversal, report.film, options.progress), options.chaos);
+  report.end = runner.run(std::move(stop));
+  fill(report, runner, distribution);
+  return report;
+}
+
+}  // namespace dmpc::dataflow

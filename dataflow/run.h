@@ -1,0 +1,88 @@
+// Renders a picture on N nodes between which rays travel: deals the scene, plans the memory, runs, and reports.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "core/database.h"
+#include "core/film.h"
+#include "core/pixel_task.h"
+#include "core/traversal.h"
+#include "dataflow/bsp.h"
+#include "dataflow/distribution.h"
+#include "dataflow/host.h"
+#include "dataflow/plan.h"
+#include "dataflow/program.h"
+#include "nodes/chaos.h"
+#include "nodes/counters.h"
+#include "nodes/threads_runner.h"
+
+namespace dmpc::dataflow {
+
+/// What the user may choose; the fields of PlanRequest that the database and the picture do not give.
+struct RunOptions {
+  std::uint32_t node_count = 8;
+  std::optional<std::size_t> node_memory_bytes = std::nullopt;
+  std::optional<std::uint32_t> ray_batch = std::nullopt;    ///< rays in a message
+  std::optional<std::uint32_t> ray_credits = std::nullopt;  ///< packets of rays for each pair; 0: all by way of the host
+  /// The regions. Without it they are of equal size, whatever lies in them.
+  MakeBsp make_bsp = {};
+  std::size_t stack_reserve_bytes = std::size_t{256} << 10U;
+  core::TraversalOptions traversal = {};
+  std::optional<nodes::Chaos> chaos = std::nullopt;  ///< disturbs the run; the film stays the same
+  Progress progress = {};                            ///< called by the host's thread
+};
+
+struct NodeReport {
+  ProgramReport program;
+  nodes::NodeCounters counters;
+  nodes::MemoryPlan memory_planned, memory_used;
+  core::Region region;                 ///< finest cells
+  std::size_t part_bytes = 0;          ///< the records of the region
+  std::uint64_t primitive_copies = 0;  ///< in them
+  std::uint64_t primary_rays = 0;      ///< dealt
+};
+
+struct Report {
+  core::Film film;
+  nodes::RunEnd end = nodes::RunEnd::finished;  ///< interrupted: the film is not complete
+  Plan plan;
+  Bsp bsp;
+  double duplication = 1;  ///< copies of primitives over those in the database
+  std::vector<NodeReport> nodes;
+  nodes::NodeCounters host;
+  HostCounters host_rays;
+
+  core::Operations operations() const;  ///< summed over the nodes
+  RayCounters rays() const;
+  Gather::Counters gathers() const;
+  /// Rays from a node (row) to an owner (column), whichever way they took, row by row.
+  std::vector<std::uint64_t> ray_matrix() const;
+  /// Ray messages per ray: how often a ray changes its node, on average.
+  double messages_per_ray() const;
+  /// Mean rays in a packet over those in a full one, in (0, 1]; 1 without packets.
+  double mean_fill() const;
+  /// Packets and bytes sent by all nodes and the host, by Kind's number.
+  std::array<nodes::Traffic, nodes::packet_kind_count> sent() const;
+  std::array<nodes::Traffic, nodes::packet_kind_count> received() const;
+};
+
+/// The plan that a run with these options will follow, for messages before the run. Throws as make_plan() does.
+Plan plan_of(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options);
+
+/// Renders with strategy dataflow. Throws as make_plan() does before anything is rendered; core::InternalError if a law of
+/// conservation is broken. Several calls at one time are independent.
+Report run_dataflow(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
+                    std::stop_token stop);
+
+/// What a runner needs for `plan`: the nodes in order, then the host, which writes `film`. All arguments outlive the runner.
+std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,
+                                                        const core::RenderSettings& settings,
+                                                        const core::TraversalOptions& traversal, core::Film& film,
+                                                        const Progress& progress);
+
+}  // namespace dmpc::dataflow
