@@ -20,13 +20,12 @@ namespace dmpc::dataflow {
 template <class T>
 concept Charge = std::invocable<T&, const core::Corner&, std::uint64_t>;
 
-/// The finest cell in which the ray is at `t`, kept inside the cell of `level` at `cell`.
-inline core::Corner finest_cell_at(const core::Ray& ray, double t, const core::Corner& cell, int level,
-                                   const core::GridFrame& frame) {
+/// The finest cell in which the ray is at `t`, or the one in `within` (not empty) that is nearest to it.
+inline core::Corner finest_cell_at(const core::Ray& ray, double t, const core::Region& within, const core::GridFrame& frame) {
   core::Corner finest;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double along = (double{ray.origin[axis]} + t * double{ray.direction[axis]}) / double{frame.finest_cell};
-    const double low = cell[axis], high = cell[axis] + core::span_of(level) - 1;
+    const double low = within.low[axis], high = within.high[axis] - 1;
     finest[axis] = static_cast<std::int32_t>(std::clamp(along, low, high));
   }
   return finest;
@@ -54,7 +53,11 @@ class ChargedPicture {
 
     const std::byte* find(core::Address address) {
       picture.settle();
-      picture.place_ = finest_cell_at(ray, cursor.t_enter, cursor.cell, cursor.level, picture.settings_.header.frame);
+      core::Region cell{cursor.cell, cursor.cell};
+      for (std::int32_t& end : cell.high) {
+        end += core::span_of(cursor.level);
+      }
+      picture.place_ = finest_cell_at(ray, cursor.t_enter, cell, picture.settings_.header.frame);
       return picture.records_.find(address);
     }
   };
@@ -82,11 +85,13 @@ class ChargedPicture {
     const core::Traced traced = core::trace(ray, cursor, watch, settings_.header, {}, operations_);
     settle();
     if (traced == core::Traced::hit && ray.kind != core::RayKind::shadow) {
-      shade(core::begin_shading(ray, cursor.best), place_);
+      const core::GridFrame& frame = settings_.header.frame;
+      const core::Region grid{{}, core::grid_size(frame)};
+      shade(core::begin_shading(ray, cursor.best), finest_cell_at(ray, double{cursor.best.t}, grid, frame));
     }
   }
 
-  /// Shading and making the children is done where the hit was found.
+  /// Shading and making the children is done where the hit is.
   void shade(core::HitState state, const core::Corner& place) {
     while (state.stage != core::HitState::Stage::finished) {
       place_ = place;

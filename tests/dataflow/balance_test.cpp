@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <numeric>
+#include <vector>
 
 #include "core/render.h"
 #include "dataflow/charged_picture.h"
@@ -36,6 +38,23 @@ struct Stage {
     return measure_loads(database, settings, lattice(),
                          dataflow::subsampled_pixels(settings.camera.width(), settings.camera.height(), 1));
   }
+};
+
+/// A ray in finest cells.
+class Path {
+ public:
+  Path(const core::Ray& ray, const core::GridFrame& frame)
+      : origin_(core::Vec3d(ray.origin) * (1.0 / double{frame.finest_cell})), direction_(core::Vec3d(ray.direction)) {}
+
+  /// How far along the ray the middle of a finest cell lies.
+  double along(const core::Corner& cell) const { return dot(middle(cell) - origin_, direction_); }
+  /// From the middle of a finest cell to the ray.
+  double distance_to(const core::Corner& cell) const { return length(middle(cell) - origin_ - direction_ * along(cell)); }
+
+ private:
+  static core::Vec3d middle(const core::Corner& cell) { return {cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5}; }
+
+  core::Vec3d origin_, direction_;
 };
 
 CutAxes axes_seen(const core::Vec3d& from) {
@@ -107,6 +126,26 @@ TEST_CASE("every piece of work is charged inside the grid, and all of it is foun
   }
   CHECK(is_inside);
   CHECK(sum(stage.all_loads()) == charged);
+}
+
+TEST_CASE("the work of a ray is charged along the ray, piece by piece, and its shading where it hits") {
+  core::Scene scene = built_in("tetra-5");
+  scene.lights.clear();
+  const Stage stage(scene);
+  int hits = 0;
+  for (std::uint32_t pixel = 0; pixel < stage.settings.camera.pixel_count(); pixel += 7) {
+    std::vector<core::Corner> cells;
+    dataflow::ChargedPicture picture(stage.database, stage.settings,
+                                     [&](const core::Corner& cell, std::uint64_t) { cells.push_back(cell); });
+    picture.render(pixel);
+    const Path path(stage.settings.camera.primary_ray(pixel, 0), stage.settings.header.frame);
+    CHECK(std::all_of(cells.begin(), cells.end(), [&](const core::Corner& cell) { return path.distance_to(cell) < 1.01; }));
+    CHECK(std::is_sorted(cells.begin(), cells.end(),
+                         [&](const core::Corner& a, const core::Corner& b) { return path.along(a) < path.along(b) - 2; }));
+    hits += picture.operations().shadings > 0 ? 1 : 0;
+    CHECK((picture.operations().brick_reads < 8 || cells.front() != cells.back()));
+  }
+  CHECK(hits > 50);
 }
 
 TEST_CASE("a view past the scene has no load and is still shared out") {
