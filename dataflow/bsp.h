@@ -20,9 +20,9 @@ namespace dmpc::dataflow {
 inline constexpr std::uint32_t region_count_max = 1024;
 
 /// How the next cut's axis is chosen. Either way the other axis is taken where the chosen one has no cut left. Measured with 64
-/// regions: the mean of the average loads on rings-3-t1, teapot-12, mount-6-t6, tetra-9 and balls-4 is 85 % across the longer side
-/// and 84 % alternating; but the boundaries, which rays cross, are shorter across the longer side: by 13 % on rings-3-t1, 20 % on
-/// teapot-12, 35 % on mount-6-t6, 1 % on tetra-6 and 78 % on the flat balls-4.
+/// regions: the mean of the average loads on rings-3-t1, teapot-12, mount-6-t6, tetra-9 and balls-4 is 85 % across the longer
+/// side and 84 % alternating; but the boundaries, which rays cross, are shorter across the longer side: by 13 % on rings-3-t1, 20
+/// % on teapot-12, 35 % on mount-6-t6, 1 % on tetra-6 and 78 % on the flat balls-4.
 enum class CutOrder : std::uint8_t {
   longer_axis,  ///< across the longer side of the box, the second cut axis when they are equal
   alternating   ///< the first cut axis, then the second, and so on: the 1994 paper's order
