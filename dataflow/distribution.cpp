@@ -1,7 +1,5 @@
 #include "dataflow/distribution.h"
 
-#include <cmath>
-
 namespace dmpc::dataflow {
 namespace {
 
@@ -38,16 +36,6 @@ Distribution distribute(const core::Database& database, const core::RenderSettin
     distribution.parts.push_back(core::extract(database, bsp.region_of(nodes::NodeId{node})));
   }
   return distribution;
-}
-
-CutAxes cut_axes_of(const core::Camera& camera) {
-  const auto middle = static_cast<std::uint32_t>(camera.height() / 2 * camera.width() + camera.width() / 2);
-  const core::Vec3f forward = camera.primary_ray(middle, 0).direction;
-  std::uint8_t along = 0;
-  for (std::uint8_t axis = 1; axis < 3; ++axis) {
-    along = std::fabs(forward[axis]) > std::fabs(forward[along]) ? axis : along;
-  }
-  return {static_cast<std::uint8_t>(along == 0 ? 1 : 0), static_cast<std::uint8_t>(along == 2 ? 1 : 2)};
 }
 
 std::optional<std::uint32_t> smallest_node_count(PlanRequest request, const core::Database& database,

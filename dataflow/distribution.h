@@ -31,9 +31,6 @@ struct Distribution {
 /// Cuts the database up; values keep their bits.
 Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Bsp& bsp);
 
-/// The two axes of the grid that are most parallel to the screen, ascending: regions span the third.
-CutAxes cut_axes_of(const core::Camera& camera);
-
 /// The smallest number of nodes above the request's with which make_plan() succeeds under the request's memory bound, as far as
 /// halving the interval finds it: more nodes need less for their parts but more for their queues.
 std::optional<std::uint32_t> smallest_node_count(PlanRequest request, const core::Database& database,

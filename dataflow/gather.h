@@ -15,10 +15,17 @@
 
 namespace dmpc::dataflow {
 
-/// One open packet an owner; at most one of them waits for a credit, and meanwhile nothing may be added. Thread safety: belongs
-/// to one node.
+/// One open packet an owner; at most one of them waits for a credit, and meanwhile nothing may be added. Keeps account of the
+/// node's credits for rays. Thread safety: belongs to one node.
 class Gather {
  public:
+  struct Capacity {
+    std::uint32_t node_count = 1;
+    std::uint32_t ray_batch = 1;     ///< rays in a full packet
+    std::uint32_t ray_credits = 1;   ///< for each other node; 0: all rays go by way of the host
+    std::uint32_t host_credits = 1;  ///< for the host, node `node_count`; at least 1
+  };
+
   /// What the gather has sent.
   struct Counters {
     std::uint64_t packets = 0;             ///< by either way
@@ -37,19 +44,32 @@ class Gather {
     }
   };
 
-  /// The node's credits are somebody else's to grant.
-  Gather(nodes::Node& node, std::uint32_t node_count, std::uint32_t ray_batch)
+  /// Takes the credits.
+  Gather(nodes::Node& node, const Capacity& capacity)
       : node_(&node),
-        host_(nodes::NodeId{node_count}),
-        ray_batch_(ray_batch),
-        room_(node.memory().allocate<std::byte>(nodes::Category::queues, room_bytes(node_count, ray_batch))),
-        counts_(node.memory().allocate<std::uint16_t>(nodes::Category::queues, node_count)) {}
+        host_(nodes::NodeId{capacity.node_count}),
+        ray_batch_(capacity.ray_batch),
+        room_(node.memory().allocate<std::byte>(nodes::Category::queues, room_bytes(capacity))),
+        counts_(node.memory().allocate<std::uint16_t>(nodes::Category::queues, capacity.node_count)) {
+    for (std::uint32_t i = 0; i < capacity.node_count; ++i) {
+      node.grant(nodes::NodeId{i}, ray_channel, nodes::NodeId{i} == node.id() ? 0 : capacity.ray_credits);
+    }
+    node.grant(host_, ray_channel, capacity.host_credits);
+  }
   /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t node_count, std::uint32_t ray_batch) {
+  static void add_needs(nodes::MemoryPlan& plan, const Capacity& capacity) {
     using nodes::LocalMemory;
     plan[nodes::Category::queues] +=
-        LocalMemory::bytes_for<std::byte>(room_bytes(node_count, ray_batch)) + LocalMemory::bytes_for<std::uint16_t>(node_count);
+        LocalMemory::bytes_for<std::byte>(room_bytes(capacity)) + LocalMemory::bytes_for<std::uint16_t>(capacity.node_count);
   }
+
+  /// The receiver has taken up `count` packets.
+  void credits_returned(nodes::NodeId receiver, std::uint32_t count) {
+    used_up_ -= receiver != host_ && node_->credits(receiver, ray_channel) == 0 ? 1 : 0;
+    node_->grant(receiver, ray_channel, count);
+  }
+  /// No owner's credits are used up: what goes out next need not overflow.
+  bool has_credit_for_all() const { return used_up_ == 0; }
 
   /// Requires that no packet waits. If the packet for `owner` is full now, it waits.
   void add(nodes::NodeId owner, const RayMessage& message) {
@@ -95,9 +115,7 @@ class Gather {
   static std::size_t stride_bytes(std::uint32_t ray_batch) {
     return core::round_up(ray_packet_bytes(ray_batch), nodes::LocalMemory::alignment);
   }
-  static std::size_t room_bytes(std::uint32_t node_count, std::uint32_t ray_batch) {
-    return node_count * stride_bytes(ray_batch);
-  }
+  static std::size_t room_bytes(const Capacity& capacity) { return capacity.node_count * stride_bytes(capacity.ray_batch); }
   std::span<std::byte> packet_of(nodes::NodeId owner) {
     return room_.subspan(nodes::index_of(owner) * stride_bytes(ray_batch_), ray_packet_bytes(ray_batch_));
   }
@@ -109,6 +127,7 @@ class Gather {
     std::memcpy(packet.data(), &header, sizeof(header));
     const bool overflows = way == Way::to_host;
     node_->send_reserved(overflows ? host_ : owner, ray_channel, number_of(overflows ? Kind::overflow : Kind::rays), packet);
+    used_up_ += !overflows && node_->credits(owner, ray_channel) == 0 ? 1 : 0;
     ++counters_.packets;
     counters_.rays += count;
     counters_.packets_overflowed += overflows ? 1 : 0;
@@ -124,6 +143,7 @@ class Gather {
   std::span<std::byte> room_;
   std::span<std::uint16_t> counts_;  ///< rays, by owner
   std::uint32_t size_ = 0;
+  std::uint32_t used_up_ = 0;  ///< owners for whom all credits are used up
   std::optional<nodes::NodeId> waiting_;
   Counters counters_;
 };

@@ -50,6 +50,13 @@ RayQueue::Capacity NodeProgram::backlog_capacity(const Plan& plan) {
           .depth_max = plan.request.depth_max};
 }
 
+Gather::Capacity NodeProgram::gather_capacity(const Plan& plan) {
+  return {.node_count = plan.node_count(),
+          .ray_batch = plan.ray_batch,
+          .ray_credits = plan.ray_credits,
+          .host_credits = plan.host_credits};
+}
+
 NodeProgram::NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& deal)
     : node_(&node),
       host_(plan.host()),
@@ -62,16 +69,9 @@ NodeProgram::NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& de
       primaries_(node.memory(), deal.primaries),
       backlog_(node.memory(), backlog_capacity(plan)),
       task_(node.memory(), node.id(), plan.request.depth_max),
-      gather_(node, plan.node_count(), plan.ray_batch),
+      gather_(node, gather_capacity(plan)),
       film_(node, plan.node_count(), plan.film_credits),
-      rays_to_(node.memory().allocate<std::uint64_t>(Category::queues, plan.node_count())) {
-  for (std::uint32_t i = 0; i < plan.node_count(); ++i) {
-    if (nodes::NodeId{i} != node.id()) {
-      node.grant(nodes::NodeId{i}, ray_channel, plan.ray_credits);
-    }
-  }
-  node.grant(host_, ray_channel, plan.host_credits);
-}
+      rays_to_(node.memory().allocate<std::uint64_t>(Category::queues, plan.node_count())) {}
 
 void NodeProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index) {
   const Share& share = plan.request.shares[index];
@@ -80,7 +80,7 @@ void NodeProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::ui
   Primaries::add_needs(memory, share.primary_runs);
   RayQueue::add_needs(memory, backlog_capacity(plan));
   RayTask::add_needs(memory, plan.request.depth_max);
-  Gather::add_needs(memory, plan.node_count(), plan.ray_batch);
+  Gather::add_needs(memory, gather_capacity(plan));
   FilmGather::add_needs(memory);
   memory[Category::queues] += LocalMemory::bytes_for<std::uint64_t>(plan.node_count());
 }
@@ -91,13 +91,13 @@ void NodeProgram::receive(const nodes::Packet& packet) {
     case Kind::forwarded:
       return receive_rays(packet);
     case Kind::credits:
-      return node_->grant(packet.source, ray_channel, packet.as<Credits>().count);
+      return gather_.credits_returned(packet.source, packet.as<Credits>().count);
     case Kind::film_acknowledgement:
       return film_.acknowledged();
     case Kind::token:
       return termination_.take(packet.as<Token>());
     case Kind::finish:
-      core::expect(is_passive(state()), "the end is proved only when every node is passive");
+      core::expect(is_passive(state()) && primaries_.empty(), "the end is proved only when every node is passive");
       finishing_ = true;
       return;
     case Kind::stop:
@@ -131,7 +131,7 @@ NodeState NodeProgram::state() const {
   return {.packet_waits = gather_.waits() || film_.waits(),
           .is_tracing = !task_.is_idle(),
           .has_backlog = !backlog_.empty(),
-          .has_primaries = !primaries_.empty(),
+          .has_primaries = !primaries_.empty() && gather_.has_credit_for_all(),
           .has_gathered = !gather_.empty()};
 }
 
@@ -281,12 +281,19 @@ void NodeProgram::give_back(std::uint32_t sender, bool rests) {
   }
 }
 
-/// Passive: keeps nobody's credit and no token, and once the end is proved no light.
+/// Nothing to do until a packet comes: keeps nobody's credit.
 void NodeProgram::rest() {
   ++counters_.rests;
   for (std::uint32_t sender = 0; sender < backlog_.sender_count(); ++sender) {
     give_back(sender, true);
   }
+  if (primaries_.empty()) {
+    be_passive();
+  }
+}
+
+/// Keeps no token, and once the end is proved no light.
+void NodeProgram::be_passive() {
   if (const std::optional<Token> token = termination_.hand_on()) {
     send_control(*node_, next_on_ring(node_->id(), nodes::index_of(host_)), Kind::token, *token);
   }

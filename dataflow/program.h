@@ -4,6 +4,11 @@
 // region, and at most one ray goes out. What keeps the last node moving, and why every queue is bounded, is said there; the sums
 // are in plan.cpp.
 //
+// Primary rays are started by credit: only while no owner's credits are used up, so that a node adds nothing to what an owner has
+// not got round to. A node that holds its primary rays back has no other work. It is not passive, so it keeps the token; but like
+// one that rests it keeps nobody's credit. So when all have come to rest or hold back, every credit comes home, and one of them
+// goes on.
+//
 // Who claims a hit: the owner of the cell in which the walk proves it the nearest. If that owner has met the same (t, primitive)
 // itself, it shades the hit with its own copy of the record. If not, the hit goes to its finder, which alone knows where the
 // record is. Either way one node shades it.
@@ -83,6 +88,7 @@ class NodeProgram final : public nodes::Program {
   };
 
   static RayQueue::Capacity backlog_capacity(const Plan& plan);
+  static Gather::Capacity gather_capacity(const Plan& plan);
   NodeState state() const;
 
   void receive_rays(const nodes::Packet& packet);
@@ -99,6 +105,7 @@ class NodeProgram final : public nodes::Program {
   void dispatch(nodes::NodeId owner, const RayMessage& message);
   void give_back(std::uint32_t sender, bool rests);
   void rest();
+  void be_passive();
   void settle();
 
   nodes::Node* node_;

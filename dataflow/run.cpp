@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "core/expect.h"
+#include "dataflow/mapping.h"
 #include "dataflow/packets.h"
+#include "dataflow/work.h"
 
 namespace dmpc::dataflow {
 namespace {
@@ -23,18 +25,42 @@ PlanRequest request_of(const Distribution& distribution, const core::RenderSetti
           .chaos = options.chaos};
 }
 
-MakeBsp regions_of(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options) {
-  if (options.make_bsp) {
-    return options.make_bsp;
+/// Regions on their nodes, and the predicted load of each node if there is one.
+struct Regions {
+  Bsp bsp;
+  std::vector<double> predicted;
+};
+
+void put_on(Bsp& bsp, nodes::TopologyKind kind, const CutAxes& axes) {
+  const std::vector<Flow> flows = flows_of(boundaries_of(bsp, axes));
+  bsp.assign(map_regions(bsp, flows, nodes::Topology(kind, bsp.region_count())));
+}
+
+std::vector<double> by_node(const Bsp& bsp, const std::vector<double>& by_region) {
+  std::vector<double> loads(by_region.size());
+  for (std::uint32_t node = 0; node < loads.size(); ++node) {
+    loads[node] = by_region[bsp.region_index_of(nodes::NodeId{node})];
   }
-  return [&](std::uint32_t node_count) {
-    return equal_size_bsp(core::grid_size(database.header().frame), cut_axes_of(settings.camera), node_count);
-  };
+  return loads;
+}
+
+Regions regions_for(std::uint32_t node_count, const core::Database& database, const core::RenderSettings& settings,
+                    const RunOptions& options) {
+  if (options.make_bsp) {
+    return {options.make_bsp(node_count), {}};
+  }
+  Balanced balanced = balance(database, settings, node_count, options.balance);
+  if (options.topology) {
+    put_on(balanced.bsp, *options.topology, axes_facing(settings.camera));
+  }
+  const bool is_predicted = options.balance.balance == Balance::subsampled;
+  return {balanced.bsp, is_predicted ? by_node(balanced.bsp, balanced.predicted) : std::vector<double>()};
 }
 
 Plan plan_for(const Distribution& distribution, const core::Database& database, const core::RenderSettings& settings,
-              const RunOptions& options, const MakeBsp& make_bsp) {
+              const RunOptions& options) {
   const PlanRequest request = request_of(distribution, settings, options);
+  const MakeBsp make_bsp = [&](std::uint32_t node_count) { return regions_for(node_count, database, settings, options).bsp; };
   return make_plan(request, [&] { return smallest_node_count(request, database, settings, make_bsp); });
 }
 
@@ -144,6 +170,14 @@ Gather::Counters Report::gathers() const {
   return sum;
 }
 
+std::vector<double> Report::work() const {
+  std::vector<double> work;
+  for (const NodeReport& node : nodes) {
+    work.push_back(static_cast<double>(work_of(node.program.operations)));
+  }
+  return work;
+}
+
 std::vector<std::uint64_t> Report::ray_matrix() const {
   std::vector<std::uint64_t> matrix;
   for (const NodeReport& node : nodes) {
@@ -179,8 +213,8 @@ std::array<nodes::Traffic, nodes::packet_kind_count> Report::received() const {
 }
 
 Plan plan_of(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options) {
-  const MakeBsp make_bsp = regions_of(database, settings, options);
-  return plan_for(distribute(database, settings, make_bsp(options.node_count)), database, settings, options, make_bsp);
+  const Regions regions = regions_for(options.node_count, database, settings, options);
+  return plan_for(distribute(database, settings, regions.bsp), database, settings, options);
 }
 
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,
@@ -202,11 +236,12 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
 
 Report run_dataflow(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                     std::stop_token stop) {
-  const MakeBsp make_bsp = regions_of(database, settings, options);
-  const Distribution distribution = distribute(database, settings, make_bsp(options.node_count));
+  const Regions regions = regions_for(options.node_count, database, settings, options);
+  const Distribution distribution = distribute(database, settings, regions.bsp);
   Report report{.film = core::Film(settings.camera.width(), settings.camera.height()),
-                .plan = plan_for(distribution, database, settings, options, make_bsp),
-                .bsp = distribution.bsp,
+                .plan = plan_for(distribution, database, settings, options),
+                .bsp = regions.bsp,
+                .predicted = regions.predicted,
                 .duplication = distribution.duplication(database)};
   nodes::ThreadsRunner runner(
       specifications_of(report.plan, distribution, settings, options.traversal, report.film, options.progress), options.chaos);

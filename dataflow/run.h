@@ -12,6 +12,7 @@
 #include "core/film.h"
 #include "core/pixel_task.h"
 #include "core/traversal.h"
+#include "dataflow/balance.h"
 #include "dataflow/bsp.h"
 #include "dataflow/distribution.h"
 #include "dataflow/host.h"
@@ -20,6 +21,7 @@
 #include "nodes/chaos.h"
 #include "nodes/counters.h"
 #include "nodes/threads_runner.h"
+#include "nodes/topology.h"
 
 namespace dmpc::dataflow {
 
@@ -29,8 +31,10 @@ struct RunOptions {
   std::optional<std::size_t> node_memory_bytes = std::nullopt;
   std::optional<std::uint32_t> ray_batch = std::nullopt;    ///< rays in a message
   std::optional<std::uint32_t> ray_credits = std::nullopt;  ///< packets of rays for each pair; 0: all by way of the host
-  /// The regions. Without it they are of equal size, whatever lies in them.
-  MakeBsp make_bsp = {};
+  BalanceOptions balance = {};                              ///< how the regions are cut
+  /// Neighbouring regions are put on nodes that are few hops apart in this machine. Without it region i is node i's.
+  std::optional<nodes::TopologyKind> topology = std::nullopt;
+  MakeBsp make_bsp = {};  ///< regions of one's own, in place of `balance` and `topology`
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;
   core::TraversalOptions traversal = {};
   std::optional<nodes::Chaos> chaos = std::nullopt;  ///< disturbs the run; the film stays the same
@@ -52,7 +56,8 @@ struct Report {
   nodes::RunEnd end = nodes::RunEnd::finished;  ///< interrupted: the film is not complete
   Plan plan;
   Bsp bsp;
-  double duplication = 1;  ///< copies of primitives over those in the database
+  std::vector<double> predicted;  ///< load by node, in picoseconds of the subsampled picture; empty unless that was made
+  double duplication = 1;         ///< copies of primitives over those in the database
   std::vector<NodeReport> nodes;
   nodes::NodeCounters host;
   HostCounters host_rays;
@@ -60,6 +65,8 @@ struct Report {
   core::Operations operations() const;  ///< summed over the nodes
   RayCounters rays() const;
   Gather::Counters gathers() const;
+  /// The work that each node has done, in picoseconds by measured_prices: to be held against `predicted`.
+  std::vector<double> work() const;
   /// Rays from a node (row) to an owner (column), whichever way they took, row by row.
   std::vector<std::uint64_t> ray_matrix() const;
   /// Ray messages per ray: how often a ray changes its node, on average.

@@ -1,0 +1,96 @@
+#include "dataflow/film_gather.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "core/expect.h"
+#include "nodes/threads_runner.h"
+#include "tests/support/shuffled_machine.h"
+
+using namespace dmpc;
+using dataflow::FilmEntry;
+using dataflow::FilmGather;
+
+namespace {
+
+struct Sender {
+  explicit Sender(std::uint32_t credits) : single(plan(), 0, 2), film(single.node, 1, credits) {}
+
+  static nodes::MemoryPlan plan() {
+    nodes::MemoryPlan plan;
+    FilmGather::add_needs(plan);
+    plan[nodes::Category::queues] += nodes::credit_table_bytes(2);
+    return plan;
+  }
+  void fill(std::uint32_t first_pixel) {
+    for (std::uint32_t i = 0; i < dataflow::film_packet_entries; ++i) {
+      film.add(first_pixel + i, 0, {{1, 2, 3}});
+    }
+  }
+
+  tests::SingleNode single;
+  FilmGather film;
+};
+
+FilmEntry entry_in(const tests::Parcel& parcel, std::uint32_t index) {
+  FilmEntry entry;
+  std::memcpy(&entry, parcel.payload.data() + dataflow::film_packet_bytes(index), sizeof(entry));
+  return entry;
+}
+
+}  // namespace
+
+TEST_CASE("light on one plane of a pixel is one entry") {
+  Sender sender(2);
+  sender.film.add(7, 0, {{1, 2, 3}});
+  sender.film.add(7, 1, {{5, 0, 0}});
+  sender.film.add(8, 0, {{9, 9, 9}});
+  sender.film.add(7, 0, {{10, 20, 30}});
+  CHECK(sender.film.gathered() == 3);
+  sender.film.flush();
+  const tests::Parcel parcel = sender.single.take();
+  CHECK(parcel.payload.size() == dataflow::film_packet_bytes(3));
+  CHECK(entry_in(parcel, 0).pixel == 7);
+  CHECK(entry_in(parcel, 0).light == core::FixedColor{{11, 22, 33}});
+  CHECK(entry_in(parcel, 1).plane == 1);
+  CHECK(sender.film.counters().deposits == 4);
+  CHECK(sender.film.counters().entries == 3);
+}
+
+TEST_CASE("a full film packet leaves at once, a third waits until the host acknowledges one") {
+  Sender sender(2);
+  sender.fill(0);
+  sender.fill(100);
+  CHECK_FALSE(sender.film.waits());
+  sender.fill(200);
+  CHECK(sender.film.waits());
+  CHECK_THROWS_AS(sender.film.add(1, 0, {{1, 1, 1}}), core::InternalError);
+  CHECK(sender.single.post.parcels.size() == 2);
+  sender.film.acknowledged();
+  CHECK_FALSE(sender.film.waits());
+  CHECK(sender.single.post.parcels.size() == 3);
+  CHECK(entry_in(sender.single.post.parcels.back(), 0).pixel == 200);
+}
+
+TEST_CASE("the film is settled when all has been sent and acknowledged") {
+  Sender sender(1);
+  CHECK(sender.film.settled());
+  sender.film.flush();
+  CHECK(sender.single.post.parcels.empty());
+  sender.film.add(1, 1, {{1, 1, 1}});
+  CHECK_FALSE(sender.film.settled());
+  sender.film.flush();
+  CHECK_FALSE(sender.film.settled());
+  sender.film.acknowledged();
+  CHECK(sender.film.settled());
+  CHECK_THROWS_AS(sender.film.acknowledged(), core::InternalError);
+}
+
+TEST_CASE("light that saturates an entry is counted") {
+  Sender sender(1);
+  sender.film.add(1, 0, {{std::numeric_limits<std::int64_t>::max(), 0, 0}});
+  sender.film.add(1, 0, {{1, 0, 0}});
+  CHECK(sender.film.counters().saturated == 1);
+}

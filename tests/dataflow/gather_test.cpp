@@ -1,0 +1,150 @@
+#include "dataflow/gather.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+
+#include "core/expect.h"
+#include "nodes/threads_runner.h"
+#include "tests/support/shuffled_machine.h"
+
+using namespace dmpc;
+using dataflow::Gather;
+using dataflow::Kind;
+using dataflow::RayMessage;
+using dataflow::RayPacketHeader;
+using dataflow::Way;
+using nodes::NodeId;
+
+namespace {
+
+/// Node 1 of some, with a gather.
+struct Sender {
+  explicit Sender(const Gather::Capacity& capacity)
+      : single(plan_for(capacity), 1, capacity.node_count + 1), gather(single.node, capacity) {}
+
+  static nodes::MemoryPlan plan_for(const Gather::Capacity& capacity) {
+    nodes::MemoryPlan plan;
+    Gather::add_needs(plan, capacity);
+    plan[nodes::Category::queues] += nodes::credit_table_bytes(capacity.node_count + 1);
+    return plan;
+  }
+  void add(std::uint32_t owner, std::uint32_t pixel) {
+    RayMessage message;
+    message.ray.pixel = pixel;
+    gather.add(NodeId{owner}, message);
+  }
+
+  tests::SingleNode single;
+  Gather gather;
+};
+
+RayPacketHeader header_of(const tests::Parcel& parcel) {
+  RayPacketHeader header;
+  std::memcpy(&header, parcel.payload.data(), sizeof(header));
+  return header;
+}
+
+std::uint32_t pixel_in(const tests::Parcel& parcel, std::uint32_t index) {
+  RayMessage message;
+  std::memcpy(&message, parcel.payload.data() + dataflow::ray_packet_bytes(index), sizeof(message));
+  return message.ray.pixel;
+}
+
+constexpr NodeId host{3};
+
+}  // namespace
+
+TEST_CASE("a packet waits when it is full, and carries its rays to their owner in order") {
+  Sender sender({.node_count = 3, .ray_batch = 2, .ray_credits = 1});
+  sender.add(0, 10);
+  sender.add(2, 20);
+  CHECK_FALSE(sender.gather.waits());
+  sender.add(0, 11);
+  CHECK(sender.gather.waits());
+  CHECK(sender.gather.send() == Way::to_owner);
+  CHECK_FALSE(sender.gather.waits());
+  const tests::Parcel parcel = sender.single.take();
+  CHECK(parcel.target == NodeId{0});
+  CHECK(Kind{parcel.kind} == Kind::rays);
+  CHECK(header_of(parcel).count == 2);
+  CHECK(header_of(parcel).owner == 0);
+  CHECK(pixel_in(parcel, 0) == 10);
+  CHECK(pixel_in(parcel, 1) == 11);
+  CHECK(sender.gather.size() == 1);
+  CHECK(sender.single.memory.used().bytes == sender.single.memory.plan().bytes);
+}
+
+TEST_CASE("a batch of one is one ray a message") {
+  Sender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 1});
+  sender.add(2, 5);
+  CHECK(sender.gather.waits());
+  CHECK(sender.gather.send() == Way::to_owner);
+  CHECK(sender.single.take().payload.size() == 104);
+}
+
+TEST_CASE("without a credit for the owner a packet goes to the host, named with its owner, and without that it waits") {
+  Sender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 1, .host_credits = 1});
+  const Way ways[] = {Way::to_owner, Way::to_host, Way::wait};
+  for (const Way way : ways) {
+    sender.add(2, 7);
+    CHECK(sender.gather.send() == way);
+  }
+  CHECK(sender.single.take().target == NodeId{2});
+  const tests::Parcel overflow = sender.single.take();
+  CHECK(overflow.target == host);
+  CHECK(Kind{overflow.kind} == Kind::overflow);
+  CHECK(header_of(overflow).owner == 2);
+  CHECK(sender.gather.waits());
+  CHECK_THROWS_AS(sender.add(0, 8), core::InternalError);
+  sender.gather.credits_returned(host, 1);
+  CHECK(sender.gather.send() == Way::to_host);
+  CHECK(sender.gather.counters().packets == 3);
+  CHECK(sender.gather.counters().rays_overflowed == 2);
+}
+
+TEST_CASE("it is known whether an owner's credits are used up") {
+  Sender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 2});
+  for (const bool left : {true, false}) {
+    CHECK(sender.gather.has_credit_for_all());
+    sender.add(0, 1);
+    sender.gather.send();
+    CHECK(sender.gather.has_credit_for_all() == left);
+  }
+  sender.add(0, 1);
+  CHECK(sender.gather.send() == Way::to_host);
+  sender.gather.credits_returned(host, 1);
+  CHECK_FALSE(sender.gather.has_credit_for_all());
+  sender.gather.credits_returned(NodeId{0}, 2);
+  CHECK(sender.gather.has_credit_for_all());
+}
+
+TEST_CASE("without credits between nodes all rays go by way of the host, and none counts as used up") {
+  Sender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 0});
+  CHECK(sender.gather.has_credit_for_all());
+  sender.add(0, 1);
+  CHECK(sender.gather.send() == Way::to_host);
+  CHECK(sender.gather.has_credit_for_all());
+}
+
+TEST_CASE("the fullest packet is flushed first") {
+  Sender sender({.node_count = 3, .ray_batch = 4, .ray_credits = 1});
+  CHECK_THROWS_AS(sender.gather.close_fullest(), core::InternalError);
+  sender.add(0, 1);
+  sender.add(2, 2);
+  sender.add(2, 3);
+  sender.gather.close_fullest();
+  sender.gather.send();
+  CHECK(sender.single.take().target == NodeId{2});
+  sender.gather.close_fullest();
+  sender.gather.send();
+  CHECK(header_of(sender.single.take()).count == 1);
+  CHECK(sender.gather.empty());
+  CHECK(sender.gather.counters().packets_flushed == 2);
+}
+
+TEST_CASE("no ray leaves for its own node or for the host") {
+  Sender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 1});
+  CHECK_THROWS_AS(sender.add(1, 1), core::InternalError);
+  CHECK_THROWS_AS(sender.add(3, 1), core::InternalError);
+}

@@ -1,0 +1,158 @@
+#include "dataflow/host.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <vector>
+
+#include "core/expect.h"
+#include "tests/support/shuffled_machine.h"
+
+using namespace dmpc;
+using dataflow::FilmEntry;
+using dataflow::Kind;
+using dataflow::RayMessage;
+using nodes::NodeId;
+using tests::Parcel;
+
+namespace {
+
+dataflow::Plan plan_for(std::uint32_t nodes, std::uint32_t batch) {
+  return dataflow::make_plan(
+      {.shares = std::vector<dataflow::Share>(nodes), .ray_batch = batch, .ray_credits = 1, .width = 4, .height = 2});
+}
+
+/// The host of two nodes, alone.
+struct LoneHost {
+  explicit LoneHost(std::uint32_t batch = 2, dataflow::Progress progress = {})
+      : plan(plan_for(2, batch)),
+        film(4, 2),
+        single(plan.host_memory(), 2, 3),
+        program(single.node, plan, film, std::move(progress)) {}
+
+  template <class T>
+  void receive(std::uint32_t sender, Kind kind, const T& value) {
+    program.receive({NodeId{sender}, dataflow::number_of(kind), std::as_bytes(std::span(&value, 1))});
+  }
+  void overflow(std::uint32_t sender, std::uint16_t owner, const std::vector<std::uint32_t>& pixels) {
+    const dataflow::RayPacketHeader header{static_cast<std::uint16_t>(pixels.size()), owner};
+    std::vector<std::byte> payload(dataflow::ray_packet_bytes(pixels.size()));
+    std::memcpy(payload.data(), &header, sizeof(header));
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      RayMessage message;
+      message.ray.pixel = pixels[i];
+      std::memcpy(payload.data() + dataflow::ray_packet_bytes(i), &message, sizeof(message));
+    }
+    program.receive({NodeId{sender}, dataflow::number_of(Kind::overflow), payload});
+  }
+  struct FilmPacket {
+    dataflow::FilmHeader header{1};
+    FilmEntry entry;
+  };
+  /// The token goes round, untouched by nodes that are white and have sent what they have received.
+  void pass_token_round(std::int64_t balance) {
+    program.work();
+    const Parcel token = single.take();
+    REQUIRE(Kind{token.kind} == Kind::token);
+    CHECK(token.target == NodeId{1});
+    receive(0, Kind::token, dataflow::Token{balance, 0});
+    program.work();
+  }
+
+  dataflow::Plan plan;
+  core::Film film;
+  tests::SingleNode single;
+  dataflow::HostProgram program;
+};
+
+}  // namespace
+
+TEST_CASE("the host gives the credit of an overflow back at once and forwards its rays to their owner") {
+  LoneHost host;
+  host.overflow(0, 1, {10, 11});
+  host.program.work();
+  const Parcel credits = host.single.take();
+  CHECK(Kind{credits.kind} == Kind::credits);
+  CHECK(credits.target == NodeId{0});
+  const Parcel forwarded = host.single.take();
+  CHECK(Kind{forwarded.kind} == Kind::forwarded);
+  CHECK(forwarded.target == NodeId{1});
+  CHECK(forwarded.payload.size() == dataflow::ray_packet_bytes(2));
+}
+
+TEST_CASE("without a credit for the owner the host keeps rays until one comes") {
+  LoneHost host;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    host.overflow(0, 1, {i});
+    host.program.work();
+  }
+  CHECK(host.program.report().rays_out == 1);
+  CHECK(host.program.report().rays_kept_max == 3);
+  host.receive(1, Kind::credits, dataflow::Credits{1});
+  host.program.work();
+  CHECK(host.program.report().rays_out == 3);  // two to a packet
+  host.receive(1, Kind::credits, dataflow::Credits{1});
+  host.program.work();
+  CHECK(host.program.report().rays_out == 4);
+}
+
+TEST_CASE("while the host keeps a ray it keeps the token") {
+  LoneHost host(1);
+  host.overflow(0, 1, {1});
+  host.overflow(0, 1, {2});
+  host.program.work();
+  for (const Parcel& parcel : host.single.post.parcels) {
+    CHECK(Kind{parcel.kind} != Kind::token);
+  }
+  CHECK(host.program.describe().find("1 rays kept") != std::string::npos);
+}
+
+TEST_CASE("light from several nodes is added to the film and acknowledged") {
+  LoneHost host;
+  host.receive(0, Kind::film, LoneHost::FilmPacket{.entry = {5, 0, {{1, 2, 3}}}});
+  host.receive(1, Kind::film, LoneHost::FilmPacket{.entry = {5, 0, {{10, 20, 30}}}});
+  host.receive(1, Kind::film, LoneHost::FilmPacket{.entry = {5, 1, {{7, 7, 7}}}});
+  CHECK(host.film.pixels()[5].plane[0] == core::FixedColor{{11, 22, 33}});
+  CHECK(host.film.pixels()[5].plane[1] == core::FixedColor{{7, 7, 7}});
+  CHECK(Kind{host.single.take().kind} == Kind::film_acknowledgement);
+}
+
+TEST_CASE("light outside the picture is an error") {
+  LoneHost host;
+  CHECK_THROWS_AS(host.receive(0, Kind::film, LoneHost::FilmPacket{.entry = {8, 0, {}}}), core::InternalError);
+  CHECK_THROWS_AS(host.receive(0, Kind::film, LoneHost::FilmPacket{.entry = {0, 2, {}}}), core::InternalError);
+  CHECK_THROWS_AS(host.receive(0, Kind::film, LoneHost::FilmPacket{.header = {2}, .entry = {}}), core::InternalError);
+}
+
+TEST_CASE("the host ends the run when a round of the token proves the end and every node is done") {
+  std::vector<std::uint32_t> shown;
+  LoneHost host(2, [&](std::uint32_t done, std::uint32_t) { shown.push_back(done); });
+  host.pass_token_round(0);
+  for (const std::uint32_t node : {0U, 1U}) {
+    const Parcel finish = host.single.take();
+    CHECK(Kind{finish.kind} == Kind::finish);
+    CHECK(finish.target == NodeId{node});
+  }
+  host.receive(0, Kind::film, LoneHost::FilmPacket{.entry = {5, 0, {{1, 2, 3}}}});
+  host.single.take();
+  host.receive(1, Kind::done, dataflow::Done{0});
+  CHECK_FALSE(host.program.finished());
+  host.receive(0, Kind::done, dataflow::Done{1});
+  CHECK(host.program.finished());
+  CHECK(Kind{host.single.take().kind} == Kind::stop);
+  CHECK(shown == std::vector<std::uint32_t>{1, 8});
+}
+
+TEST_CASE("a round that finds a packet under way proves nothing") {
+  LoneHost host;
+  host.pass_token_round(1);
+  CHECK(Kind{host.single.take().kind} == Kind::token);
+  CHECK(host.program.report().token_rounds == 2);
+}
+
+TEST_CASE("light that got lost does not go unnoticed") {
+  LoneHost host;
+  host.pass_token_round(0);
+  host.receive(1, Kind::done, dataflow::Done{0});
+  CHECK_THROWS_AS(host.receive(0, Kind::done, dataflow::Done{1}), core::InternalError);
+}

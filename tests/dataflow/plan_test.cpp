@@ -1,0 +1,142 @@
+#include "dataflow/plan.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "core/expect.h"
+#include "core/units.h"
+#include "dataflow/packets.h"
+#include "nodes/size_text.h"
+
+using namespace dmpc;
+using core::operator""_KiB;
+using core::operator""_MiB;
+using dataflow::make_plan;
+using dataflow::Plan;
+using dataflow::PlanRequest;
+
+namespace {
+
+PlanRequest request_with(std::uint32_t nodes, std::size_t part_bytes) {
+  PlanRequest request{.shares = std::vector<dataflow::Share>(nodes, {part_bytes, 10}), .width = 64, .height = 64};
+  return request;
+}
+
+std::string error_of(const PlanRequest& request, const dataflow::OtherNodeCount& other = {}) {
+  try {
+    make_plan(request, other);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("without a memory bound a packet of rays fills 1 KiB and there are four credits") {
+  const Plan plan = make_plan(request_with(8, 100_KiB));
+  CHECK(plan.ray_batch == 10);
+  CHECK(dataflow::ray_packet_bytes(plan.ray_batch) <= 1_KiB);
+  CHECK(dataflow::ray_packet_bytes(plan.ray_batch + 1) > 1_KiB);
+  CHECK(plan.ray_credits == 4);
+  CHECK(plan.notes.empty());
+}
+
+TEST_CASE("the smallest memory that is named works, and one byte less does not") {
+  for (const std::uint32_t nodes : {1U, 2U, 7U, 64U}) {
+    PlanRequest request = request_with(nodes, 100_KiB);
+    const std::size_t smallest = dataflow::smallest_node_memory_bytes(request);
+    request.node_memory_bytes = smallest;
+    const Plan plan = make_plan(request);
+    CHECK(plan.node_memory_max_bytes() == smallest);
+    CHECK(plan.ray_credits == 1);
+    CHECK(plan.ray_batch == 1);
+    CHECK(plan.notes.size() == 2);
+    request.node_memory_bytes = smallest - 1;
+    CHECK(error_of(request).find("--node-memory=" + nodes::size_text(smallest)) != std::string::npos);
+  }
+}
+
+TEST_CASE("scarce memory costs credits first, then the length of packets, and no more than it must") {
+  PlanRequest request = request_with(16, 100_KiB);
+  const std::size_t all = make_plan(request).node_memory_max_bytes();
+  std::uint32_t credits = 4, batch = 10;
+  for (std::size_t memory = all; memory >= dataflow::smallest_node_memory_bytes(request); memory -= 1_KiB) {
+    request.node_memory_bytes = memory;
+    const Plan plan = make_plan(request);
+    CHECK(plan.node_memory_max_bytes() <= memory);
+    CHECK(plan.ray_credits <= credits);
+    CHECK(plan.ray_batch <= batch);
+    CHECK((plan.ray_batch == 10 || plan.ray_credits == 1));
+    credits = plan.ray_credits;
+    batch = plan.ray_batch;
+  }
+}
+
+TEST_CASE("what was asked for is not reduced") {
+  PlanRequest request = request_with(4, 100_KiB);
+  request.ray_batch = 10;
+  request.ray_credits = 4;
+  const std::size_t needed = make_plan(request).node_memory_max_bytes();
+  CHECK(dataflow::smallest_node_memory_bytes(request) == needed);
+  request.node_memory_bytes = needed - 1;
+  CHECK_FALSE(error_of(request).empty());
+}
+
+TEST_CASE("a memory that is too small names the node that needs most, what it needs, and the node count that works") {
+  PlanRequest request = request_with(3, 100_KiB);
+  request.shares[1].part_bytes = 2_MiB;
+  request.node_memory_bytes = 1_MiB;
+  const std::string error = error_of(request, [] { return std::optional<std::uint32_t>(12); });
+  INFO(error);
+  CHECK(error.find("node 1 needs") != std::string::npos);
+  CHECK(error.find(std::to_string(dataflow::smallest_node_memory_bytes(request))) != std::string::npos);
+  CHECK(error.find("2097152") != std::string::npos);
+  CHECK(error.find("--nodes=12") != std::string::npos);
+  CHECK(error_of(request, [] { return std::optional<std::uint32_t>(); }).find("with this memory --nodes") == std::string::npos);
+}
+
+TEST_CASE("values out of range are wrong usage") {
+  const auto check_wrong = [](const PlanRequest& request) { CHECK_THROWS_AS(make_plan(request), core::UsageError); };
+  check_wrong(request_with(0, 1));
+  check_wrong(request_with(1025, 1));
+  PlanRequest request = request_with(2, 1);
+  request.ray_batch = 0;
+  check_wrong(request);
+  request.ray_batch = dataflow::ray_batch_max + 1;
+  check_wrong(request);
+  request.ray_batch = dataflow::ray_batch_max;
+  CHECK(make_plan(request).ray_batch == dataflow::ray_batch_max);
+  CHECK(dataflow::ray_packet_bytes(dataflow::ray_batch_max) <= 64_KiB);
+  request.ray_credits = dataflow::ray_credits_max + 1;
+  check_wrong(request);
+}
+
+TEST_CASE("chaos leaves at least one credit and the mailboxes as they were") {
+  PlanRequest request = request_with(4, 1000);
+  const Plan calm = make_plan(request);
+  std::uint32_t fewest = 99;
+  for (std::uint64_t seed = 1; seed < 30; ++seed) {
+    request.chaos = nodes::chaos_of(seed);
+    const Plan plan = make_plan(request);
+    CHECK(plan.ray_credits >= 1);
+    CHECK(plan.host_credits >= 1);
+    CHECK(plan.film_credits >= 1);
+    CHECK(plan.node_mailbox.bulk_slots == calm.node_mailbox.bulk_slots);
+    CHECK(plan.host_mailbox.small_slots == calm.host_mailbox.small_slots);
+    CHECK(plan.held_bytes > 0);
+    fewest = std::min(fewest, plan.ray_credits);
+  }
+  CHECK(fewest == 1);
+}
+
+TEST_CASE("each node is given its own share and no more") {
+  PlanRequest request = request_with(3, 1000);
+  request.shares[2] = {64000, 500};
+  const Plan plan = make_plan(request);
+  CHECK(plan.largest_node() == 2);
+  const nodes::MemoryPlan small = plan.node_memory(0), large = plan.node_memory(2);
+  CHECK(large[nodes::Category::home_pages] - small[nodes::Category::home_pages] == 62976);  // whole cache lines
+  CHECK(large[nodes::Category::mailbox] == small[nodes::Category::mailbox]);
+}

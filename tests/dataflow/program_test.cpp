@@ -1,0 +1,244 @@
+// The node program and the host's: one ray at a time between nodes without threads, then whole computers in any legal order.
+#include "dataflow/program.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <optional>
+#include <vector>
+
+#include "core/render.h"
+#include "dataflow/balance.h"
+#include "dataflow/distribution.h"
+#include "dataflow/host.h"
+#include "dataflow/run.h"
+#include "tests/support/shuffled_machine.h"
+#include "tests/support/small_scenes.h"
+
+using namespace dmpc;
+using dataflow::Kind;
+using dataflow::RayMessage;
+using nodes::NodeId;
+using tests::Parcel;
+
+namespace {
+
+/// A scene cut up for some nodes, its plan, and its picture by the reference renderer.
+struct Stage {
+  Stage(const core::Scene& scene, std::uint32_t node_count, int side, const dataflow::PlanRequest& bounds = {})
+      : database(core::build_database(scene, {})),
+        settings{database.header(), core::Camera(scene.view, database.header().frame, side, side, 1), {}},
+        distribution(dataflow::distribute(database, settings,
+                                          dataflow::equal_size_bsp(core::grid_size(settings.header.frame),
+                                                                   dataflow::axes_facing(settings.camera), node_count))),
+        plan(plan_of(bounds)) {}
+
+  dataflow::Plan plan_of(dataflow::PlanRequest request) const {
+    request.shares = distribution.shares();
+    request.width = static_cast<std::uint32_t>(settings.camera.width());
+    request.height = static_cast<std::uint32_t>(settings.camera.height());
+    return dataflow::make_plan(request);
+  }
+  std::uint64_t reference_hash(core::Operations& operations) const {
+    core::LocalRecords records(database.bytes());
+    core::GridTracer tracer(records, settings.header, core::TraversalOptions{});
+    return core::render(tracer, settings, operations).hash();
+  }
+
+  core::Database database;
+  core::RenderSettings settings;
+  dataflow::Distribution distribution;
+  dataflow::Plan plan;
+};
+
+/// One node of a stage that has no primary rays of its own.
+struct LoneProgram {
+  LoneProgram(const Stage& stage, std::uint32_t index)
+      : single(stage.plan.node_memory(index), index, stage.plan.node_count() + 1),
+        program(single.node, stage.plan, {stage.distribution.parts[index], {}, stage.settings, stage.distribution.bsp, {}}) {}
+
+  void receive(std::uint32_t sender, const RayMessage& message) {
+    const dataflow::RayPacketHeader header{1, static_cast<std::uint16_t>(nodes::index_of(single.node.id()))};
+    std::vector<std::byte> payload(dataflow::ray_packet_bytes(1));
+    std::memcpy(payload.data(), &header, sizeof(header));
+    std::memcpy(payload.data() + sizeof(header), &message, sizeof(message));
+    program.receive({NodeId{sender}, dataflow::number_of(Kind::rays), payload});
+  }
+  void work_to_rest() {
+    while (program.work()) {
+    }
+  }
+  std::vector<RayMessage> rays_sent() const {
+    std::vector<RayMessage> rays;
+    for (const Parcel& parcel : single.post.parcels) {
+      for (std::size_t at = sizeof(dataflow::RayPacketHeader); Kind{parcel.kind} == Kind::rays && at < parcel.payload.size();
+           at += sizeof(RayMessage)) {
+        rays.emplace_back();
+        std::memcpy(&rays.back(), parcel.payload.data() + at, sizeof(RayMessage));
+      }
+    }
+    return rays;
+  }
+
+  tests::SingleNode single;
+  dataflow::NodeProgram program;
+};
+
+/// A primary ray that hits in the region in which it enters, its first passage and its hit in that region's part.
+struct LocalHit {
+  std::uint32_t owner = 0;
+  core::Ray ray;
+  core::Passage passage;
+  core::Hit hit;
+};
+
+LocalHit find_local_hit(const Stage& stage) {
+  for (std::uint32_t pixel = 0; pixel < stage.settings.camera.pixel_count(); ++pixel) {
+    const core::Ray ray = stage.settings.camera.primary_ray(pixel, 0);
+    const auto passage = core::first_passage(ray, stage.settings.header.frame);
+    const std::uint32_t owner = passage ? nodes::index_of(stage.distribution.bsp.owner_of(passage->cell)) : 0;
+    const core::DatabasePart& part = stage.distribution.parts[owner];
+    core::LocalRecords records(part.bytes);
+    core::Operations operations;
+    core::Cursor cursor = passage ? core::arrive(*passage) : core::Cursor{};
+    if (passage && core::trace(ray, cursor, records, part.header, {}, operations) == core::Traced::hit) {
+      return {owner, ray, *passage, cursor.best};
+    }
+  }
+  REQUIRE(false);
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("a hit whose record was found elsewhere is shaded here if it is met here again") {
+  const Stage stage(tests::mirrors_and_glass(), 2, 16);
+  const LocalHit found = find_local_hit(stage);
+  const std::uint32_t other = 1 - found.owner;
+  LoneProgram node(stage, found.owner);
+  core::Passage passage = found.passage;
+  passage.best = found.hit;
+  passage.best.block = core::Address{0x7ffffff0};  // far outside this node's part
+  node.receive(other, dataflow::message_of(found.ray, passage, NodeId{other}));
+  node.work_to_rest();
+  const dataflow::ProgramReport report = node.program.report();
+  CHECK(report.operations.primary_hits == 1);
+  CHECK(report.operations.shadings >= 1);
+  CHECK(report.rays.hits_sent_back == 0);
+}
+
+TEST_CASE("a hit that is confirmed but not met here goes to its finder with the finder's address") {
+  const Stage stage(tests::mirrors_and_glass(), 2, 16);
+  const LocalHit found = find_local_hit(stage);
+  const std::uint32_t other = 1 - found.owner;
+  LoneProgram node(stage, found.owner);
+  core::Passage passage = found.passage;
+  // Nearer than anything in this region, and of no primitive that there is.
+  passage.best = {static_cast<float>(passage.t_enter) + 1e-6F, 0x00ffffff, core::Address{0x7ffffff0}, 3};
+  node.receive(other, dataflow::message_of(found.ray, passage, NodeId{other}));
+  node.work_to_rest();
+  const std::vector<RayMessage> sent = node.rays_sent();
+  REQUIRE(sent.size() == 1);
+  CHECK(sent[0].is_confirmed == 1);
+  CHECK(sent[0].finder == other);
+  CHECK(sent[0].best.block == core::Address{0x7ffffff0});
+  CHECK(sent[0].best.lane == 3);
+  CHECK(sent[0].ray.pixel == found.ray.pixel);
+  const dataflow::ProgramReport report = node.program.report();
+  CHECK(report.rays.hits_sent_back == 1);
+  CHECK(report.operations.primary_hits == 0);
+  CHECK(report.rays.ended == 0);
+}
+
+TEST_CASE("a finder shades its hit when another node has confirmed it") {
+  const Stage stage(tests::mirrors_and_glass(), 2, 16);
+  const LocalHit found = find_local_hit(stage);
+  LoneProgram finder(stage, found.owner), whole(stage, found.owner);
+  RayMessage confirmed = dataflow::message_of(found.ray, {.best = found.hit}, NodeId{found.owner});
+  confirmed.is_confirmed = 1;
+  finder.receive(1 - found.owner, confirmed);
+  finder.work_to_rest();
+  whole.receive(1 - found.owner, dataflow::message_of(found.ray, found.passage, NodeId{found.owner}));
+  whole.work_to_rest();
+  const dataflow::ProgramReport report = finder.program.report(), expected = whole.program.report();
+  CHECK(report.operations.primary_hits == 1);
+  CHECK(report.operations.rays == expected.operations.rays);
+  CHECK(report.operations.shadings == expected.operations.shadings);
+  CHECK(report.film.deposits == expected.film.deposits);
+}
+
+TEST_CASE("a node refuses what is not sent to nodes, and rays that are not its own") {
+  const Stage stage(tests::mirrors_and_glass(), 2, 8);
+  LoneProgram node(stage, 0);
+  CHECK_THROWS_AS(node.program.receive({NodeId{1}, dataflow::number_of(Kind::overflow), {}}), core::InternalError);
+  const dataflow::RayPacketHeader header{1, 1};
+  std::vector<std::byte> payload(dataflow::ray_packet_bytes(1));
+  std::memcpy(payload.data(), &header, sizeof(header));
+  CHECK_THROWS_AS(node.program.receive({NodeId{1}, dataflow::number_of(Kind::rays), payload}), core::InternalError);
+  payload.pop_back();
+  CHECK_THROWS_AS(node.program.receive({NodeId{1}, dataflow::number_of(Kind::rays), payload}), core::InternalError);
+  CHECK_THROWS_AS(node.program.receive({NodeId{2}, dataflow::number_of(Kind::stop), std::as_bytes(std::span(&header, 0))}),
+                  core::InternalError);
+}
+
+TEST_CASE("a node that rests gives back the credit of a ray that it has taken up") {
+  const Stage stage(tests::mirrors_and_glass(), 2, 16);
+  const LocalHit found = find_local_hit(stage);
+  LoneProgram node(stage, found.owner);
+  node.receive(1 - found.owner, dataflow::message_of(found.ray, found.passage, NodeId{found.owner}));
+  node.work_to_rest();
+  std::uint32_t given_back = 0;
+  for (const Parcel& parcel : node.single.post.parcels) {
+    given_back += Kind{parcel.kind} == Kind::credits ? parcel.packet().as<dataflow::Credits>().count : 0;
+  }
+  CHECK(given_back == 1);
+  CHECK(node.single.memory.used().bytes == [&] {
+    nodes::MemoryPlan planned = stage.plan.node_memory(found.owner);
+    planned[nodes::Category::mailbox] = 0;                                                    // the runner's
+    planned[nodes::Category::queues] -= nodes::LocalMemory::bytes_for<dataflow::PrimaryRun>(  // it was dealt none
+        stage.distribution.primaries[found.owner].size());
+    return planned.bytes;
+  }());
+}
+
+namespace {
+
+/// Runs a stage's whole computer in the order of a seed; everything must come out as the reference renderer has it.
+void run_shuffled(const Stage& stage, std::uint64_t seed) {
+  CAPTURE(seed);
+  core::Operations expected;
+  const std::uint64_t hash = stage.reference_hash(expected);
+  core::Film film(stage.settings.camera.width(), stage.settings.camera.height());
+  const dataflow::Progress progress;
+  const auto specifications = dataflow::specifications_of(stage.plan, stage.distribution, stage.settings, {}, film, progress);
+  tests::ShuffledComputer computer(specifications, seed);
+  computer.run();
+  CHECK(film.hash() == hash);
+  core::Operations operations;
+  dataflow::RayCounters rays;
+  for (std::uint32_t i = 0; i < stage.plan.node_count(); ++i) {
+    const auto report = dynamic_cast<const dataflow::NodeProgram&>(computer.program(i)).report();
+    operations += report.operations;
+    rays += report.rays;
+    CHECK(computer.node(i).credits(stage.plan.host(), dataflow::ray_channel) == stage.plan.host_credits);
+  }
+  CHECK(operations.rays == expected.rays);
+  CHECK(operations.shadings == expected.shadings);
+  CHECK(rays.in == rays.out);
+}
+
+}  // namespace
+
+TEST_CASE("any legal order of events gives the same film, and no mailbox overflows") {
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    dataflow::PlanRequest bounds;
+    bounds.ray_batch = seed % 3 == 0 ? 1 : seed % 3 == 1 ? 3 : 10;
+    bounds.ray_credits = seed % 4;
+    run_shuffled(Stage(tests::mirrors_and_glass(), static_cast<std::uint32_t>(1 + seed % 7), 8, bounds), seed);
+  }
+}
+
+TEST_CASE("one node alone never sends a ray") {
+  const Stage stage(tests::mirrors_and_glass(), 1, 8);
+  run_shuffled(stage, 1);
+}
