@@ -46,7 +46,7 @@ TEST_CASE("a frame covers its bounds with about the wanted number of cells") {
   }
 }
 
-TEST_CASE("the scale is a power of two that brings the largest extent into (1/2, 1]") {
+TEST_CASE("the scale is a power of two that brings the largest extent above 1/2 and to at most 1") {
   for (const double size : {1e-20, 0.3, 0.5, 1.0, 1.5, 3.0, 1e6, 1e20}) {
     const GridFrame frame = fit_frame(box_of({0, 0, 0}, {size, size / 2, size / 3}), 100, 0.125);
     int exponent = 0;

@@ -7,7 +7,7 @@
 
 using namespace dmpc::core;
 
-TEST_CASE("sample values lie in [0, 1) and are spread evenly") {
+TEST_CASE("sample values are at least 0 and below 1, and are spread evenly") {
   double sum = 0;
   int bins[10] = {};
   for (std::uint32_t pixel = 0; pixel < 100; ++pixel) {
