@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
+
 namespace dmpc::core {
 namespace {
 
@@ -26,7 +28,7 @@ std::array<std::int32_t, 3> cells_along(const Vec3d& extent, double cell) {
 
 /// The edge of a top cell: cubic, about `wanted` of them over the box, with a bound for boxes that are flat or long.
 double top_cell_edge(const Vec3d& extent, double wanted) {
-  double cell = std::cbrt(extent.x * extent.y * extent.z / wanted);
+  double cell = exponential(natural_log(extent.x * extent.y * extent.z / wanted) / 3);  // the cube root
   for (;;) {
     const auto count = cells_along(extent, cell);
     if (static_cast<double>(count[0]) * count[1] * count[2] <= 2 * wanted + 8) {

@@ -33,7 +33,8 @@ bool separates(const Vec3d& axis, const Vec3d& half, const Vec3d& p, const Vec3d
 double segment_distance(double x, double y, double px, double py, double qx, double qy) {
   const double dx = qx - px, dy = qy - py;
   const double s = std::clamp(((x - px) * dx + (y - py) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
-  return std::hypot(x - px - s * dx, y - py - s * dy);
+  const double off_x = x - px - s * dx, off_y = y - py - s * dy;
+  return std::sqrt(off_x * off_x + off_y * off_y);
 }
 
 }  // namespace

@@ -1,19 +1,19 @@
-// The rules that keep rays moving with bounded queues: what a node does next, which way a packet of rays takes, and when credits
-// go back. Pure functions: the node program and the exhaustive model in tests/dataflow decide by the same ones.
+// The rules that keep rays moving with bounded queues: what a node does next, which way a packet of rays takes, and
+// when credits go back. Pure functions: the node program and the exhaustive model in tests/dataflow decide by the
+// same ones.
 //
 // Why nothing can stand still for ever:
-//   (1) A credit of (sender, target) is a place for one packet of rays in the target's backlog. So whatever is under way can be
-//       received by a node that is stuck, and nobody ever waits for a reception.
-//   (2) A full packet that finds no credit for its owner goes to the host. The host has room for every ray, depends on nobody,
-//   and so
-//       gives a credit for itself back as soon as the packet is there: a node waits for the host's credit for a bounded time.
-//   (3) Hence a node with anything to do will do it, its backlog empties, and its credits go back, batched while it is busy, all
-//   of
-//       them before it rests. So the host, too, gets every credit back, and every ray that it keeps goes on.
-//   (4) New primary rays start only when nothing received is left, and no work is taken up while a packet waits: one work() adds
-//   at most
-//       one ray to a gather, which had room.
-// The packets that the host forwards take the credits of (host, target), with places of their own.
+// (1) A credit of (sender, target) is a place for one packet of rays in the target's backlog. So whatever is under
+//     way can be received by a node that is stuck, and nobody ever waits for a reception.
+// (2) A full packet that finds no credit for its owner goes to the host. The host has room for every ray, depends on
+//     nobody, and so gives a credit for itself back as soon as the packet is there: a node waits for the host's
+//     credit for a bounded time.
+// (3) Hence a node with anything to do will do it, its backlog empties, and its credits go back, batched while it is
+//     busy, all of them before it rests. So the host, too, gets every credit back, and every ray that it keeps goes
+//     on.
+// (4) New primary rays start only when nothing received is left, and no work is taken up while a packet waits: one
+//     work() adds at most one ray to a gather, which had room. The packets that the host forwards take the credits of
+//     (host, target), with places of their own.
 #pragma once
 
 #include <algorithm>

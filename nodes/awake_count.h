@@ -3,11 +3,12 @@
 // Thread safety: any thread may call anything, as far as the requirements of each function allow.
 //
 // Invariants
-// (1) A node that runs is counted. So whoever calls raise() from a running node's thread finds a count of at least 1 and keeps it
-// there. (2) A node leaves the count after its mailbox's word has become ASLEEP. Whoever replaces ASLEEP by a packet has counted
-// the sleeper
-//     again *before* (and takes the count back if another was faster). So every node that is neither asleep nor about to be is
-//     counted, and a packet in a mailbox, whose receiver cannot be asleep, keeps the count above zero.
+// (1) A node that runs is counted. So whoever calls raise() from a running node's thread finds a count of at least 1
+//     and keeps it there.
+// (2) A node leaves the count after its mailbox's word has become ASLEEP. Whoever replaces ASLEEP by a packet has
+//     counted the sleeper again *before* (and takes the count back if another was faster). So every node that is
+//     neither asleep nor about to be is counted, and a packet in a mailbox, whose receiver cannot be asleep, keeps
+//     the count above zero.
 // (3) Hence zero is reached once at most, and for ever: nobody is left to raise it.
 #pragma once
 

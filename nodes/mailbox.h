@@ -1,30 +1,29 @@
 // A node's bounded inbox: many senders, one receiver, two classes of slots, and a place for the receiver to sleep.
 //
-// A packet is copied into a slot of its class (slot_pool.h) and the slot's index is put on the inbox, a stack of slots whose head
-// is one word. The receiver takes the whole stack at once and turns it round, so packets come out in the order in which they went
-// in; in particular the order of each sender is kept.
+// A packet is copied into a slot of its class (slot_pool.h) and the slot's index is put on the inbox, a stack of
+// slots whose head is one word. The receiver takes the whole stack at once and turns it round, so packets come out in
+// the order in which they went in; in particular the order of each sender is kept.
 //
-// Thread safety: push() and rouse() from any thread, the receiver's own included; everything else from the one receiver.
+// Thread safety: push() and rouse() from any thread, the receiver's own included; everything else from the one
+// receiver.
 //
-// Progress: push() is lock-free: its three loops (take a slot, put it on the inbox, and the receiver's give in between) repeat
-// only because another thread has succeeded. Who may stall whom: nobody. A sender stopped before its packet is on the inbox is
-// invisible to all; it keeps one slot, which its credit has paid for. One stopped after that is done, but may owe a wake-up to a
-// receiver that was asleep: then this receiver, and nobody else, waits for that sender's next step (no packet is lost, the others
-// go on sending to it and cannot run out of slots but by their own credits). The receiver stopped half-way holds what it took;
-// senders go on while they have credits. drain() is wait-free but for give(), which is lock-free.
+// Progress: push() is lock-free: its three loops (take a slot, put it on the inbox, and the receiver's give in
+// between) repeat only because another thread has succeeded. Who may stall whom: nobody. A sender stopped before its
+// packet is on the inbox is invisible to all; it keeps one slot, which its credit has paid for. One stopped after
+// that is done, but may owe a wake-up to a receiver that was asleep: then this receiver, and nobody else, waits for
+// that sender's next step (no packet is lost, the others go on sending to it and cannot run out of slots but by their
+// own credits). The receiver stopped half-way holds what it took; senders go on while they have credits. drain() is
+// wait-free but for give(), which is lock-free.
 //
 // Invariants
-// (1) The inbox word is EMPTY, ASLEEP, or the index of the slot pushed last. Only the receiver writes ASLEEP, and only over
-// EMPTY;
-//     whoever replaces ASLEEP wakes the receiver. It is one word with one order of changes, so no wake-up is lost and no
-//     fence is needed.
-// (2) Every change of the inbox word is a read-modify-write, so the release of each push and rouse reaches the receiver's next
-// acquire,
-//     whatever came between.
-// (3) A slot is on the free list, with one sender, on the inbox, or with the receiver. The receiver gives a slot back as soon as
-// its
-//     packet has been received, before it receives the next: at most one slot is held beyond those that credits account for. That
-//     is the one spare slot a class has above its capacity.
+// (1) The inbox word is EMPTY, ASLEEP, or the index of the slot pushed last. Only the receiver writes ASLEEP, and
+//     only over EMPTY; whoever replaces ASLEEP wakes the receiver. It is one word with one order of changes, so no
+//     wake-up is lost and no fence is needed.
+// (2) Every change of the inbox word is a read-modify-write, so the release of each push and rouse reaches the
+//     receiver's next acquire, whatever came between.
+// (3) A slot is on the free list, with one sender, on the inbox, or with the receiver. The receiver gives a slot back
+//     as soon as its packet has been received, before it receives the next: at most one slot is held beyond those
+//     that credits account for. That is the one spare slot a class has above its capacity.
 #pragma once
 
 #include <cstddef>

@@ -167,8 +167,9 @@ std::uint32_t most_in_flight(const PlanRequest& request, std::size_t memory_byte
   return in_flight;
 }
 
+/// More nodes hold fewer pages each, but larger mailboxes and credit tables, so fewer nodes may be what helps.
 std::optional<std::uint32_t> smallest_node_count(PlanRequest request) {
-  while (++request.node_count <= node_count_max) {
+  for (request.node_count = 1; request.node_count <= node_count_max; ++request.node_count) {
     if (smallest_node_memory_bytes(request) <= *request.node_memory_bytes) {
       return request.node_count;
     }

@@ -1,4 +1,5 @@
-// One picture: whatever the strategy, the nodes, the pages and the schedule, the film equals the reference renderer's to the last bit.
+// One picture: whatever the strategy, the nodes, the pages and the schedule, the film equals the reference renderer's to the last
+// bit.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -65,8 +66,8 @@ void check_same_picture(const Subject& subject, const svm::Report& report) {
 
 /// Every pair of choices occurs in some run.
 void check_pairwise(Subject& subject) {
-  const auto rows = tests::pairwise({std::size(node_counts), std::size(page_sizes), std::size(cache_shares), std::size(in_flights),
-                                     std::size(item_sides), 2});
+  const auto rows = tests::pairwise(
+      {std::size(node_counts), std::size(page_sizes), std::size(cache_shares), std::size(in_flights), std::size(item_sides), 2});
   for (const auto& row : rows) {
     const core::Database& database = subject.database(page_sizes[row[1]]);
     const bool replicated = row[5] == 1;
@@ -133,5 +134,18 @@ TEST_CASE("a picture of one pixel and a picture with fewer pixels than nodes are
     Subject subject(tests::mirrors_and_glass(), width, 1);
     const core::Database& database = subject.database(512);
     check_same_picture(subject, svm::run_svm(database, subject.settings(database), {.node_count = 8}, {}));
+  }
+}
+
+TEST_CASE("films keep their bits from build to build, compiler to compiler and machine to machine") {
+  struct Known {
+    std::string name;
+    std::uint64_t hash;
+  };
+  for (const Known& known : {Known{"teapot-4", 0x5d862aabaeb46d83ULL}, Known{"gears-1", 0x6073f1a89bf7cd16ULL},
+                             Known{"balls-2", 0xe54a1b2299b0cf82ULL}, Known{"rings-1", 0xb7cd7b0b8d0cf6b2ULL},
+                             Known{"mount-3", 0x469ffe01b407ec59ULL}, Known{"tree-4", 0x84a057246e2c3cddULL}}) {
+    CAPTURE(known.name);
+    CHECK(Subject(tests::built_in(known.name), 32, 32).hash() == known.hash);
   }
 }

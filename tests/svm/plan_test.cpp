@@ -100,6 +100,19 @@ TEST_CASE("a memory that is too small names the smallest node count that works w
   CHECK_FALSE(error_of(request).empty());
 }
 
+TEST_CASE("where the mailboxes of many nodes are what is too large, fewer nodes are named") {
+  PlanRequest request = request_with(4096, 1338);
+  request.node_memory_bytes = 600_KiB;
+  const std::string error = error_of(request);
+  const std::size_t at = error.find("--nodes=", error.find("or with this memory"));
+  REQUIRE(at != std::string::npos);
+  request.node_count = static_cast<std::uint32_t>(std::stoul(error.substr(at + 8)));
+  CHECK(request.node_count < 4096);
+  CHECK(make_plan(request).frames > 0);
+  --request.node_count;
+  CHECK(!error_of(request).empty());
+}
+
 TEST_CASE("where no number of nodes helps, the message says so") {
   PlanRequest request = request_with(2, 10000);
   request.node_memory_bytes = 100_KiB;
