@@ -1,6 +1,7 @@
 // Rays on their way out: gathered by owner until a packet is full or the node has no other work.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -14,6 +15,10 @@
 #include "nodes/node.h"
 
 namespace dmpc::dataflow {
+
+/// Packets that may be under way to each owner, one travelling and one being worked off, when a primary ray is started; fewer if
+/// there are no more credits.
+inline constexpr std::uint32_t primary_window = 2;
 
 /// One open packet an owner; at most one of them waits for a credit, and meanwhile nothing may be added. Keeps account of the
 /// node's credits for rays. Thread safety: belongs to one node.
@@ -49,6 +54,7 @@ class Gather {
       : node_(&node),
         host_(nodes::NodeId{capacity.node_count}),
         ray_batch_(capacity.ray_batch),
+        credits_kept_(capacity.ray_credits - std::min(primary_window, std::max(capacity.ray_credits, 1U) - 1)),
         room_(node.memory().allocate<std::byte>(nodes::Category::queues, room_bytes(capacity))),
         counts_(node.memory().allocate<std::uint16_t>(nodes::Category::queues, capacity.node_count)) {
     for (std::uint32_t i = 0; i < capacity.node_count; ++i) {
@@ -65,11 +71,12 @@ class Gather {
 
   /// The receiver has taken up `count` packets.
   void credits_returned(nodes::NodeId receiver, std::uint32_t count) {
-    used_up_ -= receiver != host_ && node_->credits(receiver, ray_channel) == 0 ? 1 : 0;
+    const bool was_behind = is_behind(receiver);
     node_->grant(receiver, ray_channel, count);
+    behind_ -= was_behind && !is_behind(receiver) ? 1 : 0;
   }
-  /// No owner's credits are used up: what goes out next need not overflow.
-  bool has_credit_for_all() const { return used_up_ == 0; }
+  /// No owner is behind with more than primary_window packets of this node's: the other credits are for rays that cannot wait.
+  bool admits_primaries() const { return behind_ == 0; }
 
   /// Requires that no packet waits. If the packet for `owner` is full now, it waits.
   void add(nodes::NodeId owner, const RayMessage& message) {
@@ -120,14 +127,17 @@ class Gather {
     return room_.subspan(nodes::index_of(owner) * stride_bytes(ray_batch_), ray_packet_bytes(ray_batch_));
   }
 
+  /// Whether an owner has too many of this node's packets for a primary ray to be started.
+  bool is_behind(nodes::NodeId owner) const { return owner != host_ && node_->credits(owner, ray_channel) < credits_kept_; }
+
   void send(nodes::NodeId owner, Way way) {
     std::uint16_t& count = counts_[nodes::index_of(owner)];
     const RayPacketHeader header{count, static_cast<std::uint16_t>(nodes::index_of(owner))};
     const std::span<std::byte> packet = packet_of(owner).first(ray_packet_bytes(count));
     std::memcpy(packet.data(), &header, sizeof(header));
-    const bool overflows = way == Way::to_host;
+    const bool overflows = way == Way::to_host, was_behind = is_behind(owner);
     node_->send_reserved(overflows ? host_ : owner, ray_channel, number_of(overflows ? Kind::overflow : Kind::rays), packet);
-    used_up_ += !overflows && node_->credits(owner, ray_channel) == 0 ? 1 : 0;
+    behind_ += !was_behind && is_behind(owner) ? 1 : 0;
     ++counters_.packets;
     counters_.rays += count;
     counters_.packets_overflowed += overflows ? 1 : 0;
@@ -140,10 +150,11 @@ class Gather {
   nodes::Node* node_;
   nodes::NodeId host_;
   std::uint32_t ray_batch_;
+  std::uint32_t credits_kept_;  ///< for rays other than primary ones
   std::span<std::byte> room_;
   std::span<std::uint16_t> counts_;  ///< rays, by owner
   std::uint32_t size_ = 0;
-  std::uint32_t used_up_ = 0;  ///< owners for whom all credits are used up
+  std::uint32_t behind_ = 0;  ///< owners of which is_behind() is true
   std::optional<nodes::NodeId> waiting_;
   Counters counters_;
 };

@@ -22,9 +22,9 @@ using nodes::Category;
 using nodes::LocalMemory;
 using nodes::size_text;
 
-/// Four packets under way between each two nodes: with two, a receiver that is busy with a deep ray makes its neighbours' rays
-/// overflow now and then; more than four only cost memory.
-constexpr std::uint32_t default_ray_credits = 4;
+/// With eight packets a few percent of the rays overflow where many nodes share a core, and a receiver may not run for
+/// milliseconds; with four twice as many. Sixteen would halve them again, and cost 2.7 MB a node among 64.
+constexpr std::uint32_t default_ray_credits = 8;
 /// Two film packets a node: one travels while the next is gathered.
 constexpr std::uint32_t film_credits = 2;
 constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;

@@ -131,7 +131,7 @@ NodeState NodeProgram::state() const {
   return {.packet_waits = gather_.waits() || film_.waits(),
           .is_tracing = !task_.is_idle(),
           .has_backlog = !backlog_.empty(),
-          .has_primaries = !primaries_.empty() && gather_.has_credit_for_all(),
+          .has_primaries = !primaries_.empty() && gather_.admits_primaries(),
           .has_gathered = !gather_.empty()};
 }
 

@@ -4,10 +4,10 @@
 // region, and at most one ray goes out. What keeps the last node moving, and why every queue is bounded, is said there; the sums
 // are in plan.cpp.
 //
-// Primary rays are started by credit: only while no owner's credits are used up, so that a node adds nothing to what an owner has
-// not got round to. A node that holds its primary rays back has no other work. It is not passive, so it keeps the token; but like
-// one that rests it keeps nobody's credit. So when all have come to rest or hold back, every credit comes home, and one of them
-// goes on.
+// Primary rays are started by credit: only while no owner has more than a few of this node's packets, so that a node adds nothing
+// to what an owner has not got round to, and most credits are left for the children of received rays. A node that holds its
+// primary rays back has no other work. It is not passive, so it keeps the token; but like one that rests it keeps nobody's
+// credit. So when all have come to rest or hold back, every credit comes home, and one of them goes on.
 //
 // Who claims a hit: the owner of the cell in which the walk proves it the nearest. If that owner has met the same (t, primitive)
 // itself, it shades the hit with its own copy of the record. If not, the hit goes to its finder, which alone knows where the

@@ -218,12 +218,11 @@ Plan plan_of(const core::Database& database, const core::RenderSettings& setting
 }
 
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,
-                                                        const core::RenderSettings& settings,
-                                                        const core::TraversalOptions& traversal, core::Film& film,
-                                                        const Progress& progress) {
+                                                        const core::RenderSettings& settings, core::TraversalOptions traversal,
+                                                        core::Film& film, const Progress& progress) {
   std::vector<nodes::NodeSpecification> specifications;
   for (std::uint32_t i = 0; i < plan.node_count(); ++i) {
-    const auto make_program = [&, i](nodes::Node& node) {
+    const auto make_program = [&, i, traversal](nodes::Node& node) {
       return std::make_unique<NodeProgram>(
           node, plan, NodeDeal{distribution.parts[i], distribution.primaries[i], settings, distribution.bsp, traversal});
     };

@@ -86,10 +86,10 @@ Plan plan_of(const core::Database& database, const core::RenderSettings& setting
 Report run_dataflow(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                     std::stop_token stop);
 
-/// What a runner needs for `plan`: the nodes in order, then the host, which writes `film`. All arguments outlive the runner.
+/// What a runner needs for `plan`: the nodes in order, then the host, which writes `film`. All arguments but `traversal` outlive
+/// the runner.
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,
-                                                        const core::RenderSettings& settings,
-                                                        const core::TraversalOptions& traversal, core::Film& film,
-                                                        const Progress& progress);
+                                                        const core::RenderSettings& settings, core::TraversalOptions traversal,
+                                                        core::Film& film, const Progress& progress);
 
 }  // namespace dmpc::dataflow

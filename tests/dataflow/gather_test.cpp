@@ -103,28 +103,30 @@ TEST_CASE("without a credit for the owner a packet goes to the host, named with 
   CHECK(sender.gather.counters().rays_overflowed == 2);
 }
 
-TEST_CASE("it is known whether an owner's credits are used up") {
-  Sender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 2});
-  for (const bool left : {true, false}) {
-    CHECK(sender.gather.has_credit_for_all());
+TEST_CASE("primary rays are admitted while no owner has more than a window of packets, and never with the last credit out") {
+  for (const std::uint32_t credits : {1U, 2U, 3U, 8U}) {
+    Sender sender({.node_count = 3, .ray_batch = 1, .ray_credits = credits, .host_credits = 8});
+    for (std::uint32_t sent = 0; sent < credits; ++sent) {
+      CHECK(sender.gather.admits_primaries() == (sent <= dataflow::primary_window));
+      sender.add(0, 1);
+      CHECK(sender.gather.send() == Way::to_owner);
+    }
+    CHECK_FALSE(sender.gather.admits_primaries());
     sender.add(0, 1);
-    sender.gather.send();
-    CHECK(sender.gather.has_credit_for_all() == left);
+    CHECK(sender.gather.send() == Way::to_host);
+    sender.gather.credits_returned(host, 1);
+    CHECK_FALSE(sender.gather.admits_primaries());
+    sender.gather.credits_returned(NodeId{0}, credits);
+    CHECK(sender.gather.admits_primaries());
   }
-  sender.add(0, 1);
-  CHECK(sender.gather.send() == Way::to_host);
-  sender.gather.credits_returned(host, 1);
-  CHECK_FALSE(sender.gather.has_credit_for_all());
-  sender.gather.credits_returned(NodeId{0}, 2);
-  CHECK(sender.gather.has_credit_for_all());
 }
 
-TEST_CASE("without credits between nodes all rays go by way of the host, and none counts as used up") {
+TEST_CASE("without credits between nodes all rays go by way of the host, and primary rays are admitted") {
   Sender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 0});
-  CHECK(sender.gather.has_credit_for_all());
+  CHECK(sender.gather.admits_primaries());
   sender.add(0, 1);
   CHECK(sender.gather.send() == Way::to_host);
-  CHECK(sender.gather.has_credit_for_all());
+  CHECK(sender.gather.admits_primaries());
 }
 
 TEST_CASE("the fullest packet is flushed first") {

@@ -34,12 +34,12 @@ std::string error_of(const PlanRequest& request, const dataflow::OtherNodeCount&
 
 }  // namespace
 
-TEST_CASE("without a memory bound a packet of rays fills 1 KiB and there are four credits") {
+TEST_CASE("without a memory bound a packet of rays fills 1 KiB and there are eight credits") {
   const Plan plan = make_plan(request_with(8, 100_KiB));
   CHECK(plan.ray_batch == 10);
   CHECK(dataflow::ray_packet_bytes(plan.ray_batch) <= 1_KiB);
   CHECK(dataflow::ray_packet_bytes(plan.ray_batch + 1) > 1_KiB);
-  CHECK(plan.ray_credits == 4);
+  CHECK(plan.ray_credits == 8);
   CHECK(plan.notes.empty());
 }
 
@@ -61,7 +61,7 @@ TEST_CASE("the smallest memory that is named works, and one byte less does not")
 TEST_CASE("scarce memory costs credits first, then the length of packets, and no more than it must") {
   PlanRequest request = request_with(16, 100_KiB);
   const std::size_t all = make_plan(request).node_memory_max_bytes();
-  std::uint32_t credits = 4, batch = 10;
+  std::uint32_t credits = 8, batch = 10;
   for (std::size_t memory = all; memory >= dataflow::smallest_node_memory_bytes(request); memory -= 1_KiB) {
     request.node_memory_bytes = memory;
     const Plan plan = make_plan(request);
@@ -77,7 +77,7 @@ TEST_CASE("scarce memory costs credits first, then the length of packets, and no
 TEST_CASE("what was asked for is not reduced") {
   PlanRequest request = request_with(4, 100_KiB);
   request.ray_batch = 10;
-  request.ray_credits = 4;
+  request.ray_credits = 8;
   const std::size_t needed = make_plan(request).node_memory_max_bytes();
   CHECK(dataflow::smallest_node_memory_bytes(request) == needed);
   request.node_memory_bytes = needed - 1;

@@ -51,11 +51,12 @@ struct Stage {
   dataflow::Plan plan;
 };
 
-/// One node of a stage that has no primary rays of its own.
+/// One node of a stage, with the primary rays given.
 struct LoneProgram {
-  LoneProgram(const Stage& stage, std::uint32_t index)
+  LoneProgram(const Stage& stage, std::uint32_t index, std::span<const dataflow::PrimaryRun> primaries = {})
       : single(stage.plan.node_memory(index), index, stage.plan.node_count() + 1),
-        program(single.node, stage.plan, {stage.distribution.parts[index], {}, stage.settings, stage.distribution.bsp, {}}) {}
+        program(single.node, stage.plan,
+                {stage.distribution.parts[index], primaries, stage.settings, stage.distribution.bsp, {}}) {}
 
   void receive(std::uint32_t sender, const RayMessage& message) {
     const dataflow::RayPacketHeader header{1, static_cast<std::uint16_t>(nodes::index_of(single.node.id()))};
@@ -179,6 +180,24 @@ TEST_CASE("a node refuses what is not sent to nodes, and rays that are not its o
   CHECK_THROWS_AS(node.program.receive({NodeId{1}, dataflow::number_of(Kind::rays), payload}), core::InternalError);
   CHECK_THROWS_AS(node.program.receive({NodeId{2}, dataflow::number_of(Kind::stop), std::as_bytes(std::span(&header, 0))}),
                   core::InternalError);
+}
+
+TEST_CASE("a node that holds its primary rays back gives back credits but keeps the token") {
+  const Stage stage(tests::mirrors_and_glass(), 2, 16, {.ray_batch = 1, .ray_credits = 1});
+  LoneProgram node(stage, 0, stage.distribution.primaries[0]);
+  node.work_to_rest();  // a ray has left for node 1, which does not answer
+  CHECK(node.program.describe().find("0 primary rays") != 0);
+  const std::size_t sent = node.single.post.parcels.size();
+  CHECK(sent > 0);
+  const dataflow::Token token;
+  node.program.receive({NodeId{1}, dataflow::number_of(Kind::token), std::as_bytes(std::span(&token, 1))});
+  node.work_to_rest();
+  CHECK(node.single.post.parcels.size() == sent);
+  CHECK(node.program.describe().find("holds the token") != std::string::npos);
+  const dataflow::Credits credits{1};
+  node.program.receive({NodeId{1}, dataflow::number_of(Kind::credits), std::as_bytes(std::span(&credits, 1))});
+  node.work_to_rest();
+  CHECK(node.single.post.parcels.size() > sent);
 }
 
 TEST_CASE("a node that rests gives back the credit of a ray that it has taken up") {

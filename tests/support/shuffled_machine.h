@@ -43,10 +43,11 @@ class ShuffledComputer {
     }
   }
 
-  /// Runs to the end. Throws core::InternalError if nothing can move, or a mailbox overflows.
+  /// Runs to the end. Throws core::InternalError if nothing can move, if there is no end, or if a mailbox overflows.
   void run() {
-    while (!is_over()) {
+    for (std::uint64_t steps = 0; !is_over(); ++steps) {
       core::expect(step(), "something can move until the run has ended");
+      core::expect(steps < steps_max, "a run comes to its end");
     }
   }
 
@@ -67,6 +68,8 @@ class ShuffledComputer {
   nodes::Node& node(std::uint32_t index) { return peers_[index]->node; }
 
  private:
+  static constexpr std::uint64_t steps_max = 3'000'000;
+
   struct Peer final : nodes::Network {
     Peer(ShuffledComputer& owner, const nodes::NodeSpecification& specification, nodes::NodeId id, std::uint32_t peer_count)
         : computer(&owner), capacity(specification.mailbox), memory(specification.plan), node(id, peer_count, memory, *this) {}

@@ -1,0 +1,49 @@
+// The node program of dataflow allocates nothing between start and end. This executable has the replaced global operators.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "core/scenes.h"
+#include "dataflow/run.h"
+#include "nodes/threads_runner.h"
+#include "tests/support/allocation_guard.h"
+
+namespace dmpc::tests {
+
+namespace {
+
+/// Renders a small scene with every node under watch, but not the host, whose memory for rays that overflow grows; returns what
+/// they allocated and freed.
+std::uint64_t allocated_by(const dataflow::PlanRequest& bounds, std::uint32_t node_count) {
+  const core::Scene scene = core::built_in_scene(core::parse_scene_name("balls-2"));
+  const core::Database database = core::build_database(scene, {});
+  const core::RenderSettings settings{database.header(), core::Camera(scene.view, database.header().frame, 16, 16, 1), {}};
+  const dataflow::Distribution distribution =
+      dataflow::distribute(database, settings, dataflow::balance(database, settings, node_count, {}).bsp);
+  dataflow::PlanRequest request = bounds;
+  request.shares = distribution.shares();
+  request.width = request.height = 16;
+  const dataflow::Plan plan = dataflow::make_plan(request);
+  core::Film film(16, 16);
+  const dataflow::Progress progress;
+  std::vector<nodes::NodeSpecification> specifications =
+      dataflow::specifications_of(plan, distribution, settings, {}, film, progress);
+  for (std::uint32_t i = 0; i < node_count; ++i) {
+    specifications[i] = watched(specifications[i]);
+  }
+  nodes::ThreadsRunner runner(specifications);
+  const Allocations before = watched_allocations();
+  static_cast<void>(runner.run({}));
+  const Allocations after = watched_allocations();
+  return after.allocated - before.allocated + after.freed - before.freed;
+}
+
+TEST_CASE("a node of dataflow allocates nothing while it traces, receives and sends") {
+  CHECK(allocated_by({}, 5) == 0);
+  CHECK(allocated_by({.ray_batch = 1, .ray_credits = 1}, 5) == 0);
+  CHECK(allocated_by({.ray_credits = 0}, 3) == 0);
+}
+
+}  // namespace
+}  // namespace dmpc::tests
