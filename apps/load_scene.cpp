@@ -1,6 +1,7 @@
 #include "apps/load_scene.h"
 
 #include <filesystem>
+#include <limits>
 #include <system_error>
 
 #include "apps/nff_reader.h"
@@ -8,7 +9,7 @@
 
 namespace dmpc::apps {
 
-core::Scene load_scene(const std::string& scene) {
+core::Scene load_scene(const std::string& scene, std::int64_t pixels_max) {
   if (const auto name = core::find_scene_name(scene)) {
     return core::built_in_scene(*name);
   }
@@ -17,7 +18,11 @@ core::Scene load_scene(const std::string& scene) {
   if (looks_like_name && !std::filesystem::exists(scene, error)) {
     return core::built_in_scene(core::parse_scene_name(scene));  // throws, listing what there is
   }
-  return read_nff_file(scene);
+  return read_nff_file(scene, pixels_max);
+}
+
+core::Scene load_scene(const PictureOptions& picture) {
+  return load_scene(picture.scene, picture.resolution ? std::numeric_limits<std::int64_t>::max() : picture_pixels_max);
 }
 
 }  // namespace dmpc::apps

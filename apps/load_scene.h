@@ -3,13 +3,17 @@
 
 #include <string>
 
+#include "apps/picture_options.h"
 #include "core/scene.h"
 
 namespace dmpc::apps {
 
 /// `scene` is a built-in name (core/scenes.h) or else the path of an NFF file; a file that is called like a built-in scene is
-/// reached as
-/// ./teapot-12. Throws core::InputError with advice if it is neither or cannot be read.
-core::Scene load_scene(const std::string& scene);
+/// reached as ./teapot-12. Throws core::InputError with advice if it is neither, cannot be read, or has a view of more than
+/// `pixels_max` pixels.
+core::Scene load_scene(const std::string& scene, std::int64_t pixels_max = picture_pixels_max);
+
+/// The scene of a picture; its view may be of any size if the options give another one.
+core::Scene load_scene(const PictureOptions& picture);
 
 }  // namespace dmpc::apps

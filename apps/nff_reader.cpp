@@ -22,7 +22,8 @@ using core::Vec3d;
 
 class NffReader {
  public:
-  NffReader(std::istream& input, const std::string& name, core::Scene& scene) : tokens_(input, name), builder_(scene) {
+  NffReader(std::istream& input, const std::string& name, std::int64_t pixels_max, core::Scene& scene)
+      : tokens_(input, name), builder_(scene), pixels_max_(pixels_max) {
     scene.name = name;
     scene.view = {};
     scene.background = {};
@@ -45,7 +46,9 @@ class NffReader {
   void read_background();
   void read_view();
   void read_view_part(core::View& view, std::size_t part);
+  void check_resolution(const core::View& view);
   void check_view(const core::View& view);
+  void check_view_point(const Vec3d& point, const char* name);
   void read_light();
   void read_material();
   void check_material(const core::Material& material);
@@ -61,6 +64,7 @@ class NffReader {
 
   NffTokens tokens_;
   core::SceneBuilder builder_;
+  std::int64_t pixels_max_;
   std::size_t view_line_ = 0, background_line_ = 0;  ///< 0: not read yet
   std::vector<Vec3d> vertices_, normals_;
 };
@@ -169,6 +173,25 @@ void NffReader::read_view_part(core::View& view, std::size_t part) {
     default:
       view.width = tokens_.integer(entity, "the horizontal resolution", 1, resolution_max);
       view.height = tokens_.integer(entity, "the vertical resolution", 1, resolution_max);
+      check_resolution(view);
+  }
+}
+
+void NffReader::check_resolution(const core::View& view) {
+  if (std::int64_t{view.width} * view.height > pixels_max_) {
+    tokens_.fail("found the resolution " + std::to_string(view.width) + " " + std::to_string(view.height) +
+                 " of v (view), expected at most " + std::to_string(pixels_max_) +
+                 " pixels in all; make it smaller, or give --resolution");
+  }
+}
+
+void NffReader::check_view_point(const Vec3d& point, const char* name) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (std::abs(point[i]) > view_coordinate_max) {
+      tokens_.fail(
+          "found " + number_text(point[i]) + " as a coordinate of " + name +
+          " of v (view), expected a number from -1e30 to 1e30: this one is too large to be reckoned with; move the view nearer");
+    }
   }
 }
 
@@ -177,6 +200,8 @@ void NffReader::check_view(const core::View& view) {
     tokens_.fail("found " + number_text(view.angle_degrees) +
                  " as the angle of v (view), expected degrees between 0 and 180, both excluded; correct it");
   }
+  check_view_point(view.from, "from");
+  check_view_point(view.at, "at");
   if (view.from == view.at) {
     tokens_.fail("found from and at of v (view) at the same point, expected two points; move one");
   }
@@ -275,13 +300,13 @@ void NffReader::read_patch() {
 
 }  // namespace
 
-core::Scene read_nff(std::istream& input, const std::string& name) {
+core::Scene read_nff(std::istream& input, const std::string& name, std::int64_t pixels_max) {
   core::Scene scene;
-  NffReader(input, name, scene).read();
+  NffReader(input, name, pixels_max, scene).read();
   return scene;
 }
 
-core::Scene read_nff_file(const std::string& path) {
+core::Scene read_nff_file(const std::string& path, std::int64_t pixels_max) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     throw core::InputError(path + ": is a folder, expected an NFF file");
@@ -290,7 +315,7 @@ core::Scene read_nff_file(const std::string& path) {
   if (!input) {
     throw core::InputError(path + ": cannot be opened: " + std::strerror(errno) + "; expected an NFF file");
   }
-  return read_nff(input, path);
+  return read_nff(input, path, pixels_max);
 }
 
 }  // namespace dmpc::apps

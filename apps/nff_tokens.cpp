@@ -125,7 +125,7 @@ void NffTokens::fail(const std::string& message) const {
 
 void NffTokens::fail_at_next(const std::string& message) {
   peek();
-  throw core::InputError(name_ + ":" + std::to_string(line_) + ": " + message);
+  throw core::InputError(name_ + ":" + std::to_string(std::max<std::size_t>(line_, 1)) + ": " + message);
 }
 
 }  // namespace dmpc::apps

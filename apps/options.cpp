@@ -309,7 +309,7 @@ Resolution parse_resolution(std::string_view text) {
     const auto height = std::from_chars(width.ptr + 1, end, size.height);
     const auto pixels = std::int64_t{size.width} * size.height;
     if (height.ec == std::errc() && height.ptr == end && size.width >= 1 && size.height >= 1 && size.width <= 65536 &&
-        size.height <= 65536 && pixels <= std::int64_t{1} << 28) {
+        size.height <= 65536 && pixels <= picture_pixels_max) {
       return size;
     }
   }

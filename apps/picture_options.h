@@ -1,6 +1,7 @@
 // What decides a picture on the command line: the scene and how it is looked at. Shared by `render` and `check`.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -10,6 +11,9 @@
 #include "core/shade.h"
 
 namespace dmpc::apps {
+
+/// Pixels of one picture, whether the scene or the command line asks for them.
+inline constexpr std::int64_t picture_pixels_max = std::int64_t{1} << 28;
 
 struct Resolution {
   int width = 0, height = 0;  ///< both above 0

@@ -37,4 +37,13 @@ TEST_CASE("what is neither is refused: a bare word as a name, anything else as a
   CHECK_FALSE(complaint("").empty());
 }
 
+TEST_CASE("a scene's own resolution is bounded, unless another is asked for") {
+  const tests::TemporaryFolder folder;
+  const std::string path = folder / "huge.nff";
+  tests::write_text(path, "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 30\nhither 1\nresolution 65535 65535\ns 0 0 0 1\n");
+  CHECK_THROWS_WITH_AS(load_scene(PictureOptions{.scene = path}),
+                       doctest::Contains("huge.nff:7: found the resolution 65535 65535"), core::InputError);
+  CHECK(load_scene(PictureOptions{.scene = path, .resolution = Resolution{8, 8}}).view.width == 65535);
+}
+
 }  // namespace dmpc::apps

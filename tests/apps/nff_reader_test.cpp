@@ -173,7 +173,7 @@ TEST_CASE("cutting any tail off a small file is an error or leaves a valid begin
 }
 
 TEST_CASE("an empty file and a file without a view are refused") {
-  CHECK(message_of("").find("the file is empty") != std::string::npos);
+  CHECK(message_of("").starts_with("a.nff:1: the file is empty"));
   CHECK(message_of(" \n# only a comment\n").find("the file is empty") != std::string::npos);
   CHECK(message_of("s 0 0 0 1\n").find("a.nff:1: the file ends without a view; add 'v'") != std::string::npos);
 }
@@ -197,6 +197,21 @@ TEST_CASE("a resolution below 1, too large, or broken is refused") {
     CHECK(message_of(view_with("resolution", line)).find("expected an integer from 1 to 65535") != std::string::npos);
   }
   CHECK(read_text(view_with("resolution", "resolution 64.0 1e2")).view.height == 100);
+}
+
+TEST_CASE("a resolution of too many pixels is refused with its line") {
+  CHECK(message_of(view_with("resolution", "resolution 65535 4097"))
+            .starts_with("a.nff:7: found the resolution 65535 4097 of v (view), expected at most 268435456 pixels in all"));
+  CHECK(message_of(view_with("resolution", "resolution 65535 4096")).empty());
+  CHECK(message_of(view_with("resolution", "resolution 16384 16384")).empty());
+}
+
+TEST_CASE("a view farther out than numbers reach is refused as such") {
+  const std::string far = "found -1e+308 as a coordinate of at of v (view), expected a number from -1e30 to 1e30";
+  CHECK(message_of(view_with("at", "at 0 -1e308 0")).find(far) != std::string::npos);
+  CHECK(message_of(view_with("from", "from 1e308 0 5")).find("as a coordinate of from of v (view)") != std::string::npos);
+  CHECK(message_of(view_with("from", "from 1.1e30 0 0")).find("too large") != std::string::npos);
+  CHECK(message_of(view_with("from", "from 1e30 0 -1e30")).empty());
 }
 
 TEST_CASE("an angle outside 0 to 180 degrees is refused") {

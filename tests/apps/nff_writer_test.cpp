@@ -12,8 +12,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "apps/load_scene.h"
 #include "apps/nff_reader.h"
-#include "apps/scene_file.h"
 #include "core/expect.h"
 #include "core/scenes.h"
 
@@ -155,9 +155,10 @@ TEST_CASE("the generator's own stream is written, with a material wherever the S
 TEST_CASE("a scene is written to a file whole, by its final name only") {
   const Folder folder;
   const std::string path = (folder.path / "rings.nff").string();
-  apps::write_built_in_scene("rings-1", path);
+  const core::SceneName name = core::parse_scene_name("rings-1");
+  apps::write_nff_file(path, [&](core::SceneSink& sink) { core::generate_scene(name, sink); });
   CHECK(folder.entries() == 1);
-  CHECK(same_objects(apps::open_scene(path), core::built_in_scene(core::parse_scene_name("rings-1"))));
+  CHECK(same_objects(apps::load_scene(path), core::built_in_scene(name)));
 }
 
 TEST_CASE("a failure while writing leaves the old file as it was and nothing else") {
@@ -188,11 +189,4 @@ TEST_CASE("a full disk is an error") {
     CHECK_THROWS_WITH_AS(apps::write_nff_file("/dev/full", produce), doctest::Contains("could not be written to the end"),
                          core::InputError);
   }
-}
-
-TEST_CASE("a scene is opened by built-in name or by path, and what is neither is refused with both") {
-  CHECK(apps::open_scene("tetra-2").objects.size() == 16);
-  CHECK_THROWS_WITH_AS(apps::open_scene("pyramid"), doctest::Contains("neither a file nor a built-in scene"), core::InputError);
-  CHECK_THROWS_WITH_AS(apps::open_scene("missing.nff"), doctest::Contains("missing.nff: cannot be opened"), core::InputError);
-  CHECK_THROWS_AS(apps::write_built_in_scene("missing.nff", "x"), core::InputError);
 }
