@@ -137,9 +137,12 @@ Json chaos_json(const svm::Report& report) {
 }
 
 Json node_seconds_json(const nodes::NodeCounters& counters) {
-  const std::uint64_t idle_ns = counters.wall_ns > counters.busy_ns ? counters.wall_ns - counters.busy_ns : 0;
+  // The clocks differ, so that a node that never waited may seem to have been busy for longer than it ran.
+  const std::uint64_t accounted_ns = counters.busy_ns + counters.asleep_ns;
+  const std::uint64_t waiting_ns = counters.wall_ns > accounted_ns ? counters.wall_ns - accounted_ns : 0;
   return {{"busy", static_cast<double>(counters.busy_ns) * nanosecond},
-          {"idle", static_cast<double>(idle_ns) * nanosecond},
+          {"idle", static_cast<double>(counters.asleep_ns) * nanosecond},
+          {"waiting", static_cast<double>(waiting_ns) * nanosecond},
           {"wall", static_cast<double>(counters.wall_ns) * nanosecond}};
 }
 
@@ -165,8 +168,11 @@ Json nodes_json(const svm::Report& report) {
   return result;
 }
 
-Json host_json(const nodes::NodeCounters& host) {
-  return {{"packets", packets_json(host)}, {"seconds", node_seconds_json(host)}, {"sleeps", host.sleeps}};
+Json host_json(const svm::Report& report) {
+  return {{"packets", packets_json(report.host)},
+          {"deposits_saturated", report.host_deposits_saturated},
+          {"seconds", node_seconds_json(report.host)},
+          {"sleeps", report.host.sleeps}};
 }
 
 Json options_json(const RenderRecord& record) {
@@ -234,7 +240,7 @@ std::string stats_json(const RenderRecord& record) {
                     {"chaos", chaos_json(report)},
                     {"skips", {{"empty_space", record.options.run.traversal.skip_empty_space}}},
                     {"nodes", nodes_json(report)},
-                    {"host", host_json(report.host)}};
+                    {"host", host_json(report)}};
   return all.dump(2) + "\n";
 }
 

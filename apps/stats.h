@@ -29,8 +29,7 @@ struct RenderRecord {
 /// infinite.
 ///   program        name and version
 ///   options        what was asked for and what it became: scene, width, height, samples, depth, convention, tracer, strategy,
-///   nodes,
-///                  node_memory (bytes a node, the most), page_size, cache_pages, in_flight, work_item, count_pages
+///                  nodes, node_memory (bytes a node, the most), page_size, cache_pages, in_flight, work_item, count_pages
 ///   film_hash      of the film's integers, 16 hexadecimal digits: equal pictures, equal hashes
 ///   rays           primary, reflected, refracted, shadow, total
 ///   hits           primary, secondary, shadow_blocked, total_internal_reflections
@@ -42,9 +41,9 @@ struct RenderRecord {
 ///   skips          empty_space: whether the short cut was on
 ///   work           pixels, items_asked, items_taken, items_given
 ///   nodes          for each node: rays, hits, operations, pages, packets, work, memory {planned, used: bytes by category and in
-///   total},
-///                  seconds {busy, idle, wall}, quanta, sleeps
-///   host           packets, seconds, sleeps
+///                  total}, seconds {busy: computing, idle: asleep for want of packets, waiting for a core, wall},
+///                  quanta, sleeps
+///   host           packets, deposits_saturated (on its film, over those of the nodes), seconds, sleeps
 std::string stats_json(const RenderRecord& record);
 
 /// 16 hexadecimal digits.

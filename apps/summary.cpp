@@ -80,6 +80,13 @@ std::string pages_text(const svm::Report& report) {
 
 }  // namespace
 
+std::string dropped_text(std::uint64_t count) {
+  if (count == 0) {
+    return {};
+  }
+  return grouped(count) + (count == 1 ? " degenerate primitive was" : " degenerate primitives were") + " left out";
+}
+
 void print_summary(std::ostream& output, const RenderRecord& record) {
   const svm::Report& report = record.report;
   const svm::Plan& plan = report.plan;

@@ -1,7 +1,9 @@
 // The closing lines of a render on the terminal.
 #pragma once
 
+#include <cstdint>
 #include <iosfwd>
+#include <string>
 
 #include "apps/stats.h"
 
@@ -9,5 +11,8 @@ namespace dmpc::apps {
 
 /// A few lines: the picture, the computer and its memory by category, rays, pages, times, and the film's hash.
 void print_summary(std::ostream& output, const RenderRecord& record);
+
+/// A sentence about the primitives that a database left out; empty if it left out none.
+std::string dropped_text(std::uint64_t count);
 
 }  // namespace dmpc::apps

@@ -167,6 +167,7 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Pro
     report.nodes.push_back(report_of(runner.node(i), runner.program(i)));
   }
   report.host = runner.node(plan.request.node_count).counters();
+  report.host_deposits_saturated = dynamic_cast<const HostProgram&>(runner.program(plan.request.node_count)).deposits_saturated();
   if (report.end == nodes::RunEnd::finished) {
     check_conservation(report);
   }

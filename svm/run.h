@@ -54,6 +54,7 @@ struct Report {
   Plan plan;
   std::vector<NodeReport> nodes;
   nodes::NodeCounters host;
+  std::uint64_t host_deposits_saturated = 0;  ///< pixels whose sums saturated on the host's film
 
   core::Operations operations() const;  ///< summed over the nodes
   PageCounters pages() const;

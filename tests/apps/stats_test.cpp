@@ -120,6 +120,34 @@ TEST_CASE("chaos is told by its seed and what it did, and only where there was s
   CHECK(value(json, "quanta_sat_out") == "0");
 }
 
+TEST_CASE("a node's time is what it computed, slept and waited for a core") {
+  Rendered rendered(small());
+  nodes::NodeCounters& counters = rendered.report->nodes[0].counters;
+  counters.busy_ns = 2'000'000'000;
+  counters.asleep_ns = 3'000'000'000;
+  counters.wall_ns = 9'000'000'000;
+  std::string json = rendered.json();
+  CHECK(value(json, "busy") == "2.0");
+  CHECK(value(json, "idle") == "3.0");
+  CHECK(value(json, "waiting") == "4.0");
+  CHECK(value(json, "wall") == "9.0");
+  counters.wall_ns = 4'999'999'999;
+  json = rendered.json();
+  CHECK(value(json, "waiting") == "0.0");
+}
+
+TEST_CASE("sums that saturate on the host's film are told") {
+  Rendered rendered(small());
+  rendered.report->host_deposits_saturated = 4711;
+  CHECK(contains(rendered.json(), "\"deposits_saturated\": 4711"));
+}
+
+TEST_CASE("what was left out is told in good grammar") {
+  CHECK(dropped_text(0).empty());
+  CHECK(dropped_text(1) == "1 degenerate primitive was left out");
+  CHECK(dropped_text(2) == "2 degenerate primitives were left out");
+}
+
 TEST_CASE("replicated has no cache to speak of") {
   const Rendered rendered(small(svm::Strategy::replicated));
   CHECK(value(rendered.json(), "cache_pages") == "null");
