@@ -9,7 +9,9 @@
 
 #include "apps/inspection.h"
 #include "apps/load_scene.h"
+#include "apps/output_file.h"
 #include "apps/progress.h"
+#include "apps/summary.h"
 
 namespace dmpc::apps {
 namespace {
@@ -137,27 +139,43 @@ std::uint64_t print_brute_force(const Inspection& inspection, const Referee& ref
   return bad.size();
 }
 
-}  // namespace
-
-int check_command(const CheckOptions& options) {
-  const core::Scene scene = load_scene(options.picture.scene);
-  const core::Database database = core::build_database(scene, {});
-  const core::RenderSettings settings = render_settings(options.picture, scene, database);
+Inspection inspect_shown(const CheckOptions& options, const core::Database& database, const core::RenderSettings& settings) {
   const EmbreeScene embree(database.primitives(), EmbreeMode::robust);
   Progress progress(std::cerr, stderr_is_terminal());
   InspectionOptions inspection_options;
   inspection_options.brute_force = options.brute_force;
   inspection_options.progress = [&](std::uint64_t done, std::uint64_t total) { progress.update(done, total); };
-  const Inspection inspection = inspect(database, embree, settings, inspection_options);
+  return inspect(database, embree, settings, inspection_options);
+}
 
-  const auto width = static_cast<std::uint32_t>(settings.camera.width());
-  std::cout << options.picture.scene << ": " << database.primitives().size() << " primitives, " << width << "x"
-            << settings.camera.height() << " pixels, our grid against Embree " << embree_version() << " (robust)\n";
+/// Returns the number of unexplained rays.
+std::uint64_t print_report(const CheckOptions& options, const core::Database& database, const core::Camera& camera,
+                           const Inspection& inspection) {
+  const auto width = static_cast<std::uint32_t>(camera.width());
+  std::cout << options.picture.scene << ": " << database.primitives().size() << " primitives, " << width << "x" << camera.height()
+            << " pixels, our grid against Embree " << embree_version() << " (robust)\n";
   const Referee referee(database.primitives());
   std::uint64_t unexplained = print_table(inspection);
   print_list(referee, inspection.differences, options.list, width);
   unexplained += print_brute_force(inspection, referee, options.list, width);
   std::cout << (unexplained == 0 ? "Every ray is explained.\n" : "UNEXPLAINED rays: our grid has an error.\n");
+  return unexplained;
+}
+
+}  // namespace
+
+int check_command(const CheckOptions& options, Interrupt& interrupt) {
+  const Interrupt::EndAtOnce end_at_once(interrupt);
+  const core::Scene scene = load_scene(options.picture);
+  const core::Database database = core::build_database(scene, {});
+  if (database.dropped() > 0) {
+    std::cerr << "dmpc: " << dropped_text(database.dropped()) << '\n';
+  }
+  const core::RenderSettings settings = render_settings(options.picture, scene, database);
+  const Inspection inspection = inspect_shown(options, database, settings);
+  interrupt.set_consequence("the report is incomplete");
+  const std::uint64_t unexplained = print_report(options, database, settings.camera, inspection);
+  finish_output(std::cout, "the report");
   return unexplained == 0 ? 0 : unexplained_status;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "apps/interrupt.h"
 #include "apps/picture_options.h"
 
 namespace dmpc::apps {
@@ -13,8 +14,9 @@ struct CheckOptions {
   std::uint64_t brute_force = 0;  ///< rays of the render that go to the referee too, whether they differ or not
 };
 
-/// Prints the report to stdout. Returns the exit status: 0 if no difference is unexplained, 3 otherwise. Throws core::InputError
-/// for a scene that cannot be read.
-int check_command(const CheckOptions& options);
+/// Prints the report to stdout, remarks and progress to stderr. A signal ends the process. Returns the exit status: 0 if no
+/// difference is unexplained, 3 otherwise. Throws core::InputError for a scene that cannot be read or a report that cannot be
+/// written, Interrupted if a signal came before.
+int check_command(const CheckOptions& options, Interrupt& interrupt);
 
 }  // namespace dmpc::apps

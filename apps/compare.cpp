@@ -6,6 +6,7 @@
 #include <ostream>
 #include <string>
 
+#include "apps/distinct_files.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -53,6 +54,13 @@ void finish(Difference& sum) {
   sum.peak_signal_to_noise_decibels = -20 * std::log10(sum.root_mean_square);
 }
 
+void check_outputs(const CompareOptions& options) {
+  if (options.difference) {
+    check_distinct({{"A", options.picture}, {"B", options.reference}}, {{"--difference", *options.difference}});
+    check_image_path(*options.difference, "--difference");
+  }
+}
+
 void print(std::ostream& output, const CompareOptions& options, const Difference& difference) {
   const double share =
       100 * static_cast<double>(difference.differing_pixels) / static_cast<double>(std::max<std::uint64_t>(difference.pixels, 1));
@@ -92,16 +100,21 @@ Image difference_picture(const Image& picture, const Image& reference) {
   return result;
 }
 
-int compare_command(const CompareOptions& options, std::ostream& output) {
-  if (options.difference) {
-    check_image_path(*options.difference);
-  }
+int compare_command(const CompareOptions& options, Interrupt& interrupt, std::ostream& output) {
+  check_outputs(options);
+  const Interrupt::EndAtOnce end_at_once(interrupt);
   const Image picture = read_image(options.picture);
   const Image reference = read_image(options.reference);
-  print(output, options, measure_difference(picture, reference));
+  const Difference difference = measure_difference(picture, reference);
   if (options.difference) {
-    write_image(*options.difference, difference_picture(picture, reference));
+    OutputFile file(*options.difference);
+    write_image(*options.difference, difference_picture(picture, reference), file);
+    interrupt.set_consequence("the output may be incomplete");
+    file.commit();
   }
+  interrupt.set_consequence("the output may be incomplete");
+  print(output, options, difference);
+  finish_output(output, "the figures");
   return 0;
 }
 

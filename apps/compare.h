@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "apps/image_file.h"
+#include "apps/interrupt.h"
 
 namespace dmpc::apps {
 
@@ -34,7 +35,9 @@ Difference measure_difference(const Image& picture, const Image& reference);
 /// |a - b| channel by channel. Requires equal sizes.
 Image difference_picture(const Image& picture, const Image& reference);
 
-/// Reads both, prints the figures to `output`, writes the difference picture if asked for. Returns the exit status: always 0.
-int compare_command(const CompareOptions& options, std::ostream& output);
+/// Reads both, writes the difference picture if asked for, prints the figures to `output`. A signal ends the process. Returns the
+/// exit status 0. Throws core::UsageError if the difference picture would replace one of the two, core::InputError if one cannot
+/// be read or something cannot be written, Interrupted if a signal came before.
+int compare_command(const CompareOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

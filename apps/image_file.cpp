@@ -8,7 +8,6 @@
 #include <memory>
 #include <string>
 
-#include "apps/output_file.h"
 #include "apps/srgb.h"
 #include "core/expect.h"
 
@@ -115,18 +114,27 @@ std::vector<float> spread(const std::vector<float>& gray) {
 
 }  // namespace
 
-void check_image_path(const fs::path& path) {
+void check_image_path(const fs::path& path, std::string_view option) {
   static_cast<void>(create_output(path));
-  check_output_path(path, "-o");
+  check_output_path(path, option);
+  if (is_special(path)) {
+    throw core::InputError(
+        std::string(option) + " " + path.string() +
+        ": this is no ordinary file, and a picture is not written from front to back; give the name of a file");
+  }
   const OutputFile probe(path);
   write_to(probe.temporary(), path, Image(1, 1));
 }
 
 void write_image(const fs::path& path, const Image& image) {
-  core::expect(image.width > 0 && image.height > 0, "a picture to be written has at least one pixel");
   OutputFile file(path);
-  write_to(file.temporary(), path, image);
+  write_image(path, image, file);
   file.commit();
+}
+
+void write_image(const fs::path& path, const Image& image, const OutputFile& file) {
+  core::expect(image.width > 0 && image.height > 0, "a picture to be written has at least one pixel");
+  write_to(file.temporary(), path, image);
 }
 
 Image read_image(const fs::path& path) {

@@ -4,7 +4,10 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string_view>
 #include <vector>
+
+#include "apps/output_file.h"
 
 namespace dmpc::apps {
 
@@ -21,13 +24,17 @@ struct Image {
   std::vector<float> rgb;
 };
 
-/// Throws core::InputError unless a picture can be written at `path`: the extension is one that OpenImageIO writes, the folder is
-/// there, and a picture of one pixel can be written in it (it is removed again).
-void check_image_path(const std::filesystem::path& path);
+/// Throws core::InputError unless a picture can be written at `path`: the extension is one that OpenImageIO writes, `path` is no
+/// pipe or device, the folder is there, and a picture of one pixel can be written in it (it is removed again). `option` names the
+/// option that gave it, for the message.
+void check_image_path(const std::filesystem::path& path, std::string_view option);
 
 /// Writes the picture whole or not at all. EXR, TIFF and HDR get 32-bit linear floats (HDR its own shared exponents); every other
 /// format gets 8 bits, clamped to 0..1, with the sRGB curve. Throws core::InputError if that fails.
 void write_image(const std::filesystem::path& path, const Image& image);
+
+/// The same up to the commit, which is left to the caller: `file` is what becomes `path`.
+void write_image(const std::filesystem::path& path, const Image& image, const OutputFile& file);
 
 /// Reads the first three channels (one channel is taken thrice). Floats are taken as linear radiance; integers as sRGB and made
 /// linear. Throws core::InputError if there is no such picture.

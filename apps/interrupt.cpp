@@ -3,8 +3,10 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
-#include <string_view>
+#include <memory>
+#include <string>
 
 #include "core/expect.h"
 
@@ -25,13 +27,32 @@ void change_mask(int how) {
   core::expect(pthread_sigmask(how, &set, nullptr) == 0, "the signal mask can be changed");
 }
 
-[[noreturn]] void end_now() {
-  constexpr std::string_view message = "\ndmpc: interrupted, nothing was written\n";
-  static_cast<void>(!::write(STDERR_FILENO, message.data(), message.size()));
-  ::_exit(interrupted_status);
+/// A render has two outputs under way, no command more.
+constexpr std::size_t slot_count = 8;
+
+/// Whoever takes a path out owns it.
+std::array<std::atomic<std::string*>, slot_count> files_to_remove{};
+
+void remove_files() {
+  for (std::atomic<std::string*>& slot : files_to_remove) {
+    if (const std::unique_ptr<std::string> path{slot.exchange(nullptr)}) {
+      ::unlink(path->c_str());
+    }
+  }
 }
 
 }  // namespace
+
+RemovedAtOnce::RemovedAtOnce(const std::filesystem::path& path) : slot_(0) {
+  auto owned = std::make_unique<std::string>(path.string());
+  for (std::string* free = nullptr; !files_to_remove[slot_].compare_exchange_strong(free, owned.get()); free = nullptr) {
+    ++slot_;
+    core::expect(slot_ < slot_count, "few files are under way at a time");
+  }
+  static_cast<void>(owned.release());
+}
+
+RemovedAtOnce::~RemovedAtOnce() { std::unique_ptr<std::string>(files_to_remove[slot_].exchange(nullptr)).reset(); }
 
 Interrupt::Interrupt() {
   change_mask(SIG_BLOCK);
@@ -63,11 +84,18 @@ void Interrupt::wait_for_signals(const std::stop_token& closing) {
   const sigset_t set = stop_signals();
   int signal = 0;
   while (sigwait(&set, &signal) == 0 && !closing.stop_requested()) {
-    source_.request_stop();
-    if (end_at_once_) {
+    const bool is_first = source_.request_stop();
+    if (!is_first || end_at_once_) {
       end_now();
     }
   }
+}
+
+void Interrupt::end_now() const {
+  remove_files();
+  const std::string message = std::string("\ndmpc: interrupted, ") + consequence() + "\n";
+  static_cast<void>(!::write(STDERR_FILENO, message.data(), message.size()));
+  ::_exit(interrupted_status);
 }
 
 }  // namespace dmpc::apps

@@ -1,7 +1,9 @@
-// Ctrl-C and SIGTERM as a stop token.
+// Ctrl-C and SIGTERM as a stop token, or as the end at once.
 #pragma once
 
 #include <atomic>
+#include <cstddef>
+#include <filesystem>
 #include <stop_token>
 #include <thread>
 
@@ -12,8 +14,8 @@ struct Interrupted {};
 inline constexpr int interrupted_status = 130;
 
 /// While it lives, SIGINT and SIGTERM are blocked in the thread that made it and in all threads that this one starts afterwards;
-/// a thread of its own waits for them. So nothing of ours ever runs inside a signal handler. At most one at a time, made before
-/// any other thread.
+/// a thread of its own waits for them. So nothing of ours ever runs inside a signal handler. The first signal requests a stop,
+/// the second ends the process at once with status 130. At most one at a time, made before any other thread.
 ///
 /// Thread safety: token() and requested() from any thread, the rest from the thread that made it.
 class Interrupt {
@@ -29,8 +31,13 @@ class Interrupt {
   /// Throws Interrupted if a signal has come.
   void check() const;
 
-  /// A scope in which a signal ends the process at once, saying so, with status 130: for long steps that look at no token and
-  /// have nothing to clean up. Outside, a signal only requests the stop. Making one throws Interrupted if a signal has come
+  /// What an interruption from now on means for the outputs, as its message ends; at first "nothing was written". `words` is a
+  /// literal.
+  void set_consequence(const char* words) { consequence_ = words; }
+  const char* consequence() const { return consequence_; }
+
+  /// A scope in which the first signal, too, ends the process at once, saying so, with status 130: for long steps that look at
+  /// no token and have nothing to clean up but files that are RemovedAtOnce. Making one throws Interrupted if a signal has come
   /// before.
   class EndAtOnce {
    public:
@@ -45,10 +52,27 @@ class Interrupt {
 
  private:
   void wait_for_signals(const std::stop_token& closing);
+  [[noreturn]] void end_now() const;
 
   std::stop_source source_;
+  std::atomic<const char*> consequence_ = "nothing was written";
   std::atomic<bool> end_at_once_ = false;
   std::jthread waiter_;
+};
+
+/// While it lives, an end at once removes the file at `path` if there is one. There are few at a time, which is asserted.
+///
+/// Thread safety: none needed; the thread that ends the process takes the path out of its slot, and so does the destructor: only
+/// one of them gets it.
+class RemovedAtOnce {
+ public:
+  explicit RemovedAtOnce(const std::filesystem::path& path);
+  ~RemovedAtOnce();
+  RemovedAtOnce(const RemovedAtOnce&) = delete;
+  RemovedAtOnce& operator=(const RemovedAtOnce&) = delete;
+
+ private:
+  std::size_t slot_;
 };
 
 }  // namespace dmpc::apps

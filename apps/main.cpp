@@ -12,6 +12,7 @@
 #include "apps/compare.h"
 #include "apps/interrupt.h"
 #include "apps/options.h"
+#include "apps/output_file.h"
 #include "apps/render.h"
 #include "apps/scene.h"
 #include "core/expect.h"
@@ -28,15 +29,13 @@ struct Execute {
 
   int operator()(const HelpText& help) const {
     std::cout << help.text;
+    finish_output(std::cout, "the help");
     return 0;
   }
   int operator()(const RenderOptions& options) const { return render_command(options, interrupt, std::cout); }
   int operator()(const SceneOptions& options) const { return scene_command(options, interrupt, std::cout); }
-  int operator()(const CheckOptions& options) const {
-    const Interrupt::EndAtOnce end_at_once(interrupt);
-    return check_command(options);
-  }
-  int operator()(const CompareOptions& options) const { return compare_command(options, std::cout); }
+  int operator()(const CheckOptions& options) const { return check_command(options, interrupt); }
+  int operator()(const CompareOptions& options) const { return compare_command(options, interrupt, std::cout); }
 };
 
 int complain(const std::string& message, int status) {
@@ -45,12 +44,12 @@ int complain(const std::string& message, int status) {
 }
 
 int run(const std::vector<std::string>& arguments) {
+  Interrupt interrupt;
   try {
     const Command command = parse_command_line(arguments);
-    Interrupt interrupt;
     return std::visit(Execute{interrupt}, command);
   } catch (const Interrupted&) {
-    return complain("interrupted, nothing was written", interrupted_status);
+    return complain(std::string("interrupted, ") + interrupt.consequence(), interrupted_status);
   } catch (const core::InputError& error) {
     return complain(error.what(), input_status);
   } catch (const core::UsageError& error) {

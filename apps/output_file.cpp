@@ -1,10 +1,12 @@
 #include "apps/output_file.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <ostream>
 #include <system_error>
 
 #include "core/expect.h"
@@ -33,6 +35,24 @@ fs::path temporary_name(const fs::path& target) {
 
 }  // namespace
 
+bool is_special(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error) && !fs::is_regular_file(path, error);
+}
+
+bool is_standard_output(const fs::path& path) {
+  struct stat there {};
+  struct stat ours {};
+  return ::stat(path.c_str(), &there) == 0 && ::fstat(STDOUT_FILENO, &ours) == 0 && there.st_dev == ours.st_dev &&
+         there.st_ino == ours.st_ino;
+}
+
+void finish_output(std::ostream& output, std::string_view what) {
+  if (!output.flush()) {
+    throw core::InputError(std::string(what) + " could not be written to the standard output");
+  }
+}
+
 void check_output_path(const fs::path& path, std::string_view option) {
   const std::string what = std::string(option) + " " + path.string() + ": ";
   std::error_code error;
@@ -43,7 +63,7 @@ void check_output_path(const fs::path& path, std::string_view option) {
   if (!fs::is_directory(folder, error)) {
     throw core::InputError(what + "there is no folder " + folder.string() + ", make it first");
   }
-  if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {
+  if (is_special(path) || is_standard_output(path)) {
     return;
   }
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
@@ -52,9 +72,12 @@ void check_output_path(const fs::path& path, std::string_view option) {
 }
 
 OutputFile::OutputFile(const fs::path& path) : target_(resolve(path)) {
-  std::error_code error;
-  const bool special = fs::exists(target_, error) && !fs::is_regular_file(target_, error);
-  temporary_ = special ? target_ : temporary_name(target_);
+  if (is_special(target_)) {
+    temporary_ = target_;
+  } else {
+    temporary_ = temporary_name(target_);
+    removed_at_once_.emplace(temporary_);
+  }
 }
 
 OutputFile::~OutputFile() {
@@ -75,14 +98,13 @@ void OutputFile::commit() {
   committed_ = true;
 }
 
-void OutputFile::write(std::string_view text) {
+void OutputFile::write(std::string_view text) const {
   std::ofstream stream(temporary_, std::ios::binary);
   stream << text;
   stream.close();
   if (!stream) {
     throw core::InputError(target_.string() + ": cannot be written: " + std::strerror(errno));
   }
-  commit();
 }
 
 }  // namespace dmpc::apps

@@ -2,8 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "apps/interrupt.h"
 
 namespace dmpc::apps {
 
@@ -11,7 +15,17 @@ namespace dmpc::apps {
 /// `option` names the option that gave it, for the message.
 void check_output_path(const std::filesystem::path& path, std::string_view option);
 
-/// One output under way. Whatever ends its life before commit() removes the temporary file. Not thread-safe.
+/// Whether something is at `path` that is no ordinary file: a pipe, a device, a folder.
+bool is_special(const std::filesystem::path& path);
+
+/// Whether writing to `path` would write to what the standard output is, as /dev/stdout does.
+bool is_standard_output(const std::filesystem::path& path);
+
+/// Throws core::InputError, naming `what`, unless all that was written to the standard output, `output`, has arrived.
+void finish_output(std::ostream& output, std::string_view what);
+
+/// One output under way. Whatever ends its life before commit() removes the temporary file, an Interrupt's end at once included.
+/// Not thread-safe.
 class OutputFile {
  public:
   /// Touches nothing yet. A symbolic link is followed, so that the file behind it is replaced.
@@ -24,16 +38,17 @@ class OutputFile {
   /// itself if that exists and is no ordinary file (/dev/stdout, a pipe): those cannot be renamed over.
   const std::filesystem::path& temporary() const { return temporary_; }
 
+  /// Writes `text` to the temporary file. Throws core::InputError if that fails.
+  void write(std::string_view text) const;
+
   /// Gives the finished file its name. Throws core::InputError if that fails.
   void commit();
-
-  /// Writes `text` to the temporary file and commits. Throws core::InputError if that fails.
-  void write(std::string_view text);
 
  private:
   std::filesystem::path target_;
   std::filesystem::path temporary_;
   bool committed_ = false;
+  std::optional<RemovedAtOnce> removed_at_once_;
 };
 
 }  // namespace dmpc::apps

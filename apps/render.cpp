@@ -3,12 +3,14 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <iostream>
 #include <optional>
 #include <ostream>
 #include <utility>
 
+#include "apps/distinct_files.h"
 #include "apps/load_scene.h"
 #include "apps/oracle.h"
 #include "apps/output_file.h"
@@ -17,6 +19,7 @@
 #include "apps/summary.h"
 #include "core/database.h"
 #include "core/records.h"
+#include "core/scenes.h"
 
 namespace dmpc::apps {
 
@@ -48,7 +51,15 @@ ProcessorTime processor_time() {
 }
 
 void check_outputs(const RenderOptions& options) {
-  check_image_path(options.image);
+  std::vector<NamedFile> inputs, outputs = {{"-o", options.image}};
+  if (!core::find_scene_name(options.picture.scene)) {
+    inputs.push_back({"SCENE", options.picture.scene});
+  }
+  if (options.stats) {
+    outputs.push_back({"--stats", *options.stats});
+  }
+  check_distinct(inputs, outputs);
+  check_image_path(options.image, "-o");
   if (options.stats) {
     check_output_path(*options.stats, "--stats");
   }
@@ -63,7 +74,7 @@ struct Prepared {
 Prepared prepare(const RenderOptions& options, Interrupt& interrupt, Seconds& seconds) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   Stopwatch stopwatch;
-  const core::Scene scene = load_scene(options.picture.scene);
+  const core::Scene scene = load_scene(options.picture);
   seconds.load = stopwatch.lap();
   core::Database database = core::build_database(scene, {.page_size_bytes = options.page_size_bytes});
   const core::RenderSettings settings = render_settings(options.picture, scene, database);
@@ -74,7 +85,7 @@ Prepared prepare(const RenderOptions& options, Interrupt& interrupt, Seconds& se
 /// What the user should know before waiting for the picture.
 void print_remarks(const RenderOptions& options, const Prepared& prepared) {
   if (prepared.database.dropped() > 0) {
-    std::cerr << "dmpc: " << prepared.database.dropped() << " degenerate primitives were left out\n";
+    std::cerr << "dmpc: " << dropped_text(prepared.database.dropped()) << '\n';
   }
   const svm::Plan plan = svm::plan_of(options.strategy, prepared.database, prepared.settings, options.run);
   if (options.quiet) {
@@ -117,21 +128,47 @@ svm::Report run_timed(const RenderOptions& options, const Prepared& prepared, co
   return report;
 }
 
+/// Writes all files before any gets its name, so that a failure leaves none of them.
+void write_files(const RenderRecord& record, OutputFile& picture, const std::string& counters, Interrupt& interrupt) {
+  std::optional<OutputFile> stats;
+  if (!counters.empty()) {
+    stats.emplace(*record.options.stats);
+    stats->write(counters);
+  }
+  interrupt.set_consequence("perhaps not all outputs were written");
+  picture.commit();
+  if (stats) {
+    stats->commit();
+  }
+}
+
+/// What goes to the standard output: counters if they were asked for there, then the closing lines.
+void print_closing(const RenderRecord& record, const std::string& counters, std::ostream& output) {
+  output << counters;
+  if (!record.options.quiet) {
+    print_summary(output, record);
+  }
+  finish_output(output, "the picture was written, but what follows it");
+}
+
 void write_outputs(const RenderOptions& options, const Prepared& prepared, const svm::Report& report, Seconds seconds,
-                   std::ostream& output) {
+                   Interrupt& interrupt, std::ostream& output) {
+  std::signal(SIGPIPE, SIG_IGN);  // a pipe that nobody reads is an error to report, and no reason to leave temporary files
+  interrupt.set_consequence("the picture was not written");
+  const Interrupt::EndAtOnce end_at_once(interrupt);
   Stopwatch stopwatch;
-  write_image(options.image, image_of(report.film, options.picture.samples));
+  OutputFile picture(options.image);
+  write_image(options.image, image_of(report.film, options.picture.samples), picture);
   seconds.write = stopwatch.lap();
   const ProcessorTime all = processor_time();
   seconds.user = all.user;
   seconds.system = all.system;
   const RenderRecord record{options, prepared.database, report, seconds};
-  if (options.stats) {
-    OutputFile(*options.stats).write(stats_json(record));
-  }
-  if (!options.quiet) {
-    print_summary(output, record);
-  }
+  const std::string counters = options.stats ? stats_json(record) : "";
+  const bool to_standard_output = options.stats && is_standard_output(*options.stats);
+  write_files(record, picture, to_standard_output ? "" : counters, interrupt);
+  interrupt.set_consequence("the picture was written, what follows it is incomplete");
+  print_closing(record, to_standard_output ? counters : "", output);
 }
 
 }  // namespace
@@ -153,7 +190,7 @@ int render_command(const RenderOptions& options, Interrupt& interrupt, std::ostr
   const Prepared prepared = prepare(options, interrupt, seconds);
   print_remarks(options, prepared);
   const svm::Report report = run_timed(options, prepared, interrupt, seconds);
-  write_outputs(options, prepared, report, seconds, output);
+  write_outputs(options, prepared, report, seconds, interrupt, output);
   return 0;
 }
 

@@ -4,26 +4,37 @@
 
 #include "apps/nff_writer.h"
 #include "apps/output_file.h"
-#include "core/expect.h"
 #include "core/scenes.h"
 
 namespace dmpc::apps {
 
-int scene_command(const SceneOptions& options, const Interrupt& interrupt, std::ostream& output) {
-  const core::SceneName name = core::parse_scene_name(options.name);
-  const auto produce = [&](core::SceneSink& sink) {
-    core::generate_scene(name, sink);
-    interrupt.check();
-  };
-  if (options.output) {
-    check_output_path(*options.output, "-o");
-    write_nff_file(options.output->string(), produce);
-    return 0;
+namespace {
+
+void write_file(const core::SceneName& name, const std::filesystem::path& path, Interrupt& interrupt) {
+  check_output_path(path, "-o");
+  if (is_special(path)) {
+    interrupt.set_consequence("the output is incomplete");
   }
+  const Interrupt::EndAtOnce end_at_once(interrupt);
+  write_nff_file(path.string(), [&name](core::SceneSink& sink) { core::generate_scene(name, sink); });
+}
+
+void write_output(const core::SceneName& name, Interrupt& interrupt, std::ostream& output) {
+  interrupt.set_consequence("the output is incomplete");
+  const Interrupt::EndAtOnce end_at_once(interrupt);
   NffWriter writer(output);
-  produce(writer);
-  if (!output.flush()) {
-    throw core::InputError("the scene could not be written to the standard output");
+  core::generate_scene(name, writer);
+  finish_output(output, "the scene");
+}
+
+}  // namespace
+
+int scene_command(const SceneOptions& options, Interrupt& interrupt, std::ostream& output) {
+  const core::SceneName name = core::parse_scene_name(options.name);
+  if (options.output) {
+    write_file(name, *options.output, interrupt);
+  } else {
+    write_output(name, interrupt, output);
   }
   return 0;
 }

@@ -8,8 +8,8 @@
 
 namespace dmpc::apps {
 
-/// Writes to the file asked for (whole or not at all), else to `output`. Returns the exit status 0. Throws core::InputError for
-/// an unknown name or if writing fails, Interrupted after a signal.
-int scene_command(const SceneOptions& options, const Interrupt& interrupt, std::ostream& output);
+/// Writes to the file asked for (whole or not at all), else to `output`. A signal ends the process. Returns the exit status 0.
+/// Throws core::InputError for an unknown name or if writing fails, Interrupted if a signal came before.
+int scene_command(const SceneOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

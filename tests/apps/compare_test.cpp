@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <sstream>
 
@@ -77,7 +78,8 @@ TEST_CASE("the command compares files, prints the figures and writes the differe
   write_image(folder / "a.exr", gray(3, 2, 0.5F));
   write_image(folder / "b.exr", gray(3, 2, 0.25F));
   std::ostringstream output;
-  CHECK(compare_command({folder / "a.exr", folder / "b.exr", folder / "d.exr"}, output) == 0);
+  Interrupt interrupt;
+  CHECK(compare_command({folder / "a.exr", folder / "b.exr", folder / "d.exr"}, interrupt, output) == 0);
   CHECK(output.str().find("root mean square error  0.25\n") != std::string::npos);
   CHECK(output.str().find("differing pixels        6 of 6 (100 %)\n") != std::string::npos);
   CHECK(read_image(folder / "d.exr").rgb == gray(3, 2, 0.25F).rgb);
@@ -88,8 +90,27 @@ TEST_CASE("no difference picture is written when the sizes differ") {
   write_image(folder / "a.exr", gray(3, 2, 0));
   write_image(folder / "b.exr", gray(2, 3, 0));
   std::ostringstream output;
-  CHECK_THROWS_AS(compare_command({folder / "a.exr", folder / "b.exr", folder / "d.exr"}, output), core::InputError);
+  Interrupt interrupt;
+  CHECK_THROWS_AS(compare_command({folder / "a.exr", folder / "b.exr", folder / "d.exr"}, interrupt, output), core::InputError);
   CHECK_FALSE(std::filesystem::exists(folder / "d.exr"));
+}
+
+TEST_CASE("a difference picture that would replace one of the two is refused before anything is read") {
+  const tests::TemporaryFolder folder;
+  tests::write_text(folder / "a.exr", "no picture");
+  std::ostringstream output;
+  Interrupt interrupt;
+  CHECK_THROWS_AS(compare_command({folder / "a.exr", folder / "b.exr", folder / "a.exr"}, interrupt, output), core::UsageError);
+  CHECK_THROWS_AS(compare_command({folder / "a.exr", folder / "b.exr", folder / "b.exr"}, interrupt, output), core::UsageError);
+  CHECK(tests::file_text(folder / "a.exr") == "no picture");
+}
+
+TEST_CASE("figures that cannot be printed are an error") {
+  const tests::TemporaryFolder folder;
+  write_image(folder / "a.exr", gray(1, 1, 0));
+  std::ofstream full("/dev/full");
+  Interrupt interrupt;
+  CHECK_THROWS_AS(compare_command({folder / "a.exr", folder / "a.exr", {}}, interrupt, full), core::InputError);
 }
 
 }  // namespace dmpc::apps

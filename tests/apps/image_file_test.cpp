@@ -1,6 +1,9 @@
 #include "apps/image_file.h"
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <string>
@@ -74,9 +77,9 @@ TEST_CASE("an unknown or missing extension is refused with advice") {
   const TemporaryFolder folder;
   for (const std::string name : {"a.nonsense", "a", "a.null", "a.term"}) {
     CAPTURE(name);
-    CHECK_THROWS_AS(check_image_path(folder / name), core::InputError);
+    CHECK_THROWS_AS(check_image_path(folder / name, "-o"), core::InputError);
   }
-  CHECK_THROWS_WITH_AS(check_image_path("a.nonsense"),
+  CHECK_THROWS_WITH_AS(check_image_path("a.nonsense", "-o"),
                        "a.nonsense: cannot write pictures of the kind .nonsense, use .exr or .tif (linear floats), .png or .jpg "
                        "(8 bits, sRGB)",
                        core::InputError);
@@ -85,17 +88,35 @@ TEST_CASE("an unknown or missing extension is refused with advice") {
 
 TEST_CASE("checking a picture's path leaves nothing behind and keeps an older picture") {
   const TemporaryFolder folder;
-  check_image_path(folder / "a.png");
+  check_image_path(folder / "a.png", "-o");
   CHECK(folder.entry_count() == 0);
   write_image(folder / "a.exr", gradient(2, 2));
-  check_image_path(folder / "a.exr");
+  check_image_path(folder / "a.exr", "-o");
   CHECK(read_image(folder / "a.exr").rgb == gradient(2, 2).rgb);
 }
 
 TEST_CASE("a picture cannot go into a folder that is not there") {
   const TemporaryFolder folder;
-  CHECK_THROWS_AS(check_image_path(folder / "nowhere/a.png"), core::InputError);
+  CHECK_THROWS_AS(check_image_path(folder / "nowhere/a.png", "-o"), core::InputError);
   CHECK_THROWS_AS(write_image(folder / "nowhere/a.png", Image(1, 1)), core::InputError);
+}
+
+TEST_CASE("a picture's path is refused by the name of its option") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH_AS(check_image_path(folder / "nowhere/a.png", "--difference"), doctest::Contains("--difference "),
+                       core::InputError);
+}
+
+TEST_CASE("a picture cannot go into a pipe, and nothing is written there") {
+  const TemporaryFolder folder;
+  const std::string pipe = folder / "a.png";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  CHECK_THROWS_WITH_AS(check_image_path(pipe, "-o"), doctest::Contains("no ordinary file"), core::InputError);
+  char byte = 0;
+  CHECK(::read(reader, &byte, 1) == 0);
+  ::close(reader);
+  CHECK(folder.entry_count() == 1);
 }
 
 TEST_CASE("what is no picture cannot be read") {

@@ -8,8 +8,10 @@
 #include <condition_variable>
 #include <csignal>
 #include <mutex>
+#include <string>
 
 #include "core/expect.h"
+#include "tests/support/temporary_folder.h"
 
 namespace dmpc::apps {
 
@@ -86,6 +88,44 @@ TEST_CASE("in such a scope a signal ends the process with status 130") {
           ::sleep(10);
           return 0;
         }) == interrupted_status);
+}
+
+TEST_CASE("a second signal ends the process with status 130 whatever it is doing") {
+  CHECK(in_child([] {
+          const Interrupt interrupt;
+          if (!stops_after(interrupt, SIGTERM)) {
+            return 1;
+          }
+          ::kill(::getpid(), SIGINT);
+          ::sleep(10);
+          return 0;
+        }) == interrupted_status);
+}
+
+TEST_CASE("an end at once removes the files that ask for it, and those only") {
+  static const tests::TemporaryFolder folder;
+  CHECK(in_child([] {
+          for (const char* name : {"early", "kept", "half", "other"}) {
+            tests::write_text(folder / name, "some");
+          }
+          Interrupt interrupt;
+          const Interrupt::EndAtOnce end_at_once(interrupt);
+          { const RemovedAtOnce early(folder / "early"); }
+          const RemovedAtOnce half(folder / "half"), other(folder / "other"), missing(folder / "missing");
+          ::kill(::getpid(), SIGTERM);
+          ::sleep(10);
+          return 0;
+        }) == interrupted_status);
+  CHECK(folder.entry_count() == 2);
+  CHECK(tests::file_text(folder / "early") == "some");
+  CHECK(tests::file_text(folder / "kept") == "some");
+}
+
+TEST_CASE("what an interruption means for the outputs can be said, and is nothing at first") {
+  Interrupt interrupt;
+  CHECK(std::string(interrupt.consequence()) == "nothing was written");
+  interrupt.set_consequence("half");
+  CHECK(std::string(interrupt.consequence()) == "half");
 }
 
 }  // namespace dmpc::apps

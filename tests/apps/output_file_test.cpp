@@ -4,6 +4,8 @@
 #include <sys/stat.h>
 
 #include <fstream>
+#include <sstream>
+#include <string_view>
 
 #include "core/expect.h"
 #include "tests/support/temporary_folder.h"
@@ -14,9 +16,19 @@ using tests::file_text;
 using tests::TemporaryFolder;
 using tests::write_text;
 
+namespace {
+
+void write_whole(const std::filesystem::path& path, std::string_view text) {
+  OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+}  // namespace
+
 TEST_CASE("a written file has its name and nothing else is left in the folder") {
   const TemporaryFolder folder;
-  OutputFile(folder / "a.json").write("{}");
+  write_whole(folder / "a.json", "{}");
   CHECK(file_text(folder / "a.json") == "{}");
   CHECK(folder.entry_count() == 1);
 }
@@ -25,7 +37,7 @@ TEST_CASE("a file that is not committed leaves nothing behind") {
   const TemporaryFolder folder;
   {
     const OutputFile file(folder / "a.png");
-    write_text(file.temporary(), "half");
+    file.write("half");
     CHECK(folder.entry_count() == 1);
   }
   CHECK(folder.entry_count() == 0);
@@ -53,7 +65,7 @@ TEST_CASE("a symbolic link stays and the file behind it is replaced") {
   const TemporaryFolder folder;
   write_text(folder / "real.txt", "old");
   std::filesystem::create_symlink("real.txt", folder / "link.txt");
-  OutputFile(folder / "link.txt").write("new");
+  write_whole(folder / "link.txt", "new");
   CHECK(std::filesystem::is_symlink(folder / "link.txt"));
   CHECK(file_text(folder / "real.txt") == "new");
 }
@@ -80,6 +92,34 @@ TEST_CASE("a folder or an empty name is no output") {
 }
 
 TEST_CASE("a bare name lies in the current folder") { CHECK_NOTHROW(check_output_path("a.png", "-o")); }
+
+TEST_CASE("a pipe, a device and a folder are special, a file and nothing are not") {
+  const TemporaryFolder folder;
+  write_text(folder / "file", "");
+  REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  CHECK(is_special(folder / "pipe"));
+  CHECK(is_special("/dev/null"));
+  CHECK(is_special(folder.path()));
+  CHECK_FALSE(is_special(folder / "file"));
+  CHECK_FALSE(is_special(folder / "nothing"));
+}
+
+TEST_CASE("the standard output is known by its name, a file beside it is not") {
+  const TemporaryFolder folder;
+  write_text(folder / "file", "");
+  CHECK(is_standard_output("/dev/stdout"));
+  CHECK_FALSE(is_standard_output(folder / "file"));
+  CHECK_FALSE(is_standard_output(folder / "nothing"));
+}
+
+TEST_CASE("an output that does not arrive is an error") {
+  std::ostringstream good;
+  good << "text";
+  CHECK_NOTHROW(finish_output(good, "the text"));
+  std::ofstream full("/dev/full");
+  full << "text";
+  CHECK_THROWS_WITH_AS(finish_output(full, "the text"), "the text could not be written to the standard output", core::InputError);
+}
 
 TEST_CASE("a write that fails says so and leaves nothing") {
   const TemporaryFolder folder;

@@ -1,6 +1,9 @@
 // The program as its user meets it: exit statuses, messages, files.
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
@@ -31,6 +34,18 @@ Result run(const std::vector<std::string>& arguments) {
   ChildProcess process(dmpc(arguments));
   const int status = process.status();
   return {status, process.output(), process.errors()};
+}
+
+/// Waits until `done` says so, twenty seconds at most; whether it did.
+template <class Done>
+bool until(const Done& done) {
+  for (int tries = 0; tries < 4000; ++tries) {
+    if (done()) {
+      return true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
 }
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
@@ -121,7 +136,60 @@ TEST_CASE("degenerate primitives are left out and counted aloud") {
   write_text(folder / "flat.nff", std::string(view) + "s 0 0 0 1\ns 1 1 1 0\n");
   const Result result = run({"render", folder / "flat.nff", "--quiet", "-o", folder / "a.png"});
   CHECK(result.status == 0);
-  CHECK(contains(result.errors, "1 degenerate"));
+  CHECK(contains(result.errors, "1 degenerate primitive was left out"));
+  const Result check = run({"check", folder / "flat.nff"});
+  CHECK(check.status == 0);
+  CHECK(contains(check.errors, "1 degenerate primitive was left out"));
+}
+
+TEST_CASE("an output that is another one or an input ends with status 2 and nothing changed") {
+  const TemporaryFolder folder;
+  const std::string keep = folder / "keep.nff", image = folder / "a.png";
+  write_text(keep, std::string(view) + "s 0 0 0 1\n");
+  write_text(image, "older");
+  CHECK(run({"render", keep, "-o", folder / "x.png", "--stats", keep}).status == 2);
+  CHECK(run({"render", "tetra-1", "-o", image, "--stats", image}).status == 2);
+  CHECK(run({"compare", image, folder / "b.png", "--difference", image}).status == 2);
+  CHECK(file_text(image) == "older");
+  CHECK(file_text(keep) == std::string(view) + "s 0 0 0 1\n");
+  CHECK(folder.entry_count() == 2);
+}
+
+TEST_CASE("counters may go to the standard output, before the closing lines") {
+  const TemporaryFolder folder;
+  const Result result = run({"render", "tetra-1", "--resolution=4x4", "--stats=/dev/stdout", "-o", folder / "a.png"});
+  CHECK(result.status == 0);
+  CHECK(result.output.find("{") == 0);
+  CHECK(result.output.find("film_hash") < result.output.find("picture  "));
+  CHECK(contains(result.output, "picture  "));
+}
+
+TEST_CASE("counters that cannot be written end with status 1 and no picture") {
+  const TemporaryFolder folder;
+  write_text(folder / "a.png", "older");
+  const Result result = run({"render", "tetra-1", "--resolution=4x4", "--stats=/dev/full", "-o", folder / "a.png"});
+  CHECK(result.status == 1);
+  CHECK(contains(result.errors, "/dev/full: cannot be written"));
+  CHECK(result.output.empty());
+  CHECK(file_text(folder / "a.png") == "older");
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("lines that the standard output does not take end with status 1") {
+  const TemporaryFolder folder;
+  const std::string image = folder / "a.exr";
+  const std::vector<std::vector<std::string>> commands = {{"render", "tetra-1", "--resolution=4x4", "-o", image},
+                                                          {"check", "tetra-1", "--resolution=4x4"},
+                                                          {"compare", image, image},
+                                                          {"scene", "tetra-1"},
+                                                          {"--help"}};
+  for (const std::vector<std::string>& command : commands) {
+    CAPTURE(command.front());
+    ChildProcess process(dmpc(command), "/dev/full");
+    CHECK(process.status() == 1);
+    CHECK(contains(process.errors(), "could not be written to the standard output"));
+  }
+  CHECK(apps::read_image(image).width == 4);
 }
 
 TEST_CASE("scene writes the same to a file as to the standard output") {
@@ -160,6 +228,55 @@ TEST_CASE("Ctrl-C and SIGTERM end a render with status 130 and leave an older pi
   }
   CHECK(file_text(folder / "a.png") == "older");
   CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("a signal while a scene is written to a file ends with status 130 and leaves nothing") {
+  const TemporaryFolder folder;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    ChildProcess process(dmpc({"scene", "tetra-12", "-o", folder / "t.nff"}));
+    CHECK(until([&] { return folder.entry_count() > 0; }));
+    process.send(signal);
+    CHECK(process.status() == 130);
+    CHECK(contains(process.errors(), "interrupted, nothing was written"));
+    CHECK(folder.entry_count() == 0);
+  }
+}
+
+TEST_CASE("a signal while a scene is written to the standard output ends with status 130 and says that it is incomplete") {
+  ChildProcess process(dmpc({"scene", "tetra-12"}));
+  CHECK(until([&] { return !process.output().empty(); }));
+  process.send(SIGTERM);
+  CHECK(process.status() == 130);
+  CHECK(contains(process.errors(), "interrupted, the output is incomplete"));
+}
+
+TEST_CASE("a signal while compare reads ends with status 130") {
+  const TemporaryFolder folder;
+  const std::string pipe = folder / "a.png";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  ChildProcess process(dmpc({"compare", pipe, pipe, "--difference", folder / "d.png"}));
+  int writer = -1;  // opens when compare has opened the other end
+  CHECK(until([&] { return (writer = ::open(pipe.c_str(), O_WRONLY | O_NONBLOCK)) >= 0; }));
+  process.send(SIGINT);
+  CHECK(process.status() == 130);
+  CHECK(contains(process.errors(), "interrupted, nothing was written"));
+  ::close(writer);
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("a signal while a render writes its outputs ends with status 130 and leaves none of them") {
+  const TemporaryFolder folder;
+  const std::string pipe = folder / "stats";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);  // nobody reads, so that writing to it waits
+  write_text(folder / "a.png", "older");
+  ChildProcess process(dmpc({"render", "tetra-1", "--resolution=4x4", "--stats", pipe, "-o", folder / "a.png"}));
+  CHECK(until([&] { return folder.entry_count() > 2; }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  process.send(SIGINT);
+  CHECK(process.status() == 130);
+  CHECK(contains(process.errors(), "written"));
+  CHECK(file_text(folder / "a.png") == "older");
+  CHECK(folder.entry_count() == 2);
 }
 
 }  // namespace dmpc::tests

@@ -22,7 +22,8 @@ Said check(const apps::CheckOptions& options) {
   std::streambuf* const before = std::cout.rdbuf(output.rdbuf());
   Said said;
   try {
-    said.status = apps::check_command(options);
+    apps::Interrupt interrupt;
+    said.status = apps::check_command(options, interrupt);
   } catch (...) {
     std::cout.rdbuf(before);
     throw;

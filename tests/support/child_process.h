@@ -15,10 +15,10 @@
 
 namespace dmpc::tests {
 
-/// Started by its making; stdin is empty, stdout and stderr go to files.
+/// Started by its making; stdin is empty, stderr goes to a file, and so does stdout unless another place is given.
 class ChildProcess {
  public:
-  explicit ChildProcess(std::vector<std::string> command) {
+  explicit ChildProcess(std::vector<std::string> command, const std::filesystem::path& standard_output = {}) {
     std::vector<char*> arguments;
     arguments.reserve(command.size() + 1);
     for (std::string& word : command) {
@@ -28,7 +28,7 @@ class ChildProcess {
     id_ = ::fork();
     if (id_ == 0) {
       redirect("/dev/null", "r", stdin);
-      redirect(folder_ / "output", "w", stdout);
+      redirect(standard_output.empty() ? folder_ / "output" : standard_output, "w", stdout);
       redirect(folder_ / "errors", "w", stderr);
       ::execv(arguments.front(), arguments.data());
       ::_exit(127);
