@@ -286,9 +286,7 @@ std::array<Vec3d, 3> seen_from(const Ray& ray, const core::PrimitiveValues& valu
   return {Vec3d(vertex(values, 0)) - origin, Vec3d(vertex(values, 1)) - origin, Vec3d(vertex(values, 2)) - origin};
 }
 
-bool possible(const Encounter& encounter) {
-  return encounter.possible(Renderer::grid) || encounter.possible(Renderer::embree);
-}
+bool possible(const Encounter& encounter) { return encounter.possible(Renderer::grid) || encounter.possible(Renderer::embree); }
 
 }  // namespace
 

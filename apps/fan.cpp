@@ -32,15 +32,9 @@ struct Across {
   Vec3d origin, right, up;
 };
 
-double turn(const Across::Point& a, const Across::Point& b) {
-  return a.x * b.y - a.y * b.x;
-}
-Across::Point from(const Across::Point& a, const Across::Point& b) {
-  return {b.x - a.x, b.y - a.y};
-}
-double size(const Across::Point& a) {
-  return std::sqrt(a.x * a.x + a.y * a.y);
-}
+double turn(const Across::Point& a, const Across::Point& b) { return a.x * b.y - a.y * b.x; }
+Across::Point from(const Across::Point& a, const Across::Point& b) { return {b.x - a.x, b.y - a.y}; }
+double size(const Across::Point& a) { return std::sqrt(a.x * a.x + a.y * a.y); }
 
 /// Distance of the ray from the segment between a and b.
 double distance(const Across::Point& a, const Across::Point& b) {

@@ -22,9 +22,7 @@ namespace {
 // Embree 4 renamed the context and moved it into an arguments structure. That branch is untested: Debian 12 has 3.13.
 #if RTC_VERSION_MAJOR >= 4
 using Context = RTCRayQueryContext;
-void start(Context& context) {
-  rtcInitRayQueryContext(&context);
-}
+void start(Context& context) { rtcInitRayQueryContext(&context); }
 void intersect(RTCScene scene, Context& context, RTCRayHit& ray_hit) {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
@@ -39,15 +37,9 @@ void occlude(RTCScene scene, Context& context, RTCRay& ray) {
 }
 #else
 using Context = RTCIntersectContext;
-void start(Context& context) {
-  rtcInitIntersectContext(&context);
-}
-void intersect(RTCScene scene, Context& context, RTCRayHit& ray_hit) {
-  rtcIntersect1(scene, &context, &ray_hit);
-}
-void occlude(RTCScene scene, Context& context, RTCRay& ray) {
-  rtcOccluded1(scene, &context, &ray);
-}
+void start(Context& context) { rtcInitIntersectContext(&context); }
+void intersect(RTCScene scene, Context& context, RTCRayHit& ray_hit) { rtcIntersect1(scene, &context, &ray_hit); }
+void occlude(RTCScene scene, Context& context, RTCRay& ray) { rtcOccluded1(scene, &context, &ray); }
 #endif
 
 /// What the callbacks know of the query under way. Embree hands back the address of `context`, the first member.
@@ -58,9 +50,7 @@ struct Query {
 };
 static_assert(std::is_standard_layout_v<Query>);
 
-Query& query_of(Context* context) {
-  return *reinterpret_cast<Query*>(context);
-}
+Query& query_of(Context* context) { return *reinterpret_cast<Query*>(context); }
 
 /// Whether primitive `id` at distance `t` is the query's best so far; if so it is noted.
 bool improves(Query& query, float t, std::uint32_t id) {
@@ -72,9 +62,7 @@ bool improves(Query& query, float t, std::uint32_t id) {
   return true;
 }
 
-const std::uint32_t* ids_of(void* user_data) {
-  return static_cast<const std::uint32_t*>(user_data);
-}
+const std::uint32_t* ids_of(void* user_data) { return static_cast<const std::uint32_t*>(user_data); }
 
 /// Called for each triangle that Embree found at or before the ray's present end, ties included. Also serves as the filter of
 /// occlusion queries, where the first acceptance ends the walk.
@@ -141,9 +129,7 @@ Query start_query(const core::Ray& ray) {
   return query;
 }
 
-bool can_hit(const core::Ray& ray) {
-  return is_finite(ray.origin) && is_finite(ray.direction) && ray.t_max > 0;
-}
+bool can_hit(const core::Ray& ray) { return is_finite(ray.origin) && is_finite(ray.direction) && ray.t_max > 0; }
 
 }  // namespace
 
@@ -280,8 +266,6 @@ core::Traced EmbreeTracer::trace(const core::Ray& ray, core::Cursor& cursor, cor
   return core::Traced::hit;
 }
 
-const char* embree_version() {
-  return RTC_VERSION_STRING;
-}
+const char* embree_version() { return RTC_VERSION_STRING; }
 
 }  // namespace dmpc::apps

@@ -13,14 +13,10 @@ using core::Ray;
 constexpr std::array<std::string_view, verdict_count> verdict_names{"tie",          "silhouette", "ray end",
                                                                     "oracle wrong", "grid wrong", "both wrong"};
 
-bool is_shadow(const Ray& ray) {
-  return ray.kind == core::RayKind::shadow;
-}
+bool is_shadow(const Ray& ray) { return ray.kind == core::RayKind::shadow; }
 
 /// Beyond doubt, f lies before e.
-bool before(const Encounter& f, const Encounter& e) {
-  return f.t + f.t_error < e.t - e.t_error;
-}
+bool before(const Encounter& f, const Encounter& e) { return f.t + f.t_error < e.t - e.t_error; }
 
 Answer exact_of(const Ray& ray, const std::vector<Encounter>& met) {
   const Encounter* nearest = nullptr;
@@ -58,9 +54,7 @@ Verdict reason(const Ray& ray, const std::vector<Encounter>& met, const std::arr
 
 }  // namespace
 
-std::string_view name_of(Verdict verdict) {
-  return verdict_names[static_cast<std::size_t>(verdict)];
-}
+std::string_view name_of(Verdict verdict) { return verdict_names[static_cast<std::size_t>(verdict)]; }
 
 std::vector<Encounter> Referee::encounters(const Ray& ray) const {
   std::vector<Encounter> met;
@@ -77,9 +71,7 @@ std::vector<Encounter> Referee::encounters(const Ray& ray) const {
   return met;
 }
 
-Answer Referee::exact(const Ray& ray) const {
-  return exact_of(ray, encounters(ray));
-}
+Answer Referee::exact(const Ray& ray) const { return exact_of(ray, encounters(ray)); }
 
 bool Referee::admissible(const Ray& ray, const Answer& answer, Renderer renderer) const {
   return admissible(ray, encounters(ray), answer, renderer);

@@ -10,8 +10,8 @@
 namespace dmpc::core {
 
 /// A pinhole, in grid-local coordinates. NFF's angle spans the centres of the first and last pixel along the shorter side: sample
-/// i of n lies at tan(angle/2) (2i/(n-1) - 1), so 513x513 shoots through the corners of 512x512 pixels (Haines' SPD procedure) and
-/// 512x512 gives the rays of the 1994 paper.
+/// i of n lies at tan(angle/2) (2i/(n-1) - 1), so 513x513 shoots through the corners of 512x512 pixels (Haines' SPD procedure)
+/// and 512x512 gives the rays of the 1994 paper.
 class Camera {
  public:
   /// Requires width, height > 0. With one sample a pixel the ray goes through the centre; with more, samples are jittered over

@@ -23,13 +23,11 @@ struct UsageError : std::runtime_error {
 };
 
 [[noreturn]] inline void fail(const char* sentence, const std::source_location& where) {
-  throw InternalError(std::string(where.file_name()) + ":" + std::to_string(where.line()) +
-                      ": expected that " + sentence);
+  throw InternalError(std::string(where.file_name()) + ":" + std::to_string(where.line()) + ": expected that " + sentence);
 }
 
 /// Throws InternalError unless `condition` holds; `sentence` states the invariant. On in every build.
-inline void expect(bool condition, const char* sentence,
-                   const std::source_location& where = std::source_location::current()) {
+inline void expect(bool condition, const char* sentence, const std::source_location& where = std::source_location::current()) {
   if (!condition) [[unlikely]] {
     fail(sentence, where);
   }

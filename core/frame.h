@@ -15,9 +15,10 @@ namespace dmpc::core {
 GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double top_cells_per_primitive,
                     const GridAxes& axes = world_axes);
 
-/// Within which distance of a cell a primitive must be listed there, grid-local: at least twice the error of any plane of the
-/// walk, for rays that start up to `distance` scene extents away (the error grows with the origin's distance, measured in
-/// grid.h's terms: 2^-21 of the extent times 1 + distance), and never below 1e-3 of a finest cell.
+/// Within which distance of a cell a primitive must be listed there, grid-local: more than the rounding of a ray and of its hit's
+/// t can move the hit, for rays that start up to `distance` scene extents away (2^-21 of the extent times 1 + distance: eight
+/// units in the last place of a float there), and never below 1e-3 of a finest cell. The walk's planes, in double, add nothing to
+/// it.
 double insertion_pad(const GridFrame& frame, double distance);
 
 /// The screen's axes: right, up, and from the scene towards the eye.

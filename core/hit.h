@@ -25,8 +25,8 @@ constexpr bool nearer(float t, std::uint32_t primitive, const Hit& than) {
   return t < than.t || (t == than.t && primitive < than.primitive);
 }
 
-/// Whether a candidate whose record is here takes the place of `than`: it is nearer, or it is the same and nobody here knows where
-/// the record of `than` is.
+/// Whether a candidate whose record is here takes the place of `than`: it is nearer, or it is the same and nobody here knows
+/// where the record of `than` is.
 constexpr bool replaces(float t, std::uint32_t primitive, const Hit& than) {
   return nearer(t, primitive, than) || (than.block == no_address && t == than.t && primitive == than.primitive);
 }

@@ -13,7 +13,8 @@ namespace dmpc::core {
 
 /// Merges the hits of `ray` with the block at `record` (whose address is `block`) into `best`: the least (t, primitive) with t in
 /// (0, ray.t_max), the ignored primitive left out. Order and repetition of calls do not change the result.
-void test_block(const Ray& ray, const ShearedRay& sheared, const std::byte* record, Address block, Hit& best, Operations& operations);
+void test_block(const Ray& ray, const ShearedRay& sheared, const std::byte* record, Address block, Hit& best,
+                Operations& operations);
 
 /// t of all lanes of a triangle block: `times[lane]`, `missed` or any value outside (0, t_max) where there is no hit.
 /// `rows` is readable for overread_bytes behind the last row.

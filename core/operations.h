@@ -11,10 +11,10 @@ namespace dmpc::core {
 
 /// Counted in one place each, the same under every runner and strategy.
 struct Operations {
-  std::uint64_t cell_steps = 0;    ///< steps from one cell to the next, on any level
+  std::uint64_t cell_steps = 0;  ///< steps from one cell to the next, on any level
   std::uint64_t brick_reads = 0;
   std::array<std::uint64_t, primitive_kind_count> primitive_tests{};  ///< lanes tested, by kind
-  std::uint64_t shadings = 0;      ///< hits that were shaded
+  std::uint64_t shadings = 0;                                         ///< hits that were shaded
 
   std::array<std::uint64_t, ray_kind_count> rays{};  ///< shot, hit or miss, by kind
   std::uint64_t primary_hits = 0;

@@ -10,8 +10,9 @@ namespace dmpc::core {
 Box bounds_of(const PrimitiveValues& primitive);
 
 /// One primitive against many boxes. Boxes come enlarged by the pad; comparisons are inclusive.
-/// Triangles: separating axes, T. Akenine-Moeller, "Fast 3D Triangle-Box Overlap Testing", 2001. Spheres: the shell's two radii against the
-/// box's nearest and farthest point. Cones: distance of the box's centre to the lateral surface against its half diagonal.
+/// Triangles: separating axes, T. Akenine-Moeller, "Fast 3D Triangle-Box Overlap Testing", 2001. Spheres: the shell's two radii
+/// against the box's nearest and farthest point. Cones: distance of the box's centre to the lateral surface against its half
+/// diagonal.
 class Overlap {
  public:
   explicit Overlap(const PrimitiveValues& primitive);
@@ -24,7 +25,7 @@ class Overlap {
 
   PrimitiveKind kind_;
   Box bounds_;
-  Vec3d a_, b_, c_;            ///< vertices, or centre, or base and axis
+  Vec3d a_, b_, c_;  ///< vertices, or centre, or base and axis
   Vec3d normal_;
   double radius_ = 0, apex_radius_ = 0;
 };

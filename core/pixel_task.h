@@ -45,9 +45,9 @@ struct RenderSettings {
 
 enum class TaskState : std::uint8_t { finished, more, absent };
 
-/// Renders one pixel, all its samples, depth first, last in first out: a hit is shaded one child at a time, and each child is traced to
-/// its end before the next is made, so the stack holds at most one hit a depth, whatever the number of lights.
-/// Lives in memory given by its owner; never allocates. Copyable as bytes.
+/// Renders one pixel, all its samples, depth first, last in first out: a hit is shaded one child at a time, and each child is
+/// traced to its end before the next is made, so the stack holds at most one hit a depth, whatever the number of lights. Lives in
+/// memory given by its owner; never allocates. Copyable as bytes.
 class PixelTask {
  public:
   /// `stack` has at least settings.shade.depth_max entries and outlives the task.

@@ -22,10 +22,10 @@ struct Ray {
   float t_max = std::numeric_limits<float>::infinity();  ///< hits count in (0, t_max)
   Vec3f direction;                                       ///< of unit length, to rounding
   std::uint32_t ignored_primitive = no_primitive;        ///< the triangle it starts on, which it cannot hit again
-  Color weight{1, 1, 1};       ///< factor of the light it finds; for a shadow ray the light that it brings if nothing blocks it
-  std::uint32_t pixel = 0;     ///< y * width + x
-  std::uint32_t sample = 0;    ///< below the samples per pixel
-  std::uint8_t depth = 1;      ///< 1 for a primary ray; a shadow ray has the depth of the ray whose hit cast it
+  Color weight{1, 1, 1};     ///< factor of the light it finds; for a shadow ray the light that it brings if nothing blocks it
+  std::uint32_t pixel = 0;   ///< y * width + x
+  std::uint32_t sample = 0;  ///< below the samples per pixel
+  std::uint8_t depth = 1;    ///< 1 for a primary ray; a shadow ray has the depth of the ray whose hit cast it
   RayKind kind = RayKind::primary;
   std::uint16_t padding = 0;
 };

@@ -12,10 +12,10 @@ namespace {
 
 using Stage = HitState::Stage;
 
-/// How far a secondary ray starts from its surface, along the true normal, grid-local. Coordinates are below about 1, so rounding a point
-/// to float moves it by at most 2^-25 an axis, and the float plane of a neighbouring triangle is off by a few times that: 2^-21 is
-/// ten times their sum (after M. Pharr, W. Jakob, G. Humphreys, Physically Based Rendering, section 6.8, with the bound made a constant
-/// by the grid-local frame).
+/// How far a secondary ray starts from its surface, along the true normal, grid-local. Coordinates are below about 1, so rounding
+/// a point to float moves it by at most 2^-25 an axis, and the float plane of a neighbouring triangle is off by a few times that:
+/// 2^-21 is ten times their sum (after M. Pharr, W. Jakob, G. Humphreys, Physically Based Rendering, section 6.8, with the bound
+/// made a constant by the grid-local frame).
 constexpr double surface_offset = 0x1p-21;
 /// A shadow ray ends this share of its length before the light.
 constexpr double light_gap = 1e-6;
@@ -39,7 +39,8 @@ struct Lane {
 Vec3d along(const Ray& ray, double t) { return Vec3d(ray.origin) + Vec3d(ray.direction) * t; }
 
 /// Point, true normal and barycentric weights in double, after T. Moeller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle
-/// Intersection", 1997; weights clamped, so that the point lies on the triangle even where the float test let the ray in by rounding.
+/// Intersection", 1997; weights clamped, so that the point lies on the triangle even where the float test let the ray in by
+/// rounding.
 void triangle_geometry(HitState& state, const Lane& lane) {
   const Vec3d v0 = lane.vector(0), edge1 = lane.vector(3) - v0, edge2 = lane.vector(6) - v0;
   const Vec3d direction(state.ray.direction), p = cross(direction, edge2);

@@ -25,17 +25,17 @@ struct ShadeOptions {
 struct HitState {
   enum class Stage : std::uint8_t { geometry, normals, material, light, reflected, refracted, finished };
 
-  Ray ray;             ///< the ray that hit
+  Ray ray;  ///< the ray that hit
   Hit hit;
-  Vec3d point;         ///< on the primitive
+  Vec3d point;             ///< on the primitive
   Vec3d geometric_normal;  ///< true normal, unit length
-  Vec3d normal;        ///< shading normal on the ray's side, unit length
-  double u = 0, v = 0; ///< barycentric weights of vertices 1 and 2 (triangles)
+  Vec3d normal;            ///< shading normal on the ray's side, unit length
+  double u = 0, v = 0;     ///< barycentric weights of vertices 1 and 2 (triangles)
   MaterialRecord material;
   ShadingReference shading;
   std::uint32_t next_light = 0;
-  bool curved = false;        ///< a ray from here may meet the same primitive again
-  bool leaving = false;       ///< the ray goes along the true normal: out of the body
+  bool curved = false;   ///< a ray from here may meet the same primitive again
+  bool leaving = false;  ///< the ray goes along the true normal: out of the body
   bool total_internal_reflection = false;
   Stage stage = Stage::geometry;
 };

@@ -43,9 +43,7 @@ std::byte* reserve_touched(std::size_t bytes) {
   return start + front_bytes;
 }
 
-std::size_t block_bytes(const MemoryPlan& plan) {
-  return plan.total() - plan[Category::reserve];
-}
+std::size_t block_bytes(const MemoryPlan& plan) { return plan.total() - plan[Category::reserve]; }
 
 }  // namespace
 

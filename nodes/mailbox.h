@@ -237,8 +237,6 @@ class BasicMailbox {
 
 using Mailbox = BasicMailbox<SystemAtomics>;
 
-inline std::size_t MailboxCapacity::bytes() const {
-  return Mailbox::bytes(*this);
-}
+inline std::size_t MailboxCapacity::bytes() const { return Mailbox::bytes(*this); }
 
 }  // namespace dmpc::nodes

@@ -23,9 +23,7 @@ using AwakeCount = nodes::BasicAwakeCount<ExploredAtomics>;
 template <class T>
 using Atomic = ExploredAtomics::Atomic<T>;
 
-void check(bool condition, const char* sentence) {
-  Explorer::current().check(condition, sentence);
-}
+void check(bool condition, const char* sentence) { Explorer::current().check(condition, sentence); }
 
 nodes::MemoryPlan plan_for(const MailboxCapacity& capacity, std::size_t count) {
   nodes::MemoryPlan plan;
@@ -241,17 +239,11 @@ TEST_CASE("a free list without a tag is found out, even where every load returns
   CHECK(Explorer({.preemptions_max = 2, .mutation = no_tag}).explore<TwoSenders>().failure != "");
 }
 
-TEST_CASE("going to sleep without a look is found out") {
-  CHECK(failure_of({.kind = Mutation::Kind::blind_compare}) != "");
-}
+TEST_CASE("going to sleep without a look is found out") { CHECK(failure_of({.kind = Mutation::Kind::blind_compare}) != ""); }
 
-TEST_CASE("a forgotten wake-up is found out") {
-  CHECK(failure_of({.kind = Mutation::Kind::no_wake}) != "");
-}
+TEST_CASE("a forgotten wake-up is found out") { CHECK(failure_of({.kind = Mutation::Kind::no_wake}) != ""); }
 
-TEST_CASE("counting the woken node too late is found out") {
-  CHECK(failure_of({.kind = Mutation::Kind::late_raise}) != "");
-}
+TEST_CASE("counting the woken node too late is found out") { CHECK(failure_of({.kind = Mutation::Kind::late_raise}) != ""); }
 
 }  // namespace
 }  // namespace dmpc::tests

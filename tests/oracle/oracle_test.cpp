@@ -111,9 +111,7 @@ TEST_CASE("oracle and referee agree on random rays through a cloud of all kinds"
   CHECK(unexplained == 0);
 }
 
-TEST_CASE("the linked version of Embree is named") {
-  CHECK(std::string_view(apps::embree_version()).size() >= 5);
-}
+TEST_CASE("the linked version of Embree is named") { CHECK(std::string_view(apps::embree_version()).size() >= 5); }
 
 }  // namespace
 }  // namespace dmpc::tests

@@ -14,9 +14,7 @@ using apps::Referee;
 using apps::Verdict;
 using Primitives = std::vector<core::PrimitiveValues>;
 
-Answer hit(std::uint32_t id) {
-  return {true, id, 0};
-}
+Answer hit(std::uint32_t id) { return {true, id, 0}; }
 const Answer nothing{};
 
 core::PrimitiveValues square_half(float z, bool upper) {

@@ -22,7 +22,8 @@ inline core::Scene mirrors_and_glass() {
   builder.material({.color = {0.8, 0.7, 0.5}, .diffuse = 0.8, .specular = 0.2, .shine = 20});
   builder.polygon({{-3, -3, 0}, {3, -3, 0}, {3, 3, 0}, {-3, 3, 0}});
   builder.polygon({{-2, 2, 0}, {2, 2, 0}, {2, 2, 3}, {0, 2, 1}, {-2, 2, 3}});  // concave
-  builder.material({.color = {1, 1, 1}, .diffuse = 0.1, .specular = 0.2, .shine = 50, .transmittance = 0.8, .refraction_index = 1.5});
+  builder.material(
+      {.color = {1, 1, 1}, .diffuse = 0.1, .specular = 0.2, .shine = 50, .transmittance = 0.8, .refraction_index = 1.5});
   builder.sphere({-0.7, -0.6, 0.6}, 0.6);
   builder.material({.color = {0.9, 0.9, 0.9}, .diffuse = 0.2, .specular = 0.7, .shine = 80});
   builder.sphere({0.9, 0.3, 0.7}, 0.7);
