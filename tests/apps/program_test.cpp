@@ -220,7 +220,8 @@ TEST_CASE("Ctrl-C and SIGTERM end a render with status 130 and leave an older pi
   write_text(folder / "a.png", "older");
   for (const int signal : {SIGINT, SIGTERM}) {
     ChildProcess process(dmpc({"render", "balls-3", "--resolution=1024x1024", "--samples=32768", "-o", folder / "a.png"}));
-    std::this_thread::sleep_for(std::chrono::milliseconds(800));
+    REQUIRE(process.blocks(signal));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // so that it mostly renders already
     process.send(signal);
     CHECK(process.status() == 130);
     CHECK(contains(process.errors(), "interrupted"));

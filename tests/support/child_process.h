@@ -44,6 +44,18 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
+  /// Waits until the program's first thread blocks `signal`, that is, takes it in its own way; false after a minute without.
+  bool blocks(int signal) const {
+    for (int attempt = 0; attempt < 6000; ++attempt) {
+      const std::string state = file_text("/proc/" + std::to_string(id_) + "/status");
+      const std::size_t mask = state.find("SigBlk:");
+      if (mask != std::string::npos && (std::stoull(state.substr(mask + 7), nullptr, 16) >> (signal - 1) & 1U) != 0) {
+        return true;
+      }
+      ::usleep(10'000);
+    }
+    return false;
+  }
   void send(int signal) const { ::kill(id_, signal); }
   /// Waits for the end; the exit status, or 1000 + signal if a signal ended it.
   int status() {
