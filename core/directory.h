@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstring>
 
 #include "core/record.h"
 #include "core/units.h"
@@ -35,9 +34,7 @@ constexpr Address directory_address(const DatabaseHeader& header, const std::arr
 
 /// The entry of `cell` in its record: neighbours along x alternate.
 inline DirectoryEntry directory_entry(const std::byte* record, const std::array<std::int32_t, 3>& cell) {
-  DirectoryEntry entry;
-  std::memcpy(&entry, record + static_cast<std::size_t>(cell[0] / finest_per_top % 2) * sizeof(DirectoryEntry), sizeof(entry));
-  return entry;
+  return read<DirectoryEntry>(record + static_cast<std::size_t>(cell[0] / finest_per_top % 2) * sizeof(DirectoryEntry));
 }
 
 }  // namespace dmpc::core

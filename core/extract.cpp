@@ -17,13 +17,6 @@ constexpr std::int32_t tile_edge = 4 * finest_per_top;
 /// Nothing depends on a part's pages; the smallest wastes least at its end.
 constexpr std::size_t part_page_bytes = 512;
 
-template <class T>
-T read(const std::byte* from) {
-  T value;
-  std::memcpy(&value, from, sizeof(T));
-  return value;
-}
-
 /// A brick's record, taken apart.
 struct BrickView {
   Brick brick;

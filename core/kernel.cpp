@@ -2,7 +2,6 @@
 #include "core/kernel.h"
 
 #include <bit>
-#include <cstring>
 
 #include "core/mutation.h"
 
@@ -129,8 +128,7 @@ void intersect_lanes(const Ray& ray, const ShearedRay& sheared, PrimitiveKind ki
 
 void test_block(const Ray& ray, const ShearedRay& sheared, const std::byte* record, Address block, Hit& best,
                 Operations& operations) {
-  BlockHeader header;
-  std::memcpy(&header, record, sizeof(header));
+  const auto header = read<BlockHeader>(record);
   const std::size_t count = header.count;
   const auto* rows = reinterpret_cast<const float*>(record + sizeof(BlockHeader));
   const auto* ids = reinterpret_cast<const std::uint32_t*>(rows + value_count(header.kind) * count);

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 #include "core/region.h"
@@ -32,6 +33,15 @@ constexpr std::uint64_t byte_offset(Address address) {
 /// The address of the record at `base + bytes`; `bytes` is a multiple of record_alignment.
 constexpr Address advance(Address base, std::uint64_t bytes) {
   return Address{static_cast<std::uint32_t>(static_cast<std::uint32_t>(base) + bytes / record_alignment)};
+}
+
+/// A value at any byte of a record, whatever its alignment.
+template <class T>
+T read(const std::byte* from) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  T value;
+  std::memcpy(&value, from, sizeof(T));
+  return value;
 }
 
 // ---- The grid ------------------------------------------------------------------------------------------------------------

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "core/elementary.h"
 #include "core/expect.h"
@@ -19,13 +18,6 @@ using Stage = HitState::Stage;
 constexpr double surface_offset = 0x1p-21;
 /// A shadow ray ends this share of its length before the light.
 constexpr double light_gap = 1e-6;
-
-template <class T>
-T read(const std::byte* from) {
-  T value;
-  std::memcpy(&value, from, sizeof(T));
-  return value;
-}
 
 /// One lane of a block's values, in double.
 struct Lane {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "core/directory.h"
@@ -18,13 +17,6 @@ constexpr std::uint8_t walk_starts = 3;
 constexpr double never = std::numeric_limits<double>::infinity();
 /// A direction component below this counts as 0, denormals and -0 included.
 constexpr float smallest_component = 1e-18F;
-
-template <class T>
-T read(const std::byte* from) {
-  T value;
-  std::memcpy(&value, from, sizeof(T));
-  return value;
-}
 
 /// The bit of the voxel at `cell` (a cell of `level`) in its brick's masks.
 int voxel_bit(const std::array<std::int32_t, 3>& cell, int level) {
