@@ -26,6 +26,14 @@ struct Parcel {
   nodes::Packet packet() const { return {source, kind, payload}; }
 };
 
+/// A network that keeps what is sent, in order.
+struct Post final : nodes::Network {
+  void deliver(nodes::NodeId target, const nodes::PacketHeader& header, std::span<const std::byte> payload) override {
+    parcels.push_back({nodes::NodeId{header.source}, target, header.kind, {payload.begin(), payload.end()}});
+  }
+  std::deque<Parcel> parcels;
+};
+
 /// Each step picks, by a seeded generator, either the oldest packet between two nodes and gives it to its target, or a node that
 /// works a quantum: any order that mailboxes keeping each sender's order allow. Watches that no mailbox ever holds more than its
 /// capacity.
@@ -134,13 +142,6 @@ class ShuffledComputer {
 
 /// A node of its own, without a thread, and what it sends.
 struct SingleNode {
-  struct Post final : nodes::Network {
-    void deliver(nodes::NodeId target, const nodes::PacketHeader& header, std::span<const std::byte> payload) override {
-      parcels.push_back({nodes::NodeId{header.source}, target, header.kind, {payload.begin(), payload.end()}});
-    }
-    std::deque<Parcel> parcels;
-  };
-
   SingleNode(const nodes::MemoryPlan& plan, std::uint32_t index, std::uint32_t peer_count)
       : memory(plan), node(nodes::NodeId{index}, peer_count, memory, post) {}
   /// The oldest packet that it has sent and that has not been taken.

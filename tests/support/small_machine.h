@@ -1,5 +1,5 @@
-// The tests' little language for node programs: a node alone, a whole small machine run in any legal order, pages without a
-// scene.
+// The tests' little language for svm's node programs: a node alone, and pages without a scene. A whole computer in any legal
+// order is in shuffled_machine.h.
 #pragma once
 
 #include <algorithm>
@@ -21,30 +21,14 @@
 #include "svm/node_program.h"
 #include "svm/plan.h"
 #include "svm/program.h"
+#include "tests/support/shuffled_machine.h"
 
 namespace dmpc::tests {
 
 // ---- A node alone --------------------------------------------------------------------------------------------------------
 
-/// A packet on its way.
-struct Letter {
-  nodes::NodeId source{}, target{};
-  nodes::PacketKind kind = 0;
-  std::vector<std::byte> payload;
-
-  nodes::Packet packet() const { return {source, kind, payload}; }
-};
-
-/// A network that keeps what is sent, in order.
-struct Post final : nodes::Network {
-  void deliver(nodes::NodeId target, const nodes::PacketHeader& header, std::span<const std::byte> payload) override {
-    letters.push_back({nodes::NodeId{header.source}, target, header.kind, {payload.begin(), payload.end()}});
-  }
-  std::deque<Letter> letters;
-};
-
 template <class T>
-Letter letter_of(std::uint32_t source, svm::Kind kind, const T& value) {
+Parcel parcel_of(std::uint32_t source, svm::Kind kind, const T& value) {
   const std::span<const std::byte> bytes = std::as_bytes(std::span(&value, 1));
   return {nodes::NodeId{source}, nodes::NodeId{}, svm::number_of(kind), {bytes.begin(), bytes.end()}};
 }
@@ -179,117 +163,5 @@ std::unique_ptr<svm::NodeProgram> fake_program(nodes::Node& node, const svm::Pla
   return std::make_unique<svm::ControlProgram<Records, FakeTracer<Records>, FakeTask>>(node, plan, settings, pages.bytes(),
                                                                                        make_tracer);
 }
-
-// ---- A whole machine in any legal order ----------------------------------------------------------------------------------
-
-/// The programs of a plan on one thread. Each step picks, by a seeded generator, either the oldest packet between two nodes
-/// and gives it to its target, or a node that works a quantum: any order that mailboxes keeping each sender's order allow. It
-/// watches that no mailbox ever holds more than its capacity, counting the packet that is being received only where the
-/// mailbox has a slot to spare for it.
-class ShuffledMachine {
- public:
-  ShuffledMachine(const svm::Plan& plan, core::Film& film, std::uint64_t seed)
-      : plan_(plan), generator_(seed), queues_((plan.request.node_count + 1) * (plan.request.node_count + 1)) {
-    for (std::uint32_t i = 0; i <= plan.request.node_count; ++i) {
-      peers_.push_back(std::make_unique<Peer>(*this, plan, i));
-    }
-    peers_.back()->program = std::make_unique<svm::HostProgram>(peers_.back()->node, plan, film, svm::Progress{});
-  }
-
-  nodes::Node& node(std::uint32_t index) { return peers_[index]->node; }
-  void set_program(std::uint32_t index, std::unique_ptr<svm::NodeProgram> program) {
-    reporting_.push_back(program.get());
-    peers_[index]->program = std::move(program);
-  }
-  const svm::NodeProgram& program(std::uint32_t index) const { return *reporting_[index]; }
-
-  /// Runs to the end. Throws core::InternalError if nothing can move, or a mailbox overflows.
-  void run() {
-    for (const auto& peer : peers_) {
-      peer->memory.seal();
-    }
-    while (!all_finished()) {
-      step();
-    }
-  }
-
- private:
-  struct Peer final : nodes::Network {
-    Peer(ShuffledMachine& owner, const svm::Plan& plan, std::uint32_t index)
-        : machine(&owner),
-          memory(index == plan.request.node_count ? plan.host_memory() : plan.node_memory(index)),
-          node(nodes::NodeId{index}, plan.request.node_count + 1, memory, *this) {}
-    void deliver(nodes::NodeId target, const nodes::PacketHeader& header, std::span<const std::byte> payload) override {
-      machine->put({nodes::NodeId{header.source}, target, header.kind, {payload.begin(), payload.end()}});
-    }
-
-    ShuffledMachine* machine;
-    nodes::LocalMemory memory;
-    nodes::Node node;
-    std::unique_ptr<nodes::Program> program;
-    std::uint32_t small_held = 0, bulk_held = 0;
-    bool may_work = true;
-  };
-
-  std::deque<Letter>& queue(std::uint32_t source, std::uint32_t target) { return queues_[source * peers_.size() + target]; }
-
-  std::uint32_t& held(Peer& peer, const Letter& letter) {
-    return letter.payload.size() <= nodes::small_payload_bytes ? peer.small_held : peer.bulk_held;
-  }
-
-  void put(Letter letter) {
-    const std::uint32_t target = nodes::index_of(letter.target);
-    Peer& peer = *peers_[target];
-    ++held(peer, letter);
-    const nodes::MailboxCapacity& capacity = target == plan_.request.node_count ? plan_.host_mailbox : plan_.node_mailbox;
-    core::expect(peer.small_held <= capacity.small_slots && peer.bulk_held <= capacity.bulk_slots, "no mailbox overflows");
-    core::expect(letter.payload.size() <= std::max(nodes::small_payload_bytes, capacity.bulk_payload_bytes),
-                 "a packet fits its slot");
-    queue(nodes::index_of(letter.source), target).push_back(std::move(letter));
-  }
-
-  bool all_finished() const {
-    return std::all_of(peers_.begin(), peers_.end(), [](const auto& peer) { return peer->program->finished(); });
-  }
-
-  void step() {
-    const std::size_t choices = queues_.size() + peers_.size();
-    const std::size_t first = generator_() % choices;
-    for (std::size_t i = 0; i < choices; ++i) {
-      const std::size_t choice = (first + i) % choices;
-      if (choice < queues_.size() ? receive(queues_[choice]) : work(*peers_[choice - queues_.size()])) {
-        return;
-      }
-    }
-    core::expect(false, "something can move until the run has ended");
-  }
-
-  bool receive(std::deque<Letter>& letters) {
-    if (letters.empty()) {
-      return false;
-    }
-    const Letter letter = std::move(letters.front());
-    letters.pop_front();
-    Peer& peer = *peers_[nodes::index_of(letter.target)];
-    --held(peer, letter);
-    peer.program->receive(letter.packet());
-    peer.may_work = true;
-    return true;
-  }
-
-  bool work(Peer& peer) {
-    if (!peer.may_work || peer.program->finished()) {
-      return false;
-    }
-    peer.may_work = peer.program->work();
-    return true;
-  }
-
-  const svm::Plan& plan_;
-  std::mt19937_64 generator_;
-  std::vector<std::unique_ptr<Peer>> peers_;
-  std::vector<std::deque<Letter>> queues_;
-  std::vector<const svm::NodeProgram*> reporting_;
-};
 
 }  // namespace dmpc::tests

@@ -31,18 +31,18 @@ struct SmallGather {
   /// The pixels of each packet sent since the last call.
   std::vector<std::vector<std::uint32_t>> packets() {
     std::vector<std::vector<std::uint32_t>> sent;
-    for (const Letter& letter : lone.post.letters) {
-      CHECK(letter.target == nodes::NodeId{2});
-      CHECK(letter.payload.size() <= 512);
+    for (const Parcel& parcel : lone.post.parcels) {
+      CHECK(parcel.target == nodes::NodeId{2});
+      CHECK(parcel.payload.size() <= 512);
       sent.emplace_back();
-      for (std::size_t at = sizeof(svm::FilmHeader); at < letter.payload.size(); at += sizeof(svm::FilmEntry)) {
+      for (std::size_t at = sizeof(svm::FilmHeader); at < parcel.payload.size(); at += sizeof(svm::FilmEntry)) {
         svm::FilmEntry entry;
-        std::memcpy(&entry, letter.payload.data() + at, sizeof(entry));
+        std::memcpy(&entry, parcel.payload.data() + at, sizeof(entry));
         CHECK(entry.sums.plane[0].channel[0] == entry.pixel * 3);
         sent.back().push_back(entry.pixel);
       }
     }
-    lone.post.letters.clear();
+    lone.post.parcels.clear();
     return sent;
   }
 

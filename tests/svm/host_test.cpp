@@ -23,20 +23,20 @@ struct SmallHost {
         film(3, 1),
         host(lone.node, plan, film, std::move(progress)) {}
   void film_from(std::uint32_t node, const std::vector<std::uint32_t>& pixels) {
-    Letter letter = letter_of(node, Kind::film_sums, svm::FilmHeader{static_cast<std::uint32_t>(pixels.size())});
+    Parcel parcel = parcel_of(node, Kind::film_sums, svm::FilmHeader{static_cast<std::uint32_t>(pixels.size())});
     for (const std::uint32_t pixel : pixels) {
       svm::FilmEntry entry{pixel, 0, {}};
       entry.sums.plane[1].channel[2] = pixel + 10;
-      const Letter bytes = letter_of(node, Kind::film_sums, entry);
-      letter.payload.insert(letter.payload.end(), bytes.payload.begin(), bytes.payload.end());
+      const Parcel bytes = parcel_of(node, Kind::film_sums, entry);
+      parcel.payload.insert(parcel.payload.end(), bytes.payload.begin(), bytes.payload.end());
     }
-    host.receive(letter.packet());
+    host.receive(parcel.packet());
   }
-  void done(std::uint32_t node, std::uint64_t pixels) { host.receive(letter_of(node, Kind::done, svm::Done{pixels}).packet()); }
+  void done(std::uint32_t node, std::uint64_t pixels) { host.receive(parcel_of(node, Kind::done, svm::Done{pixels}).packet()); }
   std::size_t sent(Kind kind) const {
     std::size_t count = 0;
-    for (const Letter& letter : lone.post.letters) {
-      count += letter.kind == svm::number_of(kind) ? 1 : 0;
+    for (const Parcel& parcel : lone.post.parcels) {
+      count += parcel.kind == svm::number_of(kind) ? 1 : 0;
     }
     return count;
   }
@@ -56,7 +56,7 @@ TEST_CASE("finished pixels go onto the film and are acknowledged") {
   CHECK(small.film.pixels()[0].plane[1].channel[2] == 10);
   CHECK(small.host.pixels_done() == 2);
   CHECK(small.sent(Kind::film_acknowledgement) == 1);
-  CHECK(small.lone.post.letters.front().target == nodes::NodeId{1});
+  CHECK(small.lone.post.parcels.front().target == nodes::NodeId{1});
 }
 
 TEST_CASE("when all nodes are done and every pixel is there, every node is told to stop") {
@@ -86,8 +86,8 @@ TEST_CASE("nodes that are done before every pixel has arrived are an error") {
 
 TEST_CASE("a film packet that is shorter than it says, and a packet for nodes, are errors") {
   SmallHost small;
-  CHECK_THROWS_AS(small.host.receive(letter_of(0, Kind::film_sums, svm::FilmHeader{1}).packet()), core::InternalError);
-  CHECK_THROWS_AS(small.host.receive(letter_of(0, Kind::stop, svm::Stop{3}).packet()), core::InternalError);
+  CHECK_THROWS_AS(small.host.receive(parcel_of(0, Kind::film_sums, svm::FilmHeader{1}).packet()), core::InternalError);
+  CHECK_THROWS_AS(small.host.receive(parcel_of(0, Kind::stop, svm::Stop{3}).packet()), core::InternalError);
 }
 
 TEST_CASE("the host tells how far the picture is") {

@@ -47,10 +47,10 @@ struct SmallPager {
   }
   /// The reply that the page's home would send; returns the slots that go on.
   std::vector<std::uint32_t> reply(std::uint32_t page) {
-    Letter letter = letter_of(page % plan.request.node_count, Kind::page_reply, svm::PageReplyHeader{PageId{page}});
-    letter.payload.insert(letter.payload.end(), pages.page(page).begin(), pages.page(page).end());
+    Parcel parcel = parcel_of(page % plan.request.node_count, Kind::page_reply, svm::PageReplyHeader{PageId{page}});
+    parcel.payload.insert(parcel.payload.end(), pages.page(page).begin(), pages.page(page).end());
     std::vector<std::uint32_t> slots;
-    for (std::uint32_t slot = pager.install(letter.packet()); slot != svm::no_slot; slot = pager.next_waiting(slot)) {
+    for (std::uint32_t slot = pager.install(parcel.packet()); slot != svm::no_slot; slot = pager.next_waiting(slot)) {
       slots.push_back(slot);
     }
     return slots;
@@ -58,12 +58,12 @@ struct SmallPager {
   /// The pages asked for since the last call.
   std::vector<std::uint32_t> requests() {
     std::vector<std::uint32_t> asked;
-    for (const Letter& letter : lone.post.letters) {
-      const auto page = svm::index_of(letter.packet().as<svm::PageRequest>().page);
-      CHECK(letter.target == nodes::NodeId{page % plan.request.node_count});
+    for (const Parcel& parcel : lone.post.parcels) {
+      const auto page = svm::index_of(parcel.packet().as<svm::PageRequest>().page);
+      CHECK(parcel.target == nodes::NodeId{page % plan.request.node_count});
       asked.push_back(page);
     }
-    lone.post.letters.clear();
+    lone.post.parcels.clear();
     return asked;
   }
 
@@ -145,23 +145,23 @@ TEST_CASE("a request without credit waits for a reply from the same home") {
 TEST_CASE("a home replies with the page at once, to whoever asks") {
   SmallPager small(4, 1, 1);
   for (const std::uint32_t asker : {3U, 1U, 1U, 2U}) {
-    small.pager.serve(letter_of(asker, Kind::page_request, svm::PageRequest{PageId{8}}).packet());
-    REQUIRE(small.lone.post.letters.size() == 1);
-    const Letter letter = small.lone.post.letters.front();
-    small.lone.post.letters.clear();
-    CHECK(letter.target == nodes::NodeId{asker});
-    REQUIRE(letter.payload.size() == 8 + page_size);
-    CHECK(std::memcmp(letter.payload.data() + 8, small.pages.page(8).data(), page_size) == 0);
+    small.pager.serve(parcel_of(asker, Kind::page_request, svm::PageRequest{PageId{8}}).packet());
+    REQUIRE(small.lone.post.parcels.size() == 1);
+    const Parcel parcel = small.lone.post.parcels.front();
+    small.lone.post.parcels.clear();
+    CHECK(parcel.target == nodes::NodeId{asker});
+    REQUIRE(parcel.payload.size() == 8 + page_size);
+    CHECK(std::memcmp(parcel.payload.data() + 8, small.pages.page(8).data(), page_size) == 0);
   }
   CHECK(small.pager.counters().served == 4);
 }
 
 TEST_CASE("a request at the wrong home, for a page that does not exist, or a reply of the wrong size is an error") {
   SmallPager small(4, 1, 1);
-  CHECK_THROWS_AS(small.pager.serve(letter_of(1, Kind::page_request, svm::PageRequest{PageId{5}}).packet()), core::InternalError);
-  CHECK_THROWS_AS(small.pager.serve(letter_of(1, Kind::page_request, svm::PageRequest{PageId{page_count}}).packet()),
+  CHECK_THROWS_AS(small.pager.serve(parcel_of(1, Kind::page_request, svm::PageRequest{PageId{5}}).packet()), core::InternalError);
+  CHECK_THROWS_AS(small.pager.serve(parcel_of(1, Kind::page_request, svm::PageRequest{PageId{page_count}}).packet()),
                   core::InternalError);
-  CHECK_THROWS_AS(small.pager.install(letter_of(1, Kind::page_reply, svm::PageReplyHeader{PageId{5}}).packet()),
+  CHECK_THROWS_AS(small.pager.install(parcel_of(1, Kind::page_reply, svm::PageReplyHeader{PageId{5}}).packet()),
                   core::InternalError);
 }
 

@@ -43,12 +43,11 @@ void run_shuffled(const svm::PlanRequest& request, std::uint64_t seed) {
   const core::RenderSettings settings = fake_settings(request.width, request.height);
   const svm::Plan plan = svm::make_plan(request);
   core::Film film(settings.camera.width(), settings.camera.height());
-  ShuffledMachine machine(plan, film, seed);
-  for (std::uint32_t i = 0; i < request.node_count; ++i) {
-    machine.set_program(i, maker(plan, settings, pages)(i, machine.node(i)));
-  }
+  const svm::MakeProgram make_program = maker(plan, settings, pages);
+  const svm::Progress progress;
+  ShuffledComputer computer(svm::specifications_of(plan, make_program, film, progress), seed);
   CAPTURE(seed);
-  machine.run();
+  computer.run();
   REQUIRE(film.hash() == fake_reference(pages, settings).hash());
 }
 

@@ -24,11 +24,11 @@ struct SmallSource {
       work.next_pixel();
     }
   }
-  Letter sent() {
-    REQUIRE(lone.post.letters.size() == 1);
-    const Letter letter = lone.post.letters.front();
-    lone.post.letters.clear();
-    return letter;
+  Parcel sent() {
+    REQUIRE(lone.post.parcels.size() == 1);
+    const Parcel parcel = lone.post.parcels.front();
+    lone.post.parcels.clear();
+    return parcel;
   }
 
   svm::Plan plan;
@@ -44,20 +44,20 @@ TEST_CASE("a node without pixels asks the next one, once") {
   small.use_up();
   small.work.ask();
   small.work.ask();
-  const Letter letter = small.sent();
-  CHECK(letter.target == nodes::NodeId{2});
-  CHECK(letter.packet().as<svm::WorkRequest>().asker == 1);
-  CHECK(letter.packet().as<svm::WorkRequest>().visits_left == 3);
+  const Parcel parcel = small.sent();
+  CHECK(parcel.target == nodes::NodeId{2});
+  CHECK(parcel.packet().as<svm::WorkRequest>().asker == 1);
+  CHECK(parcel.packet().as<svm::WorkRequest>().visits_left == 3);
 }
 
 TEST_CASE("a node with items left answers the asker directly with its last one") {
   SmallSource small(2, 4, 1);
   small.work.answer({0, 2});
-  const Letter letter = small.sent();
-  CHECK(letter.target == nodes::NodeId{0});
-  CHECK(letter.kind == svm::number_of(Kind::work_reply));
-  CHECK(letter.packet().as<svm::WorkReply>().item == PixelRectangle{8, 2, 1, 1});
-  CHECK(letter.packet().as<svm::WorkReply>().giver == 2);
+  const Parcel parcel = small.sent();
+  CHECK(parcel.target == nodes::NodeId{0});
+  CHECK(parcel.kind == svm::number_of(Kind::work_reply));
+  CHECK(parcel.packet().as<svm::WorkReply>().item == PixelRectangle{8, 2, 1, 1});
+  CHECK(parcel.packet().as<svm::WorkReply>().giver == 2);
   CHECK(small.work.counters().items_given == 1);
 }
 
@@ -65,21 +65,21 @@ TEST_CASE("a node without items passes a request on along the ring, over the ask
   SmallSource small(3, 4, 3);
   small.use_up();
   small.work.answer({1, 3});
-  Letter letter = small.sent();
-  CHECK(letter.target == nodes::NodeId{0});
-  CHECK(letter.packet().as<svm::WorkRequest>().visits_left == 2);
+  Parcel parcel = small.sent();
+  CHECK(parcel.target == nodes::NodeId{0});
+  CHECK(parcel.packet().as<svm::WorkRequest>().visits_left == 2);
   small.work.answer({0, 3});
-  letter = small.sent();
-  CHECK(letter.target == nodes::NodeId{1});
+  parcel = small.sent();
+  CHECK(parcel.target == nodes::NodeId{1});
 }
 
 TEST_CASE("the last node to be asked tells the asker that there is no more work") {
   SmallSource small(3, 4, 3);
   small.use_up();
   small.work.answer({1, 1});
-  const Letter letter = small.sent();
-  CHECK(letter.target == nodes::NodeId{1});
-  CHECK(letter.packet().as<svm::WorkReply>().item.pixel_count() == 0);
+  const Parcel parcel = small.sent();
+  CHECK(parcel.target == nodes::NodeId{1});
+  CHECK(parcel.packet().as<svm::WorkReply>().item.pixel_count() == 0);
 }
 
 TEST_CASE("an item that was given becomes the asker's pixels, and the giver is asked first the next time") {
@@ -105,7 +105,7 @@ TEST_CASE("an empty item ends the asking") {
   small.work.take_reply({{}, 0});
   CHECK(small.work.exhausted());
   small.work.ask();
-  CHECK(small.lone.post.letters.empty());
+  CHECK(small.lone.post.parcels.empty());
 }
 
 TEST_CASE("a static run and a node alone never ask") {
@@ -113,7 +113,7 @@ TEST_CASE("a static run and a node alone never ask") {
     SmallSource small(0, nodes, side);
     small.use_up();
     small.work.ask();
-    CHECK(small.lone.post.letters.empty());
+    CHECK(small.lone.post.parcels.empty());
     CHECK(small.work.exhausted());
   }
 }
