@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 #include "core/database.h"
@@ -46,15 +45,8 @@ class Listing {
  private:
   const std::byte* record(core::Address address) const { return database_->bytes().data() + core::byte_offset(address); }
 
-  template <class T>
-  static T read(const std::byte* from) {
-    T value;
-    std::memcpy(&value, from, sizeof(T));
-    return value;
-  }
-
   void collect(core::Address address, const std::array<std::int32_t, 3>& cell, int level, std::vector<std::uint32_t>& ids) const {
-    const auto brick = read<core::Brick>(record(address));
+    const auto brick = core::read<core::Brick>(record(address));
     std::uint64_t bit = 0;
     for (std::size_t axis = 3; axis-- > 0;) {
       bit = bit * 4 + static_cast<std::uint64_t>(cell[axis] / core::span_of(level) % 4);
@@ -64,13 +56,13 @@ class Listing {
     const std::size_t link_count = brick.block_count + static_cast<std::size_t>(std::popcount(brick.nested));
     if ((brick.nested >> bit & 1U) != 0) {
       const std::size_t child = brick.block_count + static_cast<std::size_t>(std::popcount(brick.nested & below));
-      collect(read<core::Address>(links + 4 * child), cell, level + 1, ids);
+      collect(core::read<core::Address>(links + 4 * child), cell, level + 1, ids);
     } else if ((brick.occupied >> bit & 1U) != 0) {
       const auto place = static_cast<std::size_t>(std::popcount(brick.occupied & ~brick.nested & below));
-      const auto mask = read<std::uint8_t>(links + 4 * link_count + place);
+      const auto mask = core::read<std::uint8_t>(links + 4 * link_count + place);
       for (std::size_t block = 0; block < brick.block_count; ++block) {
         if ((mask >> block & 1U) != 0) {
-          append(read<core::Address>(links + 4 * block), ids);
+          append(core::read<core::Address>(links + 4 * block), ids);
         }
       }
     }
@@ -80,10 +72,10 @@ class Listing {
   }
 
   void append(core::Address block, std::vector<std::uint32_t>& ids) const {
-    const auto header = read<core::BlockHeader>(record(block));
+    const auto header = core::read<core::BlockHeader>(record(block));
     const std::byte* first = record(block) + sizeof(header) + 4 * core::value_count(header.kind) * header.count;
     for (std::size_t lane = 0; lane < header.count; ++lane) {
-      ids.push_back(read<std::uint32_t>(first + 4 * lane));
+      ids.push_back(core::read<std::uint32_t>(first + 4 * lane));
     }
   }
 
