@@ -96,6 +96,19 @@ std::vector<Flow> flows_of(std::span<const Boundary> boundaries) {
   return flows;
 }
 
+std::vector<Flow> flows_of_matrix(std::span<const std::uint64_t> rays, std::uint32_t node_count) {
+  core::expect(rays.size() == std::size_t{node_count} * node_count, "the matrix has a row and a column for each node");
+  std::vector<Flow> flows;
+  for (std::uint32_t index = 0; index < rays.size(); ++index) {
+    const std::uint32_t source = index / node_count, target = index % node_count;
+    core::expect(source != target || rays[index] == 0, "no node sends rays to itself");
+    if (rays[index] > 0) {
+      flows.push_back({source, target, rays[index]});
+    }
+  }
+  return flows;
+}
+
 double mean_hops(const Mapping& mapping, std::span<const Flow> flows, const nodes::Topology& topology) {
   std::uint64_t sum = 0, amount = 0;
   for (const Flow& flow : flows) {
@@ -103,6 +116,15 @@ double mean_hops(const Mapping& mapping, std::span<const Flow> flows, const node
     amount += flow.amount;
   }
   return amount > 0 ? static_cast<double>(sum) / static_cast<double>(amount) : 0.0;
+}
+
+double mean_hops_of_random(std::span<const Flow> flows, const nodes::Topology& topology, std::uint32_t mapping_count) {
+  core::expect(mapping_count > 0, "a mean is of one mapping or more");
+  double sum = 0;
+  for (std::uint32_t seed = 0; seed < mapping_count; ++seed) {
+    sum += mean_hops(random_mapping(topology.node_count(), seed), flows, topology);
+  }
+  return sum / mapping_count;
 }
 
 Mapping map_regions(const Bsp& bsp, std::span<const Flow> flows, const nodes::Topology& topology) {

@@ -22,9 +22,15 @@ using Mapping = std::vector<std::uint32_t>;
 
 /// The boundary lengths of the connectivity graph as flows.
 std::vector<Flow> flows_of(std::span<const Boundary> boundaries);
+/// Counted rays as flows: entry [row * node_count + column] of `rays` are those from node `row` to node `column`. Nothing flows
+/// from a node to itself.
+std::vector<Flow> flows_of_matrix(std::span<const std::uint64_t> rays, std::uint32_t node_count);
 
 /// Hops per unit of flow, the amounts as weights; 0 without any flow.
 double mean_hops(const Mapping& mapping, std::span<const Flow> flows, const nodes::Topology& topology);
+
+/// The mean of mean_hops() over random_mapping() with seeds 0 to mapping_count - 1; at least one.
+double mean_hops_of_random(std::span<const Flow> flows, const nodes::Topology& topology, std::uint32_t mapping_count = 32);
 
 /// Few hops for the given flows: the best of several beginnings (gray_mapping(), region i on node i and, up to 128 regions, a few
 /// random ones), each improved by exchanging two regions' nodes as long as an exchange helps. Deterministic; a local optimum.

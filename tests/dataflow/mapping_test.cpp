@@ -30,15 +30,6 @@ bool is_permutation_of_nodes(Mapping mapping) {
   return mapping == dataflow::identity_mapping(static_cast<std::uint32_t>(mapping.size()));
 }
 
-/// The mean of a few random mappings, seeds 0 to 19.
-double random_hops(const std::vector<Flow>& flows, const Topology& topology) {
-  double sum = 0;
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    sum += dataflow::mean_hops(dataflow::random_mapping(topology.node_count(), seed), flows, topology);
-  }
-  return sum / 20;
-}
-
 }  // namespace
 
 TEST_CASE("the mean of hops is weighted by the flow") {
@@ -52,6 +43,34 @@ TEST_CASE("the connectivity graph's boundaries are flows by their length") {
   const std::vector<Flow> flows = flows_in(square(2));
   REQUIRE(flows.size() == 1);
   CHECK(flows[0].amount == 64);
+}
+
+TEST_CASE("counted rays are flows from row to column, without what is zero") {
+  const std::vector<std::uint64_t> rays{0, 5, 0,  //
+                                        7, 0, 0,  //
+                                        0, 9, 0};
+  const std::vector<Flow> flows = dataflow::flows_of_matrix(rays, 3);
+  REQUIRE(flows.size() == 3);
+  CHECK((flows[0].first == 0 && flows[0].second == 1 && flows[0].amount == 5));
+  CHECK((flows[1].first == 1 && flows[1].second == 0 && flows[1].amount == 7));
+  CHECK((flows[2].first == 2 && flows[2].second == 1 && flows[2].amount == 9));
+  CHECK(dataflow::flows_of_matrix(std::vector<std::uint64_t>{0}, 1).empty());
+}
+
+TEST_CASE("a matrix that is not square and rays from a node to itself are refused") {
+  CHECK_THROWS_AS(dataflow::flows_of_matrix(std::vector<std::uint64_t>{0, 1}, 2), core::InternalError);
+  CHECK_THROWS_AS(dataflow::flows_of_matrix(std::vector<std::uint64_t>{0, 1, 1, 2}, 2), core::InternalError);
+}
+
+TEST_CASE("random mappings have the hops of each in their mean") {
+  const std::vector<Flow> flows{{0, 1, 3}, {2, 7, 1}};
+  const Topology hypercube(TopologyKind::hypercube, 8);
+  const auto hops = [&](std::uint64_t seed) { return mean_hops(dataflow::random_mapping(8, seed), flows, hypercube); };
+  CHECK(mean_hops_of_random(flows, hypercube, 1) == hops(0));
+  CHECK(mean_hops_of_random(flows, hypercube, 3) == doctest::Approx((hops(0) + hops(1) + hops(2)) / 3));
+  CHECK(mean_hops_of_random(flows, Topology(TopologyKind::crossbar, 8)) == 1.0);
+  CHECK(mean_hops_of_random(no_flow, hypercube) == 0.0);
+  CHECK_THROWS_AS(mean_hops_of_random(flows, hypercube, 0), core::InternalError);
 }
 
 TEST_CASE("the Gray code puts the neighbours in a regular lattice one hop apart on a hypercube") {
@@ -75,7 +94,7 @@ TEST_CASE("a chosen mapping gives every node one region and beats random ones on
       const Topology topology(kind, count);
       const Mapping mapping = map_regions(bsp, flows, topology);
       CHECK(is_permutation_of_nodes(mapping));
-      CHECK(dataflow::mean_hops(mapping, flows, topology) < (count < 16 ? 1.0 : 0.8) * random_hops(flows, topology));
+      CHECK(dataflow::mean_hops(mapping, flows, topology) < (count < 16 ? 1.0 : 0.8) * mean_hops_of_random(flows, topology));
     }
   }
 }
