@@ -164,6 +164,18 @@ std::uint64_t print_report(const CheckOptions& options, const core::Database& da
 
 }  // namespace
 
+void add_options(OptionSet options, CheckOptions& check) {
+  add_options(options, check.picture);
+  options.add_number("--list", check.list, 0, 1000000, "10", "Differences to print in full");
+  options.add_number("--brute-force", check.brute_force, 0, std::int64_t{1} << 40U, "0",
+                     "Rays that are tested against every primitive in double precision, too");
+  options.set_examples(
+      "Examples:\n"
+      "  dmpc check teapot-12\n"
+      "  dmpc check tetra-9 --resolution=128x128 --brute-force=1000\n"
+      "Exit status 3 says that a difference stays unexplained.");
+}
+
 int check_command(const CheckOptions& options, Interrupt& interrupt) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   const core::Scene scene = load_scene(options.picture);

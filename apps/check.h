@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "apps/command_line.h"
 #include "apps/interrupt.h"
 #include "apps/picture_options.h"
 
@@ -13,6 +14,9 @@ struct CheckOptions {
   std::uint32_t list = 10;        ///< differences to print in full, at most
   std::uint64_t brute_force = 0;  ///< rays of the render that go to the referee too, whether they differ or not
 };
+
+/// Declares them.
+void add_options(OptionSet options, CheckOptions& check);
 
 /// Prints the report to stdout, remarks and progress to stderr. A signal ends the process. Returns the exit status: 0 if no
 /// difference is unexplained, 3 otherwise. Throws core::InputError for a scene that cannot be read or a report that cannot be

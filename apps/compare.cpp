@@ -75,6 +75,17 @@ void print(std::ostream& output, const CompareOptions& options, const Difference
 
 }  // namespace
 
+void add_options(OptionSet options, CompareOptions& compare) {
+  options.add_argument(
+      "A", [&compare](const std::string& text) { compare.picture = text; }, "A picture");
+  options.add_argument(
+      "B", [&compare](const std::string& text) { compare.reference = text; }, "Another of the same size, the reference");
+  options.add_path("--difference", "IMAGE", compare.difference, "Write the absolute differences as a picture");
+  options.set_examples(
+      "Example:\n"
+      "  dmpc compare draft.exr final.exr --difference=error.png");
+}
+
 Difference measure_difference(const Image& picture, const Image& reference) {
   check_sizes(picture, reference);
   Difference result;

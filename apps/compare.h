@@ -6,6 +6,7 @@
 #include <iosfwd>
 #include <optional>
 
+#include "apps/command_line.h"
 #include "apps/image_file.h"
 #include "apps/interrupt.h"
 
@@ -16,6 +17,9 @@ struct CompareOptions {
   std::filesystem::path reference;                  ///< B
   std::optional<std::filesystem::path> difference;  ///< where the picture |A - B| goes
 };
+
+/// Declares them.
+void add_options(OptionSet options, CompareOptions& compare);
 
 /// Differences of linear floats over all channels of all pixels. A value that is not finite on one side only, or differently,
 /// makes the sums infinite.

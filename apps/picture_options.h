@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
+#include "apps/command_line.h"
 #include "core/database.h"
 #include "core/pixel_task.h"
 #include "core/scene.h"
@@ -27,13 +29,13 @@ struct PictureOptions {
   core::Convention convention = core::Convention::haines;
 };
 
+/// Declares them.
+void add_options(OptionSet options, PictureOptions& picture);
+
 /// What the nodes need beside the records.
-inline core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene,
-                                            const core::Database& database) {
-  const Resolution size = options.resolution.value_or(Resolution{scene.view.width, scene.view.height});
-  return {.header = database.header(),
-          .camera = core::Camera(scene.view, database.header().frame, size.width, size.height, options.samples),
-          .shade = {.convention = options.convention, .depth_max = options.depth}};
-}
+core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database);
+
+/// "512x384"; each 1 to 65536, at most 2^28 pixels. Throws core::UsageError for anything else.
+Resolution parse_resolution(std::string_view text);
 
 }  // namespace dmpc::apps

@@ -5,7 +5,7 @@
 
 #include "apps/image_file.h"
 #include "apps/interrupt.h"
-#include "apps/options.h"
+#include "apps/render_options.h"
 #include "core/film.h"
 
 namespace dmpc::apps {

@@ -29,6 +29,17 @@ void write_output(const core::SceneName& name, Interrupt& interrupt, std::ostrea
 
 }  // namespace
 
+void add_options(OptionSet options, SceneOptions& scene) {
+  options.add_argument(
+      "NAME", [&scene](const std::string& text) { scene.name = text; },
+      "FAMILY, FAMILY-SIZE, or FAMILY-SIZE-tN for curved surfaces as triangles");
+  options.add_path("-o,--output", "FILE.nff [stdout]", scene.output, "Where it goes");
+  options.set_examples("Families:\n" + core::describe_scene_families() +
+                       "\nExamples:\n"
+                       "  dmpc scene teapot-12 -o teapot.nff\n"
+                       "  dmpc scene rings-4-t1 | head");
+}
+
 int scene_command(const SceneOptions& options, Interrupt& interrupt, std::ostream& output) {
   const core::SceneName name = core::parse_scene_name(options.name);
   if (options.output) {

@@ -1,12 +1,23 @@
 // The command `scene`: writes a built-in scene as NFF.
 #pragma once
 
+#include <filesystem>
 #include <iosfwd>
+#include <optional>
+#include <string>
 
+#include "apps/command_line.h"
 #include "apps/interrupt.h"
-#include "apps/options.h"
 
 namespace dmpc::apps {
+
+struct SceneOptions {
+  std::string name;                             ///< of a built-in scene
+  std::optional<std::filesystem::path> output;  ///< stdout if not given
+};
+
+/// Declares them.
+void add_options(OptionSet options, SceneOptions& scene);
 
 /// Writes to the file asked for (whole or not at all), else to `output`. A signal ends the process. Returns the exit status 0.
 /// Throws core::InputError for an unknown name or if writing fails, Interrupted if a signal came before.

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "apps/options.h"
+#include "apps/render_options.h"
 #include "core/database.h"
 #include "svm/run.h"
 

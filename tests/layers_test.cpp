@@ -36,7 +36,7 @@ struct Foreign {
 const std::vector<Foreign> foreign = {
     {"embree", {"apps/oracle.cpp"}},
     {"OpenImageIO/", {"apps/image_file.cpp"}},
-    {"CLI/", {"apps/options.cpp"}},
+    {"CLI/", {"apps/command_line.cpp"}},
     {"nlohmann/", {"apps/stats.cpp"}},
     {"oneapi/", {"apps/inspection.cpp"}},
     {"tbb/", {"apps/inspection.cpp"}},

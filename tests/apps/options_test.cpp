@@ -171,28 +171,4 @@ TEST_CASE("options that do not go together are refused with the reason") {
   CHECK_THROWS_AS(render({"--count-pages"}), UsageError);
 }
 
-TEST_CASE("a size is a whole number with a binary unit") {
-  CHECK(parse_size_bytes("0", "--x") == 0);
-  CHECK(parse_size_bytes("300", "--x") == 300);
-  CHECK(parse_size_bytes("300B", "--x") == 300);
-  CHECK(parse_size_bytes("3KiB", "--x") == 3072);
-  CHECK(parse_size_bytes("4MiB", "--x") == 4_MiB);
-  CHECK(parse_size_bytes("1024GiB", "--x") == std::size_t{1} << 40U);
-  for (const char* text :
-       {"", "MiB", "-1", "1.5MiB", "4MB", "4mib", "4 MiB", "1025GiB", "99999999999999999999", "0x10", "1KiBx"}) {
-    CAPTURE(std::string(text));
-    CHECK_THROWS_AS(parse_size_bytes(text, "--x"), UsageError);
-  }
-}
-
-TEST_CASE("a resolution is two numbers with an x between them") {
-  CHECK(parse_resolution("1x1").width == 1);
-  CHECK(parse_resolution("640x480").height == 480);
-  CHECK(parse_resolution("65536x4096").width == 65536);
-  for (const char* text : {"", "x", "5", "5x", "x5", "0x5", "5x0", "-5x5", "5x5x5", "5X5", "5 x5", "65537x1", "65536x65536"}) {
-    CAPTURE(std::string(text));
-    CHECK_THROWS_AS(parse_resolution(text), UsageError);
-  }
-}
-
 }  // namespace dmpc::apps

@@ -1,0 +1,145 @@
+#include "apps/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <sstream>
+
+#include "core/expect.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+using core::UsageError;
+
+/// "a", "a or b", "a, b or c".
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+  }
+  return text;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) {
+    text += (text.empty() ? "" : "|") + word;
+  }
+  return text;
+}
+
+}  // namespace
+
+void OptionSet::begin_group(const std::string& title) { app_->option_defaults()->group(title); }
+
+void OptionSet::add_argument(const std::string& name, const TakeText& take, const std::string& description) {
+  app_->add_option_function<std::string>(name, take, description)->required()->option_text(" ");
+}
+
+void OptionSet::add_required(const std::string& name, const std::string& shown, const TakeText& take,
+                             const std::string& description) {
+  app_->add_option_function<std::string>(name, take, description)->required()->option_text(shown);
+}
+
+void OptionSet::add_text(const std::string& name, const std::string& shown, const TakeText& take,
+                         const std::string& description) {
+  app_->add_option_function<std::string>(name, take, description)->option_text(shown);
+}
+
+void OptionSet::add_path(const std::string& name, const std::string& shown, std::optional<std::filesystem::path>& path,
+                         const std::string& description) {
+  add_text(
+      name, shown, [&path](const std::string& text) { path = text; }, description);
+}
+
+void OptionSet::add_flag(const std::string& name, bool& flag, const std::string& description) {
+  app_->add_flag(name, flag, description);
+}
+
+void OptionSet::add_words(const std::string& name, const std::vector<std::string>& words, const TakeText& take,
+                          const std::string& description) {
+  const auto take_all = [take](const std::vector<std::string>& given) {
+    for (const std::string& word : given) {
+      take(word);
+    }
+  };
+  app_->add_option_function<std::vector<std::string>>(name, take_all, description)
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(words))
+      ->type_name("")
+      ->option_text(joined(words));
+}
+
+void OptionSet::add_words_as(const std::string& name, const std::vector<std::string>& words, const std::string& shown_default,
+                             const TakeText& take, const std::string& description) {
+  app_->add_option_function<std::string>(name, take, description)
+      ->check(CLI::IsMember(words))
+      ->type_name("")
+      ->option_text(joined(words) + " [" + shown_default + "]");
+}
+
+void OptionSet::add_number_as(const std::string& name, std::int64_t least, std::int64_t most, const std::string& shown_default,
+                              const TakeNumber& take, const std::string& description) {
+  app_->add_option_function<std::int64_t>(name, take, description)
+      ->check(CLI::Range(least, most))
+      ->option_text(std::to_string(least) + ".." + std::to_string(most) + " [" + shown_default + "]");
+}
+
+void OptionSet::set_examples(const std::string& text) { app_->footer(text); }
+
+void OptionSet::check_in_the_end(const std::function<void()>& check) { app_->final_callback(check); }
+
+bool OptionSet::is_given(const std::string& name) const { return app_->get_option(name)->count() > 0; }
+
+CommandLine::CommandLine(const std::string& description, const std::string& version, const std::string& examples)
+    : app_(std::make_unique<CLI::App>(description, "dmpc")) {
+  app_->set_version_flag("--version", version, "Print the version");
+  app_->require_subcommand(1);
+  app_->get_formatter()->column_width(36);
+  app_->footer(examples);
+}
+
+CommandLine::~CommandLine() = default;
+
+OptionSet CommandLine::add_command(const std::string& name, const std::string& description) {
+  return OptionSet(*app_->add_subcommand(name, description));
+}
+
+std::variant<HelpText, std::string> CommandLine::parse(std::span<const std::string> arguments) {
+  check_command_name(arguments);
+  try {
+    app_->parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them from the back
+    return app_->get_subcommands().front()->get_name();
+  } catch (const CLI::Success& asked) {
+    std::ostringstream output, errors;
+    app_->exit(asked, output, errors);
+    return HelpText{output.str()};
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what() + hint());
+  } catch (const UsageError& error) {
+    throw UsageError(error.what() + hint());
+  }
+}
+
+/// CLI11 would only say that a command is missing.
+void CommandLine::check_command_name(std::span<const std::string> arguments) const {
+  if (arguments.empty() || arguments.front().rfind('-', 0) == 0) {
+    return;
+  }
+  std::vector<std::string> names;
+  for (const CLI::App* const command : app_->get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+  }
+  if (std::find(names.begin(), names.end(), arguments.front()) == names.end()) {
+    throw UsageError(arguments.front() + " is no command: expected " + listed(names) + hint());
+  }
+}
+
+/// "dmpc render --help", or plain if no command was understood.
+std::string CommandLine::hint() const {
+  const auto commands = app_->get_subcommands();
+  const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
+  return "\nTry: dmpc " + command + "--help";
+}
+
+}  // namespace dmpc::apps
