@@ -212,9 +212,27 @@ std::array<nodes::Traffic, nodes::packet_kind_count> Report::received() const {
   return sum;
 }
 
-Plan plan_of(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options) {
-  const Regions regions = regions_for(options.node_count, database, settings, options);
-  return plan_for(distribute(database, settings, regions.bsp), database, settings, options);
+Prepared prepare(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options) {
+  Regions regions = regions_for(options.node_count, database, settings, options);
+  Prepared prepared{.distribution = distribute(database, settings, regions.bsp), .predicted = std::move(regions.predicted)};
+  prepared.duplication = prepared.distribution.duplication(database);
+  prepared.plan = plan_for(prepared.distribution, database, settings, options);
+  return prepared;
+}
+
+Report run_prepared(const Prepared& prepared, const core::RenderSettings& settings, const RunOptions& options,
+                    std::stop_token stop) {
+  Report report{.film = core::Film(settings.camera.width(), settings.camera.height()),
+                .plan = prepared.plan,
+                .bsp = prepared.distribution.bsp,
+                .predicted = prepared.predicted,
+                .duplication = prepared.duplication};
+  nodes::ThreadsRunner runner(
+      specifications_of(report.plan, prepared.distribution, settings, options.traversal, report.film, options.progress),
+      options.chaos);
+  report.end = runner.run(std::move(stop));
+  fill(report, runner, prepared.distribution);
+  return report;
 }
 
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,
@@ -235,18 +253,7 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
 
 Report run_dataflow(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                     std::stop_token stop) {
-  const Regions regions = regions_for(options.node_count, database, settings, options);
-  const Distribution distribution = distribute(database, settings, regions.bsp);
-  Report report{.film = core::Film(settings.camera.width(), settings.camera.height()),
-                .plan = plan_for(distribution, database, settings, options),
-                .bsp = regions.bsp,
-                .predicted = regions.predicted,
-                .duplication = distribution.duplication(database)};
-  nodes::ThreadsRunner runner(
-      specifications_of(report.plan, distribution, settings, options.traversal, report.film, options.progress), options.chaos);
-  report.end = runner.run(std::move(stop));
-  fill(report, runner, distribution);
-  return report;
+  return run_prepared(prepare(database, settings, options), settings, options, std::move(stop));
 }
 
 }  // namespace dmpc::dataflow

@@ -78,11 +78,23 @@ struct Report {
   std::array<nodes::Traffic, nodes::packet_kind_count> received() const;
 };
 
-/// The plan that a run with these options will follow, for messages before the run. Throws as make_plan() does.
-Plan plan_of(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options);
+/// All that is settled before a run.
+struct Prepared {
+  Distribution distribution;      ///< regions on their nodes, and what these are dealt
+  std::vector<double> predicted;  ///< as in Report
+  double duplication = 1;         ///< as in Report
+  Plan plan;
+};
 
-/// Renders with strategy dataflow. Throws as make_plan() does before anything is rendered; core::InternalError if a law of
-/// conservation is broken. Several calls at one time are independent.
+/// Balances, deals and plans. Takes about as long as rendering the subsampled picture. Throws as make_plan() does.
+Prepared prepare(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options);
+
+/// Renders what prepare() has prepared with the same settings and options. Throws core::InternalError if a law of conservation is
+/// broken. Several calls at one time are independent.
+Report run_prepared(const Prepared& prepared, const core::RenderSettings& settings, const RunOptions& options,
+                    std::stop_token stop);
+
+/// Renders with strategy dataflow: prepares and runs, and throws as these do.
 Report run_dataflow(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                     std::stop_token stop);
 
