@@ -1,0 +1,54 @@
+// What a study finds: rows of figures under named columns, written as Markdown, CSV or JSON.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace dmpc::apps {
+
+/// What stands in one place of a table: nothing, a text, a whole number, or a finite real one.
+using Cell = std::variant<std::monostate, std::string, std::uint64_t, double>;
+
+struct Column {
+  std::string name;  ///< in words, unlike any other column's: "average load"
+  std::string unit;  ///< "%", "bytes"; empty for mere numbers and texts
+  int digits = 0;    ///< decimal places of real numbers in Markdown; the other formats have all there are
+};
+
+enum class TableFormat : std::uint8_t { markdown, csv, json };
+
+/// Every row has a cell for each column. Not thread-safe.
+class Table {
+ public:
+  /// Requires columns whose names differ.
+  Table(std::string title, std::vector<Column> columns);
+
+  /// Expects as many cells as columns, and real numbers that are finite.
+  void add_row(std::vector<Cell> row);
+  /// A sentence to stand under the table.
+  void add_note(std::string note) { notes_.push_back(std::move(note)); }
+
+  const std::string& title() const { return title_; }
+  const std::vector<Column>& columns() const { return columns_; }
+  const std::vector<std::vector<Cell>>& rows() const { return rows_; }
+  const std::vector<std::string>& notes() const { return notes_; }
+
+ private:
+  std::string title_;
+  std::vector<Column> columns_;
+  std::vector<std::vector<Cell>> rows_;
+  std::vector<std::string> notes_;
+};
+
+/// The whole table with a line end.
+///   markdown   the title in bold, the table with its columns in line, the notes as a list
+///   csv        a line of column names with their units, then a line a row as RFC 4180 quotes it; neither title nor notes
+///   json       {"title", "columns": [{"name", "unit"}], "rows": [{by name}], "notes": [...]}; names with underscores for spaces,
+///              units null where there are none
+/// What is missing is empty, in JSON null.
+std::string text_of(const Table& table, TableFormat format);
+
+}  // namespace dmpc::apps
