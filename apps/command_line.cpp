@@ -28,7 +28,41 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+/// Two commands, one in the other.
+std::string joined(const std::string& outer, const std::string& inner) {
+  return outer + (outer.empty() || inner.empty() ? "" : " ") + inner;
+}
+
+/// The commands given, outermost first: "study balance"; empty if none was understood.
+std::string command_given(const CLI::App& app) {
+  const auto commands = app.get_subcommands();
+  return commands.empty() ? "" : joined(commands.front()->get_name(), command_given(*commands.front()));
+}
+
+std::string hint(const std::string& command) { return "\nTry: " + joined(joined("dmpc", command), "--help"); }
+
+/// CLI11 would only say that a command is missing. `outer` is the command that `app` is.
+void check_command_name(CLI::App& app, std::span<const std::string> arguments, const std::string& outer) {
+  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+  if (arguments.empty() || arguments.front().rfind('-', 0) == 0 || commands.empty()) {
+    return;
+  }
+  std::vector<std::string> names;
+  for (CLI::App* const command : commands) {
+    if (command->get_name() == arguments.front()) {
+      return check_command_name(*command, arguments.subspan(1), joined(outer, command->get_name()));
+    }
+    names.push_back(command->get_name());
+  }
+  throw UsageError(arguments.front() + " is no command: expected " + listed(names) + hint(outer));
+}
+
 }  // namespace
+
+OptionSet OptionSet::add_command(const std::string& name, const std::string& description) {
+  app_->require_subcommand(1);
+  return OptionSet(*app_->add_subcommand(name, description));
+}
 
 void OptionSet::begin_group(const std::string& title) { app_->option_defaults()->group(title); }
 
@@ -94,7 +128,6 @@ bool OptionSet::is_given(const std::string& name) const { return app_->get_optio
 CommandLine::CommandLine(const std::string& description, const std::string& version, const std::string& examples)
     : app_(std::make_unique<CLI::App>(description, "dmpc")) {
   app_->set_version_flag("--version", version, "Print the version");
-  app_->require_subcommand(1);
   app_->get_formatter()->column_width(36);
   app_->footer(examples);
 }
@@ -102,44 +135,23 @@ CommandLine::CommandLine(const std::string& description, const std::string& vers
 CommandLine::~CommandLine() = default;
 
 OptionSet CommandLine::add_command(const std::string& name, const std::string& description) {
-  return OptionSet(*app_->add_subcommand(name, description));
+  return OptionSet(*app_).add_command(name, description);
 }
 
 std::variant<HelpText, std::string> CommandLine::parse(std::span<const std::string> arguments) {
-  check_command_name(arguments);
+  check_command_name(*app_, arguments, "");
   try {
     app_->parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them from the back
-    return app_->get_subcommands().front()->get_name();
+    return command_given(*app_);
   } catch (const CLI::Success& asked) {
     std::ostringstream output, errors;
     app_->exit(asked, output, errors);
     return HelpText{output.str()};
   } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what() + hint());
+    throw UsageError(error.what() + hint(command_given(*app_)));
   } catch (const UsageError& error) {
-    throw UsageError(error.what() + hint());
+    throw UsageError(error.what() + hint(command_given(*app_)));
   }
-}
-
-/// CLI11 would only say that a command is missing.
-void CommandLine::check_command_name(std::span<const std::string> arguments) const {
-  if (arguments.empty() || arguments.front().rfind('-', 0) == 0) {
-    return;
-  }
-  std::vector<std::string> names;
-  for (const CLI::App* const command : app_->get_subcommands([](const CLI::App*) { return true; })) {
-    names.push_back(command->get_name());
-  }
-  if (std::find(names.begin(), names.end(), arguments.front()) == names.end()) {
-    throw UsageError(arguments.front() + " is no command: expected " + listed(names) + hint());
-  }
-}
-
-/// "dmpc render --help", or plain if no command was understood.
-std::string CommandLine::hint() const {
-  const auto commands = app_->get_subcommands();
-  const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
-  return "\nTry: dmpc " + command + "--help";
 }
 
 }  // namespace dmpc::apps

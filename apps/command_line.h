@@ -33,6 +33,8 @@ class OptionSet {
   template <class T>
   using Choices = std::vector<std::pair<std::string, T>>;
 
+  /// A command of this command, to be declared: one of them must be given. Its own options follow its name.
+  OptionSet add_command(const std::string& name, const std::string& description);
   /// The options added from now on stand together in the help, under `title`.
   void begin_group(const std::string& title);
   /// A word without an option's name that must be given; help calls it `name`.
@@ -92,14 +94,12 @@ class CommandLine {
   /// The options of a new command, to be declared.
   OptionSet add_command(const std::string& name, const std::string& description);
 
-  /// Sets what the options of the command given are to set, and returns its name; or help. Call it once. `arguments` without the
+  /// Sets what the options of the command given are to set, and returns its name, "study balance" if it is a command's command;
+  /// or help. Call it once. `arguments` without the
   /// program's name. Throws core::UsageError, whose message ends with a hint at the right --help.
   std::variant<HelpText, std::string> parse(std::span<const std::string> arguments);
 
  private:
-  void check_command_name(std::span<const std::string> arguments) const;
-  std::string hint() const;
-
   std::unique_ptr<CLI::App> app_;
 };
 

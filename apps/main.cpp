@@ -15,6 +15,7 @@
 #include "apps/output_file.h"
 #include "apps/render.h"
 #include "apps/scene.h"
+#include "apps/study.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -36,6 +37,7 @@ struct Execute {
   int operator()(const SceneOptions& options) const { return scene_command(options, interrupt, std::cout); }
   int operator()(const CheckOptions& options) const { return check_command(options, interrupt); }
   int operator()(const CompareOptions& options) const { return compare_command(options, interrupt, std::cout); }
+  int operator()(const StudyOptions& options) const { return study_command(options, interrupt, std::cout); }
 };
 
 int complain(const std::string& message, int status) {

@@ -1,6 +1,7 @@
 #include "apps/options.h"
 
-#include <utility>
+#include <map>
+#include <string>
 
 namespace dmpc::apps {
 
@@ -11,23 +12,23 @@ Command parse_command_line(std::span<const std::string> arguments) {
   SceneOptions scene;
   CheckOptions check;
   CompareOptions compare;
+  StudyOptions balance{.study = BalanceStudy()}, traffic{.study = TrafficStudy()};
   add_options(line.add_command("render", "Render a scene on N nodes"), render);
   add_options(line.add_command("scene", "Write a built-in scene as an NFF file"), scene);
   add_options(line.add_command("check", "Trace every ray of a render with Embree too, and let a referee settle differences"),
               check);
   add_options(line.add_command("compare", "Measure how far two pictures lie apart"), compare);
+  OptionSet study = line.add_command("study", "Render a scene on several computers and print a table");
+  add_options(study.add_command(BalanceStudy::name, BalanceStudy::description), balance);
+  add_options(study.add_command(TrafficStudy::name, TrafficStudy::description), traffic);
   const std::variant<HelpText, std::string> parsed = line.parse(arguments);
   if (const auto* help = std::get_if<HelpText>(&parsed)) {
     return *help;
   }
   const auto& name = std::get<std::string>(parsed);
-  if (name == "render") {
-    return render;
-  }
-  if (name == "scene") {
-    return scene;
-  }
-  return name == "check" ? Command(check) : Command(compare);
+  const std::map<std::string, Command> commands = {{"render", render},   {"scene", scene},           {"check", check},
+                                                   {"compare", compare}, {"study balance", balance}, {"study traffic", traffic}};
+  return commands.at(name);
 }
 
 }  // namespace dmpc::apps

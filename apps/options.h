@@ -10,10 +10,11 @@
 #include "apps/compare.h"
 #include "apps/render_options.h"
 #include "apps/scene.h"
+#include "apps/study_options.h"
 
 namespace dmpc::apps {
 
-using Command = std::variant<HelpText, RenderOptions, SceneOptions, CheckOptions, CompareOptions>;
+using Command = std::variant<HelpText, RenderOptions, SceneOptions, CheckOptions, CompareOptions, StudyOptions>;
 
 /// `arguments` without the program's name. Throws core::UsageError, whose message ends with a hint at the right --help, for
 /// anything wrong that can be seen without reading a file.

@@ -7,6 +7,7 @@
 #include <iomanip>
 #include <ostream>
 #include <sstream>
+#include <utility>
 
 namespace dmpc::apps {
 
@@ -50,7 +51,12 @@ std::string progress_line(std::uint64_t done, std::uint64_t total, double second
 
 bool stderr_is_terminal() { return ::isatty(STDERR_FILENO) == 1; }
 
-Progress::Progress(std::ostream& output, bool shown) : output_(output), shown_(shown), start_(Clock::now()), next_(start_) {}
+Progress::Progress(std::ostream& output, bool shown, std::string label)
+    : output_(output), shown_(shown), label_(std::move(label)), start_(Clock::now()), next_(start_) {
+  if (shown_ && !label_.empty()) {
+    output_ << back_and_clear << label_ << std::flush;
+  }
+}
 
 Progress::~Progress() {
   if (shown_) {
@@ -67,7 +73,8 @@ void Progress::update(std::uint64_t done, std::uint64_t total) {
     return;
   }
   next_ = now + std::chrono::milliseconds(100);
-  output_ << back_and_clear << progress_line(done, total, std::chrono::duration<double>(now - start_).count()) << std::flush;
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  output_ << back_and_clear << label_ << progress_line(done, total, seconds) << std::flush;
 }
 
 }  // namespace dmpc::apps

@@ -18,8 +18,8 @@ bool stderr_is_terminal();
 /// Rewrites its line at most ten times a second and takes it away in the end. Not thread-safe: one thread at a time.
 class Progress {
  public:
-  /// Says nothing at all unless `shown`. `output` outlives it.
-  Progress(std::ostream& output, bool shown);
+  /// Says nothing at all unless `shown`; else `label`, if there is one, at once and before every line. `output` outlives it.
+  Progress(std::ostream& output, bool shown, std::string label = "");
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -31,6 +31,7 @@ class Progress {
 
   std::ostream& output_;
   bool shown_;
+  std::string label_;
   Clock::time_point start_;
   Clock::time_point next_;  ///< no rewriting before
 };

@@ -45,4 +45,18 @@ TEST_CASE("shown progress rewrites one line and takes it away in the end") {
   CHECK(text.substr(text.size() - 4) == "\r\x1b[K");
 }
 
+TEST_CASE("a label is shown at once and stays before the line") {
+  std::ostringstream output;
+  Progress progress(output, true, "8 nodes: ");
+  CHECK(output.str() == "\r\x1b[K8 nodes: ");
+  progress.update(1, 2);
+  CHECK(output.str().find("8 nodes:  50 %") != std::string::npos);
+}
+
+TEST_CASE("a label that is not shown is not written") {
+  std::ostringstream output;
+  Progress(output, false, "8 nodes: ").update(1, 2);
+  CHECK(output.str().empty());
+}
+
 }  // namespace dmpc::apps

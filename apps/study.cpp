@@ -1,0 +1,114 @@
+#include "apps/study.h"
+
+#include <iostream>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/distinct_files.h"
+#include "apps/load_scene.h"
+#include "apps/output_file.h"
+#include "apps/progress.h"
+#include "apps/stats.h"
+#include "apps/study_runs.h"
+#include "apps/summary.h"
+#include "core/scenes.h"
+
+namespace dmpc::apps {
+namespace {
+
+void check_output(const StudyOptions& options) {
+  if (!options.output) {
+    return;
+  }
+  std::vector<NamedFile> inputs;
+  if (!core::find_scene_name(options.picture.scene)) {
+    inputs.push_back({"SCENE", options.picture.scene});
+  }
+  check_distinct(inputs, {{"-o", *options.output}});
+  check_output_path(*options.output, "-o");
+}
+
+/// What all runs render.
+struct Subject {
+  core::Database database;
+  core::RenderSettings settings;
+};
+
+/// Reads and builds; a signal ends the process here and now.
+Subject prepare(const PictureOptions& picture, Interrupt& interrupt) {
+  const Interrupt::EndAtOnce end_at_once(interrupt);
+  const core::Scene scene = load_scene(picture);
+  core::Database database = core::build_database(scene, {});
+  if (database.dropped() > 0) {
+    std::cerr << "dmpc: " << dropped_text(database.dropped()) << '\n';
+  }
+  const core::RenderSettings settings = render_settings(picture, scene, database);
+  return {std::move(database), settings};
+}
+
+std::string title_of(const std::string& study, const PictureOptions& picture, const Subject& subject) {
+  const core::Camera& camera = subject.settings.camera;
+  return "Study " + study + " of " + picture.scene + ": " + std::to_string(camera.width()) + "x" +
+         std::to_string(camera.height()) + " pixels, " + std::to_string(picture.samples) +
+         (picture.samples == 1 ? " sample" : " samples") + " a pixel, depth " + std::to_string(picture.depth) + ", convention " +
+         (picture.convention == core::Convention::haines ? "haines" : "paper") + ", " +
+         std::to_string(subject.database.header().primitive_count) + " primitives";
+}
+
+std::string film_note(const StudyRuns& runs) {
+  return "Film of every run, " + std::to_string(runs.count()) + " in all: " + hash_text(runs.film_hash().value_or(0)) + ".";
+}
+
+void write(Table& table, const StudyRuns& runs, const StudyOptions& options, std::ostream& output) {
+  table.add_note(film_note(runs));
+  const std::string text = text_of(table, options.format);
+  if (options.output) {
+    OutputFile file(*options.output);
+    file.write(text);
+    file.commit();
+  } else {
+    output << text;
+    finish_output(output, "the table");
+  }
+}
+
+template <class OneStudy>
+Table empty_table(const OneStudy& study, const StudyOptions& options, const Subject& subject) {
+  Table table(title_of(OneStudy::name, options.picture, subject), study.columns());
+  for (std::string& note : study.notes(options.picture.scene)) {
+    table.add_note(std::move(note));
+  }
+  return table;
+}
+
+template <class OneStudy>
+void carry_out(const OneStudy& study, const StudyOptions& options, Interrupt& interrupt, std::ostream& output) {
+  const Subject subject = prepare(options.picture, interrupt);
+  Table table = empty_table(study, options, subject);
+  StudyRuns runs(subject.database, subject.settings, {std::cerr, stderr_is_terminal(), study.run_count()}, interrupt);
+  try {
+    study.measure(runs, table);
+    interrupt.set_consequence(options.output ? "nothing was written" : "the table is incomplete");
+    const Interrupt::EndAtOnce end_at_once(interrupt);
+    write(table, runs, options, output);
+  } catch (const Interrupted&) {
+    if (!table.rows().empty()) {
+      interrupt.set_consequence("the table ends with the rows finished before");
+      table.add_note("Interrupted: rows are missing.");
+      write(table, runs, options, output);
+    }
+    throw;
+  }
+}
+
+}  // namespace
+
+int study_command(const StudyOptions& options, Interrupt& interrupt, std::ostream& output) {
+  check_output(options);
+  std::visit([&](const auto& study) { carry_out(study, options, interrupt, output); }, options.study);
+  return 0;
+}
+
+}  // namespace dmpc::apps

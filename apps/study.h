@@ -1,0 +1,17 @@
+// The command `study`: renders one scene on several computers and prints a table.
+#pragma once
+
+#include <iosfwd>
+
+#include "apps/interrupt.h"
+#include "apps/study_options.h"
+
+namespace dmpc::apps {
+
+/// Writes the table to the file asked for (whole or not at all), else to `output`; progress goes to stderr if that is a terminal.
+/// After a signal the table has the rows finished until then, if there are any. Returns the exit status 0. Throws
+/// core::InputError for a scene that cannot be read or a table that cannot be written, core::UsageError for an output that is the
+/// scene's file, core::InternalError if two runs give different films, and Interrupted after a signal.
+int study_command(const StudyOptions& options, Interrupt& interrupt, std::ostream& output);
+
+}  // namespace dmpc::apps

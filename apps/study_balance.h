@@ -1,0 +1,35 @@
+// The study `balance`: how evenly the work of rays that travel is shared out, and what it is worth where the regions lie.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/study_runs.h"
+#include "apps/study_table.h"
+#include "nodes/topology.h"
+
+namespace dmpc::apps {
+
+/// For each node count the regions by the subsampled picture and those of equal size: the average load, predicted and achieved,
+/// copies of primitives, and hops of a ray from node to node.
+struct BalanceStudy {
+  static constexpr const char* name = "balance";
+  static constexpr const char* description = "How evenly the work of rays that travel is shared out";
+
+  std::vector<std::uint32_t> node_counts = {4, 8, 16, 32, 64};
+  int subsample = 8;                    ///< one pixel of every subsample x subsample predicts the load
+  std::int32_t columns_per_side = 256;  ///< of the lattice that loads are counted on
+  nodes::TopologyKind topology = nodes::TopologyKind::hypercube;
+  bool per_node = false;  ///< below each row one more for each node, with its share of the work
+
+  std::vector<Column> columns() const;
+  /// How many times measure() renders.
+  std::uint32_t run_count() const { return 2 * static_cast<std::uint32_t>(node_counts.size()); }
+  /// Adds to `table`, which has columns(), row after row as the runs end. Throws as StudyRuns::run() does.
+  void measure(StudyRuns& runs, Table& table) const;
+  /// What the columns mean, and what the 1994 paper found if `scene`, as on the command line, is one of its scenes.
+  std::vector<std::string> notes(const std::string& scene) const;
+};
+
+}  // namespace dmpc::apps

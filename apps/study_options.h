@@ -1,0 +1,30 @@
+// The options of `study`: a scene, which study, and where its table goes.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <variant>
+
+#include "apps/command_line.h"
+#include "apps/picture_options.h"
+#include "apps/study_balance.h"
+#include "apps/study_table.h"
+#include "apps/study_traffic.h"
+
+namespace dmpc::apps {
+
+/// One study. Each has a `name` (the word on the command line) and a `description`, and says what its table's columns() are, how
+/// many runs it takes, what to note below for a scene, and how to measure() row after row.
+using Study = std::variant<BalanceStudy, TrafficStudy>;
+
+struct StudyOptions {
+  Study study;
+  PictureOptions picture;
+  TableFormat format = TableFormat::markdown;
+  std::optional<std::filesystem::path> output;  ///< stdout if not given
+};
+
+/// Declares those that all studies share, and those of the study that `options` holds now.
+void add_options(OptionSet set, StudyOptions& options);
+
+}  // namespace dmpc::apps

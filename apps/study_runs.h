@@ -1,0 +1,57 @@
+// The runs of a study: one scene rendered again and again by other computers, which must all give one film.
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+#include "apps/interrupt.h"
+#include "core/database.h"
+#include "core/film.h"
+#include "core/pixel_task.h"
+#include "dataflow/run.h"
+#include "svm/run.h"
+
+namespace dmpc::apps {
+
+/// Where the progress of runs is shown, if at all.
+struct StudyProgress {
+  std::ostream& output;
+  bool is_shown = false;
+  std::uint32_t run_count = 0;  ///< of the whole study
+};
+
+/// Not thread-safe. What it is made from outlives it.
+class StudyRuns {
+ public:
+  StudyRuns(const core::Database& database, const core::RenderSettings& settings, const StudyProgress& progress,
+            const Interrupt& interrupt);
+
+  /// Renders with strategy dataflow or svm and the given options, whose progress is replaced. `computer` says which they are, in
+  /// a few words, to who is waiting. Throws as the run does, Interrupted if a signal comes before its end, and
+  /// core::InternalError if the film is not the first run's.
+  dataflow::Report run(const std::string& computer, dataflow::RunOptions options);
+  svm::Report run(const std::string& computer, svm::RunOptions options);
+
+  /// Throws core::InternalError unless `film` equals those that came before: every run's film is held against the first's.
+  void compare(const core::Film& film);
+
+  /// Runs that have ended.
+  std::uint32_t count() const { return count_; }
+  /// Of every run's film; nothing before the first.
+  std::optional<std::uint64_t> film_hash() const { return film_hash_; }
+
+ private:
+  template <class Options, class Render>
+  auto run_shown(const std::string& computer, Options options, const Render& render);
+
+  const core::Database& database_;
+  const core::RenderSettings& settings_;
+  StudyProgress progress_;
+  const Interrupt& interrupt_;
+  std::uint32_t count_ = 0;
+  std::optional<std::uint64_t> film_hash_;
+};
+
+}  // namespace dmpc::apps
