@@ -100,7 +100,8 @@ void TrafficStudy::measure(StudyRuns& runs, Table& table) const {
 std::vector<std::string> TrafficStudy::notes(const std::string&) const {
   return {
       "Rays travel (dataflow, regions by the subsampled picture): hops a ray are rays sent over rays shot; packets and "
-      "their bytes count every packet with rays, those by way of the host twice; overflow is the share of the rays sent that took that way.",
+      "their bytes count every packet with rays, those by way of the host twice; overflow is the share of the rays sent that "
+      "took that way.",
       "Average load: mean over maximum of the nodes' work, with regions by the subsampled picture and of equal size.",
       "Pages travel (svm, cache of a quarter of the database): faults, and the bytes of the pages sent for them.",
       "Memory: high-water mark of the fullest node."};

@@ -37,6 +37,9 @@ struct Line {
     paint.check_in_the_end([this, paint] { said.colour_given = paint.is_given("--colour"); });
     line.add_command("wash", "Washes");
     line.add_command("dry", "Dries");
+    OptionSet mix = line.add_command("mix", "Mixes");
+    mix.add_command("oil", "Slowly");
+    mix.add_command("water", "Quickly").add_flag("--wetter", said.is_wet, "With more water");
   }
   std::variant<HelpText, std::string> parse(std::initializer_list<std::string> words) {
     return line.parse(std::vector<std::string>(words));
@@ -85,8 +88,18 @@ TEST_CASE("a list of words may be given piece by piece") {
 
 TEST_CASE("the command given is named, and a wrong one answered with all there are") {
   CHECK(std::get<std::string>(Line().parse({"wash"})) == "wash");
-  CHECK(Line().complaint({"scrub"}) == "scrub is no command: expected paint, wash or dry\nTry: dmpc --help");
+  CHECK(Line().complaint({"scrub"}) == "scrub is no command: expected paint, wash, dry or mix\nTry: dmpc --help");
   CHECK(Line().complaint({}).find("Try: dmpc --help") != std::string::npos);
+}
+
+TEST_CASE("a command of a command is named by both, and its options are its own") {
+  Line line;
+  CHECK(std::get<std::string>(line.parse({"mix", "water", "--wetter"})) == "mix water");
+  CHECK(line.said.is_wet);
+  CHECK(Line().complaint({"mix", "sand"}) == "sand is no command: expected oil or water\nTry: dmpc mix --help");
+  CHECK(Line().complaint({"mix", "oil", "--wetter"}).find("Try: dmpc mix oil --help") != std::string::npos);
+  CHECK(Line().complaint({"mix"}).find("Try: dmpc mix --help") != std::string::npos);
+  CHECK(std::get<HelpText>(Line().parse({"mix", "--help"})).text.find("Quickly") != std::string::npos);
 }
 
 TEST_CASE("a wrong value names its option and where help is") {

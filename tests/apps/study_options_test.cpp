@@ -1,0 +1,92 @@
+#include "apps/study_options.h"
+
+#include <doctest/doctest.h>
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "apps/options.h"
+#include "core/expect.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+using Counts = std::vector<std::uint32_t>;
+
+/// `study NAME teapot-12` and more.
+StudyOptions study(const std::string& name, std::initializer_list<std::string> more = {}) {
+  std::vector<std::string> arguments = {"study", name, "teapot-12"};
+  arguments.insert(arguments.end(), more);
+  return std::get<StudyOptions>(parse_command_line(arguments));
+}
+
+BalanceStudy balance(std::initializer_list<std::string> more = {}) {
+  return std::get<BalanceStudy>(study("balance", more).study);
+}
+
+std::string complaint(const std::vector<std::string>& arguments) {
+  try {
+    parse_command_line(arguments);
+  } catch (const core::UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a study and a scene are all that study needs") {
+  const StudyOptions options = study("balance");
+  CHECK(options.picture.scene == "teapot-12");
+  CHECK(options.format == TableFormat::markdown);
+  CHECK_FALSE(options.output);
+  CHECK(balance().node_counts == Counts{4, 8, 16, 32, 64});
+  CHECK(balance().subsample == 8);
+  CHECK(balance().columns_per_side == 256);
+  CHECK(balance().topology == nodes::TopologyKind::hypercube);
+  CHECK_FALSE(balance().per_node);
+  CHECK(std::get<TrafficStudy>(study("traffic").study).node_counts == Counts{1, 2, 4, 8, 16, 32, 64});
+}
+
+TEST_CASE("options of a study are taken") {
+  const StudyOptions options = study("traffic", {"--nodes=3", "--depth=2", "--format=json", "-o", "a.json"});
+  CHECK(std::get<TrafficStudy>(options.study).node_counts == Counts{3});
+  CHECK(options.picture.depth == 2);
+  CHECK(options.format == TableFormat::json);
+  CHECK(options.output == "a.json");
+  const BalanceStudy taken = balance({"--subsample=4", "--balance-grid=16", "--topology=fat-tree", "--per-node"});
+  CHECK(taken.subsample == 4);
+  CHECK(taken.columns_per_side == 16);
+  CHECK(taken.topology == nodes::TopologyKind::fat_tree);
+  CHECK(taken.per_node);
+}
+
+TEST_CASE("node counts are taken in the order given, equal ones too") {
+  CHECK(balance({"--nodes=64,1,64,1024"}).node_counts == Counts{64, 1, 64, 1024});
+}
+
+TEST_CASE("anything but node counts in range with commas between them is refused") {
+  for (const std::string text : {",", "4,", ",4", "4,,8", "0", "1025", "-1", "+4", "4;8", "4 8", "4.5", "x", "99999999999"}) {
+    CAPTURE(text);
+    CHECK(complaint({"study", "balance", "teapot-12", "--nodes=" + text}).find("such as 4,8,16") != std::string::npos);
+  }
+}
+
+TEST_CASE("node counts that are left out are refused") {
+  CHECK(complaint({"study", "balance", "teapot-12", "--nodes="}).find("--nodes") != std::string::npos);
+}
+
+TEST_CASE("a study that is missing or does not exist is answered with those there are") {
+  CHECK(complaint({"study"}).find("Try: dmpc study --help") != std::string::npos);
+  CHECK(complaint({"study", "weather", "teapot-12"}).find("expected balance or traffic") != std::string::npos);
+}
+
+TEST_CASE("a study has its own options alone") {
+  CHECK(complaint({"study", "traffic", "teapot-12", "--per-node"}).find("dmpc study traffic --help") != std::string::npos);
+  CHECK(complaint({"study", "balance", "teapot-12", "--format=xml"}).find("--format") != std::string::npos);
+  CHECK(complaint({"study", "balance"}).find("SCENE") != std::string::npos);
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,114 @@
+#include "apps/study.h"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <csignal>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/expect.h"
+#include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace dmpc::tests {
+
+namespace {
+
+using apps::StudyOptions;
+
+StudyOptions small_study(const std::string& scene = "balls-1") {
+  return {.study = apps::TrafficStudy{.node_counts = {1, 2}},
+          .picture = {.scene = scene, .resolution = apps::Resolution{16, 16}}};
+}
+
+/// What the command writes to the standard output.
+std::string output_of(const StudyOptions& options) {
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  CHECK(apps::study_command(options, interrupt, output) == 0);
+  return output.str();
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++found;
+  }
+  return found;
+}
+
+bool contains(const std::string& text, const std::string& part) { return count(text, part) > 0; }
+
+/// `dmpc study traffic` with so many rows that it does not end by itself.
+std::vector<std::string> endless_study(const std::string& resolution) {
+  std::string nodes = "--nodes=1";
+  for (int more = 0; more < 20000; ++more) {
+    nodes += ",1";
+  }
+  return {DMPC_PROGRAM, "study", "traffic", "balls-1", "--format=csv", "--resolution=" + resolution, nodes};
+}
+
+}  // namespace
+
+TEST_CASE("a study says what it studied, its rows, and the film of all runs") {
+  const std::string text = output_of(small_study());
+  CHECK(contains(text, "Study traffic of balls-1: 16x16 pixels, 1 sample a pixel, depth 5, convention haines, "));
+  CHECK(count(text, "\n|") == 4);
+  CHECK(contains(text, "Film of every run, 6 in all: "));
+  CHECK_FALSE(contains(text, "Interrupted"));
+}
+
+TEST_CASE("a table goes to the file asked for and nothing to the standard output") {
+  const TemporaryFolder folder;
+  StudyOptions options = small_study();
+  options.format = apps::TableFormat::csv;
+  options.output = folder / "a.csv";
+  CHECK(output_of(options).empty());
+  CHECK(count(file_text(folder / "a.csv"), "\n") == 3);
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("an output that cannot be written or is the scene is refused before any run") {
+  const TemporaryFolder folder;
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  StudyOptions options = small_study((folder / "scene.nff").string());
+  options.output = folder / "scene.nff";
+  write_text(folder / "scene.nff", "nonsense");
+  CHECK_THROWS_AS(apps::study_command(options, interrupt, output), core::UsageError);
+  options.output = folder / "no" / "a.md";
+  CHECK_THROWS_AS(apps::study_command(options, interrupt, output), core::InputError);
+  CHECK(file_text(folder / "scene.nff") == "nonsense");
+}
+
+TEST_CASE("a scene that does not exist is bad input") { CHECK_THROWS_AS(output_of(small_study("nonsense-3")), core::InputError); }
+
+TEST_CASE("Ctrl-C ends a study with status 130 and the rows finished before") {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    ChildProcess process(endless_study("8x8"));
+    REQUIRE(process.blocks(signal));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1000));  // so that some rows are finished
+    process.send(signal);
+    CHECK(process.status() == 130);
+    CHECK(contains(process.errors(), "interrupted, the table ends with the rows finished before"));
+    const std::string output = process.output();
+    CHECK(contains(output, "nodes,"));
+    CHECK(contains(output, "\n1,"));
+    CHECK(output.back() == '\n');
+  }
+}
+
+TEST_CASE("Ctrl-C before the first row is finished ends a study with status 130 and no table") {
+  ChildProcess process(endless_study("16384x16384"));
+  REQUIRE(process.blocks(SIGINT));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  process.send(SIGINT);
+  CHECK(process.status() == 130);
+  CHECK(contains(process.errors(), "interrupted, nothing was written"));
+  CHECK(process.output().empty());
+}
+
+}  // namespace dmpc::tests
