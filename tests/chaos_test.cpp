@@ -9,12 +9,14 @@
 #include <cstdint>
 #include <cstdlib>
 #include <iterator>
+#include <optional>
+#include <string>
 
-#include "core/database.h"
-#include "core/render.h"
+#include "dataflow/run.h"
 #include "nodes/chaos.h"
 #include "svm/run.h"
 #include "tests/support/small_scenes.h"
+#include "tests/support/subject.h"
 
 namespace dmpc::tests {
 
@@ -32,73 +34,89 @@ std::uint64_t from_environment(const char* name, std::uint64_t standard) {
   return text == nullptr ? standard : std::stoull(text);
 }
 
-/// A scene small enough to render hundreds of times, and its picture by the reference renderer.
-class Subject {
- public:
-  Subject(const core::Scene& scene, int side)
-      : database_(core::build_database(scene, {.page_size_bytes = 512})),
-        settings_{database_.header(), core::Camera(scene.view, database_.header().frame, side, side, 1), {}} {
-    core::LocalRecords records(database_.bytes());
-    core::GridTracer tracer(records, database_.header(), core::TraversalOptions{});
-    core::Operations operations;
-    hash_ = core::render(tracer, settings_, operations).hash();
-    rays_ = operations.rays;
-  }
+/// Small enough to render hundreds of times.
+const Subject& subject() {
+  static const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
+  return subject;
+}
 
-  svm::Report run(svm::Strategy strategy, const svm::RunOptions& options) const {
-    return strategy == svm::Strategy::svm ? svm::run_svm(database_, settings_, options, {})
-                                          : svm::run_replicated(database_, settings_, options, {});
-  }
-  bool is_right(const svm::Report& report) const { return report.film.hash() == hash_ && report.operations().rays == rays_; }
+/// The draws that choose the computer of a seed: few nodes or many, with starved bounds or ample ones.
+nodes::ChaosStream draws_of(std::uint64_t seed) { return nodes::ChaosStream(core::mix(seed)); }
 
- private:
-  core::Database database_;
-  core::RenderSettings settings_;
-  std::uint64_t hash_ = 0;
-  decltype(core::Operations::rays) rays_{};
-};
-
-/// The computer that a seed stands for: few nodes or many, a cache of one page or of some, one pixel in flight or several.
-svm::RunOptions options_of(std::uint64_t seed, svm::Strategy strategy) {
+std::uint32_t node_count(nodes::ChaosStream& draws) {
   constexpr std::uint32_t node_counts[] = {2, 3, 5, 8};
-  nodes::ChaosStream draws(core::mix(seed));
-  svm::RunOptions options{.node_count = node_counts[draws.below(std::size(node_counts))]};
+  return node_counts[draws.below(std::size(node_counts))];
+}
+
+/// With one pixel in flight or several.
+svm::RunOptions options_of(std::uint64_t seed, nodes::ChaosStream& draws) {
+  svm::RunOptions options{.node_count = node_count(draws)};
   options.in_flight = 1 + draws.below(8);
   options.work_item_side = draws.below(4);
-  if (strategy == svm::Strategy::svm) {
-    options.cache_pages = 1 + draws.below(16);
-  }
   options.chaos = nodes::chaos_of(seed);
   return options;
 }
+
+/// With a cache of one page or of some.
+svm::Report run_svm(std::uint64_t seed) {
+  nodes::ChaosStream draws = draws_of(seed);
+  svm::RunOptions options = options_of(seed, draws);
+  options.cache_pages = 1 + draws.below(16);
+  return svm::run_svm(subject().database(), subject().settings(), options, {});
+}
+
+svm::Report run_replicated(std::uint64_t seed) {
+  nodes::ChaosStream draws = draws_of(seed);
+  return svm::run_replicated(subject().database(), subject().settings(), options_of(seed, draws), {});
+}
+
+/// With one ray a message or more, and with no credits between nodes, one or more.
+dataflow::Report run_dataflow(std::uint64_t seed) {
+  nodes::ChaosStream draws = draws_of(seed);
+  dataflow::RunOptions options{.node_count = node_count(draws)};
+  const std::uint32_t ray_batch = draws.below(11), ray_credits = draws.below(3);
+  if (ray_batch > 0) {
+    options.ray_batch = ray_batch;
+  }
+  if (ray_credits < 2) {
+    options.ray_credits = ray_credits;
+  }
+  options.balance = {.balance = draws.chance(50) ? dataflow::Balance::subsampled : dataflow::Balance::equal_size, .subsample = 4};
+  options.chaos = nodes::chaos_of(seed);
+  return dataflow::run_dataflow(subject().database(), subject().settings(), options, {});
+}
+
+std::uint32_t credits_of(const svm::Plan& plan) { return plan.request_credits + plan.film_credits; }
+std::uint32_t credits_of(const dataflow::Plan& plan) { return plan.ray_credits + plan.host_credits + plan.film_credits; }
 
 /// What chaos did in all runs together.
 struct Damage {
   std::uint64_t packets_held = 0, quanta_sat_out = 0, runs_with_fewer_credits = 0;
 
-  void add(const svm::Report& report, const svm::Plan& planned) {
+  template <class Report>
+  void add(const Report& report) {
     packets_held += report.host.held;
-    for (const svm::NodeReport& node : report.nodes) {
+    for (const auto& node : report.nodes) {
       packets_held += node.counters.held;
       quanta_sat_out += node.counters.sat_out;
     }
-    runs_with_fewer_credits +=
-        report.plan.request_credits < planned.request_credits || report.plan.film_credits < planned.film_credits ? 1 : 0;
+    auto calm = report.plan.request;
+    calm.chaos.reset();
+    runs_with_fewer_credits += credits_of(report.plan) < credits_of(make_plan(calm)) ? 1 : 0;
   }
 };
 
-void check_seeds(const Subject& subject, svm::Strategy strategy) {
+/// `run` renders the subject on the computer of a seed.
+template <class Run>
+void check_seeds(Run run) {
   const std::uint64_t first = from_environment("DMPC_CHAOS_FIRST", 1);
   const std::uint64_t count = from_environment("DMPC_CHAOS_SEEDS", seeds_by_default);
   Damage damage;
   for (std::uint64_t seed = first; seed - first < count; ++seed) {
     CAPTURE(seed);
-    const svm::RunOptions options = options_of(seed, strategy);
-    const svm::Report report = subject.run(strategy, options);
-    REQUIRE(subject.is_right(report));
-    svm::PlanRequest calm = report.plan.request;
-    calm.chaos.reset();
-    damage.add(report, svm::make_plan(calm));
+    const auto report = run(seed);
+    REQUIRE(outcome_of(report) == subject().outcome());
+    damage.add(report);
   }
   CHECK(damage.packets_held >= count);
   CHECK((damage.quanta_sat_out > 0 || count < 20));
@@ -113,26 +131,38 @@ constexpr nodes::Chaos storm{.seed = 11,
                              .slow_node_percent = 30,
                              .shrinks_credits = true};
 
-}  // namespace
-
-TEST_CASE("chaos: any seed leaves svm its picture") { check_seeds(Subject(mirrors_and_glass(), 16), svm::Strategy::svm); }
-
-TEST_CASE("chaos: any seed leaves replicated its picture") {
-  check_seeds(Subject(mirrors_and_glass(), 16), svm::Strategy::replicated);
+/// `run` renders a small scene on 3 nodes, disturbed or not.
+template <class Run>
+void check_memory(Run run) {
+  const auto calm = run(std::nullopt), disturbed = run(storm);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(disturbed.nodes[i].memory_used.bytes == disturbed.nodes[i].memory_planned.bytes);
+    CHECK(disturbed.nodes[i].memory_used.total() == calm.nodes[i].memory_used.total() + disturbed.plan.held_bytes);
+  }
+  CHECK(disturbed.plan.held_bytes > 0);
+  CHECK(calm.plan.held_bytes == 0);
 }
 
+}  // namespace
+
+TEST_CASE("chaos: any seed leaves svm its picture") { check_seeds(run_svm); }
+
+TEST_CASE("chaos: any seed leaves replicated its picture") { check_seeds(run_replicated); }
+
+TEST_CASE("chaos: any seed leaves dataflow its picture") { check_seeds(run_dataflow); }
+
 TEST_CASE("under chaos a node uses exactly the memory of its plan, the packets held back included") {
-  const Subject subject(mirrors_and_glass(), 8);
-  for (const svm::Strategy strategy : {svm::Strategy::svm, svm::Strategy::replicated}) {
-    const svm::Report calm = subject.run(strategy, {.node_count = 3});
-    const svm::Report disturbed = subject.run(strategy, {.node_count = 3, .chaos = storm});
-    for (std::size_t i = 0; i < 3; ++i) {
-      CHECK(disturbed.nodes[i].memory_used.bytes == disturbed.nodes[i].memory_planned.bytes);
-      CHECK(disturbed.nodes[i].memory_used.total() == calm.nodes[i].memory_used.total() + disturbed.plan.held_bytes);
+  using Chaos = std::optional<nodes::Chaos>;
+  const core::Database& database = subject().database();
+  const core::RenderSettings& settings = subject().settings();
+  check_memory([&](Chaos chaos) { return svm::run_svm(database, settings, {.node_count = 3, .chaos = chaos}, {}); });
+  check_memory([&](Chaos chaos) { return svm::run_replicated(database, settings, {.node_count = 3, .chaos = chaos}, {}); });
+  check_memory([&](Chaos chaos) {
+    if (chaos) {
+      chaos->shrinks_credits = false;  // with fewer credits a node takes less
     }
-    CHECK(disturbed.plan.held_bytes > 0);
-    CHECK(calm.plan.held_bytes == 0);
-  }
+    return dataflow::run_dataflow(database, settings, {.node_count = 3, .chaos = chaos}, {});
+  });
 }
 
 TEST_CASE("under chaos mailboxes stay as large as the credits that were planned without it") {

@@ -2,18 +2,19 @@
 // renderer's to the last bit.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cstdint>
 #include <iterator>
 #include <optional>
+#include <stop_token>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "core/database.h"
-#include "core/render.h"
 #include "dataflow/run.h"
+#include "tests/support/border_scene.h"
 #include "tests/support/pairwise.h"
 #include "tests/support/small_scenes.h"
+#include "tests/support/subject.h"
 
 namespace dmpc::tests {
 
@@ -22,58 +23,30 @@ namespace {
 using dataflow::Balance;
 using dataflow::RunOptions;
 
-/// A scene, its database, and its picture by the reference renderer.
-class Subject {
- public:
-  Subject(const core::Scene& scene, int side, int samples = 1)
-      : database_(core::build_database(scene, {})),
-        settings_{database_.header(), core::Camera(scene.view, database_.header().frame, side, side, samples), {}} {
-    core::LocalRecords records(database_.bytes());
-    core::GridTracer tracer(records, settings_.header, core::TraversalOptions{});
-    hash_ = core::render(tracer, settings_, operations_).hash();
-  }
+dataflow::Report run(const Subject& subject, const RunOptions& options) {
+  return dataflow::run_dataflow(subject.database(), subject.settings(), options, {});
+}
 
-  dataflow::Report run(const RunOptions& options) const { return dataflow::run_dataflow(database_, settings_, options, {}); }
-
-  /// Runs and holds picture, rays and hits to the reference renderer's.
-  dataflow::Report check(const RunOptions& options) const {
-    CAPTURE(options.node_count);
-    dataflow::Report report = run(options);
-    const core::Operations operations = report.operations();
-    CHECK(report.film.hash() == hash_);
-    CHECK(operations.rays == operations_.rays);
-    CHECK(operations.primary_hits == operations_.primary_hits);
-    CHECK(operations.secondary_hits == operations_.secondary_hits);
-    CHECK(operations.shadow_blocked == operations_.shadow_blocked);
-    CHECK(operations.shadings == operations_.shadings);
-    CHECK(operations.total_internal_reflections == operations_.total_internal_reflections);
-    return report;
-  }
-
-  const core::Database& database() const { return database_; }
-
- private:
-  core::Database database_;
-  core::RenderSettings settings_;
-  core::Operations operations_;
-  std::uint64_t hash_ = 0;
-};
+/// Runs and holds film, rays and hits to the reference renderer's.
+dataflow::Report check(const Subject& subject, const RunOptions& options) {
+  CAPTURE(options.node_count);
+  dataflow::Report report = run(subject, options);
+  CHECK(outcome_of(report) == subject.outcome());
+  return report;
+}
 
 constexpr std::uint32_t node_counts[] = {1, 2, 3, 5, 8, 16, 64};
-constexpr std::uint32_t no_wish = 0;
-constexpr std::uint32_t ray_batches[] = {1, 3, no_wish};
-constexpr std::uint32_t ray_credits[] = {1, no_wish};
+using Wish = std::optional<std::uint32_t>;
+constexpr Wish ray_batches[] = {1, 3, std::nullopt};
+constexpr Wish ray_credits[] = {0, 1, std::nullopt};
 
 /// Every pair of choices occurs in some run.
-void check_pairwise(const Subject& subject) {
-  for (const auto& row : pairwise({std::size(node_counts), std::size(ray_batches), std::size(ray_credits), 2, 2, 2})) {
+void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
+  const std::array<Subject, 2> subjects = along_both_axes(scene, size);
+  for (const auto& row : pairwise({std::size(node_counts), std::size(ray_batches), std::size(ray_credits), 2, 2, 2, 2})) {
     RunOptions options{.node_count = node_counts[row[0]]};
-    if (ray_batches[row[1]] != no_wish) {
-      options.ray_batch = ray_batches[row[1]];
-    }
-    if (ray_credits[row[2]] != no_wish) {
-      options.ray_credits = ray_credits[row[2]];
-    }
+    options.ray_batch = ray_batches[row[1]];
+    options.ray_credits = ray_credits[row[2]];
     options.balance = {.balance = row[3] == 0 ? Balance::subsampled : Balance::equal_size, .subsample = 4};
     options.traversal.skip_empty_space = row[4] == 0;
     if (row[5] == 1) {
@@ -83,58 +56,38 @@ void check_pairwise(const Subject& subject) {
     CAPTURE(row[2]);
     CAPTURE(row[3]);
     CAPTURE(row[4]);
-    subject.check(options);
+    CAPTURE(row[6]);
+    check(subjects[row[6]], options);
   }
-}
-
-/// A wall of squares whose edges and corners lie on planes that cells have as borders, before a mirror, seen square on: rays run
-/// in border planes and along border edges.
-core::Scene lattice() {
-  core::Scene scene;
-  scene.name = "lattice";
-  scene.view = {.from = {0, -4, 0}, .at = {0, 0, 0}, .up = {0, 0, 1}, .angle_degrees = 45};
-  scene.background = {0.2, 0.3, 0.4};
-  scene.lights = {{{0, -4, 0}}, {{0, -4, 4}}, {{1, -2, 1}}};
-  core::SceneBuilder builder(scene);
-  builder.material({.color = {0.8, 0.7, 0.5}, .diffuse = 0.6, .specular = 0.4, .shine = 20});
-  for (int x = -2; x < 2; ++x) {
-    for (int z = -2; z < 2; ++z) {
-      const double y = 0.5 * ((x + z) & 1);
-      builder.polygon(
-          {{0.5 * x, y, 0.5 * z}, {0.5 * x + 0.5, y, 0.5 * z}, {0.5 * x + 0.5, y, 0.5 * z + 0.5}, {0.5 * x, y, 0.5 * z + 0.5}});
-      builder.polygon({{0.5 * x, 0, 0.5 * z}, {0.5 * x, 1, 0.5 * z}, {0.5 * x, 1, 0.5 * z + 0.5}, {0.5 * x, 0, 0.5 * z + 0.5}});
-    }
-  }
-  return scene;
 }
 
 }  // namespace
 
-TEST_CASE("dataflow: any nodes, batches, credits, balances and skips give the picture of mirrors and glass") {
-  check_pairwise(Subject(mirrors_and_glass(), 20));
+TEST_CASE("dataflow: any nodes, batches, credits, balances, skips and axes give the picture of mirrors and glass") {
+  check_pairwise(mirrors_and_glass(), {20, 20});
 }
 
-TEST_CASE("dataflow: any nodes, batches, credits, balances and skips give the picture of gears") {
-  check_pairwise(Subject(built_in("gears-2"), 16));
+TEST_CASE("dataflow: any nodes, batches, credits, balances, skips and axes give the picture of gears") {
+  check_pairwise(built_in("gears-2"), {16, 16});
 }
 
 TEST_CASE("dataflow: a thousand lights need no more memory for rays and give the same picture") {
-  const Subject subject(thousand_lights(), 6);
+  const Subject subject(thousand_lights(), {6, 6});
   for (const std::uint32_t nodes : {2U, 7U}) {
-    const dataflow::Report report = subject.check({.node_count = nodes});
+    const dataflow::Report report = check(subject, {.node_count = nodes});
     CHECK(report.nodes[0].memory_planned[nodes::Category::ray_stacks] < 4096);
   }
 }
 
 TEST_CASE("dataflow: several samples a pixel reach both planes of the film") {
-  const Subject subject(mirrors_and_glass(), 12, 5);
-  subject.check({.node_count = 5});
+  const Subject subject(mirrors_and_glass(), {12, 12, 5});
+  check(subject, {.node_count = 5});
 }
 
 TEST_CASE("dataflow: when every ray overflows the picture is the same and all of them come back from the host") {
-  const Subject subject(mirrors_and_glass(), 20);
+  const Subject subject(mirrors_and_glass(), {20, 20});
   for (const std::uint32_t nodes : {2U, 5U, 16U}) {
-    const dataflow::Report report = subject.check({.node_count = nodes, .ray_batch = 1, .ray_credits = 0});
+    const dataflow::Report report = check(subject, {.node_count = nodes, .ray_batch = 1, .ray_credits = 0});
     CHECK(report.gathers().rays_overflowed == report.gathers().rays);
     CHECK(report.host_rays.rays_out > 0);
     CHECK(report.sent()[dataflow::number_of(dataflow::Kind::rays)].packets == 0);
@@ -142,40 +95,30 @@ TEST_CASE("dataflow: when every ray overflows the picture is the same and all of
 }
 
 TEST_CASE("dataflow: triangles in border planes and rays along border edges are met by one node each") {
-  const Subject subject(lattice(), 33);
-  const core::Corner size = core::grid_size(subject.database().header().frame);
-  for (const std::uint32_t nodes : {2U, 4U, 13U, 64U}) {
-    subject.check({.node_count = nodes, .balance = {.balance = Balance::equal_size}});
-    for (const dataflow::CutAxes& axes : {dataflow::CutAxes{0, 1}, dataflow::CutAxes{1, 2}}) {
-      subject.check({.node_count = nodes, .make_bsp = [&](std::uint32_t n) { return dataflow::equal_size_bsp(size, axes, n); }});
+  const Subject subject(BorderScene().scene(), {33, 33}, BorderScene::options());
+  const core::Corner size = core::grid_size(subject.settings().header.frame);
+  REQUIRE(size == core::Corner{BorderScene::size, BorderScene::size, BorderScene::size});
+  for (const std::uint32_t nodes : {2U, 4U, 13U, 16U, 64U}) {
+    for (const dataflow::CutAxes& axes : {dataflow::CutAxes{0, 1}, dataflow::CutAxes{0, 2}, dataflow::CutAxes{1, 2}}) {
+      check(subject, {.node_count = nodes, .make_bsp = [&](std::uint32_t n) { return dataflow::equal_size_bsp(size, axes, n); }});
     }
   }
 }
 
 TEST_CASE("dataflow: repeated runs give one picture and the same counts of rays between each two nodes") {
-  const Subject subject(mirrors_and_glass(), 16);
-  const std::vector<std::uint64_t> matrix = subject.check({.node_count = 6}).ray_matrix();
-  for (int i = 0; i < 20; ++i) {
-    CHECK(subject.check({.node_count = 6}).ray_matrix() == matrix);
-  }
-}
-
-TEST_CASE("dataflow: chaos leaves the picture as it is") {
-  const Subject subject(mirrors_and_glass(), 12);
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    CAPTURE(seed);
-    RunOptions options{.node_count = static_cast<std::uint32_t>(2 + seed % 6), .chaos = nodes::chaos_of(seed)};
-    if (seed % 3 == 0) {
-      options.ray_batch = 1;
-      options.ray_credits = static_cast<std::uint32_t>(seed % 2);
+  const Subject subject(mirrors_and_glass(), {16, 16});
+  const RunOptions ample{.node_count = 6}, starved{.node_count = 64, .ray_batch = 1, .ray_credits = 1};
+  for (const RunOptions& options : {ample, starved}) {
+    const std::vector<std::uint64_t> matrix = check(subject, options).ray_matrix();
+    for (int i = 0; i < 20; ++i) {
+      CHECK(check(subject, options).ray_matrix() == matrix);
     }
-    subject.check(options);
   }
 }
 
 TEST_CASE("dataflow: the report's figures fit together") {
-  const Subject subject(mirrors_and_glass(), 20);
-  const dataflow::Report report = subject.check({.node_count = 8, .topology = nodes::TopologyKind::mesh});
+  const Subject subject(mirrors_and_glass(), {20, 20});
+  const dataflow::Report report = check(subject, {.node_count = 8, .topology = nodes::TopologyKind::mesh});
   std::uint64_t rays = 0;
   const std::vector<std::uint64_t> matrix = report.ray_matrix();
   REQUIRE(matrix.size() == 64);
@@ -196,12 +139,12 @@ TEST_CASE("dataflow: the report's figures fit together") {
 }
 
 TEST_CASE("dataflow: a scene that does not fit says which number of nodes works, and it does") {
-  const Subject subject(built_in("tetra-5"), 8);
+  const Subject subject(built_in("tetra-5"), {8, 8});
   RunOptions options{.node_count = 1, .ray_batch = 1, .ray_credits = 1, .balance = {.balance = Balance::equal_size}};
-  options.node_memory_bytes = subject.run(options).plan.node_memory_max_bytes() - (std::size_t{40} << 10U);
+  options.node_memory_bytes = run(subject, options).plan.node_memory_max_bytes() - (std::size_t{40} << 10U);
   std::string error;
   try {
-    subject.run(options);
+    run(subject, options);
   } catch (const core::InputError& e) {
     error = e.what();
   }
@@ -210,16 +153,16 @@ TEST_CASE("dataflow: a scene that does not fit says which number of nodes works,
   REQUIRE(at != std::string::npos);
   options.node_count = static_cast<std::uint32_t>(std::stoul(error.substr(at + 25)));
   CHECK(options.node_count > 1);
-  subject.check(options);
+  check(subject, options);
 }
 
 TEST_CASE("dataflow: a stop request interrupts the run") {
-  const core::Database database = core::build_database(mirrors_and_glass(), {});
-  const core::RenderSettings settings{
-      database.header(), core::Camera(mirrors_and_glass().view, database.header().frame, 64, 64, 1), {}};
+  const Subject subject(mirrors_and_glass(), {64, 64});
   std::stop_source source;
   source.request_stop();
-  CHECK(dataflow::run_dataflow(database, settings, {.node_count = 3}, source.get_token()).end == nodes::RunEnd::interrupted);
+  const dataflow::Report report =
+      dataflow::run_dataflow(subject.database(), subject.settings(), {.node_count = 3}, source.get_token());
+  CHECK(report.end == nodes::RunEnd::interrupted);
 }
 
 }  // namespace dmpc::tests

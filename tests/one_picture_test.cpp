@@ -2,18 +2,17 @@
 // bit.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <iterator>
 #include <map>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "core/database.h"
-#include "core/render.h"
+#include "dataflow/run.h"
 #include "svm/run.h"
 #include "tests/support/pairwise.h"
 #include "tests/support/small_scenes.h"
+#include "tests/support/subject.h"
 
 namespace {
 
@@ -26,114 +25,113 @@ constexpr std::uint32_t item_sides[] = {0, 1, 3, 16};
 /// Shares of the database in the cache; 0 stands for one page.
 constexpr double cache_shares[] = {0.0, 0.05, 1.0};
 
-/// A scene, a picture of it by the reference renderer, and its databases by page size.
-class Subject {
- public:
-  Subject(const core::Scene& scene, int width, int height) : scene_(scene), width_(width), height_(height) {
-    const core::Database& whole = database(1024);
-    core::LocalRecords records(whole.bytes());
-    core::GridTracer tracer(records, whole.header(), core::TraversalOptions{});
-    core::Operations operations;
-    hash_ = core::render(tracer, settings(whole), operations).hash();
-    rays_ = operations.rays;
-  }
+using tests::outcome_of;
+using tests::Subject;
 
-  const core::Database& database(std::size_t page_size_bytes) {
-    const auto found = databases_.find(page_size_bytes);
-    if (found != databases_.end()) {
-      return found->second;
+/// A scene's databases by page size.
+class Subjects {
+ public:
+  Subjects(const core::Scene& scene, const Subject::Size& size) {
+    for (const std::size_t page_size : page_sizes) {
+      subjects_.try_emplace(page_size, scene, size, core::BuildOptions{.page_size_bytes = page_size});
+      CHECK(subjects_.at(page_size).outcome() == subjects_.begin()->second.outcome());
     }
-    return databases_.emplace(page_size_bytes, core::build_database(scene_, {.page_size_bytes = page_size_bytes})).first->second;
   }
-  core::RenderSettings settings(const core::Database& database) const {
-    return {database.header(), core::Camera(scene_.view, database.header().frame, width_, height_, 1), {}};
-  }
-  std::uint64_t hash() const { return hash_; }
-  const auto& rays() const { return rays_; }
+  const Subject& with_pages_of(std::size_t size_bytes) const { return subjects_.at(size_bytes); }
 
  private:
-  core::Scene scene_;
-  int width_, height_;
-  std::map<std::size_t, core::Database> databases_;
-  std::uint64_t hash_ = 0;
-  decltype(core::Operations::rays) rays_{};
+  std::map<std::size_t, Subject> subjects_;
 };
 
-void check_same_picture(const Subject& subject, const svm::Report& report) {
-  CHECK(report.film.hash() == subject.hash());
-  CHECK(report.operations().rays == subject.rays());
+svm::Report run_svm(const Subject& subject, const svm::RunOptions& options) {
+  return svm::run_svm(subject.database(), subject.settings(), options, {});
+}
+svm::Report run_replicated(const Subject& subject, const svm::RunOptions& options) {
+  return svm::run_replicated(subject.database(), subject.settings(), options, {});
+}
+dataflow::Report run_dataflow(const Subject& subject, const dataflow::RunOptions& options) {
+  return dataflow::run_dataflow(subject.database(), subject.settings(), options, {});
 }
 
 /// Every pair of choices occurs in some run.
-void check_pairwise(Subject& subject) {
+void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
+  const Subjects subjects(scene, size);
   const auto rows = tests::pairwise(
       {std::size(node_counts), std::size(page_sizes), std::size(cache_shares), std::size(in_flights), std::size(item_sides), 2});
   for (const auto& row : rows) {
-    const core::Database& database = subject.database(page_sizes[row[1]]);
+    const Subject& subject = subjects.with_pages_of(page_sizes[row[1]]);
     const bool replicated = row[5] == 1;
     svm::RunOptions options;
     options.node_count = node_counts[row[0]];
     options.in_flight = in_flights[row[3]];
     options.work_item_side = item_sides[row[4]];
     if (!replicated) {
-      const double frames = cache_shares[row[2]] * static_cast<double>(database.page_count());
+      const double frames = cache_shares[row[2]] * static_cast<double>(subject.database().page_count());
       options.cache_pages = std::max(1U, static_cast<std::uint32_t>(frames));
     }
     CAPTURE(options.node_count);
-    CAPTURE(database.page_size());
+    CAPTURE(subject.database().page_size());
     CAPTURE(*options.in_flight);
     CAPTURE(options.work_item_side);
     CAPTURE(options.cache_pages.value_or(0));
     CAPTURE(replicated);
-    check_same_picture(subject, replicated ? svm::run_replicated(database, subject.settings(database), options, {})
-                                           : svm::run_svm(database, subject.settings(database), options, {}));
+    CHECK(outcome_of(replicated ? run_replicated(subject, options) : run_svm(subject, options)) == subject.outcome());
+  }
+}
+
+/// Every strategy on any number of nodes, dataflow also with one ray a message and with the least credits.
+void check_strategies(const Subject& subject) {
+  for (const std::uint32_t nodes : {1U, 2U, 3U, 5U, 8U, 16U, 64U}) {
+    CAPTURE(nodes);
+    const tests::Outcome svm = outcome_of(run_svm(subject, {.node_count = nodes}));
+    CHECK(svm == subject.outcome());
+    CHECK(svm == outcome_of(run_replicated(subject, {.node_count = nodes})));
+    CHECK(svm == outcome_of(run_dataflow(subject, {.node_count = nodes})));
+    CHECK(svm == outcome_of(run_dataflow(subject, {.node_count = nodes, .ray_batch = 1, .ray_credits = nodes % 2})));
   }
 }
 
 }  // namespace
 
 TEST_CASE("mirrors, glass and every kind of primitive give one picture in every pair of choices") {
-  Subject subject(tests::mirrors_and_glass(), 40, 32);
-  check_pairwise(subject);
+  check_pairwise(tests::mirrors_and_glass(), {40, 32});
 }
 
-TEST_CASE("a thousand lights give one picture in every pair of choices") {
-  Subject subject(tests::thousand_lights(), 12, 12);
-  check_pairwise(subject);
-}
+TEST_CASE("a thousand lights give one picture in every pair of choices") { check_pairwise(tests::thousand_lights(), {12, 12}); }
 
 TEST_CASE("concave and transparent gears give one picture in every pair of choices") {
-  Subject subject(tests::built_in("gears-1"), 16, 16);
-  check_pairwise(subject);
+  check_pairwise(tests::built_in("gears-1"), {16, 16});
 }
 
-TEST_CASE("a teapot gives one picture in every pair of choices") {
-  Subject subject(tests::built_in("teapot-4"), 32, 32);
-  check_pairwise(subject);
+TEST_CASE("a teapot gives one picture in every pair of choices") { check_pairwise(tests::built_in("teapot-4"), {32, 32}); }
+
+TEST_CASE("svm, replicated and dataflow give one film along the world's axes, and one along the screen's") {
+  for (const core::Scene& scene : {tests::mirrors_and_glass(), tests::built_in("gears-1"), tests::built_in("balls-2")}) {
+    CAPTURE(scene.name);
+    for (const Subject& subject : tests::along_both_axes(scene, {.width = 20, .height = 16, .samples = 2})) {
+      check_strategies(subject);
+    }
+  }
 }
 
 TEST_CASE("twenty runs on 64 nodes give one picture") {
-  Subject subject(tests::mirrors_and_glass(), 64, 64);
-  const core::Database& database = subject.database(1024);
+  const Subject subject(tests::mirrors_and_glass(), {64, 64});
   for (int run = 0; run < 20; ++run) {
     CAPTURE(run);
-    check_same_picture(subject, svm::run_svm(database, subject.settings(database), {.node_count = 64}, {}));
+    CHECK(outcome_of(run_svm(subject, {.node_count = 64})) == subject.outcome());
   }
 }
 
 TEST_CASE("empty space skipped or not, the picture is the same") {
-  Subject subject(tests::built_in("balls-2"), 48, 48);
-  const core::Database& database = subject.database(1024);
-  svm::RunOptions options{.node_count = 3};
-  options.traversal.skip_empty_space = false;
-  check_same_picture(subject, svm::run_svm(database, subject.settings(database), options, {}));
+  const Subject subject(tests::built_in("balls-2"), {48, 48});
+  CHECK(outcome_of(run_svm(subject, {.node_count = 3, .traversal = {.skip_empty_space = false}})) == subject.outcome());
 }
 
 TEST_CASE("a picture of one pixel and a picture with fewer pixels than nodes are the reference's") {
   for (const int width : {1, 5}) {
-    Subject subject(tests::mirrors_and_glass(), width, 1);
-    const core::Database& database = subject.database(512);
-    check_same_picture(subject, svm::run_svm(database, subject.settings(database), {.node_count = 8}, {}));
+    const Subject subject(tests::mirrors_and_glass(), {width, 1}, {.page_size_bytes = 512});
+    CHECK(outcome_of(run_svm(subject, {.node_count = 8})) == subject.outcome());
+    CHECK(outcome_of(run_dataflow(subject, {.node_count = 8})) == subject.outcome());
   }
 }
 
@@ -146,6 +144,6 @@ TEST_CASE("films keep their bits from build to build, compiler to compiler and m
                              Known{"balls-2", 0xe54a1b2299b0cf82ULL}, Known{"rings-1", 0xb7cd7b0b8d0cf6b2ULL},
                              Known{"mount-3", 0x469ffe01b407ec59ULL}, Known{"tree-4", 0x84a057246e2c3cddULL}}) {
     CAPTURE(known.name);
-    CHECK(Subject(tests::built_in(known.name), 32, 32).hash() == known.hash);
+    CHECK(Subject(tests::built_in(known.name), {32, 32}).outcome().film_hash == known.hash);
   }
 }

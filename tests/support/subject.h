@@ -1,0 +1,86 @@
+// A scene and its picture by the reference renderer: what every strategy's runs are held to.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <ostream>
+
+#include "core/database.h"
+#include "core/frame.h"
+#include "core/operations.h"
+#include "core/render.h"
+#include "core/scene.h"
+
+namespace dmpc::tests {
+
+/// What no strategy, bound or schedule may change: the film, the rays of each kind, and what they hit. That each hit was claimed
+/// once follows: there are as many hits and shadings as the reference renderer, alone, has.
+struct Outcome {
+  std::uint64_t film_hash = 0;
+  std::array<std::uint64_t, core::ray_kind_count> rays{};
+  std::uint64_t primary_hits = 0, secondary_hits = 0, shadow_blocked = 0, total_internal_reflections = 0, shadings = 0;
+
+  bool operator==(const Outcome&) const = default;
+
+  friend std::ostream& operator<<(std::ostream& out, const Outcome& outcome) {
+    out << "film " << std::hex << outcome.film_hash << std::dec << ", rays";
+    for (const std::uint64_t of_kind : outcome.rays) {
+      out << ' ' << of_kind;
+    }
+    return out << ", hits " << outcome.primary_hits << ' ' << outcome.secondary_hits << ' ' << outcome.shadow_blocked
+               << ", total internal reflections " << outcome.total_internal_reflections << ", shadings " << outcome.shadings;
+  }
+};
+
+inline Outcome outcome_of(const core::Film& film, const core::Operations& operations) {
+  return {film.hash(),
+          operations.rays,
+          operations.primary_hits,
+          operations.secondary_hits,
+          operations.shadow_blocked,
+          operations.total_internal_reflections,
+          operations.shadings};
+}
+/// Of any strategy's report.
+template <class Report>
+Outcome outcome_of(const Report& report) {
+  return outcome_of(report.film, report.operations());
+}
+
+/// Immutable once made.
+class Subject {
+ public:
+  /// In pixels, and samples of each.
+  struct Size {
+    int width = 1, height = 1, samples = 1;
+  };
+
+  Subject(const core::Scene& scene, const Size& size, const core::BuildOptions& options = {})
+      : database_(core::build_database(scene, options)),
+        settings_{
+            database_.header(), core::Camera(scene.view, database_.header().frame, size.width, size.height, size.samples), {}} {
+    core::LocalRecords records(database_.bytes());
+    core::GridTracer tracer(records, settings_.header, core::TraversalOptions{});
+    core::Operations operations;
+    outcome_ = outcome_of(core::render(tracer, settings_, operations), operations);
+  }
+
+  const core::Database& database() const { return database_; }
+  const core::RenderSettings& settings() const { return settings_; }
+  /// The reference renderer's.
+  const Outcome& outcome() const { return outcome_; }
+
+ private:
+  core::Database database_;
+  core::RenderSettings settings_;
+  Outcome outcome_;
+};
+
+/// The subjects of one scene along the world's axes and along the screen's: two grids, two films.
+inline std::array<Subject, 2> along_both_axes(const core::Scene& scene, const Subject::Size& size) {
+  core::BuildOptions screen;
+  screen.axes = core::screen_axes(scene.view);
+  return {Subject(scene, size), Subject(scene, size, screen)};
+}
+
+}  // namespace dmpc::tests
