@@ -10,8 +10,8 @@
 
 namespace dmpc::tests {
 
-/// Cuts a cube into 2x2x2 top cells. Plane i of an axis lies at i * finest_cell, which single precision holds where i is 64 or
-/// 128: borders of voxels and top cells, and of regions of equal size.
+/// Cuts a cube into 2x2x2 top cells. Plane i of an axis lies at i * finest_cell, which single precision holds where i is 32 or
+/// 64: borders of voxels and top cells, and of regions of equal size.
 class BorderScene {
  public:
   BorderScene() {
