@@ -12,13 +12,13 @@
 
 #include "apps/distinct_files.h"
 #include "apps/load_scene.h"
-#include "apps/oracle.h"
 #include "apps/output_file.h"
 #include "apps/progress.h"
+#include "apps/run_strategy.h"
 #include "apps/stats.h"
 #include "apps/summary.h"
 #include "core/database.h"
-#include "core/records.h"
+#include "core/frame.h"
 #include "core/scenes.h"
 
 namespace dmpc::apps {
@@ -65,62 +65,50 @@ void check_outputs(const RenderOptions& options) {
   }
 }
 
-struct Prepared {
+/// What is rendered.
+struct Subject {
   core::Database database;
   core::RenderSettings settings;
 };
 
 /// Reads and builds; a signal ends the process here and now.
-Prepared prepare(const RenderOptions& options, Interrupt& interrupt, Seconds& seconds) {
+Subject load(const RenderOptions& options, Interrupt& interrupt, Seconds& seconds) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   Stopwatch stopwatch;
   const core::Scene scene = load_scene(options.picture);
   seconds.load = stopwatch.lap();
-  core::Database database = core::build_database(scene, {.page_size_bytes = options.page_size_bytes});
+  const core::GridAxes axes = options.axes == AxesChoice::screen ? core::screen_axes(scene.view) : core::world_axes;
+  core::Database database = core::build_database(scene, {.page_size_bytes = options.page_size_bytes, .axes = axes});
   const core::RenderSettings settings = render_settings(options.picture, scene, database);
   seconds.build = stopwatch.lap();
+  if (database.dropped() > 0) {
+    std::cerr << "dmpc: " << dropped_text(database.dropped()) << '\n';
+  }
   return {std::move(database), settings};
 }
 
-/// What the user should know before waiting for the picture.
-void print_remarks(const RenderOptions& options, const Prepared& prepared) {
-  if (prepared.database.dropped() > 0) {
-    std::cerr << "dmpc: " << dropped_text(prepared.database.dropped()) << '\n';
+/// Plans, and says what the user should know before waiting for the picture; a signal ends the process here and now.
+ReadyRun prepare(const RenderOptions& options, const Subject& subject, Interrupt& interrupt, Seconds& seconds) {
+  const Interrupt::EndAtOnce end_at_once(interrupt);
+  Stopwatch stopwatch;
+  ReadyRun run = make_ready(options, subject.database, subject.settings);
+  seconds.prepare = stopwatch.lap();
+  for (const std::string& note : run.notes) {
+    if (!options.quiet) {
+      std::cerr << "dmpc: " << note << '\n';
+    }
   }
-  const svm::Plan plan = svm::plan_of(options.strategy, prepared.database, prepared.settings, options.run);
-  if (options.quiet) {
-    return;
-  }
-  for (const std::string& note : plan.notes) {
-    std::cerr << "dmpc: " << note << '\n';
-  }
+  return run;
 }
 
-svm::Report run_with_embree(const Prepared& prepared, const svm::RunOptions& run, const std::stop_token& stop) {
-  const EmbreeScene scene(prepared.database.primitives(), EmbreeMode::robust);
-  return svm::run_replicated(prepared.database, prepared.settings, run, stop,
-                             [&](std::uint32_t, std::span<const std::byte> copy) {
-                               return EmbreeTracer(scene, prepared.database, core::LocalRecords(copy));
-                             });
-}
-
-svm::Report run(const RenderOptions& options, const Prepared& prepared, const std::stop_token& stop) {
-  Progress progress(std::cerr, !options.quiet && stderr_is_terminal());
-  svm::RunOptions run = options.run;
-  run.progress = [&progress](std::uint32_t done, std::uint32_t total) { progress.update(done, total); };
-  if (options.tracer == TracerChoice::embree) {
-    return run_with_embree(prepared, run, stop);
-  }
-  return options.strategy == svm::Strategy::svm ? svm::run_svm(prepared.database, prepared.settings, run, stop)
-                                                : svm::run_replicated(prepared.database, prepared.settings, run, stop);
-}
-
-svm::Report run_timed(const RenderOptions& options, const Prepared& prepared, const Interrupt& interrupt, Seconds& seconds) {
+Report run_timed(const RenderOptions& options, const ReadyRun& run, const Interrupt& interrupt, Seconds& seconds) {
   Stopwatch stopwatch;
   const ProcessorTime before = processor_time();
-  svm::Report report = run(options, prepared, interrupt.token());
+  Progress progress(std::cerr, !options.quiet && stderr_is_terminal());
+  const auto update = [&progress](std::uint32_t done, std::uint32_t total) { progress.update(done, total); };
+  Report report = run.start(update, interrupt.token());
   interrupt.check();
-  core::expect(report.end == nodes::RunEnd::finished, "a run that nobody stopped is finished");
+  core::expect(account_of(report).end == nodes::RunEnd::finished, "a run that nobody stopped is finished");
   const ProcessorTime after = processor_time();
   seconds.render = stopwatch.lap();
   seconds.render_user = after.user - before.user;
@@ -151,19 +139,19 @@ void print_closing(const RenderRecord& record, const std::string& counters, std:
   finish_output(output, "the picture was written, but what follows it");
 }
 
-void write_outputs(const RenderOptions& options, const Prepared& prepared, const svm::Report& report, Seconds seconds,
+void write_outputs(const RenderOptions& options, const core::Database& database, const Report& report, Seconds seconds,
                    Interrupt& interrupt, std::ostream& output) {
   std::signal(SIGPIPE, SIG_IGN);  // a pipe that nobody reads is an error to report, and no reason to leave temporary files
   interrupt.set_consequence("the picture was not written");
   const Interrupt::EndAtOnce end_at_once(interrupt);
   Stopwatch stopwatch;
   OutputFile picture(options.image);
-  write_image(options.image, image_of(report.film, options.picture.samples), picture);
+  write_image(options.image, image_of(account_of(report).film, options.picture.samples), picture);
   seconds.write = stopwatch.lap();
   const ProcessorTime all = processor_time();
   seconds.user = all.user;
   seconds.system = all.system;
-  const RenderRecord record{options, prepared.database, report, seconds};
+  const RenderRecord record{options, database, report, seconds};
   const std::string counters = options.stats ? stats_json(record) : "";
   const bool to_standard_output = options.stats && is_standard_output(*options.stats);
   write_files(record, picture, to_standard_output ? "" : counters, interrupt);
@@ -187,10 +175,10 @@ Image image_of(const core::Film& film, int samples) {
 int render_command(const RenderOptions& options, Interrupt& interrupt, std::ostream& output) {
   check_outputs(options);
   Seconds seconds;
-  const Prepared prepared = prepare(options, interrupt, seconds);
-  print_remarks(options, prepared);
-  const svm::Report report = run_timed(options, prepared, interrupt, seconds);
-  write_outputs(options, prepared, report, seconds, interrupt, output);
+  const Subject subject = load(options, interrupt, seconds);
+  const ReadyRun run = prepare(options, subject, interrupt, seconds);
+  const Report report = run_timed(options, run, interrupt, seconds);
+  write_outputs(options, subject.database, report, seconds, interrupt, output);
   return 0;
 }
 

@@ -1,11 +1,15 @@
 #include "apps/render_options.h"
 
+#include <algorithm>
 #include <bit>
 #include <string>
+#include <vector>
 
 #include "apps/option_values.h"
 #include "core/expect.h"
-#include "nodes/chaos.h"
+#include "dataflow/packets.h"
+#include "dataflow/plan.h"
+#include "svm/plan.h"
 
 namespace dmpc::apps {
 
@@ -13,8 +17,13 @@ namespace {
 
 using core::UsageError;
 
-void set_node_memory(svm::RunOptions& run, const std::string& text) {
-  run.node_memory_bytes = text == "auto" ? std::nullopt : std::optional(parse_size_bytes(text, "--node-memory"));
+/// Columns of loads in 128 MiB.
+constexpr std::int64_t columns_per_side_max = 4096;
+/// No picture has a longer side.
+constexpr std::int64_t subsample_max = 65536;
+
+void set_node_memory(ComputerOptions& computer, const std::string& text) {
+  computer.node_memory_bytes = text == "auto" ? std::nullopt : std::optional(parse_size_bytes(text, "--node-memory"));
 }
 
 void set_page_size(RenderOptions& render, const std::string& text) {
@@ -25,24 +34,56 @@ void set_page_size(RenderOptions& render, const std::string& text) {
 }
 
 void add_computer_options(OptionSet& options, RenderOptions& render) {
-  svm::RunOptions& run = render.run;
+  ComputerOptions& computer = render.computer;
   options.begin_group("The computer");
-  options.add_number("--nodes", run.node_count, 1, svm::node_count_max, "8", "Nodes, each with a memory of its own");
-  options.add_choice<svm::Strategy>(
-      "--strategy", render.strategy, {{"svm", svm::Strategy::svm}, {"replicated", svm::Strategy::replicated}},
-      "svm: the scene is spread over the nodes and its pages travel. replicated: every node holds it all");
+  options.add_number("--nodes", computer.node_count, 1, svm::node_count_max, "8",
+                     "Nodes, each with a memory of its own; dataflow takes up to " + std::to_string(dataflow::region_count_max));
+  options.add_choice<Strategy>(
+      "--strategy", render.strategy,
+      {{"svm", Strategy::svm}, {"replicated", Strategy::replicated}, {"dataflow", Strategy::dataflow}},
+      "svm: the scene is spread over the nodes and its pages travel. replicated: every node holds it all. dataflow: every node "
+      "holds a region of space and rays travel");
   options.add_text(
-      "--node-memory", "SIZE|auto [auto]", [&run](const std::string& text) { set_node_memory(run, text); },
+      "--node-memory", "SIZE|auto [auto]", [&computer](const std::string& text) { set_node_memory(computer, text); },
       "Bound of each node's memory, such as 4MiB");
   options.add_text(
       "--page-size", "SIZE [1KiB]", [&render](const std::string& text) { set_page_size(render, text); },
-      "Size of a page, a power of two from 512B to 64KiB");
-  options.add_number("--cache-pages", run.cache_pages, 1, 0x7fffffff, "what the memory holds",
+      "Size of a page, a power of two from 512B to 64KiB; no record crosses its border");
+  options.add_choice<AxesChoice>("--grid-axes", render.axes, {{"world", AxesChoice::world}, {"screen", AxesChoice::screen}},
+                                 "Directions of the grid, and so of dataflow's regions");
+}
+
+void add_page_options(OptionSet& options, PageOptions& pages) {
+  options.begin_group("Strategies svm and replicated");
+  options.add_number("--cache-pages", pages.cache_pages, 1, 0x7fffffff, "what the memory holds",
                      "Pages of other nodes that a node can keep (svm)");
-  options.add_number("--in-flight", run.in_flight, 1, svm::in_flight_max, "16, replicated 1",
+  options.add_number("--in-flight", pages.in_flight, 1, svm::in_flight_max, "16, replicated 1",
                      "Pixels that a node works on at once");
-  options.add_number("--work-item", run.work_item_side, 0, 1024, "3",
+  options.add_number("--work-item", pages.work_item_side, 0, 1024, "3",
                      "Side in pixels of what a node gives to an idle one; 0: nothing is given");
+  options.add_flag("--count-pages", pages.count_pages,
+                   "Count the distinct pages of each pixel for --stats (svm; takes memory and time)");
+}
+
+void add_ray_options(OptionSet& options, RayOptions& rays) {
+  using dataflow::Balance;
+  options.begin_group("Strategy dataflow");
+  options.add_choice<Balance>("--balance", rays.balance.balance,
+                              {{"subsampled", Balance::subsampled}, {"equal-size", Balance::equal_size}},
+                              "Regions of about equal load, by a subsampled picture, or of equal size");
+  options.add_number("--subsample", rays.balance.subsample, 1, subsample_max, "8",
+                     "The subsampled picture has one pixel of every NxN");
+  options.add_number("--balance-grid", rays.balance.columns_per_side, 1, columns_per_side_max, "256",
+                     "Columns a side in which the load is counted");
+  options.add_number("--ray-batch", rays.ray_batch, 1, dataflow::ray_batch_max, "what fills 1 KiB", "Rays in a packet, at most");
+  options.add_number("--ray-credits", rays.ray_credits, 0, dataflow::ray_credits_max, "8",
+                     "Packets of rays that each node may have under way to each other; 0: all go by way of the host");
+  OptionSet::Choices<nodes::TopologyKind> topologies;
+  for (const auto kind : {nodes::TopologyKind::hypercube, nodes::TopologyKind::mesh, nodes::TopologyKind::torus,
+                          nodes::TopologyKind::fat_tree, nodes::TopologyKind::crossbar}) {
+    topologies.emplace_back(name_of(kind), kind);
+  }
+  options.add_choice("--topology", rays.topology, topologies, "The wiring onto which neighbouring regions are mapped");
 }
 
 void add_study_options(OptionSet& options, RenderOptions& render) {
@@ -50,35 +91,89 @@ void add_study_options(OptionSet& options, RenderOptions& render) {
   options.add_choice<TracerChoice>("--tracer", render.tracer, {{"grid", TracerChoice::grid}, {"embree", TracerChoice::embree}},
                                    "Who finds what a ray hits; embree goes with --strategy=replicated only");
   options.add_words(
-      "--no-skip", {"empty-space"}, [&render](const std::string&) { render.run.traversal.skip_empty_space = false; },
+      "--no-skip", {"empty-space"}, [&render](const std::string&) { render.computer.traversal.skip_empty_space = false; },
       "Switch off a short cut that does not change the picture");
   options.add_path("--stats", "FILE.json", render.stats, "Write all counters");
-  options.add_flag("--count-pages", render.run.count_pages,
-                   "Count the distinct pages of each pixel for --stats (takes memory and time)");
   options.add_text(
       "--chaos", "SEED [calm]",
-      [&render](const std::string& text) { render.run.chaos = nodes::chaos_of(parse_seed(text, "--chaos")); },
+      [&render](const std::string& text) { render.computer.chaos = nodes::chaos_of(parse_seed(text, "--chaos")); },
       "Disturb the computer by this seed: packets late and out of order, slow nodes and links, few credits; the picture stays");
   options.add_flag("--quiet", render.quiet, "No progress, no closing lines");
 }
 
-void check_together(const RenderOptions& render) {
-  const bool replicated = render.strategy == svm::Strategy::replicated;
-  if (render.tracer == TracerChoice::embree && !replicated) {
-    throw UsageError("--tracer=embree needs --strategy=replicated: Embree cannot trace through pages that travel");
+/// An option that only some strategies have, and why.
+struct Belonging {
+  const char* option;
+  std::vector<Strategy> strategies;
+  const char* reason;
+
+  bool has(Strategy strategy) const { return std::find(strategies.begin(), strategies.end(), strategy) != strategies.end(); }
+  std::string names() const {
+    std::string names;
+    for (const Strategy strategy : strategies) {
+      names += std::string(names.empty() ? "" : " or ") + "--strategy=" + name_of(strategy);
+    }
+    return names;
   }
-  if (render.run.cache_pages && replicated) {
-    throw UsageError("--cache-pages goes with --strategy=svm: a node of replicated holds all pages and caches none");
+};
+
+const std::vector<Belonging>& belongings() {
+  static const std::vector<Belonging> all = {
+      {"--cache-pages", {Strategy::svm}, "a node of the others needs no page of another node"},
+      {"--count-pages", {Strategy::svm}, "the others look up no pages"},
+      {"--in-flight", {Strategy::svm, Strategy::replicated}, "a node of dataflow traces one ray at a time"},
+      {"--work-item", {Strategy::svm, Strategy::replicated}, "a node of dataflow works on what comes to its region"},
+      {"--balance", {Strategy::dataflow}, "the others share out pixels, not space"},
+      {"--subsample", {Strategy::dataflow}, "the others share out pixels, not space"},
+      {"--balance-grid", {Strategy::dataflow}, "the others share out pixels, not space"},
+      {"--ray-batch", {Strategy::dataflow}, "rays of the others do not travel"},
+      {"--ray-credits", {Strategy::dataflow}, "rays of the others do not travel"},
+      {"--topology", {Strategy::dataflow}, "the others map no regions onto nodes"},
+  };
+  return all;
+}
+
+void check_strategy(const OptionSet& options, const RenderOptions& render) {
+  for (const Belonging& belonging : belongings()) {
+    if (options.is_given(belonging.option) && !belonging.has(render.strategy)) {
+      throw UsageError(std::string(belonging.option) + " goes with " + belonging.names() + ": " + belonging.reason);
+    }
   }
-  if (render.run.count_pages && replicated) {
-    throw UsageError("--count-pages goes with --strategy=svm: replicated looks up no pages");
+  if (render.tracer == TracerChoice::embree && render.strategy != Strategy::replicated) {
+    throw UsageError("--tracer=embree needs --strategy=replicated: Embree sees the whole scene, and no other node holds it all");
   }
-  if (render.run.count_pages && !render.stats) {
+  if (render.strategy == Strategy::dataflow && render.computer.node_count > dataflow::region_count_max) {
+    throw UsageError("--nodes=" + std::to_string(render.computer.node_count) + ": from 1 to " +
+                     std::to_string(dataflow::region_count_max) + " nodes with --strategy=dataflow");
+  }
+}
+
+void check_together(const OptionSet& options, const RenderOptions& render) {
+  check_strategy(options, render);
+  if (render.pages.count_pages && !render.stats) {
     throw UsageError("--count-pages counts for the --stats file: give --stats=FILE.json too");
+  }
+  for (const char* const option : {"--subsample", "--balance-grid"}) {
+    if (options.is_given(option) && render.rays.balance.balance == dataflow::Balance::equal_size) {
+      throw UsageError(std::string(option) + " goes with --balance=subsampled: regions of equal size ask for no load");
+    }
   }
 }
 
 }  // namespace
+
+const char* name_of(Strategy strategy) {
+  switch (strategy) {
+    case Strategy::svm:
+      return "svm";
+    case Strategy::replicated:
+      return "replicated";
+    case Strategy::dataflow:
+      return "dataflow";
+  }
+  core::expect(false, "a strategy has a name");
+  return "";
+}
 
 void add_options(OptionSet options, RenderOptions& render) {
   add_options(options, render.picture);
@@ -86,15 +181,19 @@ void add_options(OptionSet options, RenderOptions& render) {
       "-o,--output", "IMAGE", [&render](const std::string& text) { render.image = text; },
       "The picture: .exr, .tif (linear floats), .png, .jpg (8 bits, sRGB), ...");
   add_computer_options(options, render);
+  add_page_options(options, render.pages);
+  add_ray_options(options, render.rays);
   add_study_options(options, render);
-  options.check_in_the_end([&render] { check_together(render); });
+  options.check_in_the_end([options, &render] { check_together(options, render); });
   options.set_examples(
       "Examples:\n"
       "  dmpc render teapot-12 --nodes=8 -o teapot.png\n"
       "  dmpc render tetra-10 --nodes=64 --node-memory=4MiB -o tetra.exr\n"
       "  dmpc render rings-4-t1 --cache-pages=16 --count-pages --stats=rings.json -o rings.png\n"
+      "  dmpc render rings-3-t1 --strategy=dataflow --nodes=16 --grid-axes=screen -o rings.png\n"
       "  dmpc render my.nff --strategy=replicated --tracer=embree --resolution=1024x768 -o my.tif\n"
-      "The picture does not depend on the computer's options, to the last bit: the film_hash of --stats says so.");
+      "The picture does not depend on the computer's options, to the last bit: the film_hash of --stats says so. Only\n"
+      "--grid-axes=screen, another grid, rounds otherwise than --grid-axes=world.");
 }
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// The options of `render`: a scene, a computer, and what to look at.
+// The options of `render`: a scene, a computer, a strategy, and what to look at.
 #pragma once
 
 #include <cstddef>
@@ -8,18 +8,56 @@
 
 #include "apps/command_line.h"
 #include "apps/picture_options.h"
-#include "svm/run.h"
+#include "core/traversal.h"
+#include "dataflow/balance.h"
+#include "nodes/chaos.h"
+#include "nodes/topology.h"
 
 namespace dmpc::apps {
+
+/// svm: pages travel. replicated: nothing does, every node holds the whole scene. dataflow: rays travel.
+enum class Strategy : std::uint8_t { svm, replicated, dataflow };
+/// As the command line calls it.
+const char* name_of(Strategy strategy);
+
+/// The directions of the grid: the world's, or the screen's (right, up, towards the eye).
+enum class AxesChoice : std::uint8_t { world, screen };
 
 /// Who finds what a ray hits: our grid, or Embree (with strategy replicated only).
 enum class TracerChoice : std::uint8_t { grid, embree };
 
+/// What every strategy asks of the computer.
+struct ComputerOptions {
+  std::uint32_t node_count = 8;
+  std::optional<std::size_t> node_memory_bytes;  ///< of each node; without it what the strategy needs
+  std::optional<nodes::Chaos> chaos;             ///< disturbs the run
+  core::TraversalOptions traversal;
+};
+
+/// Of svm, and as far as no page travels of replicated; svm/plan.h says more.
+struct PageOptions {
+  std::optional<std::uint32_t> cache_pages;
+  std::optional<std::uint32_t> in_flight;
+  std::uint32_t work_item_side = 3;
+  bool count_pages = false;
+};
+
+/// Of dataflow; dataflow/plan.h says more.
+struct RayOptions {
+  dataflow::BalanceOptions balance;
+  std::optional<std::uint32_t> ray_batch;
+  std::optional<std::uint32_t> ray_credits;
+  nodes::TopologyKind topology = nodes::TopologyKind::hypercube;  ///< onto which the regions are mapped
+};
+
 struct RenderOptions {
   PictureOptions picture;
-  svm::Strategy strategy = svm::Strategy::svm;
-  svm::RunOptions run;                 ///< progress is left unset
+  AxesChoice axes = AxesChoice::world;
   std::size_t page_size_bytes = 1024;  ///< a power of two, 512 B to 64 KiB
+  Strategy strategy = Strategy::svm;
+  ComputerOptions computer;
+  PageOptions pages;
+  RayOptions rays;
   TracerChoice tracer = TracerChoice::grid;
   std::filesystem::path image;                 ///< where the picture goes
   std::optional<std::filesystem::path> stats;  ///< where the counters go, as JSON

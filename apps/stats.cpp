@@ -2,45 +2,38 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <nlohmann/json.hpp>
+#include <initializer_list>
 #include <numeric>
 #include <optional>
 #include <string>
+#include <variant>
 
-#include "svm/packets.h"
+#include "apps/stats_strategy.h"
+#include "core/expect.h"
 
 namespace dmpc::apps {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using nodes::Traffic;
 
 constexpr double nanosecond = 1e-9;
 
-template <class T>
-Json or_null(bool applies, const T& value) {
-  return applies ? Json(value) : Json(nullptr);
-}
-
-std::uint64_t ray_count(const core::Operations& operations, core::RayKind kind) {
-  return operations.rays[static_cast<std::size_t>(kind)];
-}
-
-std::uint64_t ray_total(const core::Operations& operations) {
-  return std::accumulate(operations.rays.begin(), operations.rays.end(), std::uint64_t{0});
+/// All of `keys` in order, null but for those that `values` has.
+Json filled(std::initializer_list<const char*> keys, const Json& values) {
+  Json result;
+  for (const char* const key : keys) {
+    result[key] = nullptr;
+  }
+  for (const auto& [key, value] : values.items()) {
+    core::expect(result.contains(key), "a strategy adds no key of its own");
+    result[key] = value;
+  }
+  return result;
 }
 
 std::uint64_t test_count(const core::Operations& operations, core::PrimitiveKind kind) {
   return operations.primitive_tests[static_cast<std::size_t>(kind)];
-}
-
-Json rays_json(const core::Operations& operations) {
-  return {{"primary", ray_count(operations, core::RayKind::primary)},
-          {"reflected", ray_count(operations, core::RayKind::reflected)},
-          {"refracted", ray_count(operations, core::RayKind::refracted)},
-          {"shadow", ray_count(operations, core::RayKind::shadow)},
-          {"total", ray_total(operations)}};
 }
 
 Json hits_json(const core::Operations& operations) {
@@ -60,27 +53,6 @@ Json operations_json(const core::Operations& operations) {
           {"deposits_saturated", operations.deposits_saturated}};
 }
 
-Json pages_json(const svm::PageCounters& pages, std::uint64_t pixels, bool counted) {
-  const double per_pixel = pixels == 0 ? 0 : static_cast<double>(pages.distinct_pages) / static_cast<double>(pixels);
-  return {{"references", pages.references},
-          {"hits", pages.home_hits + pages.cache_hits},
-          {"home_hits", pages.home_hits},
-          {"cache_hits", pages.cache_hits},
-          {"misses", pages.misses},
-          {"faults", pages.faults},
-          {"evictions", pages.evictions},
-          {"served", pages.served},
-          {"distinct", or_null(counted, pages.distinct_pages)},
-          {"distinct_per_pixel", or_null(counted, per_pixel)}};
-}
-
-Json work_json(const svm::WorkCounters& work) {
-  return {{"pixels", work.pixels_rendered},
-          {"items_asked", work.items_asked},
-          {"items_taken", work.items_taken},
-          {"items_given", work.items_given}};
-}
-
 Json packets_json(const nodes::NodeCounters& counters) {
   const Traffic sent = nodes::total(counters.sent);
   const Traffic received = nodes::total(counters.received);
@@ -91,19 +63,21 @@ Json packets_json(const nodes::NodeCounters& counters) {
           {"refused", counters.refused}};
 }
 
-Json all_packets_json(const svm::Report& report) {
-  const auto sent = report.sent();
-  const Traffic total = nodes::total(sent);
-  std::uint64_t received = nodes::total(report.host.received).packets;
-  for (const svm::NodeReport& node : report.nodes) {
+Json all_packets_json(const Account& account, std::uint64_t packets_overflowed) {
+  const Traffic total = nodes::total(account.sent);
+  std::uint64_t received = nodes::total(account.host.received).packets;
+  for (const NodeAccount& node : account.nodes) {
     received += nodes::total(node.counters.received).packets;
   }
   Json by_kind;
-  for (std::size_t kind = 0; kind < svm::kind_names.size(); ++kind) {
-    by_kind[svm::kind_names[kind]] = {{"packets", sent[kind].packets}, {"bytes", sent[kind].bytes}};
+  for (std::size_t kind = 0; kind < account.kind_names.size(); ++kind) {
+    by_kind[account.kind_names[kind]] = {{"packets", account.sent[kind].packets}, {"bytes", account.sent[kind].bytes}};
   }
-  // Only rays overflow to the host, and in this family they do not travel.
-  return {{"sent", total.packets}, {"received", received}, {"bytes", total.bytes}, {"overflow", 0}, {"by_kind", by_kind}};
+  return {{"sent", total.packets},
+          {"received", received},
+          {"bytes", total.bytes},
+          {"overflow", packets_overflowed},
+          {"by_kind", by_kind}};
 }
 
 Json memory_json(const nodes::MemoryPlan& memory) {
@@ -118,22 +92,18 @@ Json memory_json(const nodes::MemoryPlan& memory) {
 }
 
 /// What a seed did to the computer, or null without one.
-Json chaos_json(const svm::Report& report) {
-  const std::optional<nodes::Chaos>& chaos = report.plan.request.chaos;
-  if (!chaos) {
+Json chaos_json(const Account& account, const Json& credits) {
+  if (!account.chaos) {
     return nullptr;
   }
-  std::uint64_t held = report.host.held;
-  std::uint64_t sat_out = report.host.sat_out;
-  for (const svm::NodeReport& node : report.nodes) {
+  std::uint64_t held = account.host.held, sat_out = account.host.sat_out;
+  for (const NodeAccount& node : account.nodes) {
     held += node.counters.held;
     sat_out += node.counters.sat_out;
   }
-  return {{"seed", chaos->seed},
-          {"packets_held", held},
-          {"quanta_sat_out", sat_out},
-          {"request_credits", report.plan.request_credits},
-          {"film_credits", report.plan.film_credits}};
+  Json result = {{"seed", account.chaos->seed}, {"packets_held", held}, {"quanta_sat_out", sat_out}};
+  result.update(filled({"request_credits", "ray_credits", "host_credits", "film_credits"}, credits));
+  return result;
 }
 
 Json node_seconds_json(const nodes::NodeCounters& counters) {
@@ -146,59 +116,60 @@ Json node_seconds_json(const nodes::NodeCounters& counters) {
           {"wall", static_cast<double>(counters.wall_ns) * nanosecond}};
 }
 
-Json node_json(const svm::NodeReport& node, bool pages_counted) {
-  const svm::ProgramReport& program = node.program;
-  return {{"rays", rays_json(program.operations)},
-          {"hits", hits_json(program.operations)},
-          {"operations", operations_json(program.operations)},
-          {"pages", pages_json(program.pages, program.work.pixels_rendered, pages_counted)},
-          {"packets", packets_json(node.counters)},
-          {"work", work_json(program.work)},
-          {"memory", {{"planned", memory_json(node.memory_planned)}, {"used", memory_json(node.memory_used)}}},
-          {"seconds", node_seconds_json(node.counters)},
-          {"quanta", node.counters.quanta},
-          {"sleeps", node.counters.sleeps}};
+Json node_json(const NodeAccount& node, const Json& special) {
+  Json result = {{"rays", rays_json(node.operations.rays)},
+                 {"hits", hits_json(node.operations)},
+                 {"operations", operations_json(node.operations)},
+                 {"packets", packets_json(node.counters)}};
+  result.update(filled({"pages", "work", "travel", "load", "region"}, special));
+  result["memory"] = {{"planned", memory_json(node.memory_planned)}, {"used", memory_json(node.memory_used)}};
+  result["seconds"] = node_seconds_json(node.counters);
+  result["quanta"] = node.counters.quanta;
+  result["sleeps"] = node.counters.sleeps;
+  return result;
 }
 
-Json nodes_json(const svm::Report& report) {
+Json nodes_json(const Account& account, const StrategyStats& special) {
   Json result = Json::array();
-  for (const svm::NodeReport& node : report.nodes) {
-    result.push_back(node_json(node, report.plan.request.count_pages));
+  for (std::size_t i = 0; i < account.nodes.size(); ++i) {
+    result.push_back(node_json(account.nodes[i], special.nodes[i]));
   }
   return result;
 }
 
-Json host_json(const svm::Report& report) {
-  return {{"packets", packets_json(report.host)},
-          {"deposits_saturated", report.host_deposits_saturated},
-          {"seconds", node_seconds_json(report.host)},
-          {"sleeps", report.host.sleeps}};
+Json host_json(const Account& account, const Json& special) {
+  Json result = {{"packets", packets_json(account.host)},
+                 {"deposits_saturated", account.host_deposits_saturated},
+                 {"seconds", node_seconds_json(account.host)},
+                 {"sleeps", account.host.sleeps}};
+  result.update(filled({"rays_kept_max", "kept_bytes_max", "token_rounds"}, special));
+  return result;
 }
 
-Json options_json(const RenderRecord& record) {
+Json options_json(const RenderRecord& record, const Account& account, const Json& special) {
   const RenderOptions& options = record.options;
-  const svm::Plan& plan = record.report.plan;
-  const bool paged = options.strategy == svm::Strategy::svm;
-  return {{"scene", options.picture.scene},
-          {"width", record.report.film.width()},
-          {"height", record.report.film.height()},
-          {"samples", options.picture.samples},
-          {"depth", options.picture.depth},
-          {"convention", options.picture.convention == core::Convention::haines ? "haines" : "paper"},
-          {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
-          {"strategy", paged ? "svm" : "replicated"},
-          {"nodes", record.report.nodes.size()},
-          {"node_memory", plan.node_memory_max_bytes()},
-          {"page_size", record.database.page_size()},
-          {"cache_pages", or_null(paged, plan.frames)},
-          {"in_flight", plan.in_flight},
-          {"work_item", plan.request.work_item_side},
-          {"count_pages", plan.request.count_pages}};
+  Json result = {{"scene", options.picture.scene},
+                 {"width", account.film.width()},
+                 {"height", account.film.height()},
+                 {"samples", options.picture.samples},
+                 {"depth", options.picture.depth},
+                 {"convention", options.picture.convention == core::Convention::haines ? "haines" : "paper"},
+                 {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
+                 {"grid_axes", options.axes == AxesChoice::world ? "world" : "screen"},
+                 {"strategy", name_of(options.strategy)},
+                 {"nodes", account.nodes.size()},
+                 {"node_memory", account.node_memory_max_bytes},
+                 {"page_size", record.database.page_size()}};
+  result.update(filled({"cache_pages", "in_flight", "work_item", "count_pages", "balance", "subsample", "balance_grid",
+                        "ray_batch", "ray_credits", "topology"},
+                       special));
+  return result;
 }
 
 Json seconds_json(const Seconds& seconds) {
   return {{"load", seconds.load},
           {"build", seconds.build},
+          {"prepare", seconds.prepare},
           {"render", seconds.render},
           {"write", seconds.write},
           {"user", seconds.user},
@@ -215,6 +186,15 @@ Json database_json(const core::Database& database) {
 
 }  // namespace
 
+Json rays_json(const std::array<std::uint64_t, core::ray_kind_count>& rays) {
+  const auto count = [&](core::RayKind kind) { return rays[static_cast<std::size_t>(kind)]; };
+  return {{"primary", count(core::RayKind::primary)},
+          {"reflected", count(core::RayKind::reflected)},
+          {"refracted", count(core::RayKind::refracted)},
+          {"shadow", count(core::RayKind::shadow)},
+          {"total", std::accumulate(rays.begin(), rays.end(), std::uint64_t{0})}};
+}
+
 std::string hash_text(std::uint64_t hash) {
   std::string text(16, '0');
   for (std::size_t digit = 16; digit-- > 0; hash >>= 4U) {
@@ -224,23 +204,23 @@ std::string hash_text(std::uint64_t hash) {
 }
 
 std::string stats_json(const RenderRecord& record) {
-  const svm::Report& report = record.report;
-  const core::Operations operations = report.operations();
-  const Json all = {{"program", "dmpc " DMPC_VERSION},
-                    {"options", options_json(record)},
-                    {"film_hash", hash_text(report.film.hash())},
-                    {"rays", rays_json(operations)},
-                    {"hits", hits_json(operations)},
-                    {"operations", operations_json(operations)},
-                    {"seconds", seconds_json(record.seconds)},
-                    {"database", database_json(record.database)},
-                    {"pages", pages_json(report.pages(), report.film.pixels().size(), report.plan.request.count_pages)},
-                    {"packets", all_packets_json(report)},
-                    {"work", work_json(report.work())},
-                    {"chaos", chaos_json(report)},
-                    {"skips", {{"empty_space", record.options.run.traversal.skip_empty_space}}},
-                    {"nodes", nodes_json(report)},
-                    {"host", host_json(report)}};
+  const Account account = account_of(record.report);
+  const StrategyStats special =
+      std::visit([&](const auto& report) { return strategy_stats(record.options, report); }, record.report);
+  Json all = {{"program", "dmpc " DMPC_VERSION},
+              {"options", options_json(record, account, special.options)},
+              {"film_hash", hash_text(account.film.hash())},
+              {"rays", rays_json(account.operations.rays)},
+              {"hits", hits_json(account.operations)},
+              {"operations", operations_json(account.operations)},
+              {"seconds", seconds_json(record.seconds)},
+              {"database", database_json(record.database)},
+              {"packets", all_packets_json(account, special.packets_overflowed)}};
+  all.update(filled({"pages", "work", "travel", "load", "regions", "mapping", "pairs"}, special.all));
+  all["chaos"] = chaos_json(account, special.chaos);
+  all["skips"] = {{"empty_space", record.options.computer.traversal.skip_empty_space}};
+  all["nodes"] = nodes_json(account, special);
+  all["host"] = host_json(account, special.host);
   return all.dump(2) + "\n";
 }
 

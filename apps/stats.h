@@ -1,18 +1,18 @@
-// What a render counted, as JSON with stable keys. Its .cpp is the only one that names nlohmann-json.
+// What a render counted, as JSON with stable keys. Only stats.cpp and what it stands on name nlohmann-json.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
 #include "apps/render_options.h"
+#include "apps/report.h"
 #include "core/database.h"
-#include "svm/run.h"
 
 namespace dmpc::apps {
 
 /// Seconds of wall clock by phase, and of processor time.
 struct Seconds {
-  double load = 0, build = 0, render = 0, write = 0;
+  double load = 0, build = 0, prepare = 0, render = 0, write = 0;
   double user = 0, system = 0;                ///< of the whole process so far
   double render_user = 0, render_system = 0;  ///< of the phase `render` alone
 };
@@ -21,29 +21,46 @@ struct Seconds {
 struct RenderRecord {
   const RenderOptions& options;
   const core::Database& database;
-  const svm::Report& report;
+  const Report& report;
   Seconds seconds;
 };
 
 /// One JSON object, indented, with a line end. The keys are an interface; what does not apply is null, and no number is NaN or
-/// infinite.
+/// infinite. "rays" below stands for primary, reflected, refracted, shadow, total.
 ///   program        name and version
-///   options        what was asked for and what it became: scene, width, height, samples, depth, convention, tracer, strategy,
-///                  nodes, node_memory (bytes a node, the most), page_size, cache_pages, in_flight, work_item, count_pages
+///   options        what was asked for and what it became: scene, width, height, samples, depth, convention, tracer, grid_axes,
+///                  strategy, nodes, node_memory (bytes a node, the most), page_size; of pages: cache_pages, in_flight,
+///                  work_item, count_pages; of dataflow: balance, subsample, balance_grid, ray_batch, ray_credits, topology
 ///   film_hash      of the film's integers, 16 hexadecimal digits: equal pictures, equal hashes
-///   rays           primary, reflected, refracted, shadow, total
+///   rays           rays shot
 ///   hits           primary, secondary, shadow_blocked, total_internal_reflections
 ///   operations     cell_steps, brick_reads, triangle_tests, sphere_tests, cone_tests, shadings, deposits_saturated
-///   seconds        load, build, render, write (wall clock), user, system, render_user, render_system
+///   seconds        load, build, prepare (plan; for dataflow balance and deal), render, write (wall clock), user, system,
+///                  render_user, render_system
 ///   database       bytes, pages, page_size, primitives, references, dropped
+///   packets        sent, received, bytes, overflow (by way of the host), and by_kind: packets and bytes
 ///   pages          references, hits, home_hits, cache_hits, misses, faults, evictions, served, distinct, distinct_per_pixel
-///   packets        sent, received, bytes, overflow, and by_kind: packets and bytes
-///   skips          empty_space: whether the short cut was on
 ///   work           pixels, items_asked, items_taken, items_given
-///   nodes          for each node: rays, hits, operations, pages, packets, work, memory {planned, used: bytes by category and in
-///                  total}, seconds {busy: computing, idle: asleep for want of packets, waiting for a core, wall},
-///                  quanta, sleeps
-///   host           packets, deposits_saturated (on its film, over those of the nodes), seconds, sleeps
+///   travel         of dataflow: rays_in and rays_out (rays), messages_per_ray (hops: rays sent over rays shot), packets (of
+///                  rays), packets_flushed (sent before they were full), mean_fill (rays in a packet over those in a full one),
+///                  bytes (headers included; in total those that the host forwards, too), overflow {rays, packets, share of the
+///                  rays sent}, hits_sent_back (to the node that found them), backlog_max (rays waiting on a node at once)
+///   load           of dataflow: work_ps (picoseconds by measured prices), predicted_ps (of the subsampled picture), average and
+///                  average_predicted (mean over maximum of the nodes)
+///   regions        of dataflow: grid (finest cells along x, y, z), duplication (copies of primitives over primitives listed),
+///                  part_bytes, primitive_copies, primary_rays (dealt)
+///   mapping        of dataflow: topology, mean_hops (links that a ray message passes), mean_hops_random (on random nodes)
+///   pairs          of dataflow: ray messages from each node (row) to each node (column), by whatever way
+///   chaos          seed, packets_held, quanta_sat_out, and credits that were left: request_credits, ray_credits, host_credits,
+///                  film_credits; null when calm
+///   skips          empty_space: whether the short cut was on
+///   nodes          for each node: rays, hits, operations, packets, pages, work, travel, load {work_ps, predicted_ps}, region
+///   {low,
+///                  high: corners in finest cells, share of the grid's volume, part_bytes, primitive_copies, primary_rays},
+///                  memory {planned, used: bytes by category and in total}, seconds {busy: computing, idle: asleep for want of
+///                  packets, waiting for a core, wall}, quanta, sleeps
+///   host           packets, deposits_saturated (on its film, over those of the nodes), seconds, sleeps; of dataflow:
+///                  rays_kept_max (at once), kept_bytes_max (of its heap, beyond its plan), token_rounds
 std::string stats_json(const RenderRecord& record);
 
 /// 16 hexadecimal digits.

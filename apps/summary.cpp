@@ -1,56 +1,35 @@
 #include "apps/summary.h"
 
 #include <algorithm>
-#include <iomanip>
 #include <numeric>
 #include <ostream>
-#include <sstream>
-#include <string>
+#include <variant>
+
+#include "apps/figures.h"
+#include "apps/ray_hops.h"
+#include "nodes/size_text.h"
 
 namespace dmpc::apps {
 
 namespace {
 
-/// 1234567 as 1,234,567.
-std::string grouped(std::uint64_t value) {
-  std::string text = std::to_string(value);
-  for (std::size_t place = text.size(); place > 3; place -= 3) {
-    text.insert(place - 3, 1, ',');
-  }
-  return text;
-}
+/// What only one strategy has to say.
+struct StrategyLines {
+  std::string computer;  ///< the rest of that line
+  std::string figures;   ///< whole lines, with their ends
+};
 
-std::string fixed(double value, int digits) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
-}
-
-std::string seconds_text(double seconds) { return fixed(seconds, seconds < 10 ? 3 : 1) + " s"; }
-
-/// Rounded for people: 3.21 MiB.
-std::string bytes_text(std::size_t bytes) {
-  const auto value = static_cast<double>(bytes);
-  if (bytes < 1024) {
-    return std::to_string(bytes) + " B";
-  }
-  return bytes < (std::size_t{1} << 20U) ? fixed(value / 1024, 1) + " KiB" : fixed(value / 1048576, 2) + " MiB";
-}
-
-std::string percent(std::uint64_t part, std::uint64_t whole) {
-  return fixed(whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole), 2) + " %";
-}
-
-std::string memory_text(const svm::Report& report) {
-  const auto fullest = std::max_element(report.nodes.begin(), report.nodes.end(), [](const auto& a, const auto& b) {
+std::string memory_text(const Account& account) {
+  const auto fullest = std::max_element(account.nodes.begin(), account.nodes.end(), [](const auto& a, const auto& b) {
     return a.memory_planned.total() < b.memory_planned.total();
   });
   std::string text = bytes_text(fullest->memory_planned.total()) + " a node:";
+  const char* separator = " ";
   for (std::size_t index = 0; index < nodes::category_count; ++index) {
     const std::size_t bytes = fullest->memory_planned.bytes[index];
     if (bytes > 0) {
-      text +=
-          std::string(index == 0 ? " " : ", ") + nodes::name_of(static_cast<nodes::Category>(index)) + " " + bytes_text(bytes);
+      text += separator + std::string(nodes::name_of(static_cast<nodes::Category>(index))) + " " + bytes_text(bytes);
+      separator = ", ";
     }
   }
   return text;
@@ -78,34 +57,60 @@ std::string pages_text(const svm::Report& report) {
   return text;
 }
 
+StrategyLines lines_of(const RenderOptions& options, const svm::Report& report) {
+  const bool paged = options.strategy == Strategy::svm;
+  const std::string in_flight = counted(report.plan.in_flight, "pixel") + " in flight";
+  return {paged ? grouped(report.plan.frames) + " cached pages a node, " + in_flight : in_flight,
+          paged ? "pages    " + pages_text(report) + "\n" : ""};
+}
+
+std::string travel_text(const dataflow::Report& report) {
+  const dataflow::Gather::Counters sent = report.gathers();
+  return grouped(sent.rays) + " messages, " + fixed(report.messages_per_ray(), 2) + " hops a ray, in " +
+         counted(sent.packets, "packet") + " " + fixed(100 * report.mean_fill(), 1) + " % full; overflowed " +
+         percent(sent.rays_overflowed, sent.rays);
+}
+
+std::string load_text(const dataflow::Report& report) {
+  const auto average = [](const std::vector<double>& loads) { return fixed(100 * dataflow::average_load(loads), 1) + " %"; };
+  const std::string predicted = report.predicted.empty() ? "" : "predicted " + average(report.predicted) + ", ";
+  return predicted + "achieved " + average(report.work()) + " (mean over maximum of the nodes' work)";
+}
+
+std::string regions_text(const RenderOptions& options, const dataflow::Report& report) {
+  const RayHops hops = ray_hops_of(report, options.rays.topology);
+  return fixed(report.duplication, 2) + " copies of a primitive; on the " + std::string(name_of(options.rays.topology)) + " " +
+         fixed(hops.mean, 2) + " links a message, " + fixed(hops.mean_of_random, 2) + " if mapped at random";
+}
+
+StrategyLines lines_of(const RenderOptions& options, const dataflow::Report& report) {
+  return {counted(report.plan.ray_batch, "ray") + " a packet, " + counted(report.plan.ray_credits, "credit") + " a pair",
+          "travel   " + travel_text(report) + "\nload     " + load_text(report) + "\nregions  " + regions_text(options, report) +
+              "\n"};
+}
+
+std::string time_text(const Seconds& seconds) {
+  return "load " + seconds_text(seconds.load) + ", build " + seconds_text(seconds.build) + ", prepare " +
+         seconds_text(seconds.prepare) + ", render " + seconds_text(seconds.render) + ", write " + seconds_text(seconds.write) +
+         "; processor " + seconds_text(seconds.user + seconds.system);
+}
+
 }  // namespace
 
 std::string dropped_text(std::uint64_t count) {
-  if (count == 0) {
-    return {};
-  }
-  return grouped(count) + (count == 1 ? " degenerate primitive was" : " degenerate primitives were") + " left out";
+  return count == 0 ? "" : counted(count, "degenerate primitive") + (count == 1 ? " was" : " were") + " left out";
 }
 
 void print_summary(std::ostream& output, const RenderRecord& record) {
-  const svm::Report& report = record.report;
-  const svm::Plan& plan = report.plan;
-  const bool paged = record.options.strategy == svm::Strategy::svm;
-  const Seconds& seconds = record.seconds;
+  const Account account = account_of(record.report);
+  const StrategyLines special = std::visit([&](const auto& report) { return lines_of(record.options, report); }, record.report);
   output << "scene    " << record.options.picture.scene << ", " << grouped(record.database.header().primitive_count)
          << " primitives in " << grouped(record.database.page_count()) << " pages of "
-         << svm::size_text(record.database.page_size()) << "\ncomputer " << report.nodes.size()
-         << (report.nodes.size() == 1 ? " node, " : " nodes, ")
-         << (paged ? "svm, " + grouped(plan.frames) + " cached pages a node, " : "replicated, ") << plan.in_flight
-         << (plan.in_flight == 1 ? " pixel" : " pixels") << " in flight\nmemory   " << memory_text(report) << "\nrays     "
-         << rays_text(report.operations(), seconds.render) << '\n';
-  if (paged) {
-    output << "pages    " << pages_text(report) << '\n';
-  }
-  output << "time     load " << seconds_text(seconds.load) << ", build " << seconds_text(seconds.build) << ", render "
-         << seconds_text(seconds.render) << ", write " << seconds_text(seconds.write) << "; processor "
-         << seconds_text(seconds.user + seconds.system) << "\npicture  " << record.options.image.string() << ", "
-         << report.film.width() << "x" << report.film.height() << ", film " << hash_text(report.film.hash()) << '\n';
+         << nodes::size_text(record.database.page_size()) << "\ncomputer " << counted(account.nodes.size(), "node") << ", "
+         << name_of(record.options.strategy) << ", " << special.computer << "\nmemory   " << memory_text(account) << "\nrays     "
+         << rays_text(account.operations, record.seconds.render) << '\n'
+         << special.figures << "time     " << time_text(record.seconds) << "\npicture  " << record.options.image.string() << ", "
+         << account.film.width() << "x" << account.film.height() << ", film " << hash_text(account.film.hash()) << '\n';
 }
 
 }  // namespace dmpc::apps

@@ -9,7 +9,8 @@
 
 namespace dmpc::apps {
 
-/// A few lines: the picture, the computer and its memory by category, rays, pages, times, and the film's hash.
+/// A few lines: the scene, the computer and its memory by category, rays, what the strategy is about (pages; or travel, load and
+/// regions), times, the picture and its film's hash.
 void print_summary(std::ostream& output, const RenderRecord& record);
 
 /// A sentence about the primitives that a database left out; empty if it left out none.

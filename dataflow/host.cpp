@@ -173,6 +173,7 @@ std::string HostProgram::describe() const {
 HostCounters HostProgram::report() const {
   HostCounters counters = counters_;
   counters.rays_kept_max = kept_.high_water();
+  counters.kept_bytes_max = kept_.store_bytes();
   return counters;
 }
 

@@ -26,6 +26,7 @@ struct HostCounters {
   std::uint64_t rays_in = 0;             ///< overflowed
   std::uint64_t rays_out = 0;            ///< forwarded: at the end the same
   std::uint64_t rays_kept_max = 0;       ///< at once
+  std::size_t kept_bytes_max = 0;        ///< of the host's heap, beyond its plan: the places of kept rays
   std::uint64_t token_rounds = 0;        ///< of the termination's ring
   std::uint64_t film_entries = 0;        ///< received
   std::uint64_t deposits_saturated = 0;  ///< on the host's film

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -48,6 +49,9 @@ class KeptRays {
   std::uint64_t size() const { return size_; }
   /// The most rays that were kept at once.
   std::uint64_t high_water() const { return high_water_; }
+  /// Bytes of the heap that the rays' places take, kept rays or not: they never get fewer. While their number grows, their old
+  /// memory is there beside the new one for a moment.
+  std::size_t store_bytes() const { return entries_.capacity() * sizeof(Entry); }
 
  private:
   static constexpr std::uint32_t none = 0xffffffffU;

@@ -43,13 +43,13 @@ TEST_CASE("a scene and an output are all that render needs") {
   const RenderOptions options = render();
   CHECK(options.picture.scene == "teapot-12");
   CHECK(options.image == "a.png");
-  CHECK(options.strategy == svm::Strategy::svm);
-  CHECK(options.run.node_count == 8);
-  CHECK_FALSE(options.run.node_memory_bytes);
-  CHECK_FALSE(options.run.cache_pages);
-  CHECK_FALSE(options.run.in_flight);
-  CHECK(options.run.work_item_side == 3);
-  CHECK(options.run.traversal.skip_empty_space);
+  CHECK(options.strategy == Strategy::svm);
+  CHECK(options.computer.node_count == 8);
+  CHECK_FALSE(options.computer.node_memory_bytes);
+  CHECK_FALSE(options.pages.cache_pages);
+  CHECK_FALSE(options.pages.in_flight);
+  CHECK(options.pages.work_item_side == 3);
+  CHECK(options.computer.traversal.skip_empty_space);
   CHECK(options.page_size_bytes == 1024);
   CHECK_FALSE(options.picture.resolution);
   CHECK(options.picture.samples == 1);
@@ -64,22 +64,22 @@ TEST_CASE("every option of the computer reaches its field") {
   const RenderOptions options =
       render({"--nodes=64", "--node-memory=4MiB", "--page-size=4KiB", "--cache-pages=5", "--in-flight=7", "--work-item=0",
               "--no-skip=empty-space", "--count-pages", "--stats=s.json", "--quiet"});
-  CHECK(options.run.node_count == 64);
-  CHECK(options.run.node_memory_bytes == 4_MiB);
+  CHECK(options.computer.node_count == 64);
+  CHECK(options.computer.node_memory_bytes == 4_MiB);
   CHECK(options.page_size_bytes == 4_KiB);
-  CHECK(options.run.cache_pages == 5);
-  CHECK(options.run.in_flight == 7);
-  CHECK(options.run.work_item_side == 0);
-  CHECK_FALSE(options.run.traversal.skip_empty_space);
-  CHECK(options.run.count_pages);
+  CHECK(options.pages.cache_pages == 5);
+  CHECK(options.pages.in_flight == 7);
+  CHECK(options.pages.work_item_side == 0);
+  CHECK_FALSE(options.computer.traversal.skip_empty_space);
+  CHECK(options.pages.count_pages);
   CHECK(options.stats == "s.json");
   CHECK(options.quiet);
 }
 
 TEST_CASE("any seed makes chaos, and without one the computer is calm") {
-  CHECK_FALSE(render().run.chaos);
-  CHECK(render({"--chaos=0"}).run.chaos.value().seed == 0);
-  CHECK(render({"--chaos=18446744073709551615", "--strategy=replicated"}).run.chaos.value().seed == ~std::uint64_t{0});
+  CHECK_FALSE(render().computer.chaos);
+  CHECK(render({"--chaos=0"}).computer.chaos.value().seed == 0);
+  CHECK(render({"--chaos=18446744073709551615", "--strategy=replicated"}).computer.chaos.value().seed == ~std::uint64_t{0});
   for (const std::string wrong : {"-1", "18446744073709551616", "storm", "1.5", "7x"}) {
     CHECK_MESSAGE(says(render_complaint("--chaos=" + wrong), "--chaos=" + wrong + ": expected a whole number"), wrong);
   }
@@ -95,12 +95,12 @@ TEST_CASE("every option of the picture reaches its field") {
   CHECK(options.picture.samples == 4);
   CHECK(options.picture.depth == 9);
   CHECK(options.picture.convention == Convention::paper);
-  CHECK(options.strategy == svm::Strategy::replicated);
+  CHECK(options.strategy == Strategy::replicated);
   CHECK(options.tracer == TracerChoice::embree);
-  CHECK_FALSE(options.run.node_memory_bytes);
+  CHECK_FALSE(options.computer.node_memory_bytes);
 }
 
-TEST_CASE("a value may follow its option as a word of its own") { CHECK(render({"--nodes", "3"}).run.node_count == 3); }
+TEST_CASE("a value may follow its option as a word of its own") { CHECK(render({"--nodes", "3"}).computer.node_count == 3); }
 
 TEST_CASE("scene, check and compare take their own options") {
   const auto scene = std::get<SceneOptions>(parse({"scene", "rings-4-t1"}));
@@ -123,7 +123,7 @@ TEST_CASE("help shows examples and every option of its command") {
     CHECK_MESSAGE(says(general, word), word);
   }
   const std::string text = std::get<HelpText>(parse({"render", "--help"})).text;
-  for (const std::string word : {"Examples:", "SCENE", "--nodes", "--strategy", "svm|replicated [svm]", "--node-memory",
+  for (const std::string word : {"Examples:", "SCENE", "--nodes", "--strategy", "svm|replicated|dataflow [svm]", "--node-memory",
                                  "--page-size", "--cache-pages", "--in-flight", "--work-item", "--resolution", "--samples",
                                  "--depth", "--convention", "--tracer", "--no-skip", "--stats", "--quiet", "-o"}) {
     CHECK_MESSAGE(says(text, word), word);
@@ -145,11 +145,11 @@ TEST_CASE("wrong usage ends with a hint at the command's help") {
 
 TEST_CASE("a value out of range or of the wrong kind names its option") {
   for (const std::string option :
-       {"--nodes=0",           "--nodes=4097",       "--nodes=-1",           "--nodes=many",     "--nodes=2.5",
-        "--strategy=dataflow", "--tracer=magic",     "--samples=0",          "--samples=32769",  "--depth=0",
-        "--depth=256",         "--convention=mine",  "--cache-pages=0",      "--in-flight=0",    "--in-flight=4097",
-        "--work-item=-1",      "--work-item=1025",   "--no-skip=everything", "--resolution=512", "--page-size=1000B",
-        "--page-size=256B",    "--page-size=128KiB", "--node-memory=lots",   "--unheard-of=1"}) {
+       {"--nodes=0",        "--nodes=4097",       "--nodes=-1",           "--nodes=many",     "--nodes=2.5",
+        "--strategy=dance", "--tracer=magic",     "--samples=0",          "--samples=32769",  "--depth=0",
+        "--depth=256",      "--convention=mine",  "--cache-pages=0",      "--in-flight=0",    "--in-flight=4097",
+        "--work-item=-1",   "--work-item=1025",   "--no-skip=everything", "--resolution=512", "--page-size=1000B",
+        "--page-size=256B", "--page-size=128KiB", "--node-memory=lots",   "--unheard-of=1"}) {
     CAPTURE(option);
     CHECK(says(render_complaint(option), option.substr(0, option.find('='))));
     CHECK(says(render_complaint(option), "Try: dmpc render --help"));

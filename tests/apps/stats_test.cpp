@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/load_scene.h"
+#include "apps/run_strategy.h"
 #include "apps/summary.h"
 
 namespace dmpc::apps {
@@ -21,23 +22,22 @@ struct Rendered {
     const core::Scene scene = load_scene(options.picture.scene);
     database = core::build_database(scene, {.page_size_bytes = options.page_size_bytes});
     const core::RenderSettings settings = render_settings(options.picture, scene, database);
-    report = options.strategy == svm::Strategy::svm ? svm::run_svm(database, settings, options.run, {})
-                                                    : svm::run_replicated(database, settings, options.run, {});
+    report = make_ready(options, database, settings).start({}, {});
   }
-  RenderRecord record() const { return {options, database, *report, {.load = 0.5, .render = 2, .user = 1}}; }
+  RenderRecord record() const { return {options, database, *report, {.load = 0.5, .prepare = 0.25, .render = 2, .user = 1}}; }
   std::string json() const { return stats_json(record()); }
 
   RenderOptions options;
   core::Database database;
-  std::optional<svm::Report> report;
+  std::optional<Report> report;
 };
 
-RenderOptions small(svm::Strategy strategy = svm::Strategy::svm) {
+RenderOptions small(Strategy strategy = Strategy::svm) {
   RenderOptions options;
   options.picture.scene = "balls-1";
   options.picture.resolution = {16, 12};
   options.strategy = strategy;
-  options.run.node_count = 3;
+  options.computer.node_count = 3;
   return options;
 }
 
@@ -66,8 +66,9 @@ std::vector<std::string> keys(const std::string& json, std::size_t depth) {
 
 TEST_CASE("the keys of the counters are an interface") {
   const std::string json = Rendered(small()).json();
-  CHECK(keys(json, 1) == std::vector<std::string>{"program", "options", "film_hash", "rays", "hits", "operations", "seconds",
-                                                  "database", "pages", "packets", "work", "chaos", "skips", "nodes", "host"});
+  CHECK(keys(json, 1) == std::vector<std::string>{"program",  "options", "film_hash", "rays",  "hits",   "operations", "seconds",
+                                                  "database", "packets", "pages",     "work",  "travel", "load",       "regions",
+                                                  "mapping",  "pairs",   "chaos",     "skips", "nodes",  "host"});
   for (const std::string key : {"primary",     "reflected",  "refracted",      "shadow",
                                 "total",       "secondary",  "shadow_blocked", "total_internal_reflections",
                                 "load",        "build",      "render",         "write",
@@ -84,7 +85,7 @@ TEST_CASE("the keys of the counters are an interface") {
 TEST_CASE("the counters agree with the report") {
   const Rendered rendered(small());
   const std::string json = rendered.json();
-  CHECK(value(json, "film_hash") == "\"" + hash_text(rendered.report->film.hash()) + "\"");
+  CHECK(value(json, "film_hash") == "\"" + hash_text(account_of(*rendered.report).film.hash()) + "\"");
   CHECK(value(json, "primary") == "192");
   CHECK(value(json, "scene") == "\"balls-1\"");
   CHECK(value(json, "width") == "16");
@@ -105,7 +106,7 @@ TEST_CASE("every node has an entry of its own") {
 
 TEST_CASE("distinct pages are counted on demand") {
   RenderOptions options = small();
-  options.run.count_pages = true;
+  options.pages.count_pages = true;
   const std::string counted = value(Rendered(options).json(), "distinct_per_pixel");
   CHECK(std::stod(counted) >= 1);
 }
@@ -113,7 +114,7 @@ TEST_CASE("distinct pages are counted on demand") {
 TEST_CASE("chaos is told by its seed and what it did, and only where there was some") {
   CHECK(value(Rendered(small()).json(), "chaos") == "null");
   RenderOptions options = small();
-  options.run.chaos = nodes::Chaos{.seed = ~std::uint64_t{0}, .held_percent = 100};
+  options.computer.chaos = nodes::Chaos{.seed = ~std::uint64_t{0}, .held_percent = 100};
   const std::string json = Rendered(options).json();
   CHECK(value(json, "seed") == "18446744073709551615");
   CHECK(std::stoi(value(json, "packets_held")) > 0);
@@ -122,7 +123,7 @@ TEST_CASE("chaos is told by its seed and what it did, and only where there was s
 
 TEST_CASE("a node's time is what it computed, slept and waited for a core") {
   Rendered rendered(small());
-  nodes::NodeCounters& counters = rendered.report->nodes[0].counters;
+  nodes::NodeCounters& counters = std::get<svm::Report>(*rendered.report).nodes[0].counters;
   counters.busy_ns = 2'000'000'000;
   counters.asleep_ns = 3'000'000'000;
   counters.wall_ns = 9'000'000'000;
@@ -138,7 +139,7 @@ TEST_CASE("a node's time is what it computed, slept and waited for a core") {
 
 TEST_CASE("sums that saturate on the host's film are told") {
   Rendered rendered(small());
-  rendered.report->host_deposits_saturated = 4711;
+  std::get<svm::Report>(*rendered.report).host_deposits_saturated = 4711;
   CHECK(contains(rendered.json(), "\"deposits_saturated\": 4711"));
 }
 
@@ -149,7 +150,7 @@ TEST_CASE("what was left out is told in good grammar") {
 }
 
 TEST_CASE("replicated has no cache to speak of") {
-  const Rendered rendered(small(svm::Strategy::replicated));
+  const Rendered rendered(small(Strategy::replicated));
   CHECK(value(rendered.json(), "cache_pages") == "null");
   CHECK(value(rendered.json(), "strategy") == "\"replicated\"");
   std::ostringstream summary;

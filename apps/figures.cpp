@@ -1,0 +1,40 @@
+#include "apps/figures.h"
+
+#include <iomanip>
+#include <sstream>
+
+namespace dmpc::apps {
+
+std::string grouped(std::uint64_t value) {
+  std::string text = std::to_string(value);
+  for (std::size_t place = text.size(); place > 3; place -= 3) {
+    text.insert(place - 3, 1, ',');
+  }
+  return text;
+}
+
+std::string fixed(double value, int digits) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(digits) << value;
+  return text.str();
+}
+
+std::string seconds_text(double seconds) { return fixed(seconds, seconds < 10 ? 3 : 1) + " s"; }
+
+std::string bytes_text(std::size_t bytes) {
+  const auto value = static_cast<double>(bytes);
+  if (bytes < 1024) {
+    return std::to_string(bytes) + " B";
+  }
+  return bytes < (std::size_t{1} << 20U) ? fixed(value / 1024, 1) + " KiB" : fixed(value / 1048576, 2) + " MiB";
+}
+
+std::string percent(std::uint64_t part, std::uint64_t whole) {
+  return fixed(whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole), 2) + " %";
+}
+
+std::string counted(std::uint64_t count, const std::string& thing) {
+  return grouped(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
+}  // namespace dmpc::apps

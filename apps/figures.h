@@ -1,0 +1,23 @@
+// Numbers as people read them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace dmpc::apps {
+
+/// 1234567 as 1,234,567.
+std::string grouped(std::uint64_t value);
+/// With so many digits after the point.
+std::string fixed(double value, int digits);
+/// "3.142 s", from 10 s on "31.4 s".
+std::string seconds_text(double seconds);
+/// Rounded: "300 B", "1.5 KiB", "3.21 MiB".
+std::string bytes_text(std::size_t bytes);
+/// "12.34 %"; 0 of 0 is "0.00 %".
+std::string percent(std::uint64_t part, std::uint64_t whole);
+/// "1 node", "2 nodes".
+std::string counted(std::uint64_t count, const std::string& thing);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,79 @@
+#include "apps/run_strategy.h"
+
+#include <memory>
+#include <utility>
+
+#include "apps/oracle.h"
+#include "core/expect.h"
+#include "core/records.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+svm::RunOptions svm_options(const RenderOptions& options) {
+  return {.node_count = options.computer.node_count,
+          .node_memory_bytes = options.computer.node_memory_bytes,
+          .cache_pages = options.pages.cache_pages,
+          .in_flight = options.pages.in_flight,
+          .work_item_side = options.pages.work_item_side,
+          .count_pages = options.pages.count_pages,
+          .traversal = options.computer.traversal,
+          .chaos = options.computer.chaos};
+}
+
+dataflow::RunOptions dataflow_options(const RenderOptions& options) {
+  return {.node_count = options.computer.node_count,
+          .node_memory_bytes = options.computer.node_memory_bytes,
+          .ray_batch = options.rays.ray_batch,
+          .ray_credits = options.rays.ray_credits,
+          .balance = options.rays.balance,
+          .topology = options.rays.topology,
+          .traversal = options.computer.traversal,
+          .chaos = options.computer.chaos};
+}
+
+svm::Report run_with_embree(const core::Database& database, const core::RenderSettings& settings, const svm::RunOptions& run,
+                            std::stop_token stop) {
+  const EmbreeScene scene(database.primitives(), EmbreeMode::robust);
+  return svm::run_replicated(database, settings, run, std::move(stop), [&](std::uint32_t, std::span<const std::byte> copy) {
+    return EmbreeTracer(scene, database, core::LocalRecords(copy));
+  });
+}
+
+/// svm and replicated.
+ReadyRun ready_with_pages(const RenderOptions& options, const core::Database& database, const core::RenderSettings& settings) {
+  const bool paged = options.strategy == Strategy::svm;
+  const svm::RunOptions run = svm_options(options);
+  const auto start = [&options, &database, &settings, run, paged](const RunProgress& progress, std::stop_token stop) -> Report {
+    svm::RunOptions watched = run;
+    watched.progress = progress;
+    if (options.tracer == TracerChoice::embree) {
+      return run_with_embree(database, settings, watched, std::move(stop));
+    }
+    return paged ? svm::run_svm(database, settings, watched, std::move(stop))
+                 : svm::run_replicated(database, settings, watched, std::move(stop));
+  };
+  const auto strategy = paged ? svm::Strategy::svm : svm::Strategy::replicated;
+  return {svm::plan_of(strategy, database, settings, run).notes, start};
+}
+
+ReadyRun ready_with_rays(const RenderOptions& options, const core::Database& database, const core::RenderSettings& settings) {
+  const dataflow::RunOptions run = dataflow_options(options);
+  const auto prepared = std::make_shared<const dataflow::Prepared>(dataflow::prepare(database, settings, run));
+  const auto start = [&settings, run, prepared](const RunProgress& progress, std::stop_token stop) -> Report {
+    dataflow::RunOptions watched = run;
+    watched.progress = progress;
+    return dataflow::run_prepared(*prepared, settings, watched, std::move(stop));
+  };
+  return {prepared->plan.notes, start};
+}
+
+}  // namespace
+
+ReadyRun make_ready(const RenderOptions& options, const core::Database& database, const core::RenderSettings& settings) {
+  return options.strategy == Strategy::dataflow ? ready_with_rays(options, database, settings)
+                                                : ready_with_pages(options, database, settings);
+}
+
+}  // namespace dmpc::apps
