@@ -50,18 +50,18 @@ std::vector<std::uint32_t> subsampled_pixels(int width, int height, int subsampl
 }
 
 ColumnLoads measure_loads(const core::Database& database, const core::RenderSettings& settings, const ColumnLattice& lattice,
-                          const std::vector<std::uint32_t>& pixels) {
+                          const std::vector<std::uint32_t>& pixels, const std::stop_token& stop) {
   ColumnLoads loads(lattice);
   const auto charge = [&](const core::Corner& cell, std::uint64_t work) { loads.load[lattice.column_of(cell)] += work; };
   ChargedPicture picture(database, settings, charge);
-  for (const std::uint32_t pixel : pixels) {
-    picture.render(pixel);
+  for (std::size_t index = 0; index < pixels.size() && !stop.stop_requested(); ++index) {
+    picture.render(pixels[index]);
   }
   return loads;
 }
 
 Balanced balance(const core::Database& database, const core::RenderSettings& settings, std::uint32_t region_count,
-                 const BalanceOptions& options) {
+                 const BalanceOptions& options, const std::stop_token& stop) {
   check(options);
   const core::Corner size = core::grid_size(settings.header.frame);
   const ColumnLattice lattice(size, axes_facing(settings.camera), options.columns_per_side);
@@ -71,7 +71,7 @@ Balanced balance(const core::Database& database, const core::RenderSettings& set
   }
   const core::Camera& camera = settings.camera;
   ColumnLoads loads =
-      measure_loads(database, settings, lattice, subsampled_pixels(camera.width(), camera.height(), options.subsample));
+      measure_loads(database, settings, lattice, subsampled_pixels(camera.width(), camera.height(), options.subsample), stop);
   const Bsp bsp = build_bsp(loads, region_count, options.bsp);
   std::vector<double> predicted = loads_of_regions(bsp, loads);
   return {bsp, std::move(loads), std::move(predicted)};

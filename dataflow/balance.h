@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <string_view>
 #include <vector>
 
@@ -40,12 +41,14 @@ CutAxes axes_facing(const core::Camera& camera);
 /// The pixels of the subsampled picture, in scan order: the middle one of every full subsample x subsample square, at least one.
 std::vector<std::uint32_t> subsampled_pixels(int width, int height, int subsample);
 
-/// The work that the rays of these pixels, of every kind, do in each column. Takes about as long as rendering them.
+/// The work that the rays of these pixels, of every kind, do in each column. Takes about as long as rendering them. After a stop
+/// is requested it leaves out the rest of the pixels.
 ColumnLoads measure_loads(const core::Database& database, const core::RenderSettings& settings, const ColumnLattice& lattice,
-                          const std::vector<std::uint32_t>& pixels);
+                          const std::vector<std::uint32_t>& pixels, const std::stop_token& stop = {});
 
-/// Shares the grid out to `region_count` regions. Deterministic. Throws core::UsageError if an option is out of range.
+/// Shares the grid out to `region_count` regions. Deterministic, unless a stop is requested: then it makes haste, and the regions
+/// are good for nothing but a run that ends at once. Throws core::UsageError if an option is out of range.
 Balanced balance(const core::Database& database, const core::RenderSettings& settings, std::uint32_t region_count,
-                 const BalanceOptions& options);
+                 const BalanceOptions& options, const std::stop_token& stop = {});
 
 }  // namespace dmpc::dataflow

@@ -45,11 +45,11 @@ std::vector<double> by_node(const Bsp& bsp, const std::vector<double>& by_region
 }
 
 Regions regions_for(std::uint32_t node_count, const core::Database& database, const core::RenderSettings& settings,
-                    const RunOptions& options) {
+                    const RunOptions& options, const std::stop_token& stop) {
   if (options.make_bsp) {
     return {options.make_bsp(node_count), {}};
   }
-  Balanced balanced = balance(database, settings, node_count, options.balance);
+  Balanced balanced = balance(database, settings, node_count, options.balance, stop);
   if (options.topology) {
     put_on(balanced.bsp, *options.topology, axes_facing(settings.camera));
   }
@@ -58,9 +58,11 @@ Regions regions_for(std::uint32_t node_count, const core::Database& database, co
 }
 
 Plan plan_for(const Distribution& distribution, const core::Database& database, const core::RenderSettings& settings,
-              const RunOptions& options) {
+              const RunOptions& options, const std::stop_token& stop) {
   const PlanRequest request = request_of(distribution, settings, options);
-  const MakeBsp make_bsp = [&](std::uint32_t node_count) { return regions_for(node_count, database, settings, options).bsp; };
+  const MakeBsp make_bsp = [&](std::uint32_t node_count) {
+    return regions_for(node_count, database, settings, options, stop).bsp;
+  };
   return make_plan(request, [&] { return smallest_node_count(request, database, settings, make_bsp); });
 }
 
@@ -212,11 +214,12 @@ std::array<nodes::Traffic, nodes::packet_kind_count> Report::received() const {
   return sum;
 }
 
-Prepared prepare(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options) {
-  Regions regions = regions_for(options.node_count, database, settings, options);
+Prepared prepare(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
+                 const std::stop_token& stop) {
+  Regions regions = regions_for(options.node_count, database, settings, options, stop);
   Prepared prepared{.distribution = distribute(database, settings, regions.bsp), .predicted = std::move(regions.predicted)};
   prepared.duplication = prepared.distribution.duplication(database);
-  prepared.plan = plan_for(prepared.distribution, database, settings, options);
+  prepared.plan = plan_for(prepared.distribution, database, settings, options, stop);
   return prepared;
 }
 
@@ -253,7 +256,7 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
 
 Report run_dataflow(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                     std::stop_token stop) {
-  return run_prepared(prepare(database, settings, options), settings, options, std::move(stop));
+  return run_prepared(prepare(database, settings, options, stop), settings, options, std::move(stop));
 }
 
 }  // namespace dmpc::dataflow

@@ -86,8 +86,10 @@ struct Prepared {
   Plan plan;
 };
 
-/// Balances, deals and plans. Takes about as long as rendering the subsampled picture. Throws as make_plan() does.
-Prepared prepare(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options);
+/// Balances, deals and plans. Takes about as long as rendering the subsampled picture. Throws as make_plan() does. After
+/// a stop is requested it makes haste, and what it returns is good for nothing but a run that the same stop ends at once.
+Prepared prepare(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
+                 const std::stop_token& stop = {});
 
 /// Renders what prepare() has prepared with the same settings and options. Throws core::InternalError if a law of conservation is
 /// broken. Several calls at one time are independent.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stop_token>
 #include <vector>
 
 #include "core/render.h"
@@ -174,6 +175,15 @@ TEST_CASE("a balance of one region is the whole grid") {
   const Balanced balanced = dataflow::balance(stage.database, stage.settings, 1, {});
   CHECK(balanced.bsp.region_at(0) == core::Region{{}, core::grid_size(stage.settings.header.frame)});
   CHECK(balanced.predicted.size() == 1);
+}
+
+TEST_CASE("a stop ends the subsampled picture, and the regions are there nevertheless") {
+  const Stage stage(mirrors_and_glass());
+  std::stop_source source;
+  source.request_stop();
+  const Balanced balanced = dataflow::balance(stage.database, stage.settings, 5, {}, source.get_token());
+  CHECK(balanced.bsp.region_count() == 5);
+  CHECK(std::accumulate(balanced.loads.load.begin(), balanced.loads.load.end(), std::uint64_t{0}) == 0);
 }
 
 TEST_CASE("a balance with options out of range is wrong usage") {
