@@ -5,15 +5,16 @@
 // Why nothing can stand still for ever:
 // (1) A credit of (sender, target) is a place for one packet of rays in the target's backlog. So whatever is under
 //     way can be received by a node that is stuck, and nobody ever waits for a reception.
-// (2) A full packet that finds no credit for its owner goes to the host. The host has room for every ray, depends on
-//     nobody, and so gives a credit for itself back as soon as the packet is there: a node waits for the host's
-//     credit for a bounded time.
+// (2) A full packet that finds no credit for its owner is queued, and the node goes on. When the queue is full the
+//     packet goes to the host. The host has room for every ray, depends on nobody, and so gives a credit for itself
+//     back as soon as the packet is there: a node waits for the host's credit for a bounded time.
 // (3) Hence a node with anything to do will do it, its backlog empties, and its credits go back, batched while it is
-//     busy, all of them before it rests. So the host, too, gets every credit back, and every ray that it keeps goes
-//     on.
-// (4) New primary rays start only when nothing received is left, and no work is taken up while a packet waits: one
-//     work() adds at most one ray to a gather, which had room. The packets that the host forwards take the credits of
-//     (host, target), with places of their own.
+//     busy, all of them before it rests. So every queued packet gets its credit, and so does the host: every ray that
+//     it keeps goes on. A node may therefore rest with rays that wait for credit, as long as it keeps nobody else's.
+// (4) New primary rays start only when nothing received is left, no packet is queued here, and no other node asks to
+//     hold them back (backpressure.h). No work is taken up while a packet waits: one work() adds at most one ray to a
+//     gather, which had room. The packets that the host forwards take the credits of (host, target), with places of
+//     their own.
 #pragma once
 
 #include <algorithm>
@@ -23,25 +24,33 @@ namespace dmpc::dataflow {
 
 /// What a node has to do, as far as the choice of the next task asks.
 struct NodeState {
-  bool packet_waits = false;   ///< a packet of rays has left its gather (full, or flushed) and found no credit
-  bool is_tracing = false;     ///< a ray is being traced, or a hit has children to be made
-  bool has_backlog = false;    ///< received rays
-  bool has_primaries = false;  ///< own primary rays that have not started
-  bool has_gathered = false;   ///< rays in a packet that is not full
+  bool must_announce = false;      ///< the queue got long or short, and the other nodes do not know it yet
+  bool packet_waits = false;       ///< a packet is closed and has found neither credit nor room in the queue
+  bool is_tracing = false;         ///< a ray is being traced, or a hit has children to be made
+  bool has_backlog = false;        ///< received rays
+  bool has_primaries = false;      ///< own primary rays that have not started
+  bool admits_primaries = false;   ///< no packet is queued, and no other node asks to hold primary rays back
+  bool can_flush = false;          ///< an open packet has rays and may leave
+  bool has_gathered = false;       ///< rays in open or queued packets
+  bool is_unacknowledged = false;  ///< an announcement is to be taken back or acknowledged
 };
 
 /// In the order of precedence.
 enum class Task : std::uint8_t {
+  announce,       ///< ask the other nodes to hold their primary rays back, or no longer
   send_waiting,   ///< try the waiting packet again, and nothing else
   go_on,          ///< with the ray or hit under way: depth first
   take_received,  ///< the deepest ray of the backlog
   start_primary,
   flush,  ///< send a packet that is not full: there is no other work
-  rest    ///< passive: return all credits owed, hand on the token, wait for a packet
+  rest    ///< return all credits owed, hand on the token if passive, wait for a packet
 };
 
 /// The next quantum's task.
 constexpr Task next_task(const NodeState& state) {
+  if (state.must_announce) {
+    return Task::announce;
+  }
   if (state.packet_waits) {
     return Task::send_waiting;
   }
@@ -51,26 +60,33 @@ constexpr Task next_task(const NodeState& state) {
   if (state.has_backlog) {
     return Task::take_received;
   }
-  if (state.has_primaries) {
+  if (state.has_primaries && state.admits_primaries) {
     return Task::start_primary;
   }
-  return state.has_gathered ? Task::flush : Task::rest;
+  return state.can_flush ? Task::flush : Task::rest;
 }
 
-/// Passive in the sense of termination: it will not send a ray packet unless it receives one.
-constexpr bool is_passive(const NodeState& state) { return next_task(state) == Task::rest; }
+/// Passive in the sense of termination: it will not send a ray packet unless it receives one. A node that rests with rays that
+/// wait for a credit, or for leave to start, is not.
+constexpr bool is_passive(const NodeState& state) {
+  return next_task(state) == Task::rest && !state.has_primaries && !state.has_gathered && !state.is_unacknowledged;
+}
 
 /// Where a packet of rays goes.
 enum class Way : std::uint8_t {
   to_owner,
-  to_host,  ///< overflow: the host keeps it and forwards it when it has a credit for the owner
-  wait      ///< until a packet brings either credit
+  to_queue,  ///< at the sender, until the owner gives a credit back
+  to_host,   ///< overflow: the host keeps it and forwards it when it has a credit for the owner
+  wait       ///< until a packet brings any credit
 };
 
-/// By the sender's own credits alone, so the answer is the same under every runner.
-constexpr Way way_of(bool has_owner_credit, bool has_host_credit) {
+/// By the sender's own credits and queue alone, so the answer is the same under every runner.
+constexpr Way way_of(bool has_owner_credit, bool has_queue_room, bool has_host_credit) {
   if (has_owner_credit) {
     return Way::to_owner;
+  }
+  if (has_queue_room) {
+    return Way::to_queue;
   }
   return has_host_credit ? Way::to_host : Way::wait;
 }

@@ -5,6 +5,8 @@
 //   overflow               node -> host          rays      bulk   the sender's ray credits for the host
 //   forwarded              host -> owner         rays      bulk   the host's ray credits for that owner
 //   credits                receiver -> sender    control   small  the ray packets whose credits it gives back
+//   hold                   node -> each node     control   small  itself: the next waits for the answers
+//   hold_acknowledgement   node -> node          control   small  the announcement that it answers
 //   film                   node -> host          film      bulk   the sender's film credits
 //   film_acknowledgement   host -> node          control   small  the film packet
 //   token                  member -> next        control   small  itself: one goes round the ring
@@ -31,11 +33,25 @@ namespace dmpc::dataflow {
 
 using core::operator""_KiB;
 
-enum class Kind : nodes::PacketKind { rays, overflow, forwarded, credits, film, film_acknowledgement, token, finish, done, stop };
+enum class Kind : nodes::PacketKind {
+  rays,
+  overflow,
+  forwarded,
+  credits,
+  hold,
+  hold_acknowledgement,
+  film,
+  film_acknowledgement,
+  token,
+  finish,
+  done,
+  stop
+};
 constexpr nodes::PacketKind number_of(Kind kind) { return static_cast<nodes::PacketKind>(kind); }
 static_assert(number_of(Kind::stop) < nodes::packet_kind_count);
-inline constexpr std::array<const char*, 10> kind_names = {
-    "rays", "overflow", "forwarded", "credits", "film", "film_acknowledgement", "token", "finish", "done", "stop"};
+inline constexpr std::array<const char*, 12> kind_names = {
+    "rays",  "overflow", "forwarded", "credits", "hold", "hold_acknowledgement", "film", "film_acknowledgement",
+    "token", "finish",   "done",      "stop"};
 /// The packet's name, for reports.
 constexpr const char* name_of(Kind kind) { return kind_names[number_of(kind)]; }
 
@@ -98,6 +114,15 @@ struct Credits {
   std::uint32_t count = 0;
 };
 
+/// What a node asks of all others (backpressure.h).
+struct Hold {
+  std::uint32_t holds = 0;  ///< 1: start no primary rays for the time being; 0: this node no longer asks for it
+};
+
+struct HoldAcknowledgement {
+  std::uint32_t padding = 0;
+};
+
 /// Light for a plane of a pixel: the sum of one or more deposits. A pixel's come from any number of nodes.
 struct FilmEntry {
   std::uint32_t pixel = 0;
@@ -138,6 +163,7 @@ struct Stop {
 template <class T>
 inline constexpr bool is_small_packet = std::is_trivially_copyable_v<T> && sizeof(T) <= nodes::small_payload_bytes;
 static_assert(is_small_packet<Credits> && is_small_packet<FilmAcknowledgement> && is_small_packet<Token>);
+static_assert(is_small_packet<Hold> && is_small_packet<HoldAcknowledgement>);
 static_assert(is_small_packet<Finish> && is_small_packet<Done> && is_small_packet<Stop>);
 
 /// Sends a small packet for which the protocol keeps a place in the target's mailbox (the table above).

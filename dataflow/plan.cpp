@@ -22,9 +22,12 @@ using nodes::Category;
 using nodes::LocalMemory;
 using nodes::size_text;
 
-/// With eight packets a few percent of the rays overflow where many nodes share a core, and a receiver may not run for
-/// milliseconds; with four twice as many. Sixteen would halve them again, and cost 2.7 MB a node among 64.
-constexpr std::uint32_t default_ray_credits = 8;
+/// One packet travelling, one being worked off, and twice that so that neither waits for the other's credit. Eight send a tenth
+/// fewer packets, but take 0.5 MB more of a node among 64.
+constexpr std::uint32_t default_ray_credits = 4;
+/// Where many nodes share a core, a receiver may not run for milliseconds, and the others go on until the announcement of a long
+/// queue reaches them. 8 to 64 nodes on two cores that others used, too, queued up to 331 packets on six scenes at 512x512.
+constexpr std::uint32_t default_queue_packets = 512;
 /// Two film packets a node: one travels while the next is gathered.
 constexpr std::uint32_t film_credits = 2;
 constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
@@ -34,6 +37,8 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   const std::uint32_t others = plan.node_count() - 1;
   return {.small_slots = others * plan.ray_credits  // credits back from each other node, at least one a packet
                          + plan.host_credits        // the same from the host
+                         + others                   // Hold: one from each other node, until it is acknowledged
+                         + others                   // acknowledgements of this node's
                          + plan.film_credits        // acknowledgements: one for each film packet of this node's
                          + 1                        // the token
                          + 1                        // Finish
@@ -57,16 +62,23 @@ void plan_chaos(Plan& plan, const nodes::Chaos& chaos) {
   plan.ray_credits = nodes::shrunk_credits(chaos, plan.ray_credits, ray_channel);
   plan.host_credits = nodes::shrunk_credits(chaos, plan.host_credits, nodes::channel_count);
   plan.film_credits = nodes::shrunk_credits(chaos, plan.film_credits, film_channel);
+  plan.queue_packets = nodes::shrunk_credits(chaos, plan.queue_packets, nodes::channel_count + 1);
   plan.held_bytes = nodes::HeldPackets::room_bytes(plan.host_mailbox.bulk_payload_bytes);
 }
 
+/// What may be given up where memory is scarce.
+struct Bounds {
+  std::uint32_t ray_batch = 1, ray_credits = 1, queue_packets = 0;
+};
+
 /// The plan with these bounds, whether or not it fits.
-Plan plan_with(const PlanRequest& request, std::uint32_t ray_batch, std::uint32_t ray_credits) {
+Plan plan_with(const PlanRequest& request, const Bounds& bounds) {
   Plan plan;
   plan.request = request;
-  plan.ray_batch = ray_batch;
-  plan.ray_credits = ray_credits;
-  plan.host_credits = std::max(1U, ray_credits);
+  plan.ray_batch = bounds.ray_batch;
+  plan.ray_credits = bounds.ray_credits;
+  plan.host_credits = std::max(1U, bounds.ray_credits);
+  plan.queue_packets = bounds.ray_credits == 0 || request.node_count() == 1 ? 0 : bounds.queue_packets;
   plan.film_credits = film_credits;
   plan.node_mailbox = node_mailbox_of(plan);
   plan.host_mailbox = host_mailbox_of(plan);
@@ -92,30 +104,38 @@ void check(const PlanRequest& request) {
   const std::uint32_t credits = request.ray_credits.value_or(1);
   check_use(credits <= ray_credits_max,
             "--ray-credits=" + std::to_string(credits) + ": at most " + std::to_string(ray_credits_max) + " packets");
+  const std::uint32_t queue = request.queue_packets.value_or(0);
+  check_use(queue <= queue_packets_max,
+            "--ray-queue=" + std::to_string(queue) + ": at most " + std::to_string(queue_packets_max) + " packets");
   core::expect(request.depth_max >= 1 && request.depth_max <= 255, "a ray has a depth that fits its record");
   core::expect(request.width >= 1 && request.height >= 1, "a picture has a pixel");
 }
 
-std::uint32_t wanted_batch(const PlanRequest& request) { return request.ray_batch.value_or(rays_in(packet_bytes)); }
-std::uint32_t wanted_credits(const PlanRequest& request) { return request.ray_credits.value_or(default_ray_credits); }
+Bounds wanted(const PlanRequest& request) {
+  return {request.ray_batch.value_or(rays_in(packet_bytes)), request.ray_credits.value_or(default_ray_credits),
+          request.queue_packets.value_or(default_queue_packets)};
+}
 
 /// With the least of what the request leaves open.
 Plan smallest_plan(const PlanRequest& request) {
-  return plan_with(request, request.ray_batch.value_or(1), request.ray_credits.value_or(1));
+  return plan_with(request, {request.ray_batch.value_or(1), request.ray_credits.value_or(1), request.queue_packets.value_or(0)});
 }
 
-/// Gives up credits first, then the length of packets, as far as the request leaves them open and the memory asks.
+/// Gives up queued packets first, then credits, then the length of packets, as far as the request leaves them open and the memory
+/// asks.
 Plan fitting_plan(const PlanRequest& request, std::size_t memory_bytes) {
-  std::uint32_t batch = wanted_batch(request), credits = wanted_credits(request);
-  Plan plan = plan_with(request, batch, credits);
+  Bounds bounds = wanted(request);
+  Plan plan = plan_with(request, bounds);
   while (plan.node_memory_max_bytes() > memory_bytes) {
-    if (!request.ray_credits && credits > 1) {
-      --credits;
+    if (!request.queue_packets && bounds.queue_packets > 0) {
+      --bounds.queue_packets;
+    } else if (!request.ray_credits && bounds.ray_credits > 1) {
+      --bounds.ray_credits;
     } else {
-      core::expect(!request.ray_batch && batch > 1, "the smallest plan fits");
-      --batch;
+      core::expect(!request.ray_batch && bounds.ray_batch > 1, "the smallest plan fits");
+      --bounds.ray_batch;
     }
-    plan = plan_with(request, batch, credits);
+    plan = plan_with(request, bounds);
   }
   return plan;
 }
@@ -141,8 +161,10 @@ void note_reductions(Plan& plan) {
                            size_text(*request.node_memory_bytes));
     }
   };
-  note("credits for rays", wanted_credits(request), plan.ray_credits);
-  note("rays in a packet", wanted_batch(request), plan.ray_batch);
+  const Plan unbounded = plan_with(request, wanted(request));
+  note("packets of rays that wait for credits", unbounded.queue_packets, plan.queue_packets);
+  note("credits for rays", unbounded.ray_credits, plan.ray_credits);
+  note("rays in a packet", unbounded.ray_batch, plan.ray_batch);
 }
 
 }  // namespace
@@ -181,7 +203,7 @@ std::size_t smallest_node_memory_bytes(const PlanRequest& request) { return smal
 Plan make_plan(const PlanRequest& request, const OtherNodeCount& other_node_count) {
   check(request);
   if (!request.node_memory_bytes) {
-    return plan_with(request, wanted_batch(request), wanted_credits(request));
+    return plan_with(request, wanted(request));
   }
   if (smallest_node_memory_bytes(request) > *request.node_memory_bytes) {
     say_too_small(request, other_node_count);

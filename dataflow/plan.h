@@ -28,9 +28,12 @@ struct PlanRequest {
   std::optional<std::size_t> node_memory_bytes = std::nullopt;
   /// Rays in a full packet. Without it what fills a packet of 1 KiB, or fewer if the memory is scarce.
   std::optional<std::uint32_t> ray_batch = std::nullopt;
-  /// Packets of rays that may be under way, or in the receiver's backlog, for each sender and receiver. Without it 8, or fewer if
+  /// Packets of rays that may be under way, or in the receiver's backlog, for each sender and receiver. Without it 4, or fewer if
   /// the memory is scarce. 0: no node sends to another, every ray goes by way of the host.
   std::optional<std::uint32_t> ray_credits = std::nullopt;
+  /// Full packets that may wait at their sender for credits before rays overflow. Without it 256, or fewer if the memory is
+  /// scarce. Of no use without credits.
+  std::optional<std::uint32_t> queue_packets = std::nullopt;
   std::uint32_t depth_max = 5;  ///< of a ray
   std::uint32_t width = 0, height = 0;
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;  ///< of each node's thread
@@ -41,15 +44,17 @@ struct PlanRequest {
 };
 
 inline constexpr std::uint32_t ray_credits_max = 64;
+inline constexpr std::uint32_t queue_packets_max = 16384;
 
 /// The answer. Every capacity is derived in plan.cpp, as a sum with a comment for each term.
 struct Plan {
   PlanRequest request;
-  std::uint32_t ray_batch = 1;     ///< rays in a full packet
-  std::uint32_t ray_credits = 1;   ///< from each node for each other
-  std::uint32_t host_credits = 1;  ///< packets of rays from each node for the host, and from the host for each node
-  std::uint32_t film_credits = 1;  ///< film packets from each node for the host
-  std::size_t held_bytes = 0;      ///< room at each node and the host for packets that chaos holds back
+  std::uint32_t ray_batch = 1;      ///< rays in a full packet
+  std::uint32_t ray_credits = 1;    ///< from each node for each other
+  std::uint32_t host_credits = 1;   ///< packets of rays from each node for the host, and from the host for each node
+  std::uint32_t queue_packets = 0;  ///< full packets that may wait at their sender for credits
+  std::uint32_t film_credits = 1;   ///< film packets from each node for the host
+  std::size_t held_bytes = 0;       ///< room at each node and the host for packets that chaos holds back
   nodes::MailboxCapacity node_mailbox, host_mailbox;
   std::vector<std::string> notes;  ///< sentences to print, such as what was reduced
 

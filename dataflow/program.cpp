@@ -40,6 +40,7 @@ RayCounters& operator+=(RayCounters& sum, const RayCounters& more) {
   sum.ended += more.ended;
   sum.hits_sent_back += more.hits_sent_back;
   sum.rests += more.rests;
+  sum.holds += more.holds;
   return sum;
 }
 
@@ -54,7 +55,8 @@ Gather::Capacity NodeProgram::gather_capacity(const Plan& plan) {
   return {.node_count = plan.node_count(),
           .ray_batch = plan.ray_batch,
           .ray_credits = plan.ray_credits,
-          .host_credits = plan.host_credits};
+          .host_credits = plan.host_credits,
+          .queue_packets = plan.queue_packets};
 }
 
 NodeProgram::NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& deal)
@@ -71,6 +73,7 @@ NodeProgram::NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& de
       task_(node.memory(), node.id(), plan.request.depth_max),
       gather_(node, gather_capacity(plan)),
       film_(node, plan.node_count(), plan.film_credits),
+      backpressure_(plan.node_count() - 1, plan.queue_packets),
       rays_to_(node.memory().allocate<std::uint64_t>(Category::queues, plan.node_count())) {}
 
 void NodeProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index) {
@@ -91,13 +94,18 @@ void NodeProgram::receive(const nodes::Packet& packet) {
     case Kind::forwarded:
       return receive_rays(packet);
     case Kind::credits:
-      return gather_.credits_returned(packet.source, packet.as<Credits>().count);
+      return take_credits(packet.source, packet.as<Credits>().count);
+    case Kind::hold:
+      backpressure_.take(packet.as<Hold>().holds != 0);
+      return send_control(*node_, packet.source, Kind::hold_acknowledgement, HoldAcknowledgement{});
+    case Kind::hold_acknowledgement:
+      return backpressure_.acknowledged();
     case Kind::film_acknowledgement:
       return film_.acknowledged();
     case Kind::token:
       return termination_.take(packet.as<Token>());
     case Kind::finish:
-      core::expect(is_passive(state()) && primaries_.empty(), "the end is proved only when every node is passive");
+      core::expect(is_passive(state()), "the end is proved only when every node is passive");
       finishing_ = true;
       return;
     case Kind::stop:
@@ -127,12 +135,23 @@ void NodeProgram::receive_rays(const nodes::Packet& packet) {
   }
 }
 
+void NodeProgram::take_credits(nodes::NodeId receiver, std::uint32_t count) {
+  for (std::uint32_t sent = gather_.credits_returned(receiver, count); sent > 0; --sent) {
+    termination_.ray_packet_sent();
+  }
+}
+
 NodeState NodeProgram::state() const {
-  return {.packet_waits = gather_.waits() || film_.waits(),
+  const bool has_work = !task_.is_idle() || !backlog_.empty();
+  return {.must_announce = backpressure_.is_due(gather_.queued()),
+          .packet_waits = gather_.waits() || film_.waits(),
           .is_tracing = !task_.is_idle(),
           .has_backlog = !backlog_.empty(),
-          .has_primaries = !primaries_.empty() && gather_.admits_primaries(),
-          .has_gathered = !gather_.empty()};
+          .has_primaries = !primaries_.empty(),
+          .admits_primaries = gather_.queued() == 0 && backpressure_.admits_primaries(),
+          .can_flush = !has_work && gather_.can_flush(),  // looks at every owner
+          .has_gathered = !gather_.empty(),
+          .is_unacknowledged = !backpressure_.is_settled()};
 }
 
 bool NodeProgram::work() {
@@ -146,6 +165,8 @@ bool NodeProgram::work() {
 
 void NodeProgram::perform(Task task) {
   switch (task) {
+    case Task::announce:
+      return announce();
     case Task::send_waiting:
       return send_waiting();
     case Task::go_on:
@@ -155,16 +176,29 @@ void NodeProgram::perform(Task task) {
     case Task::start_primary:
       return start_primary();
     case Task::flush:
-      gather_.close_fullest();
+      gather_.flush();
       return send_waiting();
     case Task::rest:
       return;
   }
 }
 
+void NodeProgram::announce() {
+  const Hold hold{backpressure_.announce(gather_.queued()) ? 1U : 0U};
+  for (std::uint32_t i = 0; i < nodes::index_of(host_); ++i) {
+    if (nodes::NodeId{i} != node_->id()) {
+      send_control(*node_, nodes::NodeId{i}, Kind::hold, hold);
+    }
+  }
+}
+
 /// A film packet that waits is sent as soon as the host acknowledges another.
 void NodeProgram::send_waiting() {
-  if (gather_.waits() && gather_.send() != Way::wait) {
+  if (!gather_.waits()) {
+    return;
+  }
+  const Way way = gather_.send();
+  if (way == Way::to_owner || way == Way::to_host) {
     termination_.ray_packet_sent();
   }
 }
@@ -287,7 +321,7 @@ void NodeProgram::rest() {
   for (std::uint32_t sender = 0; sender < backlog_.sender_count(); ++sender) {
     give_back(sender, true);
   }
-  if (primaries_.empty()) {
+  if (is_passive(state())) {
     be_passive();
   }
 }
@@ -317,9 +351,11 @@ std::string NodeProgram::describe() const {
           : task_.is_tracing() ? "a ray"
                                : "a hit") +
          " under way, " + std::to_string(gather_.size()) + " rays gathered" +
-         (gather_.waits() ? " (a packet waits for credit), " : ", ") + std::to_string(film_.gathered()) + " film entries" +
-         (film_.waits() ? " (waiting)" : "") + ", ray packets sent - received " + std::to_string(termination_.balance()) +
-         (termination_.holds_token() ? ", holds the token" : "") + (termination_.is_black() ? ", black" : ", white") +
+         (gather_.waits() ? " (a packet waits for room), " : ", ") + std::to_string(gather_.queued()) + " packets queued, " +
+         (backpressure_.admits_primaries() ? "" : "asked to hold primary rays back, ") + std::to_string(film_.gathered()) +
+         " film entries" + (film_.waits() ? " (waiting)" : "") + ", ray packets sent - received " +
+         std::to_string(termination_.balance()) + (termination_.holds_token() ? ", holds the token" : "") +
+         (termination_.is_black() ? ", black" : ", white") +
          (stopped_     ? ", stopped"
           : done_      ? ", done"
           : finishing_ ? ", finishing"
@@ -333,6 +369,7 @@ ProgramReport NodeProgram::report() const {
                        .film = film_.counters(),
                        .backlog_high_water = backlog_.high_water(),
                        .rays_to = {rays_to_.begin(), rays_to_.end()}};
+  report.rays.holds = backpressure_.count();
   report.operations.deposits_saturated += film_.counters().saturated;
   return report;
 }

@@ -4,10 +4,9 @@
 // region, and at most one ray goes out. What keeps the last node moving, and why every queue is bounded, is said there; the sums
 // are in plan.cpp.
 //
-// Primary rays are started by credit: only while no owner has more than a few of this node's packets, so that a node adds nothing
-// to what an owner has not got round to, and most credits are left for the children of received rays. A node that holds its
-// primary rays back has no other work. It is not passive, so it keeps the token; but like one that rests it keeps nobody's
-// credit. So when all have come to rest or hold back, every credit comes home, and one of them goes on.
+// Primary rays are started by credit: while a packet of this node's waits for one, or another node's queue is long, none is. A
+// node that holds its primary rays back has no other work. It is not passive, so it keeps the token; but like one that rests it
+// keeps nobody's credit. So when all have come to rest or hold back, every credit comes home, and one of them goes on.
 //
 // Who claims a hit: the owner of the cell in which the walk proves it the nearest. If that owner has met the same (t, primitive)
 // itself, it shades the hit with its own copy of the record. If not, the hit goes to its finder, which alone knows where the
@@ -23,6 +22,7 @@
 #include "core/extract.h"
 #include "core/operations.h"
 #include "core/pixel_task.h"
+#include "dataflow/backpressure.h"
 #include "dataflow/bsp.h"
 #include "dataflow/film_gather.h"
 #include "dataflow/flow_control.h"
@@ -43,6 +43,7 @@ struct RayCounters {
   std::uint64_t ended = 0;                                      ///< hit or miss; over all nodes as many as were shot
   std::uint64_t hits_sent_back = 0;                             ///< confirmed here, shaded by their finder
   std::uint64_t rests = 0;                                      ///< times that the node ran out of work
+  std::uint64_t holds = 0;                                      ///< times that it asked the others to hold primary rays back
 };
 RayCounters& operator+=(RayCounters& sum, const RayCounters& more);
 
@@ -92,7 +93,9 @@ class NodeProgram final : public nodes::Program {
   NodeState state() const;
 
   void receive_rays(const nodes::Packet& packet);
+  void take_credits(nodes::NodeId receiver, std::uint32_t count);
   void perform(Task task);
+  void announce();
   void send_waiting();
   void take_received();
   void start_primary();
@@ -120,6 +123,7 @@ class NodeProgram final : public nodes::Program {
   RayTask task_;
   Gather gather_;
   FilmGather film_;
+  Backpressure backpressure_;
   Termination termination_ = Termination::member();
   std::span<std::uint64_t> rays_to_;
   core::Operations operations_;

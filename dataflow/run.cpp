@@ -18,6 +18,7 @@ PlanRequest request_of(const Distribution& distribution, const core::RenderSetti
           .node_memory_bytes = options.node_memory_bytes,
           .ray_batch = options.ray_batch,
           .ray_credits = options.ray_credits,
+          .queue_packets = options.queue_packets,
           .depth_max = static_cast<std::uint32_t>(settings.shade.depth_max),
           .width = static_cast<std::uint32_t>(settings.camera.width()),
           .height = static_cast<std::uint32_t>(settings.camera.height()),

@@ -29,9 +29,10 @@ namespace dmpc::dataflow {
 struct RunOptions {
   std::uint32_t node_count = 8;
   std::optional<std::size_t> node_memory_bytes = std::nullopt;
-  std::optional<std::uint32_t> ray_batch = std::nullopt;    ///< rays in a message
-  std::optional<std::uint32_t> ray_credits = std::nullopt;  ///< packets of rays for each pair; 0: all by way of the host
-  BalanceOptions balance = {};                              ///< how the regions are cut
+  std::optional<std::uint32_t> ray_batch = std::nullopt;      ///< rays in a message
+  std::optional<std::uint32_t> ray_credits = std::nullopt;    ///< packets of rays for each pair; 0: all by way of the host
+  std::optional<std::uint32_t> queue_packets = std::nullopt;  ///< packets that wait at their sender for credits
+  BalanceOptions balance = {};                                ///< how the regions are cut
   /// Neighbouring regions are put on nodes that are few hops apart in this machine. Without it region i is node i's.
   std::optional<nodes::TopologyKind> topology = std::nullopt;
   MakeBsp make_bsp = {};  ///< regions of one's own, in place of `balance` and `topology`

@@ -8,8 +8,10 @@ using dataflow::NodeState;
 using dataflow::Task;
 using dataflow::Way;
 
-TEST_CASE("a node sends what waits, goes on, treats received rays, starts its own and flushes, in this order") {
-  NodeState state{true, true, true, true, true};
+TEST_CASE("a node announces, sends what waits, goes on, treats received rays, starts its own and flushes, in this order") {
+  NodeState state{true, true, true, true, true, true, true, true, true};
+  CHECK(next_task(state) == Task::announce);
+  state.must_announce = false;
   CHECK(next_task(state) == Task::send_waiting);
   state.packet_waits = false;
   CHECK(next_task(state) == Task::go_on);
@@ -17,26 +19,35 @@ TEST_CASE("a node sends what waits, goes on, treats received rays, starts its ow
   CHECK(next_task(state) == Task::take_received);
   state.has_backlog = false;
   CHECK(next_task(state) == Task::start_primary);
-  state.has_primaries = false;
+  state.admits_primaries = false;
   CHECK(next_task(state) == Task::flush);
-  state.has_gathered = false;
+  state.can_flush = false;
   CHECK(next_task(state) == Task::rest);
 }
 
 TEST_CASE("a node is passive only when it has nothing at all") {
   CHECK(dataflow::is_passive({}));
+  CHECK_FALSE(dataflow::is_passive({.must_announce = true}));
   CHECK_FALSE(dataflow::is_passive({.packet_waits = true}));
   CHECK_FALSE(dataflow::is_passive({.is_tracing = true}));
   CHECK_FALSE(dataflow::is_passive({.has_backlog = true}));
   CHECK_FALSE(dataflow::is_passive({.has_primaries = true}));
   CHECK_FALSE(dataflow::is_passive({.has_gathered = true}));
+  CHECK_FALSE(dataflow::is_passive({.is_unacknowledged = true}));
 }
 
-TEST_CASE("a packet goes to its owner, else to the host, else waits") {
-  CHECK(dataflow::way_of(true, true) == Way::to_owner);
-  CHECK(dataflow::way_of(true, false) == Way::to_owner);
-  CHECK(dataflow::way_of(false, true) == Way::to_host);
-  CHECK(dataflow::way_of(false, false) == Way::wait);
+TEST_CASE("a node rests with rays that wait for a credit, and with primary rays that it holds back") {
+  CHECK(dataflow::next_task({.has_primaries = true}) == Task::rest);
+  CHECK(dataflow::next_task({.has_gathered = true}) == Task::rest);
+}
+
+TEST_CASE("a packet goes to its owner, else into the queue, else to the host, else waits") {
+  CHECK(dataflow::way_of(true, true, true) == Way::to_owner);
+  CHECK(dataflow::way_of(true, false, false) == Way::to_owner);
+  CHECK(dataflow::way_of(false, true, true) == Way::to_queue);
+  CHECK(dataflow::way_of(false, true, false) == Way::to_queue);
+  CHECK(dataflow::way_of(false, false, true) == Way::to_host);
+  CHECK(dataflow::way_of(false, false, false) == Way::wait);
 }
 
 TEST_CASE("a busy node returns credits by the batch, a resting one all of them") {

@@ -103,46 +103,80 @@ TEST_CASE("without a credit for the owner a packet goes to the host, named with 
   CHECK(sender.gather.counters().rays_overflowed == 2);
 }
 
-TEST_CASE("primary rays are admitted while no owner has more than a window of packets, and never with the last credit out") {
-  for (const std::uint32_t credits : {1U, 2U, 3U, 8U}) {
-    Sender sender({.node_count = 3, .ray_batch = 1, .ray_credits = credits, .host_credits = 8});
-    for (std::uint32_t sent = 0; sent < credits; ++sent) {
-      CHECK(sender.gather.admits_primaries() == (sent <= dataflow::primary_window));
-      sender.add(0, 1);
-      CHECK(sender.gather.send() == Way::to_owner);
-    }
-    CHECK_FALSE(sender.gather.admits_primaries());
-    sender.add(0, 1);
-    CHECK(sender.gather.send() == Way::to_host);
-    sender.gather.credits_returned(host, 1);
-    CHECK_FALSE(sender.gather.admits_primaries());
-    sender.gather.credits_returned(NodeId{0}, credits);
-    CHECK(sender.gather.admits_primaries());
+TEST_CASE("packets without credit are queued for their owners and leave in order when credits come") {
+  Sender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 1, .queue_packets = 3});
+  const Way ways[] = {Way::to_owner, Way::to_queue, Way::to_queue, Way::to_queue, Way::to_host, Way::wait};
+  for (std::uint32_t pixel = 0; pixel < 6; ++pixel) {
+    sender.add(2, pixel);
+    CHECK(sender.gather.send() == ways[pixel]);
   }
+  CHECK(sender.gather.queued() == 3);
+  CHECK(sender.gather.size() == 4);
+  CHECK(pixel_in(sender.single.take(), 0) == 0);
+  CHECK(pixel_in(sender.single.take(), 0) == 4);
+  CHECK(sender.gather.credits_returned(NodeId{2}, 2) == 2);
+  CHECK(pixel_in(sender.single.take(), 0) == 1);
+  CHECK(pixel_in(sender.single.take(), 0) == 2);
+  CHECK(sender.gather.queued() == 1);
+  CHECK(sender.gather.send() == Way::to_queue);
+  CHECK(sender.gather.credits_returned(NodeId{2}, 5) == 2);
+  CHECK(pixel_in(sender.single.take(), 0) == 3);
+  CHECK(pixel_in(sender.single.take(), 0) == 5);
+  CHECK(sender.gather.empty());
+  CHECK(sender.gather.counters().packets_queued == 4);
+  CHECK(sender.gather.counters().queue_high_water == 3);
+  CHECK(sender.single.memory.used().bytes == sender.single.memory.plan().bytes);
 }
 
-TEST_CASE("without credits between nodes all rays go by way of the host, and primary rays are admitted") {
-  Sender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 0});
-  CHECK(sender.gather.admits_primaries());
+TEST_CASE("a credit for one owner sends nothing that is queued for another") {
+  Sender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 1, .queue_packets = 2});
+  for (const std::uint32_t owner : {0U, 2U, 0U, 2U}) {
+    sender.add(owner, owner);
+    sender.gather.send();
+  }
+  CHECK(sender.gather.queued() == 2);
+  CHECK(sender.gather.credits_returned(host, 1) == 0);
+  CHECK(sender.gather.credits_returned(NodeId{0}, 1) == 1);
+  CHECK(sender.gather.queued() == 1);
+}
+
+TEST_CASE("without credits between nodes nothing is queued and all rays go by way of the host") {
+  Sender sender({.node_count = 3, .ray_batch = 2, .ray_credits = 0, .host_credits = 2, .queue_packets = 2});
+  sender.add(0, 1);
+  CHECK(sender.gather.can_flush());
+  sender.gather.flush();
+  CHECK(sender.gather.send() == Way::to_host);
+  sender.add(0, 1);
   sender.add(0, 1);
   CHECK(sender.gather.send() == Way::to_host);
-  CHECK(sender.gather.admits_primaries());
 }
 
 TEST_CASE("the fullest packet is flushed first") {
   Sender sender({.node_count = 3, .ray_batch = 4, .ray_credits = 1});
-  CHECK_THROWS_AS(sender.gather.close_fullest(), core::InternalError);
+  CHECK_FALSE(sender.gather.can_flush());
+  CHECK_THROWS_AS(sender.gather.flush(), core::InternalError);
   sender.add(0, 1);
   sender.add(2, 2);
   sender.add(2, 3);
-  sender.gather.close_fullest();
+  sender.gather.flush();
   sender.gather.send();
   CHECK(sender.single.take().target == NodeId{2});
-  sender.gather.close_fullest();
+  sender.gather.flush();
   sender.gather.send();
   CHECK(header_of(sender.single.take()).count == 1);
   CHECK(sender.gather.empty());
   CHECK(sender.gather.counters().packets_flushed == 2);
+}
+
+TEST_CASE("a packet that is not full waits for its owner's credit and does not overflow") {
+  Sender sender({.node_count = 3, .ray_batch = 2, .ray_credits = 1, .queue_packets = 1});
+  sender.add(0, 1);
+  sender.gather.flush();
+  sender.gather.send();
+  sender.add(0, 2);
+  CHECK_FALSE(sender.gather.can_flush());
+  CHECK(sender.gather.credits_returned(NodeId{0}, 1) == 0);
+  CHECK(sender.gather.can_flush());
 }
 
 TEST_CASE("no ray leaves for its own node or for the host") {

@@ -34,12 +34,13 @@ std::string error_of(const PlanRequest& request, const dataflow::OtherNodeCount&
 
 }  // namespace
 
-TEST_CASE("without a memory bound a packet of rays fills 1 KiB and there are eight credits") {
+TEST_CASE("without a memory bound a packet of rays fills 1 KiB and there are four credits") {
   const Plan plan = make_plan(request_with(8, 100_KiB));
   CHECK(plan.ray_batch == 10);
   CHECK(dataflow::ray_packet_bytes(plan.ray_batch) <= 1_KiB);
   CHECK(dataflow::ray_packet_bytes(plan.ray_batch + 1) > 1_KiB);
-  CHECK(plan.ray_credits == 8);
+  CHECK(plan.ray_credits == 4);
+  CHECK(plan.queue_packets == 512);
   CHECK(plan.notes.empty());
 }
 
@@ -52,23 +53,27 @@ TEST_CASE("the smallest memory that is named works, and one byte less does not")
     CHECK(plan.node_memory_max_bytes() == smallest);
     CHECK(plan.ray_credits == 1);
     CHECK(plan.ray_batch == 1);
-    CHECK(plan.notes.size() == 2);
+    CHECK(plan.queue_packets == 0);
+    CHECK(plan.notes.size() == (nodes == 1 ? 2 : 3));
     request.node_memory_bytes = smallest - 1;
     CHECK(error_of(request).find("--node-memory=" + nodes::size_text(smallest)) != std::string::npos);
   }
 }
 
-TEST_CASE("scarce memory costs credits first, then the length of packets, and no more than it must") {
+TEST_CASE("scarce memory costs queued packets first, then credits, then the length of packets, and no more than it must") {
   PlanRequest request = request_with(16, 100_KiB);
   const std::size_t all = make_plan(request).node_memory_max_bytes();
-  std::uint32_t credits = 8, batch = 10;
+  std::uint32_t queue = 512, credits = 4, batch = 10;
   for (std::size_t memory = all; memory >= dataflow::smallest_node_memory_bytes(request); memory -= 1_KiB) {
     request.node_memory_bytes = memory;
     const Plan plan = make_plan(request);
     CHECK(plan.node_memory_max_bytes() <= memory);
     CHECK(plan.ray_credits <= credits);
     CHECK(plan.ray_batch <= batch);
+    CHECK(plan.queue_packets <= queue);
     CHECK((plan.ray_batch == 10 || plan.ray_credits == 1));
+    CHECK((plan.ray_credits == 4 || plan.queue_packets == 0));
+    queue = plan.queue_packets;
     credits = plan.ray_credits;
     batch = plan.ray_batch;
   }
@@ -78,6 +83,7 @@ TEST_CASE("what was asked for is not reduced") {
   PlanRequest request = request_with(4, 100_KiB);
   request.ray_batch = 10;
   request.ray_credits = 8;
+  request.queue_packets = 100;
   const std::size_t needed = make_plan(request).node_memory_max_bytes();
   CHECK(dataflow::smallest_node_memory_bytes(request) == needed);
   request.node_memory_bytes = needed - 1;
@@ -111,6 +117,16 @@ TEST_CASE("values out of range are wrong usage") {
   CHECK(dataflow::ray_packet_bytes(dataflow::ray_batch_max) <= 64_KiB);
   request.ray_credits = dataflow::ray_credits_max + 1;
   check_wrong(request);
+  request.ray_credits = dataflow::ray_credits_max;
+  request.queue_packets = dataflow::queue_packets_max + 1;
+  check_wrong(request);
+}
+
+TEST_CASE("one node, or nodes without credits, need no queue") {
+  CHECK(make_plan(request_with(1, 1000)).queue_packets == 0);
+  PlanRequest request = request_with(4, 1000);
+  request.ray_credits = 0;
+  CHECK(make_plan(request).queue_packets == 0);
 }
 
 TEST_CASE("chaos leaves at least one credit and the mailboxes as they were") {

@@ -200,6 +200,36 @@ TEST_CASE("a node that holds its primary rays back gives back credits but keeps 
   CHECK(node.single.post.parcels.size() > sent);
 }
 
+TEST_CASE("a node that is asked to hold its primary rays back acknowledges, and starts none until it is no longer asked") {
+  const Stage stage(tests::mirrors_and_glass(), 2, 16);
+  LoneProgram node(stage, 0, stage.distribution.primaries[0]);
+  const auto hold = [&](std::uint32_t holds) {
+    const dataflow::Hold packet{holds};
+    node.program.receive({NodeId{1}, dataflow::number_of(Kind::hold), std::as_bytes(std::span(&packet, 1))});
+    CHECK(Kind{node.single.post.parcels.back().kind} == Kind::hold_acknowledgement);
+  };
+  hold(1);
+  node.work_to_rest();
+  CHECK(node.single.post.parcels.size() == 1);
+  CHECK(node.program.report().operations.rays == core::Operations().rays);
+  hold(0);
+  node.work_to_rest();
+  CHECK(node.program.report().operations.rays[0] > 0);
+}
+
+TEST_CASE("a node whose queue gets long asks the others to hold their primary rays back") {
+  const Stage stage(tests::mirrors_and_glass(), 3, 16, {.ray_batch = 1, .ray_credits = 1, .queue_packets = 1});
+  LoneProgram node(stage, 1, stage.distribution.primaries[1]);
+  node.work_to_rest();  // nobody answers
+  std::uint32_t asked = 0;
+  for (const Parcel& parcel : node.single.post.parcels) {
+    asked += Kind{parcel.kind} == Kind::hold ? parcel.packet().as<dataflow::Hold>().holds : 0;
+  }
+  CHECK(asked == 2);
+  CHECK(node.program.report().rays.holds == 1);
+  CHECK(node.program.report().gather.queue_high_water == 1);
+}
+
 TEST_CASE("a node that rests gives back the credit of a ray that it has taken up") {
   const Stage stage(tests::mirrors_and_glass(), 2, 16);
   const LocalHit found = find_local_hit(stage);
@@ -253,6 +283,7 @@ TEST_CASE("any legal order of events gives the same film, and no mailbox overflo
     dataflow::PlanRequest bounds;
     bounds.ray_batch = seed % 3 == 0 ? 1 : seed % 3 == 1 ? 3 : 10;
     bounds.ray_credits = seed % 4;
+    bounds.queue_packets = seed % 5 * 2;
     run_shuffled(Stage(tests::mirrors_and_glass(), static_cast<std::uint32_t>(1 + seed % 7), 8, bounds), seed);
   }
 }

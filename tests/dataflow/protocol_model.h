@@ -11,7 +11,9 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
+#include "dataflow/backpressure.h"
 #include "dataflow/flow_control.h"
 #include "dataflow/termination.h"
 
@@ -24,11 +26,13 @@ inline constexpr std::size_t model_peers = model_nodes + 1;
 /// The rules as they are. Broken ones derive from this and hide a member.
 struct ProtocolRules {
   using Termination = dataflow::Termination;
+  using Backpressure = dataflow::Backpressure;
   static constexpr bool counts_overflow = true;  ///< ray packets by way of the host count as ray packets
   static constexpr bool host_returns_credit = true;
   static constexpr bool token_waits_for_rest = true;  ///< a busy member keeps the token
   static constexpr dataflow::Task next_task(const dataflow::NodeState& state) { return dataflow::next_task(state); }
-  static constexpr dataflow::Way way_of(bool owner, bool host) { return dataflow::way_of(owner, host); }
+  static constexpr bool is_passive(const dataflow::NodeState& state) { return dataflow::is_passive(state); }
+  static constexpr dataflow::Way way_of(bool owner, bool queue, bool host) { return dataflow::way_of(owner, queue, host); }
   static constexpr bool forwards(std::uint64_t kept, bool credit) { return dataflow::forwards(kept, credit); }
   static constexpr bool returns_credits(std::uint32_t owed, std::uint32_t batch, bool rests) {
     return dataflow::returns_credits(owed, batch, rests);
@@ -41,6 +45,7 @@ struct ProtocolSettings {
   std::uint8_t credits_each = 1;      ///< packets of rays, for each (sender, target)
   std::uint8_t rays_a_packet = 1;     ///< more than 1 only with one credit
   std::uint8_t return_batch = 1;      ///< credits that a busy node collects
+  std::uint8_t queue_packets = 0;     ///< at most 2
   std::uint8_t owners = model_nodes;  ///< children go to the first so many nodes: fewer, and more children can be explored
 };
 
@@ -57,11 +62,11 @@ inline void hold(bool condition, const char* sentence) {
 template <class Rules>
 class ProtocolModel {
  public:
-  enum class Kind : std::uint8_t { rays, overflow, credits, token, finish };
+  enum class Kind : std::uint8_t { rays, overflow, credits, hold, hold_acknowledgement, token, finish };
 
   struct Message {
     Kind kind{};
-    std::uint8_t count = 0;   ///< of rays or credits; of a token: whether it is black
+    std::uint8_t count = 0;   ///< of rays or credits; of a token: whether it is black; of a hold: whether it holds
     std::uint8_t owner = 0;   ///< of overflowed rays
     std::int8_t balance = 0;  ///< of a token
   };
@@ -70,15 +75,19 @@ class ProtocolModel {
     std::array<Message, 8> messages{};
     std::uint8_t size = 0;
   };
+  /// Rays of the packets queued for one owner, in the order of closing.
+  using Queue = std::array<std::uint8_t, 2>;
   struct Member {
     typename Rules::Termination termination;
+    typename Rules::Backpressure backpressure{0, 0};
     std::uint8_t primaries = 0;
     std::uint8_t children = 0;                         ///< of the hits under way, still to be made
     std::array<std::uint8_t, model_peers> backlog{};   ///< rays by sender; of the host: rays kept, by owner
     std::array<std::uint8_t, model_peers> owed{};      ///< credits to be given back, by sender
     std::array<std::uint8_t, model_peers> credits{};   ///< by target
     std::array<std::uint8_t, model_nodes> gathered{};  ///< rays by owner
-    std::uint8_t waiting = 0;                          ///< rays of the packet without credit
+    std::array<Queue, model_nodes> queue{};            ///< by owner
+    std::uint8_t waiting = 0;                          ///< rays of the packet that has found neither credit nor room
     std::uint8_t waiting_owner = 0;
     bool is_finished = false;
   };
@@ -174,7 +183,8 @@ class ProtocolModel {
 
   Member member(std::size_t peer) const {
     const bool is_host = peer == model_host;
-    Member m{.termination = is_host ? Rules::Termination::initiator() : Rules::Termination::member()};
+    Member m{.termination = is_host ? Rules::Termination::initiator() : Rules::Termination::member(),
+             .backpressure{model_nodes - 1, settings_.queue_packets}};
     m.primaries = is_host ? std::uint8_t{0} : settings_.primaries[peer];
     for (std::size_t target = 0; target < model_peers; ++target) {
       m.credits[target] = target == peer ? std::uint8_t{0} : target == model_host ? std::uint8_t{1} : settings_.credits_each;
@@ -184,7 +194,11 @@ class ProtocolModel {
 
   static void append(std::string& bytes, const Member& m) {
     const auto& token = m.termination.token();
-    const bool flags[] = {m.termination.is_black(), m.termination.holds_token(), m.termination.is_terminated(), m.is_finished,
+    const bool flags[] = {m.termination.is_black(),
+                          m.termination.holds_token(),
+                          m.termination.is_terminated(),
+                          m.backpressure.is_announced(),
+                          m.is_finished,
                           token.is_black != 0};
     char bits = 0;
     for (const bool flag : flags) {
@@ -195,6 +209,8 @@ class ProtocolModel {
               static_cast<char>(token.balance),
               static_cast<char>(m.primaries),
               static_cast<char>(m.children),
+              static_cast<char>(m.backpressure.missing()),
+              static_cast<char>(m.backpressure.holders()),
               static_cast<char>(m.waiting),
               static_cast<char>(m.waiting_owner)};
     const auto add = [&](const auto& counts) {
@@ -206,6 +222,9 @@ class ProtocolModel {
     add(m.owed);
     add(m.credits);
     add(m.gathered);
+    for (const Queue& queue : m.queue) {
+      add(queue);
+    }
   }
 
   bool credits_are_home(const State& state) const {
@@ -225,6 +244,9 @@ class ProtocolModel {
       }
       for (const std::uint8_t rays : m.gathered) {
         count += rays;
+      }
+      for (const Queue& queue : m.queue) {
+        count += queue[0] + queue[1];
       }
     }
     for_each_message(state, [&](const Message& message) { count += carries_rays(message) ? message.count : 0U; });
@@ -301,8 +323,8 @@ class ProtocolModel {
   }
 
   static const char* verb(Kind kind) {
-    constexpr std::array<const char*, 5> verbs{"receives rays", "receives overflow", "receives credits", "receives the token",
-                                               "receives the end"};
+    constexpr std::array<const char*, 7> verbs{"receives rays",   "receives overflow",  "receives credits", "is asked to hold",
+                                               "is acknowledged", "receives the token", "receives the end"};
     return verbs[static_cast<std::size_t>(kind)];
   }
 
@@ -323,6 +345,14 @@ class ProtocolModel {
         break;
       case Kind::credits:
         m.credits[from] = static_cast<std::uint8_t>(m.credits[from] + message.count);
+        send_queued(state, to, from);
+        break;
+      case Kind::hold:
+        m.backpressure.take(message.count != 0);
+        send(state, to, from, {.kind = Kind::hold_acknowledgement});
+        break;
+      case Kind::hold_acknowledgement:
+        m.backpressure.acknowledged();
         break;
       case Kind::token:
         m.termination.take({.balance = message.balance, .is_black = message.count});
@@ -342,21 +372,41 @@ class ProtocolModel {
 
   // ---- A node's quantum --------------------------------------------------------------------------------------------------
 
+  static std::uint32_t queued_in(const Member& m) {
+    std::uint32_t count = 0;
+    for (const Queue& queue : m.queue) {
+      count += (queue[0] > 0 ? 1U : 0U) + (queue[1] > 0 ? 1U : 0U);
+    }
+    return count;
+  }
+
+  static bool may_leave(const Member& m, std::size_t owner) { return m.gathered[owner] > 0 && m.credits[owner] > 0; }
+
   static dataflow::NodeState state_of(const Member& m) {
     const auto any = [](const auto& counts) {
       return std::any_of(counts.begin(), counts.end(), [](std::uint8_t count) { return count > 0; });
     };
-    return {m.waiting > 0, m.children > 0, any(m.backlog), m.primaries > 0, any(m.gathered)};
+    return {.must_announce = m.backpressure.is_due(queued_in(m)),
+            .packet_waits = m.waiting > 0,
+            .is_tracing = m.children > 0,
+            .has_backlog = any(m.backlog),
+            .has_primaries = m.primaries > 0,
+            .admits_primaries = queued_in(m) == 0 && m.backpressure.admits_primaries(),
+            .can_flush = may_leave(m, 0) || may_leave(m, 1) || may_leave(m, 2),
+            .has_gathered = any(m.gathered) || queued_in(m) > 0,
+            .is_unacknowledged = !m.backpressure.is_settled()};
   }
 
   template <class Visit>
   void work(const State& state, std::size_t node, Visit visit) const {
     const dataflow::NodeState what = state_of(state.member[node]);
     const Task task = Rules::next_task(what);
-    if (task == Task::rest || !Rules::token_waits_for_rest) {
+    if (Rules::is_passive(what) || !Rules::token_waits_for_rest) {
       hand_on(state, node, visit);
     }
     switch (task) {
+      case Task::announce:
+        return announce(state, node, visit);
       case Task::send_waiting:
         return send_waiting(state, node, visit);
       case Task::go_on:
@@ -373,16 +423,47 @@ class ProtocolModel {
   }
 
   template <class Visit>
+  void announce(State state, std::size_t node, Visit visit) const {
+    Member& m = state.member[node];
+    const std::uint8_t holds = m.backpressure.announce(queued_in(m)) ? 1 : 0;
+    for (std::size_t other = 0; other < model_nodes; ++other) {
+      if (other != node) {
+        send(state, node, other, {Kind::hold, holds});
+      }
+    }
+    visit(Action{"asks to hold", narrow(node), narrow(node), holds}, state);
+  }
+
+  template <class Visit>
   void send_waiting(State state, std::size_t node, Visit visit) const {
     Member& m = state.member[node];
     const std::size_t owner = m.waiting_owner;
-    const Way way = Rules::way_of(m.credits[owner] > 0, m.credits[model_host] > 0);
+    const bool has_room = queued_in(m) < settings_.queue_packets;
+    const Way way = Rules::way_of(m.credits[owner] > 0, has_room, m.credits[model_host] > 0);
     if (way == Way::wait) {
       return;
     }
+    const std::uint8_t count = std::exchange(m.waiting, std::uint8_t{0});
+    m.waiting_owner = 0;
+    if (way == Way::to_queue) {
+      Queue& queue = m.queue[owner];
+      queue[queue[0] > 0 ? 1 : 0] = count;
+      return visit(Action{"queues rays", narrow(node), narrow(owner), count}, state);
+    }
     const std::size_t target = way == Way::to_owner ? owner : model_host;
-    send_rays(state, node, target, {target == owner ? Kind::rays : Kind::overflow, m.waiting, m.waiting_owner});
-    visit(Action{"sends rays", narrow(node), narrow(target), m.waiting}, (m.waiting = 0, m.waiting_owner = 0, state));
+    send_rays(state, node, target, {target == owner ? Kind::rays : Kind::overflow, count, narrow(owner)});
+    visit(Action{"sends rays", narrow(node), narrow(target), count}, state);
+  }
+
+  void send_queued(State& state, std::size_t node, std::size_t owner) const {
+    if (node == model_host || owner == model_host) {
+      return;
+    }
+    Queue& queue = state.member[node].queue[owner];
+    while (queue[0] > 0 && state.member[node].credits[owner] > 0) {
+      send_rays(state, node, owner, {Kind::rays, queue[0]});
+      queue = {queue[1], 0};
+    }
   }
 
   void send_rays(State& state, std::size_t from, std::size_t to, const Message& message) const {
@@ -460,7 +541,7 @@ class ProtocolModel {
   template <class Visit>
   void flush(const State& state, std::size_t node, Visit visit) const {
     for (std::size_t owner = 0; owner < model_nodes; ++owner) {
-      if (state.member[node].gathered[owner] > 0) {
+      if (may_leave(state.member[node], owner)) {
         State next = state;
         close(next.member[node], owner);
         visit(Action{"flushes a packet", narrow(node), narrow(owner)}, next);

@@ -56,7 +56,7 @@ void check_found(const ProtocolSettings& settings, const std::string& words) {
 // ---- One rule broken each --------------------------------------------------------------------------------------------------
 
 struct WithoutOverflow : ProtocolRules {
-  static dataflow::Way way_of(bool owner, bool) { return owner ? dataflow::Way::to_owner : dataflow::Way::wait; }
+  static dataflow::Way way_of(bool owner, bool queue, bool) { return dataflow::way_of(owner, queue, false); }
 };
 
 struct ForwardingBlindly : ProtocolRules {
@@ -78,6 +78,20 @@ struct WorkingOn : ProtocolRules {
     state.packet_waits = state.packet_waits && !state.is_tracing;
     return dataflow::next_task(state);
   }
+};
+
+struct PassiveWithQueue : ProtocolRules {
+  static bool is_passive(dataflow::NodeState state) {
+    state.has_gathered = state.is_unacknowledged = false;
+    return dataflow::is_passive(state);
+  }
+};
+
+struct HoldingForEver : ProtocolRules {
+  struct Backpressure : dataflow::Backpressure {
+    using dataflow::Backpressure::Backpressure;
+    bool is_due(std::uint32_t queued) const { return !is_announced() && dataflow::Backpressure::is_due(queued); }
+  };
 };
 
 struct Colorless : ProtocolRules {
@@ -128,6 +142,12 @@ TEST_CASE("several credits returned together end in every order of events") {
   check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .return_batch = 2}, 5'000);
 }
 
+TEST_CASE("packets that wait in a queue leave in every order of events") {
+  check_all_orders({.primaries = {2, 0, 0}, .children = children(3), .queue_packets = 1, .owners = 2}, 10'000);
+  check_all_orders({.primaries = {1, 1, 0}, .children = children(3), .queue_packets = 1}, 10'000);
+  check_all_orders({.primaries = {1, 1, 0}, .children = children(4), .queue_packets = 2, .owners = 2}, 10'000);
+}
+
 TEST_CASE("without the way by the host there is a deadlock") {
   check_found<WithoutOverflow>({.primaries = {1, 1, 0}, .children = 4, .owners = 2}, "deadlock");
 }
@@ -146,6 +166,15 @@ TEST_CASE("a node that rests on credits leaves the host with its rays") {
 
 TEST_CASE("a node that works on while a packet waits has no room for the next") {
   check_found<WorkingOn>({.primaries = {1, 0, 0}, .children = 2}, "one packet at most waits");
+}
+
+TEST_CASE("a node that takes queued rays for nothing lets the end be announced too early") {
+  check_found<PassiveWithQueue>({.primaries = {1, 0, 0}, .children = 4, .queue_packets = 1, .owners = 2},
+                                "only when no ray is left");
+}
+
+TEST_CASE("a node that never takes back what it asked of the others keeps their primary rays from starting") {
+  check_found<HoldingForEver>({.primaries = {1, 1, 0}, .children = 3, .queue_packets = 1, .owners = 2}, "deadlock");
 }
 
 TEST_CASE("without colours the end is announced too early") {

@@ -1,0 +1,161 @@
+#include "dataflow/gather.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/expect.h"
+#include "core/units.h"
+
+namespace dmpc::dataflow {
+
+using nodes::Category;
+using nodes::LocalMemory;
+using nodes::NodeId;
+
+Gather::Counters& Gather::Counters::operator+=(const Counters& more) {
+  packets += more.packets;
+  rays += more.rays;
+  packets_overflowed += more.packets_overflowed;
+  rays_overflowed += more.rays_overflowed;
+  packets_flushed += more.packets_flushed;
+  packets_queued += more.packets_queued;
+  queue_high_water = std::max(queue_high_water, more.queue_high_water);
+  return *this;
+}
+
+Gather::Gather(nodes::Node& node, const Capacity& capacity)
+    : node_(&node),
+      host_(NodeId{capacity.node_count}),
+      ray_batch_(capacity.ray_batch),
+      queue_capacity_(capacity.queue_packets),
+      are_nodes_joined_(capacity.ray_credits > 0),
+      room_(node.memory().allocate<std::byte>(Category::queues, capacity.packets() * stride_bytes(capacity.ray_batch))),
+      slots_(node.memory().allocate<Slot>(Category::queues, capacity.packets())),
+      owners_(node.memory().allocate<Owner>(Category::queues, capacity.node_count)) {
+  for (std::size_t slot = capacity.packets(); slot > 0; --slot) {
+    release(static_cast<std::uint16_t>(slot - 1));
+  }
+  for (std::uint32_t i = 0; i < capacity.node_count; ++i) {
+    node.grant(NodeId{i}, ray_channel, NodeId{i} == node.id() ? 0 : capacity.ray_credits);
+  }
+  node.grant(host_, ray_channel, capacity.host_credits);
+}
+
+void Gather::add_needs(nodes::MemoryPlan& plan, const Capacity& capacity) {
+  plan[Category::queues] += LocalMemory::bytes_for<std::byte>(capacity.packets() * stride_bytes(capacity.ray_batch)) +
+                            LocalMemory::bytes_for<Slot>(capacity.packets()) + LocalMemory::bytes_for<Owner>(capacity.node_count);
+}
+
+std::size_t Gather::stride_bytes(std::uint32_t ray_batch) {
+  return core::round_up(ray_packet_bytes(ray_batch), LocalMemory::alignment);
+}
+
+std::uint32_t Gather::credits_returned(NodeId receiver, std::uint32_t count) {
+  node_->grant(receiver, ray_channel, count);
+  std::uint32_t sent = 0;
+  for (; receiver != host_ && owner_at(receiver).first != none && has_credit(receiver); ++sent) {
+    dequeue(receiver);
+  }
+  return sent;
+}
+
+void Gather::add(NodeId owner, const RayMessage& message) {
+  core::expect(!waits(), "no ray is gathered while a packet waits");
+  core::expect(owner != node_->id() && owner != host_, "a ray leaves for another node");
+  std::uint16_t& open = owner_at(owner).open;
+  if (open == none) {
+    core::expect(free_ != none, "every owner finds a slot to be filled");
+    open = free_;
+    free_ = slots_[open].next;
+  }
+  Slot& slot = slots_[open];
+  std::memcpy(packet_in(open).data() + ray_packet_bytes(slot.count), &message, sizeof(message));
+  ++size_;
+  if (++slot.count == ray_batch_) {
+    closed_ = owner;
+  }
+}
+
+/// An open packet is not sent by way of the host as long as it can wait for its owner's credit.
+bool Gather::may_leave(NodeId owner) const { return owner_at(owner).open != none && (has_credit(owner) || !are_nodes_joined_); }
+
+bool Gather::can_flush() const {
+  for (std::uint32_t i = 0; i < owners_.size(); ++i) {
+    if (may_leave(NodeId{i})) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void Gather::flush() {
+  std::uint16_t most = 0;
+  for (std::uint32_t i = 0; i < owners_.size(); ++i) {
+    if (may_leave(NodeId{i}) && slots_[owners_[i].open].count > most) {
+      most = slots_[owners_[i].open].count;
+      closed_ = NodeId{i};
+    }
+  }
+  core::expect(closed_.has_value(), "an open packet is flushed that may leave");
+  ++counters_.packets_flushed;
+}
+
+Way Gather::send() {
+  core::expect(waits(), "a packet is sent that waits");
+  const NodeId owner = *closed_;
+  const bool has_room = are_nodes_joined_ && queued_ < queue_capacity_;
+  const Way way = way_of(has_credit(owner), has_room, has_credit(host_));
+  if (way == Way::wait) {
+    return way;
+  }
+  if (way == Way::to_queue) {
+    enqueue(owner);
+  } else {
+    transmit(owner, owner_at(owner).open, way == Way::to_host);
+  }
+  owner_at(owner).open = none;
+  closed_.reset();
+  return way;
+}
+
+void Gather::enqueue(NodeId owner) {
+  Owner& target = owner_at(owner);
+  slots_[target.open].next = none;
+  (target.first == none ? target.first : slots_[target.last].next) = target.open;
+  target.last = target.open;
+  counters_.queue_high_water = std::max(counters_.queue_high_water, ++queued_);
+  ++counters_.packets_queued;
+}
+
+void Gather::dequeue(NodeId owner) {
+  Owner& target = owner_at(owner);
+  const std::uint16_t slot = target.first;
+  target.first = slots_[slot].next;
+  --queued_;
+  transmit(owner, slot, false);
+}
+
+std::span<std::byte> Gather::packet_in(std::uint16_t slot) const {
+  return room_.subspan(slot * stride_bytes(ray_batch_), ray_packet_bytes(ray_batch_));
+}
+
+void Gather::transmit(NodeId owner, std::uint16_t slot, bool overflows) {
+  const std::uint16_t count = slots_[slot].count;
+  const RayPacketHeader header{count, static_cast<std::uint16_t>(nodes::index_of(owner))};
+  const std::span<std::byte> packet = packet_in(slot).first(ray_packet_bytes(count));
+  std::memcpy(packet.data(), &header, sizeof(header));
+  node_->send_reserved(overflows ? host_ : owner, ray_channel, number_of(overflows ? Kind::overflow : Kind::rays), packet);
+  ++counters_.packets;
+  counters_.rays += count;
+  counters_.packets_overflowed += overflows ? 1 : 0;
+  counters_.rays_overflowed += overflows ? count : 0;
+  size_ -= count;
+  release(slot);
+}
+
+void Gather::release(std::uint16_t slot) {
+  slots_[slot] = {.next = free_};
+  free_ = slot;
+}
+
+}  // namespace dmpc::dataflow
