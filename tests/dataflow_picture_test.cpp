@@ -40,6 +40,25 @@ using Wish = std::optional<std::uint32_t>;
 constexpr Wish ray_batches[] = {1, 3, std::nullopt};
 constexpr Wish ray_credits[] = {0, 1, std::nullopt};
 
+/// A triangle in whose plane a pixel's ray lies, but for the last places of its coordinates. What single precision makes of that
+/// is a hit between the triangle's nearest and farthest point, but beside it by a hundredth of the scene: far more than the pad
+/// within which a triangle is listed in a cell. Such triangles are one in a hundred thousand of those seen edge-on; this one was
+/// found by search. The other two give the grid its bounds.
+core::Scene seen_edge_on() {
+  core::Scene scene;
+  scene.name = "a triangle seen edge-on";
+  scene.view = {.from = {0.3, -3, 0.2}, .at = {0, 0, 0}, .up = {0, 0, 1}, .angle_degrees = 30};
+  scene.background = {0.5, 0.5, 0.5};
+  scene.lights = {{{3, -3, 5}}};
+  core::SceneBuilder builder(scene);
+  builder.polygon({{-1, -1, -1}, {-1, -0.99, -1}, {-1, -1, -0.99}});
+  builder.polygon({{1, 1, 1}, {0.999, 1, 1}, {1, 0.999, 1}});
+  builder.polygon({{0.37941943652965748, 0.77264892108776295, -0.70681051365993297},
+                   {0.15892099387981617, 0.59822641857006276, -0.76008389346263683},
+                   {-0.61854506485126293, -0.4957380389418391, -0.82837147466800487}});
+  return scene;
+}
+
 /// Every pair of choices occurs in some run.
 void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
   const std::array<Subject, 2> subjects = along_both_axes(scene, size);
@@ -101,6 +120,18 @@ TEST_CASE("dataflow: triangles in border planes and rays along border edges are 
   for (const std::uint32_t nodes : {2U, 4U, 13U, 16U, 64U}) {
     for (const dataflow::CutAxes& axes : {dataflow::CutAxes{0, 1}, dataflow::CutAxes{0, 2}, dataflow::CutAxes{1, 2}}) {
       check(subject, {.node_count = nodes, .make_bsp = [&](std::uint32_t n) { return dataflow::equal_size_bsp(size, axes, n); }});
+    }
+  }
+}
+
+TEST_CASE("dataflow: a hit beside the region of its triangle, which its owner cannot shade, goes back to its finder") {
+  const Subject subject(seen_edge_on(), {8, 8}, {.top_cells_per_primitive = 2.75});
+  const core::Corner size = core::grid_size(subject.settings().header.frame);
+  REQUIRE(subject.outcome().primary_hits == 1);
+  for (const std::uint32_t nodes : {8U, 16U, 64U}) {
+    const dataflow::MakeBsp make_bsp = [&](std::uint32_t n) { return dataflow::equal_size_bsp(size, {1, 2}, n); };
+    for (const Wish& credits : ray_credits) {
+      CHECK(check(subject, {.node_count = nodes, .ray_credits = credits, .make_bsp = make_bsp}).rays().hits_sent_back == 1);
     }
   }
 }

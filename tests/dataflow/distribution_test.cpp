@@ -1,0 +1,126 @@
+#include "dataflow/distribution.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "dataflow/balance.h"
+#include "tests/support/border_scene.h"
+#include "tests/support/small_scenes.h"
+#include "tests/support/subject.h"
+
+using namespace dmpc;
+using dataflow::Bsp;
+using dataflow::Distribution;
+using dataflow::PlanRequest;
+using tests::Subject;
+
+namespace {
+
+Bsp equal_regions(const Subject& subject, std::uint32_t node_count) {
+  const core::RenderSettings& settings = subject.settings();
+  return dataflow::equal_size_bsp(core::grid_size(settings.header.frame), dataflow::axes_facing(settings.camera), node_count);
+}
+
+Distribution dealt(const Subject& subject, std::uint32_t node_count) {
+  return dataflow::distribute(subject.database(), subject.settings(), equal_regions(subject, node_count));
+}
+
+double duplication(const Subject& subject, std::uint32_t node_count) {
+  return dealt(subject, node_count).duplication(subject.database());
+}
+
+PlanRequest request_of(const Subject& subject, std::uint32_t node_count) {
+  return {.shares = dealt(subject, node_count).shares(), .ray_batch = 1, .ray_credits = 1, .width = 8, .height = 8};
+}
+
+std::size_t needed_bytes(const Subject& subject, std::uint32_t node_count) {
+  return dataflow::smallest_node_memory_bytes(request_of(subject, node_count));
+}
+
+std::optional<std::uint32_t> smallest_above(const Subject& subject, std::uint32_t node_count, std::size_t memory_bytes) {
+  PlanRequest request = request_of(subject, node_count);
+  request.node_memory_bytes = memory_bytes;
+  return dataflow::smallest_node_count(request, subject.database(), subject.settings(),
+                                       [&](std::uint32_t count) { return equal_regions(subject, count); });
+}
+
+}  // namespace
+
+TEST_CASE("every node is dealt the part of its own region, and every primary ray goes to one node") {
+  const Subject subject(tests::mirrors_and_glass(), {12, 10, 3});
+  Bsp bsp = equal_regions(subject, 5);
+  bsp.assign(std::vector<std::uint32_t>{3, 1, 4, 0, 2});
+  const Distribution distribution = dataflow::distribute(subject.database(), subject.settings(), bsp);
+  std::vector<int> times(std::size_t{12} * 10 * 3);
+  REQUIRE(distribution.parts.size() == 5);
+  REQUIRE(distribution.primaries.size() == 5);
+  for (std::uint32_t node = 0; node < 5; ++node) {
+    CHECK(distribution.parts[node].header.region == bsp.region_of(nodes::NodeId{node}));
+    for (const dataflow::PrimaryRun& run : distribution.primaries[node]) {
+      for (std::uint64_t number = run.first; number < run.first + run.count; ++number) {
+        ++times.at(number);
+      }
+    }
+  }
+  CHECK(std::all_of(times.begin(), times.end(), [](int count) { return count == 1; }));
+}
+
+TEST_CASE("shares say what each node's part and list of primary rays take") {
+  const Subject subject(tests::built_in("teapot-4"), {8, 8});
+  const Distribution distribution = dealt(subject, 3);
+  const std::vector<dataflow::Share> shares = distribution.shares();
+  REQUIRE(shares.size() == 3);
+  for (std::size_t node = 0; node < 3; ++node) {
+    CHECK(shares[node].part_bytes == distribution.parts[node].record_bytes());
+    CHECK(shares[node].primary_runs == distribution.primaries[node].size());
+  }
+}
+
+TEST_CASE("nothing is held twice by one node, or by nodes whose borders are those of top cells") {
+  const Subject subject(tests::BorderScene().scene(), {4, 4}, tests::BorderScene::options());
+  CHECK(duplication(subject, 1) == 1.0);
+  CHECK(duplication(subject, 2) == 1.0);
+  CHECK(duplication(subject, 4) == 1.0);
+}
+
+TEST_CASE("cuts through top cells have primitives held twice, more of them the more cuts") {
+  const Subject subject(tests::built_in("teapot-6"), {4, 4});
+  CHECK(duplication(subject, 1) == 1.0);
+  CHECK(duplication(subject, 16) > 1.0);
+  CHECK(duplication(subject, 64) > duplication(subject, 16));
+}
+
+TEST_CASE("a scene without a primitive is dealt all the same") {
+  const Subject subject(core::Scene{}, {3, 2});
+  const Distribution distribution = dealt(subject, 4);
+  CHECK(distribution.duplication(subject.database()) == 1.0);
+  std::uint64_t rays = 0;
+  for (const auto& runs : distribution.primaries) {
+    for (const dataflow::PrimaryRun& run : runs) {
+      rays += run.count;
+    }
+  }
+  CHECK(rays == 6);
+}
+
+TEST_CASE("the smallest number of nodes that is found fits, and one fewer does not") {
+  const Subject subject(tests::built_in("tetra-5"), {8, 8});
+  for (const std::uint32_t enough : {2U, 3U, 5U, 8U}) {
+    CAPTURE(enough);
+    const std::size_t memory_bytes = needed_bytes(subject, enough);
+    const auto found = smallest_above(subject, 1, memory_bytes);
+    REQUIRE(found);
+    CHECK(*found > 1);
+    CHECK(*found <= enough);
+    CHECK(needed_bytes(subject, *found) <= memory_bytes);
+    CHECK(needed_bytes(subject, *found - 1) > memory_bytes);
+  }
+}
+
+TEST_CASE("only more nodes than were asked for are tried, and none is named where none fits") {
+  const Subject subject(tests::built_in("tetra-5"), {8, 8});
+  CHECK(*smallest_above(subject, 4, needed_bytes(subject, 1)) == 5);
+  CHECK(!smallest_above(subject, 1, std::size_t{200} << 10U));  // less than a thread's stack
+}
