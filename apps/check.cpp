@@ -11,7 +11,7 @@
 #include "apps/load_scene.h"
 #include "apps/output_file.h"
 #include "apps/progress.h"
-#include "apps/summary.h"
+#include "apps/subject.h"
 
 namespace dmpc::apps {
 namespace {
@@ -179,11 +179,7 @@ void add_options(OptionSet options, CheckOptions& check) {
 int check_command(const CheckOptions& options, Interrupt& interrupt) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   const core::Scene scene = load_scene(options.picture);
-  const core::Database database = core::build_database(scene, {});
-  if (database.dropped() > 0) {
-    std::cerr << "dmpc: " << dropped_text(database.dropped()) << '\n';
-  }
-  const core::RenderSettings settings = render_settings(options.picture, scene, database);
+  const auto [database, settings] = build_subject(scene, options.picture);
   const Inspection inspection = inspect_shown(options, database, settings);
   interrupt.set_consequence("the report is incomplete");
   const std::uint64_t unexplained = print_report(options, database, settings.camera, inspection);

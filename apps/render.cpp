@@ -16,9 +16,8 @@
 #include "apps/progress.h"
 #include "apps/run_strategy.h"
 #include "apps/stats.h"
+#include "apps/subject.h"
 #include "apps/summary.h"
-#include "core/database.h"
-#include "core/frame.h"
 #include "core/scenes.h"
 
 namespace dmpc::apps {
@@ -65,26 +64,15 @@ void check_outputs(const RenderOptions& options) {
   }
 }
 
-/// What is rendered.
-struct Subject {
-  core::Database database;
-  core::RenderSettings settings;
-};
-
 /// Reads and builds; a signal ends the process here and now.
 Subject load(const RenderOptions& options, Interrupt& interrupt, Seconds& seconds) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   Stopwatch stopwatch;
   const core::Scene scene = load_scene(options.picture);
   seconds.load = stopwatch.lap();
-  const core::GridAxes axes = options.axes == AxesChoice::screen ? core::screen_axes(scene.view) : core::world_axes;
-  core::Database database = core::build_database(scene, {.page_size_bytes = options.page_size_bytes, .axes = axes});
-  const core::RenderSettings settings = render_settings(options.picture, scene, database);
+  Subject subject = build_subject(scene, options.picture, options.axes, options.page_size_bytes);
   seconds.build = stopwatch.lap();
-  if (database.dropped() > 0) {
-    std::cerr << "dmpc: " << dropped_text(database.dropped()) << '\n';
-  }
-  return {std::move(database), settings};
+  return subject;
 }
 
 /// Plans, and says what the user should know before waiting for the picture; a signal ends the process here and now.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/option_values.h"
+#include "apps/region_options.h"
 #include "core/expect.h"
 #include "dataflow/packets.h"
 #include "dataflow/plan.h"
@@ -16,11 +17,6 @@ namespace dmpc::apps {
 namespace {
 
 using core::UsageError;
-
-/// Columns of loads in 128 MiB.
-constexpr std::int64_t columns_per_side_max = 4096;
-/// No picture has a longer side.
-constexpr std::int64_t subsample_max = 65536;
 
 void set_node_memory(ComputerOptions& computer, const std::string& text) {
   computer.node_memory_bytes = text == "auto" ? std::nullopt : std::optional(parse_size_bytes(text, "--node-memory"));
@@ -49,8 +45,7 @@ void add_computer_options(OptionSet& options, RenderOptions& render) {
   options.add_text(
       "--page-size", "SIZE [1KiB]", [&render](const std::string& text) { set_page_size(render, text); },
       "Size of a page, a power of two from 512B to 64KiB; no record crosses its border");
-  options.add_choice<AxesChoice>("--grid-axes", render.axes, {{"world", AxesChoice::world}, {"screen", AxesChoice::screen}},
-                                 "Directions of the grid, and so of dataflow's regions");
+  add_axes_option(options, render.axes);
 }
 
 void add_page_options(OptionSet& options, PageOptions& pages) {
@@ -71,19 +66,10 @@ void add_ray_options(OptionSet& options, RayOptions& rays) {
   options.add_choice<Balance>("--balance", rays.balance.balance,
                               {{"subsampled", Balance::subsampled}, {"equal-size", Balance::equal_size}},
                               "Regions of about equal load, by a subsampled picture, or of equal size");
-  options.add_number("--subsample", rays.balance.subsample, 1, subsample_max, "8",
-                     "The subsampled picture has one pixel of every NxN");
-  options.add_number("--balance-grid", rays.balance.columns_per_side, 1, columns_per_side_max, "256",
-                     "Columns a side in which the load is counted");
+  add_region_options(options, rays.balance, rays.topology);
   options.add_number("--ray-batch", rays.ray_batch, 1, dataflow::ray_batch_max, "what fills 1 KiB", "Rays in a packet, at most");
   options.add_number("--ray-credits", rays.ray_credits, 0, dataflow::ray_credits_max, "8",
                      "Packets of rays that each node may have under way to each other; 0: all go by way of the host");
-  OptionSet::Choices<nodes::TopologyKind> topologies;
-  for (const auto kind : {nodes::TopologyKind::hypercube, nodes::TopologyKind::mesh, nodes::TopologyKind::torus,
-                          nodes::TopologyKind::fat_tree, nodes::TopologyKind::crossbar}) {
-    topologies.emplace_back(name_of(kind), kind);
-  }
-  options.add_choice("--topology", rays.topology, topologies, "The wiring onto which neighbouring regions are mapped");
 }
 
 void add_study_options(OptionSet& options, RenderOptions& render) {

@@ -20,9 +20,6 @@ enum class Strategy : std::uint8_t { svm, replicated, dataflow };
 /// As the command line calls it.
 const char* name_of(Strategy strategy);
 
-/// The directions of the grid: the world's, or the screen's (right, up, towards the eye).
-enum class AxesChoice : std::uint8_t { world, screen };
-
 /// Who finds what a ray hits: our grid, or Embree (with strategy replicated only).
 enum class TracerChoice : std::uint8_t { grid, embree };
 

@@ -155,7 +155,7 @@ Json options_json(const RenderRecord& record, const Account& account, const Json
                  {"depth", options.picture.depth},
                  {"convention", options.picture.convention == core::Convention::haines ? "haines" : "paper"},
                  {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
-                 {"grid_axes", options.axes == AxesChoice::world ? "world" : "screen"},
+                 {"grid_axes", name_of(options.axes)},
                  {"strategy", name_of(options.strategy)},
                  {"nodes", account.nodes.size()},
                  {"node_memory", account.node_memory_max_bytes},

@@ -29,16 +29,6 @@ double ratio(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// Of the packets that carry rays, those that the host forwards included.
-std::uint64_t ray_bytes(const Traffic& sent) {
-  using dataflow::Kind;
-  std::uint64_t bytes = 0;
-  for (const Kind kind : {Kind::rays, Kind::overflow, Kind::forwarded}) {
-    bytes += sent[number_of(kind)].bytes;
-  }
-  return bytes;
-}
-
 Json travel_json(const Travel& travel, std::uint32_t ray_batch) {
   const dataflow::Gather::Counters& gather = travel.gather;
   const double fill = gather.packets == 0 ? 1.0 : ratio(gather.rays, gather.packets) / ray_batch;
@@ -48,7 +38,7 @@ Json travel_json(const Travel& travel, std::uint32_t ray_batch) {
           {"packets", gather.packets},
           {"packets_flushed", gather.packets_flushed},
           {"mean_fill", fill},
-          {"bytes", ray_bytes(travel.sent)},
+          {"bytes", dataflow::ray_traffic(travel.sent).bytes},
           {"overflow",
            {{"rays", gather.rays_overflowed},
             {"packets", gather.packets_overflowed},

@@ -12,7 +12,7 @@
 #include "apps/progress.h"
 #include "apps/stats.h"
 #include "apps/study_runs.h"
-#include "apps/summary.h"
+#include "apps/subject.h"
 #include "core/scenes.h"
 
 namespace dmpc::apps {
@@ -30,30 +30,19 @@ void check_output(const StudyOptions& options) {
   check_output_path(*options.output, "-o");
 }
 
-/// What all runs render.
-struct Subject {
-  core::Database database;
-  core::RenderSettings settings;
-};
-
-/// Reads and builds; a signal ends the process here and now.
-Subject prepare(const PictureOptions& picture, Interrupt& interrupt) {
+/// A signal ends the process here and now.
+Subject load(const StudyOptions& options, Interrupt& interrupt) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
-  const core::Scene scene = load_scene(picture);
-  core::Database database = core::build_database(scene, {});
-  if (database.dropped() > 0) {
-    std::cerr << "dmpc: " << dropped_text(database.dropped()) << '\n';
-  }
-  const core::RenderSettings settings = render_settings(picture, scene, database);
-  return {std::move(database), settings};
+  return build_subject(load_scene(options.picture), options.picture, options.axes);
 }
 
-std::string title_of(const std::string& study, const PictureOptions& picture, const Subject& subject) {
+std::string title_of(const std::string& study, const StudyOptions& options, const Subject& subject) {
+  const PictureOptions& picture = options.picture;
   const core::Camera& camera = subject.settings.camera;
   return "Study " + study + " of " + picture.scene + ": " + std::to_string(camera.width()) + "x" +
          std::to_string(camera.height()) + " pixels, " + std::to_string(picture.samples) +
          (picture.samples == 1 ? " sample" : " samples") + " a pixel, depth " + std::to_string(picture.depth) + ", convention " +
-         (picture.convention == core::Convention::haines ? "haines" : "paper") + ", " +
+         (picture.convention == core::Convention::haines ? "haines" : "paper") + ", grid axes " + name_of(options.axes) + ", " +
          std::to_string(subject.database.header().primitive_count) + " primitives";
 }
 
@@ -76,7 +65,7 @@ void write(Table& table, const StudyRuns& runs, const StudyOptions& options, std
 
 template <class OneStudy>
 Table empty_table(const OneStudy& study, const StudyOptions& options, const Subject& subject) {
-  Table table(title_of(OneStudy::name, options.picture, subject), study.columns());
+  Table table(title_of(OneStudy::name, options, subject), study.columns());
   for (std::string& note : study.notes(options.picture.scene)) {
     table.add_note(std::move(note));
   }
@@ -85,7 +74,7 @@ Table empty_table(const OneStudy& study, const StudyOptions& options, const Subj
 
 template <class OneStudy>
 void carry_out(const OneStudy& study, const StudyOptions& options, Interrupt& interrupt, std::ostream& output) {
-  const Subject subject = prepare(options.picture, interrupt);
+  const Subject subject = load(options, interrupt);
   Table table = empty_table(study, options, subject);
   StudyRuns runs(subject.database, subject.settings, {std::cerr, stderr_is_terminal(), study.run_count()}, interrupt);
   try {

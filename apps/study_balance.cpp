@@ -4,10 +4,10 @@
 #include <span>
 #include <utility>
 
+#include "apps/ray_hops.h"
 #include "core/scenes.h"
 #include "dataflow/balance.h"
 #include "dataflow/bsp.h"
-#include "dataflow/mapping.h"
 #include "dataflow/run.h"
 
 namespace dmpc::apps {
@@ -18,9 +18,9 @@ using dataflow::Balance;
 const char* name_of(Balance balance) { return balance == Balance::subsampled ? "subsampled" : "equal size"; }
 
 dataflow::RunOptions options_for(const BalanceStudy& study, std::uint32_t node_count, Balance balance) {
-  return {.node_count = node_count,
-          .balance = {.balance = balance, .subsample = study.subsample, .columns_per_side = study.columns_per_side},
-          .topology = study.topology};
+  dataflow::RunOptions options{.node_count = node_count, .balance = study.regions, .topology = study.topology};
+  options.balance.balance = balance;
+  return options;
 }
 
 double percent(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
@@ -30,31 +30,16 @@ Cell average_load_cell(std::span<const double> loads) {
   return loads.empty() ? Cell() : Cell(100 * dataflow::average_load(loads));
 }
 
-/// Hops of a ray under the mapping of the run and under random ones; nothing if no ray has left its node.
-struct Hops {
-  Cell chosen, random;
-};
-
-Hops hops_of(const dataflow::Report& report, nodes::TopologyKind kind) {
-  const std::uint32_t node_count = report.plan.node_count();
-  const std::vector<dataflow::Flow> flows = dataflow::flows_of_matrix(report.ray_matrix(), node_count);
-  if (flows.empty()) {
-    return {};
-  }
-  const nodes::Topology topology(kind, node_count);
-  return {dataflow::mean_hops(dataflow::identity_mapping(node_count), flows, topology),
-          dataflow::mean_hops_of_random(flows, topology)};
-}
-
 std::vector<Cell> summary_row(const dataflow::Report& report, const BalanceStudy& study, Balance balance) {
-  const Hops hops = hops_of(report, study.topology);
+  const RayHops hops = ray_hops_of(report, study.topology);
+  const bool has_hops = report.messages_per_ray() > 0;
   std::vector<Cell> row = {std::uint64_t{report.plan.node_count()},
                            name_of(balance),
                            average_load_cell(report.predicted),
                            average_load_cell(report.work()),
                            report.duplication,
-                           hops.chosen,
-                           hops.random};
+                           has_hops ? Cell(hops.mean) : Cell(),
+                           has_hops ? Cell(hops.mean_of_random) : Cell()};
   row.resize(study.columns().size());
   return row;
 }
@@ -113,7 +98,7 @@ void BalanceStudy::measure(StudyRuns& runs, Table& table) const {
 }
 
 std::vector<std::string> BalanceStudy::notes(const std::string& scene) const {
-  const std::string step = std::to_string(subsample);
+  const std::string step = std::to_string(regions.subsample);
   std::vector<std::string> notes = {
       "Average load: mean over maximum of the nodes' work, which is counted operations at measured prices.",
       "Predicted: by the picture of one pixel of every " + step + "x" + step + ".",

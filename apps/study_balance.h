@@ -7,6 +7,7 @@
 
 #include "apps/study_runs.h"
 #include "apps/study_table.h"
+#include "dataflow/balance.h"
 #include "nodes/topology.h"
 
 namespace dmpc::apps {
@@ -18,8 +19,7 @@ struct BalanceStudy {
   static constexpr const char* description = "How evenly the work of rays that travel is shared out";
 
   std::vector<std::uint32_t> node_counts = {4, 8, 16, 32, 64};
-  int subsample = 8;                    ///< one pixel of every subsample x subsample predicts the load
-  std::int32_t columns_per_side = 256;  ///< of the lattice that loads are counted on
+  dataflow::BalanceOptions regions;  ///< how loads are predicted; its `balance` is without meaning
   nodes::TopologyKind topology = nodes::TopologyKind::hypercube;
   bool per_node = false;  ///< below each row one more for each node, with its share of the work
 

@@ -6,14 +6,12 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/region_options.h"
 #include "core/expect.h"
 #include "dataflow/bsp.h"
-#include "nodes/topology.h"
 
 namespace dmpc::apps {
 namespace {
-
-using nodes::TopologyKind;
 
 [[noreturn]] void refuse_node_counts(std::string_view text) {
   throw core::UsageError("--nodes=" + std::string(text) + ": expected numbers from 1 to " +
@@ -50,24 +48,13 @@ void add_node_counts(OptionSet& set, std::vector<std::uint32_t>& counts) {
       "Nodes of the computers, one after the other");
 }
 
-OptionSet::Choices<TopologyKind> topologies() {
-  OptionSet::Choices<TopologyKind> choices;
-  for (const TopologyKind kind :
-       {TopologyKind::hypercube, TopologyKind::mesh, TopologyKind::torus, TopologyKind::fat_tree, TopologyKind::crossbar}) {
-    choices.emplace_back(nodes::name_of(kind), kind);
-  }
-  return choices;
-}
-
 /// One overload a study: its own options, and examples.
 struct AddOwn {
   OptionSet& set;
 
   void operator()(BalanceStudy& study) const {
     add_node_counts(set, study.node_counts);
-    set.add_number("--subsample", study.subsample, 1, 65536, "8", "One pixel of every NxN predicts the load");
-    set.add_number("--balance-grid", study.columns_per_side, 1, 4096, "256", "Columns a side that the load is counted on");
-    set.add_choice<TopologyKind>("--topology", study.topology, topologies(), "How the nodes are wired, for counting hops");
+    add_region_options(set, study.regions, study.topology);
     set.add_flag("--per-node", study.per_node, "Show each node's share of the work, too");
     set.set_examples(
         "Examples:\n"
@@ -87,6 +74,7 @@ struct AddOwn {
 
 void add_options(OptionSet set, StudyOptions& options) {
   add_options(set, options.picture);
+  add_axes_option(set, options.axes);
   std::visit(AddOwn{set}, options.study);
   set.add_choice<TableFormat>("--format", options.format,
                               {{"markdown", TableFormat::markdown}, {"csv", TableFormat::csv}, {"json", TableFormat::json}},

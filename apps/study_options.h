@@ -20,6 +20,7 @@ using Study = std::variant<BalanceStudy, TrafficStudy>;
 struct StudyOptions {
   Study study;
   PictureOptions picture;
+  AxesChoice axes = AxesChoice::world;
   TableFormat format = TableFormat::markdown;
   std::optional<std::filesystem::path> output;  ///< stdout if not given
 };

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "apps/figures.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -16,22 +17,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Line = std::vector<std::string>;
 
-/// The shortest that reads back as the same number, or so many decimal places.
-template <class... Precision>
-std::string digits_of(double value, Precision... precision) {
-  std::array<char, 400> text{};
-  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value, precision...);
-  core::expect(error == std::errc(), "a real number fits its text");
+/// The shortest that reads back as the same number.
+std::string digits_of(double value) {
+  std::array<char, 32> text{};
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value);
+  core::expect(error == std::errc(), "the shortest text of a real number has a bound");
   return {text.data(), end};
-}
-
-/// 1234567 as 1,234,567.
-std::string grouped(std::uint64_t value) {
-  std::string text = std::to_string(value);
-  for (std::size_t place = text.size(); place > 3; place -= 3) {
-    text.insert(place - 3, 1, ',');
-  }
-  return text;
 }
 
 std::string header_of(const Column& column) { return column.unit.empty() ? column.name : column.name + " (" + column.unit + ")"; }
@@ -51,7 +42,7 @@ struct MarkdownCell {
   std::string operator()(std::monostate) const { return ""; }
   std::string operator()(const std::string& text) const { return escaped(text); }
   std::string operator()(std::uint64_t number) const { return grouped(number); }
-  std::string operator()(double number) const { return digits_of(number, std::chars_format::fixed, digits); }
+  std::string operator()(double number) const { return fixed(number, digits); }
 };
 
 /// How one column is laid out.

@@ -5,7 +5,6 @@
 
 #include "dataflow/balance.h"
 #include "dataflow/bsp.h"
-#include "dataflow/packets.h"
 #include "dataflow/run.h"
 #include "svm/packets.h"
 #include "svm/run.h"
@@ -14,18 +13,6 @@ namespace dmpc::apps {
 namespace {
 
 using dataflow::Balance;
-using nodes::Traffic;
-
-/// Packets of rays, whichever way they take.
-Traffic ray_traffic(const dataflow::Report& report) {
-  const auto sent = report.sent();
-  Traffic sum;
-  for (const dataflow::Kind kind : {dataflow::Kind::rays, dataflow::Kind::overflow, dataflow::Kind::forwarded}) {
-    sum.packets += sent[dataflow::number_of(kind)].packets;
-    sum.bytes += sent[dataflow::number_of(kind)].bytes;
-  }
-  return sum;
-}
 
 /// Of the node that used most.
 template <class Report>
@@ -47,7 +34,7 @@ double average_load_percent(const dataflow::Report& report) { return 100 * dataf
 /// In the order of columns().
 std::vector<Cell> ray_cells(const dataflow::Report& report) {
   const dataflow::Gather::Counters gathers = report.gathers();
-  const Traffic traffic = ray_traffic(report);
+  const nodes::Traffic traffic = dataflow::ray_traffic(report.sent());
   return {report.messages_per_ray(),
           gathers.rays,
           traffic.packets,
@@ -59,7 +46,7 @@ std::vector<Cell> ray_cells(const dataflow::Report& report) {
 }
 
 std::vector<Cell> page_cells(const svm::Report& report) {
-  const Traffic replies = report.sent()[svm::number_of(svm::Kind::page_reply)];
+  const nodes::Traffic replies = report.sent()[svm::number_of(svm::Kind::page_reply)];
   return {report.pages().faults, replies.bytes, memory_max_bytes(report)};
 }
 

@@ -215,6 +215,15 @@ std::array<nodes::Traffic, nodes::packet_kind_count> Report::received() const {
   return sum;
 }
 
+nodes::Traffic ray_traffic(const TrafficByKind& by_kind) {
+  nodes::Traffic sum;
+  for (const Kind kind : {Kind::rays, Kind::overflow, Kind::forwarded}) {
+    sum.packets += by_kind[number_of(kind)].packets;
+    sum.bytes += by_kind[number_of(kind)].bytes;
+  }
+  return sum;
+}
+
 Prepared prepare(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                  const std::stop_token& stop) {
   Regions regions = regions_for(options.node_count, database, settings, options, stop);

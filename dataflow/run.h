@@ -79,6 +79,9 @@ struct Report {
   std::array<nodes::Traffic, nodes::packet_kind_count> received() const;
 };
 
+/// What of this traffic is packets with rays, by whatever way: those by way of the host count twice, as they come and as they go.
+nodes::Traffic ray_traffic(const std::array<nodes::Traffic, nodes::packet_kind_count>& by_kind);
+
 /// All that is settled before a run.
 struct Prepared {
   Distribution distribution;      ///< regions on their nodes, and what these are dealt

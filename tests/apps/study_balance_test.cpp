@@ -39,7 +39,7 @@ TEST_CASE("balance has a row for each node count and way to cut") {
 }
 
 TEST_CASE("regions by the subsampled picture are more even than those of equal size") {
-  const Table table = StudySubject("rings-2-t1", 64).measure(BalanceStudy{.node_counts = {8}, .subsample = 2});
+  const Table table = StudySubject("rings-2-t1", 64).measure(BalanceStudy{.node_counts = {8}, .regions = {.subsample = 2}});
   CHECK(real(table, 0, "average load achieved") > 1.5 * real(table, 1, "average load achieved"));
   CHECK(real(table, 0, "average load predicted") > real(table, 1, "average load achieved"));
   CHECK(real(table, 0, "average load predicted") <= 100);

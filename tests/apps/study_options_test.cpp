@@ -43,22 +43,24 @@ TEST_CASE("a study and a scene are all that study needs") {
   CHECK(options.format == TableFormat::markdown);
   CHECK_FALSE(options.output);
   CHECK(balance().node_counts == Counts{4, 8, 16, 32, 64});
-  CHECK(balance().subsample == 8);
-  CHECK(balance().columns_per_side == 256);
+  CHECK(balance().regions.subsample == 8);
+  CHECK(balance().regions.columns_per_side == 256);
   CHECK(balance().topology == nodes::TopologyKind::hypercube);
   CHECK_FALSE(balance().per_node);
   CHECK(std::get<TrafficStudy>(study("traffic").study).node_counts == Counts{1, 2, 4, 8, 16, 32, 64});
 }
 
 TEST_CASE("options of a study are taken") {
-  const StudyOptions options = study("traffic", {"--nodes=3", "--depth=2", "--format=json", "-o", "a.json"});
+  const StudyOptions options =
+      study("traffic", {"--nodes=3", "--depth=2", "--grid-axes=screen", "--format=json", "-o", "a.json"});
   CHECK(std::get<TrafficStudy>(options.study).node_counts == Counts{3});
   CHECK(options.picture.depth == 2);
+  CHECK(options.axes == AxesChoice::screen);
   CHECK(options.format == TableFormat::json);
   CHECK(options.output == "a.json");
   const BalanceStudy taken = balance({"--subsample=4", "--balance-grid=16", "--topology=fat-tree", "--per-node"});
-  CHECK(taken.subsample == 4);
-  CHECK(taken.columns_per_side == 16);
+  CHECK(taken.regions.subsample == 4);
+  CHECK(taken.regions.columns_per_side == 16);
   CHECK(taken.topology == nodes::TopologyKind::fat_tree);
   CHECK(taken.per_node);
 }

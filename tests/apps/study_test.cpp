@@ -55,7 +55,8 @@ std::vector<std::string> endless_study(const std::string& resolution, const std:
 
 TEST_CASE("a study says what it studied, its rows, and the film of all runs") {
   const std::string text = output_of(small_study());
-  CHECK(contains(text, "Study traffic of balls-1: 16x16 pixels, 1 sample a pixel, depth 5, convention haines, "));
+  CHECK(
+      contains(text, "Study traffic of balls-1: 16x16 pixels, 1 sample a pixel, depth 5, convention haines, grid axes world, "));
   CHECK(count(text, "\n|") == 4);
   CHECK(contains(text, "Film of every run, 6 in all: "));
   CHECK_FALSE(contains(text, "Interrupted"));

@@ -1,0 +1,24 @@
+// A scene as the nodes are given it.
+#pragma once
+
+#include <cstddef>
+
+#include "apps/picture_options.h"
+#include "core/database.h"
+#include "core/pixel_task.h"
+#include "core/scene.h"
+
+namespace dmpc::apps {
+
+/// What is rendered.
+struct Subject {
+  core::Database database;
+  core::RenderSettings settings;
+};
+
+/// The database of `scene`, and its picture. Says on stderr if primitives were left out. Throws core::InputError as
+/// core::build_database() does.
+Subject build_subject(const core::Scene& scene, const PictureOptions& picture, AxesChoice axes = AxesChoice::world,
+                      std::size_t page_size_bytes = 1024);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,28 @@
+#include "apps/subject.h"
+
+#include <doctest/doctest.h>
+
+#include "apps/load_scene.h"
+
+namespace dmpc::apps {
+
+TEST_CASE("a subject has the scene's records and the picture that was asked for") {
+  const PictureOptions picture{.scene = "tetra-3", .resolution = Resolution{20, 10}, .samples = 2, .depth = 3};
+  const Subject subject = build_subject(load_scene(picture), picture);
+  CHECK(subject.database.header().primitive_count == 64);
+  CHECK(subject.database.page_size() == 1024);
+  CHECK(subject.settings.camera.width() == 20);
+  CHECK(subject.settings.camera.height() == 10);
+  CHECK(subject.settings.shade.depth_max == 3);
+}
+
+TEST_CASE("a subject's page size and axes are those asked for") {
+  const PictureOptions picture{.scene = "tetra-3"};
+  const core::Scene scene = load_scene(picture);
+  const Subject world = build_subject(scene, picture, AxesChoice::world, 512);
+  const Subject screen = build_subject(scene, picture, AxesChoice::screen, 512);
+  CHECK(world.database.page_size() == 512);
+  CHECK(world.settings.camera.primary_ray(0, 0).direction != screen.settings.camera.primary_ray(0, 0).direction);
+}
+
+}  // namespace dmpc::apps
