@@ -70,17 +70,17 @@ svm::Report run_replicated(std::uint64_t seed) {
   return svm::run_replicated(subject().database(), subject().settings(), options_of(seed, draws), {});
 }
 
-/// With one ray a message or more, and with no credits between nodes, one or more.
+/// With one ray a message or more, with no credits between nodes, one or more, and with short queues or long ones.
 dataflow::Report run_dataflow(std::uint64_t seed) {
+  constexpr std::optional<std::uint32_t> ray_credits[] = {0, 1, std::nullopt}, queue_packets[] = {0, 1, 2, std::nullopt};
   nodes::ChaosStream draws = draws_of(seed);
   dataflow::RunOptions options{.node_count = node_count(draws)};
-  const std::uint32_t ray_batch = draws.below(11), ray_credits = draws.below(3);
+  const std::uint32_t ray_batch = draws.below(11);
   if (ray_batch > 0) {
     options.ray_batch = ray_batch;
   }
-  if (ray_credits < 2) {
-    options.ray_credits = ray_credits;
-  }
+  options.ray_credits = ray_credits[draws.below(std::size(ray_credits))];
+  options.queue_packets = queue_packets[draws.below(std::size(queue_packets))];
   options.balance = {.balance = draws.chance(50) ? dataflow::Balance::subsampled : dataflow::Balance::equal_size, .subsample = 4};
   options.chaos = nodes::chaos_of(seed);
   return dataflow::run_dataflow(subject().database(), subject().settings(), options, {});

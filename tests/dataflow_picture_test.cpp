@@ -39,6 +39,7 @@ constexpr std::uint32_t node_counts[] = {1, 2, 3, 5, 8, 16, 64};
 using Wish = std::optional<std::uint32_t>;
 constexpr Wish ray_batches[] = {1, 3, std::nullopt};
 constexpr Wish ray_credits[] = {0, 1, std::nullopt};
+constexpr Wish queues[] = {0, 1, std::nullopt};
 
 /// A triangle in whose plane a pixel's ray lies, but for the last places of its coordinates. What single precision makes of that
 /// is a hit between the triangle's nearest and farthest point, but beside it by a hundredth of the scene: far more than the pad
@@ -62,31 +63,34 @@ core::Scene seen_edge_on() {
 /// Every pair of choices occurs in some run.
 void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
   const std::array<Subject, 2> subjects = along_both_axes(scene, size);
-  for (const auto& row : pairwise({std::size(node_counts), std::size(ray_batches), std::size(ray_credits), 2, 2, 2, 2})) {
+  for (const auto& row :
+       pairwise({std::size(node_counts), std::size(ray_batches), std::size(ray_credits), std::size(queues), 2, 2, 2, 2})) {
     RunOptions options{.node_count = node_counts[row[0]]};
     options.ray_batch = ray_batches[row[1]];
     options.ray_credits = ray_credits[row[2]];
-    options.balance = {.balance = row[3] == 0 ? Balance::subsampled : Balance::equal_size, .subsample = 4};
-    options.traversal.skip_empty_space = row[4] == 0;
-    if (row[5] == 1) {
+    options.queue_packets = queues[row[3]];
+    options.balance = {.balance = row[4] == 0 ? Balance::subsampled : Balance::equal_size, .subsample = 4};
+    options.traversal.skip_empty_space = row[5] == 0;
+    if (row[6] == 1) {
       options.topology = nodes::TopologyKind::hypercube;
     }
     CAPTURE(row[1]);
     CAPTURE(row[2]);
     CAPTURE(row[3]);
     CAPTURE(row[4]);
-    CAPTURE(row[6]);
-    check(subjects[row[6]], options);
+    CAPTURE(row[5]);
+    CAPTURE(row[7]);
+    check(subjects[row[7]], options);
   }
 }
 
 }  // namespace
 
-TEST_CASE("dataflow: any nodes, batches, credits, balances, skips and axes give the picture of mirrors and glass") {
+TEST_CASE("dataflow: any nodes, batches, credits, queues, balances, skips and axes give the picture of mirrors and glass") {
   check_pairwise(mirrors_and_glass(), {20, 20});
 }
 
-TEST_CASE("dataflow: any nodes, batches, credits, balances, skips and axes give the picture of gears") {
+TEST_CASE("dataflow: any nodes, batches, credits, queues, balances, skips and axes give the picture of gears") {
   check_pairwise(built_in("gears-2"), {16, 16});
 }
 
@@ -138,7 +142,7 @@ TEST_CASE("dataflow: a hit beside the region of its triangle, which its owner ca
 
 TEST_CASE("dataflow: repeated runs give one picture and the same counts of rays between each two nodes") {
   const Subject subject(mirrors_and_glass(), {16, 16});
-  const RunOptions ample{.node_count = 6}, starved{.node_count = 64, .ray_batch = 1, .ray_credits = 1};
+  const RunOptions ample{.node_count = 6}, starved{.node_count = 64, .ray_batch = 1, .ray_credits = 1, .queue_packets = 0};
   for (const RunOptions& options : {ample, starved}) {
     const std::vector<std::uint64_t> matrix = check(subject, options).ray_matrix();
     for (int i = 0; i < 20; ++i) {

@@ -79,7 +79,7 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
   }
 }
 
-/// Every strategy on any number of nodes, dataflow also with one ray a message and with the least credits.
+/// Every strategy on any number of nodes, dataflow also with one ray a message, the least credits and no queue.
 void check_strategies(const Subject& subject) {
   for (const std::uint32_t nodes : {1U, 2U, 3U, 5U, 8U, 16U, 64U}) {
     CAPTURE(nodes);
@@ -87,7 +87,8 @@ void check_strategies(const Subject& subject) {
     CHECK(svm == subject.outcome());
     CHECK(svm == outcome_of(run_replicated(subject, {.node_count = nodes})));
     CHECK(svm == outcome_of(run_dataflow(subject, {.node_count = nodes})));
-    CHECK(svm == outcome_of(run_dataflow(subject, {.node_count = nodes, .ray_batch = 1, .ray_credits = nodes % 2})));
+    const dataflow::RunOptions least{.node_count = nodes, .ray_batch = 1, .ray_credits = nodes % 2, .queue_packets = 0};
+    CHECK(svm == outcome_of(run_dataflow(subject, least)));
   }
 }
 

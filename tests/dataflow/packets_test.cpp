@@ -79,6 +79,8 @@ TEST_CASE("packets of rays and film are bulk, however short, and those of contro
   CHECK(dataflow::ray_packet_bytes(1) > nodes::small_payload_bytes);
   CHECK(dataflow::film_packet_bytes(dataflow::film_packet_entries) > nodes::small_payload_bytes);
   CHECK(dataflow::is_small_packet<dataflow::Credits>);
+  CHECK(dataflow::is_small_packet<dataflow::Hold>);
+  CHECK(dataflow::is_small_packet<dataflow::HoldAcknowledgement>);
   CHECK(dataflow::is_small_packet<dataflow::Token>);
   CHECK(dataflow::is_small_packet<dataflow::Finish>);
   CHECK(dataflow::is_small_packet<dataflow::FilmAcknowledgement>);
