@@ -61,7 +61,7 @@ TEST_CASE("the figures of pages are those of svm's own run") {
   const Table table = subject.measure(TrafficStudy{.node_counts = {2}});
   const svm::Report report = subject.runs.run("again", svm::RunOptions{.node_count = 2});
   CHECK(whole(table, 0, "faults") > 0);
-  CHECK(whole(table, 0, "page traffic") >= whole(table, 0, "faults") * subject.database.page_size());
+  CHECK(whole(table, 0, "page traffic") >= whole(table, 0, "faults") * subject.subject.database.page_size());
   CHECK(whole(table, 0, "svm memory") == report.plan.node_memory_max_bytes());
 }
 

@@ -61,6 +61,7 @@ TEST_CASE("a ray that passes from one region to the other is one message in a pa
   CHECK(report.nodes[1].program.rays.ended == 1);
   CHECK(report.sent()[number_of(Kind::rays)].packets == 1);
   CHECK(report.sent()[number_of(Kind::rays)].bytes == sizeof(nodes::PacketHeader) + dataflow::ray_packet_bytes(1));
+  CHECK(dataflow::ray_traffic(report.sent()).bytes == report.sent()[number_of(Kind::rays)].bytes);
   CHECK(report.host_rays.rays_in == 0);
 }
 
@@ -76,6 +77,7 @@ TEST_CASE("the same ray by way of the host is one message, too") {
   CHECK(report.sent()[number_of(Kind::rays)].packets == 0);
   CHECK(report.sent()[number_of(Kind::overflow)].packets == 1);
   CHECK(report.sent()[number_of(Kind::forwarded)].packets == 1);
+  CHECK(dataflow::ray_traffic(report.sent()).packets == 2);
   CHECK(report.host_rays.rays_in == 1);
   CHECK(report.host_rays.rays_out == 1);
   CHECK(report.host_rays.rays_kept_max == 1);

@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "apps/interrupt.h"
-#include "apps/picture_options.h"
 #include "apps/study_runs.h"
 #include "apps/study_table.h"
-#include "core/database.h"
+#include "apps/subject.h"
 #include "tests/support/small_scenes.h"
 
 namespace dmpc::tests {
@@ -17,9 +16,7 @@ namespace dmpc::tests {
 /// A built-in scene, and runs of it.
 struct StudySubject {
   explicit StudySubject(const std::string& name, int size = 32)
-      : scene(built_in(name)),
-        database(core::build_database(scene, {})),
-        settings(apps::render_settings({.scene = name, .resolution = apps::Resolution{size, size}}, scene, database)) {}
+      : subject(apps::build_subject(built_in(name), {.scene = name, .resolution = apps::Resolution{size, size}})) {}
 
   template <class Study>
   apps::Table measure(const Study& study) {
@@ -28,12 +25,10 @@ struct StudySubject {
     return table;
   }
 
-  core::Scene scene;
-  core::Database database;
-  core::RenderSettings settings;
+  apps::Subject subject;
   apps::Interrupt interrupt;
   std::ostringstream progress;
-  apps::StudyRuns runs{database, settings, {progress, true, 9}, interrupt};
+  apps::StudyRuns runs{subject.database, subject.settings, {progress, true, 9}, interrupt};
 };
 
 /// What stands in the column called `name` of `row`.
