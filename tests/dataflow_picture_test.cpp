@@ -191,6 +191,36 @@ TEST_CASE("dataflow: a scene that does not fit says which number of nodes works,
   check(subject, options);
 }
 
+TEST_CASE("dataflow: the smallest memory that a plan names renders the same picture") {
+  const Subject subject(built_in("teapot-4"), {16, 16});
+  for (const std::uint32_t nodes : {1U, 3U, 16U}) {
+    RunOptions options{.node_count = nodes};
+    const dataflow::Plan ample = dataflow::prepare(subject.database(), subject.settings(), options).plan;
+    options.node_memory_bytes = dataflow::smallest_node_memory_bytes(ample.request);
+    CHECK(check(subject, options).plan.node_memory_max_bytes() == options.node_memory_bytes);
+  }
+}
+
+TEST_CASE("dataflow: light beyond what a film holds gives the same picture in whatever order it comes") {
+  core::Scene scene = mirrors_and_glass();
+  scene.background = {1e12, 1.5e9, 1e300};
+  scene.lights[0] = {scene.lights[0].position, {-1e12, 2e9, 0.5}, true};
+  const Subject subject(scene, {12, 12, 3});
+  for (const std::uint32_t nodes : {1U, 3U, 16U}) {
+    const dataflow::Report report = check(subject, {.node_count = nodes, .ray_batch = 1});
+    CHECK(report.operations().deposits_saturated + report.host_rays.deposits_saturated > 0);
+  }
+}
+
+TEST_CASE("dataflow: a scene without a primitive is the background on any number of nodes") {
+  core::Scene scene;
+  scene.background = {0.2, 0, 0.1};
+  const Subject subject(scene, {5, 4});
+  for (const std::uint32_t nodes : {1U, 4U, 64U}) {
+    CHECK(check(subject, {.node_count = nodes}).gathers().rays == 0);
+  }
+}
+
 TEST_CASE("dataflow: a stop request interrupts the run") {
   const Subject subject(mirrors_and_glass(), {64, 64});
   std::stop_source source;

@@ -8,6 +8,7 @@
 
 #include "core/camera.h"
 #include "core/traversal.h"
+#include "tests/support/border_scene.h"
 #include "tests/support/small_scenes.h"
 
 namespace {
@@ -17,18 +18,18 @@ using core::Corner;
 using core::DatabasePart;
 using core::Region;
 
-/// Cuts the grid into `count` random boxes that tile it, at any finest cell.
-std::vector<Region> random_regions(const Corner& size, std::size_t count, std::mt19937& random) {
+/// Cuts the grid into `count` random boxes that tile it, at multiples of `step` finest cells.
+std::vector<Region> random_regions(const Corner& size, std::size_t count, std::mt19937& random, std::int32_t step = 1) {
   std::vector<Region> regions{{.high = size}};
   while (regions.size() < count) {
     const std::size_t victim = random() % regions.size(), axis = random() % 3;
     Region& low = regions[victim];
-    if (low.high[axis] - low.low[axis] < 2) {
+    if (low.high[axis] - low.low[axis] < 2 * step) {
       continue;
     }
     Region high = low;
-    const auto room = static_cast<std::uint32_t>(low.high[axis] - low.low[axis] - 1);
-    low.high[axis] = high.low[axis] = low.low[axis] + 1 + static_cast<std::int32_t>(random() % room);
+    const auto room = static_cast<std::uint32_t>((low.high[axis] - low.low[axis]) / step - 1);
+    low.high[axis] = high.low[axis] = low.low[axis] + step * (1 + static_cast<std::int32_t>(random() % room));
     regions.push_back(high);
   }
   return regions;
@@ -93,13 +94,27 @@ class Parts {
   std::vector<DatabasePart> parts_;
 };
 
+/// Whether the ray met more than one region on its way.
+bool check_same_answer(const core::Database& database, const Parts& parts, const core::Ray& ray) {
+  core::LocalRecords whole(database.bytes());
+  core::Cursor cursor;
+  core::Operations operations;
+  const core::Traced expected = core::trace(ray, cursor, whole, database.header(), {}, operations);
+  const Answer answer = parts.trace(ray);
+  CHECK(answer.traced == expected);
+  if (ray.kind != core::RayKind::shadow) {
+    CHECK(answer.hit.primitive == cursor.best.primitive);
+    CHECK(answer.hit.t == cursor.best.t);
+  }
+  return answer.passages > 1;
+}
+
 void check_same_answers(const core::Scene& scene, std::size_t region_count, std::uint32_t seed) {
   CAPTURE(seed);
   std::mt19937 random(seed);
   const core::Database database = core::build_database(scene, {});
   const Parts parts(database, random_regions(core::grid_size(database.header().frame), region_count, random));
   const core::Camera camera(scene.view, database.header().frame, 40, 40, 1);
-  core::LocalRecords whole(database.bytes());
   int travellers = 0;
   for (std::uint32_t i = 0; i < 20000; ++i) {
     core::Ray ray = camera.primary_ray(i % camera.pixel_count(), 0);
@@ -110,19 +125,21 @@ void check_same_answers(const core::Scene& scene, std::size_t region_count, std:
       ray.direction = i % 7 == 0 ? core::Vec3f{0, 1, 0} : core::normalize(towards);
       ray.kind = i % 2 == 0 ? core::RayKind::shadow : core::RayKind::reflected;
     }
-    core::Cursor cursor;
-    core::Operations operations;
-    const core::Traced expected = core::trace(ray, cursor, whole, database.header(), {}, operations);
-    const Answer answer = parts.trace(ray);
     CAPTURE(i);
-    CHECK(answer.traced == expected);
-    if (ray.kind != core::RayKind::shadow) {
-      CHECK(answer.hit.primitive == cursor.best.primitive);
-      CHECK(answer.hit.t == cursor.best.t);
-    }
-    travellers += answer.passages > 1 ? 1 : 0;
+    travellers += check_same_answer(database, parts, ray) ? 1 : 0;
   }
   CHECK((travellers > 1000) == (region_count > 1));
+}
+
+/// From a corner of cells, straight along an axis, or diagonally: in planes between cells, along their edges, through corners.
+core::Ray ray_along_borders(float finest_cell, std::mt19937& random) {
+  core::Ray ray;
+  ray.kind = core::RayKind::reflected;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    ray.origin[axis] = static_cast<float>(random() % 9 * 16) * finest_cell;
+    ray.direction[axis] = static_cast<float>(random() % 3) - 1.0F;
+  }
+  return ray;
 }
 
 }  // namespace
@@ -134,6 +151,21 @@ TEST_CASE("rays that travel from region to region find what they find in the who
   check_same_answers(tests::built_in("teapot-4"), 40, 4);
   check_same_answers(tests::built_in("tetra-5"), 24, 5);
   check_same_answers(tests::built_in("gears-2"), 17, 6);
+}
+
+TEST_CASE("rays in border planes, along edges and through corners find in parts what they find in the whole scene") {
+  const core::Database database = core::build_database(tests::BorderScene().scene(), tests::BorderScene::options());
+  const core::GridFrame& frame = database.header().frame;
+  std::mt19937 random(8);
+  for (const std::size_t region_count : {2U, 8U, 30U}) {
+    const Parts parts(database, random_regions(core::grid_size(frame), region_count, random, 16));
+    int travellers = 0;
+    for (int i = 0; i < 8000; ++i) {
+      CAPTURE(i);
+      travellers += check_same_answer(database, parts, ray_along_borders(frame.finest_cell, random)) ? 1 : 0;
+    }
+    CHECK(travellers > 500);
+  }
 }
 
 TEST_CASE("a part of the whole grid answers like the whole") { check_same_answers(tests::built_in("rings-1"), 1, 1); }
