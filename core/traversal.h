@@ -47,6 +47,18 @@ inline std::optional<Passage> first_passage(const Ray& ray, const GridFrame& fra
   return Passage{.t_enter = cursor.t_enter, .cell = walk.first_cell(cursor)};
 }
 
+/// What trace() would answer from `passage` on in a region that has no records, without reading any. After Traced::left `passage`
+/// is where the ray goes on, else where it was.
+inline Traced pass(const Ray& ray, const GridFrame& frame, const Region& region, Passage& passage, Operations& operations) {
+  Cursor cursor = arrive(passage);
+  Walk(ray, frame, region).leave_region(ray, cursor, operations);
+  const Traced traced = finish(cursor);
+  if (traced == Traced::left) {
+    passage = passage_of(cursor);
+  }
+  return traced;
+}
+
 /// Walks `ray` through the grid until its nearest hit in (0, ray.t_max) is known (for a shadow ray: any hit), no hit can exist,
 /// or a record is absent. After Traced::absent, call again with the same cursor once the record of cursor.absent is there: the
 /// answer has the same bits as without the interruption. Where `header` is a region's, a ray that leaves the region answers

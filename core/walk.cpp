@@ -274,6 +274,12 @@ bool Walk::leave_box(const Ray& ray, const Corner& low, const Corner& high, Curs
   return whole_ || stays(cursor, now);
 }
 
+void Walk::leave_region(const Ray& ray, Cursor& cursor, Operations& operations) const {
+  cursor.level = finest_level;
+  cursor.cell = cursor.arrival;
+  leave_box(ray, region_.low, region_.high, cursor, operations);
+}
+
 /// The finest cell that the ray enters with the cursor's cell, through the plane beside finest index `face` of the entry axis.
 Corner Walk::finest_cell_of(const Cursor& cursor, std::int32_t face) const {
   const std::int32_t span = span_of(cursor.level);

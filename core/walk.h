@@ -39,6 +39,10 @@ class Walk {
   bool step(const Ray& ray, const ShearedRay& sheared, const std::byte* record, Cursor& cursor, const TraversalOptions& options,
             Operations& operations) const;
 
+  /// Takes a ray that has arrived in the region through all of it, as if nothing were there. The walk is then finished or has
+  /// left.
+  void leave_region(const Ray& ray, Cursor& cursor, Operations& operations) const;
+
  private:
   double plane(std::size_t axis, std::int32_t index) const;
   bool crossed(std::size_t axis, std::int32_t index, double t, std::uint8_t entry_axis) const;

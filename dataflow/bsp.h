@@ -40,7 +40,8 @@ struct BspOptions {
 ///
 /// Invariants: regions are numbered 0 .. region_count() - 1 from the low side of every cut to the high side. A box of n regions
 /// is cut into floor(n / 2) and ceil(n / 2), so the tree's form follows from the count alone, and the cut between regions i and i
-/// + 1, at whatever depth, is kept at index i. Immutable but for assign(); as plain bytes copyable to every node.
+/// + 1, at whatever depth, is kept at index i. Immutable but for assign() and mark_empty(); as plain bytes copyable to every
+/// node.
 class Bsp {
  public:
   /// One region: the grid of `grid_size` finest cells, owned by node 0.
@@ -70,6 +71,11 @@ class Bsp {
   /// The number of the region that `node` owns.
   std::uint32_t region_index_of(nodes::NodeId node) const;
 
+  /// Whether region `index` is known to hold nothing.
+  bool is_empty(std::uint32_t index) const { return (empty_[index / 64] >> (index % 64) & 1U) != 0; }
+  /// Region `index` holds nothing: rays need not go to its owner.
+  void mark_empty(std::uint32_t index) { empty_[index / 64] |= std::uint64_t{1} << (index % 64); }
+
   /// Gives region i to node node_of_region[i]; expects a permutation of 0 .. region_count() - 1. Before, region i is node i's.
   void assign(std::span<const std::uint32_t> node_of_region);
 
@@ -80,6 +86,7 @@ class Bsp {
   std::uint32_t region_count_ = 1;
   std::array<Cut, region_count_max - 1> cuts_{};
   std::array<std::uint16_t, region_count_max> owner_{};
+  std::array<std::uint64_t, region_count_max / 64> empty_{};  ///< a bit a region
 };
 static_assert(std::is_trivially_copyable_v<Bsp>);
 

@@ -30,11 +30,16 @@ double Distribution::duplication(const core::Database& database) const {
   return database.references() == 0 ? 1.0 : static_cast<double>(copies) / static_cast<double>(database.references());
 }
 
-Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Bsp& bsp) {
-  Distribution distribution{bsp, {}, deal_primaries(settings.camera, database.header().frame, bsp)};
+Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Bsp& bsp,
+                        const core::TraversalOptions& traversal) {
+  Distribution distribution{bsp, {}, {}};
   for (std::uint32_t node = 0; node < bsp.region_count(); ++node) {
     distribution.parts.push_back(core::extract(database, bsp.region_of(nodes::NodeId{node})));
+    if (traversal.skip_empty_space && distribution.parts.back().primitive_copies == 0) {
+      distribution.bsp.mark_empty(bsp.region_index_of(nodes::NodeId{node}));
+    }
   }
+  distribution.primaries = deal_primaries(settings.camera, database.header().frame, distribution.bsp);
   return distribution;
 }
 

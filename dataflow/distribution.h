@@ -8,6 +8,7 @@
 #include "core/database.h"
 #include "core/extract.h"
 #include "core/pixel_task.h"
+#include "core/traversal.h"
 #include "dataflow/bsp.h"
 #include "dataflow/plan.h"
 #include "dataflow/primaries.h"
@@ -28,8 +29,9 @@ struct Distribution {
   double duplication(const core::Database& database) const;
 };
 
-/// Cuts the database up; values keep their bits.
-Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Bsp& bsp);
+/// Cuts the database up; values keep their bits. Marks the regions that hold nothing, if empty space is skipped.
+Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Bsp& bsp,
+                        const core::TraversalOptions& traversal = {});
 
 /// The smallest number of nodes above the request's with which make_plan() succeeds under the request's memory bound, as far as
 /// halving the interval finds it: more nodes need less for their parts but more for their queues.

@@ -19,8 +19,9 @@ struct PrimaryRun {
   std::uint64_t count = 0;
 };
 
-/// For each node, the rays that enter the grid in its region, ascending. A ray that misses the grid only leaves the background on
-/// the film: these are spread by pixel number, an equal share of the picture a node, so that no node has all of the sky.
+/// For each node, the rays that enter the grid in its region, or reach it before any other that holds something, ascending. A ray
+/// that meets no such region only leaves the background on the film: these are spread by pixel number, an equal share of the
+/// picture a node, so that no node has all of the sky. Nodes whose region holds nothing get no ray at all.
 std::vector<std::vector<PrimaryRun>> deal_primaries(const core::Camera& camera, const core::GridFrame& frame, const Bsp& bsp);
 
 /// A node's own primary rays, in its local memory. Thread safety: belongs to one node.

@@ -6,6 +6,7 @@
 
 #include "core/expect.h"
 #include "core/traversal.h"
+#include "dataflow/next_stop.h"
 #include "dataflow/packets.h"
 
 namespace dmpc::dataflow {
@@ -208,8 +209,7 @@ void NodeProgram::take_received() {
   const RayMessage message = backlog_.take(sender);
   give_back(sender, false);
   if (message.is_confirmed != 0) {
-    task_.resume_hit(message);
-    count_claim(message.ray.kind);
+    shade_at_finder(message);
   } else {
     task_.enter(message);
   }
@@ -240,28 +240,41 @@ void NodeProgram::go_on() {
   }
 }
 
-/// A fresh ray starts here, leaves at once, or misses the grid.
+/// A fresh ray starts here, leaves at once, or meets nothing.
 void NodeProgram::shoot(const core::Ray& ray) {
   ++operations_.rays[static_cast<std::size_t>(ray.kind)];
   const auto passage = core::first_passage(ray, constants_->settings.header.frame);
-  if (!passage) {
-    return end_miss(ray);
-  }
-  const nodes::NodeId owner = constants_->bsp.owner_of(passage->cell);
-  const RayMessage message = message_of(ray, *passage, node_->id());
-  if (owner == node_->id()) {
-    task_.enter(message);
+  if (passage) {
+    go_to_next(message_of(ray, *passage, node_->id()));
   } else {
-    dispatch(owner, message);
+    end_miss(ray);
+  }
+}
+
+/// Past regions that hold nothing, to the owner of the next that holds something: this node or another.
+void NodeProgram::go_to_next(RayMessage message) {
+  const NextStop stop =
+      next_stop(message.ray, message.passage(), constants_->settings.header.frame, constants_->bsp, operations_);
+  if (stop.traced == core::Traced::miss) {
+    return end_miss(message.ray);
+  }
+  if (stop.traced == core::Traced::hit) {
+    message.is_confirmed = 1;
+    return shade_at_finder(message);
+  }
+  const nodes::NodeId owner = constants_->bsp.owner_of(stop.passage.cell);
+  const RayMessage next = message_of(message.ray, stop.passage, nodes::NodeId{message.finder});
+  if (owner == node_->id()) {
+    task_.enter(next);
+  } else {
+    dispatch(owner, next);
   }
 }
 
 void NodeProgram::trace() {
   switch (task_.trace(tracer_, operations_)) {
-    case core::Traced::left: {
-      const RayMessage message = task_.leaving();
-      return dispatch(constants_->bsp.owner_of(message.cell), message);
-    }
+    case core::Traced::left:
+      return go_to_next(task_.leaving());
     case core::Traced::miss:
       return end_miss(task_.ray());
     default:
@@ -278,8 +291,19 @@ void NodeProgram::end_hit() {
     task_.shade_hit();
     count_claim(task_.ray().kind);
   } else {
+    shade_at_finder(task_.confirmed_hit());
+  }
+}
+
+/// A hit is known to be the nearest where its record is not, or not at hand.
+void NodeProgram::shade_at_finder(const RayMessage& hit) {
+  const nodes::NodeId finder{hit.finder};
+  if (finder == node_->id()) {
+    task_.resume_hit(hit);
+    count_claim(hit.ray.kind);
+  } else {
     ++counters_.hits_sent_back;
-    dispatch(task_.finder(), task_.confirmed_hit());
+    dispatch(finder, hit);
   }
 }
 

@@ -102,7 +102,9 @@ class NodeProgram final : public nodes::Program {
   void go_on();
   void trace();
   void shoot(const core::Ray& ray);
+  void go_to_next(RayMessage message);
   void end_hit();
+  void shade_at_finder(const RayMessage& hit);
   void count_claim(core::RayKind kind);
   void end_miss(const core::Ray& ray);
   void dispatch(nodes::NodeId owner, const RayMessage& message);

@@ -94,6 +94,25 @@ TEST_CASE("dataflow: any nodes, batches, credits, queues, balances, skips and ax
   check_pairwise(built_in("gears-2"), {16, 16});
 }
 
+TEST_CASE("dataflow: nodes whose regions are empty stay idle where empty space is skipped, and the picture is the same") {
+  const Subject subject(built_in("sombrero-1"), {24, 24});
+  for (const bool skips : {true, false}) {
+    RunOptions options{.node_count = 24, .balance = {.balance = Balance::equal_size}};
+    options.traversal.skip_empty_space = skips;
+    const dataflow::Report report = check(subject, options);
+    std::uint64_t empty = 0, steps = 0, rays = 0;
+    for (const dataflow::NodeReport& node : report.nodes) {
+      const bool is_empty = node.primitive_copies == 0;
+      empty += is_empty ? 1 : 0;
+      steps += is_empty ? node.program.operations.cell_steps : 0;
+      rays += is_empty ? node.primary_rays : 0;
+    }
+    CHECK(empty > 4);
+    CHECK((steps == 0) == skips);
+    CHECK((rays == 0) == skips);
+  }
+}
+
 TEST_CASE("dataflow: a thousand lights need no more memory for rays and give the same picture") {
   const Subject subject(thousand_lights(), {6, 6});
   for (const std::uint32_t nodes : {2U, 7U}) {
