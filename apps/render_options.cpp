@@ -68,8 +68,10 @@ void add_ray_options(OptionSet& options, RayOptions& rays) {
                               "Regions of about equal load, by a subsampled picture, or of equal size");
   add_region_options(options, rays.balance, rays.topology);
   options.add_number("--ray-batch", rays.ray_batch, 1, dataflow::ray_batch_max, "what fills 1 KiB", "Rays in a packet, at most");
-  options.add_number("--ray-credits", rays.ray_credits, 0, dataflow::ray_credits_max, "8",
+  options.add_number("--ray-credits", rays.ray_credits, 0, dataflow::ray_credits_max, "4",
                      "Packets of rays that each node may have under way to each other; 0: all go by way of the host");
+  options.add_number("--ray-queue", rays.queue_packets, 0, dataflow::queue_packets_max, "512",
+                     "Packets of rays that can wait on a node for credit before more go by way of the host");
 }
 
 void add_study_options(OptionSet& options, RenderOptions& render) {
@@ -114,6 +116,7 @@ const std::vector<Belonging>& belongings() {
       {"--balance-grid", {Strategy::dataflow}, "the others share out pixels, not space"},
       {"--ray-batch", {Strategy::dataflow}, "rays of the others do not travel"},
       {"--ray-credits", {Strategy::dataflow}, "rays of the others do not travel"},
+      {"--ray-queue", {Strategy::dataflow}, "rays of the others do not travel"},
       {"--topology", {Strategy::dataflow}, "the others map no regions onto nodes"},
   };
   return all;

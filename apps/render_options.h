@@ -44,6 +44,7 @@ struct RayOptions {
   dataflow::BalanceOptions balance;
   std::optional<std::uint32_t> ray_batch;
   std::optional<std::uint32_t> ray_credits;
+  std::optional<std::uint32_t> queue_packets;
   nodes::TopologyKind topology = nodes::TopologyKind::hypercube;  ///< onto which the regions are mapped
 };
 

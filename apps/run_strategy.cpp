@@ -27,6 +27,7 @@ dataflow::RunOptions dataflow_options(const RenderOptions& options) {
           .node_memory_bytes = options.computer.node_memory_bytes,
           .ray_batch = options.rays.ray_batch,
           .ray_credits = options.rays.ray_credits,
+          .queue_packets = options.rays.queue_packets,
           .balance = options.rays.balance,
           .topology = options.rays.topology,
           .traversal = options.computer.traversal,

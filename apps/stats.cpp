@@ -161,7 +161,7 @@ Json options_json(const RenderRecord& record, const Account& account, const Json
                  {"node_memory", account.node_memory_max_bytes},
                  {"page_size", record.database.page_size()}};
   result.update(filled({"cache_pages", "in_flight", "work_item", "count_pages", "balance", "subsample", "balance_grid",
-                        "ray_batch", "ray_credits", "topology"},
+                        "ray_batch", "ray_credits", "ray_queue", "topology"},
                        special));
   return result;
 }

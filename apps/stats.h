@@ -30,7 +30,8 @@ struct RenderRecord {
 ///   program        name and version
 ///   options        what was asked for and what it became: scene, width, height, samples, depth, convention, tracer, grid_axes,
 ///                  strategy, nodes, node_memory (bytes a node, the most), page_size; of pages: cache_pages, in_flight,
-///                  work_item, count_pages; of dataflow: balance, subsample, balance_grid, ray_batch, ray_credits, topology
+///                  work_item, count_pages; of dataflow: balance, subsample, balance_grid, ray_batch, ray_credits, ray_queue,
+///                  topology
 ///   film_hash      of the film's integers, 16 hexadecimal digits: equal pictures, equal hashes
 ///   rays           rays shot
 ///   hits           primary, secondary, shadow_blocked, total_internal_reflections
@@ -42,9 +43,10 @@ struct RenderRecord {
 ///   pages          references, hits, home_hits, cache_hits, misses, faults, evictions, served, distinct, distinct_per_pixel
 ///   work           pixels, items_asked, items_taken, items_given
 ///   travel         of dataflow: rays_in and rays_out (rays), messages_per_ray (hops: rays sent over rays shot), packets (of
-///                  rays), packets_flushed (sent before they were full), mean_fill (rays in a packet over those in a full one),
-///                  bytes (headers included; in total those that the host forwards, too), overflow {rays, packets, share of the
-///                  rays sent}, hits_sent_back (to the node that found them), backlog_max (rays waiting on a node at once)
+///                  rays), packets_flushed (sent before they were full), packets_queued (sent after a wait for credit), mean_fill
+///                  (rays in a packet over those in a full one), bytes (headers included; in total those that the host forwards,
+///                  too), overflow {rays, packets, share of the rays sent}, hits_sent_back (to the node that found them),
+///                  queue_max and backlog_max (packets to send, and rays to trace, waiting on a node at once)
 ///   load           of dataflow: work_ps (picoseconds by measured prices), predicted_ps (of the subsampled picture), average and
 ///                  average_predicted (mean over maximum of the nodes)
 ///   regions        of dataflow: grid (finest cells along x, y, z), duplication (copies of primitives over primitives listed),

@@ -37,6 +37,7 @@ Json travel_json(const Travel& travel, std::uint32_t ray_batch) {
           {"messages_per_ray", ratio(sum_of(travel.rays.out), travel.rays_shot)},
           {"packets", gather.packets},
           {"packets_flushed", gather.packets_flushed},
+          {"packets_queued", gather.packets_queued},
           {"mean_fill", fill},
           {"bytes", dataflow::ray_traffic(travel.sent).bytes},
           {"overflow",
@@ -44,6 +45,7 @@ Json travel_json(const Travel& travel, std::uint32_t ray_batch) {
             {"packets", gather.packets_overflowed},
             {"share", ratio(gather.rays_overflowed, gather.rays)}}},
           {"hits_sent_back", travel.rays.hits_sent_back},
+          {"queue_max", gather.queue_high_water},
           {"backlog_max", travel.backlog_max}};
 }
 
@@ -122,6 +124,7 @@ Json options_json(const RayOptions& rays, const dataflow::Plan& plan) {
           {"balance_grid", subsampled ? Json(rays.balance.columns_per_side) : Json()},
           {"ray_batch", plan.ray_batch},
           {"ray_credits", plan.ray_credits},
+          {"ray_queue", plan.queue_packets},
           {"topology", std::string(name_of(rays.topology))}};
 }
 

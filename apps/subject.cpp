@@ -3,7 +3,7 @@
 #include <iostream>
 #include <utility>
 
-#include "apps/summary.h"
+#include "apps/figures.h"
 #include "core/frame.h"
 
 namespace dmpc::apps {
@@ -16,6 +16,10 @@ Subject build_subject(const core::Scene& scene, const PictureOptions& picture, A
     std::cerr << "dmpc: " << dropped_text(database.dropped()) << '\n';
   }
   return {std::move(database), settings};
+}
+
+std::string dropped_text(std::uint64_t count) {
+  return count == 0 ? "" : counted(count, "degenerate primitive") + (count == 1 ? " was" : " were") + " left out";
 }
 
 }  // namespace dmpc::apps

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <string>
 
 #include "apps/picture_options.h"
 #include "core/database.h"
@@ -20,5 +22,8 @@ struct Subject {
 /// core::build_database() does.
 Subject build_subject(const core::Scene& scene, const PictureOptions& picture, AxesChoice axes = AxesChoice::world,
                       std::size_t page_size_bytes = 1024);
+
+/// A sentence about the primitives that a database left out; empty if it left out none.
+std::string dropped_text(std::uint64_t count);
 
 }  // namespace dmpc::apps

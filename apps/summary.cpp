@@ -84,7 +84,8 @@ std::string regions_text(const RenderOptions& options, const dataflow::Report& r
 }
 
 StrategyLines lines_of(const RenderOptions& options, const dataflow::Report& report) {
-  return {counted(report.plan.ray_batch, "ray") + " a packet, " + counted(report.plan.ray_credits, "credit") + " a pair",
+  return {counted(report.plan.ray_batch, "ray") + " a packet, " + counted(report.plan.ray_credits, "credit") + " a pair, " +
+              counted(report.plan.queue_packets, "packet") + " queued",
           "travel   " + travel_text(report) + "\nload     " + load_text(report) + "\nregions  " + regions_text(options, report) +
               "\n"};
 }
@@ -96,10 +97,6 @@ std::string time_text(const Seconds& seconds) {
 }
 
 }  // namespace
-
-std::string dropped_text(std::uint64_t count) {
-  return count == 0 ? "" : counted(count, "degenerate primitive") + (count == 1 ? " was" : " were") + " left out";
-}
 
 void print_summary(std::ostream& output, const RenderRecord& record) {
   const Account account = account_of(record.report);

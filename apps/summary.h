@@ -13,7 +13,4 @@ namespace dmpc::apps {
 /// regions), times, the picture and its film's hash.
 void print_summary(std::ostream& output, const RenderRecord& record);
 
-/// A sentence about the primitives that a database left out; empty if it left out none.
-std::string dropped_text(std::uint64_t count);
-
 }  // namespace dmpc::apps

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -50,6 +51,19 @@ bool until(const Done& done) {
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
+std::string film_hash(const std::string& stats_file) {
+  const std::string json = file_text(stats_file);
+  return json.substr(json.find("\"film_hash\""), 32);
+}
+
+/// Up to the next comma, space or line end.
+std::string word_after(const std::string& text, const std::string& words) {
+  const std::size_t begin = text.find(words);
+  REQUIRE(begin != std::string::npos);
+  const std::string rest = text.substr(begin + words.size());
+  return rest.substr(0, rest.find_first_of(", \n"));
+}
+
 constexpr const char* view = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 30\nhither 1\nresolution 8 8\n";
 
 }  // namespace
@@ -86,6 +100,46 @@ TEST_CASE("Embree and our grid write the same picture") {
   CHECK(contains(result.output, "differing pixels        0 of 576"));
 }
 
+TEST_CASE("every strategy gives the same film, for the world's axes and for the screen's") {
+  const TemporaryFolder folder;
+  std::set<std::string> hashes;
+  for (const std::string axes : {"world", "screen"}) {
+    std::set<std::string> of_axes;
+    for (const std::string strategy : {"svm", "replicated", "dataflow"}) {
+      CAPTURE(strategy);
+      const std::string stats = folder / (strategy + axes + ".json");
+      REQUIRE(run({"render", "balls-2", "--resolution=24x24", "--nodes=5", "--strategy=" + strategy, "--grid-axes=" + axes,
+                   "--quiet", "--stats=" + stats, "-o", folder / "a.exr"})
+                  .status == 0);
+      of_axes.insert(film_hash(stats));
+    }
+    CHECK(of_axes.size() == 1);
+    hashes.merge(of_axes);
+  }
+  CHECK(hashes.size() == 2);  // another grid rounds otherwise
+}
+
+TEST_CASE("no option of dataflow changes the film") {
+  const TemporaryFolder folder;
+  std::set<std::string> hashes;
+  for (const std::vector<std::string>& more : {std::vector<std::string>{},
+                                               {"--nodes=1"},
+                                               {"--nodes=13", "--balance=equal-size"},
+                                               {"--ray-batch=1", "--topology=torus"},
+                                               {"--ray-credits=0", "--chaos=3"},
+                                               {"--subsample=1", "--balance-grid=7", "--no-skip=empty-space"},
+                                               {"--nodes=3", "--node-memory=300KiB", "--page-size=512B"}}) {
+    std::vector<std::string> arguments = {"render",          "balls-1", "--strategy=dataflow", "--resolution=16x16", "--stats",
+                                          folder / "a.json", "-o",      folder / "a.exr"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Result result = run(arguments);
+    CHECK(result.status == 0);
+    CHECK(contains(result.output, "load     "));
+    hashes.insert(film_hash(folder / "a.json"));
+  }
+  CHECK(hashes.size() == 1);
+}
+
 TEST_CASE("bad input ends with status 1, a reason, and nothing written") {
   const TemporaryFolder folder;
   write_text(folder / "bad.nff", std::string(view) + "q 1 2 3\n");
@@ -115,9 +169,40 @@ TEST_CASE("too little memory ends with status 1 before rendering and names what 
   CHECK(folder.entry_count() == 0);
 }
 
+TEST_CASE("a scene that does not fit the nodes of dataflow ends with status 1 and says what would do, which is true") {
+  const TemporaryFolder folder;
+  const auto render = [&](const std::string& nodes, const std::string& memory) {
+    return run({"render", "tetra-6", "--strategy=dataflow", "--resolution=32x32", "--nodes=" + nodes, "--node-memory=" + memory,
+                "-o", folder / "a.png"});
+  };
+  const Result result = render("2", "400KiB");
+  CHECK(result.status == 1);
+  CHECK(contains(result.errors, "--node-memory=400KiB is too small for --nodes=2: node "));
+  CHECK(contains(result.errors, " needs at least "));
+  CHECK(folder.entry_count() == 0);
+  const std::string memory = word_after(result.errors, "the smallest that works is --node-memory=");
+  CHECK(render("2", memory).status == 0);
+  CHECK(render("2", std::to_string(std::stoul(memory) - 1)).status == 1);
+  CHECK(render(word_after(result.errors, "or with this memory --nodes="), "400KiB").status == 0);
+}
+
+TEST_CASE("what dataflow reduces to fit the memory is said before") {
+  const TemporaryFolder folder;
+  const Result result = run({"render", "balls-1", "--strategy=dataflow", "--nodes=8", "--resolution=8x8", "--node-memory=330KiB",
+                             "-o", folder / "a.png"});
+  CHECK(result.status == 0);
+  CHECK(contains(result.errors, " reduced from "));
+  CHECK(contains(result.errors, " to fit 330KiB"));
+}
+
 TEST_CASE("wrong usage ends with status 2 and a hint") {
   for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{}, {"paint"}, {"render"}, {"render", "tetra-1", "-o", "a.png", "--tracer=embree"}}) {
+       {std::vector<std::string>{},
+        {"paint"},
+        {"render"},
+        {"render", "tetra-1", "-o", "a.png", "--tracer=embree"},
+        {"render", "tetra-1", "-o", "a.png", "--ray-batch=2"},
+        {"render", "tetra-1", "-o", "a.png", "--strategy=dataflow", "--nodes=1025"}}) {
     const Result result = run(arguments);
     CHECK(result.status == 2);
     CHECK(contains(result.errors, "--help"));
@@ -211,8 +296,7 @@ TEST_CASE("a written scene renders to the same picture as the built-in one") {
                  folder / (scene == "balls-1" ? "built_in.json" : "file.json")})
                 .status == 0);
   }
-  const auto hash = [](const std::string& json) { return json.substr(json.find("\"film_hash\""), 32); };
-  CHECK(hash(file_text(folder / "built_in.json")) == hash(file_text(folder / "file.json")));
+  CHECK(film_hash(folder / "built_in.json") == film_hash(folder / "file.json"));
 }
 
 TEST_CASE("Ctrl-C and SIGTERM end a render with status 130 and leave an older picture as it was") {
@@ -229,6 +313,23 @@ TEST_CASE("Ctrl-C and SIGTERM end a render with status 130 and leave an older pi
   }
   CHECK(file_text(folder / "a.png") == "older");
   CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("Ctrl-C and SIGTERM end dataflow with status 130, while it balances and while it renders") {
+  const TemporaryFolder folder;
+  for (const std::string subsample : {"--subsample=1", "--subsample=64"}) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+      ChildProcess process(dmpc({"render", "balls-3", "--strategy=dataflow", "--resolution=4096x4096", "--samples=1024",
+                                 subsample, "-o", folder / "a.png"}));
+      REQUIRE(process.blocks(signal));
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      process.send(signal);
+      CHECK(process.status() == 130);
+      CHECK(contains(process.errors(), "interrupted, nothing was written"));
+      CHECK(process.output().empty());
+    }
+  }
+  CHECK(folder.entry_count() == 0);
 }
 
 TEST_CASE("a signal while a scene is written to a file ends with status 130 and leaves nothing") {

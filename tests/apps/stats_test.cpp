@@ -6,63 +6,12 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "apps/load_scene.h"
-#include "apps/run_strategy.h"
-#include "apps/summary.h"
+#include "tests/apps/rendered.h"
 
 namespace dmpc::apps {
-
-namespace {
-
-/// One small render and what is said about it.
-struct Rendered {
-  explicit Rendered(RenderOptions given) : options(std::move(given)) {
-    const core::Scene scene = load_scene(options.picture.scene);
-    database = core::build_database(scene, {.page_size_bytes = options.page_size_bytes});
-    const core::RenderSettings settings = render_settings(options.picture, scene, database);
-    report = make_ready(options, database, settings).start({}, {});
-  }
-  RenderRecord record() const { return {options, database, *report, {.load = 0.5, .prepare = 0.25, .render = 2, .user = 1}}; }
-  std::string json() const { return stats_json(record()); }
-
-  RenderOptions options;
-  core::Database database;
-  std::optional<Report> report;
-};
-
-RenderOptions small(Strategy strategy = Strategy::svm) {
-  RenderOptions options;
-  options.picture.scene = "balls-1";
-  options.picture.resolution = {16, 12};
-  options.strategy = strategy;
-  options.computer.node_count = 3;
-  return options;
-}
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-/// What stands behind the first `"key": `, up to the line's end.
-std::string value(const std::string& json, const std::string& key) {
-  const std::size_t at = json.find("\"" + key + "\": ");
-  const std::size_t begin = at + key.size() + 4;
-  return at == std::string::npos ? "missing" : json.substr(begin, json.find_first_of(",\n", begin) - begin);
-}
-
-/// Keys that stand `depth` levels deep, in order.
-std::vector<std::string> keys(const std::string& json, std::size_t depth) {
-  std::vector<std::string> found;
-  std::istringstream lines(json);
-  for (std::string line; std::getline(lines, line);) {
-    if (line.size() > 2 * depth && line.find_first_not_of(' ') == 2 * depth && line[2 * depth] == '"') {
-      found.push_back(line.substr(2 * depth + 1, line.find('"', 2 * depth + 1) - 2 * depth - 1));
-    }
-  }
-  return found;
-}
-
-}  // namespace
 
 TEST_CASE("the keys of the counters are an interface") {
   const std::string json = Rendered(small()).json();
@@ -143,34 +92,45 @@ TEST_CASE("sums that saturate on the host's film are told") {
   CHECK(contains(rendered.json(), "\"deposits_saturated\": 4711"));
 }
 
-TEST_CASE("what was left out is told in good grammar") {
-  CHECK(dropped_text(0).empty());
-  CHECK(dropped_text(1) == "1 degenerate primitive was left out");
-  CHECK(dropped_text(2) == "2 degenerate primitives were left out");
+TEST_CASE("what belongs to another strategy is null") {
+  const std::string pages = Rendered(small()).json(), copies = Rendered(small(Strategy::replicated)).json(),
+                    rays = Rendered(small(Strategy::dataflow)).json();
+  for (const std::string key : {"travel", "load", "regions", "mapping", "pairs", "ray_batch", "topology", "token_rounds"}) {
+    CAPTURE(key);
+    CHECK(value(pages.substr(key == "load" ? pages.find("\"work\"") : 0), key) == "null");
+    CHECK(value(rays.substr(key == "load" ? rays.find("\"travel\"") : 0), key) != "null");
+  }
+  for (const std::string key : {"pages", "work", "in_flight", "work_item", "count_pages"}) {
+    CAPTURE(key);
+    CHECK(value(rays.substr(key == "pages" ? rays.find("\"by_kind\"") : 0), key) == "null");
+    CHECK(value(copies.substr(key == "pages" ? copies.find("\"by_kind\"") : 0), key) != "null");
+  }
+  CHECK(value(copies, "cache_pages") == "null");
+  CHECK(value(pages, "cache_pages") != "null");
 }
 
-TEST_CASE("replicated has no cache to speak of") {
-  const Rendered rendered(small(Strategy::replicated));
-  CHECK(value(rendered.json(), "cache_pages") == "null");
-  CHECK(value(rendered.json(), "strategy") == "\"replicated\"");
-  std::ostringstream summary;
-  print_summary(summary, rendered.record());
-  CHECK_FALSE(contains(summary.str(), "pages    "));
+TEST_CASE("every strategy has the same keys") {
+  const auto all_keys = [](Strategy strategy) {
+    const std::string json = Rendered(small(strategy)).json();
+    return std::pair(keys(json, 1), keys(json.substr(0, json.find("\"film_hash\"")), 2));
+  };
+  CHECK(all_keys(Strategy::dataflow) == all_keys(Strategy::svm));
+  CHECK(all_keys(Strategy::dataflow) == all_keys(Strategy::replicated));
+}
+
+TEST_CASE("the strategy and the axes of the grid are told") {
+  RenderOptions options = small(Strategy::dataflow);
+  CHECK(value(Rendered(options).json(), "grid_axes") == "\"world\"");
+  options.axes = AxesChoice::screen;
+  const std::string json = Rendered(options).json();
+  CHECK(value(json, "grid_axes") == "\"screen\"");
+  CHECK(value(json, "strategy") == "\"dataflow\"");
+  CHECK(value(Rendered(small(Strategy::replicated)).json(), "strategy") == "\"replicated\"");
 }
 
 TEST_CASE("a hash is sixteen digits") {
   CHECK(hash_text(0) == "0000000000000000");
   CHECK(hash_text(0xfedcba9876543210ULL) == "fedcba9876543210");
-}
-
-TEST_CASE("the closing lines name scene, computer, memory, rays, pages, times and picture") {
-  std::ostringstream output;
-  print_summary(output, Rendered(small()).record());
-  for (const std::string part :
-       {"scene    balls-1, ", "computer 3 nodes, svm, ", "memory   ", "home pages ", "rays     ", "(primary 192, ", "pages    ",
-        " look-ups: at home ", "time     load 0.500 s", "picture  ", "16x12"}) {
-    CHECK_MESSAGE(contains(output.str(), part), part);
-  }
 }
 
 }  // namespace dmpc::apps

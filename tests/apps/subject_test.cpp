@@ -25,4 +25,10 @@ TEST_CASE("a subject's page size and axes are those asked for") {
   CHECK(world.settings.camera.primary_ray(0, 0).direction != screen.settings.camera.primary_ray(0, 0).direction);
 }
 
+TEST_CASE("what was left out is told in good grammar") {
+  CHECK(dropped_text(0).empty());
+  CHECK(dropped_text(1) == "1 degenerate primitive was left out");
+  CHECK(dropped_text(2) == "2 degenerate primitives were left out");
+}
+
 }  // namespace dmpc::apps

@@ -41,6 +41,23 @@ TEST_CASE("the host has no ray that it was not given") {
   CHECK_THROWS(kept.put(2, ray(1)));
 }
 
+TEST_CASE("the places of kept rays are counted in bytes, which never get fewer") {
+  KeptRays kept(1);
+  CHECK(kept.store_bytes() == 0);
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    kept.put(0, ray(i));
+  }
+  const std::size_t bytes = kept.store_bytes();
+  CHECK(bytes >= 100 * sizeof(dataflow::RayMessage));
+  CHECK(bytes <= 2 * 100 * (sizeof(dataflow::RayMessage) + 8));
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    kept.take(0);
+  }
+  CHECK(kept.store_bytes() == bytes);
+  kept.put(0, ray(1));
+  CHECK(kept.store_bytes() == bytes);
+}
+
 TEST_CASE("the host keeps as many rays as come") {
   KeptRays kept(2);
   for (std::uint32_t i = 0; i < 10000; ++i) {

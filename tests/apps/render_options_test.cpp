@@ -1,0 +1,250 @@
+#include "apps/render_options.h"
+
+#include <doctest/doctest.h>
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "apps/options.h"
+#include "core/expect.h"
+#include "core/units.h"
+
+namespace dmpc::apps {
+
+using namespace core;
+
+namespace {
+
+/// `render teapot-12 -o a.png` and more.
+RenderOptions render(std::initializer_list<std::string> more = {}) {
+  std::vector<std::string> arguments = {"render", "teapot-12", "-o", "a.png"};
+  arguments.insert(arguments.end(), more);
+  return std::get<RenderOptions>(parse_command_line(arguments));
+}
+
+std::string render_complaint(std::initializer_list<std::string> more) {
+  try {
+    render(more);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("a scene and an output are all that render needs") {
+  const RenderOptions options = render();
+  CHECK(options.picture.scene == "teapot-12");
+  CHECK(options.image == "a.png");
+  CHECK(options.strategy == Strategy::svm);
+  CHECK(options.computer.node_count == 8);
+  CHECK_FALSE(options.computer.node_memory_bytes);
+  CHECK_FALSE(options.pages.cache_pages);
+  CHECK_FALSE(options.pages.in_flight);
+  CHECK(options.pages.work_item_side == 3);
+  CHECK(options.computer.traversal.skip_empty_space);
+  CHECK(options.page_size_bytes == 1024);
+  CHECK(options.axes == AxesChoice::world);
+  CHECK_FALSE(options.picture.resolution);
+  CHECK(options.picture.samples == 1);
+  CHECK(options.picture.depth == 5);
+  CHECK(options.picture.convention == Convention::haines);
+  CHECK(options.tracer == TracerChoice::grid);
+  CHECK_FALSE(options.stats);
+  CHECK_FALSE(options.quiet);
+}
+
+TEST_CASE("every option of the computer reaches its field") {
+  const RenderOptions options =
+      render({"--nodes=64", "--node-memory=4MiB", "--page-size=4KiB", "--cache-pages=5", "--in-flight=7", "--work-item=0",
+              "--no-skip=empty-space", "--count-pages", "--stats=s.json", "--quiet"});
+  CHECK(options.computer.node_count == 64);
+  CHECK(options.computer.node_memory_bytes == 4_MiB);
+  CHECK(options.page_size_bytes == 4_KiB);
+  CHECK(options.pages.cache_pages == 5);
+  CHECK(options.pages.in_flight == 7);
+  CHECK(options.pages.work_item_side == 0);
+  CHECK_FALSE(options.computer.traversal.skip_empty_space);
+  CHECK(options.pages.count_pages);
+  CHECK(options.stats == "s.json");
+  CHECK(options.quiet);
+}
+
+TEST_CASE("any seed makes chaos, and without one the computer is calm") {
+  CHECK_FALSE(render().computer.chaos);
+  CHECK(render({"--chaos=0"}).computer.chaos.value().seed == 0);
+  CHECK(render({"--chaos=18446744073709551615", "--strategy=replicated"}).computer.chaos.value().seed == ~std::uint64_t{0});
+  for (const std::string wrong : {"-1", "18446744073709551616", "storm", "1.5", "7x"}) {
+    CHECK_MESSAGE(says(render_complaint({"--chaos=" + wrong}), "--chaos=" + wrong + ": expected a whole number"), wrong);
+  }
+  CHECK(says(render_complaint({"--chaos="}), "--chaos"));
+}
+
+TEST_CASE("every option of the picture reaches its field") {
+  const RenderOptions options = render({"--resolution=64x48", "--samples=4", "--depth=9", "--convention=paper",
+                                        "--strategy=replicated", "--tracer=embree", "--node-memory=auto"});
+  REQUIRE(options.picture.resolution);
+  CHECK(options.picture.resolution->width == 64);
+  CHECK(options.picture.resolution->height == 48);
+  CHECK(options.picture.samples == 4);
+  CHECK(options.picture.depth == 9);
+  CHECK(options.picture.convention == Convention::paper);
+  CHECK(options.strategy == Strategy::replicated);
+  CHECK(options.tracer == TracerChoice::embree);
+  CHECK_FALSE(options.computer.node_memory_bytes);
+}
+
+TEST_CASE("a value may follow its option as a word of its own") { CHECK(render({"--nodes", "3"}).computer.node_count == 3); }
+
+TEST_CASE("a value out of range or of the wrong kind names its option") {
+  for (const std::string option : {"--nodes=0",           "--nodes=4097",      "--nodes=-1",           "--nodes=many",
+                                   "--nodes=2.5",         "--strategy=dance",  "--tracer=magic",       "--samples=0",
+                                   "--samples=32769",     "--depth=0",         "--depth=256",          "--convention=mine",
+                                   "--cache-pages=0",     "--in-flight=0",     "--in-flight=4097",     "--work-item=-1",
+                                   "--balance=even",      "--subsample=0",     "--subsample=65537",    "--balance-grid=0",
+                                   "--balance-grid=4097", "--ray-batch=0",     "--ray-batch=683",      "--ray-credits=-1",
+                                   "--ray-queue=-1",      "--ray-queue=16385", "--ray-credits=65",     "--topology=ring",
+                                   "--grid-axes=moon",    "--work-item=1025",  "--no-skip=everything", "--resolution=512",
+                                   "--page-size=1000B",   "--page-size=256B",  "--page-size=128KiB",   "--node-memory=lots",
+                                   "--unheard-of=1"}) {
+    CAPTURE(option);
+    CHECK(says(render_complaint({option}), option.substr(0, option.find('='))));
+    CHECK(says(render_complaint({option}), "Try: dmpc render --help"));
+  }
+}
+
+TEST_CASE("the smallest and largest values are taken") {
+  for (const std::string option : {"--nodes=1", "--nodes=4096", "--samples=32768", "--depth=1", "--depth=255", "--page-size=512B",
+                                   "--page-size=64KiB", "--cache-pages=1", "--in-flight=4096", "--work-item=1024"}) {
+    CAPTURE(option);
+    CHECK_NOTHROW(render({option}));
+  }
+  for (const std::string option :
+       {"--nodes=1024", "--subsample=1", "--subsample=65536", "--balance-grid=1", "--balance-grid=4096", "--ray-batch=1",
+        "--ray-batch=682", "--ray-credits=0", "--ray-credits=64", "--ray-queue=0", "--ray-queue=16384"}) {
+    CAPTURE(option);
+    CHECK_NOTHROW(render({"--strategy=dataflow", option}));
+  }
+}
+
+TEST_CASE("dataflow needs no option of its own") {
+  const RayOptions rays = render({"--strategy=dataflow"}).rays;
+  CHECK(rays.balance.balance == dataflow::Balance::subsampled);
+  CHECK(rays.balance.subsample == 8);
+  CHECK(rays.balance.columns_per_side == 256);
+  CHECK_FALSE(rays.ray_batch);
+  CHECK_FALSE(rays.ray_credits);
+  CHECK_FALSE(rays.queue_packets);
+  CHECK(rays.topology == nodes::TopologyKind::hypercube);
+}
+
+TEST_CASE("every option of dataflow reaches its field") {
+  const RenderOptions options =
+      render({"--strategy=dataflow", "--grid-axes=screen", "--balance=subsampled", "--subsample=4", "--balance-grid=64",
+              "--ray-batch=3", "--ray-credits=0", "--ray-queue=5", "--topology=fat-tree"});
+  CHECK(options.strategy == Strategy::dataflow);
+  CHECK(options.axes == AxesChoice::screen);
+  CHECK(options.rays.balance.subsample == 4);
+  CHECK(options.rays.balance.columns_per_side == 64);
+  CHECK(options.rays.ray_batch == 3);
+  CHECK(options.rays.ray_credits == 0);
+  CHECK(options.rays.queue_packets == 5);
+  CHECK(options.rays.topology == nodes::TopologyKind::fat_tree);
+  CHECK(render({"--strategy=dataflow", "--balance=equal-size"}).rays.balance.balance == dataflow::Balance::equal_size);
+}
+
+TEST_CASE("an option of another strategy is refused with the strategies that it goes with and the reason") {
+  const std::string svm = "--strategy=svm", replicated = "--strategy=replicated", dataflow = "--strategy=dataflow";
+  struct Wrong {
+    std::string option, with, goes_with;
+  };
+  const std::vector<Wrong> wrongs = {{"--cache-pages=5", replicated, svm},
+                                     {"--cache-pages=5", dataflow, svm},
+                                     {"--count-pages", replicated, svm},
+                                     {"--count-pages", dataflow, svm},
+                                     {"--in-flight=16", dataflow, svm + " or " + replicated},
+                                     {"--work-item=3", dataflow, svm + " or " + replicated},
+                                     {"--balance=subsampled", svm, dataflow},
+                                     {"--subsample=8", replicated, dataflow},
+                                     {"--balance-grid=256", svm, dataflow},
+                                     {"--ray-batch=10", replicated, dataflow},
+                                     {"--ray-credits=4", svm, dataflow},
+                                     {"--ray-queue=512", replicated, dataflow},
+                                     {"--topology=hypercube", replicated, dataflow}};
+  for (const auto& [option, with, goes_with] : wrongs) {
+    CAPTURE(option);
+    CAPTURE(with);
+    CHECK(says(render_complaint({with, option, "--stats=s.json"}),
+               option.substr(0, option.find('=')) + " goes with " + goes_with + ": "));
+  }
+}
+
+TEST_CASE("options that every strategy has go with each") {
+  for (const std::string strategy : {"svm", "replicated", "dataflow"}) {
+    CAPTURE(strategy);
+    CHECK_NOTHROW(render({"--strategy=" + strategy, "--nodes=2", "--node-memory=4MiB", "--page-size=2KiB", "--grid-axes=screen",
+                          "--chaos=1", "--no-skip=empty-space", "--stats=s.json", "--quiet"}));
+  }
+}
+
+TEST_CASE("options that do not go together are refused with the reason") {
+  CHECK(says(render_complaint({"--tracer=embree"}), "needs --strategy=replicated"));
+  CHECK(says(render_complaint({"--tracer=embree", "--strategy=dataflow"}), "needs --strategy=replicated"));
+  CHECK(says(render_complaint({"--count-pages"}), "give --stats=FILE.json too"));
+  CHECK(says(render_complaint({"--strategy=dataflow", "--nodes=1025"}), "--nodes=1025: from 1 to 1024 nodes"));
+  for (const std::string option : {"--subsample", "--balance-grid"}) {
+    CHECK(
+        says(render_complaint({"--strategy=dataflow", "--balance=equal-size", option + "=8"}), option + " goes with --balance"));
+  }
+}
+
+TEST_CASE("the help of render names every option and its default") {
+  const std::string text = std::get<HelpText>(parse_command_line(std::vector<std::string>{"render", "--help"})).text;
+  for (const std::string word : {"Examples:",
+                                 "SCENE",
+                                 "--nodes",
+                                 "--strategy",
+                                 "svm|replicated|dataflow [svm]",
+                                 "--node-memory",
+                                 "--page-size",
+                                 "--cache-pages",
+                                 "--in-flight",
+                                 "--work-item",
+                                 "--resolution",
+                                 "--samples",
+                                 "--depth",
+                                 "--convention",
+                                 "--tracer",
+                                 "--no-skip",
+                                 "--stats",
+                                 "--quiet",
+                                 "-o",
+                                 "--grid-axes",
+                                 "world|screen [world]",
+                                 "--balance",
+                                 "subsampled|equal-size [subsampled]",
+                                 "--subsample",
+                                 "--balance-grid",
+                                 "--ray-batch",
+                                 "1..682 [what fills 1 KiB]",
+                                 "--ray-credits",
+                                 "0..64 [4]",
+                                 "--ray-queue",
+                                 "0..16384 [512]",
+                                 "--topology",
+                                 "hypercube|mesh|torus|fat-tree|crossbar [hypercube]"}) {
+    CHECK_MESSAGE(says(text, word), word);
+  }
+}
+
+TEST_CASE("every strategy has the name that the command line knows") {
+  for (const Strategy strategy : {Strategy::svm, Strategy::replicated, Strategy::dataflow}) {
+    CHECK(render({std::string("--strategy=") + name_of(strategy)}).strategy == strategy);
+  }
+}
+
+}  // namespace dmpc::apps

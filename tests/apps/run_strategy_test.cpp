@@ -1,0 +1,96 @@
+#include "apps/run_strategy.h"
+
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <stop_token>
+#include <string>
+
+#include "core/expect.h"
+#include "core/units.h"
+#include "tests/apps/rendered.h"
+
+namespace dmpc::apps {
+
+using core::operator""_KiB;
+
+namespace {
+
+std::uint64_t film_hash(const RenderOptions& options) { return account_of(*Rendered(options).report).film.hash(); }
+
+}  // namespace
+
+TEST_CASE("every strategy renders the same film, whichever the grid's axes") {
+  for (const AxesChoice axes : {AxesChoice::world, AxesChoice::screen}) {
+    RenderOptions options = small(Strategy::svm);
+    options.axes = axes;
+    const std::uint64_t hash = film_hash(options);
+    for (const Strategy strategy : {Strategy::replicated, Strategy::dataflow}) {
+      options.strategy = strategy;
+      CHECK(film_hash(options) == hash);
+    }
+  }
+}
+
+TEST_CASE("every option of the computer reaches the run") {
+  for (const Strategy strategy : {Strategy::svm, Strategy::replicated, Strategy::dataflow}) {
+    RenderOptions options = small(strategy);
+    options.computer = {.node_count = 5, .node_memory_bytes = 900_KiB, .chaos = nodes::chaos_of(7)};
+    const Rendered rendered(options);
+    const Account account = account_of(*rendered.report);
+    CHECK(account.nodes.size() == 5);
+    CHECK(account.node_memory_max_bytes <= 900_KiB);
+    CHECK(account.chaos.value().seed == 7);
+    CHECK(account.film.hash() == film_hash(small(strategy)));
+  }
+}
+
+TEST_CASE("without skipping empty space every strategy takes more steps to the same film") {
+  for (const Strategy strategy : {Strategy::svm, Strategy::replicated, Strategy::dataflow}) {
+    RenderOptions options = small(strategy);
+    options.picture.scene = "tetra-5";
+    const Rendered skipping(options);
+    options.computer.traversal.skip_empty_space = false;
+    const Rendered stepping(options);
+    const Account few = account_of(*skipping.report), many = account_of(*stepping.report);
+    CHECK(many.operations.cell_steps > few.operations.cell_steps);
+    CHECK(many.film.hash() == few.film.hash());
+  }
+}
+
+TEST_CASE("every option of dataflow reaches the run") {
+  RenderOptions options = small(Strategy::dataflow);
+  options.rays = {.balance = {.balance = dataflow::Balance::equal_size}, .ray_batch = 3, .ray_credits = 2, .queue_packets = 7};
+  const Rendered rendered(options);
+  const auto& report = std::get<dataflow::Report>(*rendered.report);
+  CHECK(report.plan.ray_batch == 3);
+  CHECK(report.plan.ray_credits == 2);
+  CHECK(report.plan.queue_packets == 7);
+  CHECK(report.predicted.empty());
+}
+
+TEST_CASE("dataflow's defaults are those that the help tells") {
+  const Rendered rendered(small(Strategy::dataflow));
+  const auto& plan = std::get<dataflow::Report>(*rendered.report).plan;
+  CHECK(plan.ray_batch == dataflow::rays_in(1_KiB));
+  CHECK(plan.ray_credits == 4);
+  CHECK(plan.queue_packets == 512);
+}
+
+TEST_CASE("a memory that is too small is bad input, and one that is scarce is worth a note") {
+  RenderOptions options = small(Strategy::dataflow);
+  options.computer.node_memory_bytes = 300_KiB;
+  CHECK_FALSE(Rendered(options).notes.empty());
+  options.computer.node_memory_bytes = 1_KiB;
+  CHECK_THROWS_AS(Rendered{options}, core::InputError);
+}
+
+TEST_CASE("a run that is stopped before it starts reports that it was interrupted") {
+  for (const Strategy strategy : {Strategy::svm, Strategy::replicated, Strategy::dataflow}) {
+    std::stop_source source;
+    source.request_stop();
+    CHECK(account_of(*Rendered(small(strategy), source.get_token()).report).end == nodes::RunEnd::interrupted);
+  }
+}
+
+}  // namespace dmpc::apps
