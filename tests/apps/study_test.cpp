@@ -62,6 +62,15 @@ TEST_CASE("a study says what it studied, its rows, and the film of all runs") {
   CHECK_FALSE(contains(text, "Interrupted"));
 }
 
+TEST_CASE("a study along the screen's axes says so and gives another film") {
+  StudyOptions options = small_study();
+  const std::string world = output_of(options);
+  options.axes = apps::AxesChoice::screen;
+  const std::string screen = output_of(options);
+  CHECK(contains(screen, "grid axes screen, "));
+  CHECK(world.substr(world.find("Film of")) != screen.substr(screen.find("Film of")));
+}
+
 TEST_CASE("a table goes to the file asked for and nothing to the standard output") {
   const TemporaryFolder folder;
   StudyOptions options = small_study();
