@@ -167,7 +167,6 @@ bool Walk::read_directory(const Ray& ray, const std::byte* record, Cursor& curso
 void Walk::read_brick(const std::byte* record, Cursor& cursor) const {
   Cursor::Level& level = cursor.path[cursor.level];
   level.occupied = read<Brick>(record).occupied;
-  level.tested = 0;
   const std::int32_t edge = span_of(cursor.level), span = span_of(cursor.level + 1);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::int32_t low = cursor.cell[axis], high = low + edge;
