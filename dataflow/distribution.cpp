@@ -31,7 +31,7 @@ double Distribution::duplication(const core::Database& database) const {
 }
 
 Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Bsp& bsp,
-                        const core::TraversalOptions& traversal) {
+                        const core::TraversalOptions& traversal, const std::stop_token& stop) {
   Distribution distribution{bsp, {}, {}};
   for (std::uint32_t node = 0; node < bsp.region_count(); ++node) {
     distribution.parts.push_back(core::extract(database, bsp.region_of(nodes::NodeId{node})));
@@ -39,7 +39,7 @@ Distribution distribute(const core::Database& database, const core::RenderSettin
       distribution.bsp.mark_empty(bsp.region_index_of(nodes::NodeId{node}));
     }
   }
-  distribution.primaries = deal_primaries(settings.camera, database.header().frame, distribution.bsp);
+  distribution.primaries = deal_primaries(settings.camera, database.header().frame, distribution.bsp, stop);
   return distribution;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <stop_token>
 #include <vector>
 
 #include "core/database.h"
@@ -29,9 +30,10 @@ struct Distribution {
   double duplication(const core::Database& database) const;
 };
 
-/// Cuts the database up; values keep their bits. Marks the regions that hold nothing, if empty space is skipped.
+/// Cuts the database up; values keep their bits. Marks the regions that hold nothing, if empty space is skipped. After a stop is
+/// requested some primary rays are dealt to nobody.
 Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Bsp& bsp,
-                        const core::TraversalOptions& traversal = {});
+                        const core::TraversalOptions& traversal = {}, const std::stop_token& stop = {});
 
 /// The smallest number of nodes above the request's with which make_plan() succeeds under the request's memory bound, as far as
 /// halving the interval finds it: more nodes need less for their parts but more for their queues.

@@ -45,11 +45,12 @@ class Dealer {
 
 }  // namespace
 
-std::vector<std::vector<PrimaryRun>> deal_primaries(const core::Camera& camera, const core::GridFrame& frame, const Bsp& bsp) {
+std::vector<std::vector<PrimaryRun>> deal_primaries(const core::Camera& camera, const core::GridFrame& frame, const Bsp& bsp,
+                                                    const std::stop_token& stop) {
   const auto samples = static_cast<std::uint32_t>(camera.samples());
   std::vector<std::vector<PrimaryRun>> runs(bsp.region_count());
   Dealer dealer(camera, frame, bsp);
-  for (std::uint64_t number = 0; number < std::uint64_t{camera.pixel_count()} * samples; ++number) {
+  for (std::uint64_t number = 0; number < std::uint64_t{camera.pixel_count()} * samples && !stop.stop_requested(); ++number) {
     std::vector<PrimaryRun>& of_node =
         runs[dealer.node_of(static_cast<std::uint32_t>(number / samples), static_cast<std::uint32_t>(number % samples))];
     if (!of_node.empty() && of_node.back().first + of_node.back().count == number) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "core/camera.h"
@@ -22,7 +23,9 @@ struct PrimaryRun {
 /// For each node, the rays that enter the grid in its region, or reach it before any other that holds something, ascending. A ray
 /// that meets no such region only leaves the background on the film: these are spread by pixel number, an equal share of the
 /// picture a node, so that no node has all of the sky. Nodes whose region holds nothing get no ray at all.
-std::vector<std::vector<PrimaryRun>> deal_primaries(const core::Camera& camera, const core::GridFrame& frame, const Bsp& bsp);
+/// After a stop is requested it ends early, with what it has.
+std::vector<std::vector<PrimaryRun>> deal_primaries(const core::Camera& camera, const core::GridFrame& frame, const Bsp& bsp,
+                                                    const std::stop_token& stop = {});
 
 /// A node's own primary rays, in its local memory. Thread safety: belongs to one node.
 class Primaries {

@@ -227,7 +227,7 @@ nodes::Traffic ray_traffic(const TrafficByKind& by_kind) {
 Prepared prepare(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                  const std::stop_token& stop) {
   Regions regions = regions_for(options.node_count, database, settings, options, stop);
-  Prepared prepared{.distribution = distribute(database, settings, regions.bsp, options.traversal),
+  Prepared prepared{.distribution = distribute(database, settings, regions.bsp, options.traversal, stop),
                     .predicted = std::move(regions.predicted)};
   prepared.duplication = prepared.distribution.duplication(database);
   prepared.plan = plan_for(prepared.distribution, database, settings, options, stop);
