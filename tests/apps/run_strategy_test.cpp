@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "core/expect.h"
 #include "core/units.h"
@@ -67,6 +68,21 @@ TEST_CASE("every option of dataflow reaches the run") {
   CHECK(report.plan.ray_credits == 2);
   CHECK(report.plan.queue_packets == 7);
   CHECK(report.predicted.empty());
+}
+
+TEST_CASE("regions are mapped onto the topology that was asked for") {
+  const auto corners_on = [](nodes::TopologyKind topology) {
+    RenderOptions options = small(Strategy::dataflow);
+    options.computer.node_count = 8;
+    options.rays.topology = topology;
+    const Rendered rendered(options);
+    std::vector<core::Corner> corners;
+    for (const dataflow::NodeReport& node : std::get<dataflow::Report>(*rendered.report).nodes) {
+      corners.push_back(node.region.low);
+    }
+    return corners;
+  };
+  CHECK(corners_on(nodes::TopologyKind::mesh) != corners_on(nodes::TopologyKind::hypercube));
 }
 
 TEST_CASE("dataflow's defaults are those that the help tells") {
