@@ -11,7 +11,7 @@
 #include "dataflow/bsp.h"
 #include "nodes/chaos.h"
 #include "nodes/local_memory.h"
-#include "nodes/threads_runner.h"
+#include "nodes/runner.h"
 
 namespace dmpc::dataflow {
 

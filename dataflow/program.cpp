@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cstring>
 #include <memory>
+#include <numeric>
 
 #include "core/expect.h"
 #include "core/traversal.h"
 #include "dataflow/next_stop.h"
 #include "dataflow/packets.h"
+#include "nodes/operation_charges.h"
 
 namespace dmpc::dataflow {
 namespace {
@@ -366,6 +368,13 @@ void NodeProgram::settle() {
     send_control(*node_, host_, Kind::done, Done{film_.counters().entries});
     done_ = true;
   }
+}
+
+nodes::Charges NodeProgram::charges() const {
+  nodes::Charges charges = nodes::charges_of(operations_);
+  const auto add_up = [](const auto& by_kind) { return std::accumulate(by_kind.begin(), by_kind.end(), std::uint64_t{0}); };
+  charges[nodes::Charge::ray_packing] = add_up(counters_.in) + add_up(counters_.out);
+  return charges;
 }
 
 std::string NodeProgram::describe() const {

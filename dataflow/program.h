@@ -76,6 +76,7 @@ class NodeProgram final : public nodes::Program {
   void receive(const nodes::Packet& packet) override;
   bool work() override;
   bool finished() const override { return stopped_; }
+  nodes::Charges charges() const override;
   std::string describe() const override;
 
   /// Call it only while the program is not running.

@@ -123,7 +123,7 @@ void check_packets(const Report& report) {
 }
 
 /// Every credit is back where it started.
-void check_credits(nodes::ThreadsRunner& runner, const Plan& plan) {
+void check_credits(nodes::Runner& runner, const Plan& plan) {
   for (std::uint32_t i = 0; i <= plan.node_count(); ++i) {
     for (std::uint32_t j = 0; j <= plan.node_count(); ++j) {
       const bool with_host = i == plan.node_count() || j == plan.node_count();
@@ -133,7 +133,7 @@ void check_credits(nodes::ThreadsRunner& runner, const Plan& plan) {
   }
 }
 
-void fill(Report& report, nodes::ThreadsRunner& runner, const Distribution& distribution) {
+void fill(Report& report, nodes::Runner& runner, const Distribution& distribution) {
   const std::uint32_t node_count = report.plan.node_count();
   for (std::uint32_t i = 0; i < node_count; ++i) {
     report.nodes.push_back(report_of(runner.node(i), runner.program(i), distribution));
@@ -144,6 +144,7 @@ void fill(Report& report, nodes::ThreadsRunner& runner, const Distribution& dist
     check_rays(report);
     check_packets(report);
     check_credits(runner, report.plan);
+    report.virtual_time = runner.virtual_report();
   }
 }
 
@@ -241,11 +242,11 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
                 .bsp = prepared.distribution.bsp,
                 .predicted = prepared.predicted,
                 .duplication = prepared.duplication};
-  nodes::ThreadsRunner runner(
+  const auto runner = nodes::make_runner(
       specifications_of(report.plan, prepared.distribution, settings, options.traversal, report.film, options.progress),
-      options.chaos);
-  report.end = runner.run(std::move(stop));
-  fill(report, runner, prepared.distribution);
+      {options.chaos, options.machine});
+  report.end = runner->run(std::move(stop));
+  fill(report, *runner, prepared.distribution);
   return report;
 }
 

@@ -20,7 +20,8 @@
 #include "dataflow/program.h"
 #include "nodes/chaos.h"
 #include "nodes/counters.h"
-#include "nodes/threads_runner.h"
+#include "nodes/machine.h"
+#include "nodes/runner.h"
 #include "nodes/topology.h"
 
 namespace dmpc::dataflow {
@@ -39,7 +40,9 @@ struct RunOptions {
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;
   core::TraversalOptions traversal = {};
   std::optional<nodes::Chaos> chaos = std::nullopt;  ///< disturbs the run; the film stays the same
-  Progress progress = {};                            ///< called by the host's thread
+  /// A modelled machine, in virtual time, in place of threads. Not with chaos.
+  std::optional<nodes::Machine> machine = std::nullopt;
+  Progress progress = {};  ///< called by the host's thread
 };
 
 struct NodeReport {
@@ -62,6 +65,7 @@ struct Report {
   std::vector<NodeReport> nodes;
   nodes::NodeCounters host;
   HostCounters host_rays;
+  std::optional<nodes::VirtualReport> virtual_time;  ///< of a modelled machine
 
   core::Operations operations() const;  ///< summed over the nodes
   RayCounters rays() const;

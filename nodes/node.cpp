@@ -2,6 +2,10 @@
 
 namespace dmpc::nodes {
 
+std::size_t credit_table_bytes(std::uint32_t peer_count) {
+  return LocalMemory::bytes_for<std::uint16_t>(peer_count * channel_count);
+}
+
 Node::Node(NodeId id, std::uint32_t peer_count, LocalMemory& memory, Network& network)
     : id_(id),
       peer_count_(peer_count),

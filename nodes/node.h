@@ -35,6 +35,9 @@ class Network {
   virtual void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) = 0;
 };
 
+/// The bytes that a Node's own table of credits takes of Category::queues.
+std::size_t credit_table_bytes(std::uint32_t peer_count);
+
 /// One processor. Not thread-safe: belongs to the thread that runs its program.
 class Node {
  public:

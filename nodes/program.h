@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "nodes/charge.h"
 #include "nodes/packet.h"
 
 namespace dmpc::nodes {
@@ -22,6 +23,9 @@ class Program {
 
   /// True once this program will neither work nor need to receive any more. The run ends when all programs are finished.
   virtual bool finished() const = 0;
+
+  /// The operations done since the start, for runners that price them. Only ever grows.
+  virtual Charges charges() const { return {}; }
 
   /// One line on queues and state, for the watchdog's report. Called only while the program is not running.
   virtual std::string describe() const = 0;

@@ -112,10 +112,6 @@ struct alignas(cache_line_bytes) Processor {
 
 }  // namespace
 
-std::size_t credit_table_bytes(std::uint32_t peer_count) {
-  return LocalMemory::bytes_for<std::uint16_t>(peer_count * channel_count);
-}
-
 /// Thread safety: deliver() and the members called from run_node() run on the nodes' threads; `ending_` and `awake_` are atomic,
 /// a Processor's parts belong to its thread but for the mailbox. Everything else runs on the caller's thread while no node's
 /// thread exists.

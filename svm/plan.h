@@ -9,8 +9,8 @@
 
 #include "nodes/chaos.h"
 #include "nodes/local_memory.h"
+#include "nodes/runner.h"
 #include "nodes/size_text.h"
-#include "nodes/threads_runner.h"
 #include "svm/home.h"
 #include "svm/page.h"
 

@@ -19,6 +19,7 @@
 #include "core/expect.h"
 #include "core/pixel_task.h"
 #include "nodes/node.h"
+#include "nodes/operation_charges.h"
 #include "svm/faults.h"
 #include "svm/film_gather.h"
 #include "svm/node_program.h"
@@ -87,6 +88,15 @@ class ControlProgram final : public NodeProgram {
   }
 
   bool finished() const override { return stopped_; }
+
+  nodes::Charges charges() const override {
+    nodes::Charges charges = nodes::charges_of(operations_);
+    const PageCounters pages = records_.counters();
+    charges[nodes::Charge::home_lookup] = pages.home_hits;
+    charges[nodes::Charge::cached_lookup] = pages.references - pages.home_hits;
+    charges[nodes::Charge::page_install] = pages.faults - pending_faults();
+    return charges;
+  }
 
   std::string describe() const override {
     return std::to_string(slots_.active()) + " pixels in flight, " + std::to_string(pending_faults()) + " pages awaited, " +

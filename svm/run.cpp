@@ -68,6 +68,9 @@ void check_conservation(const Report& report) {
                "every film packet sent was received");
 }
 
+/// Serving a page reads pages that never change: a home may be interrupted for it at any time.
+constexpr std::uint32_t interrupt_kinds = 1U << number_of(Kind::page_request);
+
 template <class Records>
 MakeProgram maker(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                   const Plan& plan) {
@@ -146,7 +149,8 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
   std::vector<nodes::NodeSpecification> specifications;
   for (std::uint32_t i = 0; i < plan.request.node_count; ++i) {
     specifications.push_back({plan.node_memory(i), plan.node_mailbox,
-                              [&make_program, i](nodes::Node& node) { return make_program(i, node); }, plan.held_bytes});
+                              [&make_program, i](nodes::Node& node) { return make_program(i, node); }, plan.held_bytes,
+                              interrupt_kinds});
   }
   specifications.push_back(
       {plan.host_memory(), plan.host_mailbox,
@@ -155,21 +159,24 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
   return specifications;
 }
 
-Report run_programs(const Plan& plan, const MakeProgram& make_program, const Progress& progress, std::stop_token stop) {
+Report run_programs(const Plan& plan, const MakeProgram& make_program, const RunOptions& options, std::stop_token stop) {
   Report report{.film = core::Film(static_cast<int>(plan.request.width), static_cast<int>(plan.request.height)),
                 .end = nodes::RunEnd::finished,
                 .plan = plan,
                 .nodes = {},
                 .host = {}};
-  nodes::ThreadsRunner runner(specifications_of(plan, make_program, report.film, progress), plan.request.chaos);
-  report.end = runner.run(std::move(stop));
+  const auto runner = nodes::make_runner(specifications_of(plan, make_program, report.film, options.progress),
+                                         {plan.request.chaos, options.machine});
+  report.end = runner->run(std::move(stop));
   for (std::uint32_t i = 0; i < plan.request.node_count; ++i) {
-    report.nodes.push_back(report_of(runner.node(i), runner.program(i)));
+    report.nodes.push_back(report_of(runner->node(i), runner->program(i)));
   }
-  report.host = runner.node(plan.request.node_count).counters();
-  report.host_deposits_saturated = dynamic_cast<const HostProgram&>(runner.program(plan.request.node_count)).deposits_saturated();
+  report.host = runner->node(plan.request.node_count).counters();
+  report.host_deposits_saturated =
+      dynamic_cast<const HostProgram&>(runner->program(plan.request.node_count)).deposits_saturated();
   if (report.end == nodes::RunEnd::finished) {
     check_conservation(report);
+    report.virtual_time = runner->virtual_report();
   }
   return report;
 }
@@ -179,13 +186,13 @@ Report run_svm(const core::Database& database, const core::RenderSettings& setti
   const Plan plan = plan_of(Strategy::svm, database, settings, options);
   const MakeProgram make_program = options.count_pages ? maker<CountingPager>(database, settings, options, plan)
                                                        : maker<Pager>(database, settings, options, plan);
-  return run_programs(plan, make_program, options.progress, std::move(stop));
+  return run_programs(plan, make_program, options, std::move(stop));
 }
 
 Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                       std::stop_token stop) {
   const Plan plan = plan_of(Strategy::replicated, database, settings, options);
-  return run_programs(plan, maker<LocalCopy>(database, settings, options, plan), options.progress, std::move(stop));
+  return run_programs(plan, maker<LocalCopy>(database, settings, options, plan), options, std::move(stop));
 }
 
 }  // namespace dmpc::svm

@@ -19,7 +19,8 @@
 #include "core/traversal.h"
 #include "nodes/chaos.h"
 #include "nodes/counters.h"
-#include "nodes/threads_runner.h"
+#include "nodes/machine.h"
+#include "nodes/runner.h"
 #include "svm/host.h"
 #include "svm/local_copy.h"
 #include "svm/node_program.h"
@@ -39,7 +40,9 @@ struct RunOptions {
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;
   core::TraversalOptions traversal = {};
   std::optional<nodes::Chaos> chaos = std::nullopt;  ///< disturbs the run; the film stays the same
-  Progress progress = {};                            ///< called by the host's thread
+  /// A modelled machine, in virtual time, in place of threads. Not with chaos.
+  std::optional<nodes::Machine> machine = std::nullopt;
+  Progress progress = {};  ///< called by the host's thread
 };
 
 struct NodeReport {
@@ -54,7 +57,8 @@ struct Report {
   Plan plan;
   std::vector<NodeReport> nodes;
   nodes::NodeCounters host;
-  std::uint64_t host_deposits_saturated = 0;  ///< pixels whose sums saturated on the host's film
+  std::optional<nodes::VirtualReport> virtual_time;  ///< of a modelled machine
+  std::uint64_t host_deposits_saturated = 0;         ///< pixels whose sums saturated on the host's film
 
   core::Operations operations() const;  ///< summed over the nodes
   PageCounters pages() const;
@@ -79,7 +83,7 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
                                                         const Progress& progress);
 
 /// Runs any programs of this family under `plan`, checks the laws of conservation and reports.
-Report run_programs(const Plan& plan, const MakeProgram& make_program, const Progress& progress, std::stop_token stop);
+Report run_programs(const Plan& plan, const MakeProgram& make_program, const RunOptions& options, std::stop_token stop);
 
 /// Renders with strategy replicated and a tracer of one's own: make_tracer(index, copy) returns node `index`'s core::Tracer
 /// over its own copy of the database (a std::span<const std::byte>, overread_bytes more readable). It is called before the
@@ -93,7 +97,7 @@ Report run_replicated(const core::Database& database, const core::RenderSettings
     const auto tracer_over = [&](LocalCopy& copy) { return make_tracer(index, copy.bytes()); };
     return std::make_unique<ControlProgram<LocalCopy, Tracer>>(node, plan, settings, database.bytes(), tracer_over);
   };
-  return run_programs(plan, make_program, options.progress, std::move(stop));
+  return run_programs(plan, make_program, options, std::move(stop));
 }
 
 /// Renders with strategy replicated and our own grid.

@@ -193,7 +193,7 @@ TEST_CASE("progress ends with every pixel") {
     grew = grew && done > last && done <= total;
     last = done;
   };
-  svm::run_programs(plan, maker(plan, settings, pages), progress, {});
+  svm::run_programs(plan, maker(plan, settings, pages), {.progress = progress}, {});
   CHECK(grew);
   CHECK(last == side * side);
 }

@@ -1,0 +1,51 @@
+// A machine that is modelled: how its processors are wired, what a message costs, and what an operation takes.
+//
+// Source of the message's form: alpha + n * beta + h * tau, as for the circuit-switched machines of the 1990s, with alpha split
+// into what occupies the sender, the network's latency and what occupies the receiver (D. Culler and others, "LogP: Towards a
+// Realistic Model of Parallel Computation", 1993).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "nodes/charge.h"
+#include "nodes/topology.h"
+
+namespace dmpc::nodes {
+
+/// What a message of one class costs. Times in nanoseconds; rates in picoseconds, summed before they are rounded.
+struct MessageCost {
+  std::uint64_t send_ns = 0;     ///< the sender's processor is occupied
+  std::uint64_t latency_ns = 0;  ///< from the end of that until the message enters the network
+  std::uint64_t receive_ns = 0;  ///< the receiver's processor is occupied, whatever it was doing
+  std::uint64_t byte_ps = 0;     ///< in the network, for each byte of header and payload
+};
+
+/// An immutable value as far as a run goes.
+struct Machine {
+  std::string name = "ideal";
+  TopologyKind topology = TopologyKind::crossbar;
+  std::uint64_t short_bytes_max = 100;  ///< longer messages are of the class long_message
+  MessageCost short_message, long_message;
+  std::uint64_t hop_ns = 0;                           ///< for each link that a message passes
+  std::uint64_t service_ns = 0;                       ///< of an interrupt, beside receiving and sending
+  std::array<std::uint64_t, charge_count> cost_ps{};  ///< of an operation, by Charge
+  bool has_contention = true;                         ///< a link carries one message at a time
+
+  /// The cost of a message of `bytes`, header included.
+  const MessageCost& cost_of_message(std::uint64_t bytes) const {
+    return bytes <= short_bytes_max ? short_message : long_message;
+  }
+  /// What the operations take that were done from `before` to `after`.
+  std::uint64_t price_ps(const Charges& before, const Charges& after) const {
+    std::uint64_t sum_ps = 0;
+    for (std::size_t i = 0; i < charge_count; ++i) {
+      sum_ps += (after.count[i] - before.count[i]) * cost_ps[i];
+    }
+    return sum_ps;
+  }
+};
+
+}  // namespace dmpc::nodes

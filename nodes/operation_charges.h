@@ -1,0 +1,24 @@
+// What the operations of a ray tracer are charged as.
+#pragma once
+
+#include <numeric>
+
+#include "core/operations.h"
+#include "nodes/charge.h"
+
+namespace dmpc::nodes {
+
+/// Rays, walk, tests and shading. Look-ups, pages and packing are the strategies' to add.
+inline Charges charges_of(const core::Operations& operations) {
+  Charges charges;
+  charges[Charge::ray_setup] = std::accumulate(operations.rays.begin(), operations.rays.end(), std::uint64_t{0});
+  charges[Charge::cell_step] = operations.cell_steps;
+  charges[Charge::brick_read] = operations.brick_reads;
+  charges[Charge::triangle_test] = operations.primitive_tests[0];
+  charges[Charge::sphere_test] = operations.primitive_tests[1];
+  charges[Charge::cone_test] = operations.primitive_tests[2];
+  charges[Charge::shading] = operations.shadings;
+  return charges;
+}
+
+}  // namespace dmpc::nodes

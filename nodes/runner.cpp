@@ -1,0 +1,17 @@
+#include "nodes/runner.h"
+
+#include "core/expect.h"
+#include "nodes/threads_runner.h"
+#include "nodes/virtual_runner.h"
+
+namespace dmpc::nodes {
+
+std::unique_ptr<Runner> make_runner(std::span<const NodeSpecification> specifications, const RunnerChoice& choice) {
+  if (choice.machine) {
+    core::expect(!choice.chaos, "chaos disturbs threads only");
+    return std::make_unique<VirtualRunner>(specifications, *choice.machine);
+  }
+  return std::make_unique<ThreadsRunner>(specifications, choice.chaos);
+}
+
+}  // namespace dmpc::nodes

@@ -1,0 +1,62 @@
+// What every runner offers: it makes the processors, calls their programs, and lets one look at them afterwards.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stop_token>
+
+#include "nodes/chaos.h"
+#include "nodes/machine.h"
+#include "nodes/mailbox.h"
+#include "nodes/node.h"
+#include "nodes/program.h"
+#include "nodes/virtual_times.h"
+
+namespace dmpc::nodes {
+
+/// One node or the host as a runner needs it. `make_program` is called once, on the calling thread, before the start, and may
+/// allocate from node.memory(); the memory is sealed after it.
+struct NodeSpecification {
+  MemoryPlan plan;  ///< includes mailbox, credits table (Category::queues) and thread stack (Category::reserve)
+  MailboxCapacity mailbox;
+  std::function<std::unique_ptr<Program>(Node&)> make_program;
+  /// Under chaos: room for packets held back (HeldPackets::room_bytes(), in `plan` under Category::queues). 0: none is held back.
+  std::size_t held_bytes = 0;
+  /// A bit for each kind of packet that a runner with a clock delivers at once, by an interrupt, whatever the program is
+  /// computing. Only for kinds whose receive() reads nothing but what never changes, and changes nothing but counters.
+  std::uint32_t interrupt_kinds = 0;
+};
+static_assert(packet_kind_count <= 32);
+
+enum class RunEnd : std::uint8_t { finished, interrupted };
+
+/// Thread safety: one thread constructs, runs and reads. While run() is going nothing else may be called.
+class Runner {
+ public:
+  virtual ~Runner() = default;
+
+  /// Returns when all programs are finished or `stop` is requested. Rethrows the first exception of a program. Throws
+  /// core::InternalError with every node's describe() if nothing is under way, no program has work, and some are not finished.
+  /// At a regular end it expects that packets sent = packets received. Once only.
+  virtual RunEnd run(std::stop_token stop) = 0;
+
+  /// After run().
+  virtual Node& node(std::size_t index) = 0;
+  virtual Program& program(std::size_t index) = 0;
+  /// After a regular end; nothing from a runner without a clock of its own.
+  virtual std::optional<VirtualReport> virtual_report() const { return std::nullopt; }
+};
+
+/// Where a computer comes from: threads and wall clock, or a model and virtual time.
+struct RunnerChoice {
+  std::optional<Chaos> chaos = std::nullopt;      ///< with threads only
+  std::optional<Machine> machine = std::nullopt;  ///< the model; without it threads
+};
+/// `specifications`: the nodes in order, then the host, last.
+std::unique_ptr<Runner> make_runner(std::span<const NodeSpecification> specifications, const RunnerChoice& choice);
+
+}  // namespace dmpc::nodes

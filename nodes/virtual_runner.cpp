@@ -1,0 +1,347 @@
+#include "nodes/virtual_runner.h"
+
+#include <algorithm>
+#include <deque>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/expect.h"
+#include "core/sampling.h"
+#include "nodes/event_queue.h"
+#include "nodes/links.h"
+
+namespace dmpc::nodes {
+namespace {
+
+/// Events between two looks at a request to stop.
+constexpr std::uint64_t events_per_look = 1024;
+
+/// A message on its way, or at its target and not received.
+struct Message {
+  NodeId target{};
+  PacketHeader header;
+  std::vector<std::byte> payload;
+
+  std::uint64_t bytes() const { return sizeof(PacketHeader) + payload.size(); }
+  bool is_bulk() const { return payload.size() > small_payload_bytes; }
+  Packet packet() const { return {NodeId{header.source}, header.kind, payload}; }
+};
+
+/// Messages by number; a number is used again, and so is its memory.
+class MessageStore {
+ public:
+  std::uint32_t put(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) {
+    if (free_.empty()) {
+      free_.push_back(static_cast<std::uint32_t>(messages_.size()));
+      messages_.emplace_back();
+    }
+    const std::uint32_t number = free_.back();
+    free_.pop_back();
+    Message& message = messages_[number];
+    message.target = target;
+    message.header = header;
+    message.payload.assign(payload.begin(), payload.end());
+    return number;
+  }
+  const Message& operator[](std::uint32_t number) const { return messages_[number]; }
+  void release(std::uint32_t number) { free_.push_back(number); }
+  bool empty() const { return free_.size() == messages_.size(); }
+
+ private:
+  std::deque<Message> messages_;  // whose addresses stay
+  std::vector<std::uint32_t> free_;
+};
+
+struct Processor;
+
+/// What all processors of a computer have in common.
+struct Computer {
+  MessageStore messages;
+  std::vector<std::unique_ptr<Processor>> processors;
+};
+
+/// One node with all that belongs to it.
+struct Processor final : Network {
+  Processor(const NodeSpecification& specification, NodeId id, std::uint32_t peer_count, Computer& of)
+      : computer(of),
+        mailbox(specification.mailbox),
+        interrupt_kinds(specification.interrupt_kinds),
+        memory(specification.plan),
+        node(id, peer_count, memory, *this),
+        last_arrival_ns(peer_count) {
+    static_cast<void>(memory.allocate<std::byte>(Category::mailbox, specification.mailbox.bytes()));  // the model's, unused
+    program = specification.make_program(node);
+    core::expect(program != nullptr, "a specification makes a program");
+    memory.seal();
+  }
+
+  /// The sender's side: the message has its place in the target's mailbox from now on.
+  void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) override {
+    sent.push_back(computer.messages.put(target, header, payload));
+    Processor& at = *computer.processors[index_of(target)];
+    const bool is_bulk = payload.size() > small_payload_bytes;
+    std::uint32_t& held = is_bulk ? at.bulk_held : at.small_held;
+    core::expect(++held <= (is_bulk ? at.mailbox.bulk_slots : at.mailbox.small_slots) &&
+                     payload.size() <= std::max(small_payload_bytes, at.mailbox.bulk_payload_bytes),
+                 "credits leave room in the target's mailbox");
+  }
+
+  /// Lets the program receive a message of its mailbox.
+  void receive(std::uint32_t number) {
+    const Message& message = computer.messages[number];
+    program->receive(message.packet());
+    --(message.payload.size() > small_payload_bytes ? bulk_held : small_held);
+    computer.messages.release(number);
+  }
+
+  Computer& computer;
+  MailboxCapacity mailbox;
+  std::uint32_t small_held = 0, bulk_held = 0;  ///< places of the mailbox that are taken
+  std::uint32_t interrupt_kinds;
+  LocalMemory memory;
+  Node node;
+  std::unique_ptr<Program> program;
+  std::vector<std::uint32_t> sent;             ///< in the call that is going on, in order
+  std::vector<std::uint32_t> outgoing;         ///< sent in a call whose operations are not done yet
+  std::deque<std::uint32_t> inbox;             ///< arrived and not received
+  std::vector<std::uint64_t> last_arrival_ns;  ///< by target: messages between two nodes keep their order
+  Charges charged;
+  std::uint64_t remainder_ps = 0;  ///< charged, and not yet a whole nanosecond
+  std::uint64_t sequence = 0;
+  bool has_more = true;      ///< work() may have something to do
+  bool is_occupied = false;  ///< an is_free event is under way
+  std::uint64_t occupied_until_ns = 0;
+  std::uint64_t served_until_ns = 0;  ///< the last interrupt
+  std::uint64_t idle_since_ns = 0;
+  std::uint64_t lent_before_ns = 0;  ///< times.lent_ns when it fell idle
+  VirtualTimes times;
+};
+
+}  // namespace
+
+struct VirtualRunner::Implementation {
+  Implementation(std::span<const NodeSpecification> specifications, const Machine& model)
+      : machine(model),
+        links(Topology(model.topology, static_cast<std::uint32_t>(std::max<std::size_t>(specifications.size(), 2) - 1)),
+              model.has_contention) {
+    core::expect(!specifications.empty(), "a computer has at least the host");
+    const auto peer_count = static_cast<std::uint32_t>(specifications.size());
+    for (std::uint32_t i = 0; i < peer_count; ++i) {
+      computer.processors.push_back(std::make_unique<Processor>(specifications[i], NodeId{i}, peer_count, computer));
+    }
+  }
+
+  RunEnd run(const std::stop_token& stop) {
+    core::expect(!std::exchange(is_started, true), "a runner runs once");
+    for (const auto& processor : computer.processors) {
+      go_on(*processor);
+    }
+    while (!events.empty()) {
+      if (result.events % events_per_look == 0 && stop.stop_requested()) {
+        return RunEnd::interrupted;
+      }
+      happen(events.pop());
+    }
+    finish();
+    return RunEnd::finished;
+  }
+
+  // ---- Events ------------------------------------------------------------------------------------------------------------
+
+  void happen(const Event& event) {
+    if (event.kind == Event::Kind::is_free && event.time_ns < computer.processors[event.source]->occupied_until_ns) {
+      return post(*computer.processors[event.source], Event::Kind::is_free,
+                  computer.processors[event.source]->occupied_until_ns);  // delayed
+    }
+    ++result.events;
+    result.hash = core::mix(result.hash ^ event.time_ns);
+    result.hash = core::mix(result.hash ^ (std::uint64_t{event.source} << 8U | static_cast<std::uint64_t>(event.kind)));
+    switch (event.kind) {
+      case Event::Kind::enters:
+        return enter(event.packet);
+      case Event::Kind::arrives:
+        return arrive(event.packet);
+      case Event::Kind::is_free:
+        return become_free(*computer.processors[event.source]);
+    }
+  }
+
+  void post(Processor& source, Event::Kind kind, std::uint64_t time_ns, std::uint32_t packet = 0) {
+    events.push({time_ns, source.sequence++, index_of(source.node.id()), kind, packet});
+  }
+
+  /// A message enters the network: reserves its links.
+  void enter(std::uint32_t number) {
+    const Message& message = computer.messages[number];
+    const NodeId source{message.header.source};
+    Processor& sender = *computer.processors[index_of(source)];
+    const std::uint64_t bytes_ps = message.bytes() * machine.cost_of_message(message.bytes()).byte_ps;
+    const std::uint64_t passage_ns = links.hops(source, message.target) * machine.hop_ns + bytes_ps / 1000;
+    std::uint64_t& last_ns = sender.last_arrival_ns[index_of(message.target)];
+    last_ns = std::max(last_ns, links.pass(source, message.target, events.now_ns(), passage_ns));
+    post(sender, Event::Kind::arrives, last_ns, number);
+  }
+
+  void arrive(std::uint32_t number) {
+    const Message& message = computer.messages[number];
+    Processor& target = *computer.processors[index_of(message.target)];
+    target.node.counters().received[message.header.kind].add(message.payload.size());
+    if ((target.interrupt_kinds >> message.header.kind & 1U) != 0) {
+      return serve(target, number);
+    }
+    const std::uint64_t receive_ns = machine.cost_of_message(message.bytes()).receive_ns;
+    if (!target.is_occupied) {
+      wake(target, message.header.kind);
+    }
+    target.occupied_until_ns += receive_ns;
+    target.times.receiving_ns += receive_ns;
+    target.inbox.push_back(number);
+  }
+
+  /// From having nothing to do to having something, once the services that have been asked for are over.
+  void wake(Processor& self, PacketKind kind) {
+    const std::uint64_t begin_ns = std::max(events.now_ns(), self.served_until_ns);
+    self.times.waiting_ns[kind] += begin_ns - self.idle_since_ns - (self.times.lent_ns - self.lent_before_ns);
+    self.is_occupied = true;
+    self.occupied_until_ns = begin_ns;
+    post(self, Event::Kind::is_free, begin_ns);
+  }
+
+  /// An interrupt: first come, first served, whatever the program was doing.
+  void serve(Processor& self, std::uint32_t number) {
+    const std::uint64_t receive_ns = machine.cost_of_message(computer.messages[number].bytes()).receive_ns;
+    self.receive(number);
+    std::uint64_t service_ns = receive_ns + machine.service_ns + charge(self);
+    const std::uint64_t start_ns = std::max(events.now_ns(), self.served_until_ns);
+    for (const std::uint32_t reply : self.sent) {
+      const MessageCost& cost = machine.cost_of_message(computer.messages[reply].bytes());
+      service_ns += cost.send_ns;
+      post(self, Event::Kind::enters, start_ns + service_ns + cost.latency_ns, reply);
+    }
+    self.sent.clear();
+    self.served_until_ns = start_ns + service_ns;
+    if (self.is_occupied) {
+      self.occupied_until_ns += service_ns;
+      self.times.stolen_ns += service_ns;
+    } else {
+      self.times.lent_ns += service_ns;
+    }
+  }
+
+  /// What was under way is done: its packets leave, then the program goes on.
+  void become_free(Processor& self) {
+    self.is_occupied = false;
+    if (self.outgoing.empty()) {
+      return go_on(self);
+    }
+    std::uint64_t sent_ns = events.now_ns();
+    for (const std::uint32_t number : self.outgoing) {
+      const MessageCost& cost = machine.cost_of_message(computer.messages[number].bytes());
+      sent_ns += cost.send_ns;
+      post(self, Event::Kind::enters, sent_ns + cost.latency_ns, number);
+    }
+    self.outgoing.clear();
+    self.times.sending_ns += sent_ns - events.now_ns();
+    occupy(self, sent_ns);
+  }
+
+  /// The next packet, or the next quantum, or nothing.
+  void go_on(Processor& self) {
+    const std::uint64_t now_ns = events.now_ns();
+    if (!self.inbox.empty()) {
+      const std::uint32_t number = self.inbox.front();
+      self.inbox.pop_front();
+      self.receive(number);
+      self.has_more = true;
+    } else if (self.has_more && !self.program->finished()) {
+      ++self.node.counters().quanta;
+      self.has_more = self.program->work();
+    } else {
+      self.idle_since_ns = now_ns;
+      self.lent_before_ns = self.times.lent_ns;
+      return;
+    }
+    std::swap(self.outgoing, self.sent);  // empty until now
+    const std::uint64_t computing_ns = charge(self);
+    self.times.computing_ns += computing_ns;
+    occupy(self, now_ns + computing_ns);
+  }
+
+  void occupy(Processor& self, std::uint64_t until_ns) {
+    self.is_occupied = true;
+    self.occupied_until_ns = until_ns;
+    post(self, Event::Kind::is_free, until_ns);
+  }
+
+  /// What the operations take that the program has charged since the last call.
+  std::uint64_t charge(Processor& self) {
+    const Charges now = self.program->charges();
+    const std::uint64_t price_ps = self.remainder_ps + machine.price_ps(self.charged, now);
+    self.charged = now;
+    self.remainder_ps = price_ps % 1000;
+    return price_ps / 1000;
+  }
+
+  // ---- The end -----------------------------------------------------------------------------------------------------------
+
+  /// Nothing is under way any more.
+  void finish() {
+    const auto& all = computer.processors;
+    if (!std::all_of(all.begin(), all.end(), [](const auto& processor) { return processor->program->finished(); })) {
+      throw core::InternalError("nothing is under way, no node has work, and the run is unfinished:" + describe());
+    }
+    expect_nothing_lost();
+    result.total_ns = events.now_ns();
+    for (const auto& processor : all) {
+      result.total_ns = std::max(result.total_ns, processor->served_until_ns);
+    }
+    for (const auto& processor : all) {
+      VirtualTimes& times = processor->times;
+      times.end_ns = result.total_ns - processor->idle_since_ns - (times.lent_ns - processor->lent_before_ns);
+      core::expect(times.total_ns() == result.total_ns, "the parts of a node's time add up to the run's");
+      result.nodes.push_back(times);
+    }
+    result.links = links.traffic();
+    result.busiest_link_ns = links.busiest_ns();
+  }
+
+  void expect_nothing_lost() const {
+    std::uint64_t sent = 0, received = 0;
+    for (const auto& processor : computer.processors) {
+      core::expect(processor->small_held == 0 && processor->bulk_held == 0, "at the end all mailboxes are empty");
+      sent += total(processor->node.counters().sent).packets;
+      received += total(processor->node.counters().received).packets;
+    }
+    core::expect(sent == received, "packets sent are packets received");
+  }
+
+  std::string describe() const {
+    std::string lines;
+    for (const auto& processor : computer.processors) {
+      const std::uint32_t index = index_of(processor->node.id());
+      lines += "\n  " + (index + 1 == computer.processors.size() ? std::string("host") : "node " + std::to_string(index)) +
+               (processor->program->finished() ? " (finished): " : ": ") + processor->program->describe();
+    }
+    return lines;
+  }
+
+  Machine machine;
+  Links links;
+  Computer computer;
+  EventQueue events;
+  VirtualReport result;
+  bool is_started = false;
+};
+
+VirtualRunner::VirtualRunner(std::span<const NodeSpecification> specifications, const Machine& machine)
+    : implementation_(std::make_unique<Implementation>(specifications, machine)) {}
+VirtualRunner::~VirtualRunner() = default;
+
+RunEnd VirtualRunner::run(std::stop_token stop) { return implementation_->run(stop); }
+
+Node& VirtualRunner::node(std::size_t index) { return implementation_->computer.processors.at(index)->node; }
+Program& VirtualRunner::program(std::size_t index) { return *implementation_->computer.processors.at(index)->program; }
+std::optional<VirtualReport> VirtualRunner::virtual_report() const { return implementation_->result; }
+
+}  // namespace dmpc::nodes
