@@ -95,8 +95,8 @@ class CommandLine {
   OptionSet add_command(const std::string& name, const std::string& description);
 
   /// Sets what the options of the command given are to set, and returns its name, "study balance" if it is a command's command;
-  /// or help. Call it once. `arguments` without the
-  /// program's name. Throws core::UsageError, whose message ends with a hint at the right --help.
+  /// or help. Call it once. `arguments` without the program's name. Throws core::UsageError, whose message ends with a hint at
+  /// the right --help.
   std::variant<HelpText, std::string> parse(std::span<const std::string> arguments);
 
  private:

@@ -56,13 +56,13 @@ struct RenderRecord {
 ///   chaos          seed, packets_held, quanta_sat_out, and credits that were left: request_credits, ray_credits, host_credits,
 ///                  film_credits; null when calm
 ///   skips          empty_space: whether the short cut was on
-///   nodes          for each node: rays, hits, operations, packets, pages, work, travel, load {work_ps, predicted_ps}, region
-///   {low,
-///                  high: corners in finest cells, share of the grid's volume, part_bytes, primitive_copies, primary_rays},
-///                  memory {planned, used: bytes by category and in total}, seconds {busy: computing, idle: asleep for want of
-///                  packets, waiting for a core, wall}, quanta, sleeps
-///   host           packets, deposits_saturated (on its film, over those of the nodes), seconds, sleeps; of dataflow:
-///                  rays_kept_max (at once), kept_bytes_max (of its heap, beyond its plan), token_rounds
+///   nodes          for each node: rays, hits, operations, packets {sent, received, bytes: sent, bytes_received, refused: tried
+///                  without credit}, pages, work, travel, load {work_ps, predicted_ps}, region
+///                  {low, high: corners in finest cells, share of the grid's volume, part_bytes, primitive_copies,
+///                  primary_rays}, memory {planned, used: bytes by category and in total}, seconds {busy: computing, idle:
+///                  asleep for want of packets, waiting for a core, wall}, quanta, sleeps
+///   host           packets as of a node, deposits_saturated (on its film, over those of the nodes), seconds, sleeps; of
+///                  dataflow: rays_kept_max (at once), kept_bytes_max (of its heap, beyond its plan), token_rounds
 std::string stats_json(const RenderRecord& record);
 
 /// 16 hexadecimal digits.

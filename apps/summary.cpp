@@ -101,10 +101,10 @@ std::string time_text(const Seconds& seconds) {
 void print_summary(std::ostream& output, const RenderRecord& record) {
   const Account account = account_of(record.report);
   const StrategyLines special = std::visit([&](const auto& report) { return lines_of(record.options, report); }, record.report);
-  output << "scene    " << record.options.picture.scene << ", " << grouped(record.database.header().primitive_count)
-         << " primitives in " << grouped(record.database.page_count()) << " pages of "
-         << nodes::size_text(record.database.page_size()) << "\ncomputer " << counted(account.nodes.size(), "node") << ", "
-         << name_of(record.options.strategy) << ", " << special.computer << "\nmemory   " << memory_text(account) << "\nrays     "
+  output << "scene    " << record.options.picture.scene << ", " << counted(record.database.header().primitive_count, "primitive")
+         << " in " << counted(record.database.page_count(), "page") << " of " << nodes::size_text(record.database.page_size())
+         << "\ncomputer " << counted(account.nodes.size(), "node") << ", " << name_of(record.options.strategy) << ", "
+         << special.computer << "\nmemory   " << memory_text(account) << "\nrays     "
          << rays_text(account.operations, record.seconds.render) << '\n'
          << special.figures << "time     " << time_text(record.seconds) << "\npicture  " << record.options.image.string() << ", "
          << account.film.width() << "x" << account.film.height() << ", film " << hash_text(account.film.hash()) << '\n';

@@ -121,8 +121,8 @@ double average_load(std::span<const double> loads);
 /// Two regions that share a face.
 struct Boundary {
   std::uint32_t low = 0, high = 0;  ///< region numbers, low < high
-  std::int32_t length_cells =
-      0;  ///< the face's extent along the cut axis that it lies in; along the third axis all span the grid
+  /// The face's extent along the cut axis that it lies in; along the third axis all span the grid.
+  std::int32_t length_cells = 0;
   constexpr bool operator==(const Boundary&) const = default;
 };
 

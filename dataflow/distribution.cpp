@@ -6,9 +6,8 @@ namespace {
 /// More nodes than this are not tried for a memory that is too small: the database is cut up anew for each.
 constexpr std::uint32_t node_count_tried_max = 256;
 
-bool fits(PlanRequest& request, std::uint32_t node_count, const core::Database& database, const core::RenderSettings& settings,
-          const MakeBsp& make_bsp) {
-  request.shares = distribute(database, settings, make_bsp(node_count)).shares();
+bool fits(PlanRequest& request, std::uint32_t node_count, const MakeShares& make_shares) {
+  request.shares = make_shares(node_count);
   return smallest_node_memory_bytes(request) <= *request.node_memory_bytes;
 }
 
@@ -43,10 +42,9 @@ Distribution distribute(const core::Database& database, const core::RenderSettin
   return distribution;
 }
 
-std::optional<std::uint32_t> smallest_node_count(PlanRequest request, const core::Database& database,
-                                                 const core::RenderSettings& settings, const MakeBsp& make_bsp) {
+std::optional<std::uint32_t> smallest_node_count(PlanRequest request, const MakeShares& make_shares) {
   std::uint32_t too_few = request.node_count(), enough = 2 * too_few;
-  while (enough <= node_count_tried_max && !fits(request, enough, database, settings, make_bsp)) {
+  while (enough <= node_count_tried_max && !fits(request, enough, make_shares)) {
     too_few = enough;
     enough *= 2;
   }
@@ -55,7 +53,7 @@ std::optional<std::uint32_t> smallest_node_count(PlanRequest request, const core
   }
   while (enough - too_few > 1) {
     const std::uint32_t middle = too_few + (enough - too_few) / 2;
-    (fits(request, middle, database, settings, make_bsp) ? enough : too_few) = middle;
+    (fits(request, middle, make_shares) ? enough : too_few) = middle;
   }
   return enough;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -18,6 +19,8 @@ namespace dmpc::dataflow {
 
 /// Regions for a number of nodes, whichever way they are balanced.
 using MakeBsp = std::function<Bsp(std::uint32_t node_count)>;
+/// What so many nodes would be dealt.
+using MakeShares = std::function<std::vector<Share>(std::uint32_t node_count)>;
 
 /// By node.
 struct Distribution {
@@ -37,7 +40,6 @@ Distribution distribute(const core::Database& database, const core::RenderSettin
 
 /// The smallest number of nodes above the request's with which make_plan() succeeds under the request's memory bound, as far as
 /// halving the interval finds it: more nodes need less for their parts but more for their queues.
-std::optional<std::uint32_t> smallest_node_count(PlanRequest request, const core::Database& database,
-                                                 const core::RenderSettings& settings, const MakeBsp& make_bsp);
+std::optional<std::uint32_t> smallest_node_count(PlanRequest request, const MakeShares& make_shares);
 
 }  // namespace dmpc::dataflow

@@ -26,7 +26,7 @@ using nodes::size_text;
 /// fewer packets, but take 0.5 MB more of a node among 64.
 constexpr std::uint32_t default_ray_credits = 4;
 /// Where many nodes share a core, a receiver may not run for milliseconds, and the others go on until the announcement of a long
-/// queue reaches them. 8 to 64 nodes on two cores that others used, too, queued up to 331 packets on six scenes at 512x512.
+/// queue reaches them. 8 to 64 nodes on two cores that others used, too, queued up to 464 packets on seven scenes at 512x512.
 constexpr std::uint32_t default_queue_packets = 512;
 /// Two film packets a node: one travels while the next is gathered.
 constexpr std::uint32_t film_credits = 2;

@@ -31,7 +31,7 @@ struct PlanRequest {
   /// Packets of rays that may be under way, or in the receiver's backlog, for each sender and receiver. Without it 4, or fewer if
   /// the memory is scarce. 0: no node sends to another, every ray goes by way of the host.
   std::optional<std::uint32_t> ray_credits = std::nullopt;
-  /// Full packets that may wait at their sender for credits before rays overflow. Without it 256, or fewer if the memory is
+  /// Full packets that may wait at their sender for credits before rays overflow. Without it 512, or fewer if the memory is
   /// scarce. Of no use without credits.
   std::optional<std::uint32_t> queue_packets = std::nullopt;
   std::uint32_t depth_max = 5;  ///< of a ray

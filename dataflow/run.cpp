@@ -61,10 +61,11 @@ Regions regions_for(std::uint32_t node_count, const core::Database& database, co
 Plan plan_for(const Distribution& distribution, const core::Database& database, const core::RenderSettings& settings,
               const RunOptions& options, const std::stop_token& stop) {
   const PlanRequest request = request_of(distribution, settings, options);
-  const MakeBsp make_bsp = [&](std::uint32_t node_count) {
-    return regions_for(node_count, database, settings, options, stop).bsp;
+  const MakeShares make_shares = [&](std::uint32_t node_count) {
+    const Regions regions = regions_for(node_count, database, settings, options, stop);
+    return distribute(database, settings, regions.bsp, options.traversal, stop).shares();
   };
-  return make_plan(request, [&] { return smallest_node_count(request, database, settings, make_bsp); });
+  return make_plan(request, [&] { return smallest_node_count(request, make_shares); });
 }
 
 NodeReport report_of(nodes::Node& node, const nodes::Program& program, const Distribution& distribution) {

@@ -42,8 +42,7 @@ std::size_t needed_bytes(const Subject& subject, std::uint32_t node_count) {
 std::optional<std::uint32_t> smallest_above(const Subject& subject, std::uint32_t node_count, std::size_t memory_bytes) {
   PlanRequest request = request_of(subject, node_count);
   request.node_memory_bytes = memory_bytes;
-  return dataflow::smallest_node_count(request, subject.database(), subject.settings(),
-                                       [&](std::uint32_t count) { return equal_regions(subject, count); });
+  return dataflow::smallest_node_count(request, [&](std::uint32_t count) { return dealt(subject, count).shares(); });
 }
 
 }  // namespace
