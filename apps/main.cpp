@@ -11,6 +11,7 @@
 #include "apps/check.h"
 #include "apps/compare.h"
 #include "apps/interrupt.h"
+#include "apps/machine.h"
 #include "apps/options.h"
 #include "apps/output_file.h"
 #include "apps/render.h"
@@ -37,6 +38,7 @@ struct Execute {
   int operator()(const SceneOptions& options) const { return scene_command(options, interrupt, std::cout); }
   int operator()(const CheckOptions& options) const { return check_command(options, interrupt); }
   int operator()(const CompareOptions& options) const { return compare_command(options, interrupt, std::cout); }
+  int operator()(const MachineOptions& options) const { return machine_command(options, std::cout); }
   int operator()(const StudyOptions& options) const { return study_command(options, interrupt, std::cout); }
 };
 

@@ -12,12 +12,14 @@ Command parse_command_line(std::span<const std::string> arguments) {
   SceneOptions scene;
   CheckOptions check;
   CompareOptions compare;
+  MachineOptions machine;
   StudyOptions balance{.study = BalanceStudy()}, traffic{.study = TrafficStudy()};
   add_options(line.add_command("render", "Render a scene on N nodes"), render);
   add_options(line.add_command("scene", "Write a built-in scene as an NFF file"), scene);
   add_options(line.add_command("check", "Trace every ray of a render with Embree too, and let a referee settle differences"),
               check);
   add_options(line.add_command("compare", "Measure how far two pictures lie apart"), compare);
+  add_options(line.add_command("machine", "Print a machine's figures as JSON, to read or to start from"), machine);
   OptionSet study = line.add_command("study", "Render a scene on several computers and print a table");
   add_options(study.add_command(BalanceStudy::name, BalanceStudy::description), balance);
   add_options(study.add_command(TrafficStudy::name, TrafficStudy::description), traffic);
@@ -26,8 +28,9 @@ Command parse_command_line(std::span<const std::string> arguments) {
     return *help;
   }
   const auto& name = std::get<std::string>(parsed);
-  const std::map<std::string, Command> commands = {{"render", render},   {"scene", scene},           {"check", check},
-                                                   {"compare", compare}, {"study balance", balance}, {"study traffic", traffic}};
+  const std::map<std::string, Command> commands = {{"render", render},        {"scene", scene},     {"check", check},
+                                                   {"compare", compare},      {"machine", machine}, {"study balance", balance},
+                                                   {"study traffic", traffic}};
   return commands.at(name);
 }
 

@@ -8,13 +8,14 @@
 #include "apps/check.h"
 #include "apps/command_line.h"
 #include "apps/compare.h"
+#include "apps/machine.h"
 #include "apps/render_options.h"
 #include "apps/scene.h"
 #include "apps/study_options.h"
 
 namespace dmpc::apps {
 
-using Command = std::variant<HelpText, RenderOptions, SceneOptions, CheckOptions, CompareOptions, StudyOptions>;
+using Command = std::variant<HelpText, RenderOptions, SceneOptions, CheckOptions, CompareOptions, MachineOptions, StudyOptions>;
 
 /// `arguments` without the program's name. Throws core::UsageError, whose message ends with a hint at the right --help, for
 /// anything wrong that can be seen without reading a file.

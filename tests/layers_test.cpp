@@ -37,7 +37,7 @@ const std::vector<Foreign> foreign = {
     {"embree", {"apps/oracle.cpp"}},
     {"OpenImageIO/", {"apps/image_file.cpp"}},
     {"CLI/", {"apps/command_line.cpp"}},
-    {"nlohmann/", {"apps/stats", "apps/study_table.cpp"}},
+    {"nlohmann/", {"apps/stats", "apps/machine_file.", "apps/study_table.cpp"}},
     {"oneapi/", {"apps/inspection.cpp"}},
     {"tbb/", {"apps/inspection.cpp"}},
     {"hwy/", {"core/kernel.cpp"}},
