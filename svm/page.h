@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/expect.h"
 #include "core/record.h"
@@ -15,6 +16,15 @@ enum class PageId : std::uint32_t {};
 inline constexpr PageId no_page{0xffffffffU};
 
 constexpr std::uint32_t index_of(PageId page) { return static_cast<std::uint32_t>(page); }
+
+/// Above every page in `pages`; 0 if there are none.
+constexpr std::uint32_t page_bound_of(std::span<const PageId> pages) {
+  std::uint32_t bound = 0;
+  for (const PageId page : pages) {
+    bound = index_of(page) < bound ? bound : index_of(page) + 1;
+  }
+  return bound;
+}
 
 inline constexpr std::size_t page_size_min_bytes = 512;
 inline constexpr std::size_t page_size_max_bytes = 65536;

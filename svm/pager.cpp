@@ -17,12 +17,11 @@ std::size_t home_bytes(std::uint32_t page_count, std::size_t page_size_bytes) {
 
 }  // namespace
 
-void Pager::add_needs(nodes::MemoryPlan& plan, std::uint32_t home_page_count, std::uint32_t frame_count, std::uint32_t in_flight,
-                      std::size_t page_size_bytes) {
-  plan[Category::home_pages] += LocalMemory::bytes_for<std::byte>(home_bytes(home_page_count, page_size_bytes));
-  plan[Category::queues] += LocalMemory::bytes_for<std::byte>(sizeof(PageReplyHeader) + page_size_bytes);
+void Pager::add_needs(nodes::MemoryPlan& plan, std::uint32_t home_page_count, const CacheShape& cache, std::uint32_t in_flight) {
+  plan[Category::home_pages] += LocalMemory::bytes_for<std::byte>(home_bytes(home_page_count, cache.page_size_bytes));
+  plan[Category::queues] += LocalMemory::bytes_for<std::byte>(sizeof(PageReplyHeader) + cache.page_size_bytes);
   plan[Category::page_table] += LocalMemory::bytes_for<Translation>(translation_count);
-  Cache::add_needs(plan, frame_count, page_size_bytes);
+  Cache::add_needs(plan, cache);
   Faults::add_needs(plan, in_flight);
 }
 
@@ -33,7 +32,7 @@ Pager::Pager(nodes::Node& node, const Plan& plan, std::span<const std::byte> dat
       self_(nodes::index_of(node.id())),
       home_bytes_(node.memory().allocate<std::byte>(
           Category::home_pages, home_bytes(plan.pages_at(nodes::index_of(node.id())), plan.request.page_size_bytes))),
-      cache_(node.memory(), plan.frames, plan.request.page_size_bytes),
+      cache_(node.memory(), plan.cache(), self_),
       faults_(node.memory(), plan.in_flight),
       node_(&node),
       reply_(node.memory().allocate<std::byte>(Category::queues, sizeof(PageReplyHeader) + plan.request.page_size_bytes)),

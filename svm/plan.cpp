@@ -112,6 +112,16 @@ void check_use(bool right, const std::string& sentence) {
   }
 }
 
+/// Work that moves, or a pixel that goes on while another waits, would make the order of references depend on page misses.
+void check_recording(const PlanRequest& request) {
+  if (request.record_references) {
+    check_use(request.strategy == Strategy::svm, "page references are recorded with --strategy=svm only");
+    check_use(request.work_item_side == 0, "page references are recorded only if no node gives work away: --work-item=0");
+    check_use(request.in_flight == 1U, "page references are recorded only with one pixel in flight: --in-flight=1");
+    check_use(!request.count_pages, "page references are recorded, or distinct pages counted, not both");
+  }
+}
+
 void check(const PlanRequest& request) {
   check_use(is_page_size(request.page_size_bytes),
             "--page-size=" + size_text(request.page_size_bytes) + ": a page is a power of two from 512B to 64KiB");
@@ -122,8 +132,11 @@ void check(const PlanRequest& request) {
             "--in-flight=" + std::to_string(in_flight) + ": from 1 to " + std::to_string(in_flight_max) + " pixels");
   check_use(request.strategy == Strategy::svm || !request.cache_pages,
             "--cache-pages goes with --strategy=svm: replicated has no cache, every node holds the whole database");
+  check_use(request.strategy == Strategy::svm || request.replacement == Replacement::lru,
+            "--replacement goes with --strategy=svm: replicated has no cache, every node holds the whole database");
   check_use(request.strategy == Strategy::svm || !request.count_pages, "distinct pages are counted with --strategy=svm only");
   check_use(request.cache_pages.value_or(1) >= 1, "--cache-pages=0: a node needs at least one frame for the pages of others");
+  check_recording(request);
   core::expect(request.page_count >= 1 && request.depth_max >= 1, "a database has a page, and a ray a depth");
   core::expect(request.width >= 1 && request.height >= 1, "a picture has a pixel");
 }
@@ -213,7 +226,7 @@ std::uint32_t Plan::pages_at(std::uint32_t node) const {
 nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
   nodes::MemoryPlan plan;
   if (request.strategy == Strategy::svm) {
-    Pager::add_needs(plan, pages_at(index), frames, in_flight, request.page_size_bytes);
+    Pager::add_needs(plan, pages_at(index), cache(), in_flight);
   } else {
     LocalCopy::add_needs(plan, request.page_count * request.page_size_bytes);
   }

@@ -11,6 +11,7 @@
 #include "nodes/local_memory.h"
 #include "nodes/runner.h"
 #include "nodes/size_text.h"
+#include "svm/cache.h"
 #include "svm/home.h"
 #include "svm/page.h"
 
@@ -30,6 +31,7 @@ struct PlanRequest {
   std::optional<std::size_t> node_memory_bytes = std::nullopt;
   /// Frames of each node's cache; svm only. With a memory bound and without this, the cache takes all that is left.
   std::optional<std::uint32_t> cache_pages = std::nullopt;
+  Replacement replacement = Replacement::lru;  ///< which page of the cache makes room; svm only
   /// Pixels under way on a node. Without it 16 for svm: a node whose pixel waits for a page has others to go on with, while
   /// the stacks and reply slots of 16 pixels take about 1 % of a 4 MiB node; and 1 for replicated, where nothing is ever
   /// waited for.
@@ -38,6 +40,9 @@ struct PlanRequest {
   int depth_max = 5;                 ///< entries of a pixel's ray stack
   std::uint32_t width = 0, height = 0;
   bool count_pages = false;  ///< count the distinct pages of each pixel; costs a bit a page for each pixel in flight
+  /// Record every node's page references. Only where these depend on neither the cache nor the schedule: without work given
+  /// from node to node, and with one pixel in flight. Not with count_pages.
+  bool record_references = false;
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;  ///< of each node's thread
   /// Fewer credits, and room for packets held back; mailboxes stay as they are.
   std::optional<nodes::Chaos> chaos = std::nullopt;
@@ -63,6 +68,8 @@ struct Plan {
   /// The most that any node takes.
   std::size_t node_memory_max_bytes() const { return node_memory(0).total(); }
   nodes::MemoryPlan host_memory() const;
+  /// Each node's.
+  CacheShape cache() const { return {frames, request.page_size_bytes, request.replacement}; }
 
   std::uint32_t pages_at(std::uint32_t node) const;
 };

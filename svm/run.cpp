@@ -7,6 +7,7 @@
 #include "svm/counting_pager.h"
 #include "svm/host.h"
 #include "svm/pager.h"
+#include "svm/recording_pager.h"
 
 namespace dmpc::svm {
 namespace {
@@ -19,12 +20,14 @@ PlanRequest request_of(Strategy strategy, const core::Database& database, const 
           .node_count = options.node_count,
           .node_memory_bytes = options.node_memory_bytes,
           .cache_pages = options.cache_pages,
+          .replacement = options.replacement,
           .in_flight = options.in_flight,
           .work_item_side = options.work_item_side,
           .depth_max = settings.shade.depth_max,
           .width = static_cast<std::uint32_t>(settings.camera.width()),
           .height = static_cast<std::uint32_t>(settings.camera.height()),
           .count_pages = options.count_pages,
+          .record_references = options.record_references,
           .stack_reserve_bytes = options.stack_reserve_bytes,
           .chaos = options.chaos};
 }
@@ -47,7 +50,8 @@ std::uint64_t rays_of(const core::Operations& operations) {
 }
 
 void check_conservation(const NodeReport& report) {
-  const auto& [program, counters, planned, used] = report;
+  const ProgramReport& program = report.program;
+  const nodes::NodeCounters& counters = report.counters;
   core::expect(rays_of(program.operations) == program.rays_ended, "every ray shot has ended");
   core::expect(program.pages.faults == packets_of(counters.sent, Kind::page_request), "every fault was requested, once");
   core::expect(program.pages.faults == packets_of(counters.received, Kind::page_reply), "every page request was replied to");
@@ -71,16 +75,35 @@ void check_conservation(const Report& report) {
 /// Serving a page reads pages that never change: a home may be interrupted for it at any time.
 constexpr std::uint32_t interrupt_kinds = 1U << number_of(Kind::page_request);
 
-template <class Records>
+/// prepare(index, records) is called for each node before its first reference.
+template <class Records, class Prepare>
 MakeProgram maker(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
-                  const Plan& plan) {
-  return [&](std::uint32_t, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
+                  const Plan& plan, const Prepare& prepare) {
+  return [&, prepare](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
     const auto make_tracer = [&](Records& records) {
+      prepare(index, records);
       return core::GridTracer<Records>(records, settings.header, options.traversal);
     };
     return std::make_unique<ControlProgram<Records, core::GridTracer<Records>>>(node, plan, settings, database.bytes(),
                                                                                 make_tracer);
   };
+}
+
+template <class Records>
+MakeProgram maker(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
+                  const Plan& plan) {
+  return maker<Records>(database, settings, options, plan, [](std::uint32_t, Records&) {});
+}
+
+Report run_recording(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
+                     const Plan& plan, std::stop_token stop) {
+  std::vector<ReferenceLog> logs(plan.request.node_count);
+  const auto record = [&logs](std::uint32_t index, RecordingPager& pager) { pager.record_into(logs[index]); };
+  Report report = run_programs(plan, maker<RecordingPager>(database, settings, options, plan, record), options, std::move(stop));
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    report.nodes[i].references = std::move(logs[i]);
+  }
+  return report;
 }
 
 }  // namespace
@@ -184,6 +207,9 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
 Report run_svm(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                std::stop_token stop) {
   const Plan plan = plan_of(Strategy::svm, database, settings, options);
+  if (options.record_references) {
+    return run_recording(database, settings, options, plan, std::move(stop));
+  }
   const MakeProgram make_program = options.count_pages ? maker<CountingPager>(database, settings, options, plan)
                                                        : maker<Pager>(database, settings, options, plan);
   return run_programs(plan, make_program, options, std::move(stop));

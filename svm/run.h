@@ -26,6 +26,7 @@
 #include "svm/node_program.h"
 #include "svm/plan.h"
 #include "svm/program.h"
+#include "svm/reference_log.h"
 
 namespace dmpc::svm {
 
@@ -34,9 +35,13 @@ struct RunOptions {
   std::uint32_t node_count = 8;
   std::optional<std::size_t> node_memory_bytes = std::nullopt;
   std::optional<std::uint32_t> cache_pages = std::nullopt;
+  Replacement replacement = Replacement::lru;
   std::optional<std::uint32_t> in_flight = std::nullopt;
   std::uint32_t work_item_side = 3;
   bool count_pages = false;
+  /// Record every node's page references, run_svm() only: an instrument, whose memory is no node's and grows with the run. Needs
+  /// work_item_side = 0 and in_flight = 1: else the references would depend on the cache and the schedule.
+  bool record_references = false;
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;
   core::TraversalOptions traversal = {};
   std::optional<nodes::Chaos> chaos = std::nullopt;  ///< disturbs the run; the film stays the same
@@ -49,6 +54,7 @@ struct NodeReport {
   ProgramReport program;
   nodes::NodeCounters counters;
   nodes::MemoryPlan memory_planned, memory_used;
+  ReferenceLog references = {};  ///< empty unless recorded
 };
 
 struct Report {

@@ -3,26 +3,33 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <list>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "core/expect.h"
 
 using namespace dmpc;
 using svm::Cache;
+using svm::CacheShape;
 using svm::PageId;
+using svm::Replacement;
 
 namespace {
 
 constexpr std::size_t page_size = 512;
+constexpr auto all_policies = {Replacement::lru, Replacement::clock, Replacement::fifo, Replacement::random};
 
 /// A cache in a memory of exactly the size that it says it needs.
 struct SmallCache {
-  explicit SmallCache(std::uint32_t frames) : memory(needs(frames)), cache(memory, frames, page_size) {}
-  static nodes::MemoryPlan needs(std::uint32_t frames) {
+  explicit SmallCache(std::uint32_t frames, Replacement replacement = Replacement::lru, std::uint32_t seed = 0)
+      : SmallCache(CacheShape{frames, page_size, replacement}, seed) {}
+  SmallCache(const CacheShape& shape, std::uint32_t seed) : memory(needs(shape)), cache(memory, shape, seed) {}
+  static nodes::MemoryPlan needs(const CacheShape& shape) {
     nodes::MemoryPlan plan;
-    Cache::add_needs(plan, frames, page_size);
+    Cache::add_needs(plan, shape);
     return plan;
   }
   PageId install(std::uint32_t page) { return cache.install(PageId{page}, bytes_of(page)); }
@@ -41,37 +48,51 @@ struct SmallCache {
   Cache cache;
 };
 
-/// LRU as its definition says: a list, newest first.
+/// The policies as their definitions say, on a list of pages: for lru the newest first, for the others in the order of arrival.
 struct Model {
   bool refer(std::uint32_t page) {
-    const auto place = std::find(pages.begin(), pages.end(), page);
+    const auto place = std::find_if(pages.begin(), pages.end(), [page](const Entry& entry) { return entry.page == page; });
     if (place == pages.end()) {
       return false;
     }
-    pages.splice(pages.begin(), pages, place);
+    place->is_marked = true;
+    if (replacement == Replacement::lru) {
+      pages.splice(pages.begin(), pages, place);
+    }
     return true;
   }
   PageId install(std::uint32_t page) {
-    PageId evicted = svm::no_page;
-    if (pages.size() == frames) {
-      evicted = PageId{pages.back()};
-      pages.pop_back();
-    }
-    pages.push_front(page);
+    const PageId evicted = pages.size() == frames ? evict() : svm::no_page;
+    pages.push_front({page, true});
     return evicted;
   }
+  PageId evict() {
+    while (replacement == Replacement::clock && pages.back().is_marked) {  // a second chance
+      pages.back().is_marked = false;
+      pages.splice(pages.begin(), pages, std::prev(pages.end()));
+    }
+    const PageId evicted{pages.back().page};
+    pages.pop_back();
+    return evicted;
+  }
+  struct Entry {
+    std::uint32_t page;
+    bool is_marked;
+  };
   std::size_t frames;
-  std::list<std::uint32_t> pages;
+  Replacement replacement;
+  std::list<Entry> pages = {};
 };
 
-void compare_with_model(std::uint32_t frames, std::uint32_t page_count, std::uint32_t seed, bool clustered) {
-  SmallCache small(frames);
-  Model model{frames, {}};
+void compare_with_model(Replacement replacement, std::uint32_t frames, std::uint32_t page_count, std::uint32_t seed,
+                        bool clustered) {
+  SmallCache small(frames, replacement);
+  Model model{frames, replacement};
   std::mt19937 generator(seed);
   for (int i = 0; i < 3000; ++i) {
     const auto random = static_cast<std::uint32_t>(generator() % page_count);
     const std::uint32_t page = clustered ? random / (1U + static_cast<std::uint32_t>(generator()) % 8U) : random * 64U;
-    INFO("frames ", frames, ", page_count ", page_count, ", seed ", seed, ", i ", i);
+    INFO(svm::name_of(replacement), ", frames ", frames, ", page_count ", page_count, ", seed ", seed, ", i ", i);
     const bool cached = model.refer(page);
     REQUIRE(small.refer(page) == cached);
     if (!cached) {
@@ -82,12 +103,14 @@ void compare_with_model(std::uint32_t frames, std::uint32_t page_count, std::uin
 
 }  // namespace
 
-TEST_CASE("a cache finds and evicts what a brute-force LRU list does") {
-  for (const std::uint32_t frames : {1U, 2U, 3U, 4U, 7U, 16U, 63U, 64U, 65U, 100U, 300U}) {
-    for (const std::uint32_t seed : {1U, 2U}) {
-      compare_with_model(frames, frames + 1, seed, true);
-      compare_with_model(frames, 2 * frames + 3, seed, false);
-      compare_with_model(frames, 20 * frames, seed, true);
+TEST_CASE("a cache finds and evicts what a brute-force list does under lru, clock and fifo") {
+  for (const Replacement replacement : {Replacement::lru, Replacement::clock, Replacement::fifo}) {
+    for (const std::uint32_t frames : {1U, 2U, 3U, 4U, 7U, 16U, 63U, 64U, 65U, 100U, 300U}) {
+      for (const std::uint32_t seed : {1U, 2U}) {
+        compare_with_model(replacement, frames, frames + 1, seed, true);
+        compare_with_model(replacement, frames, 2 * frames + 3, seed, false);
+        compare_with_model(replacement, frames, 20 * frames, seed, true);
+      }
     }
   }
 }
@@ -99,27 +122,44 @@ TEST_CASE("an empty cache finds nothing") {
 }
 
 TEST_CASE("a cache without frames finds nothing and takes nothing") {
-  SmallCache small(0);
-  CHECK_FALSE(small.refer(1));
-  CHECK_THROWS_AS(small.install(1), core::InternalError);
+  for (const Replacement replacement : all_policies) {
+    SmallCache small(0, replacement);
+    CHECK_FALSE(small.refer(1));
+    CHECK_THROWS_AS(small.install(1), core::InternalError);
+  }
 }
 
 TEST_CASE("a cache of one frame holds the page installed last") {
-  SmallCache small(1);
-  CHECK(small.install(5) == svm::no_page);
-  CHECK(small.refer(5));
-  CHECK(small.install(6) == PageId{5});
-  CHECK_FALSE(small.refer(5));
-  CHECK(small.refer(6));
+  for (const Replacement replacement : all_policies) {
+    SmallCache small(1, replacement);
+    CHECK(small.install(5) == svm::no_page);
+    CHECK(small.refer(5));
+    CHECK(small.install(6) == PageId{5});
+    CHECK_FALSE(small.refer(5));
+    CHECK(small.refer(6));
+  }
 }
 
 TEST_CASE("empty frames are filled before a page is evicted") {
-  SmallCache small(3);
-  for (std::uint32_t page = 0; page < 3; ++page) {
-    CHECK(small.install(page) == svm::no_page);
+  for (const Replacement replacement : all_policies) {
+    SmallCache small(3, replacement);
+    for (std::uint32_t page = 0; page < 3; ++page) {
+      CHECK(small.install(page) == svm::no_page);
+    }
+    CHECK(small.refer(0));
+    CHECK(small.install(3) != svm::no_page);
   }
-  CHECK(small.refer(0));
-  CHECK(small.install(3) == PageId{1});
+}
+
+TEST_CASE("lru evicts what was referenced least recently, fifo what came first") {
+  for (const auto& [replacement, evicted] : {std::pair(Replacement::lru, 1U), {Replacement::fifo, 0U}}) {
+    SmallCache small(3, replacement);
+    for (std::uint32_t page = 0; page < 3; ++page) {
+      small.install(page);
+    }
+    CHECK(small.refer(0));
+    CHECK(small.install(3) == PageId{evicted});
+  }
 }
 
 TEST_CASE("a page is installed whole, and only where it is absent") {
@@ -130,8 +170,10 @@ TEST_CASE("a page is installed whole, and only where it is absent") {
 }
 
 TEST_CASE("a cache takes exactly the memory that it says it needs") {
-  for (const std::uint32_t frames : {0U, 1U, 2U, 31U, 64U, 1000U}) {
-    SmallCache small(frames);
-    CHECK(small.memory.used().bytes == SmallCache::needs(frames).bytes);
+  for (const Replacement replacement : all_policies) {
+    for (const std::uint32_t frames : {0U, 1U, 2U, 31U, 64U, 1000U}) {
+      SmallCache small(frames, replacement);
+      CHECK(small.memory.used().bytes == SmallCache::needs({frames, page_size, replacement}).bytes);
+    }
   }
 }

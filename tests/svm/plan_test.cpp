@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <string>
 
 #include "core/expect.h"
@@ -216,4 +217,37 @@ TEST_CASE("sizes are written exactly, in the largest unit that divides them") {
   CHECK(svm::size_text(4_MiB) == "4MiB");
   CHECK(svm::size_text(4_MiB + 1) == "4194305B");
   CHECK(svm::size_text(2048_MiB) == "2GiB");
+}
+
+TEST_CASE("a replacement policy needs a cache") {
+  PlanRequest request = request_with(4, 100);
+  request.replacement = svm::Replacement::clock;
+  CHECK(make_plan(request).cache().replacement == svm::Replacement::clock);
+  request.strategy = svm::Strategy::replicated;
+  CHECK_THROWS_AS(make_plan(request), core::UsageError);
+}
+
+TEST_CASE("a policy that needs no memory of its own leaves it to the cache") {
+  PlanRequest request = request_with(4, 2000);
+  const std::size_t lru = make_plan(request).node_memory_max_bytes();
+  request.replacement = svm::Replacement::fifo;
+  CHECK(make_plan(request).node_memory_max_bytes() < lru);
+}
+
+TEST_CASE("page references are recorded only where they depend on neither cache nor schedule") {
+  PlanRequest right = request_with(4, 100);
+  right.record_references = true;
+  right.work_item_side = 0;
+  right.in_flight = 1;
+  CHECK_NOTHROW(make_plan(right));
+  std::array<PlanRequest, 5> wrong;
+  wrong.fill(right);
+  wrong[0].work_item_side = 3;
+  wrong[1].in_flight = 2;
+  wrong[2].in_flight.reset();
+  wrong[3].strategy = svm::Strategy::replicated;
+  wrong[4].count_pages = true;
+  for (const PlanRequest& request : wrong) {
+    CHECK_THROWS_AS(make_plan(request), core::UsageError);
+  }
 }

@@ -2,10 +2,14 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <stop_token>
 
 #include "core/render.h"
 #include "core/scenes.h"
+#include "svm/miss_curve.h"
+#include "svm/optimum.h"
+#include "tests/support/references.h"
 
 using namespace dmpc;
 
@@ -28,6 +32,21 @@ struct SmallScene {
   core::Database database;
   core::RenderSettings settings;
 };
+
+/// Nothing in the order of references depends on the cache.
+svm::RunOptions fixed_order(std::uint32_t node_count) {
+  svm::RunOptions options;
+  options.node_count = node_count;
+  options.work_item_side = 0;
+  options.in_flight = 1;
+  return options;
+}
+
+svm::Report recorded_run(const SmallScene& small, std::uint32_t node_count) {
+  svm::RunOptions options = fixed_order(node_count);
+  options.record_references = true;
+  return svm::run_svm(small.database, small.settings, options, {});
+}
 
 }  // namespace
 
@@ -118,4 +137,62 @@ TEST_CASE("an exception of the progress function ends the run and comes out") {
   svm::RunOptions options;
   options.progress = [](std::uint32_t, std::uint32_t) { throw core::InputError("enough"); };
   CHECK_THROWS_AS(svm::run_svm(small.database, small.settings, options, {}), core::InputError);
+}
+
+TEST_CASE("the references recorded in one run give every node's faults in runs with other caches, to the last one") {
+  const SmallScene small("rings-2", 512, 24);
+  const svm::Report recorded = recorded_run(small, 4);
+  for (const std::uint32_t cache_pages : {1U, 3U, 8U, 20U, 60U}) {
+    svm::RunOptions options = fixed_order(4);
+    options.cache_pages = cache_pages;
+    const svm::Report report = svm::run_svm(small.database, small.settings, options, {});
+    for (std::size_t i = 0; i < report.nodes.size(); ++i) {
+      CAPTURE(cache_pages);
+      CAPTURE(i);
+      const auto references = recorded.nodes[i].references.pages();
+      CHECK(svm::MissCurve(references).misses(cache_pages) == report.nodes[i].program.pages.faults);
+      CHECK(tests::lru_misses(references, cache_pages) == report.nodes[i].program.pages.faults);
+    }
+  }
+}
+
+TEST_CASE("recording changes neither film nor counters, and does not depend on the cache") {
+  const SmallScene small("balls-2", 512, 24);
+  const svm::Report recorded = recorded_run(small, 3);
+  svm::RunOptions options = fixed_order(3);
+  const svm::Report plain = svm::run_svm(small.database, small.settings, options, {});
+  CHECK(recorded.film.hash() == plain.film.hash());
+  CHECK(recorded.pages().references == plain.pages().references);
+  CHECK(recorded.pages().faults == plain.pages().faults);
+  CHECK(plain.nodes[0].references.pages().empty());
+  options.record_references = true;
+  options.cache_pages = 2;
+  options.replacement = svm::Replacement::random;
+  const svm::Report starved = svm::run_svm(small.database, small.settings, options, {});
+  for (std::size_t i = 0; i < starved.nodes.size(); ++i) {
+    const auto one = recorded.nodes[i].references.pages(), other = starved.nodes[i].references.pages();
+    CHECK(std::equal(one.begin(), one.end(), other.begin(), other.end()));
+  }
+}
+
+TEST_CASE("one node has every page at home and records nothing") {
+  CHECK(recorded_run(SmallScene("balls-2", 1024, 8), 1).nodes[0].references.pages().empty());
+}
+
+TEST_CASE("under every replacement policy the film is the same and no node misses less than the optimum") {
+  const SmallScene small("rings-2", 512, 24);
+  const svm::Report recorded = recorded_run(small, 4);
+  for (const auto replacement :
+       {svm::Replacement::lru, svm::Replacement::clock, svm::Replacement::fifo, svm::Replacement::random}) {
+    svm::RunOptions options = fixed_order(4);
+    options.cache_pages = 8;
+    options.replacement = replacement;
+    const svm::Report report = svm::run_svm(small.database, small.settings, options, {});
+    CHECK(report.film.hash() == recorded.film.hash());
+    for (std::size_t i = 0; i < report.nodes.size(); ++i) {
+      const svm::Optimum optimum(recorded.nodes[i].references.pages());
+      CHECK(optimum.misses(8) <= report.nodes[i].program.pages.faults);
+      CHECK(report.nodes[i].memory_used.bytes == report.nodes[i].memory_planned.bytes);
+    }
+  }
 }
