@@ -53,6 +53,11 @@ class MessageStore {
   std::vector<std::uint32_t> free_;
 };
 
+/// From one node to another: messages keep their order, even a short one behind a long one.
+struct Way {
+  std::uint64_t last_enters_ns = 0, last_arrives_ns = 0;
+};
+
 struct Processor;
 
 /// What all processors of a computer have in common.
@@ -69,7 +74,7 @@ struct Processor final : Network {
         interrupt_kinds(specification.interrupt_kinds),
         memory(specification.plan),
         node(id, peer_count, memory, *this),
-        last_arrival_ns(peer_count) {
+        ways(peer_count) {
     static_cast<void>(memory.allocate<std::byte>(Category::mailbox, specification.mailbox.bytes()));  // the model's, unused
     program = specification.make_program(node);
     core::expect(program != nullptr, "a specification makes a program");
@@ -102,10 +107,10 @@ struct Processor final : Network {
   LocalMemory memory;
   Node node;
   std::unique_ptr<Program> program;
-  std::vector<std::uint32_t> sent;             ///< in the call that is going on, in order
-  std::vector<std::uint32_t> outgoing;         ///< sent in a call whose operations are not done yet
-  std::deque<std::uint32_t> inbox;             ///< arrived and not received
-  std::vector<std::uint64_t> last_arrival_ns;  ///< by target: messages between two nodes keep their order
+  std::vector<std::uint32_t> sent;      ///< in the call that is going on, in order
+  std::vector<std::uint32_t> outgoing;  ///< sent in a call whose operations are not done yet
+  std::deque<std::uint32_t> inbox;      ///< arrived and not received
+  std::vector<Way> ways;                ///< by target
   Charges charged;
   std::uint64_t remainder_ps = 0;  ///< charged, and not yet a whole nanosecond
   std::uint64_t sequence = 0;
@@ -171,6 +176,14 @@ struct VirtualRunner::Implementation {
     events.push({time_ns, source.sequence++, index_of(source.node.id()), kind, packet});
   }
 
+  /// A processor has sent a message, which enters the network after its latency, behind those to the same target.
+  void leave(Processor& self, std::uint32_t number, std::uint64_t time_ns) {
+    const Message& message = computer.messages[number];
+    std::uint64_t& enters_ns = self.ways[index_of(message.target)].last_enters_ns;
+    enters_ns = std::max(enters_ns, time_ns + machine.cost_of_message(message.bytes()).latency_ns);
+    post(self, Event::Kind::enters, enters_ns, number);
+  }
+
   /// A message enters the network: reserves its links.
   void enter(std::uint32_t number) {
     const Message& message = computer.messages[number];
@@ -178,9 +191,9 @@ struct VirtualRunner::Implementation {
     Processor& sender = *computer.processors[index_of(source)];
     const std::uint64_t bytes_ps = message.bytes() * machine.cost_of_message(message.bytes()).byte_ps;
     const std::uint64_t passage_ns = links.hops(source, message.target) * machine.hop_ns + bytes_ps / 1000;
-    std::uint64_t& last_ns = sender.last_arrival_ns[index_of(message.target)];
-    last_ns = std::max(last_ns, links.pass(source, message.target, events.now_ns(), passage_ns));
-    post(sender, Event::Kind::arrives, last_ns, number);
+    std::uint64_t& arrives_ns = sender.ways[index_of(message.target)].last_arrives_ns;
+    arrives_ns = std::max(arrives_ns, links.pass(source, message.target, events.now_ns(), passage_ns));
+    post(sender, Event::Kind::arrives, arrives_ns, number);
   }
 
   void arrive(std::uint32_t number) {
@@ -215,9 +228,8 @@ struct VirtualRunner::Implementation {
     std::uint64_t service_ns = receive_ns + machine.service_ns + charge(self);
     const std::uint64_t start_ns = std::max(events.now_ns(), self.served_until_ns);
     for (const std::uint32_t reply : self.sent) {
-      const MessageCost& cost = machine.cost_of_message(computer.messages[reply].bytes());
-      service_ns += cost.send_ns;
-      post(self, Event::Kind::enters, start_ns + service_ns + cost.latency_ns, reply);
+      service_ns += machine.cost_of_message(computer.messages[reply].bytes()).send_ns;
+      leave(self, reply, start_ns + service_ns);
     }
     self.sent.clear();
     self.served_until_ns = start_ns + service_ns;
@@ -237,9 +249,8 @@ struct VirtualRunner::Implementation {
     }
     std::uint64_t sent_ns = events.now_ns();
     for (const std::uint32_t number : self.outgoing) {
-      const MessageCost& cost = machine.cost_of_message(computer.messages[number].bytes());
-      sent_ns += cost.send_ns;
-      post(self, Event::Kind::enters, sent_ns + cost.latency_ns, number);
+      sent_ns += machine.cost_of_message(computer.messages[number].bytes()).send_ns;
+      leave(self, number, sent_ns);
     }
     self.outgoing.clear();
     self.times.sending_ns += sent_ns - events.now_ns();

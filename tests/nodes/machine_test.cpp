@@ -1,0 +1,60 @@
+#include "nodes/machine.h"
+
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <set>
+#include <string_view>
+
+namespace dmpc::tests {
+
+using nodes::Charge;
+using nodes::Charges;
+using nodes::Machine;
+
+TEST_CASE("a machine that is told nothing costs nothing") {
+  const Machine machine;
+  Charges done;
+  done[Charge::shading] = 1000;
+  CHECK(machine.price_ps({}, done) == 0);
+  CHECK(machine.cost_of_message(1'000'000).byte_ps == 0);
+  CHECK(machine.has_contention);
+}
+
+TEST_CASE("a message up to the limit is short, and any longer one is long") {
+  const Machine machine{.short_bytes_max = 100};
+  CHECK(&machine.cost_of_message(0) == &machine.short_message);
+  CHECK(&machine.cost_of_message(100) == &machine.short_message);
+  CHECK(&machine.cost_of_message(101) == &machine.long_message);
+}
+
+TEST_CASE("every operation since the last look has its price, and none before") {
+  Machine machine;
+  Charges before, after;
+  std::uint64_t expected_ps = 0;
+  for (std::size_t i = 0; i < nodes::charge_count; ++i) {
+    machine.cost_ps[i] = std::uint64_t{1} << (4 * i);
+    before.count[i] = 100 + i;
+    after.count[i] = before.count[i] + i % 3;
+    expected_ps += (i % 3) << (4 * i);
+  }
+  CHECK(machine.price_ps(before, after) == expected_ps);
+  CHECK(machine.price_ps(after, after) == 0);
+}
+
+TEST_CASE("an hour of operations is priced without overflow") {
+  Machine machine;
+  machine.cost_ps[static_cast<std::size_t>(Charge::cell_step)] = 1'000'000'000;  // a millisecond
+  Charges done;
+  done[Charge::cell_step] = 3'600'000;
+  CHECK(machine.price_ps({}, done) == 3'600'000'000'000'000);
+}
+
+TEST_CASE("each class of operations has a name of its own") {
+  const std::set<std::string_view> names(nodes::charge_names.begin(), nodes::charge_names.end());
+  CHECK(names.size() == nodes::charge_count);
+  CHECK(names.count("") == 0);
+  CHECK(nodes::charge_names[static_cast<std::size_t>(Charge::ray_packing)] == "ray_packing");
+}
+
+}  // namespace dmpc::tests
