@@ -1,0 +1,285 @@
+// Whole pictures in virtual time: the same film and the same counts as the reference renderer and the threads, and the same
+// events again and again.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <span>
+#include <stop_token>
+#include <thread>
+#include <unordered_map>
+#include <vector>
+
+#include "dataflow/run.h"
+#include "nodes/operation_charges.h"
+#include "svm/pager.h"
+#include "svm/program.h"
+#include "svm/run.h"
+#include "tests/support/small_scenes.h"
+#include "tests/support/subject.h"
+
+namespace dmpc::tests {
+namespace {
+
+constexpr std::uint32_t node_counts[] = {1, 2, 5, 16};
+constexpr nodes::TopologyKind topologies[] = {nodes::TopologyKind::hypercube, nodes::TopologyKind::torus,
+                                              nodes::TopologyKind::fat_tree};
+
+/// Slow messages, slower services: about what a machine of 1990 would be to a processor a hundred times as fast.
+nodes::Machine slow_network(nodes::TopologyKind topology = nodes::TopologyKind::hypercube) {
+  nodes::Machine machine{.name = "slow", .topology = topology};
+  machine.short_message = {.send_ns = 160'000, .latency_ns = 50'000, .receive_ns = 160'000, .byte_ps = 200'000};
+  machine.long_message = {.send_ns = 160'000, .latency_ns = 430'000, .receive_ns = 160'000, .byte_ps = 353'000};
+  machine.hop_ns = 10'000;
+  machine.service_ns = 200'000;
+  for (std::size_t i = 0; i < machine.cost_ps.size(); ++i) {
+    machine.cost_ps[i] = 1'000'000 + 100'001 * i;
+  }
+  return machine;
+}
+
+svm::Report run_svm(const Subject& subject, const svm::RunOptions& options) {
+  return svm::run_svm(subject.database(), subject.settings(), options, {});
+}
+svm::Report run_replicated(const Subject& subject, const svm::RunOptions& options) {
+  return svm::run_replicated(subject.database(), subject.settings(), options, {});
+}
+dataflow::Report run_dataflow(const Subject& subject, const dataflow::RunOptions& options) {
+  return dataflow::run_dataflow(subject.database(), subject.settings(), options, {});
+}
+
+/// The film and all counts are the reference renderer's, and every node's time is accounted for.
+template <class Report>
+void check(const Subject& subject, const Report& report) {
+  CHECK(outcome_of(report) == subject.outcome());
+  REQUIRE(report.virtual_time);
+  CHECK(report.virtual_time->nodes.size() == report.nodes.size() + 1);
+  for (const nodes::VirtualTimes& times : report.virtual_time->nodes) {
+    CHECK(times.total_ns() == report.virtual_time->total_ns);
+  }
+}
+
+/// Both of a run's hashes.
+template <class Report>
+std::vector<std::uint64_t> hashes(const Report& report) {
+  return {report.virtual_time->hash, report.virtual_time->events, report.virtual_time->total_ns, report.film.hash()};
+}
+
+/// What each of two threads gets when both call at one time.
+template <class Function>
+std::vector<std::vector<std::uint64_t>> side_by_side(const Function& function) {
+  std::vector<std::vector<std::uint64_t>> results(2);
+  {
+    const std::jthread one([&] { results[0] = function(); }), other([&] { results[1] = function(); });
+  }
+  return results;
+}
+
+// ---- References ----------------------------------------------------------------------------------------------------------
+
+/// A pager that writes down each reference.
+class RecordingPager : public svm::Pager {
+ public:
+  RecordingPager(nodes::Node& node, const svm::Plan& plan, std::span<const std::byte> database)
+      : Pager(node, plan, database), geometry_(plan.request.page_size_bytes) {}
+
+  /// Hides Pager's: writes the page down, then looks it up.
+  const std::byte* find(core::Address address) {
+    references_->push_back(index_of(geometry_.page_of(address)));
+    return Pager::find(address);
+  }
+  void write_into(std::vector<std::uint32_t>& references) { references_ = &references; }
+
+ private:
+  svm::PageGeometry geometry_;
+  std::vector<std::uint32_t>* references_ = nullptr;
+};
+
+/// Runs svm and writes down the pages that each node references, in a list for each.
+svm::Report run_recorded(const Subject& subject, const svm::RunOptions& options,
+                         std::vector<std::vector<std::uint32_t>>& references) {
+  using Tracer = core::GridTracer<RecordingPager>;
+  const svm::Plan plan = svm::plan_of(svm::Strategy::svm, subject.database(), subject.settings(), options);
+  const auto make_program = [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<svm::NodeProgram> {
+    const auto make_tracer = [&](RecordingPager& pager) {
+      pager.write_into(references[index]);
+      return Tracer(pager, subject.settings().header, options.traversal);
+    };
+    return std::make_unique<svm::ControlProgram<RecordingPager, Tracer>>(node, plan, subject.settings(),
+                                                                         subject.database().bytes(), make_tracer);
+  };
+  return svm::run_programs(plan, make_program, options, {});
+}
+
+/// A cache that keeps the pages used last: misses among references to pages that are not at home.
+std::uint64_t misses_of(const std::vector<std::uint32_t>& references, std::uint32_t self, std::uint32_t node_count,
+                        std::size_t capacity) {
+  std::list<std::uint32_t> pages;  // used last first
+  std::unordered_map<std::uint32_t, std::list<std::uint32_t>::iterator> places;
+  std::uint64_t misses = 0;
+  for (const std::uint32_t page : references) {
+    if (page % node_count == self) {
+      continue;
+    }
+    if (const auto place = places.find(page); place != places.end()) {
+      pages.splice(pages.begin(), pages, place->second);
+      continue;
+    }
+    ++misses;
+    pages.push_front(page);
+    places[page] = pages.begin();
+    if (pages.size() > capacity) {
+      places.erase(pages.back());
+      pages.pop_back();
+    }
+  }
+  return misses;
+}
+
+std::vector<std::uint64_t> faults_by_node(const svm::Report& report) {
+  std::vector<std::uint64_t> faults;
+  for (const svm::NodeReport& node : report.nodes) {
+    faults.push_back(node.program.pages.faults);
+  }
+  return faults;
+}
+
+/// Every pixel at a fixed node, one after the other: the order of a node's references is known.
+svm::RunOptions fixed_assignment(std::uint32_t node_count, std::uint32_t cache_pages) {
+  return {.node_count = node_count, .cache_pages = cache_pages, .in_flight = 1, .work_item_side = 0};
+}
+
+}  // namespace
+
+// ---- Sentences -----------------------------------------------------------------------------------------------------------
+
+TEST_CASE("virtual time: svm, replicated and dataflow give the reference's picture on any nodes and topology") {
+  for (const core::Scene& scene : {mirrors_and_glass(), built_in("gears-1")}) {
+    const Subject subject(scene, {20, 16}, {.page_size_bytes = 512});
+    for (const std::uint32_t nodes : node_counts) {
+      for (const nodes::TopologyKind topology : topologies) {
+        CAPTURE(scene.name);
+        CAPTURE(nodes);
+        CAPTURE(name_of(topology));
+        check(subject, run_svm(subject, {.node_count = nodes, .cache_pages = 3, .machine = slow_network(topology)}));
+        check(subject, run_replicated(subject, {.node_count = nodes, .machine = slow_network(topology)}));
+        check(subject, run_dataflow(subject, {.node_count = nodes, .topology = topology, .machine = slow_network(topology)}));
+      }
+    }
+  }
+}
+
+TEST_CASE("virtual time: starved runs give the same picture") {
+  const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
+  for (const std::uint32_t nodes : node_counts) {
+    CAPTURE(nodes);
+    check(subject, run_svm(subject, {.node_count = nodes, .cache_pages = 1, .in_flight = 1, .machine = slow_network()}));
+    check(subject, run_svm(subject, {.node_count = nodes, .cache_pages = 1, .in_flight = 64, .machine = nodes::Machine{}}));
+    for (const std::uint32_t credits : {0U, 1U}) {
+      const dataflow::RunOptions least{.node_count = nodes,
+                                       .ray_batch = 1,
+                                       .ray_credits = credits,
+                                       .queue_packets = 0,
+                                       .machine = slow_network(nodes::TopologyKind::mesh)};
+      check(subject, run_dataflow(subject, least));
+    }
+  }
+}
+
+TEST_CASE("virtual time: with contention off and on the picture is the same, and only the time differs") {
+  const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
+  svm::RunOptions options{.node_count = 16, .cache_pages = 2, .machine = slow_network(nodes::TopologyKind::mesh)};
+  const svm::Report with = run_svm(subject, options);
+  options.machine->has_contention = false;
+  const svm::Report without = run_svm(subject, options);
+  check(subject, with);
+  check(subject, without);
+  CHECK(with.virtual_time->links.wait_ns > 0);
+  CHECK(without.virtual_time->links.wait_ns == 0);
+}
+
+TEST_CASE("virtual time: equal runs have equal events and films, one after the other and side by side") {
+  const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
+  const auto svm = [&] { return hashes(run_svm(subject, {.node_count = 16, .cache_pages = 2, .machine = slow_network()})); };
+  const auto dataflow = [&] { return hashes(run_dataflow(subject, {.node_count = 16, .machine = slow_network()})); };
+  CHECK(svm() == svm());
+  CHECK(side_by_side(svm) == std::vector{svm(), svm()});
+  CHECK(dataflow() == dataflow());
+  CHECK(side_by_side(dataflow) == std::vector{dataflow(), dataflow()});
+}
+
+TEST_CASE("virtual time: another cost makes another run and the same film") {
+  const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
+  svm::RunOptions options{.node_count = 5, .cache_pages = 2, .machine = slow_network()};
+  const svm::Report first = run_svm(subject, options);
+  ++options.machine->service_ns;
+  const svm::Report second = run_svm(subject, options);
+  CHECK(first.virtual_time->hash != second.virtual_time->hash);
+  CHECK(first.film.hash() == second.film.hash());
+}
+
+TEST_CASE("virtual time: under fixed assignment every node has the faults that it has on threads") {
+  const Subject subject(built_in("teapot-4"), {24, 24}, {.page_size_bytes = 512});
+  for (const std::uint32_t nodes : node_counts) {
+    for (const std::uint32_t cache_pages : {1U, 4U, 20U}) {
+      svm::RunOptions options = fixed_assignment(nodes, cache_pages);
+      const std::vector<std::uint64_t> on_threads = faults_by_node(run_svm(subject, options));
+      options.machine = slow_network();
+      CHECK(faults_by_node(run_svm(subject, options)) == on_threads);
+    }
+  }
+}
+
+TEST_CASE("virtual time: under fixed assignment faults are the misses of the references in a cache of that size") {
+  const Subject subject(built_in("teapot-4"), {24, 24}, {.page_size_bytes = 512});
+  for (const std::uint32_t nodes : {2U, 5U, 16U}) {
+    for (const std::uint32_t cache_pages : {1U, 3U, 8U, 20U, 100U}) {
+      CAPTURE(nodes);
+      CAPTURE(cache_pages);
+      svm::RunOptions options = fixed_assignment(nodes, cache_pages);
+      options.machine = slow_network();
+      std::vector<std::vector<std::uint32_t>> references(nodes);
+      const svm::Report report = run_recorded(subject, options, references);
+      check(subject, report);
+      for (std::uint32_t i = 0; i < nodes; ++i) {
+        CHECK(report.nodes[i].program.pages.faults == misses_of(references[i], i, nodes, cache_pages));
+      }
+      CHECK(report.pages().faults > 0);
+    }
+  }
+}
+
+TEST_CASE("virtual time: only homes are interrupted, by as many requests as there are faults") {
+  const Subject subject(built_in("teapot-4"), {24, 24}, {.page_size_bytes = 512});
+  const nodes::Machine machine = slow_network();
+  const svm::Report report = run_svm(subject, {.node_count = 8, .cache_pages = 4, .machine = machine});
+  std::uint64_t stolen_ns = 0;
+  for (const nodes::VirtualTimes& times : report.virtual_time->nodes) {
+    stolen_ns += times.stolen_ns + times.lent_ns;
+  }
+  const std::uint64_t service_ns = machine.short_message.receive_ns + machine.service_ns + machine.long_message.send_ns;
+  CHECK(stolen_ns == report.pages().faults * service_ns);
+  CHECK(report.virtual_time->nodes.back().stolen_ns + report.virtual_time->nodes.back().lent_ns == 0);
+}
+
+TEST_CASE("virtual time: one node alone computes what its operations cost") {
+  const Subject subject(mirrors_and_glass(), {16, 16});
+  const nodes::Machine machine = slow_network();
+  const svm::Report report = run_svm(subject, {.node_count = 1, .machine = machine});
+  nodes::Charges charges = nodes::charges_of(report.operations());
+  charges[nodes::Charge::home_lookup] = report.pages().home_hits;
+  CHECK(report.virtual_time->nodes[0].computing_ns == machine.price_ps({}, charges) / 1000);
+}
+
+TEST_CASE("virtual time: a run that is stopped on the way says so and has no time to report") {
+  const Subject subject(built_in("teapot-4"), {64, 64});
+  std::stop_source source;
+  svm::RunOptions options{.node_count = 4, .machine = slow_network()};
+  options.progress = [&](std::uint32_t, std::uint32_t) { source.request_stop(); };
+  const svm::Report report = svm::run_svm(subject.database(), subject.settings(), options, source.get_token());
+  CHECK(report.end == nodes::RunEnd::interrupted);
+  CHECK_FALSE(report.virtual_time);
+}
+
+}  // namespace dmpc::tests
