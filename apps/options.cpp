@@ -13,7 +13,7 @@ Command parse_command_line(std::span<const std::string> arguments) {
   CheckOptions check;
   CompareOptions compare;
   MachineOptions machine;
-  StudyOptions balance{.study = BalanceStudy()}, traffic{.study = TrafficStudy()};
+  StudyOptions balance{.study = BalanceStudy()}, traffic{.study = TrafficStudy()}, cache{.study = CacheStudy()};
   add_options(line.add_command("render", "Render a scene on N nodes"), render);
   add_options(line.add_command("scene", "Write a built-in scene as an NFF file"), scene);
   add_options(line.add_command("check", "Trace every ray of a render with Embree too, and let a referee settle differences"),
@@ -23,14 +23,15 @@ Command parse_command_line(std::span<const std::string> arguments) {
   OptionSet study = line.add_command("study", "Render a scene on several computers and print a table");
   add_options(study.add_command(BalanceStudy::name, BalanceStudy::description), balance);
   add_options(study.add_command(TrafficStudy::name, TrafficStudy::description), traffic);
+  add_options(study.add_command(CacheStudy::name, CacheStudy::description), cache);
   const std::variant<HelpText, std::string> parsed = line.parse(arguments);
   if (const auto* help = std::get_if<HelpText>(&parsed)) {
     return *help;
   }
   const auto& name = std::get<std::string>(parsed);
-  const std::map<std::string, Command> commands = {{"render", render},        {"scene", scene},     {"check", check},
-                                                   {"compare", compare},      {"machine", machine}, {"study balance", balance},
-                                                   {"study traffic", traffic}};
+  const std::map<std::string, Command> commands = {{"render", render},         {"scene", scene},      {"check", check},
+                                                   {"compare", compare},       {"machine", machine},  {"study balance", balance},
+                                                   {"study traffic", traffic}, {"study cache", cache}};
   return commands.at(name);
 }
 

@@ -6,31 +6,33 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/machine_file.h"
+#include "apps/machines.h"
 #include "apps/region_options.h"
 #include "core/expect.h"
 #include "dataflow/bsp.h"
+#include "svm/plan.h"
 
 namespace dmpc::apps {
 namespace {
 
-[[noreturn]] void refuse_node_counts(std::string_view text) {
-  throw core::UsageError("--nodes=" + std::string(text) + ": expected numbers from 1 to " +
-                         std::to_string(dataflow::region_count_max) + " with commas between them, such as 4,8,16");
-}
+constexpr std::uint32_t cache_pages_max = 0x7fffffff;
 
-std::vector<std::uint32_t> parse_node_counts(std::string_view text) {
-  std::vector<std::uint32_t> counts;
+/// "4,8,16". Throws core::UsageError for anything but numbers from 1 to `most`.
+std::vector<std::uint32_t> parse_numbers(std::string_view text, const std::string& option, std::uint32_t most) {
+  std::vector<std::uint32_t> numbers;
   const char* at = text.data();
   const char* const end = at + text.size();
   for (bool is_last = false; !is_last; ++at) {
-    const auto [rest, error] = std::from_chars(at, end, counts.emplace_back());
+    const auto [rest, error] = std::from_chars(at, end, numbers.emplace_back());
     is_last = rest == end;
-    if (error != std::errc() || counts.back() < 1 || counts.back() > dataflow::region_count_max || (!is_last && *rest != ',')) {
-      refuse_node_counts(text);
+    if (error != std::errc() || numbers.back() < 1 || numbers.back() > most || (!is_last && *rest != ',')) {
+      throw core::UsageError(option + "=" + std::string(text) + ": expected numbers from 1 to " + std::to_string(most) +
+                             " with commas between them, such as 4,8,16");
     }
     at = rest;
   }
-  return counts;
+  return numbers;
 }
 
 /// "4,8,16".
@@ -44,7 +46,8 @@ std::string listed(const std::vector<std::uint32_t>& counts) {
 
 void add_node_counts(OptionSet& set, std::vector<std::uint32_t>& counts) {
   set.add_text(
-      "--nodes", "N,N,... [" + listed(counts) + "]", [&counts](const std::string& text) { counts = parse_node_counts(text); },
+      "--nodes", "N,N,... [" + listed(counts) + "]",
+      [&counts](const std::string& text) { counts = parse_numbers(text, "--nodes", dataflow::region_count_max); },
       "Nodes of the computers, one after the other");
 }
 
@@ -67,6 +70,20 @@ struct AddOwn {
         "Examples:\n"
         "  dmpc study traffic teapot-12\n"
         "  dmpc study traffic rings-4-t1 --nodes=8,64 --resolution=256x256 --format=json -o rings.json");
+  }
+  void operator()(CacheStudy& study) const {
+    set.add_number("--nodes", study.node_count, 2, svm::node_count_max, "32", "Nodes, each with a cache of its own");
+    set.add_text(
+        "--cache-pages", "N,N,... [12 from 1 to all]",
+        [&study](const std::string& text) { study.cache_pages = parse_numbers(text, "--cache-pages", cache_pages_max); },
+        "Sizes of the caches in pages of 1 KiB");
+    set.add_text(
+        "--machine", "NAME|FILE.json", [&study](const std::string& text) { study.machine = load_machine(text).machine; },
+        "The machine that the study is timed on, in virtual time: one of " + machine_preset_names() + ", or a file");
+    set.set_examples(
+        "Examples:\n"
+        "  dmpc study cache rings-4-t1\n"
+        "  dmpc study cache tetra-9 --nodes=32 --machine=ipsc2 --resolution=512x512 --format=csv -o tetra.csv");
   }
 };
 

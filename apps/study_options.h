@@ -8,6 +8,7 @@
 #include "apps/command_line.h"
 #include "apps/picture_options.h"
 #include "apps/study_balance.h"
+#include "apps/study_cache.h"
 #include "apps/study_table.h"
 #include "apps/study_traffic.h"
 
@@ -15,7 +16,7 @@ namespace dmpc::apps {
 
 /// One study. Each has a `name` (the word on the command line) and a `description`, and says what its table's columns() are, how
 /// many runs it takes, what to note below for a scene, and how to measure() row after row.
-using Study = std::variant<BalanceStudy, TrafficStudy>;
+using Study = std::variant<BalanceStudy, TrafficStudy, CacheStudy>;
 
 struct StudyOptions {
   Study study;

@@ -1,9 +1,12 @@
 // The runs of a study: one scene rendered again and again by other computers, which must all give one film.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <iosfwd>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "apps/interrupt.h"
@@ -19,7 +22,7 @@ namespace dmpc::apps {
 struct StudyProgress {
   std::ostream& output;
   bool is_shown = false;
-  std::uint32_t run_count = 0;  ///< of the whole study
+  std::uint32_t run_count = 0;  ///< of the whole study; 0: not known
 };
 
 /// Not thread-safe. What it is made from outlives it.
@@ -34,6 +37,13 @@ class StudyRuns {
   dataflow::Report run(const std::string& computer, dataflow::RunOptions options);
   svm::Report run(const std::string& computer, svm::RunOptions options);
 
+  /// The same for runs on modelled machines, which have no threads, as many at a time as the real computer has cores. Calls
+  /// take(i, report) for runs[i]: one at a time, in the order of i, on any thread.
+  void run_side_by_side(std::span<const svm::RunOptions> runs, const std::function<void(std::size_t, const svm::Report&)>& take);
+
+  /// Throws Interrupted if a signal has come. From any thread.
+  void check() const { interrupt_.check(); }
+
   /// Throws core::InternalError unless `film` equals those that came before: every run's film is held against the first's.
   void compare(const core::Film& film);
 
@@ -43,6 +53,7 @@ class StudyRuns {
   std::optional<std::uint64_t> film_hash() const { return film_hash_; }
 
  private:
+  std::string numbers(std::size_t run_count) const;
   template <class Options, class Render>
   auto run_shown(const std::string& computer, Options options, const Render& render);
 

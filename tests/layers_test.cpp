@@ -38,8 +38,8 @@ const std::vector<Foreign> foreign = {
     {"OpenImageIO/", {"apps/image_file.cpp"}},
     {"CLI/", {"apps/command_line.cpp"}},
     {"nlohmann/", {"apps/stats", "apps/machine_file.", "apps/study_table.cpp"}},
-    {"oneapi/", {"apps/inspection.cpp"}},
-    {"tbb/", {"apps/inspection.cpp"}},
+    {"oneapi/", {"apps/inspection.cpp", "apps/side_by_side.cpp"}},
+    {"tbb/", {"apps/inspection.cpp", "apps/side_by_side.cpp"}},
     {"hwy/", {"core/kernel.cpp"}},
     {"doctest/", {"tests/"}},
     // Threads are the computer's; the edge has one, which waits for signals.

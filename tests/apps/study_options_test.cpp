@@ -76,13 +76,30 @@ TEST_CASE("anything but node counts in range with commas between them is refused
   }
 }
 
+TEST_CASE("the options of the study of caches are taken") {
+  const auto cache = [](std::initializer_list<std::string> more) { return std::get<CacheStudy>(study("cache", more).study); };
+  CHECK(cache({}).node_count == 32);
+  CHECK(cache({}).cache_pages.empty());
+  CHECK_FALSE(cache({}).machine);
+  const CacheStudy taken = cache({"--nodes=5", "--cache-pages=204,1", "--machine=ipsc2"});
+  CHECK(taken.node_count == 5);
+  CHECK(taken.cache_pages == Counts{204, 1});
+  CHECK(taken.machine->name == "ipsc2");
+}
+
+TEST_CASE("caches of no page, a lone node and an unknown machine are refused") {
+  CHECK(complaint({"study", "cache", "teapot-12", "--cache-pages=4,0"}).find("--cache-pages=4,0: expected") != std::string::npos);
+  CHECK(complaint({"study", "cache", "teapot-12", "--nodes=1"}).find("--nodes") != std::string::npos);
+  CHECK_THROWS_AS(study("cache", {"--machine=abacus"}), core::InputError);
+}
+
 TEST_CASE("node counts that are left out are refused") {
   CHECK(complaint({"study", "balance", "teapot-12", "--nodes="}).find("--nodes") != std::string::npos);
 }
 
 TEST_CASE("a study that is missing or does not exist is answered with those there are") {
   CHECK(complaint({"study"}).find("Try: dmpc study --help") != std::string::npos);
-  CHECK(complaint({"study", "weather", "teapot-12"}).find("expected balance or traffic") != std::string::npos);
+  CHECK(complaint({"study", "weather", "teapot-12"}).find("expected balance, traffic or cache") != std::string::npos);
 }
 
 TEST_CASE("a study has its own options alone") {

@@ -1,0 +1,254 @@
+#include "apps/study_cache.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+
+#include "apps/side_by_side.h"
+#include "core/elementary.h"
+#include "core/expect.h"
+#include "core/scenes.h"
+#include "svm/miss_curve.h"
+#include "svm/optimum.h"
+#include "svm/packets.h"
+#include "svm/run.h"
+
+namespace dmpc::apps {
+namespace {
+
+using svm::Replacement;
+using Sizes = std::vector<std::uint32_t>;
+
+constexpr std::uint32_t standard_size_count = 12;
+
+/// The policies that have to be run, in the order of their columns.
+constexpr std::array run_policies = {Replacement::clock, Replacement::fifo, Replacement::random};
+
+/// Where a row's cells are.
+enum At : std::size_t { cache_pages_at, share_at, miss_ratio_at, lru_at, first_policy_at, optimum_at = 7, time_at };
+
+/// With these the references depend on neither cache nor machine, so any machine will do: the default one takes no time.
+svm::RunOptions fixed_order(std::uint32_t node_count) {
+  return {.node_count = node_count, .in_flight = 1, .work_item_side = 0, .machine = nodes::Machine()};
+}
+
+/// As the 1994 paper's nodes worked: one pixel at a time, and work given to who has none.
+svm::RunOptions timed(std::uint32_t node_count, const nodes::Machine& machine) {
+  return {.node_count = node_count, .in_flight = 1, .machine = machine};
+}
+
+/// What follows from the references, by size.
+struct Curves {
+  svm::MissCurve lru;
+  std::vector<std::uint64_t> optimum;
+  std::uint64_t references = 0;  ///< of pages at home, too, and repeated ones
+};
+
+Curves curves_of(const svm::Report& recorded, const Sizes& sizes, const StudyRuns& runs) {
+  Curves curves{.optimum = std::vector<std::uint64_t>(sizes.size()), .references = recorded.pages().references};
+  side_by_side(recorded.nodes.size(), [&](std::size_t node) -> std::function<void()> {
+    runs.check();
+    const std::span<const svm::PageId> references = recorded.nodes[node].references.pages();
+    const svm::Optimum optimum(references);
+    std::vector<std::uint64_t> misses;
+    for (const std::uint32_t size : sizes) {
+      misses.push_back(optimum.misses(size));
+    }
+    return [&curves, misses, lru = svm::MissCurve(references)] {
+      curves.lru += lru;
+      std::transform(misses.begin(), misses.end(), curves.optimum.begin(), curves.optimum.begin(), std::plus());
+    };
+  });
+  return curves;
+}
+
+/// One frame leaves no choice, and where every page has a frame nothing has to go: all policies do the same.
+bool has_choice(std::uint32_t cache_pages, const Curves& curves) {
+  return cache_pages > 1 && cache_pages < curves.lru.distinct_pages();
+}
+
+double percent(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+/// The rows of the table on their way: each is added once all of its runs, and those of all rows before, have ended.
+class Sweep {
+ public:
+  Sweep(const CacheStudy& study, const Sizes& sizes, std::uint32_t page_count, const Curves& curves, Table& table)
+      : node_count_(study.node_count), table_(table) {
+    if (study.machine && !sizes.empty()) {
+      add_job(timed(1, *study.machine), [this](const svm::Report& report) { one_node_ns_ = total_ns(report); });
+    }
+    for (std::size_t row = 0; row < sizes.size(); ++row) {
+      begin_row(sizes[row], page_count, curves, curves.optimum[row]);
+      add_policies(sizes[row], has_choice(sizes[row], curves));
+      if (study.machine) {
+        add_timed(sizes[row], *study.machine);
+      }
+      rows_.back().resize(table.columns().size());
+    }
+  }
+  Sweep(const Sweep&) = delete;
+  Sweep& operator=(const Sweep&) = delete;
+
+  void carry_out(StudyRuns& runs) {
+    std::vector<svm::RunOptions> options;
+    for (const Job& job : jobs_) {
+      options.push_back(job.options);
+    }
+    add_rows_before(jobs_.empty() ? rows_.size() : jobs_.front().row);
+    runs.run_side_by_side(options, [this](std::size_t index, const svm::Report& report) {
+      jobs_[index].take(report);
+      add_rows_before(index + 1 < jobs_.size() ? jobs_[index + 1].row : rows_.size());
+    });
+  }
+
+ private:
+  struct Job {
+    std::size_t row;  ///< that needs it
+    svm::RunOptions options;
+    std::function<void(const svm::Report&)> take;
+  };
+
+  static std::uint64_t total_ns(const svm::Report& report) { return report.virtual_time->total_ns; }
+
+  /// For the row begun last; before the first for that.
+  void add_job(svm::RunOptions options, std::function<void(const svm::Report&)> take) {
+    jobs_.push_back({rows_.empty() ? 0 : rows_.size() - 1, std::move(options), std::move(take)});
+  }
+
+  void begin_row(std::uint32_t cache_pages, std::uint32_t page_count, const Curves& curves, std::uint64_t optimum) {
+    const std::uint64_t misses = curves.lru.misses(cache_pages);
+    std::vector<Cell>& row = rows_.emplace_back(time_at);
+    row[cache_pages_at] = std::uint64_t{cache_pages};
+    row[share_at] = percent(cache_pages, page_count);
+    row[miss_ratio_at] = percent(misses, curves.references);
+    row[lru_at] = misses;
+    row[optimum_at] = optimum;
+  }
+
+  void add_policies(std::uint32_t cache_pages, bool is_run) {
+    for (std::size_t i = 0; i < run_policies.size(); ++i) {
+      const std::size_t row = rows_.size() - 1, column = first_policy_at + i;
+      if (!is_run) {
+        rows_[row][column] = rows_[row][lru_at];
+        continue;
+      }
+      svm::RunOptions options = fixed_order(node_count_);
+      options.cache_pages = cache_pages;
+      options.replacement = run_policies[i];
+      add_job(options, [this, row, column](const svm::Report& report) { rows_[row][column] = report.pages().faults; });
+    }
+  }
+
+  void add_timed(std::uint32_t cache_pages, const nodes::Machine& machine) {
+    svm::RunOptions options = timed(node_count_, machine);
+    options.cache_pages = cache_pages;
+    add_job(options, [this, row = rows_.size() - 1](const svm::Report& report) { fill_times(rows_[row], report); });
+  }
+
+  void fill_times(std::vector<Cell>& row, const svm::Report& report) const {
+    const double seconds = static_cast<double>(total_ns(report)) * 1e-9;
+    const std::uint64_t page_bytes = report.sent()[svm::number_of(svm::Kind::page_reply)].bytes;
+    const bool takes_time = total_ns(report) > 0;
+    row[time_at] = seconds;
+    row[time_at + 1] = takes_time ? Cell(percent(one_node_ns_, node_count_ * total_ns(report))) : Cell();
+    row[time_at + 2] =
+        takes_time ? Cell(static_cast<std::uint64_t>(static_cast<double>(page_bytes) / node_count_ / seconds)) : Cell();
+  }
+
+  void add_rows_before(std::size_t end) {
+    for (; rows_added_ < end; ++rows_added_) {
+      table_.add_row(rows_[rows_added_]);
+    }
+  }
+
+  std::uint32_t node_count_;
+  Table& table_;
+  std::uint64_t one_node_ns_ = 0;
+  std::vector<std::vector<Cell>> rows_;
+  std::size_t rows_added_ = 0;
+  std::vector<Job> jobs_;  ///< in the order of their rows
+};
+
+std::string needs_note(const svm::MissCurve& lru) {
+  return "The node that references most has to do with " + std::to_string(lru.distinct_pages()) +
+         " different pages of others; from " + std::to_string(lru.sufficient_pages()) +
+         " frames on lru faults on each page's first reference only, " + std::to_string(lru.cold_misses()) + " times in all.";
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> geometric_sizes(std::uint32_t most, std::uint32_t count) {
+  core::expect(count >= 2, "sizes go from one to another");
+  if (most == 0) {
+    return {};
+  }
+  Sizes sizes;
+  const double step = core::natural_log(most) / (count - 1);
+  for (std::uint32_t i = 0; i + 1 < count; ++i) {
+    const auto size = static_cast<std::uint32_t>(core::exponential(i * step) + 0.5);
+    if (sizes.empty() || size > sizes.back()) {
+      sizes.push_back(size);
+    }
+  }
+  if (sizes.back() < most) {
+    sizes.push_back(most);
+  }
+  return sizes;
+}
+
+std::vector<Column> CacheStudy::columns() const {
+  std::vector<Column> columns = {{"cache pages"}, {"share of database", "%", 2}, {"misses lru", "%", 4}, {"faults lru"}};
+  for (const Replacement policy : run_policies) {
+    columns.push_back({"faults " + std::string(svm::name_of(policy))});
+  }
+  columns.push_back({"faults optimum"});
+  if (machine) {
+    columns.insert(columns.end(), {{"virtual time", "s", 3}, {"efficiency", "%", 2}, {"page traffic a node", "bytes/s"}});
+  }
+  return columns;
+}
+
+void CacheStudy::measure(StudyRuns& runs, Table& table) const {
+  svm::RunOptions recording = fixed_order(node_count);
+  recording.record_references = true;
+  svm::Report recorded = runs.run(std::to_string(node_count) + " nodes, recording", recording);
+  const std::uint32_t page_count = recorded.plan.request.page_count;
+  const Sizes sizes =
+      cache_pages.empty() ? geometric_sizes(page_count - page_count / node_count, standard_size_count) : cache_pages;
+  const Curves curves = curves_of(recorded, sizes, runs);
+  recorded = {.film = core::Film(1, 1)};  // the references take much memory
+  Sweep(*this, sizes, page_count, curves, table).carry_out(runs);
+  table.add_note(needs_note(curves.lru));
+}
+
+std::vector<std::string> CacheStudy::notes(const std::string& scene) const {
+  std::vector<std::string> notes = {
+      std::to_string(node_count) + " nodes. Share of database: the cache of one node over all pages.",
+      "Faults and misses: pixels shared out beforehand, one in flight on a node, so that all policies see the same references "
+      "and every miss is a fault. Misses are given as a share of all references, pages at home included.",
+      "Lru: from the stack distances of one run's references (Mattson, Gecsei, Slutz and Traiger, 1970). Clock, fifo, random: by "
+      "a "
+      "run each, but for sizes that leave no choice. Optimum: the page that leaves is the one needed last (Belady, 1966)."};
+  if (machine) {
+    notes.push_back(
+        "Virtual time, efficiency against one node with all pages at home, and bytes of pages received a node and "
+        "second: the machine " +
+        machine->name + ", lru, one pixel in flight, work items of 3x3.");
+  }
+  const auto scene_name = core::find_scene_name(scene);
+  if (scene_name && scene_name->text() == "rings-4-t1") {
+    notes.emplace_back(
+        "Badouel, Bouatouch and Priol (1994) report for Rings4 on 32 nodes of an iPSC/2 that efficiency stays above 50 % with "
+        "larger caches only, and that the communication rate peaks at 204 pages, at about 70 % of 0.9 MB/s, and falls with "
+        "less.");
+  } else if (scene_name && scene_name->text() == "tetra-9") {
+    notes.emplace_back(
+        "Badouel, Bouatouch and Priol (1994) report for Tetra9 on 32 nodes of an iPSC/2 that a small cache is enough.");
+  }
+  return notes;
+}
+
+}  // namespace dmpc::apps
