@@ -52,6 +52,11 @@ void add_page_options(OptionSet& options, PageOptions& pages) {
   options.begin_group("Strategies svm and replicated");
   options.add_number("--cache-pages", pages.cache_pages, 1, 0x7fffffff, "what the memory holds",
                      "Pages of other nodes that a node can keep (svm)");
+  using svm::Replacement;
+  options.add_choice<Replacement>(
+      "--replacement", pages.replacement,
+      {{"lru", Replacement::lru}, {"clock", Replacement::clock}, {"fifo", Replacement::fifo}, {"random", Replacement::random}},
+      "Which of them makes room for another (svm)");
   options.add_number("--in-flight", pages.in_flight, 1, svm::in_flight_max, "16, replicated 1",
                      "Pixels that a node works on at once");
   options.add_number("--work-item", pages.work_item_side, 0, 1024, "3",
@@ -108,6 +113,7 @@ struct Belonging {
 const std::vector<Belonging>& belongings() {
   static const std::vector<Belonging> all = {
       {"--cache-pages", {Strategy::svm}, "a node of the others needs no page of another node"},
+      {"--replacement", {Strategy::svm}, "a node of the others keeps no page of another node"},
       {"--count-pages", {Strategy::svm}, "the others look up no pages"},
       {"--in-flight", {Strategy::svm, Strategy::replicated}, "a node of dataflow traces one ray at a time"},
       {"--work-item", {Strategy::svm, Strategy::replicated}, "a node of dataflow works on what comes to its region"},

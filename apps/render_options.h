@@ -12,6 +12,7 @@
 #include "dataflow/balance.h"
 #include "nodes/chaos.h"
 #include "nodes/topology.h"
+#include "svm/replacement.h"
 
 namespace dmpc::apps {
 
@@ -34,6 +35,7 @@ struct ComputerOptions {
 /// Of svm, and as far as no page travels of replicated; svm/plan.h says more.
 struct PageOptions {
   std::optional<std::uint32_t> cache_pages;
+  svm::Replacement replacement = svm::Replacement::lru;
   std::optional<std::uint32_t> in_flight;
   std::uint32_t work_item_side = 3;
   bool count_pages = false;

@@ -15,6 +15,7 @@ svm::RunOptions svm_options(const RenderOptions& options) {
   return {.node_count = options.computer.node_count,
           .node_memory_bytes = options.computer.node_memory_bytes,
           .cache_pages = options.pages.cache_pages,
+          .replacement = options.pages.replacement,
           .in_flight = options.pages.in_flight,
           .work_item_side = options.pages.work_item_side,
           .count_pages = options.pages.count_pages,

@@ -160,8 +160,8 @@ Json options_json(const RenderRecord& record, const Account& account, const Json
                  {"nodes", account.nodes.size()},
                  {"node_memory", account.node_memory_max_bytes},
                  {"page_size", record.database.page_size()}};
-  result.update(filled({"cache_pages", "in_flight", "work_item", "count_pages", "balance", "subsample", "balance_grid",
-                        "ray_batch", "ray_credits", "ray_queue", "topology"},
+  result.update(filled({"cache_pages", "replacement", "in_flight", "work_item", "count_pages", "balance", "subsample",
+                        "balance_grid", "ray_batch", "ray_credits", "ray_queue", "topology"},
                        special));
   return result;
 }

@@ -43,6 +43,7 @@ StrategyStats strategy_stats(const RenderOptions& options, const svm::Report& re
                       .host = Json::object()};
   if (options.strategy == Strategy::svm) {
     stats.options["cache_pages"] = plan.frames;
+    stats.options["replacement"] = svm::name_of(plan.request.replacement);
   }
   for (const svm::NodeReport& node : report.nodes) {
     stats.nodes.push_back(pages_and_work_json(node.program.pages, node.program.work, counted));

@@ -44,6 +44,7 @@ TEST_CASE("a scene and an output are all that render needs") {
   CHECK(options.computer.node_count == 8);
   CHECK_FALSE(options.computer.node_memory_bytes);
   CHECK_FALSE(options.pages.cache_pages);
+  CHECK(options.pages.replacement == svm::Replacement::lru);
   CHECK_FALSE(options.pages.in_flight);
   CHECK(options.pages.work_item_side == 3);
   CHECK(options.computer.traversal.skip_empty_space);
@@ -60,12 +61,13 @@ TEST_CASE("a scene and an output are all that render needs") {
 
 TEST_CASE("every option of the computer reaches its field") {
   const RenderOptions options =
-      render({"--nodes=64", "--node-memory=4MiB", "--page-size=4KiB", "--cache-pages=5", "--in-flight=7", "--work-item=0",
-              "--no-skip=empty-space", "--count-pages", "--stats=s.json", "--quiet"});
+      render({"--nodes=64", "--node-memory=4MiB", "--page-size=4KiB", "--cache-pages=5", "--replacement=clock", "--in-flight=7",
+              "--work-item=0", "--no-skip=empty-space", "--count-pages", "--stats=s.json", "--quiet"});
   CHECK(options.computer.node_count == 64);
   CHECK(options.computer.node_memory_bytes == 4_MiB);
   CHECK(options.page_size_bytes == 4_KiB);
   CHECK(options.pages.cache_pages == 5);
+  CHECK(options.pages.replacement == svm::Replacement::clock);
   CHECK(options.pages.in_flight == 7);
   CHECK(options.pages.work_item_side == 0);
   CHECK_FALSE(options.computer.traversal.skip_empty_space);
@@ -163,6 +165,8 @@ TEST_CASE("an option of another strategy is refused with the strategies that it 
     std::string option, with, goes_with;
   };
   const std::vector<Wrong> wrongs = {{"--cache-pages=5", replicated, svm},
+                                     {"--replacement=fifo", replicated, svm},
+                                     {"--replacement=lru", dataflow, svm},
                                      {"--cache-pages=5", dataflow, svm},
                                      {"--count-pages", replicated, svm},
                                      {"--count-pages", dataflow, svm},
@@ -212,6 +216,7 @@ TEST_CASE("the help of render names every option and its default") {
                                  "--node-memory",
                                  "--page-size",
                                  "--cache-pages",
+                                 "--replacement",
                                  "--in-flight",
                                  "--work-item",
                                  "--resolution",

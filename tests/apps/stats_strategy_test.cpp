@@ -121,7 +121,9 @@ TEST_CASE("pages and work of svm are counted by node, and a cache has svm alone"
   CHECK(at(stats.all, "/pages/faults") == sum_over_nodes(stats, "/pages/faults"));
   CHECK(at(stats.all, "/work/pixels") == 192);
   CHECK(stats.options.contains("cache_pages"));
+  CHECK(stats.options.at("replacement") == "lru");
   CHECK_FALSE(stats_of(small(Strategy::replicated)).options.contains("cache_pages"));
+  CHECK_FALSE(stats_of(small(Strategy::replicated)).options.contains("replacement"));
   CHECK(stats.packets_overflowed == 0);
 }
 

@@ -107,6 +107,7 @@ TEST_CASE("what belongs to another strategy is null") {
   }
   CHECK(value(copies, "cache_pages") == "null");
   CHECK(value(pages, "cache_pages") != "null");
+  CHECK(value(copies, "replacement") == "null");
 }
 
 TEST_CASE("every strategy has the same keys") {
