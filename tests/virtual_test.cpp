@@ -3,19 +3,14 @@
 #include <doctest/doctest.h>
 
 #include <cstdint>
-#include <list>
-#include <memory>
-#include <span>
 #include <stop_token>
 #include <thread>
-#include <unordered_map>
 #include <vector>
 
 #include "dataflow/run.h"
 #include "nodes/operation_charges.h"
-#include "svm/pager.h"
-#include "svm/program.h"
 #include "svm/run.h"
+#include "tests/support/references.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"
 
@@ -74,67 +69,6 @@ std::vector<std::vector<std::uint64_t>> side_by_side(const Function& function) {
     const std::jthread one([&] { results[0] = function(); }), other([&] { results[1] = function(); });
   }
   return results;
-}
-
-// ---- References ----------------------------------------------------------------------------------------------------------
-
-/// A pager that writes down each reference.
-class RecordingPager : public svm::Pager {
- public:
-  RecordingPager(nodes::Node& node, const svm::Plan& plan, std::span<const std::byte> database)
-      : Pager(node, plan, database), geometry_(plan.request.page_size_bytes) {}
-
-  /// Hides Pager's: writes the page down, then looks it up.
-  const std::byte* find(core::Address address) {
-    references_->push_back(index_of(geometry_.page_of(address)));
-    return Pager::find(address);
-  }
-  void write_into(std::vector<std::uint32_t>& references) { references_ = &references; }
-
- private:
-  svm::PageGeometry geometry_;
-  std::vector<std::uint32_t>* references_ = nullptr;
-};
-
-/// Runs svm and writes down the pages that each node references, in a list for each.
-svm::Report run_recorded(const Subject& subject, const svm::RunOptions& options,
-                         std::vector<std::vector<std::uint32_t>>& references) {
-  using Tracer = core::GridTracer<RecordingPager>;
-  const svm::Plan plan = svm::plan_of(svm::Strategy::svm, subject.database(), subject.settings(), options);
-  const auto make_program = [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<svm::NodeProgram> {
-    const auto make_tracer = [&](RecordingPager& pager) {
-      pager.write_into(references[index]);
-      return Tracer(pager, subject.settings().header, options.traversal);
-    };
-    return std::make_unique<svm::ControlProgram<RecordingPager, Tracer>>(node, plan, subject.settings(),
-                                                                         subject.database().bytes(), make_tracer);
-  };
-  return svm::run_programs(plan, make_program, options, {});
-}
-
-/// A cache that keeps the pages used last: misses among references to pages that are not at home.
-std::uint64_t misses_of(const std::vector<std::uint32_t>& references, std::uint32_t self, std::uint32_t node_count,
-                        std::size_t capacity) {
-  std::list<std::uint32_t> pages;  // used last first
-  std::unordered_map<std::uint32_t, std::list<std::uint32_t>::iterator> places;
-  std::uint64_t misses = 0;
-  for (const std::uint32_t page : references) {
-    if (page % node_count == self) {
-      continue;
-    }
-    if (const auto place = places.find(page); place != places.end()) {
-      pages.splice(pages.begin(), pages, place->second);
-      continue;
-    }
-    ++misses;
-    pages.push_front(page);
-    places[page] = pages.begin();
-    if (pages.size() > capacity) {
-      places.erase(pages.back());
-      pages.pop_back();
-    }
-  }
-  return misses;
 }
 
 std::vector<std::uint64_t> faults_by_node(const svm::Report& report) {
@@ -239,11 +173,11 @@ TEST_CASE("virtual time: under fixed assignment faults are the misses of the ref
       CAPTURE(cache_pages);
       svm::RunOptions options = fixed_assignment(nodes, cache_pages);
       options.machine = slow_network();
-      std::vector<std::vector<std::uint32_t>> references(nodes);
-      const svm::Report report = run_recorded(subject, options, references);
+      options.record_references = true;
+      const svm::Report report = run_svm(subject, options);
       check(subject, report);
-      for (std::uint32_t i = 0; i < nodes; ++i) {
-        CHECK(report.nodes[i].program.pages.faults == misses_of(references[i], i, nodes, cache_pages));
+      for (const svm::NodeReport& node : report.nodes) {
+        CHECK(node.program.pages.faults == lru_misses(node.references.pages(), cache_pages));
       }
       CHECK(report.pages().faults > 0);
     }
