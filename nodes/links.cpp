@@ -48,6 +48,10 @@ std::uint64_t Links::busiest_ns() const {
 /// The wire of a link, made when a message first passes it.
 Links::Wire& Links::wire(const Link& link) {
   std::vector<Wire>& from_place = wires_[link.from];
+  if (topology_.kind() == TopologyKind::crossbar) {  // has too many to be looked through
+    from_place.resize(std::max<std::size_t>(from_place.size(), link.to + 1));
+    return from_place[link.to];
+  }
   for (Wire& wire : from_place) {
     if (wire.to == link.to) {
       return wire;
@@ -56,23 +60,20 @@ Links::Wire& Links::wire(const Link& link) {
   return from_place.emplace_back(Wire{.to = link.to});
 }
 
+/// A way passes each place once, so that a wire which is made does not move another one of the route.
 void Links::find_route(NodeId source, NodeId target) {
   const NodeId host{topology_.node_count()}, door{0};
   const std::uint32_t host_place = topology_.place_count();
-  std::vector<Link> links;
+  links_.clear();
   if (source == host) {
-    links.push_back({host_place, index_of(door)});
+    links_.push_back({host_place, index_of(door)});
   }
-  const std::vector<Link> between = topology_.route(source == host ? door : source, target == host ? door : target);
-  links.insert(links.end(), between.begin(), between.end());
+  topology_.append_route(source == host ? door : source, target == host ? door : target, links_);
   if (target == host) {
-    links.push_back({index_of(door), host_place});
-  }
-  for (const Link& link : links) {
-    wire(link);  // all are made before any is pointed at
+    links_.push_back({index_of(door), host_place});
   }
   route_.clear();
-  for (const Link& link : links) {
+  for (const Link& link : links_) {
     route_.push_back(&wire(link));
   }
 }

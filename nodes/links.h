@@ -45,7 +45,8 @@ class Links {
   Topology topology_;
   bool has_contention_;
   std::vector<std::vector<Wire>> wires_;  ///< by the place where they begin; the host's place is the last
-  std::vector<Wire*> route_;              ///< of the message that is passing
+  std::vector<Link> links_;               ///< of the message that is passing
+  std::vector<Wire*> route_;              ///< the same links' wires
   LinkTraffic traffic_;
 };
 

@@ -84,18 +84,22 @@ std::uint32_t Topology::hops(NodeId source, NodeId target) const {
 }
 
 std::vector<Link> Topology::route(NodeId source, NodeId target) const {
+  std::vector<Link> links;
+  append_route(source, target, links);
+  return links;
+}
+
+void Topology::append_route(NodeId source, NodeId target, std::vector<Link>& links) const {
   const std::uint32_t a = index_of(source), b = index_of(target);
   core::expect(a < node_count_ && b < node_count_, "a way leads from node to node");
   if (kind_ == TopologyKind::fat_tree) {
-    return tree_route(a, b);
+    return append_tree_route(a, b, links);
   }
-  std::vector<Link> links;
   for (std::uint32_t at = a; at != b;) {
     const std::uint32_t next = next_place(at, b);
     links.push_back({at, next});
     at = next;
   }
-  return links;
 }
 
 std::uint32_t Topology::diameter() const {
@@ -154,16 +158,14 @@ std::uint32_t Topology::switch_above(std::uint32_t leaf, std::uint32_t level) co
   return level_first_[level] + index;
 }
 
-std::vector<Link> Topology::tree_route(std::uint32_t source, std::uint32_t target) const {
+void Topology::append_tree_route(std::uint32_t source, std::uint32_t target, std::vector<Link>& links) const {
   const std::uint32_t top = levels_to_common_switch(source, target);
-  std::vector<Link> links;
   for (std::uint32_t level = 0; level < top; ++level) {
     links.push_back({switch_above(source, level), switch_above(source, level + 1)});
   }
   for (std::uint32_t level = top; level > 0; --level) {
     links.push_back({switch_above(target, level), switch_above(target, level - 1)});
   }
-  return links;
 }
 
 }  // namespace dmpc::nodes

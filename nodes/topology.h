@@ -46,6 +46,8 @@ class Topology {
   /// and torus: along x, then along y, on a ring the shorter way, upwards if both are equal. Fat tree: up to the lowest common
   /// switch and down.
   std::vector<Link> route(NodeId source, NodeId target) const;
+  /// The same behind what is in `links` already.
+  void append_route(NodeId source, NodeId target, std::vector<Link>& links) const;
 
   /// The longest of all shortest ways.
   std::uint32_t diameter() const;
@@ -56,7 +58,7 @@ class Topology {
   std::uint32_t levels_to_common_switch(std::uint32_t a, std::uint32_t b) const;
   std::uint32_t switch_above(std::uint32_t leaf, std::uint32_t level) const;
   std::uint32_t next_place(std::uint32_t at, std::uint32_t target) const;
-  std::vector<Link> tree_route(std::uint32_t source, std::uint32_t target) const;
+  void append_tree_route(std::uint32_t source, std::uint32_t target, std::vector<Link>& links) const;
 
   TopologyKind kind_;
   std::uint32_t node_count_;
