@@ -204,21 +204,20 @@ struct VirtualRunner::Implementation {
       return serve(target, number);
     }
     const std::uint64_t receive_ns = machine.cost_of_message(message.bytes()).receive_ns;
-    if (!target.is_occupied) {
-      wake(target, message.header.kind);
-    }
-    target.occupied_until_ns += receive_ns;
     target.times.receiving_ns += receive_ns;
     target.inbox.push_back(number);
+    if (target.is_occupied) {
+      target.occupied_until_ns += receive_ns;
+    } else {
+      occupy(target, end_wait(target, message.header.kind) + receive_ns);
+    }
   }
 
-  /// From having nothing to do to having something, once the services that have been asked for are over.
-  void wake(Processor& self, PacketKind kind) {
+  /// From having nothing to do to having something, once the services that have been asked for are over: returns when.
+  std::uint64_t end_wait(Processor& self, PacketKind kind) const {
     const std::uint64_t begin_ns = std::max(events.now_ns(), self.served_until_ns);
     self.times.waiting_ns[kind] += begin_ns - self.idle_since_ns - (self.times.lent_ns - self.lent_before_ns);
-    self.is_occupied = true;
-    self.occupied_until_ns = begin_ns;
-    post(self, Event::Kind::is_free, begin_ns);
+    return begin_ns;
   }
 
   /// An interrupt: first come, first served, whatever the program was doing.
