@@ -5,6 +5,9 @@
 // priced, and until they are done no other packet reaches the program. What it sent leaves then, one packet after the other.
 // Packets of an interrupt kind are served when they arrive: if the node is computing, that ends later by as much.
 //
+// Messages between two nodes keep the order in which they were sent, in virtual time: a short one waits behind a long one until
+// that has entered the network, and an interrupt's reply leaves before the packets of the quantum that it interrupts.
+//
 // Simplifications: a message that waits for its links blocks them for later messages only, not while its header advances, and
 // what a long message asks of its receiver beforehand is part of its latency. A processor that is sending is delayed by an
 // interrupt, but not the packets that it is sending.
