@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <vector>
 
 #include "svm/miss_curve.h"
 #include "tests/support/references.h"
@@ -36,6 +37,24 @@ std::uint64_t fewest_misses(const References& references, std::size_t at, const 
     fewest = std::min(fewest, 1 + fewest_misses(references, at + 1, without, frames));
   }
   return fewest;
+}
+
+/// Belady's rule without any cleverness: looks ahead for every cached page at every miss.
+std::uint64_t misses_looking_ahead(const References& references, std::size_t frames) {
+  std::vector<PageId> cached;
+  std::uint64_t misses = 0;
+  for (auto now = references.begin(); now != references.end(); ++now) {
+    if (std::find(cached.begin(), cached.end(), *now) != cached.end()) {
+      continue;
+    }
+    ++misses;
+    if (cached.size() == frames) {
+      const auto next_use = [&](PageId page) { return std::find(now, references.end(), page); };
+      cached.erase(std::max_element(cached.begin(), cached.end(), [&](PageId a, PageId b) { return next_use(a) < next_use(b); }));
+    }
+    cached.push_back(*now);
+  }
+  return misses;
 }
 
 }  // namespace
@@ -73,6 +92,15 @@ TEST_CASE("nobody who tries every victim finds fewer misses, and somebody finds 
       CAPTURE(frames);
       CHECK(optimum.misses(frames) == fewest_misses(references, 0, {}, frames));
     }
+  }
+}
+
+TEST_CASE("the optimum of many references is what looking ahead at every miss gives") {
+  const References references = random_references(9, 12'000, 60);
+  const Optimum optimum(references);
+  for (const std::uint32_t frames : {2U, 9U, 30U, 50U}) {
+    CAPTURE(frames);
+    CHECK(optimum.misses(frames) == misses_looking_ahead(references, frames));
   }
 }
 
