@@ -26,7 +26,8 @@ constexpr std::size_t name_characters_max = 64;
 constexpr std::uint64_t bytes_max = 1'000'000'000;
 /// One second.
 constexpr std::uint64_t time_ns_max = 1'000'000'000;
-constexpr std::uint64_t operation_ps_max = 1'000'000'000'000;
+/// A tenth of a second: a quantum of a hundred million operations still has a price.
+constexpr std::uint64_t operation_ps_max = 100'000'000'000;
 /// One millisecond.
 constexpr std::uint64_t byte_ps_max = 1'000'000'000;
 
@@ -230,10 +231,11 @@ Json parse_json(std::string_view text, const std::string& file) {
 std::string read_text(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   std::string text(file_bytes_max + 1, '\0');
-  if (!stream || !stream.read(text.data(), static_cast<std::streamsize>(text.size())).eof()) {
-    if (stream) {
-      throw core::InputError(path + ": a machine file has 1 MiB at most");
-    }
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream) {
+    throw core::InputError(path + ": a machine file has 1 MiB at most");
+  }
+  if (!stream.eof()) {
     throw core::InputError(path + ": this is neither a machine (" + machine_preset_names() +
                            ") nor a file that can be read: " + std::strerror(errno));
   }

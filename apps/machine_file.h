@@ -26,7 +26,7 @@ std::string machine_text(const MachineDescription& description);
 
 /// Reads what machine_text() writes. "sources" may be missing, any other key may not. Throws core::InputError, naming `file`, the
 /// place or key and what was expected, for anything else: no JSON, unknown, missing and repeated keys, wrong types, numbers that
-/// are not whole or out of range (times to 1 s, rates to 1 ms a byte).
+/// are not whole or out of range (times to 1 s, operations to 0.1 s, bytes to 1 ms).
 MachineDescription parse_machine(std::string_view text, const std::string& file);
 
 /// The preset with this name, or what is in the file of that name, 1 MiB at most. Throws core::InputError if there is neither, or

@@ -12,6 +12,7 @@
 
 #include "apps/distinct_files.h"
 #include "apps/load_scene.h"
+#include "apps/machines.h"
 #include "apps/output_file.h"
 #include "apps/progress.h"
 #include "apps/run_strategy.h"
@@ -53,6 +54,9 @@ void check_outputs(const RenderOptions& options) {
   std::vector<NamedFile> inputs, outputs = {{"-o", options.image}};
   if (!core::find_scene_name(options.picture.scene)) {
     inputs.push_back({"SCENE", options.picture.scene});
+  }
+  if (options.computer.runner == RunnerKind::virtual_time && find_machine_preset(options.computer.machine_name) == nullptr) {
+    inputs.push_back({"--machine", options.computer.machine_name});
   }
   if (options.stats) {
     outputs.push_back({"--stats", *options.stats});
@@ -160,8 +164,9 @@ Image image_of(const core::Film& film, int samples) {
   return image;
 }
 
-int render_command(const RenderOptions& options, Interrupt& interrupt, std::ostream& output) {
-  check_outputs(options);
+int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostream& output) {
+  check_outputs(asked);
+  const RenderOptions options = with_machine(asked);
   Seconds seconds;
   const Subject subject = load(options, interrupt, seconds);
   const ReadyRun run = prepare(options, subject, interrupt, seconds);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/machines.h"
 #include "apps/option_values.h"
 #include "apps/region_options.h"
 #include "core/expect.h"
@@ -48,6 +49,22 @@ void add_computer_options(OptionSet& options, RenderOptions& render) {
   add_axes_option(options, render.axes);
 }
 
+void add_runner_options(OptionSet& options, ComputerOptions& computer) {
+  options.begin_group("What drives the computer");
+  options.add_choice<RunnerKind>(
+      "--runner", computer.runner, {{"threads", RunnerKind::threads}, {"virtual", RunnerKind::virtual_time}},
+      "threads: a thread for each node. virtual: the model of a machine, in its own time, the same whenever it is repeated");
+  options.add_text(
+      "--machine", "NAME|FILE.json [ipsc2]", [&computer](const std::string& name) { computer.machine_name = name; },
+      "The machine that is modelled (virtual): " + machine_preset_names() + " or a file such as dmpc machine prints");
+  options.add_flag("--no-contention", computer.no_contention, "A link carries any number of messages at once (virtual)");
+  options.add_text(
+      "--chaos", "SEED [calm]",
+      [&computer](const std::string& text) { computer.chaos = nodes::chaos_of(parse_seed(text, "--chaos")); },
+      "Disturb the computer by this seed (threads): packets late and out of order, slow nodes and links, few credits; the "
+      "picture stays");
+}
+
 void add_page_options(OptionSet& options, PageOptions& pages) {
   options.begin_group("Strategies svm and replicated");
   options.add_number("--cache-pages", pages.cache_pages, 1, 0x7fffffff, "what the memory holds",
@@ -57,7 +74,7 @@ void add_page_options(OptionSet& options, PageOptions& pages) {
       "--replacement", pages.replacement,
       {{"lru", Replacement::lru}, {"clock", Replacement::clock}, {"fifo", Replacement::fifo}, {"random", Replacement::random}},
       "Which of them makes room for another (svm)");
-  options.add_number("--in-flight", pages.in_flight, 1, svm::in_flight_max, "16, replicated 1",
+  options.add_number("--in-flight", pages.in_flight, 1, svm::in_flight_max, "16, replicated 1, runner virtual 1",
                      "Pixels that a node works on at once");
   options.add_number("--work-item", pages.work_item_side, 0, 1024, "3",
                      "Side in pixels of what a node gives to an idle one; 0: nothing is given");
@@ -87,10 +104,6 @@ void add_study_options(OptionSet& options, RenderOptions& render) {
       "--no-skip", {"empty-space"}, [&render](const std::string&) { render.computer.traversal.skip_empty_space = false; },
       "Switch off a short cut that does not change the picture");
   options.add_path("--stats", "FILE.json", render.stats, "Write all counters");
-  options.add_text(
-      "--chaos", "SEED [calm]",
-      [&render](const std::string& text) { render.computer.chaos = nodes::chaos_of(parse_seed(text, "--chaos")); },
-      "Disturb the computer by this seed: packets late and out of order, slow nodes and links, few credits; the picture stays");
   options.add_flag("--quiet", render.quiet, "No progress, no closing lines");
 }
 
@@ -143,8 +156,35 @@ void check_strategy(const OptionSet& options, const RenderOptions& render) {
   }
 }
 
+/// An option that does not go with one of the runners, and why.
+struct Conflict {
+  const char* option;
+  RunnerKind runner;
+  const char* reason;
+};
+
+constexpr Conflict conflicts[] = {
+    {"--machine", RunnerKind::threads, "threads model no machine"},
+    {"--no-contention", RunnerKind::threads, "threads model no links"},
+    {"--chaos", RunnerKind::virtual_time, "chaos disturbs threads only"},
+    {"--topology", RunnerKind::virtual_time, "the machine has a topology of its own, onto which regions are mapped"},
+};
+
+void check_runner(const OptionSet& options, const RenderOptions& render) {
+  const RunnerKind runner = render.computer.runner;
+  for (const Conflict& conflict : conflicts) {
+    if (options.is_given(conflict.option) && conflict.runner == runner) {
+      throw UsageError(std::string(conflict.option) + " does not go with --runner=" + name_of(runner) + ": " + conflict.reason);
+    }
+  }
+  if (render.tracer == TracerChoice::embree && runner == RunnerKind::virtual_time) {
+    throw UsageError("--tracer=embree does not go with --runner=virtual: nobody knows what Embree's operations would cost");
+  }
+}
+
 void check_together(const OptionSet& options, const RenderOptions& render) {
   check_strategy(options, render);
+  check_runner(options, render);
   if (render.pages.count_pages && !render.stats) {
     throw UsageError("--count-pages counts for the --stats file: give --stats=FILE.json too");
   }
@@ -170,12 +210,15 @@ const char* name_of(Strategy strategy) {
   return "";
 }
 
+const char* name_of(RunnerKind runner) { return runner == RunnerKind::threads ? "threads" : "virtual"; }
+
 void add_options(OptionSet options, RenderOptions& render) {
   add_options(options, render.picture);
   options.add_required(
       "-o,--output", "IMAGE", [&render](const std::string& text) { render.image = text; },
       "The picture: .exr, .tif (linear floats), .png, .jpg (8 bits, sRGB), ...");
   add_computer_options(options, render);
+  add_runner_options(options, render.computer);
   add_page_options(options, render.pages);
   add_ray_options(options, render.rays);
   add_study_options(options, render);
@@ -186,6 +229,7 @@ void add_options(OptionSet options, RenderOptions& render) {
       "  dmpc render tetra-10 --nodes=64 --node-memory=4MiB -o tetra.exr\n"
       "  dmpc render rings-4-t1 --cache-pages=16 --count-pages --stats=rings.json -o rings.png\n"
       "  dmpc render rings-3-t1 --strategy=dataflow --nodes=16 --grid-axes=screen -o rings.png\n"
+      "  dmpc render teapot-12 --nodes=64 --runner=virtual --machine=ipsc860 --stats=teapot.json -o teapot.png\n"
       "  dmpc render my.nff --strategy=replicated --tracer=embree --resolution=1024x768 -o my.tif\n"
       "The picture does not depend on the computer's options, to the last bit: the film_hash of --stats says so. Only\n"
       "--grid-axes=screen, another grid, rounds otherwise than --grid-axes=world.");

@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "apps/command_line.h"
 #include "apps/picture_options.h"
 #include "core/traversal.h"
 #include "dataflow/balance.h"
 #include "nodes/chaos.h"
+#include "nodes/machine.h"
 #include "nodes/topology.h"
 #include "svm/replacement.h"
 
@@ -24,12 +26,21 @@ const char* name_of(Strategy strategy);
 /// Who finds what a ray hits: our grid, or Embree (with strategy replicated only).
 enum class TracerChoice : std::uint8_t { grid, embree };
 
+/// What calls the nodes' programs: threads, by the wall clock, or the model of a machine, in virtual time.
+enum class RunnerKind : std::uint8_t { threads, virtual_time };
+/// As the command line calls it.
+const char* name_of(RunnerKind runner);
+
 /// What every strategy asks of the computer.
 struct ComputerOptions {
   std::uint32_t node_count = 8;
   std::optional<std::size_t> node_memory_bytes;  ///< of each node; without it what the strategy needs
   std::optional<nodes::Chaos> chaos;             ///< disturbs the run
   core::TraversalOptions traversal;
+  RunnerKind runner = RunnerKind::threads;
+  std::string machine_name = "ipsc2";     ///< to be modelled: a preset's name or a machine file
+  bool no_contention = false;             ///< on the modelled machine
+  std::optional<nodes::Machine> machine;  ///< the model itself, once it is read (run_strategy.h)
 };
 
 /// Of svm, and as far as no page travels of replicated; svm/plan.h says more.

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "apps/time_parts.h"
 #include "core/film.h"
 #include "core/operations.h"
 #include "dataflow/run.h"
@@ -40,6 +41,8 @@ struct Account {
   std::uint64_t host_deposits_saturated;                      ///< pixels whose sums saturated on the host's film
   std::array<nodes::Traffic, nodes::packet_kind_count> sent;  ///< by all nodes and the host, by kind
   std::span<const char* const> kind_names;                    ///< of the strategy's packets
+  const std::optional<nodes::VirtualReport>& virtual_time;    ///< of a modelled machine
+  WaitKinds waits;                                            ///< what the waits for these packets are
 };
 
 /// Thread-safe, as long as nobody changes the report.

@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "apps/machine_file.h"
 #include "apps/oracle.h"
 #include "core/expect.h"
 #include "core/records.h"
@@ -11,16 +12,23 @@ namespace dmpc::apps {
 
 namespace {
 
+/// A node of a modelled machine waits for its page, as those of the 1994 paper did.
+std::optional<std::uint32_t> in_flight(const RenderOptions& options) {
+  const bool is_modelled = options.computer.machine.has_value();
+  return is_modelled && !options.pages.in_flight ? 1 : options.pages.in_flight;
+}
+
 svm::RunOptions svm_options(const RenderOptions& options) {
   return {.node_count = options.computer.node_count,
           .node_memory_bytes = options.computer.node_memory_bytes,
           .cache_pages = options.pages.cache_pages,
           .replacement = options.pages.replacement,
-          .in_flight = options.pages.in_flight,
+          .in_flight = in_flight(options),
           .work_item_side = options.pages.work_item_side,
           .count_pages = options.pages.count_pages,
           .traversal = options.computer.traversal,
-          .chaos = options.computer.chaos};
+          .chaos = options.computer.chaos,
+          .machine = options.computer.machine};
 }
 
 dataflow::RunOptions dataflow_options(const RenderOptions& options) {
@@ -32,7 +40,8 @@ dataflow::RunOptions dataflow_options(const RenderOptions& options) {
           .balance = options.rays.balance,
           .topology = options.rays.topology,
           .traversal = options.computer.traversal,
-          .chaos = options.computer.chaos};
+          .chaos = options.computer.chaos,
+          .machine = options.computer.machine};
 }
 
 svm::Report run_with_embree(const core::Database& database, const core::RenderSettings& settings, const svm::RunOptions& run,
@@ -73,7 +82,25 @@ ReadyRun ready_with_rays(const RenderOptions& options, const core::Database& dat
 
 }  // namespace
 
+RenderOptions with_machine(RenderOptions options, const nodes::Machine& machine) {
+  options.computer.runner = RunnerKind::virtual_time;
+  options.computer.machine = machine;
+  options.rays.topology = machine.topology;
+  return options;
+}
+
+RenderOptions with_machine(RenderOptions options) {
+  if (options.computer.runner == RunnerKind::threads) {
+    return options;
+  }
+  nodes::Machine machine = load_machine(options.computer.machine_name).machine;
+  machine.has_contention = machine.has_contention && !options.computer.no_contention;
+  return with_machine(std::move(options), machine);
+}
+
 ReadyRun make_ready(const RenderOptions& options, const core::Database& database, const core::RenderSettings& settings) {
+  core::expect(options.computer.machine.has_value() == (options.computer.runner == RunnerKind::virtual_time),
+               "a modelled machine has been read");
   return options.strategy == Strategy::dataflow ? ready_with_rays(options, database, settings)
                                                 : ready_with_pages(options, database, settings);
 }

@@ -24,8 +24,15 @@ struct ReadyRun {
   std::function<Report(const RunProgress&, std::stop_token)> start;
 };
 
-/// For dataflow it renders the subsampled picture. All arguments outlive the result. Throws core::UsageError for options that the
-/// strategy does not take, core::InputError if the nodes' memory is too small, naming what works.
+/// The options with the machine that is modelled, if one is: read, with its links as asked for, and its topology as that onto
+/// which regions are mapped. Throws core::InputError as load_machine() does.
+RenderOptions with_machine(RenderOptions options);
+/// The same with this machine as it is.
+RenderOptions with_machine(RenderOptions options, const nodes::Machine& machine);
+
+/// The options are such as with_machine() returns, or ask for threads. For dataflow it renders the subsampled picture. All
+/// arguments outlive the result. Throws core::UsageError for options that the strategy does not take, core::InputError if the
+/// nodes' memory is too small, naming what works.
 ReadyRun make_ready(const RenderOptions& options, const core::Database& database, const core::RenderSettings& settings);
 
 }  // namespace dmpc::apps

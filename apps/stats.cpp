@@ -8,7 +8,9 @@
 #include <string>
 #include <variant>
 
+#include "apps/machine_file.h"
 #include "apps/stats_strategy.h"
+#include "apps/stats_virtual.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -116,32 +118,35 @@ Json node_seconds_json(const nodes::NodeCounters& counters) {
           {"wall", static_cast<double>(counters.wall_ns) * nanosecond}};
 }
 
-Json node_json(const NodeAccount& node, const Json& special) {
+/// `timed`: what a run in virtual time adds; a node of it has no time by the wall clock.
+Json node_json(const NodeAccount& node, const Json& special, const Json& timed) {
   Json result = {{"rays", rays_json(node.operations.rays)},
                  {"hits", hits_json(node.operations)},
                  {"operations", operations_json(node.operations)},
                  {"packets", packets_json(node.counters)}};
   result.update(filled({"pages", "work", "travel", "load", "region"}, special));
   result["memory"] = {{"planned", memory_json(node.memory_planned)}, {"used", memory_json(node.memory_used)}};
-  result["seconds"] = node_seconds_json(node.counters);
+  result["seconds"] = timed.empty() ? node_seconds_json(node.counters) : Json();
+  result.update(filled({"virtual_seconds", "time_percent"}, timed));
   result["quanta"] = node.counters.quanta;
   result["sleeps"] = node.counters.sleeps;
   return result;
 }
 
-Json nodes_json(const Account& account, const StrategyStats& special) {
+Json nodes_json(const Account& account, const StrategyStats& special, const VirtualStats& timed) {
   Json result = Json::array();
   for (std::size_t i = 0; i < account.nodes.size(); ++i) {
-    result.push_back(node_json(account.nodes[i], special.nodes[i]));
+    result.push_back(node_json(account.nodes[i], special.nodes[i], timed.nodes[i]));
   }
   return result;
 }
 
-Json host_json(const Account& account, const Json& special) {
+Json host_json(const Account& account, const Json& special, const Json& timed) {
   Json result = {{"packets", packets_json(account.host)},
                  {"deposits_saturated", account.host_deposits_saturated},
-                 {"seconds", node_seconds_json(account.host)},
+                 {"seconds", timed.empty() ? node_seconds_json(account.host) : Json()},
                  {"sleeps", account.host.sleeps}};
+  result.update(filled({"virtual_seconds"}, timed));
   result.update(filled({"rays_kept_max", "kept_bytes_max", "token_rounds"}, special));
   return result;
 }
@@ -205,22 +210,26 @@ std::string hash_text(std::uint64_t hash) {
 
 std::string stats_json(const RenderRecord& record) {
   const Account account = account_of(record.report);
+  const VirtualStats timed = virtual_stats(account);
+  const std::optional<nodes::Machine>& machine = record.options.computer.machine;
   const StrategyStats special =
       std::visit([&](const auto& report) { return strategy_stats(record.options, report); }, record.report);
   Json all = {{"program", "dmpc " DMPC_VERSION},
               {"options", options_json(record, account, special.options)},
+              {"runner", name_of(record.options.computer.runner)},
+              {"machine", machine ? machine_json(*machine) : Json()},
               {"film_hash", hash_text(account.film.hash())},
               {"rays", rays_json(account.operations.rays)},
               {"hits", hits_json(account.operations)},
               {"operations", operations_json(account.operations)},
-              {"seconds", seconds_json(record.seconds)},
-              {"database", database_json(record.database)},
-              {"packets", all_packets_json(account, special.packets_overflowed)}};
+              {"seconds", seconds_json(record.seconds)}};
+  all.update(filled({"run_hash", "virtual_seconds", "time_percent", "events", "links"}, timed.all));
+  all.update({{"database", database_json(record.database)}, {"packets", all_packets_json(account, special.packets_overflowed)}});
   all.update(filled({"pages", "work", "travel", "load", "regions", "mapping", "pairs"}, special.all));
   all["chaos"] = chaos_json(account, special.chaos);
   all["skips"] = {{"empty_space", record.options.computer.traversal.skip_empty_space}};
-  all["nodes"] = nodes_json(account, special);
-  all["host"] = host_json(account, special.host);
+  all["nodes"] = nodes_json(account, special, timed);
+  all["host"] = host_json(account, special.host, timed.host);
   return all.dump(2) + "\n";
 }
 

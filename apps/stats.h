@@ -32,12 +32,24 @@ struct RenderRecord {
 ///                  strategy, nodes, node_memory (bytes a node, the most), page_size; of pages: cache_pages, in_flight,
 ///                  work_item, count_pages; of dataflow: balance, subsample, balance_grid, ray_batch, ray_credits, ray_queue,
 ///                  topology
+///   runner         threads or virtual
+///   machine        that was modelled, as machine_file.h says; null with threads, as is all that follows from virtual time
 ///   film_hash      of the film's integers, 16 hexadecimal digits: equal pictures, equal hashes
 ///   rays           rays shot
 ///   hits           primary, secondary, shadow_blocked, total_internal_reflections
 ///   operations     cell_steps, brick_reads, triangle_tests, sphere_tests, cone_tests, shadings, deposits_saturated
 ///   seconds        load, build, prepare (plan; for dataflow balance and deal), render, write (wall clock), user, system,
 ///                  render_user, render_system
+///   run_hash       of all events in virtual time, 16 hexadecimal digits: equal runs, equal hashes
+///   virtual_seconds   total (from the start to the last event), and summed over the nodes: computing, sending, receiving, stolen
+///                  (by interrupts, from what there was to do), lent (to interrupts while there was nothing), waiting (by the
+///                  kind of packet that ended it), end (nothing to do any more)
+///   time_percent   the same summed up to 100: computing, data_wait (for pages or rays), work_wait (of a node of svm that has no
+///                  pixels left, for another's), other_wait (for other packets), stolen, lent, messages (sending and receiving),
+///                  idle_at_end (until a packet that ends the run, and after it)
+///   events         in virtual time
+///   links          messages, hops (links passed, summed over messages), wait (virtual seconds that messages stood before links
+///                  that others held, summed), busiest (virtual seconds that the busiest link was held)
 ///   database       bytes, pages, page_size, primitives, references, dropped
 ///   packets        sent, received, bytes, overflow (by way of the host), and by_kind: packets and bytes
 ///   pages          references, hits, home_hits, cache_hits, misses, faults, evictions, served, distinct, distinct_per_pixel

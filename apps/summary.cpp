@@ -7,6 +7,7 @@
 
 #include "apps/figures.h"
 #include "apps/ray_hops.h"
+#include "apps/time_parts.h"
 #include "nodes/size_text.h"
 
 namespace dmpc::apps {
@@ -90,6 +91,18 @@ StrategyLines lines_of(const RenderOptions& options, const dataflow::Report& rep
               "\n"};
 }
 
+/// Lines of a run in virtual time, with their ends; without it none.
+std::string virtual_lines(const Account& account, const std::optional<nodes::Machine>& machine) {
+  if (!account.virtual_time || !machine) {
+    return "";
+  }
+  const nodes::VirtualReport& report = *account.virtual_time;
+  const std::string time = fixed(static_cast<double>(report.total_ns) / 1e9, 6) + " s on " + machine->name;
+  return "virtual  " + time + (machine->has_contention ? "" : " without contention") + ", " + counted(report.events, "event") +
+         ", run " + hash_text(report.hash) + "\nlosses   " +
+         parts_text(parts_of(sum_of_nodes(report), account.waits), account.waits) + "\n";
+}
+
 std::string time_text(const Seconds& seconds) {
   return "load " + seconds_text(seconds.load) + ", build " + seconds_text(seconds.build) + ", prepare " +
          seconds_text(seconds.prepare) + ", render " + seconds_text(seconds.render) + ", write " + seconds_text(seconds.write) +
@@ -106,8 +119,9 @@ void print_summary(std::ostream& output, const RenderRecord& record) {
          << "\ncomputer " << counted(account.nodes.size(), "node") << ", " << name_of(record.options.strategy) << ", "
          << special.computer << "\nmemory   " << memory_text(account) << "\nrays     "
          << rays_text(account.operations, record.seconds.render) << '\n'
-         << special.figures << "time     " << time_text(record.seconds) << "\npicture  " << record.options.image.string() << ", "
-         << account.film.width() << "x" << account.film.height() << ", film " << hash_text(account.film.hash()) << '\n';
+         << special.figures << virtual_lines(account, record.options.computer.machine) << "time     " << time_text(record.seconds)
+         << "\npicture  " << record.options.image.string() << ", " << account.film.width() << "x" << account.film.height()
+         << ", film " << hash_text(account.film.hash()) << '\n';
 }
 
 }  // namespace dmpc::apps

@@ -104,7 +104,7 @@ TEST_CASE("a value of the wrong type or out of range is named with what was expe
     CHECK(says(complaint_with("10300", wrong), "m.json: hop_ns: expected a whole number from 0 to 1000000000, got "));
   }
   CHECK(says(complaint_with("\"byte_ps\": 200000", "\"byte_ps\": 1000000001"), "short_message.byte_ps: expected a whole number"));
-  CHECK(says(complaint_with("\"home_lookup\": 0", "\"home_lookup\": 1000000000001"), "operation_ps.home_lookup: expected"));
+  CHECK(says(complaint_with("\"home_lookup\": 0", "\"home_lookup\": 100000000001"), "operation_ps.home_lookup: expected"));
   CHECK(says(complaint_with("\"short_bytes_max\": 100", "\"short_bytes_max\": 1000000001"), "short_bytes_max: expected"));
   CHECK(says(complaint_with("true", "1"), "m.json: has_contention: expected true or false, got 1"));
   CHECK(says(complaint_with("\"hypercube\"", "3"), "m.json: topology: expected a text, got 3"));

@@ -44,9 +44,15 @@ TEST_CASE("scene, check and compare take their own options") {
   CHECK(compare.difference == "d.png");
 }
 
+TEST_CASE("machine takes a name") {
+  CHECK(std::get<MachineOptions>(parse({"machine", "cm5"})).machine == "cm5");
+  CHECK(says(complaint({"machine"}), "Try: dmpc machine --help"));
+  CHECK(says(std::get<HelpText>(parse({"machine", "--help"})).text, "ipsc2, ipsc860, paragon, cm5, cs2, gigabit, hdr"));
+}
+
 TEST_CASE("help shows examples and every command") {
   const std::string general = std::get<HelpText>(parse({"--help"})).text;
-  for (const std::string word : {"render", "scene", "check", "compare", "study", "dmpc render teapot-12"}) {
+  for (const std::string word : {"render", "scene", "check", "compare", "machine", "study", "dmpc render teapot-12"}) {
     CHECK_MESSAGE(says(general, word), word);
   }
 }

@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "apps/image_file.h"
@@ -140,6 +141,66 @@ TEST_CASE("no option of dataflow changes the film") {
   CHECK(hashes.size() == 1);
 }
 
+TEST_CASE("a modelled machine renders the threads' film, twice by the same events") {
+  const TemporaryFolder folder;
+  const std::string stats = folder / "a.json";
+  const auto counters = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"render", "balls-2", "--resolution=24x24", "--nodes=5", "--stats",
+                                          stats,    "-o",      folder / "a.exr"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    REQUIRE(run(arguments).status == 0);
+    return file_text(stats);
+  };
+  const auto after = [](const std::string& text, const std::string& key) { return word_after(text, "\"" + key + "\": "); };
+  const std::string film = after(counters({}), "film_hash");
+  const std::vector<std::string> modelled = {"--strategy=svm", "--runner=virtual", "--machine=cm5"};
+  const std::string first = counters(modelled), second = counters(modelled);
+  CHECK(after(first, "film_hash") == film);
+  CHECK(after(first, "run_hash") != "null");
+  CHECK(after(first, "run_hash") == after(second, "run_hash"));
+  CHECK(after(first, "events") == after(second, "events"));
+}
+
+TEST_CASE("a machine that was printed is read again: the same run as by its name") {
+  const TemporaryFolder folder;
+  const Result printed = run({"machine", "paragon"});
+  CHECK(printed.status == 0);
+  write_text(folder / "mine.json", printed.output);
+  CHECK(run({"machine", folder / "mine.json"}).output == printed.output);
+  std::set<std::string> hashes;
+  for (const std::string& machine : {std::string("paragon"), (folder / "mine.json").string()}) {
+    const Result result = run(
+        {"render", "tetra-2", "--resolution=8x8", "--nodes=3", "--runner=virtual", "--machine", machine, "-o", folder / "a.exr"});
+    CHECK(result.status == 0);
+    CHECK(contains(result.output, " s on paragon, "));
+    hashes.insert(word_after(result.output, " events, run "));
+  }
+  CHECK(hashes.size() == 1);
+}
+
+TEST_CASE("a bad machine file ends with status 1, its name, the key and what was expected, before rendering") {
+  const TemporaryFolder folder;
+  write_text(folder / "bad.json", "{\"name\": 3}");
+  const Result result = run({"render", "tetra-1", "--runner=virtual", "--machine", folder / "bad.json", "-o", folder / "a.png"});
+  CHECK(result.status == 1);
+  CHECK(contains(result.errors, (folder / "bad.json").string() + ": topology: this key is missing"));
+  CHECK(run({"machine", "abacus"}).status == 1);
+  CHECK(run({"render", "tetra-1", "--runner=virtual", "--machine=abacus", "-o", folder / "a.png"}).status == 1);
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("no output may fall on the machine file") {
+  const TemporaryFolder folder;
+  const std::string machine = folder / "mine.json";
+  write_text(machine, run({"machine", "hdr"}).output);
+  const std::string before = file_text(machine);
+  const Result result =
+      run({"render", "tetra-1", "--runner=virtual", "--machine", machine, "--stats", machine, "-o", folder / "a.png"});
+  CHECK(result.status == 2);
+  CHECK(contains(result.errors, "this is the same file as --machine "));
+  CHECK(file_text(machine) == before);
+}
+
 TEST_CASE("bad input ends with status 1, a reason, and nothing written") {
   const TemporaryFolder folder;
   write_text(folder / "bad.nff", std::string(view) + "q 1 2 3\n");
@@ -202,6 +263,9 @@ TEST_CASE("wrong usage ends with status 2 and a hint") {
         {"render"},
         {"render", "tetra-1", "-o", "a.png", "--tracer=embree"},
         {"render", "tetra-1", "-o", "a.png", "--ray-batch=2"},
+        {"render", "tetra-1", "-o", "a.png", "--machine=ipsc2"},
+        {"render", "tetra-1", "-o", "a.png", "--runner=virtual", "--chaos=1"},
+        {"machine"},
         {"render", "tetra-1", "-o", "a.png", "--strategy=dataflow", "--nodes=1025"}}) {
     const Result result = run(arguments);
     CHECK(result.status == 2);
@@ -267,6 +331,7 @@ TEST_CASE("lines that the standard output does not take end with status 1") {
                                                           {"check", "tetra-1", "--resolution=4x4"},
                                                           {"compare", image, image},
                                                           {"scene", "tetra-1"},
+                                                          {"machine", "hdr"},
                                                           {"--help"}};
   for (const std::vector<std::string>& command : commands) {
     CAPTURE(command.front());
@@ -328,6 +393,20 @@ TEST_CASE("Ctrl-C and SIGTERM end dataflow with status 130, while it balances an
       CHECK(contains(process.errors(), "interrupted, nothing was written"));
       CHECK(process.output().empty());
     }
+  }
+  CHECK(folder.entry_count() == 0);
+}
+
+TEST_CASE("Ctrl-C and SIGTERM end a modelled machine with status 130, whatever the strategy") {
+  const TemporaryFolder folder;
+  for (const auto& [strategy, signal] : {std::pair("svm", SIGINT), {"replicated", SIGTERM}, {"dataflow", SIGINT}}) {
+    ChildProcess process(dmpc({"render", "balls-3", std::string("--strategy=") + strategy, "--runner=virtual",
+                               "--resolution=1024x1024", "--samples=32768", "-o", folder / "a.png"}));
+    REQUIRE(process.blocks(signal));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    process.send(signal);
+    CHECK(process.status() == 130);
+    CHECK(contains(process.errors(), "interrupted, nothing was written"));
   }
   CHECK(folder.entry_count() == 0);
 }

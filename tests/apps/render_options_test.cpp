@@ -57,6 +57,7 @@ TEST_CASE("a scene and an output are all that render needs") {
   CHECK(options.tracer == TracerChoice::grid);
   CHECK_FALSE(options.stats);
   CHECK_FALSE(options.quiet);
+  CHECK(options.computer.runner == RunnerKind::threads);
 }
 
 TEST_CASE("every option of the computer reaches its field") {
@@ -195,6 +196,35 @@ TEST_CASE("options that every strategy has go with each") {
   }
 }
 
+TEST_CASE("threads drive the computer unless a machine is to be modelled") {
+  CHECK(render().computer.runner == RunnerKind::threads);
+  const ComputerOptions standard = render({"--runner=virtual"}).computer;
+  CHECK(standard.runner == RunnerKind::virtual_time);
+  CHECK(standard.machine_name == "ipsc2");
+  CHECK_FALSE(standard.no_contention);
+  CHECK_FALSE(standard.machine);
+  const ComputerOptions given = render({"--runner=virtual", "--machine=my.json", "--no-contention"}).computer;
+  CHECK(given.machine_name == "my.json");
+  CHECK(given.no_contention);
+  CHECK(render({"--runner=threads", "--chaos=1"}).computer.runner == RunnerKind::threads);
+}
+
+TEST_CASE("an option of the other runner is refused with the reason") {
+  for (const std::string option : {"--machine=ipsc2", "--no-contention"}) {
+    for (const std::string strategy : {"svm", "replicated", "dataflow"}) {
+      const std::string complaint = render_complaint({option, "--strategy=" + strategy});
+      CHECK(says(complaint, option.substr(0, option.find('=')) + " does not go with --runner=threads: threads model no "));
+    }
+  }
+  const std::string runner = "--runner=virtual";
+  CHECK(says(render_complaint({runner, "--chaos=1"}), "--chaos does not go with --runner=virtual: "));
+  CHECK(says(render_complaint({runner, "--strategy=dataflow", "--topology=hypercube"}), "--topology does not go with " + runner));
+  CHECK(
+      says(render_complaint({runner, "--strategy=replicated", "--tracer=embree"}), "--tracer=embree does not go with " + runner));
+  CHECK(says(render_complaint({"--runner=magic"}), "--runner"));
+  CHECK(says(render_complaint({runner, "--machine="}), "--machine"));
+}
+
 TEST_CASE("options that do not go together are refused with the reason") {
   CHECK(says(render_complaint({"--tracer=embree"}), "needs --strategy=replicated"));
   CHECK(says(render_complaint({"--tracer=embree", "--strategy=dataflow"}), "needs --strategy=replicated"));
@@ -241,6 +271,12 @@ TEST_CASE("the help of render names every option and its default") {
                                  "--ray-queue",
                                  "0..16384 [512]",
                                  "--topology",
+                                 "--runner",
+                                 "threads|virtual [threads]",
+                                 "NAME|FILE.json [ipsc2]",
+                                 "ipsc2, ipsc860, paragon, cm5, cs2, gigabit, hdr",
+                                 "--no-contention",
+                                 "16, replicated 1, runner virtual 1",
                                  "hypercube|mesh|torus|fat-tree|crossbar [hypercube]"}) {
     CHECK_MESSAGE(says(text, word), word);
   }

@@ -5,10 +5,12 @@
 #include <sstream>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "apps/load_scene.h"
+#include "apps/machines.h"
 #include "apps/run_strategy.h"
 #include "apps/stats.h"
 #include "apps/subject.h"
@@ -40,6 +42,11 @@ inline RenderOptions small(Strategy strategy = Strategy::svm) {
   options.strategy = strategy;
   options.computer.node_count = 3;
   return options;
+}
+
+/// The same on a modelled machine.
+inline RenderOptions modelled(Strategy strategy = Strategy::svm, std::string_view machine = "ipsc2") {
+  return with_machine(small(strategy), find_machine_preset(machine)->machine);
 }
 
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "dataflow/packets.h"
+#include "svm/packets.h"
 #include "tests/apps/rendered.h"
 
 namespace dmpc::apps {
@@ -20,6 +22,7 @@ TEST_CASE("an account of any strategy says what the report says") {
     CHECK(account.node_memory_max_bytes >= account.nodes[0].memory_used.total());
     CHECK(account.nodes[0].memory_planned.total() > 0);
     CHECK_FALSE(account.chaos);
+    CHECK_FALSE(account.virtual_time);
   }
 }
 
@@ -34,6 +37,18 @@ TEST_CASE("an account sums up what nodes and host sent and how it is called") {
   }
   CHECK(of_rays.sent[0].packets == sent);
   CHECK(sent > 0);
+}
+
+TEST_CASE("an account of a modelled machine has its virtual times and says which waits are for what") {
+  const Rendered pages(modelled()), rays(modelled(Strategy::dataflow));
+  const Account of_pages = account_of(*pages.report), of_rays = account_of(*rays.report);
+  REQUIRE(of_pages.virtual_time);
+  CHECK(of_pages.virtual_time->nodes.size() == 4);
+  CHECK(of_pages.waits.data_kinds == 1U << svm::number_of(svm::Kind::page_reply));
+  CHECK(of_pages.waits.end_kinds == 1U << svm::number_of(svm::Kind::stop));
+  REQUIRE(of_rays.virtual_time);
+  CHECK(std::string(of_rays.waits.data) == "ray");
+  CHECK((of_rays.waits.data_kinds & 1U << dataflow::number_of(dataflow::Kind::rays)) != 0);
 }
 
 TEST_CASE("saturated sums of the host's film are found in every report") {

@@ -85,6 +85,55 @@ TEST_CASE("regions are mapped onto the topology that was asked for") {
   CHECK(corners_on(nodes::TopologyKind::mesh) != corners_on(nodes::TopologyKind::hypercube));
 }
 
+TEST_CASE("a modelled machine renders the film of threads, with every strategy") {
+  for (const Strategy strategy : {Strategy::svm, Strategy::replicated, Strategy::dataflow}) {
+    const Rendered rendered(modelled(strategy));
+    const Account account = account_of(*rendered.report);
+    CHECK(account.film.hash() == film_hash(small()));
+    REQUIRE(account.virtual_time);
+    CHECK(account.virtual_time->total_ns > 0);
+  }
+}
+
+TEST_CASE("a modelled machine's nodes work on one pixel at once unless told otherwise") {
+  const auto in_flight = [](const RenderOptions& options) {
+    const Rendered rendered(options);
+    return std::get<svm::Report>(*rendered.report).plan.in_flight;
+  };
+  RenderOptions options = modelled();
+  CHECK(in_flight(options) == 1);
+  CHECK(in_flight(small()) == 16);
+  options.pages.in_flight = 5;
+  CHECK(in_flight(options) == 5);
+}
+
+TEST_CASE("the machine asked for is read, and regions are mapped onto its topology") {
+  RenderOptions options = small();
+  CHECK_FALSE(with_machine(options).computer.machine);
+  options.computer.runner = RunnerKind::virtual_time;
+  CHECK(with_machine(options).computer.machine.value().name == "ipsc2");
+  options.computer.machine_name = "paragon";
+  CHECK(with_machine(options).rays.topology == nodes::TopologyKind::mesh);
+  CHECK(with_machine(options).computer.machine.value().has_contention);
+  options.computer.no_contention = true;
+  CHECK_FALSE(with_machine(options).computer.machine.value().has_contention);
+  options.computer.machine_name = "abacus";
+  CHECK_THROWS_AS(with_machine(options), core::InputError);
+}
+
+TEST_CASE("links that do not contend let no message wait") {
+  nodes::Machine machine = find_machine_preset("ipsc2")->machine;
+  const auto wait_ns = [&] {
+    RenderOptions options = small();
+    options.computer.node_count = 8;
+    const Rendered rendered(with_machine(options, machine));
+    return account_of(*rendered.report).virtual_time->links.wait_ns;
+  };
+  CHECK(wait_ns() > 0);
+  machine.has_contention = false;
+  CHECK(wait_ns() == 0);
+}
+
 TEST_CASE("dataflow's defaults are those that the help tells") {
   const Rendered rendered(small(Strategy::dataflow));
   const auto& plan = std::get<dataflow::Report>(*rendered.report).plan;
@@ -105,7 +154,9 @@ TEST_CASE("a run that is stopped before it starts reports that it was interrupte
   for (const Strategy strategy : {Strategy::svm, Strategy::replicated, Strategy::dataflow}) {
     std::stop_source source;
     source.request_stop();
-    CHECK(account_of(*Rendered(small(strategy), source.get_token()).report).end == nodes::RunEnd::interrupted);
+    for (const RenderOptions& options : {small(strategy), modelled(strategy)}) {
+      CHECK(account_of(*Rendered(options, source.get_token()).report).end == nodes::RunEnd::interrupted);
+    }
   }
 }
 

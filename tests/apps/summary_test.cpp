@@ -47,6 +47,26 @@ TEST_CASE("the closing lines of dataflow say how rays travelled and how evenly t
   CHECK_FALSE(contains(text, "pages    "));
 }
 
+TEST_CASE("the closing lines of a modelled machine tell virtual time and what became of it, apart from the wall clock") {
+  for (const Strategy strategy : {Strategy::svm, Strategy::replicated, Strategy::dataflow}) {
+    const std::string text = summary(modelled(strategy));
+    for (const std::string part : {"virtual  ", " s on ipsc2, ", " events, run ", "\nlosses   computing ", " %, idle at the end ",
+                                   " %\ntime     load 0.500 s"}) {
+      CHECK_MESSAGE(contains(text, part), part);
+    }
+    CHECK_FALSE(contains(summary(small(strategy)), "virtual  "));
+    CHECK_FALSE(contains(summary(small(strategy)), "losses   "));
+  }
+  CHECK(contains(summary(modelled()), ", page wait "));
+  CHECK(contains(summary(modelled(Strategy::dataflow)), ", ray wait "));
+}
+
+TEST_CASE("links that do not contend are told") {
+  nodes::Machine machine = find_machine_preset("cm5")->machine;
+  machine.has_contention = false;
+  CHECK(contains(summary(with_machine(small(), machine)), " s on cm5 without contention, "));
+}
+
 TEST_CASE("regions of equal size were predicted no load") {
   RenderOptions options = small(Strategy::dataflow);
   options.rays.balance.balance = dataflow::Balance::equal_size;
