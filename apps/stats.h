@@ -64,7 +64,8 @@ struct RenderRecord {
 ///   regions        of dataflow: grid (finest cells along x, y, z), duplication (copies of primitives over primitives listed),
 ///                  part_bytes, primitive_copies, primary_rays (dealt)
 ///   mapping        of dataflow: topology, mean_hops (links that a ray message passes), mean_hops_random (on random nodes)
-///   pairs          of dataflow: ray messages from each node (row) to each node (column), by whatever way
+///   pairs          of dataflow: columns {from, to, rays by kind, packets with rays, rays_overflowed}, and a row for each two
+///                  nodes of which one has sent the other a ray
 ///   chaos          seed, packets_held, quanta_sat_out, and credits that were left: request_credits, ray_credits, host_credits,
 ///                  film_credits; null when calm
 ///   skips          empty_space: whether the short cut was on

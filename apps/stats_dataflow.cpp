@@ -104,12 +104,20 @@ Json regions_json(const dataflow::Report& report) {
 }
 
 /// Rows of senders.
+/// Only pairs of which one has sent the other a ray: neighbours, mostly.
 Json pairs_json(const dataflow::Report& report) {
   Json rows = Json::array();
-  for (const dataflow::NodeReport& node : report.nodes) {
-    rows.push_back(node.program.rays_to);
+  for (std::size_t from = 0; from < report.nodes.size(); ++from) {
+    const std::vector<dataflow::PairCounters>& pairs = report.nodes[from].program.pairs;
+    for (std::size_t to = 0; to < pairs.size(); ++to) {
+      if (pairs[to].rays_total() > 0) {
+        const auto& [rays, packets, overflowed] = pairs[to];
+        rows.push_back({from, to, rays[0], rays[1], rays[2], rays[3], packets, overflowed});
+      }
+    }
   }
-  return rows;
+  return {{"columns", {"from", "to", "primary", "reflected", "refracted", "shadow", "packets", "rays_overflowed"}},
+          {"rows", rows}};
 }
 
 Json mapping_json(const dataflow::Report& report, nodes::TopologyKind topology) {

@@ -80,7 +80,7 @@ std::string load_text(const dataflow::Report& report) {
 
 std::string regions_text(const RenderOptions& options, const dataflow::Report& report) {
   const RayHops hops = ray_hops_of(report, options.rays.topology);
-  return fixed(report.duplication, 2) + " copies of a primitive; on the " + std::string(name_of(options.rays.topology)) + " " +
+  return fixed(report.duplication, 2) + " copies of a record; on the " + std::string(name_of(options.rays.topology)) + " " +
          fixed(hops.mean, 2) + " links a message, " + fixed(hops.mean_of_random, 2) + " if mapped at random";
 }
 

@@ -60,21 +60,25 @@ ColumnLoads measure_loads(const core::Database& database, const core::RenderSett
   return loads;
 }
 
-Balanced balance(const core::Database& database, const core::RenderSettings& settings, std::uint32_t region_count,
-                 const BalanceOptions& options, const std::stop_token& stop) {
+ColumnLoads column_loads(const core::Database& database, const core::RenderSettings& settings, const BalanceOptions& options,
+                         const std::stop_token& stop) {
   check(options);
-  const core::Corner size = core::grid_size(settings.header.frame);
-  const ColumnLattice lattice(size, axes_facing(settings.camera), options.columns_per_side);
-  if (options.balance == Balance::equal_size) {
-    const Bsp bsp = equal_size_bsp(size, lattice.axes(), region_count, options.bsp);
-    return {bsp, ColumnLoads(lattice), std::vector<double>(region_count, 0.0)};
-  }
   const core::Camera& camera = settings.camera;
-  ColumnLoads loads =
-      measure_loads(database, settings, lattice, subsampled_pixels(camera.width(), camera.height(), options.subsample), stop);
+  const ColumnLattice lattice(core::grid_size(settings.header.frame), axes_facing(camera), options.columns_per_side);
+  return options.balance == Balance::equal_size
+             ? ColumnLoads(lattice)
+             : measure_loads(database, settings, lattice, subsampled_pixels(camera.width(), camera.height(), options.subsample),
+                             stop);
+}
+
+Balanced share_out(const ColumnLoads& loads, std::uint32_t region_count, const BalanceOptions& options) {
+  if (options.balance == Balance::equal_size) {
+    const ColumnLattice& lattice = loads.lattice;
+    return {equal_size_bsp(lattice.grid_size(), lattice.axes(), region_count, options.bsp),
+            std::vector<double>(region_count, 0.0)};
+  }
   const Bsp bsp = build_bsp(loads, region_count, options.bsp);
-  std::vector<double> predicted = loads_of_regions(bsp, loads);
-  return {bsp, std::move(loads), std::move(predicted)};
+  return {bsp, loads_of_regions(bsp, loads)};
 }
 
 }  // namespace dmpc::dataflow

@@ -31,8 +31,7 @@ struct BalanceOptions {
 /// Regions, and what was known when they were made.
 struct Balanced {
   Bsp bsp;
-  ColumnLoads loads;              ///< in picoseconds of the subsampled picture; all 0 for Balance::equal_size
-  std::vector<double> predicted;  ///< load of each region, by region number, in the same unit
+  std::vector<double> predicted;  ///< load of each region, by region number, in the unit of the columns'
 };
 
 /// The two grid axes most parallel to the screen, ascending: all but the one along which the camera looks most.
@@ -46,9 +45,14 @@ std::vector<std::uint32_t> subsampled_pixels(int width, int height, int subsampl
 ColumnLoads measure_loads(const core::Database& database, const core::RenderSettings& settings, const ColumnLattice& lattice,
                           const std::vector<std::uint32_t>& pixels, const std::stop_token& stop = {});
 
-/// Shares the grid out to `region_count` regions. Deterministic, unless a stop is requested: then it makes haste, and the regions
-/// are good for nothing but a run that ends at once. Throws core::UsageError if an option is out of range.
-Balanced balance(const core::Database& database, const core::RenderSettings& settings, std::uint32_t region_count,
-                 const BalanceOptions& options, const std::stop_token& stop = {});
+/// What a subsampled picture tells: the load of each column in picoseconds, or none anywhere for Balance::equal_size.
+/// Deterministic, unless a stop is requested: then it makes haste, and what is made of it is good for nothing but a run that ends
+/// at once. Throws core::UsageError if an option is out of range.
+ColumnLoads column_loads(const core::Database& database, const core::RenderSettings& settings, const BalanceOptions& options,
+                         const std::stop_token& stop = {});
+
+/// Shares the grid out to `region_count` regions, by the loads of column_loads() with the same options. Throws core::UsageError
+/// if the count is out of range.
+Balanced share_out(const ColumnLoads& loads, std::uint32_t region_count, const BalanceOptions& options);
 
 }  // namespace dmpc::dataflow

@@ -71,6 +71,7 @@ void Gather::add(NodeId owner, const RayMessage& message) {
   Slot& slot = slots_[open];
   std::memcpy(packet_in(open).data() + ray_packet_bytes(slot.count), &message, sizeof(message));
   ++size_;
+  ++owner_at(owner).pair.rays[static_cast<std::size_t>(message.ray.kind)];
   if (++slot.count == ray_batch_) {
     closed_ = owner;
   }
@@ -149,8 +150,19 @@ void Gather::transmit(NodeId owner, std::uint16_t slot, bool overflows) {
   counters_.rays += count;
   counters_.packets_overflowed += overflows ? 1 : 0;
   counters_.rays_overflowed += overflows ? count : 0;
+  PairCounters& pair = owner_at(owner).pair;
+  ++pair.packets;
+  pair.rays_overflowed += overflows ? count : 0;
   size_ -= count;
   release(slot);
+}
+
+std::vector<PairCounters> Gather::pairs() const {
+  std::vector<PairCounters> pairs;
+  for (const Owner& owner : owners_) {
+    pairs.push_back(owner.pair);
+  }
+  return pairs;
 }
 
 void Gather::release(std::uint16_t slot) {

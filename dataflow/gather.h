@@ -1,16 +1,28 @@
 // Rays on their way out: gathered by owner, in packets that leave when they are full or when the node has no other work.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "dataflow/flow_control.h"
 #include "dataflow/packets.h"
 #include "nodes/node.h"
 
 namespace dmpc::dataflow {
+
+/// What one node has sent another, by whatever way.
+struct PairCounters {
+  std::array<std::uint64_t, core::ray_kind_count> rays{};  ///< by kind; confirmed hits included
+  std::uint64_t packets = 0;                               ///< with rays; their bytes follow from both
+  std::uint64_t rays_overflowed = 0;                       ///< of them, by way of the host
+
+  std::uint64_t rays_total() const { return std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}); }
+};
 
 /// An open packet for each owner, and a queue of full ones that found no credit, one room for all owners. At most one full packet
 /// finds no room there either, and while it waits nothing may be added. Keeps account of the node's credits for rays. Thread
@@ -67,6 +79,8 @@ class Gather {
   /// Rays here, queued ones included.
   std::uint32_t size() const { return size_; }
   const Counters& counters() const { return counters_; }
+  /// By owner; of rays gathered, the packets of those sent.
+  std::vector<PairCounters> pairs() const;
 
  private:
   static constexpr std::uint16_t none = 0xffff;
@@ -79,6 +93,7 @@ class Gather {
   struct Owner {
     std::uint16_t open = none;                ///< the slot that is being filled
     std::uint16_t first = none, last = none;  ///< queued, in the order of closing
+    PairCounters pair;
   };
   static std::size_t stride_bytes(std::uint32_t ray_batch);
 

@@ -25,6 +25,8 @@ using nodes::size_text;
 /// One packet travelling, one being worked off, and twice that so that neither waits for the other's credit. Eight send a tenth
 /// fewer packets, but take 0.5 MB more of a node among 64.
 constexpr std::uint32_t default_ray_credits = 4;
+/// Among many nodes a node has a few neighbours and room for all: beyond 128 nodes there are fewer credits a pair.
+constexpr std::uint32_t default_ray_credits_in_all = 512;
 /// Where many nodes share a core, a receiver may not run for milliseconds, and the others go on until the announcement of a long
 /// queue reaches them. 8 to 64 nodes on two cores that others used, too, queued up to 464 packets on seven scenes at 512x512.
 constexpr std::uint32_t default_queue_packets = 512;
@@ -111,8 +113,12 @@ void check(const PlanRequest& request) {
   core::expect(request.width >= 1 && request.height >= 1, "a picture has a pixel");
 }
 
+std::uint32_t default_credits(std::uint32_t node_count) {
+  return std::clamp(default_ray_credits_in_all / node_count, 1U, default_ray_credits);
+}
+
 Bounds wanted(const PlanRequest& request) {
-  return {request.ray_batch.value_or(rays_in(packet_bytes)), request.ray_credits.value_or(default_ray_credits),
+  return {request.ray_batch.value_or(rays_in(packet_bytes)), request.ray_credits.value_or(default_credits(request.node_count())),
           request.queue_packets.value_or(default_queue_packets)};
 }
 

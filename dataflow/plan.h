@@ -28,8 +28,8 @@ struct PlanRequest {
   std::optional<std::size_t> node_memory_bytes = std::nullopt;
   /// Rays in a full packet. Without it what fills a packet of 1 KiB, or fewer if the memory is scarce.
   std::optional<std::uint32_t> ray_batch = std::nullopt;
-  /// Packets of rays that may be under way, or in the receiver's backlog, for each sender and receiver. Without it 4, or fewer if
-  /// the memory is scarce. 0: no node sends to another, every ray goes by way of the host.
+  /// Packets of rays that may be under way, or in the receiver's backlog, for each sender and receiver. Without it 4, or fewer
+  /// among more than 128 nodes or if the memory is scarce. 0: no node sends to another, every ray goes by way of the host.
   std::optional<std::uint32_t> ray_credits = std::nullopt;
   /// Full packets that may wait at their sender for credits before rays overflow. Without it 512, or fewer if the memory is
   /// scarce. Of no use without credits.

@@ -76,8 +76,7 @@ NodeProgram::NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& de
       task_(node.memory(), node.id(), plan.request.depth_max),
       gather_(node, gather_capacity(plan)),
       film_(node, plan.node_count(), plan.film_credits),
-      backpressure_(plan.node_count() - 1, plan.queue_packets),
-      rays_to_(node.memory().allocate<std::uint64_t>(Category::queues, plan.node_count())) {}
+      backpressure_(plan.node_count() - 1, plan.queue_packets) {}
 
 void NodeProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index) {
   const Share& share = plan.request.shares[index];
@@ -88,7 +87,6 @@ void NodeProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::ui
   RayTask::add_needs(memory, plan.request.depth_max);
   Gather::add_needs(memory, gather_capacity(plan));
   FilmGather::add_needs(memory);
-  memory[Category::queues] += LocalMemory::bytes_for<std::uint64_t>(plan.node_count());
 }
 
 void NodeProgram::receive(const nodes::Packet& packet) {
@@ -327,7 +325,6 @@ void NodeProgram::end_miss(const core::Ray& ray) {
 
 void NodeProgram::dispatch(nodes::NodeId owner, const RayMessage& message) {
   ++counters_.out[static_cast<std::size_t>(message.ray.kind)];
-  ++rays_to_[nodes::index_of(owner)];
   gather_.add(owner, message);
   send_waiting();
 }
@@ -401,7 +398,7 @@ ProgramReport NodeProgram::report() const {
                        .gather = gather_.counters(),
                        .film = film_.counters(),
                        .backlog_high_water = backlog_.high_water(),
-                       .rays_to = {rays_to_.begin(), rays_to_.end()}};
+                       .pairs = gather_.pairs()};
   report.rays.holds = backpressure_.count();
   report.operations.deposits_saturated += film_.counters().saturated;
   return report;

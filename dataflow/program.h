@@ -54,7 +54,7 @@ struct ProgramReport {
   Gather::Counters gather;
   FilmGather::Counters film;
   std::uint32_t backlog_high_water = 0;  ///< the most rays in the backlog at once
-  std::vector<std::uint64_t> rays_to;    ///< by owner, whichever way they took
+  std::vector<PairCounters> pairs;       ///< by owner
 };
 
 /// What a node is given before the start, read in the constructor and never again.
@@ -128,7 +128,6 @@ class NodeProgram final : public nodes::Program {
   FilmGather film_;
   Backpressure backpressure_;
   Termination termination_ = Termination::member();
-  std::span<std::uint64_t> rays_to_;
   core::Operations operations_;
   RayCounters counters_;
   bool finishing_ = false;  ///< the host has proved that no ray is left

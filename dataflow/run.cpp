@@ -45,12 +45,13 @@ std::vector<double> by_node(const Bsp& bsp, const std::vector<double>& by_region
   return loads;
 }
 
-Regions regions_for(std::uint32_t node_count, const core::Database& database, const core::RenderSettings& settings,
-                    const RunOptions& options, const std::stop_token& stop) {
+/// `loads` are those of a subsampled picture, if regions are made from one.
+Regions regions_for(std::uint32_t node_count, const ColumnLoads& loads, const core::RenderSettings& settings,
+                    const RunOptions& options) {
   if (options.make_bsp) {
     return {options.make_bsp(node_count), {}};
   }
-  Balanced balanced = balance(database, settings, node_count, options.balance, stop);
+  Balanced balanced = share_out(loads, node_count, options.balance);
   if (options.topology) {
     put_on(balanced.bsp, *options.topology, axes_facing(settings.camera));
   }
@@ -58,11 +59,11 @@ Regions regions_for(std::uint32_t node_count, const core::Database& database, co
   return {balanced.bsp, is_predicted ? by_node(balanced.bsp, balanced.predicted) : std::vector<double>()};
 }
 
-Plan plan_for(const Distribution& distribution, const core::Database& database, const core::RenderSettings& settings,
-              const RunOptions& options, const std::stop_token& stop) {
+Plan plan_for(const Distribution& distribution, const core::Database& database, const ColumnLoads& loads,
+              const core::RenderSettings& settings, const RunOptions& options, const std::stop_token& stop) {
   const PlanRequest request = request_of(distribution, settings, options);
   const MakeShares make_shares = [&](std::uint32_t node_count) {
-    const Regions regions = regions_for(node_count, database, settings, options, stop);
+    const Regions regions = regions_for(node_count, loads, settings, options);
     return distribute(database, settings, regions.bsp, options.traversal, stop).shares();
   };
   return make_plan(request, [&] { return smallest_node_count(request, make_shares); });
@@ -186,7 +187,9 @@ std::vector<double> Report::work() const {
 std::vector<std::uint64_t> Report::ray_matrix() const {
   std::vector<std::uint64_t> matrix;
   for (const NodeReport& node : nodes) {
-    matrix.insert(matrix.end(), node.program.rays_to.begin(), node.program.rays_to.end());
+    for (const PairCounters& pair : node.program.pairs) {
+      matrix.push_back(pair.rays_total());
+    }
   }
   return matrix;
 }
@@ -228,11 +231,12 @@ nodes::Traffic ray_traffic(const TrafficByKind& by_kind) {
 
 Prepared prepare(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                  const std::stop_token& stop) {
-  Regions regions = regions_for(options.node_count, database, settings, options, stop);
+  const ColumnLoads loads = column_loads(database, settings, options.balance, stop);
+  Regions regions = regions_for(options.node_count, loads, settings, options);
   Prepared prepared{.distribution = distribute(database, settings, regions.bsp, options.traversal, stop),
                     .predicted = std::move(regions.predicted)};
   prepared.duplication = prepared.distribution.duplication(database);
-  prepared.plan = plan_for(prepared.distribution, database, settings, options, stop);
+  prepared.plan = plan_for(prepared.distribution, database, loads, settings, options, stop);
   return prepared;
 }
 

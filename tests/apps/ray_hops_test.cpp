@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace dmpc::apps {
@@ -13,11 +12,13 @@ namespace {
 using nodes::TopologyKind;
 
 /// Of a run in which so many rays went from each node (row) to each other (column).
-dataflow::Report report_with(std::vector<std::vector<std::uint64_t>> rays) {
+dataflow::Report report_with(const std::vector<std::vector<std::uint64_t>>& rays) {
   dataflow::Report report{.film = core::Film(1, 1), .plan = {}, .bsp = dataflow::Bsp({1, 1, 1})};
-  for (std::vector<std::uint64_t>& row : rays) {
+  for (const std::vector<std::uint64_t>& row : rays) {
     report.nodes.emplace_back();
-    report.nodes.back().program.rays_to = std::move(row);
+    for (const std::uint64_t count : row) {
+      report.nodes.back().program.pairs.push_back({.rays = {count}});
+    }
   }
   return report;
 }

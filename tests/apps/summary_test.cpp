@@ -40,7 +40,7 @@ TEST_CASE("the closing lines of dataflow say how rays travelled and how evenly t
   for (const std::string part :
        {"computer 3 nodes, dataflow, 10 rays a packet, 4 credits a pair, 512 packets queued\n", "rays     ", "(primary 192, ",
         "travel   ", " messages, ", " hops a ray, in ", " % full; overflowed ", "load     predicted ", " %, achieved ",
-        " % (mean over maximum of the nodes' work)\n", "regions  ", " copies of a primitive; on the hypercube ",
+        " % (mean over maximum of the nodes' work)\n", "regions  ", " copies of a record; on the hypercube ",
         " if mapped at random\n", ", prepare 0.250 s,"}) {
     CHECK_MESSAGE(contains(text, part), part);
   }

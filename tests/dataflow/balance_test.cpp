@@ -64,6 +64,11 @@ CutAxes axes_seen(const core::Vec3d& from) {
   return dataflow::axes_facing(Stage(scene).settings.camera);
 }
 
+Balanced balance(const core::Database& database, const core::RenderSettings& settings, std::uint32_t region_count,
+                 const dataflow::BalanceOptions& options) {
+  return dataflow::share_out(dataflow::column_loads(database, settings, options), region_count, options);
+}
+
 std::uint64_t sum(const ColumnLoads& loads) { return std::accumulate(loads.load.begin(), loads.load.end(), std::uint64_t{0}); }
 
 }  // namespace
@@ -154,15 +159,15 @@ TEST_CASE("a view past the scene has no load and is still shared out") {
   scene.view.at = {scene.view.from.x, scene.view.from.y - 1, scene.view.from.z};
   const Stage stage(scene);
   CHECK(sum(stage.all_loads()) == 0);
-  CHECK(dataflow::balance(stage.database, stage.settings, 8, {}).bsp.region_count() == 8);
+  CHECK(balance(stage.database, stage.settings, 8, {}).bsp.region_count() == 8);
 }
 
 TEST_CASE("a subsampled picture predicts the whole one's load far better than equal sizes do") {
   const Stage stage(built_in("rings-2-t1"), 128, 128);
   const ColumnLoads whole = stage.all_loads();
   for (const std::uint32_t count : {4U, 16U}) {
-    const Balanced subsampled = dataflow::balance(stage.database, stage.settings, count, {.subsample = 4});
-    const Balanced equal = dataflow::balance(stage.database, stage.settings, count, {.balance = Balance::equal_size});
+    const Balanced subsampled = balance(stage.database, stage.settings, count, {.subsample = 4});
+    const Balanced equal = balance(stage.database, stage.settings, count, {.balance = Balance::equal_size});
     const double achieved = dataflow::average_load(loads_of_regions(subsampled.bsp, whole));
     CHECK(achieved > 0.75);
     CHECK(achieved > 1.2 * dataflow::average_load(loads_of_regions(equal.bsp, whole)));
@@ -172,7 +177,7 @@ TEST_CASE("a subsampled picture predicts the whole one's load far better than eq
 
 TEST_CASE("a balance of one region is the whole grid") {
   const Stage stage(built_in("tetra-3"));
-  const Balanced balanced = dataflow::balance(stage.database, stage.settings, 1, {});
+  const Balanced balanced = balance(stage.database, stage.settings, 1, {});
   CHECK(balanced.bsp.region_at(0) == core::Region{{}, core::grid_size(stage.settings.header.frame)});
   CHECK(balanced.predicted.size() == 1);
 }
@@ -181,16 +186,16 @@ TEST_CASE("a stop ends the subsampled picture, and the regions are there neverth
   const Stage stage(mirrors_and_glass());
   std::stop_source source;
   source.request_stop();
-  const Balanced balanced = dataflow::balance(stage.database, stage.settings, 5, {}, source.get_token());
-  CHECK(balanced.bsp.region_count() == 5);
-  CHECK(std::accumulate(balanced.loads.load.begin(), balanced.loads.load.end(), std::uint64_t{0}) == 0);
+  const dataflow::ColumnLoads loads = dataflow::column_loads(stage.database, stage.settings, {}, source.get_token());
+  CHECK(dataflow::share_out(loads, 5, {}).bsp.region_count() == 5);
+  CHECK(std::accumulate(loads.load.begin(), loads.load.end(), std::uint64_t{0}) == 0);
 }
 
 TEST_CASE("a balance with options out of range is wrong usage") {
   const Stage stage(built_in("tetra-3"));
-  CHECK_THROWS_AS(dataflow::balance(stage.database, stage.settings, 2, {.subsample = 0}), core::UsageError);
-  CHECK_THROWS_AS(dataflow::balance(stage.database, stage.settings, 2, {.columns_per_side = 0}), core::UsageError);
-  CHECK_THROWS_AS(dataflow::balance(stage.database, stage.settings, 0, {}), core::UsageError);
+  CHECK_THROWS_AS(balance(stage.database, stage.settings, 2, {.subsample = 0}), core::UsageError);
+  CHECK_THROWS_AS(balance(stage.database, stage.settings, 2, {.columns_per_side = 0}), core::UsageError);
+  CHECK_THROWS_AS(balance(stage.database, stage.settings, 0, {}), core::UsageError);
 }
 
 }  // namespace dmpc::tests

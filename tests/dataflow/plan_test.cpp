@@ -122,6 +122,12 @@ TEST_CASE("values out of range are wrong usage") {
   check_wrong(request);
 }
 
+TEST_CASE("among many nodes there are fewer credits for each pair") {
+  CHECK(make_plan(request_with(128, 1000)).ray_credits == 4);
+  CHECK(make_plan(request_with(256, 1000)).ray_credits == 2);
+  CHECK(make_plan(request_with(1024, 1000)).ray_credits == 1);
+}
+
 TEST_CASE("one node, or nodes without credits, need no queue") {
   CHECK(make_plan(request_with(1, 1000)).queue_packets == 0);
   PlanRequest request = request_with(4, 1000);

@@ -19,8 +19,8 @@ std::uint64_t allocated_by(const dataflow::PlanRequest& bounds, std::uint32_t no
   const core::Scene scene = core::built_in_scene(core::parse_scene_name("balls-2"));
   const core::Database database = core::build_database(scene, {});
   const core::RenderSettings settings{database.header(), core::Camera(scene.view, database.header().frame, 16, 16, 1), {}};
-  const dataflow::Distribution distribution =
-      dataflow::distribute(database, settings, dataflow::balance(database, settings, node_count, {}).bsp);
+  const dataflow::Distribution distribution = dataflow::distribute(
+      database, settings, dataflow::share_out(dataflow::column_loads(database, settings, {}), node_count, {}).bsp);
   dataflow::PlanRequest request = bounds;
   request.shares = distribution.shares();
   request.width = request.height = 16;
