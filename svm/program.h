@@ -1,6 +1,6 @@
 // The node program of svm and replicated: pixels under way, work items, and the packets that concern them.
 //
-// A quantum runs one pixel until it is finished or needs an absent page, or some rays long. Newest first: the pixel that ran last
+// A quantum runs one pixel until it has ended a ray, finished, or needs an absent page. Newest first: the pixel that ran last
 // goes on, another one starts only when none can run. With one pixel in flight this is the sequential ray tracer's order of
 // references.
 //
@@ -115,8 +115,6 @@ class ControlProgram final : public NodeProgram {
   }
 
  private:
-  /// A pixel of most scenes. Fewer cost a look into the mailbox each, more let other nodes wait for pages.
-  static constexpr std::uint32_t rays_a_quantum = 16;
   static constexpr bool counts_pages = requires(Records & records) { records.forget(); };
 
   bool can_start() const { return slots_.has_free() && work_.has_pixel() && film_.has_room_for(slots_.active() + 1); }
@@ -136,18 +134,15 @@ class ControlProgram final : public NodeProgram {
       records_.select(slot);
     }
     Task& task = slots_.task(slot);
-    for (std::uint32_t rays = 0; rays < rays_a_quantum; ++rays) {
-      switch (task.run(tracer_, settings_, operations_)) {
-        case core::TaskState::more:
-          ++rays_ended_;
-          break;
-        case core::TaskState::finished:
-          return finish(slot);
-        case core::TaskState::absent:
-          return park(slot);
-      }
+    switch (task.run(tracer_, settings_, operations_)) {
+      case core::TaskState::more:
+        ++rays_ended_;
+        return slots_.make_runnable(slot);
+      case core::TaskState::finished:
+        return finish(slot);
+      case core::TaskState::absent:
+        return park(slot);
     }
-    slots_.make_runnable(slot);
   }
 
   void finish(std::uint32_t slot) {
