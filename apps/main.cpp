@@ -39,6 +39,7 @@ struct Execute {
   int operator()(const CheckOptions& options) const { return check_command(options, interrupt); }
   int operator()(const CompareOptions& options) const { return compare_command(options, interrupt, std::cout); }
   int operator()(const MachineOptions& options) const { return machine_command(options, std::cout); }
+  int operator()(const PaperStudyOptions& options) const { return study_paper_command(options, interrupt, std::cout); }
   int operator()(const StudyOptions& options) const { return study_command(options, interrupt, std::cout); }
 };
 

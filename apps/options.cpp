@@ -24,14 +24,16 @@ Command parse_command_line(std::span<const std::string> arguments) {
   add_options(study.add_command(BalanceStudy::name, BalanceStudy::description), balance);
   add_options(study.add_command(TrafficStudy::name, TrafficStudy::description), traffic);
   add_options(study.add_command(CacheStudy::name, CacheStudy::description), cache);
+  PaperStudyOptions paper;
+  add_options(study.add_command("paper", "Regenerate the tables and claims of the 1994 article"), paper);
   const std::variant<HelpText, std::string> parsed = line.parse(arguments);
   if (const auto* help = std::get_if<HelpText>(&parsed)) {
     return *help;
   }
   const auto& name = std::get<std::string>(parsed);
-  const std::map<std::string, Command> commands = {{"render", render},         {"scene", scene},      {"check", check},
-                                                   {"compare", compare},       {"machine", machine},  {"study balance", balance},
-                                                   {"study traffic", traffic}, {"study cache", cache}};
+  const std::map<std::string, Command> commands = {{"render", render},         {"scene", scene},       {"check", check},
+                                                   {"compare", compare},       {"machine", machine},   {"study balance", balance},
+                                                   {"study traffic", traffic}, {"study cache", cache}, {"study paper", paper}};
   return commands.at(name);
 }
 

@@ -12,10 +12,12 @@
 #include "apps/render_options.h"
 #include "apps/scene.h"
 #include "apps/study_options.h"
+#include "apps/study_paper.h"
 
 namespace dmpc::apps {
 
-using Command = std::variant<HelpText, RenderOptions, SceneOptions, CheckOptions, CompareOptions, MachineOptions, StudyOptions>;
+using Command = std::variant<HelpText, RenderOptions, SceneOptions, CheckOptions, CompareOptions, MachineOptions, StudyOptions,
+                             PaperStudyOptions>;
 
 /// `arguments` without the program's name. Throws core::UsageError, whose message ends with a hint at the right --help, for
 /// anything wrong that can be seen without reading a file.

@@ -1,0 +1,106 @@
+#include "apps/paper_runs.h"
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "apps/load_scene.h"
+#include "apps/progress.h"
+#include "apps/report.h"
+#include "apps/side_by_side.h"
+#include "core/expect.h"
+#include "dataflow/run.h"
+#include "svm/packets.h"
+#include "svm/run.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// The article counts rays as this convention does.
+PictureOptions picture_of(const std::string& scene, std::uint32_t resolution) {
+  const auto side = static_cast<int>(resolution);
+  return {.scene = scene, .resolution = Resolution{side, side}, .convention = core::Convention::paper};
+}
+
+const Subject& subject_of(const PaperRun& run, std::span<const PaperSubject> subjects) {
+  const auto found = std::find_if(subjects.begin(), subjects.end(), [&](const PaperSubject& subject) {
+    return subject.scene == run.scene && subject.resolution == run.resolution;
+  });
+  core::expect(found != subjects.end(), "every run has its scene");
+  return found->subject;
+}
+
+Report report_of(const PaperRun& run, const Subject& subject, const std::stop_token& stop) {
+  if (run.rays_travel) {
+    const dataflow::RunOptions options{.node_count = run.node_count,
+                                       .node_memory_bytes = run.node_memory_bytes,
+                                       .topology = run.machine.topology,
+                                       .machine = run.machine};
+    return dataflow::run_dataflow(subject.database, subject.settings, options, stop);
+  }
+  const svm::RunOptions options{.node_count = run.node_count,
+                                .node_memory_bytes = run.node_memory_bytes,
+                                .cache_pages = run.cache_pages,
+                                .in_flight = 1,
+                                .count_pages = run.count_pages,
+                                .machine = run.machine};
+  return svm::run_svm(subject.database, subject.settings, options, stop);
+}
+
+PaperResult result_of(const Report& report) {
+  const Account account = account_of(report);
+  PaperResult result{.total_ns = account.virtual_time->total_ns,
+                     .parts = parts_of(sum_of_nodes(*account.virtual_time), account.waits),
+                     .rays = std::accumulate(account.operations.rays.begin(), account.operations.rays.end(), std::uint64_t{0}),
+                     .film_hash = account.film.hash()};
+  if (const auto* pages = std::get_if<svm::Report>(&report)) {
+    result.faults = pages->pages().faults;
+    result.page_bytes = account.sent[svm::number_of(svm::Kind::page_reply)].bytes;
+    result.pages_a_pixel = static_cast<double>(pages->pages().distinct_pages) / static_cast<double>(account.film.pixels().size());
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs) {
+  std::vector<PaperSubject> subjects;
+  for (const PaperRun& run : runs) {
+    const bool is_known = std::any_of(subjects.begin(), subjects.end(), [&](const PaperSubject& subject) {
+      return subject.scene == run.scene && subject.resolution == run.resolution;
+    });
+    if (!is_known) {
+      const PictureOptions picture = picture_of(run.scene, run.resolution);
+      subjects.push_back({run.scene, run.resolution, build_subject(load_scene(picture), picture)});
+    }
+  }
+  return subjects;
+}
+
+std::vector<std::optional<PaperResult>> carry_out(std::span<const PaperRun> runs, std::span<const PaperSubject> subjects,
+                                                  const Interrupt& interrupt) {
+  std::vector<std::optional<PaperResult>> results(runs.size());
+  std::map<const Subject*, std::uint64_t> films;
+  Progress progress(std::cerr, stderr_is_terminal(), std::to_string(runs.size()) + " runs: ");
+  side_by_side(runs.size(), [&](std::size_t index) -> std::function<void()> {
+    if (interrupt.requested()) {
+      return [] {};
+    }
+    const Subject& subject = subject_of(runs[index], subjects);
+    const Report report = report_of(runs[index], subject, interrupt.token());
+    if (account_of(report).end != nodes::RunEnd::finished) {
+      return [] {};
+    }
+    return [&, index, result = result_of(report)] {
+      const auto [film, is_first] = films.try_emplace(&subject, result.film_hash);
+      core::expect(film->second == result.film_hash, "every run of a scene gives the same film");
+      results[index] = result;
+      progress.update(index + 1, runs.size());
+    };
+  });
+  return results;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,58 @@
+// The runs behind the study `paper`: the article's scenes on modelled machines, as many at once as there are cores.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/interrupt.h"
+#include "apps/subject.h"
+#include "apps/time_parts.h"
+#include "nodes/machine.h"
+
+namespace dmpc::apps {
+
+/// One picture on one machine.
+struct PaperRun {
+  std::string scene;  ///< a built-in scene's name
+  std::uint32_t node_count = 1;
+  bool rays_travel = false;  ///< strategy dataflow in place of svm
+  nodes::Machine machine;
+  std::optional<std::uint32_t> cache_pages = std::nullopt;  ///< of svm
+  bool count_pages = false;                                 ///< of svm: the distinct pages a pixel
+  std::optional<std::size_t> node_memory_bytes = std::nullopt;
+  std::uint32_t resolution = 512;  ///< pixels a side
+};
+
+/// What it came to.
+struct PaperResult {
+  std::uint64_t total_ns = 0;
+  TimeParts parts;  ///< summed over the nodes
+  std::uint64_t rays = 0, faults = 0, page_bytes = 0;
+  double pages_a_pixel = 0;  ///< if they were counted
+  std::uint64_t film_hash = 0;
+
+  double seconds() const { return 1e-9 * static_cast<double>(total_ns); }
+  /// Bytes of pages that a node receives a second.
+  double page_rate(std::uint32_t node_count) const {
+    return static_cast<double>(page_bytes) / static_cast<double>(node_count) / seconds();
+  }
+};
+
+/// A scene of the study, built once.
+struct PaperSubject {
+  std::string scene;
+  std::uint32_t resolution = 0;
+  Subject subject;
+};
+/// Those that the runs need. Takes a second or so for the largest.
+std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs);
+
+/// Result i is run i's; after a signal some are missing, the last ones mostly. Progress on stderr if that is a terminal. Throws
+/// core::InternalError if two runs of one scene and size give different films.
+std::vector<std::optional<PaperResult>> carry_out(std::span<const PaperRun> runs, std::span<const PaperSubject> subjects,
+                                                  const Interrupt& interrupt);
+
+}  // namespace dmpc::apps
