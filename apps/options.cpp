@@ -13,7 +13,8 @@ Command parse_command_line(std::span<const std::string> arguments) {
   CheckOptions check;
   CompareOptions compare;
   MachineOptions machine;
-  StudyOptions balance{.study = BalanceStudy()}, traffic{.study = TrafficStudy()}, cache{.study = CacheStudy()};
+  StudyOptions balance{.study = BalanceStudy()}, traffic{.study = TrafficStudy()}, cache{.study = CacheStudy()},
+      speedup{.study = SpeedupStudy()};
   add_options(line.add_command("render", "Render a scene on N nodes"), render);
   add_options(line.add_command("scene", "Write a built-in scene as an NFF file"), scene);
   add_options(line.add_command("check", "Trace every ray of a render with Embree too, and let a referee settle differences"),
@@ -24,6 +25,7 @@ Command parse_command_line(std::span<const std::string> arguments) {
   add_options(study.add_command(BalanceStudy::name, BalanceStudy::description), balance);
   add_options(study.add_command(TrafficStudy::name, TrafficStudy::description), traffic);
   add_options(study.add_command(CacheStudy::name, CacheStudy::description), cache);
+  add_options(study.add_command(SpeedupStudy::name, SpeedupStudy::description), speedup);
   PaperStudyOptions paper;
   add_options(study.add_command("paper", "Regenerate the tables and claims of the 1994 article"), paper);
   const std::variant<HelpText, std::string> parsed = line.parse(arguments);
@@ -33,7 +35,8 @@ Command parse_command_line(std::span<const std::string> arguments) {
   const auto& name = std::get<std::string>(parsed);
   const std::map<std::string, Command> commands = {{"render", render},         {"scene", scene},       {"check", check},
                                                    {"compare", compare},       {"machine", machine},   {"study balance", balance},
-                                                   {"study traffic", traffic}, {"study cache", cache}, {"study paper", paper}};
+                                                   {"study traffic", traffic}, {"study cache", cache}, {"study speedup", speedup},
+                                                   {"study paper", paper}};
   return commands.at(name);
 }
 

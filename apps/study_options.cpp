@@ -85,6 +85,19 @@ struct AddOwn {
         "  dmpc study cache rings-4-t1\n"
         "  dmpc study cache tetra-9 --nodes=32 --machine=ipsc2 --resolution=512x512 --format=csv -o tetra.csv");
   }
+  void operator()(SpeedupStudy& study) const {
+    add_node_counts(set, study.node_counts);
+    set.add_choice<SpeedupStrategy>("--strategy", study.strategy,
+                                    {{"svm", SpeedupStrategy::svm}, {"dataflow", SpeedupStrategy::dataflow}},
+                                    "What travels: pages or rays");
+    set.add_text(
+        "--machine", "NAME|FILE.json [ipsc2]", [&study](const std::string& text) { study.machine = load_machine(text).machine; },
+        "The modelled machine: one of " + machine_preset_names() + ", or a file");
+    set.set_examples(
+        "Examples:\n"
+        "  dmpc study speedup rings-4-t1\n"
+        "  dmpc study speedup teapot-12 --strategy=dataflow --machine=hdr --nodes=1,16,256,1024");
+  }
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "apps/picture_options.h"
 #include "apps/study_balance.h"
 #include "apps/study_cache.h"
+#include "apps/study_speedup.h"
 #include "apps/study_table.h"
 #include "apps/study_traffic.h"
 
@@ -16,7 +17,7 @@ namespace dmpc::apps {
 
 /// One study. Each has a `name` (the word on the command line) and a `description`, and says what its table's columns() are, how
 /// many runs it takes, what to note below for a scene, and how to measure() row after row.
-using Study = std::variant<BalanceStudy, TrafficStudy, CacheStudy>;
+using Study = std::variant<BalanceStudy, TrafficStudy, CacheStudy, SpeedupStudy>;
 
 struct StudyOptions {
   Study study;
