@@ -31,7 +31,7 @@ struct Preset {
 };
 
 /// Calibrated: with it mount-6-t6 takes on one node the time that Table 3 of the 1994 paper prints for Mountain (`dmpc study
-/// paper` shows both). The others of its day follow.
+/// paper` shows both, and what to fit). The others of its day follow.
 constexpr std::uint64_t ipsc2_slowdown = 17'750;
 /// The 1994 paper: "about seven times faster".
 constexpr std::uint64_t ipsc860_slowdown = ipsc2_slowdown / 7;

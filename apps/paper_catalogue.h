@@ -1,0 +1,51 @@
+// Which runs the study `paper` is made of, and what each is for.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "apps/paper_data.h"
+#include "apps/paper_runs.h"
+
+namespace dmpc::apps {
+
+/// Of the cache experiments, in the article.
+inline constexpr std::uint32_t cache_node_count = 32;
+/// Sizes of the cache experiments for each scene.
+inline constexpr std::size_t cache_size_count = 8;
+/// Scenes on which rays travel beside pages.
+inline constexpr std::array<const char*, 2> rings = {"rings-3-t1", "rings-4-t1"};
+/// Scenes of the cache experiments.
+inline constexpr std::array<const char*, 2> cache_scenes = {"rings-4-t1", "tetra-9"};
+/// The scene, and the seconds on one node and on two, that the machine's prices are fitted to: Mountain.
+inline constexpr const PaperScene& calibration_scene = paper_scenes[1];
+
+/// Numbers of runs.
+struct Catalogue {
+  using ByNodeCount = std::array<std::size_t, paper_node_counts.size()>;
+
+  std::vector<PaperRun> runs;
+  std::array<std::size_t, paper_scenes.size()> counted{};             ///< Table 2
+  std::array<ByNodeCount, paper_scenes.size()> timed{};               ///< Table 3
+  std::array<ByNodeCount, 2> rings_by_rays{}, rings_by_pages{};       ///< of `rings`
+  std::array<std::size_t, 2> cache_base{};                            ///< of `cache_scenes`, on one node
+  std::array<std::array<std::size_t, cache_size_count>, 2> cached{};  ///< of `cache_scenes`, by size
+  std::size_t faster_machine = 0;                                     ///< Rings4 on 32 nodes of an iPSC/860
+  std::size_t dearer_cache = 0;  ///< the calibration's scene on two nodes, a cached look-up at twice its price
+
+  std::size_t add(PaperRun run) {
+    runs.push_back(std::move(run));
+    return runs.size() - 1;
+  }
+};
+
+/// By a run's number; nothing where it did not come to its end.
+using PaperResults = std::vector<std::optional<PaperResult>>;
+
+/// Pictures of `resolution` pixels a side.
+Catalogue catalogue_of(std::uint32_t resolution);
+
+}  // namespace dmpc::apps

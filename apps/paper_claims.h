@@ -1,0 +1,12 @@
+// The claims of the article's text, each held against our runs.
+#pragma once
+
+#include "apps/paper_catalogue.h"
+#include "apps/study_table.h"
+
+namespace dmpc::apps {
+
+/// A row a claim whose runs have ended: the claim, "held" or "not held", and what was found.
+Table claims(const Catalogue& catalogue, const PaperResults& results);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,220 @@
+#include "apps/paper_tables.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "apps/figures.h"
+
+namespace dmpc::apps {
+namespace {
+
+std::optional<CellOfTable3> cell_of(const Catalogue& catalogue, const PaperResults& results, std::size_t scene,
+                                    std::size_t column) {
+  const PaperScene& paper = paper_scenes[scene];
+  const std::size_t base = paper.base();
+  if (column < base || !results[catalogue.timed[scene][base]] || !results[catalogue.timed[scene][column]]) {
+    return std::nullopt;
+  }
+  const PaperResult& first = *results[catalogue.timed[scene][base]];
+  const PaperResult& result = *results[catalogue.timed[scene][column]];
+  const std::uint32_t nodes = paper_node_counts[column];
+  return CellOfTable3{
+      .title = paper.title,
+      .nodes = nodes,
+      .printed_seconds = static_cast<double>(paper.seconds[column]),
+      .seconds = result.seconds(),
+      .printed_efficiency = efficiency(paper.seconds[base], paper_node_counts[base], paper.seconds[column], nodes),
+      .efficiency = efficiency(first.seconds(), paper_node_counts[base], result.seconds(), nodes),
+      .is_calibrated = std::string(paper.scene) == "mount-6-t6" && column < 2,
+      .is_base = column == base,
+      .parts = result.parts};
+}
+
+/// Of the efficiencies that are predictions: neither calibrated nor 100 % by definition.
+struct Errors {
+  double sum = 0, worst = 0;
+  std::uint32_t count = 0;
+
+  void add(double error) {
+    sum += std::fabs(error);
+    worst = std::max(worst, std::fabs(error));
+    ++count;
+  }
+  double mean() const { return count == 0 ? 0 : sum / count; }
+};
+
+Errors errors_of(const Catalogue& catalogue, const PaperResults& results) {
+  Errors errors;
+  for (const CellOfTable3& cell : cells_of_table_3(catalogue, results)) {
+    if (!cell.is_base && !cell.is_calibrated) {
+      errors.add(cell.efficiency - cell.printed_efficiency);
+    }
+  }
+  return errors;
+}
+
+}  // namespace
+
+std::vector<CellOfTable3> cells_of_table_3(const Catalogue& catalogue, const PaperResults& results) {
+  std::vector<CellOfTable3> cells;
+  for (std::size_t scene = 0; scene < paper_scenes.size(); ++scene) {
+    for (std::size_t column = 0; column < paper_node_counts.size(); ++column) {
+      if (const auto cell = cell_of(catalogue, results, scene, column)) {
+        cells.push_back(*cell);
+      }
+    }
+  }
+  return cells;
+}
+
+Table table_2(const Catalogue& catalogue, const PaperResults& results, const std::vector<PaperSubject>& subjects) {
+  Table table("Table 2: scenes, rays, database", {{"scene"},
+                                                  {"ours"},
+                                                  {"polygons printed"},
+                                                  {"polygons"},
+                                                  {"rays printed"},
+                                                  {"rays"},
+                                                  {"database printed", "KB"},
+                                                  {"database", "KB"},
+                                                  {"pages a pixel printed", "", 2},
+                                                  {"pages a pixel", "", 2}});
+  for (std::size_t scene = 0; scene < paper_scenes.size(); ++scene) {
+    const PaperScene& paper = paper_scenes[scene];
+    const auto& result = results[catalogue.counted[scene]];
+    if (!result) {
+      continue;
+    }
+    const auto subject = std::find_if(subjects.begin(), subjects.end(), [&](const auto& at) { return at.scene == paper.scene; });
+    const core::Database& database = subject->subject.database;
+    table.add_row({paper.title, paper.scene, paper.polygons, std::uint64_t{database.header().primitive_count}, paper.rays,
+                   result->rays, paper.database_kilobytes, std::uint64_t{database.bytes().size() / 1024}, paper.pages_a_pixel,
+                   result->pages_a_pixel});
+    table.add_note(std::string(paper.title) + ": " + paper.remark + ".");
+  }
+  return table;
+}
+
+Table table_3(const Catalogue& catalogue, const PaperResults& results) {
+  Table table("Table 3: seconds on the iPSC/2, and efficiencies", {{"scene"},
+                                                                   {"nodes"},
+                                                                   {"printed", "s", 0},
+                                                                   {"found", "s", 1},
+                                                                   {"found over printed", "", 3},
+                                                                   {"efficiency printed", "%", 1},
+                                                                   {"efficiency", "%", 1},
+                                                                   {"difference", "points", 1},
+                                                                   {"use"}});
+  for (const CellOfTable3& cell : cells_of_table_3(catalogue, results)) {
+    table.add_row({cell.title, std::uint64_t{cell.nodes}, cell.printed_seconds, cell.seconds, cell.seconds / cell.printed_seconds,
+                   cell.printed_efficiency, cell.efficiency, cell.efficiency - cell.printed_efficiency,
+                   cell.is_calibrated ? "calibrated"
+                   : cell.is_base     ? "base"
+                                      : "predicted"});
+  }
+  const Errors errors = errors_of(catalogue, results);
+  table.add_note(
+      "Calibrated: two figures of the machine were fitted to these two cells, the price of an operation and that of "
+      "looking up a cached page. All others are predictions.");
+  table.add_note("Predicted efficiencies differ by " + fixed(errors.mean(), 2) + " points on average and " +
+                 fixed(errors.worst, 2) + " at worst, " + std::to_string(errors.count) + " cells.");
+  return table;
+}
+
+Table calibration(const Catalogue& catalogue, const PaperResults& results) {
+  Table table("Calibration: Mountain on one node and on two", {{"figure"}, {"in the preset", "ns", 1}, {"fitted", "ns", 1}});
+  const auto& one = results[catalogue.timed[1][0]];
+  const auto& two = results[catalogue.timed[1][1]];
+  const auto& dearer = results[catalogue.dearer_cache];
+  if (one && two && dearer && dearer->total_ns > two->total_ns) {
+    const nodes::Machine& machine = catalogue.runs[catalogue.timed[1][0]].machine;
+    const auto price_ns = [&](nodes::Charge charge) {
+      return 1e-3 * static_cast<double>(machine.cost_ps[static_cast<std::size_t>(charge)]);
+    };
+    const double factor = calibration_scene.seconds[0] / one->seconds();
+    // With all prices scaled the two-node times scale as well; they are linear in the price of a cached look-up.
+    const double share = (calibration_scene.seconds[1] / factor - two->seconds()) / (dearer->seconds() - two->seconds());
+    const double step = price_ns(nodes::Charge::cell_step), lookup = price_ns(nodes::Charge::cached_lookup);
+    table.add_row({"a cell step, and all other operations in proportion", step, factor * step});
+    table.add_row({"a look-up of a cached page", lookup, factor * lookup * (1 + share)});
+  }
+  table.add_note("The printed times are those of 512x512 pixels: with any other --resolution the fitted figures mean nothing.");
+  return table;
+}
+
+Table losses(const Catalogue& catalogue, const PaperResults& results) {
+  std::vector<Column> columns = {{"scene"}, {"nodes"}};
+  for (const char* part : time_part_names) {
+    columns.push_back({part, "%", 2});
+  }
+  Table table("Where the nodes' time goes", columns);
+  for (const CellOfTable3& cell : cells_of_table_3(catalogue, results)) {
+    std::vector<Cell> row = {cell.title, std::uint64_t{cell.nodes}};
+    for (const double percent : cell.parts.percent()) {
+      row.emplace_back(percent);
+    }
+    table.add_row(std::move(row));
+  }
+  table.add_note("The parts of a row add up to 100 %. Dearer look-ups of cached pages are part of computing.");
+  return table;
+}
+
+Table algorithms(const Catalogue& catalogue, const PaperResults& results) {
+  Table table("Figures 5 and 7: efficiency of both algorithms", {{"scene"},
+                                                                 {"nodes"},
+                                                                 {"rays travel", "s", 1},
+                                                                 {"pages travel", "s", 1},
+                                                                 {"rays travel efficiency", "%", 1},
+                                                                 {"pages travel efficiency", "%", 1}});
+  for (std::size_t scene = 0; scene < rings.size(); ++scene) {
+    const auto& first = results[catalogue.rings_by_pages[scene][0]];
+    for (std::size_t column = 0; column < paper_node_counts.size(); ++column) {
+      const auto& rays = results[catalogue.rings_by_rays[scene][column]];
+      const auto& pages = results[catalogue.rings_by_pages[scene][column]];
+      if (first && rays && pages) {
+        const std::uint32_t nodes = paper_node_counts[column];
+        table.add_row({rings[scene], std::uint64_t{nodes}, rays->seconds(), pages->seconds(),
+                       efficiency(first->seconds(), 1, rays->seconds(), nodes),
+                       efficiency(first->seconds(), 1, pages->seconds(), nodes)});
+      }
+    }
+  }
+  table.add_note("Both against one node, on which nothing travels. The curves of the article are not printed as numbers.");
+  return table;
+}
+
+Table caches(const Catalogue& catalogue, const PaperResults& results, const std::vector<PaperSubject>& subjects) {
+  Table table("Figures 8 to 10: caches on " + std::to_string(cache_node_count) + " nodes", {{"scene"},
+                                                                                            {"cache", "pages"},
+                                                                                            {"of the database", "%", 1},
+                                                                                            {"efficiency", "%", 1},
+                                                                                            {"faults"},
+                                                                                            {"page traffic a node", "bytes/s", 0},
+                                                                                            {"page wait", "%", 1},
+                                                                                            {"stolen", "%", 1}});
+  for (std::size_t scene = 0; scene < cache_scenes.size(); ++scene) {
+    const auto& base = results[catalogue.cache_base[scene]];
+    const auto subject =
+        std::find_if(subjects.begin(), subjects.end(), [&](const PaperSubject& at) { return at.scene == cache_scenes[scene]; });
+    for (std::size_t size = 0; size < cache_size_count; ++size) {
+      const std::size_t number = catalogue.cached[scene][size];
+      if (base && results[number]) {
+        const PaperResult& result = *results[number];
+        const std::uint32_t pages = *catalogue.runs[number].cache_pages;
+        const auto percent = result.parts.percent();
+        table.add_row({cache_scenes[scene], std::uint64_t{pages},
+                       100.0 * pages / static_cast<double>(subject->subject.database.page_count()),
+                       efficiency(base->seconds(), 1, result.seconds(), cache_node_count), result.faults,
+                       result.page_rate(cache_node_count), percent[static_cast<std::size_t>(TimePart::data_wait)],
+                       percent[static_cast<std::size_t>(TimePart::stolen)]});
+      }
+    }
+  }
+  table.add_note("Pictures of half the resolution a side: small caches miss too often for the whole one.");
+  return table;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,44 @@
+// The tables of the study `paper`: what the article prints beside what our runs came to.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "apps/paper_catalogue.h"
+#include "apps/paper_runs.h"
+#include "apps/study_table.h"
+#include "apps/time_parts.h"
+
+namespace dmpc::apps {
+
+/// In percent: how well `node_count` nodes are used, against `base_count`.
+constexpr double efficiency(double base_seconds, std::uint32_t base_count, double seconds, std::uint32_t node_count) {
+  return 100 * base_seconds * base_count / (seconds * node_count);
+}
+
+/// What Table 3 says of one scene on so many nodes, printed and found; nothing if it is not printed or not known.
+struct CellOfTable3 {
+  const char* title = "";
+  std::uint32_t nodes = 0;
+  double printed_seconds = 0, seconds = 0, printed_efficiency = 0, efficiency = 0;
+  bool is_calibrated = false;  ///< the machine's prices were fitted to it
+  bool is_base = false;
+  TimeParts parts;
+};
+
+/// All that are printed and whose runs have ended, scene by scene.
+std::vector<CellOfTable3> cells_of_table_3(const Catalogue& catalogue, const PaperResults& results);
+
+/// Each has the rows whose runs have ended.
+Table table_2(const Catalogue& catalogue, const PaperResults& results, const std::vector<PaperSubject>& subjects);
+Table table_3(const Catalogue& catalogue, const PaperResults& results);
+/// The two fitted figures of the machine: as they are, and as the printed times ask for.
+Table calibration(const Catalogue& catalogue, const PaperResults& results);
+/// Where the time of the nodes of Table 3 goes.
+Table losses(const Catalogue& catalogue, const PaperResults& results);
+/// Figures 5 and 7: rays that travel beside pages that travel.
+Table algorithms(const Catalogue& catalogue, const PaperResults& results);
+/// Figures 8 to 10: what the size of the cache is worth.
+Table caches(const Catalogue& catalogue, const PaperResults& results, const std::vector<PaperSubject>& subjects);
+
+}  // namespace dmpc::apps
