@@ -99,7 +99,8 @@ TEST_CASE("node counts that are left out are refused") {
 
 TEST_CASE("a study that is missing or does not exist is answered with those there are") {
   CHECK(complaint({"study"}).find("Try: dmpc study --help") != std::string::npos);
-  CHECK(complaint({"study", "weather", "teapot-12"}).find("expected balance, traffic, cache, speedup or paper") != std::string::npos);
+  CHECK(complaint({"study", "weather", "teapot-12"}).find("expected balance, traffic, cache, speedup or paper") !=
+        std::string::npos);
 }
 
 TEST_CASE("a study has its own options alone") {
