@@ -14,6 +14,7 @@
 #include "nodes/atomics.h"
 #include "nodes/awake_count.h"
 #include "nodes/held_packets.h"
+#include "nodes/processors.h"
 #include "nodes/thread.h"
 
 namespace dmpc::nodes {
@@ -222,23 +223,13 @@ struct ThreadsRunner::Implementation final : Network {
       return;
     }
     if (awake_.leave()) {
-      end(all_finished() ? Ending::finished : Ending::stalled);
+      end(all_finished(processors_) ? Ending::finished : Ending::stalled);  // every node sleeps: the programs stand still
       return;
     }
     ++self.node.counters().sleeps;
     const std::uint64_t start_ns = nanoseconds(CLOCK_MONOTONIC);
     self.mailbox.wait();
     self.node.counters().asleep_ns += nanoseconds(CLOCK_MONOTONIC) - start_ns;
-  }
-
-  /// Called when every node sleeps: their programs stand still.
-  bool all_finished() const {
-    for (const auto& processor : processors_) {
-      if (!processor->program->finished()) {
-        return false;
-      }
-    }
-    return true;
   }
 
   void fail(std::exception_ptr failure) {
@@ -265,7 +256,7 @@ struct ThreadsRunner::Implementation final : Network {
         std::rethrow_exception(failure_);
       case Ending::stalled:
         throw core::InternalError("all nodes sleep, nothing is under way, and the work is unfinished" +
-                                  (chaos_ ? " (chaos seed " + std::to_string(chaos_->seed) + "):" : ":") + description());
+                                  (chaos_ ? " (chaos seed " + std::to_string(chaos_->seed) + "):" : ":") + describe(processors_));
       case Ending::interrupted:
         return RunEnd::interrupted;
       default:
@@ -274,27 +265,12 @@ struct ThreadsRunner::Implementation final : Network {
     }
   }
 
-  std::string description() const {
-    std::string lines;
-    for (const auto& processor : processors_) {
-      const std::uint32_t index = index_of(processor->node.id());
-      const bool is_host = index + 1 == processors_.size();
-      lines += "\n  " + (is_host ? std::string("host") : "node " + std::to_string(index)) +
-               (processor->program->finished() ? " (finished): " : ": ") + processor->program->describe();
-    }
-    return lines;
-  }
-
   void expect_nothing_lost() const {
-    std::uint64_t sent = 0;
-    std::uint64_t received = 0;
     for (const auto& processor : processors_) {
       core::expect(!processor->mailbox.has_packets(), "at the end all mailboxes are empty");
       core::expect(!processor->held || processor->held->empty(), "at the end no packet is held back");
-      sent += total(processor->node.counters().sent).packets;
-      received += total(processor->node.counters().received).packets;
     }
-    core::expect(sent == received, "packets sent are packets received");
+    expect_all_received(processors_);
   }
 
   std::optional<Chaos> chaos_;

@@ -10,6 +10,7 @@
 #include "core/sampling.h"
 #include "nodes/event_queue.h"
 #include "nodes/links.h"
+#include "nodes/processors.h"
 
 namespace dmpc::nodes {
 namespace {
@@ -298,8 +299,8 @@ struct VirtualRunner::Implementation {
   /// Nothing is under way any more.
   void finish() {
     const auto& all = computer.processors;
-    if (!std::all_of(all.begin(), all.end(), [](const auto& processor) { return processor->program->finished(); })) {
-      throw core::InternalError("nothing is under way, no node has work, and the run is unfinished:" + describe());
+    if (!all_finished(all)) {
+      throw core::InternalError("nothing is under way, no node has work, and the run is unfinished:" + describe(all));
     }
     expect_nothing_lost();
     result.total_ns = events.now_ns();
@@ -317,23 +318,10 @@ struct VirtualRunner::Implementation {
   }
 
   void expect_nothing_lost() const {
-    std::uint64_t sent = 0, received = 0;
     for (const auto& processor : computer.processors) {
       core::expect(processor->small_held == 0 && processor->bulk_held == 0, "at the end all mailboxes are empty");
-      sent += total(processor->node.counters().sent).packets;
-      received += total(processor->node.counters().received).packets;
     }
-    core::expect(sent == received, "packets sent are packets received");
-  }
-
-  std::string describe() const {
-    std::string lines;
-    for (const auto& processor : computer.processors) {
-      const std::uint32_t index = index_of(processor->node.id());
-      lines += "\n  " + (index + 1 == computer.processors.size() ? std::string("host") : "node " + std::to_string(index)) +
-               (processor->program->finished() ? " (finished): " : ": ") + processor->program->describe();
-    }
-    return lines;
+    expect_all_received(computer.processors);
   }
 
   Machine machine;

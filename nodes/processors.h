@@ -1,0 +1,48 @@
+// What every runner asks of all its processors: each has a `node` and its `program`, and the host is the last.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/expect.h"
+#include "nodes/counters.h"
+
+namespace dmpc::nodes {
+
+template <class Processor>
+using Processors = std::vector<std::unique_ptr<Processor>>;
+
+/// Whether no program will work or need to receive any more.
+template <class Processor>
+bool all_finished(const Processors<Processor>& processors) {
+  return std::all_of(processors.begin(), processors.end(), [](const auto& processor) { return processor->program->finished(); });
+}
+
+/// A line for each program on its queues and state, for the report on a stall.
+template <class Processor>
+std::string describe(const Processors<Processor>& processors) {
+  std::string lines;
+  for (std::size_t i = 0; i < processors.size(); ++i) {
+    const Processor& processor = *processors[i];
+    lines += "\n  " + (i + 1 == processors.size() ? std::string("host") : "node " + std::to_string(i)) +
+             (processor.program->finished() ? " (finished): " : ": ") + processor.program->describe();
+  }
+  return lines;
+}
+
+/// Expects, at a regular end, that packets sent are packets received.
+template <class Processor>
+void expect_all_received(const Processors<Processor>& processors) {
+  std::uint64_t sent = 0, received = 0;
+  for (const auto& processor : processors) {
+    sent += total(processor->node.counters().sent).packets;
+    received += total(processor->node.counters().received).packets;
+  }
+  core::expect(sent == received, "packets sent are packets received");
+}
+
+}  // namespace dmpc::nodes
