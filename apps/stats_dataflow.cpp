@@ -31,14 +31,13 @@ double ratio(std::uint64_t part, std::uint64_t whole) {
 
 Json travel_json(const Travel& travel, std::uint32_t ray_batch) {
   const dataflow::Gather::Counters& gather = travel.gather;
-  const double fill = gather.packets == 0 ? 1.0 : ratio(gather.rays, gather.packets) / ray_batch;
   return {{"rays_in", rays_json(travel.rays.in)},
           {"rays_out", rays_json(travel.rays.out)},
           {"messages_per_ray", ratio(sum_of(travel.rays.out), travel.rays_shot)},
           {"packets", gather.packets},
           {"packets_flushed", gather.packets_flushed},
           {"packets_queued", gather.packets_queued},
-          {"mean_fill", fill},
+          {"mean_fill", gather.mean_fill(ray_batch)},
           {"bytes", dataflow::ray_traffic(travel.sent).bytes},
           {"overflow",
            {{"rays", gather.rays_overflowed},

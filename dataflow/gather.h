@@ -51,6 +51,10 @@ class Gather {
     std::uint32_t queue_high_water = 0;  ///< the most packets in the queue at once
 
     Counters& operator+=(const Counters& more);
+    /// Mean rays in a packet over `ray_batch`, those in a full one, in (0, 1]; 1 without packets.
+    double mean_fill(std::uint32_t ray_batch) const {
+      return packets == 0 ? 1.0 : static_cast<double>(rays) / static_cast<double>(packets) / ray_batch;
+    }
   };
 
   /// Takes the credits.

@@ -199,10 +199,7 @@ double Report::messages_per_ray() const {
   return shot == 0 ? 0.0 : static_cast<double>(sum_of(rays().out)) / static_cast<double>(shot);
 }
 
-double Report::mean_fill() const {
-  const Gather::Counters sum = gathers();
-  return sum.packets == 0 ? 1.0 : static_cast<double>(sum.rays) / static_cast<double>(sum.packets) / plan.ray_batch;
-}
+double Report::mean_fill() const { return gathers().mean_fill(plan.ray_batch); }
 
 std::array<nodes::Traffic, nodes::packet_kind_count> Report::sent() const {
   TrafficByKind sum = host.sent;
