@@ -12,6 +12,7 @@
 #include "svm/run.h"
 #include "tests/support/pairwise.h"
 #include "tests/support/small_scenes.h"
+#include "tests/support/strategies.h"
 #include "tests/support/subject.h"
 
 namespace {
@@ -42,16 +43,6 @@ class Subjects {
  private:
   std::map<std::size_t, Subject> subjects_;
 };
-
-svm::Report run_svm(const Subject& subject, const svm::RunOptions& options) {
-  return svm::run_svm(subject.database(), subject.settings(), options, {});
-}
-svm::Report run_replicated(const Subject& subject, const svm::RunOptions& options) {
-  return svm::run_replicated(subject.database(), subject.settings(), options, {});
-}
-dataflow::Report run_dataflow(const Subject& subject, const dataflow::RunOptions& options) {
-  return dataflow::run_dataflow(subject.database(), subject.settings(), options, {});
-}
 
 /// Every pair of choices occurs in some run.
 void check_pairwise(const core::Scene& scene, const Subject::Size& size) {

@@ -12,6 +12,7 @@
 #include "svm/run.h"
 #include "tests/support/references.h"
 #include "tests/support/small_scenes.h"
+#include "tests/support/strategies.h"
 #include "tests/support/subject.h"
 
 namespace dmpc::tests {
@@ -32,16 +33,6 @@ nodes::Machine slow_network(nodes::TopologyKind topology = nodes::TopologyKind::
     machine.cost_ps[i] = 1'000'000 + 100'001 * i;
   }
   return machine;
-}
-
-svm::Report run_svm(const Subject& subject, const svm::RunOptions& options) {
-  return svm::run_svm(subject.database(), subject.settings(), options, {});
-}
-svm::Report run_replicated(const Subject& subject, const svm::RunOptions& options) {
-  return svm::run_replicated(subject.database(), subject.settings(), options, {});
-}
-dataflow::Report run_dataflow(const Subject& subject, const dataflow::RunOptions& options) {
-  return dataflow::run_dataflow(subject.database(), subject.settings(), options, {});
 }
 
 /// The film and all counts are the reference renderer's, and every node's time is accounted for.

@@ -1,0 +1,20 @@
+// A subject rendered by each strategy, to the end.
+#pragma once
+
+#include "dataflow/run.h"
+#include "svm/run.h"
+#include "tests/support/subject.h"
+
+namespace dmpc::tests {
+
+inline svm::Report run_svm(const Subject& subject, const svm::RunOptions& options) {
+  return svm::run_svm(subject.database(), subject.settings(), options, {});
+}
+inline svm::Report run_replicated(const Subject& subject, const svm::RunOptions& options) {
+  return svm::run_replicated(subject.database(), subject.settings(), options, {});
+}
+inline dataflow::Report run_dataflow(const Subject& subject, const dataflow::RunOptions& options) {
+  return dataflow::run_dataflow(subject.database(), subject.settings(), options, {});
+}
+
+}  // namespace dmpc::tests
