@@ -21,13 +21,6 @@ void add_options(OptionSet options, PictureOptions& picture) {
                                        "When shadow rays are cast: towards lights that the surface faces, or towards all");
 }
 
-const char* name_of(AxesChoice axes) { return axes == AxesChoice::screen ? "screen" : "world"; }
-
-void add_axes_option(OptionSet options, AxesChoice& axes) {
-  options.add_choice<AxesChoice>("--grid-axes", axes, {{"world", AxesChoice::world}, {"screen", AxesChoice::screen}},
-                                 "Directions of the grid, and so of dataflow's regions");
-}
-
 core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database) {
   const Resolution size = options.resolution.value_or(Resolution{scene.view.width, scene.view.height});
   return {.header = database.header(),

@@ -32,14 +32,6 @@ struct PictureOptions {
 /// Declares them.
 void add_options(OptionSet options, PictureOptions& picture);
 
-/// The directions of the grid: the world's, or the screen's (right, up, towards the eye).
-enum class AxesChoice : std::uint8_t { world, screen };
-/// As the command line calls it.
-const char* name_of(AxesChoice axes);
-
-/// Declares --grid-axes.
-void add_axes_option(OptionSet options, AxesChoice& axes);
-
 /// What the nodes need beside the records.
 core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database);
 

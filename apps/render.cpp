@@ -74,7 +74,7 @@ Subject load(const RenderOptions& options, Interrupt& interrupt, Seconds& second
   Stopwatch stopwatch;
   const core::Scene scene = load_scene(options.picture);
   seconds.load = stopwatch.lap();
-  Subject subject = build_subject(scene, options.picture, options.axes, options.page_size_bytes);
+  Subject subject = build_subject(scene, options.picture, options.database);
   seconds.build = stopwatch.lap();
   return subject;
 }

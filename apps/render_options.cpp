@@ -1,7 +1,6 @@
 #include "apps/render_options.h"
 
 #include <algorithm>
-#include <bit>
 #include <string>
 #include <vector>
 
@@ -23,13 +22,6 @@ void set_node_memory(ComputerOptions& computer, const std::string& text) {
   computer.node_memory_bytes = text == "auto" ? std::nullopt : std::optional(parse_size_bytes(text, "--node-memory"));
 }
 
-void set_page_size(RenderOptions& render, const std::string& text) {
-  render.page_size_bytes = parse_size_bytes(text, "--page-size");
-  if (!std::has_single_bit(render.page_size_bytes) || render.page_size_bytes < 512 || render.page_size_bytes > 65536) {
-    throw UsageError("--page-size=" + text + ": expected a power of two from 512B to 64KiB");
-  }
-}
-
 void add_computer_options(OptionSet& options, RenderOptions& render) {
   ComputerOptions& computer = render.computer;
   options.begin_group("The computer");
@@ -43,10 +35,7 @@ void add_computer_options(OptionSet& options, RenderOptions& render) {
   options.add_text(
       "--node-memory", "SIZE|auto [auto]", [&computer](const std::string& text) { set_node_memory(computer, text); },
       "Bound of each node's memory, such as 4MiB");
-  options.add_text(
-      "--page-size", "SIZE [1KiB]", [&render](const std::string& text) { set_page_size(render, text); },
-      "Size of a page, a power of two from 512B to 64KiB; no record crosses its border");
-  add_axes_option(options, render.axes);
+  add_options(options, render.database);
 }
 
 void add_runner_options(OptionSet& options, ComputerOptions& computer) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "apps/command_line.h"
+#include "apps/database_options.h"
 #include "apps/picture_options.h"
 #include "core/traversal.h"
 #include "dataflow/balance.h"
@@ -63,8 +64,7 @@ struct RayOptions {
 
 struct RenderOptions {
   PictureOptions picture;
-  AxesChoice axes = AxesChoice::world;
-  std::size_t page_size_bytes = 1024;  ///< a power of two, 512 B to 64 KiB
+  DatabaseOptions database;
   Strategy strategy = Strategy::svm;
   ComputerOptions computer;
   PageOptions pages;

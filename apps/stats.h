@@ -29,9 +29,9 @@ struct RenderRecord {
 /// infinite. "rays" below stands for primary, reflected, refracted, shadow, total.
 ///   program        name and version
 ///   options        what was asked for and what it became: scene, width, height, samples, depth, convention, tracer, grid_axes,
-///                  strategy, nodes, node_memory (bytes a node, the most), page_size; of pages: cache_pages, in_flight,
-///                  work_item, count_pages; of dataflow: balance, subsample, balance_grid, ray_batch, ray_credits, ray_queue,
-///                  topology
+///                  record_order, strategy, nodes, node_memory (bytes a node, the most), page_size; of pages: cache_pages,
+///                  in_flight, work_item, count_pages; of dataflow: balance, subsample, balance_grid, ray_batch, ray_credits,
+///                  ray_queue, topology
 ///   runner         threads or virtual
 ///   machine        that was modelled, as machine_file.h says; null with threads, as is all that follows from virtual time
 ///   film_hash      of the film's integers, 16 hexadecimal digits: equal pictures, equal hashes

@@ -33,7 +33,7 @@ void check_output(const StudyOptions& options) {
 /// A signal ends the process here and now.
 Subject load(const StudyOptions& options, Interrupt& interrupt) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
-  return build_subject(load_scene(options.picture), options.picture, options.axes);
+  return build_subject(load_scene(options.picture), options.picture, options.database);
 }
 
 std::string title_of(const std::string& study, const StudyOptions& options, const Subject& subject) {
@@ -42,7 +42,8 @@ std::string title_of(const std::string& study, const StudyOptions& options, cons
   return "Study " + study + " of " + picture.scene + ": " + std::to_string(camera.width()) + "x" +
          std::to_string(camera.height()) + " pixels, " + std::to_string(picture.samples) +
          (picture.samples == 1 ? " sample" : " samples") + " a pixel, depth " + std::to_string(picture.depth) + ", convention " +
-         (picture.convention == core::Convention::haines ? "haines" : "paper") + ", grid axes " + name_of(options.axes) + ", " +
+         (picture.convention == core::Convention::haines ? "haines" : "paper") + ", grid axes " + name_of(options.database.axes) +
+         ", record order " + name_of(options.database.record_order) + ", " +
          std::to_string(subject.database.header().primitive_count) + " primitives";
 }
 

@@ -76,7 +76,7 @@ struct AddOwn {
     set.add_text(
         "--cache-pages", "N,N,... [12 from 1 to all]",
         [&study](const std::string& text) { study.cache_pages = parse_numbers(text, "--cache-pages", cache_pages_max); },
-        "Sizes of the caches in pages of 1 KiB");
+        "Sizes of the caches in pages");
     set.add_text(
         "--machine", "NAME|FILE.json", [&study](const std::string& text) { study.machine = load_machine(text).machine; },
         "The machine that the study is timed on, in virtual time: one of " + machine_preset_names() + ", or a file");
@@ -104,7 +104,7 @@ struct AddOwn {
 
 void add_options(OptionSet set, StudyOptions& options) {
   add_options(set, options.picture);
-  add_axes_option(set, options.axes);
+  add_options(set, options.database);
   std::visit(AddOwn{set}, options.study);
   set.add_choice<TableFormat>("--format", options.format,
                               {{"markdown", TableFormat::markdown}, {"csv", TableFormat::csv}, {"json", TableFormat::json}},

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "apps/command_line.h"
+#include "apps/database_options.h"
 #include "apps/picture_options.h"
 #include "apps/study_balance.h"
 #include "apps/study_cache.h"
@@ -22,7 +23,7 @@ using Study = std::variant<BalanceStudy, TrafficStudy, CacheStudy, SpeedupStudy>
 struct StudyOptions {
   Study study;
   PictureOptions picture;
-  AxesChoice axes = AxesChoice::world;
+  DatabaseOptions database;
   TableFormat format = TableFormat::markdown;
   std::optional<std::filesystem::path> output;  ///< stdout if not given
 };

@@ -1,10 +1,10 @@
 // A scene as the nodes are given it.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 
+#include "apps/database_options.h"
 #include "apps/picture_options.h"
 #include "core/database.h"
 #include "core/pixel_task.h"
@@ -20,8 +20,7 @@ struct Subject {
 
 /// The database of `scene`, and its picture. Says on stderr if primitives were left out. Throws core::InputError as
 /// core::build_database() does.
-Subject build_subject(const core::Scene& scene, const PictureOptions& picture, AxesChoice axes = AxesChoice::world,
-                      std::size_t page_size_bytes = 1024);
+Subject build_subject(const core::Scene& scene, const PictureOptions& picture, const DatabaseOptions& options = {});
 
 /// A sentence about the primitives that a database left out; empty if it left out none.
 std::string dropped_text(std::uint64_t count);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <utility>
+#include <vector>
 
 #include "core/box.h"
 #include "core/brick_builder.h"
@@ -64,8 +66,9 @@ Vec3f unit_normal(const Vec3d& normal) {
 /// Builds in order: frame, primitives, then the records.
 class DatabaseBuilder {
  public:
-  DatabaseBuilder(const Scene& scene, const BuildOptions& options)
-      : scene_(scene), options_(options), writer_(options.page_size_bytes) {
+  /// `places`: where the records go that it writes; by default in order.
+  DatabaseBuilder(const Scene& scene, const BuildOptions& options, std::vector<Address> places = {})
+      : scene_(scene), options_(options), writer_(options.page_size_bytes, std::move(places)) {
     expect(options.page_size_bytes >= 512 && options.page_size_bytes <= 65536 &&
                (options.page_size_bytes & (options.page_size_bytes - 1)) == 0,
            "a page is a power of two from 512 B to 64 KiB");
@@ -84,6 +87,11 @@ class DatabaseBuilder {
     header().primitive_count = static_cast<std::uint32_t>(result_.primitives_.size());
     result_.bytes_ = std::move(writer_).finish();
     return std::move(result_);
+  }
+
+  /// For the records that build() has written, which the next builder writes in the same sequence.
+  std::vector<Address> scattered() const {
+    return scattered_places(writer_.sizes(), writer_.front_bytes(), options_.page_size_bytes);
   }
 
  private:
@@ -386,6 +394,11 @@ class DatabaseBuilder {
   std::vector<Smooth> smooth_;
 };
 
-Database build_database(const Scene& scene, const BuildOptions& options) { return DatabaseBuilder(scene, options).build(); }
+Database build_database(const Scene& scene, const BuildOptions& options) {
+  DatabaseBuilder builder(scene, options);
+  Database database = builder.build();
+  return options.record_order == RecordOrder::spatial ? std::move(database)
+                                                      : DatabaseBuilder(scene, options, builder.scattered()).build();
+}
 
 }  // namespace dmpc::core

@@ -1,10 +1,12 @@
-// Lays records out in pages: in order, none across a page's border.
+// Lays records out in pages, none across a page's border.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/expect.h"
@@ -14,21 +16,30 @@
 
 namespace dmpc::core {
 
-/// Addresses come out in ascending order, so what is allocated one after the other shares pages.
+/// The first offset at or behind `end` where a record of `bytes` lies in one page.
+constexpr std::size_t place_in_page(std::size_t end, std::size_t bytes, std::size_t page_size) {
+  const std::size_t offset = round_up(end, record_alignment);
+  return offset % page_size + bytes > page_size ? round_up(offset, page_size) : offset;
+}
+
+/// Addresses come out in ascending order, so what is allocated one after the other shares pages; unless places are given.
 class RecordWriter {
  public:
   static constexpr std::uint64_t bytes_max = std::uint64_t{16} << 30U;  ///< what 31 bits of address span
 
-  explicit RecordWriter(std::size_t page_size) : page_size_(page_size) {}
+  /// `places`: where the records go, in the order of their allocation (record_order.h), arrays before them apart.
+  explicit RecordWriter(std::size_t page_size, std::vector<Address> places = {})
+      : page_size_(page_size), places_(std::move(places)) {}
 
   /// Room for a record of `bytes` in one page.
   Address allocate(std::size_t bytes) {
     expect(bytes > 0 && bytes <= record_bytes_max, "a record is at most 448 bytes long");
-    std::size_t offset = round_up(bytes_.size(), record_alignment);
-    if (offset % page_size_ + bytes > page_size_) {
-      offset = round_up(offset, page_size_);
+    if (sizes_.empty()) {
+      front_bytes_ = bytes_.size();
     }
-    return take(offset, bytes);
+    sizes_.push_back(static_cast<std::uint16_t>(bytes));
+    return take(places_.empty() ? place_in_page(bytes_.size(), bytes, page_size_) : byte_offset(places_.at(sizes_.size() - 1)),
+                bytes);
   }
   /// Room for `count` records of T one behind the other; T's size is a power of two, so that none crosses a page's border.
   template <class T>
@@ -44,6 +55,10 @@ class RecordWriter {
     static_assert(std::is_trivially_copyable_v<T>);
     write(address, offset, std::as_bytes(std::span(&value, 1)));
   }
+  /// Bytes of every record so far, as they were allocated.
+  std::span<const std::uint16_t> sizes() const { return sizes_; }
+  /// Bytes before the first record.
+  std::size_t front_bytes() const { return front_bytes_; }
   /// The pages, the last one filled up, with overread_bytes behind.
   std::vector<std::byte> finish() && {
     bytes_.resize(std::max(page_size_, round_up(bytes_.size(), page_size_)) + overread_bytes);
@@ -55,11 +70,14 @@ class RecordWriter {
     if (offset + bytes > bytes_max) {
       throw InputError("the scene's database would exceed 16 GiB: render a smaller scene");
     }
-    bytes_.resize(offset + bytes);
+    bytes_.resize(std::max(bytes_.size(), offset + bytes));
     return Address{static_cast<std::uint32_t>(offset / record_alignment)};
   }
 
   std::size_t page_size_;
+  std::vector<Address> places_;
+  std::vector<std::uint16_t> sizes_;
+  std::size_t front_bytes_ = 0;
   std::vector<std::byte> bytes_;
 };
 

@@ -48,8 +48,9 @@ TEST_CASE("a scene and an output are all that render needs") {
   CHECK_FALSE(options.pages.in_flight);
   CHECK(options.pages.work_item_side == 3);
   CHECK(options.computer.traversal.skip_empty_space);
-  CHECK(options.page_size_bytes == 1024);
-  CHECK(options.axes == AxesChoice::world);
+  CHECK(options.database.page_size_bytes == 1024);
+  CHECK(options.database.record_order == core::RecordOrder::spatial);
+  CHECK(options.database.axes == AxesChoice::world);
   CHECK_FALSE(options.picture.resolution);
   CHECK(options.picture.samples == 1);
   CHECK(options.picture.depth == 5);
@@ -61,12 +62,13 @@ TEST_CASE("a scene and an output are all that render needs") {
 }
 
 TEST_CASE("every option of the computer reaches its field") {
-  const RenderOptions options =
-      render({"--nodes=64", "--node-memory=4MiB", "--page-size=4KiB", "--cache-pages=5", "--replacement=clock", "--in-flight=7",
-              "--work-item=0", "--no-skip=empty-space", "--count-pages", "--stats=s.json", "--quiet"});
+  const RenderOptions options = render({"--nodes=64", "--node-memory=4MiB", "--page-size=4KiB", "--record-order=scattered",
+                                        "--cache-pages=5", "--replacement=clock", "--in-flight=7", "--work-item=0",
+                                        "--no-skip=empty-space", "--count-pages", "--stats=s.json", "--quiet"});
   CHECK(options.computer.node_count == 64);
   CHECK(options.computer.node_memory_bytes == 4_MiB);
-  CHECK(options.page_size_bytes == 4_KiB);
+  CHECK(options.database.page_size_bytes == 4_KiB);
+  CHECK(options.database.record_order == core::RecordOrder::scattered);
   CHECK(options.pages.cache_pages == 5);
   CHECK(options.pages.replacement == svm::Replacement::clock);
   CHECK(options.pages.in_flight == 7);
@@ -150,7 +152,7 @@ TEST_CASE("every option of dataflow reaches its field") {
       render({"--strategy=dataflow", "--grid-axes=screen", "--balance=subsampled", "--subsample=4", "--balance-grid=64",
               "--ray-batch=3", "--ray-credits=0", "--ray-queue=5", "--topology=fat-tree"});
   CHECK(options.strategy == Strategy::dataflow);
-  CHECK(options.axes == AxesChoice::screen);
+  CHECK(options.database.axes == AxesChoice::screen);
   CHECK(options.rays.balance.subsample == 4);
   CHECK(options.rays.balance.columns_per_side == 64);
   CHECK(options.rays.ray_batch == 3);

@@ -20,7 +20,7 @@ namespace dmpc::apps {
 /// One small render and what is said about it.
 struct Rendered {
   explicit Rendered(RenderOptions given, std::stop_token stop = {}) : options(std::move(given)) {
-    Subject subject = build_subject(load_scene(options.picture), options.picture, options.axes, options.page_size_bytes);
+    Subject subject = build_subject(load_scene(options.picture), options.picture, options.database);
     database = std::move(subject.database);
     const ReadyRun run = make_ready(options, database, subject.settings);
     notes = run.notes;

@@ -24,7 +24,7 @@ std::uint64_t film_hash(const RenderOptions& options) { return account_of(*Rende
 TEST_CASE("every strategy renders the same film, whichever the grid's axes") {
   for (const AxesChoice axes : {AxesChoice::world, AxesChoice::screen}) {
     RenderOptions options = small(Strategy::svm);
-    options.axes = axes;
+    options.database.axes = axes;
     const std::uint64_t hash = film_hash(options);
     for (const Strategy strategy : {Strategy::replicated, Strategy::dataflow}) {
       options.strategy = strategy;

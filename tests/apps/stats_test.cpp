@@ -125,7 +125,7 @@ TEST_CASE("every strategy has the same keys") {
 TEST_CASE("the strategy and the axes of the grid are told") {
   RenderOptions options = small(Strategy::dataflow);
   CHECK(value(Rendered(options).json(), "grid_axes") == "\"world\"");
-  options.axes = AxesChoice::screen;
+  options.database.axes = AxesChoice::screen;
   const std::string json = Rendered(options).json();
   CHECK(value(json, "grid_axes") == "\"screen\"");
   CHECK(value(json, "strategy") == "\"dataflow\"");

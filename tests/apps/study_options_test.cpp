@@ -55,7 +55,7 @@ TEST_CASE("options of a study are taken") {
       study("traffic", {"--nodes=3", "--depth=2", "--grid-axes=screen", "--format=json", "-o", "a.json"});
   CHECK(std::get<TrafficStudy>(options.study).node_counts == Counts{3});
   CHECK(options.picture.depth == 2);
-  CHECK(options.axes == AxesChoice::screen);
+  CHECK(options.database.axes == AxesChoice::screen);
   CHECK(options.format == TableFormat::json);
   CHECK(options.output == "a.json");
   const BalanceStudy taken = balance({"--subsample=4", "--balance-grid=16", "--topology=fat-tree", "--per-node"});

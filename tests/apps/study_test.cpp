@@ -65,7 +65,7 @@ TEST_CASE("a study says what it studied, its rows, and the film of all runs") {
 TEST_CASE("a study along the screen's axes says so and gives another film") {
   StudyOptions options = small_study();
   const std::string world = output_of(options);
-  options.axes = apps::AxesChoice::screen;
+  options.database.axes = apps::AxesChoice::screen;
   const std::string screen = output_of(options);
   CHECK(contains(screen, "grid axes screen, "));
   CHECK(world.substr(world.find("Film of")) != screen.substr(screen.find("Film of")));
