@@ -21,7 +21,10 @@ inline constexpr std::array<const char*, 2> rings = {"rings-3-t1", "rings-4-t1"}
 /// Scenes of the cache experiments.
 inline constexpr std::array<const char*, 2> cache_scenes = {"rings-4-t1", "tetra-9"};
 /// The scene, and the seconds on one node and on two, that the machine's prices are fitted to: Mountain.
-inline constexpr const PaperScene& calibration_scene = paper_scenes[1];
+inline constexpr std::size_t calibration_row = 1;
+inline constexpr const PaperScene& calibration_scene = paper_scenes[calibration_row];
+/// Of its row in Table 3, from the left.
+inline constexpr std::size_t calibration_cell_count = 2;
 
 /// Numbers of runs.
 struct Catalogue {

@@ -24,6 +24,8 @@ PictureOptions picture_of(const std::string& scene, std::uint32_t resolution) {
   return {.scene = scene, .resolution = Resolution{side, side}, .convention = core::Convention::paper};
 }
 
+std::uint64_t pixels_of(const PaperRun& run) { return std::uint64_t{run.resolution} * run.resolution; }
+
 const Subject& subject_of(const PaperRun& run, std::span<const PaperSubject> subjects) {
   const auto found = std::find_if(subjects.begin(), subjects.end(), [&](const PaperSubject& subject) {
     return subject.scene == run.scene && subject.resolution == run.resolution;
@@ -84,6 +86,9 @@ std::vector<std::optional<PaperResult>> carry_out(std::span<const PaperRun> runs
   std::vector<std::optional<PaperResult>> results(runs.size());
   std::map<const Subject*, std::uint64_t> films;
   Progress progress(std::cerr, stderr_is_terminal(), std::to_string(runs.size()) + " runs: ");
+  std::uint64_t done_pixels = 0;
+  const std::uint64_t all_pixels = std::accumulate(runs.begin(), runs.end(), std::uint64_t{0},
+                                                   [](auto sum, const PaperRun& run) { return sum + pixels_of(run); });
   side_by_side(runs.size(), [&](std::size_t index) -> std::function<void()> {
     if (interrupt.requested()) {
       return [] {};
@@ -97,7 +102,8 @@ std::vector<std::optional<PaperResult>> carry_out(std::span<const PaperRun> runs
       const auto [film, is_first] = films.try_emplace(&subject, result.film_hash);
       core::expect(film->second == result.film_hash, "every run of a scene gives the same film");
       results[index] = result;
-      progress.update(index + 1, runs.size());
+      done_pixels += pixels_of(runs[index]);
+      progress.update(done_pixels, all_pixels);
     };
   });
   return results;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "apps/figures.h"
+#include "core/expect.h"
 
 namespace dmpc::apps {
 namespace {
@@ -23,34 +23,22 @@ std::optional<CellOfTable3> cell_of(const Catalogue& catalogue, const PaperResul
   const PaperResult& result = *results[catalogue.timed[scene][column]];
   const std::uint32_t nodes = paper_node_counts[column];
   return CellOfTable3{
+      .scene = scene,
       .title = paper.title,
       .nodes = nodes,
       .printed_seconds = static_cast<double>(paper.seconds[column]),
       .seconds = result.seconds(),
       .printed_efficiency = efficiency(paper.seconds[base], paper_node_counts[base], paper.seconds[column], nodes),
       .efficiency = efficiency(first.seconds(), paper_node_counts[base], result.seconds(), nodes),
-      .is_calibrated = std::string(paper.scene) == "mount-6-t6" && column < 2,
+      .is_calibrated = scene == calibration_row && column < calibration_cell_count,
       .is_base = column == base,
       .parts = result.parts};
 }
 
-/// Of the efficiencies that are predictions: neither calibrated nor 100 % by definition.
-struct Errors {
-  double sum = 0, worst = 0;
-  std::uint32_t count = 0;
-
-  void add(double error) {
-    sum += std::fabs(error);
-    worst = std::max(worst, std::fabs(error));
-    ++count;
-  }
-  double mean() const { return count == 0 ? 0 : sum / count; }
-};
-
-Errors errors_of(const Catalogue& catalogue, const PaperResults& results) {
-  Errors errors;
+Differences differences_of(const Catalogue& catalogue, const PaperResults& results) {
+  Differences errors;
   for (const CellOfTable3& cell : cells_of_table_3(catalogue, results)) {
-    if (!cell.is_base && !cell.is_calibrated) {
+    if (cell.is_predicted()) {
       errors.add(cell.efficiency - cell.printed_efficiency);
     }
   }
@@ -58,6 +46,21 @@ Errors errors_of(const Catalogue& catalogue, const PaperResults& results) {
 }
 
 }  // namespace
+
+std::size_t printed_cell_count() {
+  std::size_t count = 0;
+  for (const PaperScene& scene : paper_scenes) {
+    count += paper_node_counts.size() - scene.base();
+  }
+  return count;
+}
+
+void note_missing_rows(Table& table, std::size_t expected) {
+  core::expect(table.rows().size() <= expected, "a table has no more rows than it can have");
+  if (const std::size_t missing = expected - table.rows().size(); missing > 0) {
+    table.add_note("Interrupted: " + std::to_string(missing) + " of " + std::to_string(expected) + " rows are missing.");
+  }
+}
 
 std::vector<CellOfTable3> cells_of_table_3(const Catalogue& catalogue, const PaperResults& results) {
   std::vector<CellOfTable3> cells;
@@ -95,6 +98,7 @@ Table table_2(const Catalogue& catalogue, const PaperResults& results, const std
                    result->pages_a_pixel});
     table.add_note(std::string(paper.title) + ": " + paper.remark + ".");
   }
+  note_missing_rows(table, paper_scenes.size());
   return table;
 }
 
@@ -115,33 +119,13 @@ Table table_3(const Catalogue& catalogue, const PaperResults& results) {
                    : cell.is_base     ? "base"
                                       : "predicted"});
   }
-  const Errors errors = errors_of(catalogue, results);
+  const Differences errors = differences_of(catalogue, results);
   table.add_note(
       "Calibrated: two figures of the machine were fitted to these two cells, the price of an operation and that of "
       "looking up a cached page. All others are predictions.");
   table.add_note("Predicted efficiencies differ by " + fixed(errors.mean(), 2) + " points on average and " +
                  fixed(errors.worst, 2) + " at worst, " + std::to_string(errors.count) + " cells.");
-  return table;
-}
-
-Table calibration(const Catalogue& catalogue, const PaperResults& results) {
-  Table table("Calibration: Mountain on one node and on two", {{"figure"}, {"in the preset", "ns", 1}, {"fitted", "ns", 1}});
-  const auto& one = results[catalogue.timed[1][0]];
-  const auto& two = results[catalogue.timed[1][1]];
-  const auto& dearer = results[catalogue.dearer_cache];
-  if (one && two && dearer && dearer->total_ns > two->total_ns) {
-    const nodes::Machine& machine = catalogue.runs[catalogue.timed[1][0]].machine;
-    const auto price_ns = [&](nodes::Charge charge) {
-      return 1e-3 * static_cast<double>(machine.cost_ps[static_cast<std::size_t>(charge)]);
-    };
-    const double factor = calibration_scene.seconds[0] / one->seconds();
-    // With all prices scaled the two-node times scale as well; they are linear in the price of a cached look-up.
-    const double share = (calibration_scene.seconds[1] / factor - two->seconds()) / (dearer->seconds() - two->seconds());
-    const double step = price_ns(nodes::Charge::cell_step), lookup = price_ns(nodes::Charge::cached_lookup);
-    table.add_row({"a cell step, and all other operations in proportion", step, factor * step});
-    table.add_row({"a look-up of a cached page", lookup, factor * lookup * (1 + share)});
-  }
-  table.add_note("The printed times are those of 512x512 pixels: with any other --resolution the fitted figures mean nothing.");
+  note_missing_rows(table, printed_cell_count());
   return table;
 }
 
@@ -159,6 +143,7 @@ Table losses(const Catalogue& catalogue, const PaperResults& results) {
     table.add_row(std::move(row));
   }
   table.add_note("The parts of a row add up to 100 %. Dearer look-ups of cached pages are part of computing.");
+  note_missing_rows(table, printed_cell_count());
   return table;
 }
 
@@ -183,6 +168,7 @@ Table algorithms(const Catalogue& catalogue, const PaperResults& results) {
     }
   }
   table.add_note("Both against one node, on which nothing travels. The curves of the article are not printed as numbers.");
+  note_missing_rows(table, rings.size() * paper_node_counts.size());
   return table;
 }
 
@@ -214,6 +200,7 @@ Table caches(const Catalogue& catalogue, const PaperResults& results, const std:
     }
   }
   table.add_note("Pictures of half the resolution a side: small caches miss too often for the whole one.");
+  note_missing_rows(table, cache_scenes.size() * cache_size_count);
   return table;
 }
 

@@ -1,6 +1,8 @@
 // The tables of the study `paper`: what the article prints beside what our runs came to.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,22 +20,43 @@ constexpr double efficiency(double base_seconds, std::uint32_t base_count, doubl
 
 /// What Table 3 says of one scene on so many nodes, printed and found; nothing if it is not printed or not known.
 struct CellOfTable3 {
+  std::size_t scene = 0;  ///< of paper_scenes
   const char* title = "";
   std::uint32_t nodes = 0;
   double printed_seconds = 0, seconds = 0, printed_efficiency = 0, efficiency = 0;
   bool is_calibrated = false;  ///< the machine's prices were fitted to it
   bool is_base = false;
   TimeParts parts;
+
+  /// Neither calibrated nor 100 % by definition.
+  bool is_predicted() const { return !is_calibrated && !is_base; }
+};
+/// How many are printed.
+std::size_t printed_cell_count();
+
+/// How far predictions lie from what is printed, in points.
+struct Differences {
+  double sum = 0, worst = 0;
+  std::uint32_t count = 0;
+
+  void add(double difference) {
+    const double size = difference < 0 ? -difference : difference;
+    sum += size;
+    worst = std::max(worst, size);
+    ++count;
+  }
+  double mean() const { return count == 0 ? 0 : sum / count; }
 };
 
 /// All that are printed and whose runs have ended, scene by scene.
 std::vector<CellOfTable3> cells_of_table_3(const Catalogue& catalogue, const PaperResults& results);
 
-/// Each has the rows whose runs have ended.
+/// Says in a note how many of its `expected` rows are missing, if any: their runs were interrupted.
+void note_missing_rows(Table& table, std::size_t expected);
+
+/// Each has the rows whose runs have ended, and says how many are missing.
 Table table_2(const Catalogue& catalogue, const PaperResults& results, const std::vector<PaperSubject>& subjects);
 Table table_3(const Catalogue& catalogue, const PaperResults& results);
-/// The two fitted figures of the machine: as they are, and as the printed times ask for.
-Table calibration(const Catalogue& catalogue, const PaperResults& results);
 /// Where the time of the nodes of Table 3 goes.
 Table losses(const Catalogue& catalogue, const PaperResults& results);
 /// Figures 5 and 7: rays that travel beside pages that travel.

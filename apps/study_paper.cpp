@@ -1,50 +1,24 @@
 #include "apps/study_paper.h"
 
-#include <ostream>
+#include <algorithm>
+#include <iostream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "apps/output_file.h"
+#include "apps/paper_calibration.h"
 #include "apps/paper_catalogue.h"
 #include "apps/paper_claims.h"
+#include "apps/paper_law.h"
+#include "apps/paper_report.h"
 #include "apps/paper_runs.h"
+#include "apps/paper_sensitivity.h"
 #include "apps/paper_tables.h"
-#include "apps/study_table.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
 namespace {
-
-struct NamedTable {
-  const char* name;
-  Table table;
-};
-
-std::string report_text(const std::vector<NamedTable>& tables, const PaperStudyOptions& options, bool is_complete) {
-  std::string text =
-      "# The tables of 1994, regenerated\n\nD. Badouel, K. Bouatouch, T. Priol, \"Distributing Data and Control for "
-      "Ray Tracing in Parallel\", on the modelled iPSC/2 (`dmpc machine ipsc2`), pictures of " +
-      std::to_string(options.resolution) + "x" + std::to_string(options.resolution) + " pixels.\n";
-  text += is_complete ? "" : "\nInterrupted: rows are missing.\n";
-  for (const NamedTable& named : tables) {
-    text += "\n" + text_of(named.table, TableFormat::markdown);
-  }
-  return text;
-}
-
-void write_file(const std::filesystem::path& path, const std::string& text) {
-  OutputFile file(path);
-  file.write(text);
-  file.commit();
-}
-
-void write_folder(const std::filesystem::path& folder, const std::vector<NamedTable>& tables, const std::string& report) {
-  for (const NamedTable& named : tables) {
-    write_file(folder / (std::string(named.name) + ".csv"), text_of(named.table, TableFormat::csv));
-    write_file(folder / (std::string(named.name) + ".json"), text_of(named.table, TableFormat::json));
-  }
-  write_file(folder / "report.md", report);
-}
 
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
@@ -55,14 +29,32 @@ void make_folder(const std::filesystem::path& folder) {
   check_output_path(folder / "report.md", "-o");
 }
 
+/// All but the sensitivity.
+std::vector<NamedTable> tables_of(const Catalogue& catalogue, const PaperResults& results,
+                                  const std::vector<PaperSubject>& subjects) {
+  return {{"table_2", table_2(catalogue, results, subjects)},
+          {"table_3", table_3(catalogue, results)},
+          {"calibration", calibration(catalogue, results)},
+          {"law", beside_law(catalogue, results)},
+          {"against_law", against_law(catalogue, results)},
+          {"losses", losses(catalogue, results)},
+          {"algorithms", algorithms(catalogue, results)},
+          {"caches", caches(catalogue, results, subjects)},
+          {"claims", claims(catalogue, results)}};
+}
+
 }  // namespace
 
 void add_options(OptionSet options, PaperStudyOptions& paper) {
   options.add_number("--resolution", paper.resolution, 8, 4096, "512, the article's", "Pixels a side of every picture");
-  options.add_path("-o,--output", "FOLDER", paper.output, "Where report.md goes, with each table as CSV and JSON");
+  options.add_flag("--sensitivity", paper.has_sensitivity,
+                   "Also change each figure of the machine by a fifth, and show what it does: some minutes more");
+  options.add_path("-o,--output", "FOLDER", paper.output,
+                   "Where report.md goes, with each table as CSV and JSON and pictures by gnuplot");
   options.set_examples(
       "Examples:\n"
       "  dmpc study paper -o paper              the article's pictures: some minutes\n"
+      "  dmpc study paper --sensitivity -o paper\n"
       "  dmpc study paper --resolution=64       a quick look");
 }
 
@@ -70,26 +62,25 @@ int study_paper_command(const PaperStudyOptions& options, Interrupt& interrupt, 
   if (options.output) {
     make_folder(*options.output);
   }
-  const Catalogue catalogue = catalogue_of(options.resolution);
+  Catalogue catalogue = catalogue_of(options.resolution);
+  const std::vector<VariedRuns> varied = options.has_sensitivity ? add_variations(catalogue) : std::vector<VariedRuns>();
   const std::vector<PaperSubject> subjects = [&] {
     const Interrupt::EndAtOnce end_at_once(interrupt);
     return paper_subjects(catalogue.runs);
   }();
   const PaperResults results = carry_out(catalogue.runs, subjects, interrupt);
-  const std::vector<NamedTable> tables = {{"table_2", table_2(catalogue, results, subjects)},
-                                          {"table_3", table_3(catalogue, results)},
-                                          {"calibration", calibration(catalogue, results)},
-                                          {"losses", losses(catalogue, results)},
-                                          {"algorithms", algorithms(catalogue, results)},
-                                          {"caches", caches(catalogue, results, subjects)},
-                                          {"claims", claims(catalogue, results)}};
-  const std::string report = report_text(tables, options, !interrupt.requested());
-  output << report;
-  if (options.output) {
-    write_folder(*options.output, tables, report);
+  const bool is_complete = std::all_of(results.begin(), results.end(), [](const auto& result) { return result.has_value(); });
+  interrupt.set_consequence(is_complete ? "the report is complete" : "the report has the rows finished before");
+  std::vector<NamedTable> tables = tables_of(catalogue, results, subjects);
+  if (options.has_sensitivity) {
+    tables.push_back({"sensitivity", sensitivity(catalogue, results, varied)});
   }
+  const PaperReport report = write_report(tables, options.resolution, is_complete, options.output);
+  for (const std::string& complaint : report.complaints) {
+    std::cerr << "dmpc: " << complaint << std::endl;
+  }
+  output << report.text;
   finish_output(output, "the report");
-  interrupt.set_consequence("the report has the rows finished before");
   interrupt.check();
   return 0;
 }

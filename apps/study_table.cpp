@@ -25,8 +25,6 @@ std::string digits_of(double value) {
   return {text.data(), end};
 }
 
-std::string header_of(const Column& column) { return column.unit.empty() ? column.name : column.name + " (" + column.unit + ")"; }
-
 /// A text that cannot end its cell.
 std::string escaped(const std::string& text) {
   std::string safe;
@@ -180,6 +178,8 @@ std::string json(const Table& table) {
 }
 
 }  // namespace
+
+std::string header_of(const Column& column) { return column.unit.empty() ? column.name : column.name + " (" + column.unit + ")"; }
 
 Table::Table(std::string title, std::vector<Column> columns) : title_(std::move(title)), columns_(std::move(columns)) {
   std::set<std::string_view> names;

@@ -18,6 +18,9 @@ struct Column {
   int digits = 0;    ///< decimal places of real numbers in Markdown; the other formats have all there are
 };
 
+/// "average load (%)": how CSV and Markdown call it.
+std::string header_of(const Column& column);
+
 enum class TableFormat : std::uint8_t { markdown, csv, json };
 
 /// Every row has a cell for each column. Not thread-safe.

@@ -1,0 +1,52 @@
+// A picture of a table: curves or bars of named columns, drawn by gnuplot from the table's CSV file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/study_table.h"
+
+namespace dmpc::apps {
+
+/// How a series is drawn: what was computed as a line, what it is held against as points.
+enum class PlotMark : std::uint8_t { line, points, bars };
+
+/// One column, or those of its rows that are meant.
+struct PlotSeries {
+  std::string title;   ///< in the legend
+  std::string column;  ///< by its name; of numbers
+  /// Only rows with each of these texts in the column named before it. gnuplot loses what CSV has to quote: no commas or quotes.
+  std::vector<std::pair<std::string, std::string>> where = {};
+  PlotMark mark = PlotMark::line;
+  std::size_t color = 0;  ///< of eight that people who are colour-blind can tell apart; each has a shape of its points, too
+};
+
+enum class PlotScale : std::uint8_t { linear, powers_of_2, powers_of_10 };
+
+struct PlotAxis {
+  std::string label;  ///< with its unit
+  PlotScale scale = PlotScale::linear;
+  std::optional<double> least = std::nullopt, most = std::nullopt;  ///< nothing: as the figures ask for
+};
+
+/// What is drawn. The series are all bars, or none is.
+struct Plot {
+  std::string name;  ///< of its files, without an extension
+  std::string title;
+  /// The column along x. For bars the columns whose texts, one after the other, name a place; series with the same name stand
+  /// side by side there.
+  std::vector<std::string> places;
+  PlotAxis x, y;
+  std::vector<PlotSeries> series;
+  bool is_stacked = false;  ///< bars upon one another, the first at the bottom
+};
+
+/// A gnuplot script that reads the table's CSV file, `data_file`, in the folder in which it is run, and writes NAME.svg there;
+/// nothing if no row of the table is drawn. Expects columns that the table has.
+std::optional<std::string> script_of(const Plot& plot, const Table& table, const std::string& data_file);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,66 @@
+#include "apps/paper_plots.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "apps/paper_tables.h"
+#include "tests/support/paper_results.h"
+
+namespace dmpc::tests {
+
+using namespace apps;
+
+namespace {
+
+const Plot& plot_named(const std::vector<PaperPlot>& plots, const std::string& name) {
+  const auto found = std::find_if(plots.begin(), plots.end(), [&](const PaperPlot& plot) { return plot.plot.name == name; });
+  REQUIRE(found != plots.end());
+  return found->plot;
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++found;
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("every picture of the study has files of its own, a title, and axes with labels") {
+  std::set<std::string> names;
+  for (const PaperPlot& plot : paper_plots()) {
+    CAPTURE(plot.plot.name);
+    CHECK(names.insert(plot.plot.name).second);
+    CHECK_FALSE(plot.plot.title.empty());
+    CHECK_FALSE(plot.plot.y.label.empty());
+  }
+}
+
+TEST_CASE("Table 3 is drawn as points where it is printed and as lines where it is found, of one colour a scene") {
+  const Catalogue catalogue = catalogue_of(16);
+  const std::vector<PaperPlot> plots = paper_plots();
+  const Plot& plot = plot_named(plots, "table_3");
+  const std::string script = script_of(plot, table_3(catalogue, as_printed(catalogue)), "table_3.csv").value_or("");
+  CHECK(count(script, " with points") == 4);
+  CHECK(count(script, " with lines") == 4);
+  for (std::size_t series = 0; series < plot.series.size(); series += 2) {
+    CHECK(plot.series[series].color == plot.series[series + 1].color);
+    CHECK(plot.series[series].where == plot.series[series + 1].where);
+  }
+}
+
+TEST_CASE("the losses of Table 3 are stacked, a bar a cell") {
+  const Catalogue catalogue = catalogue_of(16);
+  const std::vector<PaperPlot> plots = paper_plots();
+  const std::string script =
+      script_of(plot_named(plots, "losses"), losses(catalogue, as_printed(catalogue)), "losses.csv").value_or("");
+  CHECK(script.find("array names[24]") != std::string::npos);
+  CHECK(count(script, " with boxes") == 7);
+}
+
+}  // namespace dmpc::tests
