@@ -71,7 +71,7 @@ PaperReport write_report(const std::vector<NamedTable>& tables, std::uint32_t re
       side + "x" + side + " pixels.\n";
   report.text += is_complete ? "" : "\nInterrupted: rows are missing.\n";
   for (const std::string& complaint : report.complaints) {
-    report.text += "\nPlots: " + complaint + ".\n";
+    report.text += "\nNote: " + complaint + ".\n";
   }
   for (const NamedTable& named : tables) {
     report.text += "\n" + text_of(named.table, TableFormat::markdown) + pictures[named.name];

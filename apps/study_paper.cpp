@@ -29,9 +29,22 @@ void make_folder(const std::filesystem::path& folder) {
   check_output_path(folder / "report.md", "-o");
 }
 
-/// All but the sensitivity.
+Table claims_with_note(const Catalogue& catalogue, const PaperResults& results, bool has_all) {
+  Table table = claims(catalogue, results);
+  if (!has_all) {
+    table.add_note("Interrupted: claims are missing, and others may rest on fewer runs.");
+  }
+  return table;
+}
+
+bool has_first(const PaperResults& results, std::size_t count) {
+  return std::all_of(results.begin(), results.begin() + static_cast<std::ptrdiff_t>(count),
+                     [](const auto& result) { return result.has_value(); });
+}
+
+/// All but the sensitivity, which rest on the first runs.
 std::vector<NamedTable> tables_of(const Catalogue& catalogue, const PaperResults& results,
-                                  const std::vector<PaperSubject>& subjects) {
+                                  const std::vector<PaperSubject>& subjects, std::size_t run_count) {
   return {{"table_2", table_2(catalogue, results, subjects)},
           {"table_3", table_3(catalogue, results)},
           {"calibration", calibration(catalogue, results)},
@@ -40,7 +53,7 @@ std::vector<NamedTable> tables_of(const Catalogue& catalogue, const PaperResults
           {"losses", losses(catalogue, results)},
           {"algorithms", algorithms(catalogue, results)},
           {"caches", caches(catalogue, results, subjects)},
-          {"claims", claims(catalogue, results)}};
+          {"claims", claims_with_note(catalogue, results, has_first(results, run_count))}};
 }
 
 }  // namespace
@@ -63,15 +76,16 @@ int study_paper_command(const PaperStudyOptions& options, Interrupt& interrupt, 
     make_folder(*options.output);
   }
   Catalogue catalogue = catalogue_of(options.resolution);
+  const std::size_t run_count = catalogue.runs.size();  // without the sensitivity's
   const std::vector<VariedRuns> varied = options.has_sensitivity ? add_variations(catalogue) : std::vector<VariedRuns>();
   const std::vector<PaperSubject> subjects = [&] {
     const Interrupt::EndAtOnce end_at_once(interrupt);
     return paper_subjects(catalogue.runs);
   }();
   const PaperResults results = carry_out(catalogue.runs, subjects, interrupt);
-  const bool is_complete = std::all_of(results.begin(), results.end(), [](const auto& result) { return result.has_value(); });
+  const bool is_complete = has_first(results, results.size());
   interrupt.set_consequence(is_complete ? "the report is complete" : "the report has the rows finished before");
-  std::vector<NamedTable> tables = tables_of(catalogue, results, subjects);
+  std::vector<NamedTable> tables = tables_of(catalogue, results, subjects, run_count);
   if (options.has_sensitivity) {
     tables.push_back({"sensitivity", sensitivity(catalogue, results, varied)});
   }

@@ -97,6 +97,7 @@ TEST_CASE("without results the comparison is empty and says what is missing") {
   const Catalogue catalogue = catalogue_of(16);
   const PaperResults none(catalogue.runs.size());
   CHECK(against_law(catalogue, none).rows().empty());
+  CHECK(against_law(catalogue, none).notes().front() == "Interrupted: 18 cells are missing.");
   const Table beside = beside_law(catalogue, none);
   CHECK(beside.rows().size() == 1);
   CHECK(std::any_of(beside.notes().begin(), beside.notes().end(),

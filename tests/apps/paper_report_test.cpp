@@ -66,7 +66,7 @@ TEST_CASE("without gnuplot the report is complete but for the pictures, and one 
   const PaperReport report = write_report(two_tables(), 16, true, folder.path());
   REQUIRE(report.complaints.size() == 1);
   CHECK(contains(report.complaints[0], "the plots are not drawn: gnuplot cannot be started"));
-  CHECK(contains(report.text, "Plots: " + report.complaints[0]));
+  CHECK(contains(report.text, "Note: " + report.complaints[0]));
   CHECK_FALSE(contains(report.text, ".svg)"));
   CHECK(folder.entry_count() == 7);
 }

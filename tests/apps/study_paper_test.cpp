@@ -60,6 +60,7 @@ TEST_CASE("Ctrl-C ends the study of the article with status 130 and a folder of 
   CHECK(report == process.output());
   CHECK(contains(report, "\nInterrupted: rows are missing.\n"));
   CHECK(contains(report, "Interrupted: 32 of 32 rows are missing."));
+  CHECK(contains(report, "Interrupted: claims are missing, and others may rest on fewer runs."));
   CHECK(contains(file_text(folder / "paper" / "sensitivity.json"), "Interrupted: 32 of 32 rows are missing."));
 }
 
