@@ -27,7 +27,7 @@ void add_fit(Table& table, const nodes::Machine& preset, const FitTimes& found) 
   const auto fit =
       fit_of(found, {static_cast<double>(calibration_scene.seconds[0]), static_cast<double>(calibration_scene.seconds[1])});
   if (!fit) {
-    table.add_note("Dearer look-ups took no longer here: nothing can be fitted.");
+    table.add_note("No price of a cached look-up gives the printed time here.");
     return;
   }
   const nodes::Machine machine = fitted(preset, *fit);
@@ -42,8 +42,8 @@ std::optional<Fit> fit_of(const FitTimes& found, const std::array<double, calibr
     return std::nullopt;
   }
   const double operations = printed[0] / found.one;
-  return Fit{.operations = operations,
-             .cached_lookup = 1 + (printed[1] / operations - found.two) / (found.two_with_dearer_lookups - found.two)};
+  const double change = (printed[1] / operations - found.two) / (found.two_with_dearer_lookups - found.two);
+  return change < -1 ? std::nullopt : std::optional(Fit{.operations = operations, .cached_lookup = 1 + change});
 }
 
 nodes::Machine fitted(nodes::Machine machine, const Fit& fit) {

@@ -23,7 +23,7 @@ struct FitTimes {
 
 /// What makes `found` the `printed` seconds on one node and on two. The time on one node is taken to be in proportion to the
 /// prices of operations (it has no look-ups of cached pages), that on two to be linear in the price of such a look-up. Nothing if
-/// dearer look-ups took no longer.
+/// dearer look-ups took no longer, or if none were cheap enough.
 std::optional<Fit> fit_of(const FitTimes& found, const std::array<double, calibration_cell_count>& printed);
 
 /// The machine with fitted prices.

@@ -102,6 +102,8 @@ TEST_CASE("a calibration without its runs is empty and says so, and so is one th
   results[catalogue.dearer_cache] = results[catalogue.timed[1][1]];
   CHECK(calibration(catalogue, results).rows().empty());
   CHECK_FALSE(fit_of({.one = 2, .two = 1, .two_with_dearer_lookups = 1}, {2, 1}).has_value());
+  CHECK_FALSE(fit_of({.one = 10, .two = 8, .two_with_dearer_lookups = 9}, {10, 6}).has_value());
+  CHECK(fit_of({.one = 10, .two = 8, .two_with_dearer_lookups = 9}, {10, 7})->cached_lookup == 0);
 }
 
 TEST_CASE("a fit of closed form: 10 s and 6 s that should be 20 s and 16 s") {

@@ -39,9 +39,9 @@ class Drawing {
     return apps::draw(plot, table_, folder_.path(), "t.csv", program);
   }
   /// A program of its own, by its lines.
-  std::string program(const std::string& lines) const {
+  std::string program(const std::string& lines) const {  // bash, unlike sh, leaves blocked signals as they are
     const std::filesystem::path path = folder_ / "program";
-    write_text(path, "#!/bin/sh\n" + lines);
+    write_text(path, "#!/bin/bash\n" + lines);
     std::filesystem::permissions(path, std::filesystem::perms::owner_all);
     return path.string();
   }
