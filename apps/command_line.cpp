@@ -123,7 +123,10 @@ void OptionSet::set_examples(const std::string& text) { app_->footer(text); }
 
 void OptionSet::check_in_the_end(const std::function<void()>& check) { app_->final_callback(check); }
 
-bool OptionSet::is_given(const std::string& name) const { return app_->get_option(name)->count() > 0; }
+bool OptionSet::is_given(const std::string& name) const {
+  const CLI::Option* const option = app_->get_option_no_throw(name);
+  return option != nullptr && option->count() > 0;
+}
 
 CommandLine::CommandLine(const std::string& description, const std::string& version, const std::string& examples)
     : app_(std::make_unique<CLI::App>(description, "dmpc")) {

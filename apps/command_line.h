@@ -68,7 +68,7 @@ class OptionSet {
   void set_examples(const std::string& text);
   /// Called when all options of a line with this command are read; may throw core::UsageError.
   void check_in_the_end(const std::function<void()>& check);
-  /// Whether the user gave the option; for check_in_the_end().
+  /// Whether the user gave the option, if it is one of this command; for check_in_the_end().
   bool is_given(const std::string& name) const;
 
  private:

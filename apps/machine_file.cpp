@@ -179,7 +179,8 @@ MachineDescription description_of(const Fields& fields) {
                       .hop_ns = fields.number("hop_ns", time_ns_max),
                       .service_ns = fields.number("service_ns", time_ns_max),
                       .cost_ps = operations_of(fields.object("operation_ps", operation_keys)),
-                      .has_contention = fields.flag("has_contention")},
+                      .has_contention = fields.flag("has_contention"),
+                      .has_memory_port = fields.flag("has_memory_port")},
           .sources = sources_of(fields)};
 }
 
@@ -254,7 +255,8 @@ Json machine_json(const nodes::Machine& machine) {
           {"hop_ns", machine.hop_ns},
           {"service_ns", machine.service_ns},
           {"operation_ps", operations_json(machine)},
-          {"has_contention", machine.has_contention}};
+          {"has_contention", machine.has_contention},
+          {"has_memory_port", machine.has_memory_port}};
 }
 
 std::string machine_text(const MachineDescription& description) {
@@ -273,7 +275,7 @@ MachineDescription parse_machine(std::string_view text, const std::string& file)
   }
   return description_of(Fields(json, file + ": ",
                                {"name", "topology", "short_bytes_max", "short_message", "long_message", "hop_ns", "service_ns",
-                                "operation_ps", "has_contention"},
+                                "operation_ps", "has_contention", "has_memory_port"},
                                {"sources"}));
 }
 

@@ -19,6 +19,7 @@ namespace dmpc::apps {
 ///   service_ns         of an interrupt, beside receiving and sending
 ///   operation_ps       by the names of nodes::Charge
 ///   has_contention     whether a link carries one message at a time
+///   has_memory_port    whether a node sends one message at a time and receives one at a time, over whatever links
 nlohmann::ordered_json machine_json(const nodes::Machine& machine);
 
 /// That and "sources", an object of texts by sourced_keys; indented, with a line end.

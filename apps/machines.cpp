@@ -28,6 +28,7 @@ struct Preset {
   Figure<std::uint64_t> hop_ns;
   Figure<std::uint64_t> service_ns;
   Figure<std::uint64_t> slowdown;  ///< of an operation, against the core on which the prices were measured
+  Figure<bool> has_memory_port = {false, "assumed, low: nothing is known of such a bound"};
 };
 
 /// Calibrated: with it mount-6-t6 takes on one node the time that Table 3 of the 1994 paper prints for Mountain (`dmpc study
@@ -53,7 +54,11 @@ constexpr Preset presets[] = {
      .service_ns = {200'000, "assumed between 100 and 300 us, low"},
      .slowdown = {ipsc2_slowdown,
                   "80386 at 16 MHz with 80387; the factor to the measured core is calibrated to Mountain on one node in Table 3 "
-                  "of the 1994 paper"}},
+                  "of the 1994 paper"},
+     .has_memory_port =
+         {false,
+          "one message in and one out at a time whatever the number of channels: quoted, low; off, since no figure "
+          "of the 1994 paper can tell"}},
     {.name = "ipsc860",
      .topology = {TopologyKind::hypercube, "hypercube and routers of the iPSC/2: quoted, high"},
      .short_bytes_max = {100, "as the iPSC/2: quoted, high"},
@@ -65,7 +70,8 @@ constexpr Preset presets[] = {
                       "30 us of each processor: assumed, low"},
      .hop_ns = {10'300, "measured by Bokhari: quoted, high"},
      .service_ns = {30'000, "a seventh of the iPSC/2's: assumed, low"},
-     .slowdown = {ipsc860_slowdown, "i860 at 40 MHz, 7 times the iPSC/2's node: the 1994 paper, medium"}},
+     .slowdown = {ipsc860_slowdown, "i860 at 40 MHz, 7 times the iPSC/2's node: the 1994 paper, medium"},
+     .has_memory_port = {false, "as the iPSC/2: quoted, low; off"}},
     {.name = "paragon",
      .topology = {TopologyKind::mesh, "two-dimensional mesh, wormhole routing along x, then y: quoted, high"},
      .long_message =
@@ -118,8 +124,8 @@ std::string operations_source(const Figure<std::uint64_t>& slowdown) {
 MachineDescription description_of(const Preset& preset) {
   const bool is_one_class = preset.short_bytes_max.value == 0;
   const std::array<std::string, sourced_keys.size()> sources = {
-      preset.topology.source, preset.short_bytes_max.source, preset.short_message.source,       preset.long_message.source,
-      preset.hop_ns.source,   preset.service_ns.source,      operations_source(preset.slowdown)};
+      preset.topology.source, preset.short_bytes_max.source, preset.short_message.source,        preset.long_message.source,
+      preset.hop_ns.source,   preset.service_ns.source,      operations_source(preset.slowdown), preset.has_memory_port.source};
   MachineDescription description{
       .machine = {.name = preset.name,
                   .topology = preset.topology.value,
@@ -128,7 +134,8 @@ MachineDescription description_of(const Preset& preset) {
                   .long_message = preset.long_message.value,
                   .hop_ns = preset.hop_ns.value,
                   .service_ns = preset.service_ns.value,
-                  .cost_ps = operation_costs_ps(preset.slowdown.value)},
+                  .cost_ps = operation_costs_ps(preset.slowdown.value),
+                  .has_memory_port = preset.has_memory_port.value},
       .sources = {}};
   for (std::size_t i = 0; i < sourced_keys.size(); ++i) {
     description.sources.emplace_back(sourced_keys[i], sources[i]);

@@ -14,8 +14,8 @@
 namespace dmpc::apps {
 
 /// The keys of a machine file that have a source, in order.
-inline constexpr std::array<std::string_view, 7> sourced_keys = {"topology", "short_bytes_max", "short_message", "long_message",
-                                                                 "hop_ns",   "service_ns",      "operation_ps"};
+inline constexpr std::array<std::string_view, 8> sourced_keys = {
+    "topology", "short_bytes_max", "short_message", "long_message", "hop_ns", "service_ns", "operation_ps", "has_memory_port"};
 
 /// A machine and what its figures rest on.
 struct MachineDescription {

@@ -7,7 +7,9 @@
 
 namespace dmpc::apps {
 
-/// Declares --subsample, --balance-grid and --topology, but not which balance there is.
-void add_region_options(OptionSet options, dataflow::BalanceOptions& balance, nodes::TopologyKind& topology);
+/// Declares --subsample and --balance-grid, but not which balance there is.
+void add_region_options(OptionSet options, dataflow::BalanceOptions& balance);
+/// Declares --topology.
+void add_topology_option(OptionSet options, nodes::TopologyKind& topology);
 
 }  // namespace dmpc::apps

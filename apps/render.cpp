@@ -166,7 +166,8 @@ Image image_of(const core::Film& film, int samples) {
 
 int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostream& output) {
   check_outputs(asked);
-  const RenderOptions options = with_machine(asked);
+  RenderOptions options = asked;
+  choose_machine(options);
   Seconds seconds;
   const Subject subject = load(options, interrupt, seconds);
   const ReadyRun run = prepare(options, subject, interrupt, seconds);

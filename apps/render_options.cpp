@@ -1,10 +1,7 @@
 #include "apps/render_options.h"
 
-#include <algorithm>
 #include <string>
-#include <vector>
 
-#include "apps/machines.h"
 #include "apps/option_values.h"
 #include "apps/region_options.h"
 #include "core/expect.h"
@@ -18,23 +15,13 @@ namespace {
 
 using core::UsageError;
 
-void set_node_memory(ComputerOptions& computer, const std::string& text) {
-  computer.node_memory_bytes = text == "auto" ? std::nullopt : std::optional(parse_size_bytes(text, "--node-memory"));
-}
-
 void add_computer_options(OptionSet& options, RenderOptions& render) {
   ComputerOptions& computer = render.computer;
   options.begin_group("The computer");
   options.add_number("--nodes", computer.node_count, 1, svm::node_count_max, "8",
                      "Nodes, each with a memory of its own; dataflow takes up to " + std::to_string(dataflow::region_count_max));
-  options.add_choice<Strategy>(
-      "--strategy", render.strategy,
-      {{"svm", Strategy::svm}, {"replicated", Strategy::replicated}, {"dataflow", Strategy::dataflow}},
-      "svm: the scene is spread over the nodes and its pages travel. replicated: every node holds it all. dataflow: every node "
-      "holds a region of space and rays travel");
-  options.add_text(
-      "--node-memory", "SIZE|auto [auto]", [&computer](const std::string& text) { set_node_memory(computer, text); },
-      "Bound of each node's memory, such as 4MiB");
+  add_strategy_option(options, render.strategy);
+  add_memory_option(options, computer.node_memory_bytes);
   add_options(options, render.database);
 }
 
@@ -43,46 +30,12 @@ void add_runner_options(OptionSet& options, ComputerOptions& computer) {
   options.add_choice<RunnerKind>(
       "--runner", computer.runner, {{"threads", RunnerKind::threads}, {"virtual", RunnerKind::virtual_time}},
       "threads: a thread for each node. virtual: the model of a machine, in its own time, the same whenever it is repeated");
-  options.add_text(
-      "--machine", "NAME|FILE.json [ipsc2]", [&computer](const std::string& name) { computer.machine_name = name; },
-      "The machine that is modelled (virtual): " + machine_preset_names() + " or a file such as dmpc machine prints");
-  options.add_flag("--no-contention", computer.no_contention, "A link carries any number of messages at once (virtual)");
+  add_machine_options(options, computer, " (virtual)");
   options.add_text(
       "--chaos", "SEED [calm]",
       [&computer](const std::string& text) { computer.chaos = nodes::chaos_of(parse_seed(text, "--chaos")); },
       "Disturb the computer by this seed (threads): packets late and out of order, slow nodes and links, few credits; the "
       "picture stays");
-}
-
-void add_page_options(OptionSet& options, PageOptions& pages) {
-  options.begin_group("Strategies svm and replicated");
-  options.add_number("--cache-pages", pages.cache_pages, 1, 0x7fffffff, "what the memory holds",
-                     "Pages of other nodes that a node can keep (svm)");
-  using svm::Replacement;
-  options.add_choice<Replacement>(
-      "--replacement", pages.replacement,
-      {{"lru", Replacement::lru}, {"clock", Replacement::clock}, {"fifo", Replacement::fifo}, {"random", Replacement::random}},
-      "Which of them makes room for another (svm)");
-  options.add_number("--in-flight", pages.in_flight, 1, svm::in_flight_max, "16, replicated 1, runner virtual 1",
-                     "Pixels that a node works on at once");
-  options.add_number("--work-item", pages.work_item_side, 0, 1024, "3",
-                     "Side in pixels of what a node gives to an idle one; 0: nothing is given");
-  options.add_flag("--count-pages", pages.count_pages,
-                   "Count the distinct pages of each pixel for --stats (svm; takes memory and time)");
-}
-
-void add_ray_options(OptionSet& options, RayOptions& rays) {
-  using dataflow::Balance;
-  options.begin_group("Strategy dataflow");
-  options.add_choice<Balance>("--balance", rays.balance.balance,
-                              {{"subsampled", Balance::subsampled}, {"equal-size", Balance::equal_size}},
-                              "Regions of about equal load, by a subsampled picture, or of equal size");
-  add_region_options(options, rays.balance, rays.topology);
-  options.add_number("--ray-batch", rays.ray_batch, 1, dataflow::ray_batch_max, "what fills 1 KiB", "Rays in a packet, at most");
-  options.add_number("--ray-credits", rays.ray_credits, 0, dataflow::ray_credits_max, "4",
-                     "Packets of rays that each node may have under way to each other; 0: all go by way of the host");
-  options.add_number("--ray-queue", rays.queue_packets, 0, dataflow::queue_packets_max, "512",
-                     "Packets of rays that can wait on a node for credit before more go by way of the host");
 }
 
 void add_study_options(OptionSet& options, RenderOptions& render) {
@@ -96,52 +49,9 @@ void add_study_options(OptionSet& options, RenderOptions& render) {
   options.add_flag("--quiet", render.quiet, "No progress, no closing lines");
 }
 
-/// An option that only some strategies have, and why.
-struct Belonging {
-  const char* option;
-  std::vector<Strategy> strategies;
-  const char* reason;
-
-  bool has(Strategy strategy) const { return std::find(strategies.begin(), strategies.end(), strategy) != strategies.end(); }
-  std::string names() const {
-    std::string names;
-    for (const Strategy strategy : strategies) {
-      names += std::string(names.empty() ? "" : " or ") + "--strategy=" + name_of(strategy);
-    }
-    return names;
-  }
-};
-
-const std::vector<Belonging>& belongings() {
-  static const std::vector<Belonging> all = {
-      {"--cache-pages", {Strategy::svm}, "a node of the others needs no page of another node"},
-      {"--replacement", {Strategy::svm}, "a node of the others keeps no page of another node"},
-      {"--count-pages", {Strategy::svm}, "the others look up no pages"},
-      {"--in-flight", {Strategy::svm, Strategy::replicated}, "a node of dataflow traces one ray at a time"},
-      {"--work-item", {Strategy::svm, Strategy::replicated}, "a node of dataflow works on what comes to its region"},
-      {"--balance", {Strategy::dataflow}, "the others share out pixels, not space"},
-      {"--subsample", {Strategy::dataflow}, "the others share out pixels, not space"},
-      {"--balance-grid", {Strategy::dataflow}, "the others share out pixels, not space"},
-      {"--ray-batch", {Strategy::dataflow}, "rays of the others do not travel"},
-      {"--ray-credits", {Strategy::dataflow}, "rays of the others do not travel"},
-      {"--ray-queue", {Strategy::dataflow}, "rays of the others do not travel"},
-      {"--topology", {Strategy::dataflow}, "the others map no regions onto nodes"},
-  };
-  return all;
-}
-
-void check_strategy(const OptionSet& options, const RenderOptions& render) {
-  for (const Belonging& belonging : belongings()) {
-    if (options.is_given(belonging.option) && !belonging.has(render.strategy)) {
-      throw UsageError(std::string(belonging.option) + " goes with " + belonging.names() + ": " + belonging.reason);
-    }
-  }
+void check_tracer(const RenderOptions& render) {
   if (render.tracer == TracerChoice::embree && render.strategy != Strategy::replicated) {
     throw UsageError("--tracer=embree needs --strategy=replicated: Embree sees the whole scene, and no other node holds it all");
-  }
-  if (render.strategy == Strategy::dataflow && render.computer.node_count > dataflow::region_count_max) {
-    throw UsageError("--nodes=" + std::to_string(render.computer.node_count) + ": from 1 to " +
-                     std::to_string(dataflow::region_count_max) + " nodes with --strategy=dataflow");
   }
 }
 
@@ -155,6 +65,7 @@ struct Conflict {
 constexpr Conflict conflicts[] = {
     {"--machine", RunnerKind::threads, "threads model no machine"},
     {"--no-contention", RunnerKind::threads, "threads model no links"},
+    {"--memory-port", RunnerKind::threads, "threads model no ports"},
     {"--chaos", RunnerKind::virtual_time, "chaos disturbs threads only"},
     {"--topology", RunnerKind::virtual_time, "the machine has a topology of its own, onto which regions are mapped"},
 };
@@ -171,35 +82,17 @@ void check_runner(const OptionSet& options, const RenderOptions& render) {
   }
 }
 
-void check_together(const OptionSet& options, const RenderOptions& render) {
-  check_strategy(options, render);
+void check(const OptionSet& options, const RenderOptions& render) {
+  check_together(options, render);
+  check_node_count(render.strategy, render.computer.node_count);
+  check_tracer(render);
   check_runner(options, render);
   if (render.pages.count_pages && !render.stats) {
     throw UsageError("--count-pages counts for the --stats file: give --stats=FILE.json too");
   }
-  for (const char* const option : {"--subsample", "--balance-grid"}) {
-    if (options.is_given(option) && render.rays.balance.balance == dataflow::Balance::equal_size) {
-      throw UsageError(std::string(option) + " goes with --balance=subsampled: regions of equal size ask for no load");
-    }
-  }
 }
 
 }  // namespace
-
-const char* name_of(Strategy strategy) {
-  switch (strategy) {
-    case Strategy::svm:
-      return "svm";
-    case Strategy::replicated:
-      return "replicated";
-    case Strategy::dataflow:
-      return "dataflow";
-  }
-  core::expect(false, "a strategy has a name");
-  return "";
-}
-
-const char* name_of(RunnerKind runner) { return runner == RunnerKind::threads ? "threads" : "virtual"; }
 
 void add_options(OptionSet options, RenderOptions& render) {
   add_options(options, render.picture);
@@ -209,9 +102,12 @@ void add_options(OptionSet options, RenderOptions& render) {
   add_computer_options(options, render);
   add_runner_options(options, render.computer);
   add_page_options(options, render.pages);
+  options.add_flag("--count-pages", render.pages.count_pages,
+                   "Count the distinct pages of each pixel for --stats (svm; takes memory and time)");
   add_ray_options(options, render.rays);
+  add_topology_option(options, render.rays.topology);
   add_study_options(options, render);
-  options.check_in_the_end([options, &render] { check_together(options, render); });
+  options.check_in_the_end([options, &render] { check(options, render); });
   options.set_examples(
       "Examples:\n"
       "  dmpc render teapot-12 --nodes=8 -o teapot.png\n"

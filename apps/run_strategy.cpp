@@ -13,12 +13,12 @@ namespace dmpc::apps {
 namespace {
 
 /// A node of a modelled machine waits for its page, as those of the 1994 paper did.
-std::optional<std::uint32_t> in_flight(const RenderOptions& options) {
+std::optional<std::uint32_t> in_flight(const StrategyOptions& options) {
   const bool is_modelled = options.computer.machine.has_value();
   return is_modelled && !options.pages.in_flight ? 1 : options.pages.in_flight;
 }
 
-svm::RunOptions svm_options(const RenderOptions& options) {
+svm::RunOptions svm_options(const StrategyOptions& options) {
   return {.node_count = options.computer.node_count,
           .node_memory_bytes = options.computer.node_memory_bytes,
           .cache_pages = options.pages.cache_pages,
@@ -31,7 +31,7 @@ svm::RunOptions svm_options(const RenderOptions& options) {
           .machine = options.computer.machine};
 }
 
-dataflow::RunOptions dataflow_options(const RenderOptions& options) {
+dataflow::RunOptions dataflow_options(const StrategyOptions& options) {
   return {.node_count = options.computer.node_count,
           .node_memory_bytes = options.computer.node_memory_bytes,
           .ray_batch = options.rays.ray_batch,
@@ -53,13 +53,13 @@ svm::Report run_with_embree(const core::Database& database, const core::RenderSe
 }
 
 /// svm and replicated.
-ReadyRun ready_with_pages(const RenderOptions& options, const core::Database& database, const core::RenderSettings& settings) {
-  const bool paged = options.strategy == Strategy::svm;
+ReadyRun ready_with_pages(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings) {
+  const bool paged = options.strategy == Strategy::svm, by_embree = options.tracer == TracerChoice::embree;
   const svm::RunOptions run = svm_options(options);
-  const auto start = [&options, &database, &settings, run, paged](const RunProgress& progress, std::stop_token stop) -> Report {
+  const auto start = [&database, &settings, run, paged, by_embree](const RunProgress& progress, std::stop_token stop) -> Report {
     svm::RunOptions watched = run;
     watched.progress = progress;
-    if (options.tracer == TracerChoice::embree) {
+    if (by_embree) {
       return run_with_embree(database, settings, watched, std::move(stop));
     }
     return paged ? svm::run_svm(database, settings, watched, std::move(stop))
@@ -69,39 +69,41 @@ ReadyRun ready_with_pages(const RenderOptions& options, const core::Database& da
   return {svm::plan_of(strategy, database, settings, run).notes, start};
 }
 
-ReadyRun ready_with_rays(const RenderOptions& options, const core::Database& database, const core::RenderSettings& settings) {
+ReadyRun ready_with_rays(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
+                         const std::stop_token& stop) {
   const dataflow::RunOptions run = dataflow_options(options);
-  const auto prepared = std::make_shared<const dataflow::Prepared>(dataflow::prepare(database, settings, run));
-  const auto start = [&settings, run, prepared](const RunProgress& progress, std::stop_token stop) -> Report {
+  const auto prepared = std::make_shared<const dataflow::Prepared>(dataflow::prepare(database, settings, run, stop));
+  const auto start = [&settings, run, prepared](const RunProgress& progress, std::stop_token stop_run) -> Report {
     dataflow::RunOptions watched = run;
     watched.progress = progress;
-    return dataflow::run_prepared(*prepared, settings, watched, std::move(stop));
+    return dataflow::run_prepared(*prepared, settings, watched, std::move(stop_run));
   };
   return {prepared->plan.notes, start};
 }
 
 }  // namespace
 
-RenderOptions with_machine(RenderOptions options, const nodes::Machine& machine) {
+void choose_machine(StrategyOptions& options, const nodes::Machine& machine) {
   options.computer.runner = RunnerKind::virtual_time;
   options.computer.machine = machine;
   options.rays.topology = machine.topology;
-  return options;
 }
 
-RenderOptions with_machine(RenderOptions options) {
+void choose_machine(StrategyOptions& options) {
   if (options.computer.runner == RunnerKind::threads) {
-    return options;
+    return;
   }
   nodes::Machine machine = load_machine(options.computer.machine_name).machine;
   machine.has_contention = machine.has_contention && !options.computer.no_contention;
-  return with_machine(std::move(options), machine);
+  machine.has_memory_port = machine.has_memory_port || options.computer.memory_port;
+  choose_machine(options, machine);
 }
 
-ReadyRun make_ready(const RenderOptions& options, const core::Database& database, const core::RenderSettings& settings) {
+ReadyRun make_ready(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
+                    const std::stop_token& stop) {
   core::expect(options.computer.machine.has_value() == (options.computer.runner == RunnerKind::virtual_time),
                "a modelled machine has been read");
-  return options.strategy == Strategy::dataflow ? ready_with_rays(options, database, settings)
+  return options.strategy == Strategy::dataflow ? ready_with_rays(options, database, settings, stop)
                                                 : ready_with_pages(options, database, settings);
 }
 

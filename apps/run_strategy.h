@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/render_options.h"
 #include "apps/report.h"
+#include "apps/strategy_options.h"
 #include "core/database.h"
 #include "core/pixel_task.h"
 
@@ -24,15 +24,17 @@ struct ReadyRun {
   std::function<Report(const RunProgress&, std::stop_token)> start;
 };
 
-/// The options with the machine that is modelled, if one is: read, with its links as asked for, and its topology as that onto
+/// Reads the machine that is to be modelled, if one is: with its links and ports as asked for, and its topology as that onto
 /// which regions are mapped. Throws core::InputError as load_machine() does.
-RenderOptions with_machine(RenderOptions options);
+void choose_machine(StrategyOptions& options);
 /// The same with this machine as it is.
-RenderOptions with_machine(RenderOptions options, const nodes::Machine& machine);
+void choose_machine(StrategyOptions& options, const nodes::Machine& machine);
 
-/// The options are such as with_machine() returns, or ask for threads. For dataflow it renders the subsampled picture. All
-/// arguments outlive the result. Throws core::UsageError for options that the strategy does not take, core::InputError if the
-/// nodes' memory is too small, naming what works.
-ReadyRun make_ready(const RenderOptions& options, const core::Database& database, const core::RenderSettings& settings);
+/// The options are such as choose_machine() leaves them. For dataflow it renders the subsampled picture, in haste once a stop is
+/// requested: then the result is good for a run that the same stop ends at once. `database` and `settings` outlive the result.
+/// Throws core::UsageError for options that the strategy does not take, core::InputError if the nodes' memory is too small,
+/// naming what works.
+ReadyRun make_ready(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
+                    const std::stop_token& stop = {});
 
 }  // namespace dmpc::apps

@@ -224,7 +224,7 @@ std::string stats_json(const RenderRecord& record) {
               {"hits", hits_json(account.operations)},
               {"operations", operations_json(account.operations)},
               {"seconds", seconds_json(record.seconds)}};
-  all.update(filled({"run_hash", "virtual_seconds", "time_percent", "events", "links"}, timed.all));
+  all.update(filled({"run_hash", "machine_digest", "virtual_seconds", "time_percent", "events", "links"}, timed.all));
   all.update({{"database", database_json(record.database)}, {"packets", all_packets_json(account, special.packets_overflowed)}});
   all.update(filled({"pages", "work", "travel", "load", "regions", "mapping", "pairs"}, special.all));
   all["chaos"] = chaos_json(account, special.chaos);

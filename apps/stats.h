@@ -40,7 +40,10 @@ struct RenderRecord {
 ///   operations     cell_steps, brick_reads, triangle_tests, sphere_tests, cone_tests, shadings, deposits_saturated
 ///   seconds        load, build, prepare (plan; for dataflow balance and deal), render, write (wall clock), user, system,
 ///                  render_user, render_system
-///   run_hash       of all events in virtual time, 16 hexadecimal digits: equal runs, equal hashes
+///   run_hash       of all events in virtual time (with the packets' targets, kinds and bytes), the machine's digest and the
+///   film,
+///                  16 hexadecimal digits: equal runs, equal hashes, on any computer and in every build type
+///   machine_digest of the machine's figures, switches and topology, but not its name
 ///   virtual_seconds   total (from the start to the last event), and summed over the nodes: computing, sending, receiving, stolen
 ///                  (by interrupts, from what there was to do), lent (to interrupts while there was nothing), waiting (by the
 ///                  kind of packet that ended it), end (nothing to do any more)
@@ -49,7 +52,11 @@ struct RenderRecord {
 ///                  idle_at_end (until a packet that ends the run, and after it)
 ///   events         in virtual time
 ///   links          messages, hops (links passed, summed over messages), wait (virtual seconds that messages stood before links
-///                  that others held, summed), busiest (virtual seconds that the busiest link was held)
+///                  that others held, summed), busiest (virtual seconds that the busiest link was held), used (links that carried
+///                  anything); summed over these: passages (of messages), bytes (headers included), busy (virtual seconds held).
+///                  columns {from, to, messages, bytes, busy, wait} and a row for each link, the busiest first, at most 256: all
+///                  there are on machines of up to 32 nodes. A wait counts for the link that became free last. The ends are "node
+///                  3", "host", "switch 0", "place 9" (a router without a node) and, of memory ports, "memory 3"
 ///   database       bytes, pages, page_size, primitives, references, dropped
 ///   packets        sent, received, bytes, overflow (by way of the host), and by_kind: packets and bytes
 ///   pages          references, hits, home_hits, cache_hits, misses, faults, evictions, served, distinct, distinct_per_pixel

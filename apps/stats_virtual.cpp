@@ -34,11 +34,26 @@ Json percent_json(const TimeParts& parts) {
   return result;
 }
 
+Json rows_json(const std::vector<nodes::LinkUse>& links) {
+  Json rows = Json::array();
+  for (const nodes::LinkUse& link : links) {
+    rows.push_back({link.from, link.to, link.messages, link.bytes, seconds(link.busy_ns), seconds(link.wait_ns)});
+  }
+  return rows;
+}
+
 Json links_json(const nodes::VirtualReport& report) {
+  const std::vector<nodes::LinkUse>& busiest = report.busiest_links;
   return {{"messages", report.links.messages},
           {"hops", report.links.hops},
           {"wait", seconds(report.links.wait_ns)},
-          {"busiest", seconds(report.busiest_link_ns)}};
+          {"busiest", busiest.empty() ? 0.0 : seconds(busiest.front().busy_ns)},
+          {"used", report.links_used},
+          {"passages", report.links.passages},
+          {"bytes", report.links.bytes},
+          {"busy", seconds(report.links.busy_ns)},
+          {"columns", {"from", "to", "messages", "bytes", "busy", "wait"}},
+          {"rows", rows_json(busiest)}};
 }
 
 }  // namespace
@@ -54,7 +69,10 @@ VirtualStats virtual_stats(const Account& account) {
     return {{"virtual_seconds", times_json(report.total_ns, times, account.kind_names)},
             {"time_percent", percent_json(parts_of(times, account.waits))}};
   };
-  stats.all = {{"run_hash", hash_text(report.hash)}, {"events", report.events}, {"links", links_json(report)}};
+  stats.all = {{"run_hash", hash_text(report.run_hash(account.film.hash()))},
+               {"machine_digest", hash_text(report.machine_digest)},
+               {"events", report.events},
+               {"links", links_json(report)}};
   stats.all.update(times_of(sum_of_nodes(report)));
   for (std::size_t node = 0; node < account.nodes.size(); ++node) {
     stats.nodes.push_back(times_of(report.nodes[node]));

@@ -8,6 +8,7 @@
 
 #include "apps/distinct_files.h"
 #include "apps/load_scene.h"
+#include "apps/machines.h"
 #include "apps/output_file.h"
 #include "apps/progress.h"
 #include "apps/stats.h"
@@ -25,6 +26,9 @@ void check_output(const StudyOptions& options) {
   std::vector<NamedFile> inputs;
   if (!core::find_scene_name(options.picture.scene)) {
     inputs.push_back({"SCENE", options.picture.scene});
+  }
+  if (!options.machine_name.empty() && find_machine_preset(options.machine_name) == nullptr) {
+    inputs.push_back({"--machine", options.machine_name});
   }
   check_distinct(inputs, {{"-o", *options.output}});
   check_output_path(*options.output, "-o");
@@ -48,7 +52,10 @@ std::string title_of(const std::string& study, const StudyOptions& options, cons
 }
 
 std::string film_note(const StudyRuns& runs) {
-  return "Film of every run, " + std::to_string(runs.count()) + " in all: " + hash_text(runs.film_hash().value_or(0)) + ".";
+  if (!runs.film_hash()) {
+    return "No picture was rendered.";
+  }
+  return "Film of every run, " + std::to_string(runs.count()) + " in all: " + hash_text(*runs.film_hash()) + ".";
 }
 
 void write(Table& table, const StudyRuns& runs, const StudyOptions& options, std::ostream& output) {
@@ -85,7 +92,7 @@ void carry_out(const OneStudy& study, const StudyOptions& options, Interrupt& in
     write(table, runs, options, output);
   } catch (const Interrupted&) {
     if (!table.rows().empty()) {
-      interrupt.set_consequence("the table ends with the rows finished before");
+      interrupt.set_consequence("the table has the rows finished before");
       table.add_note("Interrupted: rows are missing.");
       write(table, runs, options, output);
     }

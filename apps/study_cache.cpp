@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "apps/run_strategy.h"
 #include "apps/side_by_side.h"
 #include "core/elementary.h"
 #include "core/expect.h"
@@ -28,14 +29,23 @@ constexpr std::array run_policies = {Replacement::clock, Replacement::fifo, Repl
 /// Where a row's cells are.
 enum At : std::size_t { cache_pages_at, share_at, miss_ratio_at, lru_at, first_policy_at, optimum_at = 7, time_at };
 
-/// With these the references depend on neither cache nor machine, so any machine will do: the default one takes no time.
-svm::RunOptions fixed_order(std::uint32_t node_count) {
-  return {.node_count = node_count, .in_flight = 1, .work_item_side = 0, .machine = nodes::Machine()};
+/// svm on a machine, one pixel at a time on each node as the 1994 paper's nodes worked.
+StrategyOptions one_at_a_time(std::uint32_t node_count, const nodes::Machine& machine) {
+  StrategyOptions options{.computer = {.node_count = node_count}, .pages = {.in_flight = 1}};
+  choose_machine(options, machine);
+  return options;
 }
 
-/// As the 1994 paper's nodes worked: one pixel at a time, and work given to who has none.
-svm::RunOptions timed(std::uint32_t node_count, const nodes::Machine& machine) {
-  return {.node_count = node_count, .in_flight = 1, .machine = machine};
+/// With these the references depend on neither cache nor machine, so any machine will do: the default one takes no time.
+StrategyOptions fixed_order(std::uint32_t node_count) {
+  StrategyOptions options = one_at_a_time(node_count, nodes::Machine());
+  options.pages.work_item_side = 0;
+  return options;
+}
+
+/// The same with all references recorded.
+svm::RunOptions recording(std::uint32_t node_count) {
+  return {.node_count = node_count, .in_flight = 1, .work_item_side = 0, .record_references = true, .machine = nodes::Machine()};
 }
 
 /// What follows from the references, by size.
@@ -72,55 +82,68 @@ double percent(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// The rows of the table on their way: each is added once all of its runs, and those of all rows before, have ended.
+/// The rows of the table on their way: each is added if all of its runs have ended.
 class Sweep {
  public:
   Sweep(const CacheStudy& study, const Sizes& sizes, std::uint32_t page_count, const Curves& curves, Table& table)
       : node_count_(study.node_count), table_(table) {
-    if (study.machine && !sizes.empty()) {
-      add_job(timed(1, *study.machine), [this](const svm::Report& report) { one_node_ns_ = total_ns(report); });
-    }
     for (std::size_t row = 0; row < sizes.size(); ++row) {
       begin_row(sizes[row], page_count, curves, curves.optimum[row]);
+      if (row == 0 && study.machine) {
+        add_job(one_at_a_time(1, *study.machine), [this](const svm::Report& report) { one_node_ns_ = total_ns(report); });
+      }
       add_policies(sizes[row], has_choice(sizes[row], curves));
       if (study.machine) {
         add_timed(sizes[row], *study.machine);
       }
-      rows_.back().resize(table.columns().size());
+      rows_.back().cells.resize(table.columns().size());
     }
   }
   Sweep(const Sweep&) = delete;
   Sweep& operator=(const Sweep&) = delete;
 
+  /// After a signal the table has the rows whose runs had all ended.
   void carry_out(StudyRuns& runs) {
-    std::vector<svm::RunOptions> options;
+    std::vector<StrategyOptions> options;
     for (const Job& job : jobs_) {
       options.push_back(job.options);
     }
-    add_rows_before(jobs_.empty() ? rows_.size() : jobs_.front().row);
-    runs.run_side_by_side(options, [this](std::size_t index, const svm::Report& report) {
-      jobs_[index].take(report);
-      add_rows_before(index + 1 < jobs_.size() ? jobs_[index + 1].row : rows_.size());
+    runs.run_side_by_side(options, [this](std::size_t index, const StudyOutcome& outcome) {
+      if (!outcome.report) {
+        throw core::InputError(outcome.misfit);
+      }
+      jobs_[index].take(std::get<svm::Report>(*outcome.report));
+      --rows_[jobs_[index].row].jobs_left;
     });
+    for (const Row& row : rows_) {
+      if (row.jobs_left == 0) {
+        table_.add_row(row.cells);
+      }
+    }
   }
 
  private:
   struct Job {
     std::size_t row;  ///< that needs it
-    svm::RunOptions options;
+    StrategyOptions options;
     std::function<void(const svm::Report&)> take;
+  };
+  struct Row {
+    std::vector<Cell> cells;
+    std::size_t jobs_left = 0;
   };
 
   static std::uint64_t total_ns(const svm::Report& report) { return report.virtual_time->total_ns; }
 
-  /// For the row begun last; before the first for that.
-  void add_job(svm::RunOptions options, std::function<void(const svm::Report&)> take) {
-    jobs_.push_back({rows_.empty() ? 0 : rows_.size() - 1, std::move(options), std::move(take)});
+  /// For the row begun last.
+  void add_job(StrategyOptions options, std::function<void(const svm::Report&)> take) {
+    jobs_.push_back({rows_.size() - 1, std::move(options), std::move(take)});
+    ++rows_.back().jobs_left;
   }
 
   void begin_row(std::uint32_t cache_pages, std::uint32_t page_count, const Curves& curves, std::uint64_t optimum) {
     const std::uint64_t misses = curves.lru.misses(cache_pages);
-    std::vector<Cell>& row = rows_.emplace_back(time_at);
+    std::vector<Cell>& row = rows_.emplace_back(Row{std::vector<Cell>(time_at)}).cells;
     row[cache_pages_at] = std::uint64_t{cache_pages};
     row[share_at] = percent(cache_pages, page_count);
     row[miss_ratio_at] = percent(misses, curves.references);
@@ -132,20 +155,20 @@ class Sweep {
     for (std::size_t i = 0; i < run_policies.size(); ++i) {
       const std::size_t row = rows_.size() - 1, column = first_policy_at + i;
       if (!is_run) {
-        rows_[row][column] = rows_[row][lru_at];
+        rows_[row].cells[column] = rows_[row].cells[lru_at];
         continue;
       }
-      svm::RunOptions options = fixed_order(node_count_);
-      options.cache_pages = cache_pages;
-      options.replacement = run_policies[i];
-      add_job(options, [this, row, column](const svm::Report& report) { rows_[row][column] = report.pages().faults; });
+      StrategyOptions options = fixed_order(node_count_);
+      options.pages.cache_pages = cache_pages;
+      options.pages.replacement = run_policies[i];
+      add_job(options, [this, row, column](const svm::Report& report) { rows_[row].cells[column] = report.pages().faults; });
     }
   }
 
   void add_timed(std::uint32_t cache_pages, const nodes::Machine& machine) {
-    svm::RunOptions options = timed(node_count_, machine);
-    options.cache_pages = cache_pages;
-    add_job(options, [this, row = rows_.size() - 1](const svm::Report& report) { fill_times(rows_[row], report); });
+    StrategyOptions options = one_at_a_time(node_count_, machine);
+    options.pages.cache_pages = cache_pages;
+    add_job(options, [this, row = rows_.size() - 1](const svm::Report& report) { fill_times(rows_[row].cells, report); });
   }
 
   void fill_times(std::vector<Cell>& row, const svm::Report& report) const {
@@ -153,22 +176,15 @@ class Sweep {
     const std::uint64_t page_bytes = report.sent()[svm::number_of(svm::Kind::page_reply)].bytes;
     const bool takes_time = total_ns(report) > 0;
     row[time_at] = seconds;
-    row[time_at + 1] = takes_time ? Cell(percent(one_node_ns_, node_count_ * total_ns(report))) : Cell();
+    row[time_at + 1] = takes_time && one_node_ns_ ? Cell(percent(*one_node_ns_, node_count_ * total_ns(report))) : Cell();
     row[time_at + 2] =
         takes_time ? Cell(static_cast<std::uint64_t>(static_cast<double>(page_bytes) / node_count_ / seconds)) : Cell();
   }
 
-  void add_rows_before(std::size_t end) {
-    for (; rows_added_ < end; ++rows_added_) {
-      table_.add_row(rows_[rows_added_]);
-    }
-  }
-
   std::uint32_t node_count_;
   Table& table_;
-  std::uint64_t one_node_ns_ = 0;
-  std::vector<std::vector<Cell>> rows_;
-  std::size_t rows_added_ = 0;
+  std::optional<std::uint64_t> one_node_ns_;
+  std::vector<Row> rows_;
   std::vector<Job> jobs_;  ///< in the order of their rows
 };
 
@@ -212,9 +228,7 @@ std::vector<Column> CacheStudy::columns() const {
 }
 
 void CacheStudy::measure(StudyRuns& runs, Table& table) const {
-  svm::RunOptions recording = fixed_order(node_count);
-  recording.record_references = true;
-  svm::Report recorded = runs.run(std::to_string(node_count) + " nodes, recording", recording);
+  svm::Report recorded = runs.run(std::to_string(node_count) + " nodes, recording", recording(node_count));
   const std::uint32_t page_count = recorded.plan.request.page_count;
   const Sizes sizes =
       cache_pages.empty() ? geometric_sizes(page_count - page_count / node_count, standard_size_count) : cache_pages;
@@ -222,6 +236,7 @@ void CacheStudy::measure(StudyRuns& runs, Table& table) const {
   recorded = {.film = core::Film(1, 1)};  // the references take much memory
   Sweep(*this, sizes, page_count, curves, table).carry_out(runs);
   table.add_note(needs_note(curves.lru));
+  runs.check();
 }
 
 std::vector<std::string> CacheStudy::notes(const std::string& scene) const {

@@ -9,6 +9,7 @@
 #include "apps/machine_file.h"
 #include "apps/machines.h"
 #include "apps/region_options.h"
+#include "apps/run_strategy.h"
 #include "core/expect.h"
 #include "dataflow/bsp.h"
 #include "svm/plan.h"
@@ -44,20 +45,31 @@ std::string listed(const std::vector<std::uint32_t>& counts) {
   return text;
 }
 
-void add_node_counts(OptionSet& set, std::vector<std::uint32_t>& counts) {
+void add_node_counts(OptionSet& set, std::vector<std::uint32_t>& counts, std::uint32_t most = dataflow::region_count_max) {
   set.add_text(
       "--nodes", "N,N,... [" + listed(counts) + "]",
-      [&counts](const std::string& text) { counts = parse_numbers(text, "--nodes", dataflow::region_count_max); },
+      [&counts, most](const std::string& text) { counts = parse_numbers(text, "--nodes", most); },
       "Nodes of the computers, one after the other");
+}
+
+/// In the end: the options go together, and the machine is read.
+void finish(const OptionSet& set, SpeedupStudy& study) {
+  check_together(set, study.run);
+  for (const std::uint32_t node_count : study.node_counts) {
+    check_node_count(study.run.strategy, node_count);
+  }
+  choose_machine(study.run);
 }
 
 /// One overload a study: its own options, and examples.
 struct AddOwn {
   OptionSet& set;
+  std::string& machine_name;
 
   void operator()(BalanceStudy& study) const {
     add_node_counts(set, study.node_counts);
-    add_region_options(set, study.regions, study.topology);
+    add_region_options(set, study.regions);
+    add_topology_option(set, study.topology);
     set.add_flag("--per-node", study.per_node, "Show each node's share of the work, too");
     set.set_examples(
         "Examples:\n"
@@ -78,7 +90,11 @@ struct AddOwn {
         [&study](const std::string& text) { study.cache_pages = parse_numbers(text, "--cache-pages", cache_pages_max); },
         "Sizes of the caches in pages");
     set.add_text(
-        "--machine", "NAME|FILE.json", [&study](const std::string& text) { study.machine = load_machine(text).machine; },
+        "--machine", "NAME|FILE.json",
+        [&study, &file = machine_name](const std::string& text) {
+          study.machine = load_machine(text).machine;
+          file = text;
+        },
         "The machine that the study is timed on, in virtual time: one of " + machine_preset_names() + ", or a file");
     set.set_examples(
         "Examples:\n"
@@ -86,17 +102,22 @@ struct AddOwn {
         "  dmpc study cache tetra-9 --nodes=32 --machine=ipsc2 --resolution=512x512 --format=csv -o tetra.csv");
   }
   void operator()(SpeedupStudy& study) const {
-    add_node_counts(set, study.node_counts);
-    set.add_choice<SpeedupStrategy>("--strategy", study.strategy,
-                                    {{"svm", SpeedupStrategy::svm}, {"dataflow", SpeedupStrategy::dataflow}},
-                                    "What travels: pages or rays");
-    set.add_text(
-        "--machine", "NAME|FILE.json [ipsc2]", [&study](const std::string& text) { study.machine = load_machine(text).machine; },
-        "The modelled machine: one of " + machine_preset_names() + ", or a file");
+    add_node_counts(set, study.node_counts, svm::node_count_max);
+    add_strategy_option(set, study.run.strategy);
+    add_memory_option(set, study.run.computer.node_memory_bytes);
+    add_machine_options(set, study.run.computer, "");
+    add_page_options(set, study.run.pages);
+    add_ray_options(set, study.run.rays);
+    set.check_in_the_end([set = set, &study, &file = machine_name] {
+      file = study.run.computer.machine_name;
+      finish(set, study);
+    });
     set.set_examples(
         "Examples:\n"
         "  dmpc study speedup rings-4-t1\n"
-        "  dmpc study speedup teapot-12 --strategy=dataflow --machine=hdr --nodes=1,16,256,1024");
+        "  dmpc study speedup rings-4-t1 --node-memory=1MiB --replacement=clock --in-flight=4 --format=csv -o rings.csv\n"
+        "  dmpc study speedup teapot-12 --strategy=dataflow --machine=hdr --nodes=1,16,256,1024\n"
+        "A number of nodes whose memory cannot hold the scene has a row without figures, and a note that says what would do.");
   }
 };
 
@@ -105,11 +126,11 @@ struct AddOwn {
 void add_options(OptionSet set, StudyOptions& options) {
   add_options(set, options.picture);
   add_options(set, options.database);
-  std::visit(AddOwn{set}, options.study);
   set.add_choice<TableFormat>("--format", options.format,
                               {{"markdown", TableFormat::markdown}, {"csv", TableFormat::csv}, {"json", TableFormat::json}},
                               "How the table is written");
   set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
+  std::visit(AddOwn{set, options.machine_name}, options.study);
 }
 
 }  // namespace dmpc::apps

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <variant>
 
 #include "apps/command_line.h"
@@ -26,6 +27,7 @@ struct StudyOptions {
   DatabaseOptions database;
   TableFormat format = TableFormat::markdown;
   std::optional<std::filesystem::path> output;  ///< stdout if not given
+  std::string machine_name;                     ///< as given on the command line, if it was
 };
 
 /// Declares those that all studies share, and those of the study that `options` holds now.

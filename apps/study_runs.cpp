@@ -1,13 +1,44 @@
 #include "apps/study_runs.h"
 
 #include <memory>
+#include <mutex>
 #include <utility>
 
 #include "apps/progress.h"
+#include "apps/run_strategy.h"
 #include "apps/side_by_side.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
+namespace {
+
+/// The pixels of many runs at once, on one line.
+///
+/// Thread safety: any thread; a lock that nobody holds for longer than it takes to write the line.
+class CommonProgress {
+ public:
+  CommonProgress(Progress& line, std::size_t run_count, std::uint64_t pixels_each)
+      : line_(line), pixels_each_(pixels_each), done_of_run_(run_count, 0) {}
+
+  void update(std::size_t run, std::uint64_t done) {
+    const std::lock_guard lock(mutex_);
+    if (done > done_of_run_[run]) {
+      done_ += done - done_of_run_[run];
+      done_of_run_[run] = done;
+      line_.update(done_, pixels_each_ * done_of_run_.size());
+    }
+  }
+  void finish(std::size_t run) { update(run, pixels_each_); }
+
+ private:
+  Progress& line_;
+  std::uint64_t pixels_each_;
+  std::mutex mutex_;
+  std::vector<std::uint64_t> done_of_run_;
+  std::uint64_t done_ = 0;
+};
+
+}  // namespace
 
 StudyRuns::StudyRuns(const core::Database& database, const core::RenderSettings& settings, const StudyProgress& progress,
                      const Interrupt& interrupt)
@@ -41,21 +72,41 @@ svm::Report StudyRuns::run(const std::string& computer, svm::RunOptions options)
   return run_shown(computer, std::move(options), svm::run_svm);
 }
 
-void StudyRuns::run_side_by_side(std::span<const svm::RunOptions> runs,
-                                 const std::function<void(std::size_t, const svm::Report&)>& take) {
-  Progress progress(progress_.output, progress_.is_shown, "runs " + numbers(runs.size()) + ", side by side: ");
-  const std::uint64_t pixel_count = settings_.camera.pixel_count();
+/// Nothing if a signal kept it from its end.
+std::optional<StudyOutcome> StudyRuns::outcome_of(const StrategyOptions& run,
+                                                  const std::function<void(std::uint32_t, std::uint32_t)>& progress) const {
+  core::expect(run.computer.machine.has_value(), "runs side by side have no threads");
+  StudyOutcome outcome;
+  try {
+    const ReadyRun ready = make_ready(run, database_, settings_, interrupt_.token());
+    outcome.notes = ready.notes;
+    outcome.report = ready.start(progress, interrupt_.token());
+  } catch (const core::InputError& error) {
+    outcome.misfit = error.what();
+  }
+  const bool is_stopped = outcome.report ? account_of(*outcome.report).end == nodes::RunEnd::interrupted : interrupt_.requested();
+  return is_stopped ? std::nullopt : std::optional(std::move(outcome));
+}
+
+void StudyRuns::run_side_by_side(std::span<const StrategyOptions> runs, const Take& take) {
+  Progress line(progress_.output, progress_.is_shown, "runs " + numbers(runs.size()) + ", side by side: ");
+  CommonProgress progress(line, runs.size(), settings_.camera.pixel_count());
   side_by_side(runs.size(), [&](std::size_t index) -> std::function<void()> {
-    core::expect(runs[index].machine.has_value(), "runs side by side have no threads");
-    check();
-    const auto report = std::make_shared<const svm::Report>(svm::run_svm(database_, settings_, runs[index], interrupt_.token()));
-    check();
-    core::expect(report->end == nodes::RunEnd::finished, "a run that nobody stopped is finished");
-    return [&, index, report] {
-      compare(report->film);
-      ++count_;
-      take(index, *report);
-      progress.update((index + 1) * pixel_count, runs.size() * pixel_count);
+    if (interrupt_.requested()) {
+      return [] {};
+    }
+    const auto update = [&progress, index](std::uint32_t done, std::uint32_t) { progress.update(index, done); };
+    const auto outcome = std::make_shared<const std::optional<StudyOutcome>>(outcome_of(runs[index], update));
+    if (!*outcome) {
+      return [] {};
+    }
+    return [&, index, outcome] {
+      if ((*outcome)->report) {
+        compare(account_of(*(*outcome)->report).film);
+        ++count_;
+      }
+      take(index, **outcome);
+      progress.finish(index);
     };
   });
 }

@@ -8,8 +8,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "apps/interrupt.h"
+#include "apps/report.h"
+#include "apps/strategy_options.h"
 #include "core/database.h"
 #include "core/film.h"
 #include "core/pixel_task.h"
@@ -25,6 +28,13 @@ struct StudyProgress {
   std::uint32_t run_count = 0;  ///< of the whole study; 0: not known
 };
 
+/// What became of a run on a modelled machine.
+struct StudyOutcome {
+  std::optional<Report> report;    ///< of a finished run
+  std::string misfit;              ///< without one: why the scene does not fit, naming the memory and what would do
+  std::vector<std::string> notes;  ///< what had to be reduced to fit: sentences
+};
+
 /// Not thread-safe. What it is made from outlives it.
 class StudyRuns {
  public:
@@ -37,9 +47,12 @@ class StudyRuns {
   dataflow::Report run(const std::string& computer, dataflow::RunOptions options);
   svm::Report run(const std::string& computer, svm::RunOptions options);
 
-  /// The same for runs on modelled machines, which have no threads, as many at a time as the real computer has cores. Calls
-  /// take(i, report) for runs[i]: one at a time, in the order of i, on any thread.
-  void run_side_by_side(std::span<const svm::RunOptions> runs, const std::function<void(std::size_t, const svm::Report&)>& take);
+  /// Told of runs[i]: one at a time, in the order of i, on any thread.
+  using Take = std::function<void(std::size_t, const StudyOutcome&)>;
+  /// Renders by any strategies on modelled machines, which have no threads, as many at a time as the real computer has cores.
+  /// After a signal the runs that it stopped or kept from beginning are left out, and check() throws. Throws core::UsageError for
+  /// options that their strategy does not take, and core::InternalError if a film is not the first run's.
+  void run_side_by_side(std::span<const StrategyOptions> runs, const Take& take);
 
   /// Throws Interrupted if a signal has come. From any thread.
   void check() const { interrupt_.check(); }
@@ -56,6 +69,8 @@ class StudyRuns {
   std::string numbers(std::size_t run_count) const;
   template <class Options, class Render>
   auto run_shown(const std::string& computer, Options options, const Render& render);
+  std::optional<StudyOutcome> outcome_of(const StrategyOptions& run,
+                                         const std::function<void(std::uint32_t, std::uint32_t)>& progress) const;
 
   const core::Database& database_;
   const core::RenderSettings& settings_;

@@ -6,32 +6,33 @@
 #include <vector>
 
 #include "apps/machines.h"
+#include "apps/strategy_options.h"
 #include "apps/study_runs.h"
 #include "apps/study_table.h"
-#include "apps/time_parts.h"
 #include "nodes/machine.h"
 
 namespace dmpc::apps {
 
-/// What travels in the study.
-enum class SpeedupStrategy : std::uint8_t { svm, dataflow };
-
-/// For each node count the virtual time on one machine, speedup and efficiency against the first count, and where the nodes' time
-/// goes.
+/// For each node count the virtual time on one machine, speedup and efficiency against the first count that the scene fits, and
+/// where the nodes' time goes.
 struct SpeedupStudy {
   static constexpr const char* name = "speedup";
   static constexpr const char* description = "How much faster a modelled machine gets by more nodes";
 
   std::vector<std::uint32_t> node_counts = {1, 2, 4, 8, 16, 32, 64};
-  SpeedupStrategy strategy = SpeedupStrategy::svm;
-  nodes::Machine machine = find_machine_preset("ipsc2")->machine;
+  /// What all runs have in common, their machine included; its node count is without meaning.
+  StrategyOptions run = standard_run();
+
+  /// svm on the ipsc2.
+  static StrategyOptions standard_run();
 
   std::vector<Column> columns() const;
   /// How many times measure() renders.
   std::uint32_t run_count() const { return static_cast<std::uint32_t>(node_counts.size()); }
-  /// Adds to `table`, which has columns(), row after row as the runs end. Throws as StudyRuns::run() does.
+  /// Adds to `table`, which has columns(), a row for each node count, those that were finished after a signal; and notes: why a
+  /// row is empty (the scene does not fit so many nodes), and what was reduced to fit. Throws as StudyRuns does.
   void measure(StudyRuns& runs, Table& table) const;
-  /// What the columns mean.
+  /// What the columns mean, and what runs.
   std::vector<std::string> notes(const std::string& scene) const;
 };
 

@@ -98,9 +98,11 @@ std::string virtual_lines(const Account& account, const std::optional<nodes::Mac
   }
   const nodes::VirtualReport& report = *account.virtual_time;
   const std::string time = fixed(static_cast<double>(report.total_ns) / 1e9, 6) + " s on " + machine->name;
-  return "virtual  " + time + (machine->has_contention ? "" : " without contention") + ", " + counted(report.events, "event") +
-         ", run " + hash_text(report.hash) + "\nlosses   " +
-         parts_text(parts_of(sum_of_nodes(report), account.waits), account.waits) + "\n";
+  const std::string links =
+      machine->has_contention ? machine->has_memory_port ? " with memory ports" : "" : " without contention";
+  return "virtual  " + time + links + ", " + counted(report.events, "event") + "; run_hash " +
+         hash_text(report.run_hash(account.film.hash())) + ", machine_digest " + hash_text(report.machine_digest) +
+         "\nlosses   " + parts_text(parts_of(sum_of_nodes(report), account.waits), account.waits) + "\n";
 }
 
 std::string time_text(const Seconds& seconds) {

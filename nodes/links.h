@@ -1,51 +1,78 @@
 // The wires of a modelled machine, each with the time at which it is free again.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "nodes/machine.h"
 #include "nodes/topology.h"
 
 namespace dmpc::nodes {
 
-/// What the links of a run have carried.
+/// What one link has carried. A node's memory port counts as a link each way, between the node's memory and the node.
+struct LinkUse {
+  std::string from, to;        ///< "node 3", "host", "switch 0", "place 9" (a router without a node), "memory 3"
+  std::uint64_t messages = 0;  ///< that passed it
+  std::uint64_t bytes = 0;     ///< of them, headers included
+  std::uint64_t busy_ns = 0;   ///< held by them
+  std::uint64_t wait_ns = 0;   ///< that messages waited and this was the last of their links to become free
+};
+
+/// What the links of a run have carried together.
 struct LinkTraffic {
-  std::uint64_t messages = 0;
-  std::uint64_t hops = 0;     ///< links passed, summed over messages
-  std::uint64_t wait_ns = 0;  ///< that messages stood before links that others held, summed
+  std::uint64_t messages = 0;  ///< from a node to another one
+  std::uint64_t hops = 0;      ///< links passed, memory ports aside, summed over messages
+  std::uint64_t passages = 0;  ///< links and memory ports passed, summed over messages
+  std::uint64_t bytes = 0;     ///< of the messages, summed over passages
+  std::uint64_t busy_ns = 0;   ///< of the links and memory ports, summed
+  std::uint64_t wait_ns = 0;   ///< that messages stood before links that others held, summed
 };
 
 /// Circuit switching: a message reserves every link of its route for the whole time of its passage and waits until all are free.
-/// The host hangs on node 0 by a link of its own in each direction. Deterministic; belongs to one run.
+/// The host hangs on node 0 by a link of its own in each direction. If the machine has memory ports, every node but the host,
+/// whose only link is one, has one in each direction: the first and the last link of a route. Without contention nothing is ever
+/// waited for. Deterministic; belongs to one run.
 class Links {
  public:
-  /// Without contention every message finds its links free.
-  Links(const Topology& topology, bool has_contention);
+  /// `node_count` is without the host, at least 1.
+  Links(const Machine& machine, std::uint32_t node_count);
 
-  /// The host is node topology.node_count().
+  /// Links of the way, without memory ports. The host is node `node_count`.
   std::uint32_t hops(NodeId source, NodeId target) const;
-  /// Sends a message into the network at `now_ns` that needs `passage_ns` from its first to its last byte: when it has arrived. A
-  /// message from a node to itself passes no link and arrives at once.
-  std::uint64_t pass(NodeId source, NodeId target, std::uint64_t now_ns, std::uint64_t passage_ns);
+  /// Sends a message of so many bytes into the network at `now_ns`: when it has arrived. From its first byte to its last it takes
+  /// the machine's hop_ns for each hop and its byte_ps for each byte. A message from a node to itself passes no link and arrives
+  /// at once.
+  std::uint64_t pass(NodeId source, NodeId target, std::uint64_t now_ns, std::uint64_t bytes);
 
   const LinkTraffic& traffic() const { return traffic_; }
-  /// The time that the busiest link was held.
-  std::uint64_t busiest_ns() const;
+  /// At most `count` of the links that carried anything: those that were held longest, the longest first, equal ones in the order
+  /// of their ends.
+  std::vector<LinkUse> busiest(std::size_t count) const;
+  /// How many links and memory ports carried anything.
+  std::size_t used_count() const;
+  /// Expects that what the links carried adds up to traffic().
+  void expect_sums() const;
 
  private:
   struct Wire {
     std::uint32_t to = 0;
     std::uint64_t free_at_ns = 0;
-    std::uint64_t held_ns = 0;
+    std::uint64_t messages = 0, bytes = 0, busy_ns = 0, wait_ns = 0;
   };
 
+  std::uint32_t host_place() const { return topology_.place_count(); }
+  std::uint32_t memory_place(std::uint32_t node) const { return host_place() + 1 + node; }
+  std::string place_name(std::uint32_t place) const;
   Wire& wire(const Link& link);
   void find_route(NodeId source, NodeId target);
+  std::uint64_t start_ns(std::uint64_t now_ns);
 
   Topology topology_;
-  bool has_contention_;
-  std::vector<std::vector<Wire>> wires_;  ///< by the place where they begin; the host's place is the last
-  std::vector<Link> links_;               ///< of the message that is passing
+  Machine machine_;
+  std::vector<std::vector<Wire>> wires_;  ///< by the place where they begin, then by that where they end
+  std::vector<Link> links_;               ///< of the message that is passing, memory ports included
   std::vector<Wire*> route_;              ///< the same links' wires
   LinkTraffic traffic_;
 };

@@ -33,6 +33,8 @@ struct Machine {
   std::uint64_t service_ns = 0;                       ///< of an interrupt, beside receiving and sending
   std::array<std::uint64_t, charge_count> cost_ps{};  ///< of an operation, by Charge
   bool has_contention = true;                         ///< a link carries one message at a time
+  /// A node, however many links it has, sends one message at a time and receives one at a time. Without contention of no effect.
+  bool has_memory_port = false;
 
   /// The cost of a message of `bytes`, header included.
   const MessageCost& cost_of_message(std::uint64_t bytes) const {
@@ -46,6 +48,8 @@ struct Machine {
     }
     return sum_ps;
   }
+  /// A hash of all that decides a run: every figure and switch and the topology, but not the name. The same on every computer.
+  std::uint64_t digest() const;
 };
 
 }  // namespace dmpc::nodes

@@ -128,9 +128,7 @@ struct Processor final : Network {
 
 struct VirtualRunner::Implementation {
   Implementation(std::span<const NodeSpecification> specifications, const Machine& model)
-      : machine(model),
-        links(Topology(model.topology, static_cast<std::uint32_t>(std::max<std::size_t>(specifications.size(), 2) - 1)),
-              model.has_contention) {
+      : machine(model), links(model, static_cast<std::uint32_t>(std::max<std::size_t>(specifications.size(), 2) - 1)) {
     core::expect(!specifications.empty(), "a computer has at least the host");
     const auto peer_count = static_cast<std::uint32_t>(specifications.size());
     for (std::uint32_t i = 0; i < peer_count; ++i) {
@@ -161,8 +159,7 @@ struct VirtualRunner::Implementation {
                   computer.processors[event.source]->occupied_until_ns);  // delayed
     }
     ++result.events;
-    result.hash = core::mix(result.hash ^ event.time_ns);
-    result.hash = core::mix(result.hash ^ (std::uint64_t{event.source} << 8U | static_cast<std::uint64_t>(event.kind)));
+    take_into_hash(event);
     switch (event.kind) {
       case Event::Kind::enters:
         return enter(event.packet);
@@ -170,6 +167,16 @@ struct VirtualRunner::Implementation {
         return arrive(event.packet);
       case Event::Kind::is_free:
         return become_free(*computer.processors[event.source]);
+    }
+  }
+
+  void take_into_hash(const Event& event) {
+    result.hash = core::mix(result.hash ^ event.time_ns);
+    result.hash = core::mix(result.hash ^ (std::uint64_t{event.source} << 8U | static_cast<std::uint64_t>(event.kind)));
+    if (event.kind != Event::Kind::is_free) {
+      const Message& message = computer.messages[event.packet];
+      const std::uint64_t to = std::uint64_t{index_of(message.target)} << 8U | message.header.kind;
+      result.hash = core::mix(result.hash ^ (to << 32U | message.bytes()));
     }
   }
 
@@ -190,10 +197,8 @@ struct VirtualRunner::Implementation {
     const Message& message = computer.messages[number];
     const NodeId source{message.header.source};
     Processor& sender = *computer.processors[index_of(source)];
-    const std::uint64_t bytes_ps = message.bytes() * machine.cost_of_message(message.bytes()).byte_ps;
-    const std::uint64_t passage_ns = links.hops(source, message.target) * machine.hop_ns + bytes_ps / 1000;
     std::uint64_t& arrives_ns = sender.ways[index_of(message.target)].last_arrives_ns;
-    arrives_ns = std::max(arrives_ns, links.pass(source, message.target, events.now_ns(), passage_ns));
+    arrives_ns = std::max(arrives_ns, links.pass(source, message.target, events.now_ns(), message.bytes()));
     post(sender, Event::Kind::arrives, arrives_ns, number);
   }
 
@@ -313,8 +318,11 @@ struct VirtualRunner::Implementation {
       core::expect(times.total_ns() == result.total_ns, "the parts of a node's time add up to the run's");
       result.nodes.push_back(times);
     }
+    result.machine_digest = machine.digest();
+    links.expect_sums();
     result.links = links.traffic();
-    result.busiest_link_ns = links.busiest_ns();
+    result.links_used = links.used_count();
+    result.busiest_links = links.busiest(busiest_links_max);
   }
 
   void expect_nothing_lost() const {

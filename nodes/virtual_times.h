@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <vector>
 
+#include "core/sampling.h"
 #include "nodes/links.h"
 #include "nodes/packet.h"
 
@@ -29,14 +31,24 @@ struct VirtualTimes {
   }
 };
 
+/// All links of machines with up to 32 nodes, as a rule.
+inline constexpr std::size_t busiest_links_max = 256;
+
 /// What a run came to in virtual time.
 struct VirtualReport {
   std::uint64_t total_ns = 0;  ///< from the start to the last event
   std::uint64_t events = 0;
-  std::uint64_t hash = 0;  ///< over (time, source, kind) of all events
+  /// Over all events in order: time, source and kind, and of a message its target, kind and bytes.
+  std::uint64_t hash = 0;
+  std::uint64_t machine_digest = 0;  ///< Machine::digest()
   LinkTraffic links;
-  std::uint64_t busiest_link_ns = 0;
-  std::vector<VirtualTimes> nodes;  ///< in order, the host last
+  std::size_t links_used = 0;          ///< that carried anything, memory ports included
+  std::vector<LinkUse> busiest_links;  ///< as Links::busiest(), at most busiest_links_max
+  std::vector<VirtualTimes> nodes;     ///< in order, the host last
+
+  /// Of a whole run: its events, its machine and what it has produced (a hash of it). Equal runs, equal hashes, on any computer
+  /// and in every build type.
+  std::uint64_t run_hash(std::uint64_t product_hash) const { return core::mix(core::mix(hash ^ machine_digest) ^ product_hash); }
 };
 
 }  // namespace dmpc::nodes

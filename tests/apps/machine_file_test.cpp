@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,7 @@ TEST_CASE("what is printed of a machine reads back as the same") {
     CHECK(again.machine.short_bytes_max == preset.machine.short_bytes_max);
     CHECK(again.machine.long_message.receive_ns == preset.machine.long_message.receive_ns);
     CHECK(again.machine.cost_ps == preset.machine.cost_ps);
+    CHECK(again.machine.digest() == preset.machine.digest());
   }
 }
 
@@ -65,7 +67,8 @@ TEST_CASE("every figure reaches its own field") {
     "short_message": {"send_ns": 2, "latency_ns": 3, "receive_ns": 4, "byte_ps": 5},
     "long_message": {"byte_ps": 9, "send_ns": 6, "latency_ns": 7, "receive_ns": 8}, "hop_ns": 10, "service_ns": 11,
     "operation_ps": {"ray_setup": 12, "cell_step": 13, "brick_read": 14, "triangle_test": 15, "sphere_test": 16, "cone_test": 17,
-      "shading": 18, "home_lookup": 19, "cached_lookup": 20, "page_install": 21, "ray_packing": 22}, "has_contention": false})";
+      "shading": 18, "home_lookup": 19, "cached_lookup": 20, "page_install": 21, "ray_packing": 22}, "has_contention": false,
+    "has_memory_port": true})";
   const MachineDescription description = parse_machine(text, "m.json");
   const nodes::Machine& machine = description.machine;
   CHECK(machine.name == "mine");
@@ -78,6 +81,7 @@ TEST_CASE("every figure reaches its own field") {
   CHECK(machine.service_ns == 11);
   CHECK(machine.cost_ps == std::array<std::uint64_t, nodes::charge_count>{12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22});
   CHECK_FALSE(machine.has_contention);
+  CHECK(machine.has_memory_port);
   CHECK(description.sources.empty());
 }
 
@@ -94,6 +98,7 @@ TEST_CASE("a key that is unknown, missing or there twice is named") {
   CHECK(complaint_with("\"service_ns\": 200000,", "") == "m.json: service_ns: this key is missing");
   CHECK(says(complaint_with("\"send_ns\": 160000,", ""), "m.json: short_message.send_ns: this key is missing"));
   CHECK(says(complaint("{}"), "m.json: name: this key is missing"));
+  CHECK(says(complaint_with("\"has_memory_port\": false", "\"sources\": {}"), "m.json: \"sources\": this key is given twice"));
   CHECK(says(complaint_with("\"hop_ns\"", "\"service_ns\": 1, \"hop_ns\""), "m.json: \"service_ns\": this key is given twice"));
 }
 
@@ -107,6 +112,7 @@ TEST_CASE("a value of the wrong type or out of range is named with what was expe
   CHECK(says(complaint_with("\"home_lookup\": 0", "\"home_lookup\": 100000000001"), "operation_ps.home_lookup: expected"));
   CHECK(says(complaint_with("\"short_bytes_max\": 100", "\"short_bytes_max\": 1000000001"), "short_bytes_max: expected"));
   CHECK(says(complaint_with("true", "1"), "m.json: has_contention: expected true or false, got 1"));
+  CHECK(says(complaint_with("false", "\"no\""), "m.json: has_memory_port: expected true or false, got \"no\""));
   CHECK(says(complaint_with("\"hypercube\"", "3"), "m.json: topology: expected a text, got 3"));
   CHECK(says(complaint_with("\"hypercube\"", "\"ring\""), "m.json: topology: there is no topology \"ring\": use one of "));
   CHECK(says(complaint_with("\"ipsc2\"", "2"), "m.json: name: expected a text, got 2"));
@@ -126,6 +132,22 @@ TEST_CASE("what is no JSON is named with its place") {
   CHECK(says(complaint_with("10300", "1e999"), "m.json: a number is out of all range"));
   for (const std::string other : {"3", "[]", "null", "\"ipsc2\""}) {
     CHECK(says(complaint(other), "m.json: expected an object of a machine's figures"));
+  }
+}
+
+TEST_CASE("every key but the sources must be there") {
+  const auto whole = nlohmann::ordered_json::parse(plain_text());
+  for (const auto& [key, value] : whole.items()) {
+    auto rest = whole;
+    rest.erase(key);
+    CHECK(complaint(rest.dump()) == (key == "sources" ? "" : "m.json: " + key + ": this key is missing"));
+    for (const auto& [inner, unused] : value.items()) {
+      if (value.is_object()) {
+        rest = whole;
+        rest[key].erase(inner);
+        CHECK(complaint(rest.dump()) == "m.json: " + key + "." + inner + ": this key is missing");
+      }
+    }
   }
 }
 

@@ -75,6 +75,7 @@ TEST_CASE("every machine takes time for messages and contends for links") {
     }
     CHECK(preset.machine.hop_ns > 0);
     CHECK(preset.machine.has_contention);
+    CHECK_FALSE(preset.machine.has_memory_port);
   }
 }
 

@@ -208,11 +208,13 @@ TEST_CASE("threads drive the computer unless a machine is to be modelled") {
   const ComputerOptions given = render({"--runner=virtual", "--machine=my.json", "--no-contention"}).computer;
   CHECK(given.machine_name == "my.json");
   CHECK(given.no_contention);
+  CHECK_FALSE(given.memory_port);
+  CHECK(render({"--runner=virtual", "--memory-port"}).computer.memory_port);
   CHECK(render({"--runner=threads", "--chaos=1"}).computer.runner == RunnerKind::threads);
 }
 
 TEST_CASE("an option of the other runner is refused with the reason") {
-  for (const std::string option : {"--machine=ipsc2", "--no-contention"}) {
+  for (const std::string option : {"--machine=ipsc2", "--no-contention", "--memory-port"}) {
     for (const std::string strategy : {"svm", "replicated", "dataflow"}) {
       const std::string complaint = render_complaint({option, "--strategy=" + strategy});
       CHECK(says(complaint, option.substr(0, option.find('=')) + " does not go with --runner=threads: threads model no "));
@@ -223,6 +225,7 @@ TEST_CASE("an option of the other runner is refused with the reason") {
   CHECK(says(render_complaint({runner, "--strategy=dataflow", "--topology=hypercube"}), "--topology does not go with " + runner));
   CHECK(
       says(render_complaint({runner, "--strategy=replicated", "--tracer=embree"}), "--tracer=embree does not go with " + runner));
+  CHECK(says(render_complaint({runner, "--no-contention", "--memory-port"}), "--memory-port does not go with --no-contention: "));
   CHECK(says(render_complaint({"--runner=magic"}), "--runner"));
   CHECK(says(render_complaint({runner, "--machine="}), "--machine"));
 }
@@ -278,6 +281,7 @@ TEST_CASE("the help of render names every option and its default") {
                                  "NAME|FILE.json [ipsc2]",
                                  "ipsc2, ipsc860, paragon, cm5, cs2, gigabit, hdr",
                                  "--no-contention",
+                                 "--memory-port",
                                  "16, replicated 1, runner virtual 1",
                                  "hypercube|mesh|torus|fat-tree|crossbar [hypercube]"}) {
     CHECK_MESSAGE(says(text, word), word);

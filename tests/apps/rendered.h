@@ -44,9 +44,14 @@ inline RenderOptions small(Strategy strategy = Strategy::svm) {
   return options;
 }
 
-/// The same on a modelled machine.
+inline RenderOptions on_machine(RenderOptions options, const nodes::Machine& machine) {
+  choose_machine(options, machine);
+  return options;
+}
+
+/// The small one on a modelled machine.
 inline RenderOptions modelled(Strategy strategy = Strategy::svm, std::string_view machine = "ipsc2") {
-  return with_machine(small(strategy), find_machine_preset(machine)->machine);
+  return on_machine(small(strategy), find_machine_preset(machine)->machine);
 }
 
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }

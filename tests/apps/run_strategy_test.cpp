@@ -108,17 +108,23 @@ TEST_CASE("a modelled machine's nodes work on one pixel at once unless told othe
 }
 
 TEST_CASE("the machine asked for is read, and regions are mapped onto its topology") {
-  RenderOptions options = small();
-  CHECK_FALSE(with_machine(options).computer.machine);
-  options.computer.runner = RunnerKind::virtual_time;
-  CHECK(with_machine(options).computer.machine.value().name == "ipsc2");
-  options.computer.machine_name = "paragon";
-  CHECK(with_machine(options).rays.topology == nodes::TopologyKind::mesh);
-  CHECK(with_machine(options).computer.machine.value().has_contention);
-  options.computer.no_contention = true;
-  CHECK_FALSE(with_machine(options).computer.machine.value().has_contention);
-  options.computer.machine_name = "abacus";
-  CHECK_THROWS_AS(with_machine(options), core::InputError);
+  const auto chosen = [](const ComputerOptions& computer) {
+    StrategyOptions options{.computer = computer};
+    choose_machine(options);
+    return options;
+  };
+  CHECK_FALSE(chosen({}).computer.machine);
+  ComputerOptions computer{.runner = RunnerKind::virtual_time};
+  CHECK(chosen(computer).computer.machine.value().name == "ipsc2");
+  computer.machine_name = "paragon";
+  CHECK(chosen(computer).rays.topology == nodes::TopologyKind::mesh);
+  CHECK(chosen(computer).computer.machine.value().has_contention);
+  CHECK_FALSE(chosen(computer).computer.machine.value().has_memory_port);
+  computer.no_contention = computer.memory_port = true;
+  CHECK_FALSE(chosen(computer).computer.machine.value().has_contention);
+  CHECK(chosen(computer).computer.machine.value().has_memory_port);
+  computer.machine_name = "abacus";
+  CHECK_THROWS_AS(chosen(computer), core::InputError);
 }
 
 TEST_CASE("links that do not contend let no message wait") {
@@ -126,7 +132,7 @@ TEST_CASE("links that do not contend let no message wait") {
   const auto wait_ns = [&] {
     RenderOptions options = small();
     options.computer.node_count = 8;
-    const Rendered rendered(with_machine(options, machine));
+    const Rendered rendered(on_machine(options, machine));
     return account_of(*rendered.report).virtual_time->links.wait_ns;
   };
   CHECK(wait_ns() > 0);

@@ -16,11 +16,11 @@ namespace dmpc::apps {
 TEST_CASE("the keys of the counters are an interface") {
   const std::string json = Rendered(small()).json();
   CHECK(keys(json, 1) ==
-        std::vector<std::string>{"program", "options",    "runner",   "machine",  "film_hash",       "rays",
-                                 "hits",    "operations", "seconds",  "run_hash", "virtual_seconds", "time_percent",
-                                 "events",  "links",      "database", "packets",  "pages",           "work",
-                                 "travel",  "load",       "regions",  "mapping",  "pairs",           "chaos",
-                                 "skips",   "nodes",      "host"});
+        std::vector<std::string>{"program",      "options",    "runner",  "machine",  "film_hash",      "rays",
+                                 "hits",         "operations", "seconds", "run_hash", "machine_digest", "virtual_seconds",
+                                 "time_percent", "events",     "links",   "database", "packets",        "pages",
+                                 "work",         "travel",     "load",    "regions",  "mapping",        "pairs",
+                                 "chaos",        "skips",      "nodes",   "host"});
   for (const std::string key : {"primary",     "reflected",  "refracted",      "shadow",
                                 "total",       "secondary",  "shadow_blocked", "total_internal_reflections",
                                 "load",        "build",      "render",         "write",

@@ -39,7 +39,7 @@ TEST_CASE("what follows from virtual time is null with threads, and has the same
     const std::string threads = Rendered(small(strategy)).json(), virtually = Rendered(modelled(strategy)).json();
     CHECK(keys(threads, 1) == keys(virtually, 1));
     const Json of_threads = Json::parse(threads), of_model = Json::parse(virtually);
-    for (const char* key : {"machine", "run_hash", "virtual_seconds", "time_percent", "events", "links"}) {
+    for (const char* key : {"machine", "run_hash", "machine_digest", "virtual_seconds", "time_percent", "events", "links"}) {
       CHECK(of_threads[key].is_null());
       CHECK_FALSE(of_model[key].is_null());
     }
@@ -97,6 +97,63 @@ TEST_CASE("every message between different nodes passes a link, and links are he
     CHECK(links["busiest"] > 0.0);
     CHECK(links["busiest"] <= json["virtual_seconds"]["total"]);
   }
+}
+
+TEST_CASE("what each link carried adds up to what all did, and the busiest comes first") {
+  for (const Strategy strategy : strategies) {
+    const Json links = counters(modelled(strategy))["links"];
+    CHECK(links["columns"] == Json({"from", "to", "messages", "bytes", "busy", "wait"}));
+    CHECK(links["rows"].size() == links["used"]);
+    CHECK(links["passages"] == links["hops"]);
+    const auto sum_of = [&](std::size_t column) {
+      double all = 0;
+      for (const Json& row : links["rows"]) {
+        all += row[column].get<double>();
+      }
+      return all;
+    };
+    CHECK(sum_of(2) == links["passages"].get<double>());
+    CHECK(sum_of(3) == links["bytes"].get<double>());
+    CHECK(sum_of(4) == doctest::Approx(links["busy"].get<double>()));
+    CHECK(sum_of(5) == doctest::Approx(links["wait"].get<double>()));
+    CHECK(links["rows"][0][4] == links["busiest"]);
+  }
+}
+
+TEST_CASE("of many links 256 are listed") {
+  RenderOptions options = modelled();
+  options.computer.node_count = 64;
+  options.computer.machine->has_memory_port = true;
+  const Json links = counters(options)["links"];
+  CHECK(links["used"].get<int>() > 256);
+  CHECK(links["rows"].size() == 256);
+}
+
+TEST_CASE("memory ports are listed among the links and are no hops") {
+  RenderOptions options = modelled();
+  const Json without = counters(options)["links"];
+  options.computer.machine->has_memory_port = true;
+  const Json links = counters(options)["links"];
+  CHECK(links["passages"] > links["hops"]);
+  CHECK(links["used"] > without["used"]);
+  CHECK(links.dump().find("\"memory 2\"") != std::string::npos);
+  CHECK(without.dump().find("memory") == std::string::npos);
+}
+
+TEST_CASE("the digest is the machine's, whatever runs on it and whatever it is called") {
+  RenderOptions options = modelled();
+  const Json digest = counters(options)["machine_digest"];
+  CHECK(digest == hash_text(find_machine_preset("ipsc2")->machine.digest()));
+  options.computer.machine->name = "another";
+  CHECK(counters(options)["machine_digest"] == digest);
+  CHECK(counters(modelled(Strategy::dataflow))["machine_digest"] == digest);
+  CHECK(counters(modelled(Strategy::svm, "cs2"))["machine_digest"] != digest);
+}
+
+TEST_CASE("the run's hash is of the events, the machine and the film") {
+  const Rendered rendered(modelled());
+  const Account account = account_of(*rendered.report);
+  CHECK(Json::parse(rendered.json())["run_hash"] == hash_text(account.virtual_time->run_hash(account.film.hash())));
 }
 
 TEST_CASE("two runs of one machine have one hash, and another machine has another") {

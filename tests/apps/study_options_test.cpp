@@ -26,6 +26,10 @@ BalanceStudy balance(std::initializer_list<std::string> more = {}) {
   return std::get<BalanceStudy>(study("balance", more).study);
 }
 
+SpeedupStudy speedup(std::initializer_list<std::string> more = {}) {
+  return std::get<SpeedupStudy>(study("speedup", more).study);
+}
+
 std::string complaint(const std::vector<std::string>& arguments) {
   try {
     parse_command_line(arguments);
@@ -91,6 +95,59 @@ TEST_CASE("caches of no page, a lone node and an unknown machine are refused") {
   CHECK(complaint({"study", "cache", "teapot-12", "--cache-pages=4,0"}).find("--cache-pages=4,0: expected") != std::string::npos);
   CHECK(complaint({"study", "cache", "teapot-12", "--nodes=1"}).find("--nodes") != std::string::npos);
   CHECK_THROWS_AS(study("cache", {"--machine=abacus"}), core::InputError);
+}
+
+TEST_CASE("the study of speedup runs svm on the ipsc2 with one pixel in flight, unless told otherwise") {
+  const SpeedupStudy standard = speedup();
+  CHECK(standard.node_counts == Counts{1, 2, 4, 8, 16, 32, 64});
+  CHECK(standard.run.strategy == Strategy::svm);
+  CHECK(standard.run.computer.machine.value().name == "ipsc2");
+  CHECK_FALSE(standard.run.computer.node_memory_bytes);
+  CHECK_FALSE(standard.run.pages.in_flight);
+}
+
+TEST_CASE("the options of the study of speedup are those of a run") {
+  const SpeedupStudy pages =
+      speedup({"--nodes=1,4096", "--strategy=svm", "--node-memory=4MiB", "--cache-pages=9", "--replacement=fifo", "--in-flight=3",
+               "--work-item=0", "--machine=paragon", "--memory-port"});
+  CHECK(pages.node_counts == Counts{1, 4096});
+  CHECK(pages.run.computer.node_memory_bytes == std::size_t{4} << 20U);
+  CHECK(pages.run.pages.cache_pages == 9);
+  CHECK(pages.run.pages.replacement == svm::Replacement::fifo);
+  CHECK(pages.run.pages.in_flight == 3);
+  CHECK(pages.run.pages.work_item_side == 0);
+  CHECK(pages.run.computer.machine.value().name == "paragon");
+  CHECK(pages.run.computer.machine.value().has_memory_port);
+  const SpeedupStudy rays = speedup({"--strategy=dataflow", "--nodes=1024", "--no-contention", "--balance=equal-size",
+                                     "--ray-batch=3", "--ray-credits=2", "--ray-queue=7", "--machine=hdr"});
+  CHECK(rays.run.strategy == Strategy::dataflow);
+  CHECK_FALSE(rays.run.computer.machine.value().has_contention);
+  CHECK(rays.run.rays.balance.balance == dataflow::Balance::equal_size);
+  CHECK(rays.run.rays.ray_batch == 3);
+  CHECK(rays.run.rays.ray_credits == 2);
+  CHECK(rays.run.rays.queue_packets == 7);
+  CHECK(rays.run.rays.topology == nodes::TopologyKind::fat_tree);
+  CHECK(speedup({"--strategy=dataflow", "--subsample=4", "--balance-grid=16"}).run.rays.balance.subsample == 4);
+  CHECK(speedup({"--strategy=replicated", "--in-flight=2"}).run.strategy == Strategy::replicated);
+}
+
+TEST_CASE("options of a study of speedup that do not go together are refused with the reason") {
+  const auto says = [](std::initializer_list<std::string> more, const std::string& part) {
+    std::vector<std::string> arguments = {"study", "speedup", "teapot-12"};
+    arguments.insert(arguments.end(), more);
+    return complaint(arguments).find(part) != std::string::npos;
+  };
+  CHECK(says({"--strategy=dataflow", "--cache-pages=5"}, "--cache-pages goes with --strategy=svm: "));
+  CHECK(says({"--strategy=replicated", "--replacement=lru"}, "--replacement goes with --strategy=svm: "));
+  CHECK(says({"--strategy=dataflow", "--in-flight=5"}, "--in-flight goes with --strategy=svm or --strategy=replicated: "));
+  CHECK(says({"--ray-batch=5"}, "--ray-batch goes with --strategy=dataflow: "));
+  CHECK(says({"--strategy=dataflow", "--balance=equal-size", "--subsample=5"}, "--subsample goes with --balance=subsampled: "));
+  CHECK(says({"--no-contention", "--memory-port"}, "--memory-port does not go with --no-contention: "));
+  CHECK(says({"--strategy=dataflow", "--nodes=4,1025"}, "--nodes=1025: from 1 to 1024 nodes with --strategy=dataflow"));
+  CHECK(says({"--nodes=4097"}, "--nodes=4097: expected numbers from 1 to 4096"));
+  CHECK(says({"--topology=mesh"}, "--topology"));
+  CHECK(says({"--runner=virtual"}, "--runner"));
+  CHECK_THROWS_AS(speedup({"--machine=abacus"}), core::InputError);
 }
 
 TEST_CASE("node counts that are left out are refused") {

@@ -2,9 +2,12 @@
 
 #include <doctest/doctest.h>
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "apps/machines.h"
+#include "apps/run_strategy.h"
 #include "core/expect.h"
 #include "tests/support/study_subject.h"
 
@@ -14,6 +17,27 @@ namespace {
 
 bool says(const StudySubject& subject, const std::string& words) {
   return subject.progress.str().find(words) != std::string::npos;
+}
+
+apps::StrategyOptions modelled(apps::Strategy strategy, std::uint32_t node_count) {
+  apps::StrategyOptions options{.strategy = strategy, .computer = {.node_count = node_count}};
+  choose_machine(options, apps::find_machine_preset("ipsc2")->machine);
+  return options;
+}
+
+/// Hash, times, packets and rays of each run.
+std::vector<std::string> prints(StudySubject& subject, std::span<const apps::StrategyOptions> runs) {
+  std::vector<std::string> prints;
+  subject.runs.run_side_by_side(runs, [&](std::size_t, const apps::StudyOutcome& outcome) {
+    const apps::Account account = apps::account_of(outcome.report.value());
+    std::string& print = prints.emplace_back(std::to_string(account.virtual_time->run_hash(account.film.hash())));
+    for (std::size_t node = 0; node < account.nodes.size(); ++node) {
+      print += " " + std::to_string(account.virtual_time->nodes[node].computing_ns) + " " +
+               std::to_string(total(account.nodes[node].counters.sent).bytes) + " " +
+               std::to_string(account.nodes[node].operations.rays[0]);
+    }
+  });
+  return prints;
 }
 
 }  // namespace
@@ -37,26 +61,69 @@ TEST_CASE("runs of either strategy are counted, shown by number and name, and ha
   CHECK(says(subject, "run 2 of 9, two nodes: "));
 }
 
-TEST_CASE("runs side by side are taken in their order and counted") {
+TEST_CASE("runs of every strategy side by side are taken in their order and counted") {
   StudySubject subject("balls-1");
-  std::vector<svm::RunOptions> runs;
-  for (const std::uint32_t node_count : {5U, 1U, 3U, 2U}) {
-    runs.push_back({.node_count = node_count, .machine = nodes::Machine()});
+  std::vector<apps::StrategyOptions> runs;
+  for (const apps::Strategy strategy : {apps::Strategy::svm, apps::Strategy::dataflow, apps::Strategy::replicated}) {
+    for (const std::uint32_t node_count : {5U, 1U}) {
+      runs.push_back(modelled(strategy, node_count));
+    }
   }
   std::vector<std::size_t> nodes_of_runs;
-  subject.runs.run_side_by_side(runs, [&](std::size_t index, const svm::Report& report) {
+  subject.runs.run_side_by_side(runs, [&](std::size_t index, const apps::StudyOutcome& outcome) {
     CHECK(index == nodes_of_runs.size());
-    nodes_of_runs.push_back(report.nodes.size());
+    CHECK(outcome.misfit.empty());
+    nodes_of_runs.push_back(apps::account_of(outcome.report.value()).nodes.size());
   });
-  CHECK(nodes_of_runs == std::vector<std::size_t>{5, 1, 3, 2});
-  CHECK(subject.runs.count() == 4);
-  CHECK(says(subject, "runs 1 to 4 of 9, side by side: "));
+  CHECK(nodes_of_runs == std::vector<std::size_t>{5, 1, 5, 1, 5, 1});
+  CHECK(subject.runs.count() == 6);
+  CHECK(says(subject, "runs 1 to 6 of 9, side by side: "));
+}
+
+TEST_CASE("a run side by side with others has the hash and the counters that it has alone") {
+  StudySubject subject("rings-2-t1", 24);
+  std::vector<apps::StrategyOptions> runs;
+  for (const apps::Strategy strategy : {apps::Strategy::svm, apps::Strategy::dataflow, apps::Strategy::replicated}) {
+    runs.push_back(modelled(strategy, 7));
+  }
+  const std::vector<std::string> alone = prints(subject, std::span(runs).first(1)), beside = prints(subject, runs);
+  CHECK(beside.front() == alone.front());
+  CHECK(prints(subject, runs) == beside);
+}
+
+TEST_CASE("a scene that does not fit is no report but a reason, and the others are rendered") {
+  StudySubject subject("balls-1");
+  std::vector<apps::StrategyOptions> runs = {modelled(apps::Strategy::svm, 2), modelled(apps::Strategy::dataflow, 3),
+                                             modelled(apps::Strategy::svm, 4)};
+  runs[0].computer.node_memory_bytes = 1000;
+  runs[1].computer.node_memory_bytes = 1000;
+  std::vector<std::string> misfits;
+  subject.runs.run_side_by_side(runs, [&](std::size_t, const apps::StudyOutcome& outcome) {
+    CHECK(outcome.report.has_value() == outcome.misfit.empty());
+    misfits.push_back(outcome.misfit);
+  });
+  REQUIRE(misfits.size() == 3);
+  CHECK(misfits[0].find("--nodes=2: the smallest that works is ") != std::string::npos);
+  CHECK(misfits[1].find("is too small for --nodes=3: node ") != std::string::npos);
+  CHECK(misfits[2].empty());
+  CHECK(subject.runs.count() == 1);
+}
+
+TEST_CASE("what had to be reduced for a run to fit is noted") {
+  StudySubject subject("balls-1");
+  std::vector<apps::StrategyOptions> runs = {modelled(apps::Strategy::svm, 2)};
+  runs[0].computer.node_memory_bytes = 400 << 10U;
+  runs[0].pages.in_flight = 4000;
+  std::vector<std::string> notes;
+  subject.runs.run_side_by_side(runs, [&](std::size_t, const apps::StudyOutcome& outcome) { notes = outcome.notes; });
+  REQUIRE(notes.size() == 1);
+  CHECK(notes[0].find("in-flight reduced from 4000 to ") != std::string::npos);
 }
 
 TEST_CASE("runs with threads are not run side by side, and no runs are none") {
   StudySubject subject("balls-1");
-  const std::vector<svm::RunOptions> on_threads(1);
-  const auto take = [](std::size_t, const svm::Report&) { throw core::InputError("taken"); };
+  const std::vector<apps::StrategyOptions> on_threads(1);
+  const auto take = [](std::size_t, const apps::StudyOutcome&) { throw core::InputError("taken"); };
   CHECK_THROWS_AS(subject.runs.run_side_by_side(on_threads, take), core::InternalError);
   subject.runs.run_side_by_side({}, take);
   CHECK(subject.runs.count() == 0);

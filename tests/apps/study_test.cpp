@@ -7,6 +7,8 @@
 #include <sstream>
 #include <string>
 #include <thread>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/expect.h"
@@ -42,13 +44,19 @@ std::size_t count(const std::string& text, const std::string& part) {
 
 bool contains(const std::string& text, const std::string& part) { return count(text, part) > 0; }
 
+/// A list of ever the same number, so long that no study ends by itself.
+std::string endless(const std::string& option, const std::string& number) {
+  std::string list = option + "=" + number;
+  for (int more = 0; more < 20000; ++more) {
+    list += "," + number;
+  }
+  return list;
+}
+
 /// `dmpc study traffic` with so many rows that it does not end by itself.
 std::vector<std::string> endless_study(const std::string& resolution, const std::string& samples = "--samples=1") {
-  std::string nodes = "--nodes=1";
-  for (int more = 0; more < 20000; ++more) {
-    nodes += ",1";
-  }
-  return {DMPC_PROGRAM, "study", "traffic", "balls-1", "--format=csv", "--resolution=" + resolution, samples, nodes};
+  return {DMPC_PROGRAM,           "study", "traffic", "balls-1", "--format=csv", "--resolution=" + resolution, samples,
+          endless("--nodes", "1")};
 }
 
 }  // namespace
@@ -103,12 +111,46 @@ TEST_CASE("Ctrl-C ends a study with status 130 and the rows finished before") {
     std::this_thread::sleep_for(std::chrono::milliseconds(1000));  // so that some rows are finished
     process.send(signal);
     CHECK(process.status() == 130);
-    CHECK(contains(process.errors(), "interrupted, the table ends with the rows finished before"));
+    CHECK(contains(process.errors(), "interrupted, the table has the rows finished before"));
     const std::string output = process.output();
     CHECK(contains(output, "nodes,"));
     CHECK(contains(output, "\n1,"));
     CHECK(output.back() == '\n');
   }
+}
+
+TEST_CASE("Ctrl-C leaves the finished rows of runs side by side in the file, whatever its format") {
+  const TemporaryFolder folder;
+  const std::string file = folder / "table";
+  for (const auto& [study, rows] :
+       {std::pair{"speedup", endless("--nodes", "2")}, std::pair{"cache", endless("--cache-pages", "1")}}) {
+    for (const auto& [format, beginning, row] : {std::tuple{"csv", "", "\n"}, std::tuple{"markdown", "**Study ", "\n|"},
+                                                 std::tuple{"json", "{", "\"virtual_time\": "}}) {
+      CAPTURE(study);
+      CAPTURE(format);
+      ChildProcess process({DMPC_PROGRAM, "study", study, "balls-1", "--machine=ipsc2", "--resolution=8x8", rows,
+                            std::string("--format=") + format, "-o", file});
+      REQUIRE(process.blocks(SIGINT));
+      std::this_thread::sleep_for(std::chrono::milliseconds(700));  // so that some rows are finished
+      process.send(SIGINT);
+      CHECK(process.status() == 130);
+      CHECK(contains(process.errors(), "interrupted, the table has the rows finished before"));
+      CHECK(file_text(file).find(beginning) == 0);
+      CHECK(count(file_text(file), row) > 3);
+      CHECK(folder.entry_count() == 1);
+    }
+  }
+}
+
+TEST_CASE("a table that would replace the machine's file is refused") {
+  const TemporaryFolder folder;
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  StudyOptions options = small_study();
+  options.output = options.machine_name = (folder / "mine.json").string();
+  write_text(folder / "mine.json", "mine");
+  CHECK_THROWS_AS(apps::study_command(options, interrupt, output), core::UsageError);
+  CHECK(file_text(folder / "mine.json") == "mine");
 }
 
 TEST_CASE("Ctrl-C before the first row is finished ends a study with status 130 and no table") {

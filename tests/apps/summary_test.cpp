@@ -50,8 +50,8 @@ TEST_CASE("the closing lines of dataflow say how rays travelled and how evenly t
 TEST_CASE("the closing lines of a modelled machine tell virtual time and what became of it, apart from the wall clock") {
   for (const Strategy strategy : {Strategy::svm, Strategy::replicated, Strategy::dataflow}) {
     const std::string text = summary(modelled(strategy));
-    for (const std::string part : {"virtual  ", " s on ipsc2, ", " events, run ", "\nlosses   computing ", " %, idle at the end ",
-                                   " %\ntime     load 0.500 s"}) {
+    for (const std::string part : {"virtual  ", " s on ipsc2, ", " events; run_hash ", ", machine_digest ",
+                                   "\nlosses   computing ", " %, idle at the end ", " %\ntime     load 0.500 s"}) {
       CHECK_MESSAGE(contains(text, part), part);
     }
     CHECK_FALSE(contains(summary(small(strategy)), "virtual  "));
@@ -61,10 +61,16 @@ TEST_CASE("the closing lines of a modelled machine tell virtual time and what be
   CHECK(contains(summary(modelled(Strategy::dataflow)), ", ray wait "));
 }
 
+TEST_CASE("memory ports are told") {
+  nodes::Machine machine = find_machine_preset("cm5")->machine;
+  machine.has_memory_port = true;
+  CHECK(contains(summary(on_machine(small(), machine)), " s on cm5 with memory ports, "));
+}
+
 TEST_CASE("links that do not contend are told") {
   nodes::Machine machine = find_machine_preset("cm5")->machine;
   machine.has_contention = false;
-  CHECK(contains(summary(with_machine(small(), machine)), " s on cm5 without contention, "));
+  CHECK(contains(summary(on_machine(small(), machine)), " s on cm5 without contention, "));
 }
 
 TEST_CASE("regions of equal size were predicted no load") {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <set>
 #include <string_view>
+#include <vector>
 
 namespace dmpc::tests {
 
@@ -19,6 +20,7 @@ TEST_CASE("a machine that is told nothing costs nothing") {
   CHECK(machine.price_ps({}, done) == 0);
   CHECK(machine.cost_of_message(1'000'000).byte_ps == 0);
   CHECK(machine.has_contention);
+  CHECK_FALSE(machine.has_memory_port);
 }
 
 TEST_CASE("a message up to the limit is short, and any longer one is long") {
@@ -48,6 +50,43 @@ TEST_CASE("an hour of operations is priced without overflow") {
   Charges done;
   done[Charge::cell_step] = 3'600'000;
   CHECK(machine.price_ps({}, done) == 3'600'000'000'000'000);
+}
+
+TEST_CASE("the digest of a machine is the same number on every computer") {
+  CHECK(Machine().digest() == 0x68b495f948ef4650);
+  CHECK(Machine{.topology = nodes::TopologyKind::torus, .short_bytes_max = 64, .hop_ns = 1, .service_ns = 2}.digest() ==
+        0x48008825ad12cbc7);
+}
+
+TEST_CASE("every figure and switch of a machine changes its digest, and its name does not") {
+  std::vector<Machine> machines(1);
+  const auto add = [&machines](const auto& change) {
+    machines.emplace_back();
+    change(machines.back());
+  };
+  add([](Machine& machine) { machine.topology = nodes::TopologyKind::mesh; });
+  add([](Machine& machine) { ++machine.short_bytes_max; });
+  add([](Machine& machine) { ++machine.short_message.send_ns; });
+  add([](Machine& machine) { ++machine.short_message.latency_ns; });
+  add([](Machine& machine) { ++machine.short_message.receive_ns; });
+  add([](Machine& machine) { ++machine.short_message.byte_ps; });
+  add([](Machine& machine) { ++machine.long_message.send_ns; });
+  add([](Machine& machine) { ++machine.long_message.latency_ns; });
+  add([](Machine& machine) { ++machine.long_message.receive_ns; });
+  add([](Machine& machine) { ++machine.long_message.byte_ps; });
+  add([](Machine& machine) { ++machine.hop_ns; });
+  add([](Machine& machine) { ++machine.service_ns; });
+  for (std::size_t i = 0; i < nodes::charge_count; ++i) {
+    add([i](Machine& machine) { ++machine.cost_ps[i]; });
+  }
+  add([](Machine& machine) { machine.has_contention = false; });
+  add([](Machine& machine) { machine.has_memory_port = true; });
+  std::set<std::uint64_t> digests;
+  for (const Machine& machine : machines) {
+    digests.insert(machine.digest());
+  }
+  CHECK(digests.size() == machines.size());
+  CHECK(Machine{.name = "another"}.digest() == Machine().digest());
 }
 
 TEST_CASE("each class of operations has a name of its own") {

@@ -97,8 +97,11 @@ bool in_order(const std::vector<ScriptedProgram::Receipt>& receipts) {
 /// Everything that must be equal in equal runs.
 std::vector<std::uint64_t> fingerprint(const ScriptedRun& run) {
   const VirtualReport& report = run.report;
-  std::vector<std::uint64_t> print{report.hash,       report.events,        report.total_ns,       report.links.messages,
-                                   report.links.hops, report.links.wait_ns, report.busiest_link_ns};
+  std::vector<std::uint64_t> print{report.hash,       report.events,        report.total_ns,      report.links.messages,
+                                   report.links.hops, report.links.wait_ns, report.links.busy_ns, report.links.bytes};
+  for (const LinkUse& use : report.busiest_links) {
+    print.insert(print.end(), {use.messages, use.bytes, use.busy_ns, use.wait_ns});
+  }
   for (const VirtualTimes& times : report.nodes) {
     print.insert(print.end(), {times.computing_ns, times.sending_ns, times.receiving_ns, times.stolen_ns, times.lent_ns,
                                times.waiting_ns[ping], times.end_ns});
@@ -111,10 +114,19 @@ std::vector<std::uint64_t> fingerprint(const ScriptedRun& run) {
   return print;
 }
 
-std::uint64_t hash_of(const Machine& machine) {
+VirtualReport report_on(const Machine& machine) {
   std::vector<Script> scripts(4, {.quanta = {{3, {{2, urgent}, {2, ping, 100}, {2, ping, 101}}}, {2}}});
   scripts[2].reactions[urgent] = {1, {{0, pong}}};
-  return run_scripts(scripts, machine).report.hash;
+  return run_scripts(scripts, machine).report;
+}
+
+std::uint64_t hash_of(const Machine& machine) { return report_on(machine).hash; }
+
+/// Of one letter that may be changed so that no time changes: the toy's short messages all cost the same but for their bytes.
+std::uint64_t hash_of(const Letter& letter) {
+  Machine machine = toy_model();
+  machine.short_message.byte_ps = 0;
+  return run_scripts({{.quanta = {{0, {letter}}}}, {}, {}, {}}, machine).report.hash;
 }
 
 /// A run that stalls, and what it says.
@@ -274,6 +286,7 @@ TEST_CASE("each cost of a machine changes the run's hash") {
       [](Machine& machine) { ++machine.short_bytes_max; },
       [](Machine& machine) { machine.cost_ps[static_cast<std::size_t>(Charge::ray_setup)] += 1000; },
       [](Machine& machine) { machine.has_contention = false; },
+      [](Machine& machine) { machine.has_memory_port = true; },
       [](Machine& machine) { machine.topology = TopologyKind::fat_tree; }};
   for (std::size_t i = 0; i < changes.size(); ++i) {
     CAPTURE(i);
@@ -281,6 +294,50 @@ TEST_CASE("each cost of a machine changes the run's hash") {
     changes[i](machine);
     CHECK(hash_of(machine) != hash);
   }
+}
+
+TEST_CASE("the run's hash tells packets apart by target, kind and bytes, even where no time does") {
+  const std::uint64_t hash = hash_of(Letter{1, ping, 20});
+  CHECK(hash_of(Letter{1, ping, 20}) == hash);
+  CHECK(hash_of(Letter{2, ping, 20}) != hash);
+  CHECK(hash_of(Letter{1, pong, 20}) != hash);
+  CHECK(hash_of(Letter{1, ping, 21}) != hash);
+}
+
+TEST_CASE("a fixed run has one hash on every computer and in every build type") {
+  const VirtualReport report = report_on(toy_model(TopologyKind::hypercube));
+  CHECK(report.total_ns == 409'137);
+  CHECK(report.events == 60);
+  CHECK(report.hash == 0x519abca6e58c59f0);
+  CHECK(report.machine_digest == 0xba6ffcd2645fbe1d);
+  CHECK(report.run_hash(0) == 0xf588595b4264c15a);
+}
+
+TEST_CASE("a run's hash is of its events, its machine and its product") {
+  VirtualReport report = report_on(toy_model());
+  CHECK(report.machine_digest == toy_model().digest());
+  const std::uint64_t hash = report.run_hash(1);
+  CHECK(report.run_hash(2) != hash);
+  ++report.machine_digest;
+  CHECK(report.run_hash(1) != hash);
+  --report.machine_digest;
+  ++report.hash;
+  CHECK(report.run_hash(1) != hash);
+}
+
+TEST_CASE("the busiest links are listed, as many as there is room for") {
+  const VirtualReport few = report_on(toy_model());
+  CHECK(few.links_used == few.busiest_links.size());
+  std::vector<Script> scripts(18);  // a crossbar of 17 nodes has 272 links
+  for (std::uint32_t i = 0; i < 17; ++i) {
+    scripts[i].quanta.push_back({});
+    for (std::uint32_t j = 0; j < 17; ++j) {
+      scripts[i].quanta.back().letters.push_back({j});
+    }
+  }
+  const VirtualReport many = run_scripts(scripts).report;
+  CHECK(many.links_used == 17 * 16);
+  CHECK(many.busiest_links.size() == busiest_links_max);
 }
 
 }  // namespace

@@ -45,12 +45,31 @@ std::vector<Script> all_to_host(std::uint32_t count, std::uint64_t bytes) {
   return scripts;
 }
 
+/// All other nodes send a letter to node 0 at the start.
+std::vector<Script> all_to_node_0(std::uint32_t node_count, std::uint64_t bytes) {
+  std::vector<Script> scripts(1);
+  scripts.resize(node_count, sends({.target = 0, .bytes = bytes}));
+  scripts.emplace_back();
+  return scripts;
+}
+
 // ---- Messages ------------------------------------------------------------------------------------------------------------
 
 TEST_CASE("a ping-pong takes twice what a message takes, over each number of hops, short and long") {
-  const Machine machine = toy_model(TopologyKind::hypercube);
+  struct Case {
+    TopologyKind topology;
+    std::uint32_t target, hops;  // from node 0 of 8
+  };
+  const std::vector<Case> cases = {
+      {TopologyKind::crossbar, 7, 1},  {TopologyKind::hypercube, 1, 1}, {TopologyKind::hypercube, 3, 2},
+      {TopologyKind::hypercube, 6, 2}, {TopologyKind::hypercube, 7, 3}, {TopologyKind::mesh, 3, 3},
+      {TopologyKind::mesh, 7, 4},      {TopologyKind::torus, 3, 1},     {TopologyKind::torus, 7, 2},
+      {TopologyKind::fat_tree, 3, 2},  {TopologyKind::fat_tree, 4, 4}};
   for (const std::uint64_t bytes : {short_bytes, long_bytes}) {
-    for (const auto& [target, hops] : {std::pair{1U, 1U}, std::pair{3U, 2U}, std::pair{7U, 3U}, std::pair{6U, 2U}}) {
+    for (const auto& [topology, target, hops] : cases) {
+      CAPTURE(name_of(topology));
+      CAPTURE(target);
+      const Machine machine = toy_model(topology);
       std::vector<Script> scripts(9);
       scripts[0] = {.quanta = {{0, {{target, ping, bytes}}}}, .packets_awaited = 1};
       scripts[target].reactions[ping] = {0, {{0, pong, bytes}}};
@@ -119,12 +138,81 @@ TEST_CASE("messages over one link arrive one after the other, or at once without
     const ScriptedRun run = run_scripts(all_to_host(count, long_bytes), machine);
     CHECK(run.report.total_ns == enters + count * passage + machine.long_message.receive_ns);
     CHECK(run.report.links.wait_ns == passage * count * (count - 1) / 2);
-    CHECK(run.report.busiest_link_ns == count * passage);
+    CHECK(run.report.busiest_links.front().busy_ns == count * passage);
 
     machine.has_contention = false;
     const ScriptedRun free = run_scripts(all_to_host(count, long_bytes), machine);
     CHECK(free.report.total_ns == enters + passage + count * machine.long_message.receive_ns);
     CHECK(free.report.links.wait_ns == 0);
+  }
+}
+
+TEST_CASE("all to one: the last message arrives when those over the same link have passed one after the other") {
+  struct Case {
+    TopologyKind topology;
+    std::uint32_t node_count;
+    std::uint32_t messages, hops;       // over the link into node 0 that most need, and all hops of these
+    std::uint32_t last_together;        // arrivals at that time, by other links too
+    std::uint32_t most_hops, farthest;  // the longest way to node 0, and how many have such a one
+  };
+  const std::vector<Case> cases = {{TopologyKind::crossbar, 9, 1, 1, 8, 1, 8},                  // a link for each
+                                   {TopologyKind::hypercube, 8, 4, 1 + 2 + 2 + 3, 1, 3, 1},     // 4-0: from 4, 5, 6, 7
+                                   {TopologyKind::mesh, 9, 6, 1 + 2 + 3 + 2 + 3 + 4, 1, 4, 1},  // 3-0: from 3 to 8
+                                   {TopologyKind::torus, 9, 3, 1 + 2 + 2, 2, 2, 4},  // 3-0: from 3, 4, 5; 6-0: from 6, 7, 8
+                                   {TopologyKind::fat_tree, 16, 15, 3 * 2 + 12 * 4, 1, 4, 12}};  // switch 0 to 0: all
+  for (const Case& one : cases) {
+    CAPTURE(name_of(one.topology));
+    Machine machine = toy_model(one.topology);
+    const std::vector<Script> scripts = all_to_node_0(one.node_count, long_bytes);
+    const std::uint64_t enters = machine.long_message.send_ns + machine.long_message.latency_ns;
+    const std::uint64_t bytes_ns = passage_ns(machine, long_bytes, 0), receive = machine.long_message.receive_ns;
+    const VirtualReport queued = run_scripts(scripts, machine).report;
+    CHECK(queued.total_ns == enters + one.hops * machine.hop_ns + one.messages * bytes_ns + one.last_together * receive);
+    CHECK(queued.busiest_links.front().busy_ns == one.hops * machine.hop_ns + one.messages * bytes_ns);
+
+    machine.has_contention = false;
+    const VirtualReport free = run_scripts(scripts, machine).report;
+    CHECK(free.total_ns == enters + one.most_hops * machine.hop_ns + bytes_ns + one.farthest * receive);
+    CHECK(free.links.hops == queued.links.hops);
+    CHECK(free.links.wait_ns == 0);
+
+    machine = toy_model(one.topology);
+    machine.has_memory_port = true;  // node 0 takes in one after the other, whatever links they come by
+    const VirtualReport ported = run_scripts(scripts, machine).report;
+    CHECK(ported.total_ns == enters + queued.links.hops * machine.hop_ns + (one.node_count - 1) * bytes_ns + receive);
+  }
+}
+
+TEST_CASE("a link that two nodes saturate carries their messages without a gap, each at its own length") {
+  constexpr std::uint32_t count = 30;
+  const Machine machine = toy_model(TopologyKind::hypercube);
+  std::vector<Script> scripts(9);
+  const std::vector<Letter> letters(count, Letter{.target = 0, .bytes = long_bytes});
+  scripts[2].quanta.push_back({0, letters});
+  scripts[3].quanta.push_back({0, letters});
+  const VirtualReport report = run_scripts(scripts, machine).report;
+  const std::uint64_t busy = count * (passage_ns(machine, long_bytes, 1) + passage_ns(machine, long_bytes, 2));
+  const std::uint64_t enters = machine.long_message.send_ns + machine.long_message.latency_ns;
+  CHECK(report.total_ns == enters + busy + machine.long_message.receive_ns);
+  CHECK(report.busiest_links.front().from == "node 2");
+  CHECK(report.busiest_links.front().to == "node 0");
+  CHECK(report.busiest_links.front().busy_ns == busy);
+  CHECK(report.busiest_links.front().messages == 2 * count);
+  CHECK(report.busiest_links.front().bytes == 2 * count * long_bytes);
+}
+
+TEST_CASE("a node with a memory port sends to all its neighbours one after the other") {
+  Machine machine = toy_model(TopologyKind::hypercube);
+  std::vector<Script> scripts(9);
+  scripts[0].quanta = {{0, {{1, ping, long_bytes}, {2, ping, long_bytes}, {4, ping, long_bytes}}}};
+  const std::uint64_t passage = passage_ns(machine, long_bytes, 1), receive = machine.long_message.receive_ns;
+  const std::uint64_t enters = machine.long_message.send_ns + machine.long_message.latency_ns;
+  const ScriptedRun free = run_scripts(scripts, machine);
+  machine.has_memory_port = true;
+  const ScriptedRun ported = run_scripts(scripts, machine);
+  for (const auto& [nth, neighbour] : {std::pair{0U, 1U}, std::pair{1U, 2U}, std::pair{2U, 4U}}) {
+    CHECK(free.end_ns(neighbour) == enters + nth * machine.long_message.send_ns + passage + receive);
+    CHECK(ported.end_ns(neighbour) == enters + (nth + 1) * passage + receive);
   }
 }
 
@@ -216,6 +304,20 @@ TEST_CASE("a node with nothing to do serves at once, and what comes meanwhile be
   CHECK(served.receiving_ns == machine.short_message.receive_ns);
   CHECK(run.end_ns(1) == arrival + service + machine.short_message.receive_ns + 3 * operation_ns);
   CHECK(run.end_ns(0) == arrival + service + one_way_ns(machine, short_bytes, 1) - machine.short_message.send_ns);
+}
+
+TEST_CASE("a home that does nothing else serves one request after the other, as fast as its processor can") {
+  constexpr std::uint32_t askers = 3, requests = 5;
+  const Machine machine = toy_model();
+  const Script asks{.quanta = {{0, std::vector<Letter>(requests, Letter{0, urgent})}}};
+  const Script serves{.reactions = {{urgent, {2, {{4, pong, long_bytes}}}}}};
+  const std::vector<Script> scripts{serves, asks, asks, asks, {}};
+  const ScriptedRun run = run_scripts(scripts, machine);
+  const std::uint64_t service = service_ns(machine, 2, long_bytes), replies = askers * requests;
+  CHECK(run.report.nodes[0].lent_ns == replies * service);
+  CHECK(run.report.nodes[0].stolen_ns == 0);
+  const std::uint64_t last_reply = arrival_ns(machine, short_bytes, 1) + replies * service;
+  CHECK(run.report.total_ns == last_reply + one_way_ns(machine, long_bytes, 1) - machine.long_message.send_ns);
 }
 
 TEST_CASE("a run lasts until its last service is over") {
