@@ -11,9 +11,6 @@ namespace {
 
 /// The iPSC/2's, in the article.
 constexpr std::size_t node_memory_bytes = std::size_t{4} << 20U;
-/// Cache sizes in pages for Rings4, where the network saturates at 204, and for Tetra9.
-constexpr std::array<std::uint32_t, cache_size_count> rings_caches = {16, 51, 102, 204, 408, 811, 1621, 2900};
-constexpr std::array<std::uint32_t, cache_size_count> tetra_caches = {4, 16, 51, 204, 408, 724, 1448, 2895};
 
 const nodes::Machine& preset(const char* name) {
   const MachineDescription* description = find_machine_preset(name);
@@ -21,16 +18,25 @@ const nodes::Machine& preset(const char* name) {
   return description->machine;
 }
 
+/// Our databases are smaller than the article's (Table 2), so the same memory would hold more of them: caches have the article's
+/// share of the database in place of its bytes.
+PaperRun run_of_table_3(const PaperRun& like, std::size_t scene, std::size_t column) {
+  PaperRun run = like;
+  run.scene = paper_scenes[scene].scene;
+  run.node_count = paper_node_counts[column];
+  if (run.node_count > 1) {
+    run.cache_share = paper_scenes[scene].cache_share(run.node_count);
+  }
+  return run;
+}
+
 void add_tables(Catalogue& catalogue, const PaperRun& like) {
   for (std::size_t scene = 0; scene < paper_scenes.size(); ++scene) {
+    for (std::size_t column = paper_scenes[scene].base(); column < paper_node_counts.size(); ++column) {
+      catalogue.timed[scene][column] = catalogue.add(run_of_table_3(like, scene, column));
+    }
     PaperRun run = like;
     run.scene = paper_scenes[scene].scene;
-    for (std::size_t column = paper_scenes[scene].base(); column < paper_node_counts.size(); ++column) {
-      run.node_count = paper_node_counts[column];
-      catalogue.timed[scene][column] = catalogue.add(run);
-    }
-    run.node_count = 1;
-    run.node_memory_bytes.reset();
     run.count_pages = true;
     catalogue.counted[scene] = catalogue.add(run);
   }
@@ -42,10 +48,28 @@ void add_rings(Catalogue& catalogue, const PaperRun& like) {
     run.scene = rings[scene];
     for (std::size_t column = 0; column < paper_node_counts.size(); ++column) {
       run.node_count = paper_node_counts[column];
+      run.node_memory_bytes = run.node_count > 1 ? std::optional(node_memory_bytes) : std::nullopt;
       run.rays_travel = true;
       catalogue.rings_by_rays[scene][column] = catalogue.add(run);
       run.rays_travel = false;
-      catalogue.rings_by_pages[scene][column] = catalogue.add(run);
+      const bool is_in_table_3 = run.scene == paper_scenes[rings_row].scene && column >= paper_scenes[rings_row].base();
+      catalogue.rings_by_pages[scene][column] = is_in_table_3 ? catalogue.timed[rings_row][column] : catalogue.add(run);
+    }
+  }
+}
+
+/// Whole memories in place of the article's share, and records without an order in space.
+void add_memories(Catalogue& catalogue) {
+  for (std::size_t row = 0; row < missing_rows.size(); ++row) {
+    const std::size_t scene = missing_rows[row];
+    for (std::size_t column = paper_scenes[scene].base(); column < paper_node_counts.size(); ++column) {
+      PaperRun run = catalogue.runs[catalogue.timed[scene][column]];
+      run.record_order = core::RecordOrder::scattered;
+      catalogue.scattered[row][column] = catalogue.add(run);
+      run.record_order = core::RecordOrder::spatial;
+      run.cache_share.reset();
+      run.node_memory_bytes = node_memory_bytes;
+      catalogue.whole_memory[row][column] = catalogue.add(run);
     }
   }
 }
@@ -54,13 +78,12 @@ void add_rings(Catalogue& catalogue, const PaperRun& like) {
 void add_caches(Catalogue& catalogue, const PaperRun& like) {
   for (std::size_t scene = 0; scene < cache_scenes.size(); ++scene) {
     PaperRun run = like;
-    run.scene = cache_scenes[scene];
+    run.scene = cache_scenes[scene].row().scene;
     run.resolution = std::max(1U, like.resolution / 2);
-    run.node_memory_bytes.reset();
     catalogue.cache_base[scene] = catalogue.add(run);
     run.node_count = cache_node_count;
-    for (std::size_t size = 0; size < rings_caches.size(); ++size) {
-      run.cache_pages = scene == 0 ? rings_caches[size] : tetra_caches[size];
+    for (std::size_t size = 0; size < cache_size_count; ++size) {
+      run.cache_share = cache_scenes[scene].share(size);
       catalogue.cached[scene][size] = catalogue.add(run);
     }
   }
@@ -70,18 +93,15 @@ void add_caches(Catalogue& catalogue, const PaperRun& like) {
 
 Catalogue catalogue_of(std::uint32_t resolution) {
   Catalogue catalogue;
-  const PaperRun like{.machine = preset("ipsc2"), .node_memory_bytes = node_memory_bytes, .resolution = resolution};
+  const PaperRun like{.machine = preset("ipsc2"), .resolution = resolution};
   add_tables(catalogue, like);
   add_rings(catalogue, like);
+  add_memories(catalogue);
   add_caches(catalogue, like);
-  PaperRun faster = like;
-  faster.scene = "rings-4-t1";
-  faster.node_count = 32;
+  PaperRun faster = catalogue.runs[catalogue.timed[rings_row][faster_column]];
   faster.machine = preset("ipsc860");
   catalogue.faster_machine = catalogue.add(faster);
-  PaperRun dearer = like;
-  dearer.scene = calibration_scene.scene;
-  dearer.node_count = 2;
+  PaperRun dearer = catalogue.runs[catalogue.timed[calibration_row][1]];
   dearer.machine.cost_ps[static_cast<std::size_t>(nodes::Charge::cached_lookup)] *= 2;
   catalogue.dearer_cache = catalogue.add(dearer);
   return catalogue;

@@ -15,11 +15,28 @@ namespace dmpc::apps {
 /// Of the cache experiments, in the article.
 inline constexpr std::uint32_t cache_node_count = 32;
 /// Sizes of the cache experiments for each scene.
-inline constexpr std::size_t cache_size_count = 8;
+inline constexpr std::size_t cache_size_count = 10;
+/// Rows of Tables 2 and 3.
+inline constexpr std::size_t rings_row = 2, tetra_row = 3;
 /// Scenes on which rays travel beside pages.
 inline constexpr std::array<const char*, 2> rings = {"rings-3-t1", "rings-4-t1"};
-/// Scenes of the cache experiments.
-inline constexpr std::array<const char*, 2> cache_scenes = {"rings-4-t1", "tetra-9"};
+/// The column of Table 3 that the iPSC/860 is held against: 32 nodes.
+inline constexpr std::size_t faster_column = 5;
+/// Those of Table 3 that miss pages other than once on each node, so that the size of the memories tells.
+inline constexpr std::array<std::size_t, 2> missing_rows = {rings_row, tetra_row};
+
+/// A scene of the cache experiments, from one page to as many as the article gives.
+struct CacheScene {
+  std::size_t paper_row = 0;                            ///< of paper_scenes
+  std::array<std::uint32_t, cache_size_count> pages{};  ///< of the article's database
+
+  const PaperScene& row() const { return paper_scenes[paper_row]; }
+  /// Of the database; pages are of 1 KB.
+  double share(std::size_t size) const { return pages[size] / static_cast<double>(row().database_kilobytes); }
+};
+/// Rings4, where the network saturates at 204 pages, and Tetra9.
+inline constexpr std::array<CacheScene, 2> cache_scenes = {
+    {{rings_row, {1, 4, 16, 51, 102, 204, 408, 811, 1621, 3242}}, {tetra_row, {1, 4, 16, 51, 102, 204, 408, 724, 1448, 2895}}}};
 /// The scene, and the seconds on one node and on two, that the machine's prices are fitted to: Mountain.
 inline constexpr std::size_t calibration_row = 1;
 inline constexpr const PaperScene& calibration_scene = paper_scenes[calibration_row];
@@ -34,6 +51,8 @@ struct Catalogue {
   std::array<std::size_t, paper_scenes.size()> counted{};             ///< Table 2
   std::array<ByNodeCount, paper_scenes.size()> timed{};               ///< Table 3
   std::array<ByNodeCount, 2> rings_by_rays{}, rings_by_pages{};       ///< of `rings`
+  std::array<ByNodeCount, missing_rows.size()> scattered{};           ///< of `missing_rows`, records without an order in space
+  std::array<ByNodeCount, missing_rows.size()> whole_memory{};        ///< of `missing_rows`, memories of the article's 4 MB
   std::array<std::size_t, 2> cache_base{};                            ///< of `cache_scenes`, on one node
   std::array<std::array<std::size_t, cache_size_count>, 2> cached{};  ///< of `cache_scenes`, by size
   std::size_t faster_machine = 0;                                     ///< Rings4 on 32 nodes of an iPSC/860

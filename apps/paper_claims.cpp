@@ -50,15 +50,17 @@ void claim_rays_fall(Table& table, const Catalogue& catalogue, const PaperResult
 
 /// Of one scene's caches: size, efficiency and traffic.
 struct CachePoint {
-  std::uint32_t pages = 0;
+  std::uint32_t pages = 0;  ///< in the article
+  double share = 0;         ///< of the database
   double efficiency = 0, page_rate = 0;
 };
 std::vector<CachePoint> points_of(const Catalogue& catalogue, const PaperResults& results, std::size_t scene) {
   std::vector<CachePoint> points;
   const auto& base = results[catalogue.cache_base[scene]];
-  for (const std::size_t number : catalogue.cached[scene]) {
+  for (std::size_t size = 0; size < cache_size_count; ++size) {
+    const std::size_t number = catalogue.cached[scene][size];
     if (base && results[number]) {
-      points.push_back({*catalogue.runs[number].cache_pages,
+      points.push_back({cache_scenes[scene].pages[size], cache_scenes[scene].share(size),
                         efficiency(base->seconds(), 1, results[number]->seconds(), cache_node_count),
                         results[number]->page_rate(cache_node_count)});
     }
@@ -66,33 +68,39 @@ std::vector<CachePoint> points_of(const Catalogue& catalogue, const PaperResults
   return points;
 }
 
-/// The smallest cache with more than 50 %; nothing if the largest has not.
-std::optional<std::uint32_t> pages_for_half(const std::vector<CachePoint>& points) {
+/// The smallest cache with more than 50 %; nothing if none has.
+std::optional<CachePoint> cache_for_half(const std::vector<CachePoint>& points) {
   const auto found = std::find_if(points.begin(), points.end(), [](const CachePoint& point) { return point.efficiency > 50; });
-  return found == points.end() ? std::nullopt : std::optional(found->pages);
+  return found == points.end() ? std::nullopt : std::optional(*found);
 }
 
-std::string from_pages(const std::optional<std::uint32_t>& pages) {
-  return pages ? "from " + std::to_string(*pages) + " pages on" : "with none";
+std::string from_cache(const std::optional<CachePoint>& cache) {
+  return cache ? "from " + fixed(100 * cache->share, 2) + " % of the database on (" + std::to_string(cache->pages) +
+                     " pages of the article's)"
+               : "with none";
 }
+
+std::string to_text(const CachePoint& point) { return std::to_string(point.pages) + (point.pages == 1 ? " page" : " pages"); }
+
+/// Pages that a node receives, of what messages of 1 KB allow.
+double share_of_network(const CachePoint& point) { return point.page_rate / 0.9e6; }
 
 void claim_caches(Table& table, const Catalogue& catalogue, const PaperResults& results) {
   const std::vector<CachePoint> of_rings = points_of(catalogue, results, 0), of_tetra = points_of(catalogue, results, 1);
   if (of_rings.empty() || of_tetra.empty()) {
     return;
   }
-  const std::optional<std::uint32_t> for_rings = pages_for_half(of_rings), for_tetra = pages_for_half(of_tetra);
-  add_claim(table, "Rings4 needs larger caches than Tetra9 to stay above 50 %",
-            for_tetra && (!for_rings || *for_rings > *for_tetra),
-            "Rings4 " + from_pages(for_rings) + ", Tetra9 " + from_pages(for_tetra));
+  const std::optional<CachePoint> for_rings = cache_for_half(of_rings), for_tetra = cache_for_half(of_tetra);
+  add_claim(table, "Rings4 needs larger caches than Tetra9 to stay above 50 %, as a share of the database",
+            for_tetra && (!for_rings || for_rings->share > for_tetra->share),
+            "Rings4 " + from_cache(for_rings) + ", Tetra9 " + from_cache(for_tetra));
   const auto peak = std::max_element(of_rings.begin(), of_rings.end(),
                                      [](const CachePoint& a, const CachePoint& b) { return a.page_rate < b.page_rate; });
   add_claim(table, "The communication rate of Rings4 peaks (theirs at 204 pages) and falls for smaller caches",
-            peak != of_rings.begin() && peak->pages < of_rings.back().pages,
-            "the peak is at " + std::to_string(peak->pages) + " pages");
-  const double share = peak->page_rate / 0.9e6;
+            peak != of_rings.begin() && peak->pages < of_rings.back().pages, "the peak is at " + to_text(*peak));
+  const double share = share_of_network(*peak);
   add_claim(table, "At the peak the network carries about 70 % of the 0.9 MB/s that messages of 1 KB allow",
-            share > 0.6 && share < 0.8, fixed(100 * share, 0) + " % for each node");
+            share > 0.6 && share < 0.8, "a node receives " + fixed(100 * share, 0) + " %, and sends as much");
 }
 
 void claim_faster_machine(Table& table, const Catalogue& catalogue, const PaperResults& results) {

@@ -2,11 +2,15 @@
 // Parallel", IEEE CG&A 14(4), Tables 2 and 3.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
 namespace dmpc::apps {
+
+/// Of the 4 MB of a node's memory, about so many KB serve the shared memory: its own pages and its cache.
+inline constexpr double shared_kilobytes = 3.2 * 1024;
 
 /// The node counts of Table 3.
 inline constexpr std::array<std::uint32_t, 7> paper_node_counts = {1, 2, 4, 8, 16, 32, 64};
@@ -27,6 +31,12 @@ struct PaperScene {
       ++column;
     }
     return column;
+  }
+  /// What the cache of one of so many nodes holds, as a share of the database: what is left of the shared memory beside the
+  /// node's own pages, at most all others.
+  constexpr double cache_share(std::uint32_t node_count) const {
+    const double own = 1.0 / node_count;
+    return std::clamp(shared_kilobytes / static_cast<double>(database_kilobytes) - own, 0.0, 1 - own);
   }
 };
 

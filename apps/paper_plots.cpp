@@ -11,7 +11,8 @@ namespace dmpc::apps {
 namespace {
 
 const PlotAxis nodes_axis{.label = "nodes", .scale = PlotScale::powers_of_2, .least = 0.9, .most = 72};
-const PlotAxis cache_axis{.label = "cache (pages of 1 KiB)", .scale = PlotScale::powers_of_10, .least = 3, .most = 4000};
+const PlotAxis cache_axis{
+    .label = "cache of a node (% of the database)", .scale = PlotScale::powers_of_10, .least = 0.002, .most = 100};
 const PlotAxis percent_axis{.label = "efficiency (%)", .least = 0, .most = 105};
 
 PaperPlot plot_of_table_3() {
@@ -48,9 +49,10 @@ PaperPlot plot_of_algorithms() {
 }
 
 PaperPlot plot_of_caches(const std::string& name, const std::string& title, const PlotAxis& y, const std::string& column) {
-  Plot plot{.name = name, .title = title, .places = {"cache"}, .x = cache_axis, .y = y, .series = {}};
+  Plot plot{.name = name, .title = title, .places = {"of the database"}, .x = cache_axis, .y = y, .series = {}};
   for (std::size_t scene = 0; scene < cache_scenes.size(); ++scene) {
-    plot.series.push_back({cache_scenes[scene], column, {{"scene", cache_scenes[scene]}}, PlotMark::line, scene});
+    const std::string name_of_scene = cache_scenes[scene].row().scene;
+    plot.series.push_back({name_of_scene, column, {{"scene", name_of_scene}}, PlotMark::line, scene});
   }
   return {"caches", std::move(plot)};
 }

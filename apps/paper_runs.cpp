@@ -1,6 +1,7 @@
 #include "apps/paper_runs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <map>
 #include <numeric>
@@ -27,11 +28,18 @@ PictureOptions picture_of(const std::string& scene, std::uint32_t resolution) {
 std::uint64_t pixels_of(const PaperRun& run) { return std::uint64_t{run.resolution} * run.resolution; }
 
 const Subject& subject_of(const PaperRun& run, std::span<const PaperSubject> subjects) {
-  const auto found = std::find_if(subjects.begin(), subjects.end(), [&](const PaperSubject& subject) {
-    return subject.scene == run.scene && subject.resolution == run.resolution;
-  });
+  const auto found =
+      std::find_if(subjects.begin(), subjects.end(), [&](const PaperSubject& subject) { return subject.is_of(run); });
   core::expect(found != subjects.end(), "every run has its scene");
   return found->subject;
+}
+
+std::optional<std::uint32_t> cache_pages_of(const PaperRun& run, const core::Database& database) {
+  if (!run.cache_share) {
+    return std::nullopt;
+  }
+  const double pages = *run.cache_share * static_cast<double>(database.page_count());
+  return std::max(1U, static_cast<std::uint32_t>(std::lround(pages)));
 }
 
 Report report_of(const PaperRun& run, const Subject& subject, const std::stop_token& stop) {
@@ -44,7 +52,7 @@ Report report_of(const PaperRun& run, const Subject& subject, const std::stop_to
   }
   const svm::RunOptions options{.node_count = run.node_count,
                                 .node_memory_bytes = run.node_memory_bytes,
-                                .cache_pages = run.cache_pages,
+                                .cache_pages = cache_pages_of(run, subject.database),
                                 .in_flight = 1,
                                 .count_pages = run.count_pages,
                                 .machine = run.machine};
@@ -59,6 +67,7 @@ PaperResult result_of(const Report& report) {
                      .film_hash = account.film.hash()};
   if (const auto* pages = std::get_if<svm::Report>(&report)) {
     result.faults = pages->pages().faults;
+    result.cache_pages = pages->plan.cache().frame_count;
     result.page_bytes = account.sent[svm::number_of(svm::Kind::page_reply)].bytes;
     result.pages_a_pixel = static_cast<double>(pages->pages().distinct_pages) / static_cast<double>(account.film.pixels().size());
   }
@@ -70,12 +79,10 @@ PaperResult result_of(const Report& report) {
 std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs) {
   std::vector<PaperSubject> subjects;
   for (const PaperRun& run : runs) {
-    const bool is_known = std::any_of(subjects.begin(), subjects.end(), [&](const PaperSubject& subject) {
-      return subject.scene == run.scene && subject.resolution == run.resolution;
-    });
-    if (!is_known) {
+    if (std::none_of(subjects.begin(), subjects.end(), [&](const PaperSubject& subject) { return subject.is_of(run); })) {
       const PictureOptions picture = picture_of(run.scene, run.resolution);
-      subjects.push_back({run.scene, run.resolution, build_subject(load_scene(picture), picture)});
+      subjects.push_back({run.scene, run.resolution, run.record_order,
+                          build_subject(load_scene(picture), picture, {.record_order = run.record_order})});
     }
   }
   return subjects;
@@ -84,7 +91,7 @@ std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs) {
 std::vector<std::optional<PaperResult>> carry_out(std::span<const PaperRun> runs, std::span<const PaperSubject> subjects,
                                                   const Interrupt& interrupt) {
   std::vector<std::optional<PaperResult>> results(runs.size());
-  std::map<const Subject*, std::uint64_t> films;
+  std::map<std::pair<std::string, std::uint32_t>, std::uint64_t> films;  // by scene and size
   Progress progress(std::cerr, stderr_is_terminal(), std::to_string(runs.size()) + " runs: ");
   std::uint64_t done_pixels = 0;
   const std::uint64_t all_pixels = std::accumulate(runs.begin(), runs.end(), std::uint64_t{0},
@@ -99,7 +106,7 @@ std::vector<std::optional<PaperResult>> carry_out(std::span<const PaperRun> runs
       return [] {};
     }
     return [&, index, result = result_of(report)] {
-      const auto [film, is_first] = films.try_emplace(&subject, result.film_hash);
+      const auto [film, is_first] = films.try_emplace({runs[index].scene, runs[index].resolution}, result.film_hash);
       core::expect(film->second == result.film_hash, "every run of a scene gives the same film");
       results[index] = result;
       done_pixels += pixels_of(runs[index]);

@@ -10,6 +10,7 @@
 #include "apps/interrupt.h"
 #include "apps/subject.h"
 #include "apps/time_parts.h"
+#include "core/record_order.h"
 #include "nodes/machine.h"
 
 namespace dmpc::apps {
@@ -20,10 +21,11 @@ struct PaperRun {
   std::uint32_t node_count = 1;
   bool rays_travel = false;  ///< strategy dataflow in place of svm
   nodes::Machine machine;
-  std::optional<std::uint32_t> cache_pages = std::nullopt;  ///< of svm
-  bool count_pages = false;                                 ///< of svm: the distinct pages a pixel
+  std::optional<double> cache_share = std::nullopt;  ///< of svm: what a node's cache holds, of the database; at least a page
+  bool count_pages = false;                          ///< of svm: the distinct pages a pixel
   std::optional<std::size_t> node_memory_bytes = std::nullopt;
   std::uint32_t resolution = 512;  ///< pixels a side
+  core::RecordOrder record_order = core::RecordOrder::spatial;
 };
 
 /// What it came to.
@@ -31,7 +33,8 @@ struct PaperResult {
   std::uint64_t total_ns = 0;
   TimeParts parts;  ///< summed over the nodes
   std::uint64_t rays = 0, faults = 0, page_bytes = 0;
-  double pages_a_pixel = 0;  ///< if they were counted
+  std::uint32_t cache_pages = 0;  ///< of a node, if pages travelled
+  double pages_a_pixel = 0;       ///< if they were counted
   std::uint64_t film_hash = 0;
 
   double seconds() const { return 1e-9 * static_cast<double>(total_ns); }
@@ -45,7 +48,13 @@ struct PaperResult {
 struct PaperSubject {
   std::string scene;
   std::uint32_t resolution = 0;
+  core::RecordOrder record_order = core::RecordOrder::spatial;
   Subject subject;
+
+  /// Whether it is the run's.
+  bool is_of(const PaperRun& run) const {
+    return scene == run.scene && resolution == run.resolution && record_order == run.record_order;
+  }
 };
 /// Those that the runs need. Takes a second or so for the largest.
 std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs);

@@ -62,6 +62,6 @@ Table losses(const Catalogue& catalogue, const PaperResults& results);
 /// Figures 5 and 7: rays that travel beside pages that travel.
 Table algorithms(const Catalogue& catalogue, const PaperResults& results);
 /// Figures 8 to 10: what the size of the cache is worth.
-Table caches(const Catalogue& catalogue, const PaperResults& results, const std::vector<PaperSubject>& subjects);
+Table caches(const Catalogue& catalogue, const PaperResults& results);
 
 }  // namespace dmpc::apps

@@ -11,6 +11,7 @@
 #include "apps/paper_catalogue.h"
 #include "apps/paper_claims.h"
 #include "apps/paper_law.h"
+#include "apps/paper_memories.h"
 #include "apps/paper_report.h"
 #include "apps/paper_runs.h"
 #include "apps/paper_sensitivity.h"
@@ -50,9 +51,10 @@ std::vector<NamedTable> tables_of(const Catalogue& catalogue, const PaperResults
           {"calibration", calibration(catalogue, results)},
           {"law", beside_law(catalogue, results)},
           {"against_law", against_law(catalogue, results)},
+          {"memories", memories(catalogue, results)},
           {"losses", losses(catalogue, results)},
           {"algorithms", algorithms(catalogue, results)},
-          {"caches", caches(catalogue, results, subjects)},
+          {"caches", caches(catalogue, results)},
           {"claims", claims_with_note(catalogue, results, has_first(results, run_count))}};
 }
 

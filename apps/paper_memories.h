@@ -1,0 +1,13 @@
+// What Table 3 owes to the sizes of memories and to the order of records.
+#pragma once
+
+#include "apps/paper_catalogue.h"
+#include "apps/study_table.h"
+
+namespace dmpc::apps {
+
+/// Efficiencies of the scenes that miss pages: with caches of the article's share of the database, as in Table 3, the same with
+/// records without an order in space, and with memories of the article's 4 MB; each beside what is printed.
+Table memories(const Catalogue& catalogue, const PaperResults& results);
+
+}  // namespace dmpc::apps
