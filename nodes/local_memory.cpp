@@ -1,5 +1,7 @@
 #include "nodes/local_memory.h"
 
+#include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <new>
 #include <string>
@@ -17,30 +19,32 @@
 namespace dmpc::nodes {
 namespace {
 
-constexpr std::align_val_t block_alignment{4096};
+constexpr std::size_t block_alignment = 4096;
 
-/// Unpoisons with the size that stands in front of the block: a deleter knows the address only.
+/// What a deleter, which knows the block's address only, needs to know: stands in front of it.
 struct BlockFront {
   std::size_t bytes = 0;
+  void* start = nullptr;  ///< that was allocated
 };
-constexpr std::size_t front_bytes = LocalMemory::alignment;
-static_assert(sizeof(BlockFront) <= front_bytes);
+static_assert(sizeof(BlockFront) <= block_alignment && LocalMemory::alignment <= block_alignment);
 
 void release(std::byte* block) {
-  std::byte* const start = block - front_bytes;
   BlockFront front;
-  std::memcpy(&front, start, sizeof(front));
+  std::memcpy(&front, block - sizeof(front), sizeof(front));
   ASAN_UNPOISON_MEMORY_REGION(block, front.bytes);
-  ::operator delete[](start, block_alignment);
+  std::free(front.start);
 }
 
-std::byte* reserve_touched(std::size_t bytes) {
-  auto* const start = static_cast<std::byte*>(::operator new[](front_bytes + bytes, block_alignment));
-  std::memset(start, 0, front_bytes + bytes);
-  const BlockFront front{bytes};
-  std::memcpy(start, &front, sizeof(front));
-  ASAN_POISON_MEMORY_REGION(start + front_bytes, bytes);
-  return start + front_bytes;
+/// Zero. Of a large block nothing but its front has been touched.
+std::byte* reserve_zero(std::size_t bytes) {
+  const BlockFront front{bytes, std::calloc(1, bytes + 2 * block_alignment)};
+  if (front.start == nullptr) {
+    throw std::bad_alloc();
+  }
+  const auto offset = reinterpret_cast<std::uintptr_t>(front.start) % block_alignment;
+  std::byte* const block = static_cast<std::byte*>(front.start) + (2 * block_alignment - offset);
+  std::memcpy(block - sizeof(front), &front, sizeof(front));
+  return block;
 }
 
 std::size_t block_bytes(const MemoryPlan& plan) { return plan.total() - plan[Category::reserve]; }
@@ -61,16 +65,21 @@ std::size_t MemoryPlan::total() const {
   return sum;
 }
 
-LocalMemory::Block LocalMemory::reserve(std::size_t bytes) {
+LocalMemory::Block LocalMemory::reserve(std::size_t bytes, Backing backing) {
   try {
-    return {reserve_touched(bytes), release};
+    Block block(reserve_zero(bytes), release);
+    if (backing == Backing::from_the_start) {
+      std::memset(block.get(), 0, bytes);
+    }
+    ASAN_POISON_MEMORY_REGION(block.get(), bytes);
+    return block;
   } catch (const std::bad_alloc&) {
     throw core::InputError("this computer has no " + std::to_string(bytes) +
                            " bytes for a node's local memory: ask for fewer nodes or less memory a node");
   }
 }
 
-LocalMemory::LocalMemory(const MemoryPlan& plan) : plan_(plan), block_(reserve(block_bytes(plan))) {
+LocalMemory::LocalMemory(const MemoryPlan& plan, Backing backing) : plan_(plan), block_(reserve(block_bytes(plan), backing)) {
   used_[Category::reserve] = plan[Category::reserve];
 }
 

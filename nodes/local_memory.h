@@ -41,6 +41,9 @@ struct MemoryPlan {
   std::size_t total() const;
 };
 
+/// Whether the real computer has set the bytes of a memory aside from the start, or does so when they are first written.
+enum class Backing : std::uint8_t { from_the_start, on_demand };
+
 /// One block of memory, cut from the front and never given back; each allocation is rounded up to a cache line and counts against
 /// its category's share of the plan. Thread safety: none; belongs to one node. Under ASan the bytes not handed out are poisoned,
 /// the remainders of cache lines too.
@@ -48,20 +51,22 @@ class LocalMemory {
  public:
   static constexpr std::size_t alignment = 64;
 
-  /// Reserves plan.total() bytes at once (pages are touched so that the real computer backs them), but for the `reserve`
-  /// category: that is the thread's stack, which the runner makes; it counts as used from the start. Throws core::InputError if
-  /// the real computer has not so much.
-  explicit LocalMemory(const MemoryPlan& plan);
+  /// Reserves plan.total() bytes at once, but for the `reserve` category: that is the thread's stack, which the runner makes; it
+  /// counts as used from the start. `from_the_start`: they are touched so that the real computer backs them. Throws
+  /// core::InputError if the real computer has not so much, as far as it knows by then.
+  explicit LocalMemory(const MemoryPlan& plan, Backing backing = Backing::from_the_start);
 
   /// `count` value-initialised objects; expects that the memory is not sealed and that the category's plan has room.
-  /// T needs no destructor.
+  /// T needs no destructor. Objects without a constructor of their own are not touched: the block is zero, and so are they.
   template <class T>
   std::span<T> allocate(Category category, std::size_t count) {
     static_assert(std::is_trivially_destructible_v<T> && alignof(T) <= alignment);
     core::expect(count <= plan_[category] / sizeof(T), "an allocation stays within its category's plan");
     std::byte* const first = allocate_bytes(category, count * sizeof(T));
-    for (std::size_t i = 0; i < count; ++i) {
-      ::new (static_cast<void*>(first + i * sizeof(T))) T();
+    if constexpr (!std::is_trivially_default_constructible_v<T>) {
+      for (std::size_t i = 0; i < count; ++i) {
+        ::new (static_cast<void*>(first + i * sizeof(T))) T();
+      }
     }
     return {std::launder(reinterpret_cast<T*>(first)), count};
   }
@@ -82,7 +87,7 @@ class LocalMemory {
 
  private:
   using Block = std::unique_ptr<std::byte[], void (*)(std::byte*)>;
-  static Block reserve(std::size_t bytes);
+  static Block reserve(std::size_t bytes, Backing backing);
   std::byte* allocate_bytes(Category category, std::size_t bytes);
 
   MemoryPlan plan_;

@@ -1,9 +1,13 @@
 #include "nodes/local_memory.h"
 
 #include <doctest/doctest.h>
+#include <sys/mman.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <span>
+#include <vector>
 
 #include "nodes/packet.h"
 
@@ -51,6 +55,45 @@ TEST_CASE("allocations are zero, aligned, apart, and counted in whole cache line
   CHECK(memory.used()[Category::queues] == 192);
   CHECK(memory.used().total() == LocalMemory::bytes_for<std::uint32_t>(17) + LocalMemory::bytes_for<std::uint8_t>(1));
 }
+
+TEST_CASE("allocations are zero in a memory that was used before, backed from the start or on demand") {
+  for (const Backing backing : {Backing::from_the_start, Backing::on_demand}) {
+    for (const std::size_t bytes : {std::size_t{64}, std::size_t{4096}, std::size_t{3} << 20U}) {
+      for (int again = 0; again < 3; ++again) {
+        LocalMemory memory(queues_of(bytes), backing);
+        const auto all = memory.allocate<std::byte>(Category::queues, bytes);
+        CHECK(std::all_of(all.begin(), all.end(), [](std::byte one) { return one == std::byte{0}; }));
+        CHECK(reinterpret_cast<std::uintptr_t>(all.data()) % LocalMemory::alignment == 0);
+        std::memset(all.data(), 0xff, bytes);
+      }
+    }
+  }
+}
+
+TEST_CASE("objects with a constructor of their own are made by it") {
+  struct Made {
+    int value = 7;
+  };
+  LocalMemory memory(queues_of(256), Backing::on_demand);
+  for (const Made& made : memory.allocate<Made>(Category::queues, 5)) {
+    CHECK(made.value == 7);
+  }
+}
+
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_CASE("a memory backed on demand takes nothing of the real computer until it is written") {
+  constexpr std::size_t bytes = std::size_t{64} << 20U, page_bytes = 4096;
+  const auto resident = [](std::span<std::byte> memory) {
+    std::vector<unsigned char> is_resident(memory.size() / page_bytes);
+    CHECK(::mincore(memory.data(), memory.size(), is_resident.data()) == 0);
+    return static_cast<std::size_t>(
+        std::count_if(is_resident.begin(), is_resident.end(), [](unsigned char one) { return (one & 1U) != 0; }));
+  };
+  LocalMemory on_demand(queues_of(bytes), Backing::on_demand), touched(queues_of(bytes));
+  CHECK(resident(on_demand.allocate<std::byte>(Category::queues, bytes)) < 600);  // a huge page at most
+  CHECK(resident(touched.allocate<std::byte>(Category::queues, bytes)) == bytes / page_bytes);
+}
+#endif
 
 TEST_CASE("a category can be filled to its last byte and no further") {
   LocalMemory memory(queues_of(128));
