@@ -49,7 +49,8 @@ void check(const Subject& subject, const Report& report) {
 /// Both of a run's hashes.
 template <class Report>
 std::vector<std::uint64_t> hashes(const Report& report) {
-  return {report.virtual_time->hash, report.virtual_time->events, report.virtual_time->total_ns, report.film.hash()};
+  return {report.virtual_time->run_hash(report.film.hash()), report.virtual_time->hash, report.virtual_time->events,
+          report.virtual_time->total_ns, report.film.hash()};
 }
 
 /// What each of two threads gets when both call at one time.
@@ -132,6 +133,26 @@ TEST_CASE("virtual time: equal runs have equal events and films, one after the o
   CHECK(side_by_side(svm) == std::vector{svm(), svm()});
   CHECK(dataflow() == dataflow());
   CHECK(side_by_side(dataflow) == std::vector{dataflow(), dataflow()});
+}
+
+/// These numbers change with whatever changes the picture, the layout of records or what is charged for them, and with nothing
+/// else.
+TEST_CASE("virtual time: a fixed picture has one run hash for each strategy, on every computer and in every build type") {
+  const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
+  const auto run_hash = [](const auto& report) { return report.virtual_time->run_hash(report.film.hash()); };
+  CHECK(run_hash(run_svm(subject, {.node_count = 5, .cache_pages = 2, .machine = slow_network()})) == 0x299a636cdb27c1be);
+  CHECK(run_hash(run_replicated(subject, {.node_count = 5, .machine = slow_network()})) == 0xbd6ee17edef2a4bf);
+  CHECK(run_hash(run_dataflow(subject, {.node_count = 5, .machine = slow_network()})) == 0xf7caffe571cccfc);
+}
+
+TEST_CASE("virtual time: with memory ports the picture is the same, and more is waited for") {
+  const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
+  svm::RunOptions options{.node_count = 16, .cache_pages = 2, .machine = slow_network()};
+  const svm::Report without = run_svm(subject, options);
+  options.machine->has_memory_port = true;
+  const svm::Report with = run_svm(subject, options);
+  check(subject, with);
+  CHECK(with.virtual_time->links.wait_ns > without.virtual_time->links.wait_ns);
 }
 
 TEST_CASE("virtual time: another cost makes another run and the same film") {
