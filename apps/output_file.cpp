@@ -71,6 +71,15 @@ void check_output_path(const fs::path& path, std::string_view option) {
   }
 }
 
+void make_output_folder(const fs::path& path, std::string_view option) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error || !fs::is_directory(path)) {
+    throw core::InputError(std::string(option) + " " + path.string() + ": expected a folder, or a name for one that can be made");
+  }
+  check_output_path(path / "file", option);
+}
+
 OutputFile::OutputFile(const fs::path& path) : target_(resolve(path)) {
   if (is_special(target_)) {
     temporary_ = target_;

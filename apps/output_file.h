@@ -15,6 +15,9 @@ namespace dmpc::apps {
 /// `option` names the option that gave it, for the message.
 void check_output_path(const std::filesystem::path& path, std::string_view option);
 
+/// Makes a folder for several files at `path` unless there is one. Throws core::InputError unless files can be made in it.
+void make_output_folder(const std::filesystem::path& path, std::string_view option);
+
 /// Whether something is at `path` that is no ordinary file: a pipe, a device, a folder.
 bool is_special(const std::filesystem::path& path);
 

@@ -13,7 +13,6 @@ namespace {
 const PlotAxis nodes_axis{.label = "nodes", .scale = PlotScale::powers_of_2, .least = 0.9, .most = 72};
 const PlotAxis cache_axis{
     .label = "cache of a node (% of the database)", .scale = PlotScale::powers_of_10, .least = 0.002, .most = 100};
-const PlotAxis percent_axis{.label = "efficiency (%)", .least = 0, .most = 105};
 
 PaperPlot plot_of_table_3() {
   Plot plot{.name = "table_3",
@@ -38,7 +37,7 @@ PaperPlot plot_of_algorithms() {
             .title = "Figures 5 and 7: efficiency of both algorithms",
             .places = {"nodes"},
             .x = nodes_axis,
-            .y = percent_axis,
+            .y = percent_axis("efficiency"),
             .series = {}};
   for (std::size_t scene = 0; scene < rings.size(); ++scene) {
     const std::string name = rings[scene];
@@ -98,7 +97,8 @@ std::vector<PaperPlot> paper_plots() {
   return {plot_of_table_3(),
           plot_of_losses(),
           plot_of_algorithms(),
-          plot_of_caches("caches", "Figures 8 and 9: efficiency by the size of the cache, 32 nodes", percent_axis, "efficiency"),
+          plot_of_caches("caches", "Figures 8 and 9: efficiency by the size of the cache, 32 nodes", percent_axis("efficiency"),
+                         "efficiency"),
           plot_of_caches("traffic", "Figure 10: pages received by a node, 32 nodes",
                          {.label = "page traffic a node (bytes/s)", .least = 0}, "page traffic a node"),
           plot_of_sensitivity()};

@@ -28,10 +28,7 @@ void write_tables(const std::vector<NamedTable>& tables, const std::filesystem::
 
 /// One sentence for all pictures if the program is missing, else one for each that failed.
 void complain(std::vector<std::string>& complaints, const PlotOutcome& outcome) {
-  const std::string sentence = outcome.is_program_missing
-                                   ? "the plots are not drawn: " + outcome.complaint +
-                                         " (package gnuplot-nox); once it is there, `gnuplot *.gnuplot` in the folder draws them"
-                                   : outcome.complaint;
+  const std::string sentence = sentence_on(outcome);
   if (std::find(complaints.begin(), complaints.end(), sentence) == complaints.end()) {
     complaints.push_back(sentence);
   }

@@ -106,6 +106,7 @@ class Script {
            "reset\n"
            "set encoding utf8\n"
            "set datafile separator ','\n"
+           "set datafile missing NaN\n"
            "set terminal svg size 960,600 noenhanced font 'sans-serif,14' background '#ffffff'\n"
            "set output " +
            quoted(plot_.name + ".svg") + "\nset title " + quoted(plot_.title) +
@@ -199,6 +200,21 @@ class Script {
 };
 
 }  // namespace
+
+Plot curves(std::string name, std::string title, std::string place, PlotAxis x, PlotAxis y, std::vector<PlotSeries> series) {
+  Plot plot;
+  plot.name = std::move(name);
+  plot.title = std::move(title);
+  plot.places.push_back(std::move(place));
+  plot.x = std::move(x);
+  plot.y = std::move(y);
+  plot.series = std::move(series);
+  return plot;
+}
+
+PlotAxis node_axis() { return {.label = "nodes", .scale = PlotScale::powers_of_2}; }
+
+PlotAxis percent_axis(const std::string& what) { return {.label = what + " (%)", .least = 0, .most = 105}; }
 
 std::optional<std::string> script_of(const Plot& plot, const Table& table, const std::string& data_file) {
   return Script(plot, table, data_file).text();

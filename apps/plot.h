@@ -45,6 +45,12 @@ struct Plot {
   bool is_stacked = false;  ///< bars upon one another, the first at the bottom
 };
 
+/// Series over one column.
+Plot curves(std::string name, std::string title, std::string place, PlotAxis x, PlotAxis y, std::vector<PlotSeries> series);
+/// Numbers of nodes, and percent from 0.
+PlotAxis node_axis();
+PlotAxis percent_axis(const std::string& what);
+
 /// A gnuplot script that reads the table's CSV file, `data_file`, in the folder in which it is run, and writes NAME.svg there;
 /// nothing if no row of the table is drawn. Expects columns that the table has.
 std::optional<std::string> script_of(const Plot& plot, const Table& table, const std::string& data_file);

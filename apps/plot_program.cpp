@@ -138,6 +138,12 @@ PlotOutcome run_script(const fs::path& folder, const std::string& name, const st
 
 }  // namespace
 
+std::string sentence_on(const PlotOutcome& outcome) {
+  return outcome.is_program_missing ? "the plots are not drawn: " + outcome.complaint +
+                                          " (package gnuplot-nox); once it is there, `gnuplot *.gnuplot` in the folder draws them"
+                                    : outcome.complaint;
+}
+
 std::optional<PlotOutcome> draw(const Plot& plot, const Table& table, const fs::path& folder, const std::string& data_file,
                                 const std::string& program) {
   const fs::path script_path = folder / (plot.name + ".gnuplot"), picture_path = folder / (plot.name + ".svg");

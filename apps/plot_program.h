@@ -17,6 +17,9 @@ struct PlotOutcome {
   std::string complaint;  ///< if it is not drawn: a sentence, with what the program said
 };
 
+/// What to tell about a picture that is not drawn: a sentence without its full stop, the same for all if the program is missing.
+std::string sentence_on(const PlotOutcome& outcome);
+
 /// Writes NAME.gnuplot into `folder`, where `data_file` is the table as CSV, and lets `program` make NAME.svg of it there;
 /// nothing if there is nothing to draw. An older NAME.svg goes first, and so does one that was not finished. `program` is looked
 /// for along PATH unless it has a slash; waits for its end. What goes wrong with it is told by the outcome alone, for a picture

@@ -2,6 +2,7 @@
 
 #include <iostream>
 #include <ostream>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "apps/load_scene.h"
 #include "apps/machines.h"
 #include "apps/output_file.h"
+#include "apps/plot_program.h"
 #include "apps/progress.h"
 #include "apps/stats.h"
 #include "apps/study_runs.h"
@@ -32,6 +34,12 @@ void check_output(const StudyOptions& options) {
   }
   check_distinct(inputs, {{"-o", *options.output}});
   check_output_path(*options.output, "-o");
+}
+
+void make_plot_folder(const StudyOptions& options) {
+  if (options.plots) {
+    make_output_folder(*options.plots, "--plots");
+  }
 }
 
 /// A signal ends the process here and now.
@@ -58,8 +66,27 @@ std::string film_note(const StudyRuns& runs) {
   return "Film of every run, " + std::to_string(runs.count()) + " in all: " + hash_text(*runs.film_hash()) + ".";
 }
 
-void write(Table& table, const StudyRuns& runs, const StudyOptions& options, std::ostream& output) {
+/// Complaints go to stderr: a picture is an extra.
+void draw_plots(const Table& table, const std::vector<Plot>& plots, const std::filesystem::path& folder) {
+  const std::string data_file = "study.csv";
+  OutputFile file(folder / data_file);
+  file.write(text_of(table, TableFormat::csv));
+  file.commit();
+  std::set<std::string> complaints;
+  for (const Plot& plot : plots) {
+    const auto outcome = draw(plot, table, folder, data_file);
+    if (outcome && !outcome->is_drawn && complaints.insert(sentence_on(*outcome)).second) {
+      std::cerr << "dmpc: " << sentence_on(*outcome) << std::endl;
+    }
+  }
+}
+
+void write(Table& table, const std::vector<Plot>& plots, const StudyRuns& runs, const StudyOptions& options,
+           std::ostream& output) {
   table.add_note(film_note(runs));
+  if (options.plots) {
+    draw_plots(table, plots, *options.plots);
+  }
   const std::string text = text_of(table, options.format);
   if (options.output) {
     OutputFile file(*options.output);
@@ -89,12 +116,12 @@ void carry_out(const OneStudy& study, const StudyOptions& options, Interrupt& in
     study.measure(runs, table);
     interrupt.set_consequence(options.output ? "nothing was written" : "the table is incomplete");
     const Interrupt::EndAtOnce end_at_once(interrupt);
-    write(table, runs, options, output);
+    write(table, study.plots(), runs, options, output);
   } catch (const Interrupted&) {
     if (!table.rows().empty()) {
       interrupt.set_consequence("the table has the rows finished before");
       table.add_note("Interrupted: rows are missing.");
-      write(table, runs, options, output);
+      write(table, study.plots(), runs, options, output);
     }
     throw;
   }
@@ -104,6 +131,7 @@ void carry_out(const OneStudy& study, const StudyOptions& options, Interrupt& in
 
 int study_command(const StudyOptions& options, Interrupt& interrupt, std::ostream& output) {
   check_output(options);
+  make_plot_folder(options);
   std::visit([&](const auto& study) { carry_out(study, options, interrupt, output); }, options.study);
   return 0;
 }

@@ -84,6 +84,17 @@ std::vector<Column> BalanceStudy::columns() const {
   return columns;
 }
 
+std::vector<Plot> BalanceStudy::plots() const {
+  std::vector<PlotSeries> series;
+  for (const Balance balance : {Balance::subsampled, Balance::equal_size}) {
+    const std::string kind = name_of(balance);
+    const std::size_t color = series.size() / 2;
+    series.push_back({kind + ", predicted", "average load predicted", {{"regions", kind}}, PlotMark::points, color});
+    series.push_back({kind + ", achieved", "average load achieved", {{"regions", kind}}, PlotMark::line, color});
+  }
+  return {curves("balance", "Average load of the nodes", "nodes", node_axis(), percent_axis("average load"), std::move(series))};
+}
+
 void BalanceStudy::measure(StudyRuns& runs, Table& table) const {
   for (const std::uint32_t node_count : node_counts) {
     for (const Balance balance : {Balance::subsampled, Balance::equal_size}) {

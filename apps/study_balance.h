@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/plot.h"
 #include "apps/study_runs.h"
 #include "apps/study_table.h"
 #include "dataflow/balance.h"
@@ -24,6 +25,8 @@ struct BalanceStudy {
   bool per_node = false;  ///< below each row one more for each node, with its share of the work
 
   std::vector<Column> columns() const;
+  /// Pictures of such a table.
+  std::vector<Plot> plots() const;
   /// How many times measure() renders.
   std::uint32_t run_count() const { return 2 * static_cast<std::uint32_t>(node_counts.size()); }
   /// Adds to `table`, which has columns(), row after row as the runs end. Throws as StudyRuns::run() does.

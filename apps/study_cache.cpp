@@ -227,6 +227,25 @@ std::vector<Column> CacheStudy::columns() const {
   return columns;
 }
 
+std::vector<Plot> CacheStudy::plots() const {
+  const PlotAxis sizes{.label = "cache of a node (pages)", .scale = PlotScale::powers_of_10};
+  const PlotAxis count{.label = "faults", .scale = PlotScale::powers_of_10}, rate{.label = "bytes/s", .least = 0};
+  std::vector<PlotSeries> policies = {{"lru", "faults lru"}};
+  for (const Replacement policy : run_policies) {
+    const std::string policy_name(svm::name_of(policy));
+    policies.push_back({.title = policy_name, .column = "faults " + policy_name, .color = policies.size()});
+  }
+  policies.push_back({.title = "optimum", .column = "faults optimum", .color = policies.size()});
+  std::vector<Plot> plots = {curves("faults", "Page faults", "cache pages", sizes, count, std::move(policies))};
+  if (machine) {
+    plots.push_back(curves("efficiency", "Efficiency", "cache pages", sizes, percent_axis("efficiency"),
+                           {{"on " + machine->name, "efficiency"}}));
+    plots.push_back(curves("traffic", "Pages received by a node", "cache pages", sizes, rate,
+                           {{"on " + machine->name, "page traffic a node"}}));
+  }
+  return plots;
+}
+
 void CacheStudy::measure(StudyRuns& runs, Table& table) const {
   svm::Report recorded = runs.run(std::to_string(node_count) + " nodes, recording", recording(node_count));
   const std::uint32_t page_count = recorded.plan.request.page_count;

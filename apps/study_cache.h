@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/plot.h"
 #include "apps/study_runs.h"
 #include "apps/study_table.h"
 #include "nodes/machine.h"
@@ -23,6 +24,8 @@ struct CacheStudy {
   std::optional<nodes::Machine> machine;   ///< without it nothing is timed
 
   std::vector<Column> columns() const;
+  /// Pictures of such a table.
+  std::vector<Plot> plots() const;
   /// Not known before the first run: 0.
   std::uint32_t run_count() const { return 0; }
   /// Adds to `table`, which has columns(), row after row as the runs end. Throws as StudyRuns::run() does.

@@ -129,6 +129,7 @@ void add_options(OptionSet set, StudyOptions& options) {
   set.add_choice<TableFormat>("--format", options.format,
                               {{"markdown", TableFormat::markdown}, {"csv", TableFormat::csv}, {"json", TableFormat::json}},
                               "How the table is written");
+  set.add_path("--plots", "FOLDER", options.plots, "Where pictures by gnuplot go, with their scripts and the table as CSV");
   set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
   std::visit(AddOwn{set, options.machine_name}, options.study);
 }

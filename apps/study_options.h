@@ -17,8 +17,8 @@
 
 namespace dmpc::apps {
 
-/// One study. Each has a `name` (the word on the command line) and a `description`, and says what its table's columns() are, how
-/// many runs it takes, what to note below for a scene, and how to measure() row after row.
+/// One study. Each has a `name` (the word on the command line) and a `description`, and says what its table's columns() and its
+/// plots() are, how many runs it takes, what to note below for a scene, and how to measure() row after row.
 using Study = std::variant<BalanceStudy, TrafficStudy, CacheStudy, SpeedupStudy>;
 
 struct StudyOptions {
@@ -27,6 +27,7 @@ struct StudyOptions {
   DatabaseOptions database;
   TableFormat format = TableFormat::markdown;
   std::optional<std::filesystem::path> output;  ///< stdout if not given
+  std::optional<std::filesystem::path> plots;   ///< a folder for pictures and what they are drawn from
   std::string machine_name;                     ///< as given on the command line, if it was
 };
 

@@ -21,15 +21,6 @@
 namespace dmpc::apps {
 namespace {
 
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) {
-    throw core::InputError("-o " + folder.string() + ": expected a folder, or a name for one that can be made");
-  }
-  check_output_path(folder / "report.md", "-o");
-}
-
 Table claims_with_note(const Catalogue& catalogue, const PaperResults& results, bool has_all) {
   Table table = claims(catalogue, results);
   if (!has_all) {
@@ -75,7 +66,7 @@ void add_options(OptionSet options, PaperStudyOptions& paper) {
 
 int study_paper_command(const PaperStudyOptions& options, Interrupt& interrupt, std::ostream& output) {
   if (options.output) {
-    make_folder(*options.output);
+    make_output_folder(*options.output, "-o");
   }
   Catalogue catalogue = catalogue_of(options.resolution);
   const std::size_t run_count = catalogue.runs.size();  // without the sensitivity's

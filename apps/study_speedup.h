@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/machines.h"
+#include "apps/plot.h"
 #include "apps/strategy_options.h"
 #include "apps/study_runs.h"
 #include "apps/study_table.h"
@@ -27,6 +28,8 @@ struct SpeedupStudy {
   static StrategyOptions standard_run();
 
   std::vector<Column> columns() const;
+  /// Pictures of such a table.
+  std::vector<Plot> plots() const;
   /// How many times measure() renders.
   std::uint32_t run_count() const { return static_cast<std::uint32_t>(node_counts.size()); }
   /// Adds to `table`, which has columns(), a row for each node count, those that were finished after a signal; and notes: why a

@@ -70,6 +70,14 @@ std::vector<Column> TrafficStudy::columns() const {
           {"svm memory", "bytes"}};
 }
 
+std::vector<Plot> TrafficStudy::plots() const {
+  const PlotAxis bytes{.label = "bytes", .scale = PlotScale::powers_of_10};
+  return {curves("traffic", "Bytes that travel", "nodes", node_axis(), bytes,
+                 {{.title = "rays travel", .column = "ray traffic", .color = 1}, {"pages travel", "page traffic"}}),
+          curves("memory", "Memory of the fullest node", "nodes", node_axis(), bytes,
+                 {{.title = "rays travel", .column = "dataflow memory", .color = 1}, {"pages travel", "svm memory"}})};
+}
+
 void TrafficStudy::measure(StudyRuns& runs, Table& table) const {
   for (const std::uint32_t node_count : node_counts) {
     const auto run_dataflow = [&](Balance balance, const char* regions) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/plot.h"
 #include "apps/study_runs.h"
 #include "apps/study_table.h"
 
@@ -18,6 +19,8 @@ struct TrafficStudy {
   std::vector<std::uint32_t> node_counts = {1, 2, 4, 8, 16, 32, 64};
 
   std::vector<Column> columns() const;
+  /// Pictures of such a table.
+  std::vector<Plot> plots() const;
   /// How many times measure() renders.
   std::uint32_t run_count() const { return 3 * static_cast<std::uint32_t>(node_counts.size()); }
   /// Adds to `table`, which has columns(), row after row as the runs end. Throws as StudyRuns::run() does.

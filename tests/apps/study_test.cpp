@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <set>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -100,6 +101,37 @@ TEST_CASE("an output that cannot be written or is the scene is refused before an
   options.output = folder / "no" / "a.md";
   CHECK_THROWS_AS(apps::study_command(options, interrupt, output), core::InputError);
   CHECK(file_text(folder / "scene.nff") == "nonsense");
+}
+
+TEST_CASE("pictures of a study go to a folder that is made for them, beside the table that they are drawn from") {
+  const TemporaryFolder folder;
+  StudyOptions options = small_study();
+  options.plots = folder / "new" / "plots";
+  options.format = apps::TableFormat::csv;
+  const std::string table = output_of(options);
+  CHECK(file_text(*options.plots / "study.csv") == table);
+  for (const char* name : {"traffic.gnuplot", "memory.gnuplot"}) {
+    CHECK(contains(file_text(*options.plots / name), "study.csv"));
+  }
+  options.plots = folder / "new" / "plots" / "study.csv";
+  CHECK_THROWS_AS(output_of(options), core::InputError);
+}
+
+TEST_CASE("every study's pictures show columns that its table has, under names of their own") {
+  const apps::CacheStudy timed{.machine = nodes::Machine()};
+  const std::vector<apps::Study> studies = {apps::BalanceStudy(), apps::TrafficStudy(), apps::CacheStudy(), timed,
+                                            apps::SpeedupStudy()};
+  for (const apps::Study& study : studies) {
+    const auto [columns, plots] = std::visit([](const auto& one) { return std::pair(one.columns(), one.plots()); }, study);
+    apps::Table table("", columns);
+    table.add_row(std::vector<apps::Cell>(columns.size(), std::uint64_t{1}));
+    std::set<std::string> names;
+    for (const apps::Plot& plot : plots) {
+      CHECK(names.insert(plot.name).second);
+      CHECK_NOTHROW(apps::script_of(plot, table, "study.csv"));
+    }
+    CHECK_FALSE(names.empty());
+  }
 }
 
 TEST_CASE("a scene that does not exist is bad input") { CHECK_THROWS_AS(output_of(small_study("nonsense-3")), core::InputError); }
