@@ -2,75 +2,74 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <nlohmann/json.hpp>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "apps/distinct_files.h"
-#include "core/expect.h"
+#include "apps/image_file.h"
+#include "apps/output_file.h"
+#include "apps/picture_error.h"
 
 namespace dmpc::apps {
-
 namespace {
 
-/// |a - b|: 0 for equal values, infinities among them, infinite if either is not finite otherwise.
-double distance(float a, float b) {
-  if (a == b || (std::isnan(a) && std::isnan(b))) {
-    return 0;
-  }
-  const double gap = std::abs(static_cast<double>(a) - static_cast<double>(b));
-  return std::isfinite(gap) ? gap : std::numeric_limits<double>::infinity();
-}
-
-/// gap^2 / (b^2 + 0.01), without 0/0 or infinity/infinity.
-double relative_square(double gap, float reference) {
-  if (gap == 0 || std::isinf(gap)) {
-    return gap;
-  }
-  return gap * gap / (static_cast<double>(reference) * static_cast<double>(reference) + 0.01);
-}
-
-void check_sizes(const Image& picture, const Image& reference) {
-  const auto size = [](const Image& image) { return std::to_string(image.width) + "x" + std::to_string(image.height); };
-  if (picture.width != reference.width || picture.height != reference.height) {
-    throw core::InputError("the pictures differ in size, " + size(picture) + " and " + size(reference) +
-                           ": only pictures of one size can be compared");
-  }
-}
-
-/// Sums for now, means after finish().
-void add_channel(Difference& sum, double gap, float reference) {
-  sum.root_mean_square += gap * gap;
-  sum.largest = std::max(sum.largest, gap);
-  sum.mean_absolute += gap;
-  sum.relative_mean_square += relative_square(gap, reference);
-}
-
-void finish(Difference& sum) {
-  const double channels = 3 * static_cast<double>(std::max<std::uint64_t>(sum.pixels, 1));
-  sum.root_mean_square = std::sqrt(sum.root_mean_square / channels);
-  sum.mean_absolute /= channels;
-  sum.relative_mean_square /= channels;
-  sum.peak_signal_to_noise_decibels = -20 * std::log10(sum.root_mean_square);
-}
-
 void check_outputs(const CompareOptions& options) {
+  std::vector<NamedFile> outputs;
   if (options.difference) {
-    check_distinct({{"A", options.picture}, {"B", options.reference}}, {{"--difference", *options.difference}});
-    check_image_path(*options.difference, "--difference");
+    outputs.push_back({"--difference", *options.difference});
+  }
+  if (options.flip) {
+    outputs.push_back({"--flip", *options.flip});
+  }
+  check_distinct({{"A", options.picture}, {"B", options.reference}}, outputs);
+  for (const NamedFile& output : outputs) {
+    check_image_path(output.path, output.name);
   }
 }
 
-void print(std::ostream& output, const CompareOptions& options, const Difference& difference) {
+void print_text(std::ostream& output, const CompareOptions& options, const PictureError& error) {
   const double share =
-      100 * static_cast<double>(difference.differing_pixels) / static_cast<double>(std::max<std::uint64_t>(difference.pixels, 1));
+      100 * static_cast<double>(error.differing_pixels) / static_cast<double>(std::max<std::uint64_t>(error.pixels, 1));
   output << "A " << options.picture.string() << "\nB " << options.reference.string() << " (the reference)\n"
-         << "root mean square error  " << difference.root_mean_square << "\n"
-         << "largest error           " << difference.largest << "\n"
-         << "mean absolute error     " << difference.mean_absolute << "\n"
-         << "peak signal to noise    " << difference.peak_signal_to_noise_decibels << " dB\n"
-         << "relative mean square    " << difference.relative_mean_square << "\n"
-         << "differing pixels        " << difference.differing_pixels << " of " << difference.pixels << " (" << share << " %)\n";
+         << "root mean square error  " << error.root_mean_square << "\n"
+         << "largest error           " << error.largest << "\n"
+         << "99th percentile         " << error.percentile_99 << "\n"
+         << "mean absolute error     " << error.mean_absolute << "\n"
+         << "peak signal to noise    " << error.peak_signal_to_noise_decibels << " dB\n"
+         << "relative mean square    " << error.relative_mean_square << "\n"
+         << "FLIP, mean              " << error.flip_mean << "\n"
+         << "FLIP, 99th percentile   " << error.flip_percentile_99 << "\n"
+         << "differing pixels        " << error.differing_pixels << " of " << error.pixels << " (" << share << " %)\n";
+}
+
+void print_json(std::ostream& output, const CompareOptions& options, const PictureError& error) {
+  const auto number = [](double value) {
+    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+  };
+  const nlohmann::ordered_json json = {
+      {"picture", options.picture.string()},
+      {"reference", options.reference.string()},
+      {"root_mean_square", number(error.root_mean_square)},
+      {"largest", number(error.largest)},
+      {"percentile_99", number(error.percentile_99)},
+      {"mean_absolute", number(error.mean_absolute)},
+      {"peak_signal_to_noise_decibels", number(error.peak_signal_to_noise_decibels)},
+      {"relative_mean_square", number(error.relative_mean_square)},
+      {"flip_mean", number(error.flip_mean)},
+      {"flip_percentile_99", number(error.flip_percentile_99)},
+      {"pixels", error.pixels},
+      {"differing_pixels", error.differing_pixels},
+  };
+  output << json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+}
+
+void write_picture(const std::optional<std::filesystem::path>& path, const Image& image, Interrupt& interrupt) {
+  OutputFile file(*path);
+  write_image(*path, image, file);
+  interrupt.set_consequence("the output may be incomplete");
+  file.commit();
 }
 
 }  // namespace
@@ -81,34 +80,13 @@ void add_options(OptionSet options, CompareOptions& compare) {
   options.add_argument(
       "B", [&compare](const std::string& text) { compare.reference = text; }, "Another of the same size, the reference");
   options.add_path("--difference", "IMAGE", compare.difference, "Write the absolute differences as a picture");
+  options.add_path("--flip", "IMAGE", compare.flip, "Write the differences that an eye perceives, by FLIP, as a picture");
+  options.add_choice<CompareFormat>("--format", compare.format, {{"text", CompareFormat::text}, {"json", CompareFormat::json}},
+                                    "How the figures are printed");
   options.set_examples(
-      "Example:\n"
-      "  dmpc compare draft.exr final.exr --difference=error.png");
-}
-
-Difference measure_difference(const Image& picture, const Image& reference) {
-  check_sizes(picture, reference);
-  Difference result;
-  result.pixels = picture.rgb.size() / 3;
-  for (std::size_t pixel = 0; pixel < picture.rgb.size(); pixel += 3) {
-    bool differs = false;
-    for (std::size_t index = pixel; index < pixel + 3; ++index) {
-      const double gap = distance(picture.rgb[index], reference.rgb[index]);
-      differs = differs || gap != 0;
-      add_channel(result, gap, reference.rgb[index]);
-    }
-    result.differing_pixels += differs ? 1 : 0;
-  }
-  finish(result);
-  return result;
-}
-
-Image difference_picture(const Image& picture, const Image& reference) {
-  check_sizes(picture, reference);
-  Image result(picture.width, picture.height);
-  std::transform(picture.rgb.begin(), picture.rgb.end(), reference.rgb.begin(), result.rgb.begin(),
-                 [](float a, float b) { return static_cast<float>(distance(a, b)); });
-  return result;
+      "Examples:\n"
+      "  dmpc compare draft.exr final.exr --difference=error.exr --flip=seen.png\n"
+      "  dmpc compare draft.exr final.exr --format=json");
 }
 
 int compare_command(const CompareOptions& options, Interrupt& interrupt, std::ostream& output) {
@@ -116,15 +94,15 @@ int compare_command(const CompareOptions& options, Interrupt& interrupt, std::os
   const Interrupt::EndAtOnce end_at_once(interrupt);
   const Image picture = read_image(options.picture);
   const Image reference = read_image(options.reference);
-  const Difference difference = measure_difference(picture, reference);
+  const PictureError error = measure_error(picture, reference);
   if (options.difference) {
-    OutputFile file(*options.difference);
-    write_image(*options.difference, difference_picture(picture, reference), file);
-    interrupt.set_consequence("the output may be incomplete");
-    file.commit();
+    write_picture(options.difference, difference_picture(picture, reference), interrupt);
+  }
+  if (options.flip) {
+    write_picture(options.flip, flip_picture(picture, reference), interrupt);
   }
   interrupt.set_consequence("the output may be incomplete");
-  print(output, options, difference);
+  (options.format == CompareFormat::json ? print_json : print_text)(output, options, error);
   finish_output(output, "the figures");
   return 0;
 }
