@@ -135,14 +135,24 @@ double distance_error(const SeenTriangle& seen, double cosine) {
   return (std::min(seen.longest, moved) + 8 * float_rounding * seen.reach) / seen.direction_length;
 }
 
+/// t of the vertices' projections onto the ray.
+std::array<double, 3> depths_of(const Ray& ray, const std::array<Vec3d, 3>& at) {
+  const Vec3d d(ray.direction);
+  const double squared = dot(d, d);
+  return {dot(at[0], d) / squared, dot(at[1], d) / squared, dot(at[2], d) / squared};
+}
+
 Encounter meet_triangle(const Ray& ray, const core::PrimitiveValues& values, const std::array<Vec3d, 3>& at) {
   const SeenTriangle seen = see_triangle(ray, values, at);
   const Vec3d normal = cross(at[1] - at[0], at[2] - at[0]);
   const double normal_length = length(normal), across = dot(Vec3d(ray.direction), normal);
   Encounter encounter;
   encounter.margin = {margin_of(seen, Renderer::grid), margin_of(seen, Renderer::embree)};
-  // A ray in the triangle's plane has no one distance: its nearest vertex stands for it, and E covers the rest.
-  encounter.t = across != 0 ? dot(at[0], normal) / across : seen.sight[0].distance / seen.direction_length;
+  // A ray in the triangle's plane has no one distance, and one that all but lies in it may cross the plane far away: no renderer
+  // says anything beyond the vertices, and E covers what lies between them.
+  const std::array<double, 3> depth = depths_of(ray, at);
+  const auto [least, greatest] = std::minmax_element(depth.begin(), depth.end());
+  encounter.t = across != 0 ? std::clamp(dot(at[0], normal) / across, *least, *greatest) : *least;
   encounter.t_error = distance_error(seen, std::fabs(across) / (normal_length * seen.direction_length + tiny));
   encounter.exact = encounter.margin[0] >= 0 && seen.area != 0;
   return encounter;

@@ -54,13 +54,17 @@ struct Feature {
   std::optional<std::size_t> vertex, edge;
 };
 
-Feature feature_near(const Ray& ray, const std::array<Vec3f, 3>& corner, const Across& across) {
+/// How far float rounding may move a ray beside a triangle: the shear moves a vertex by less than 7, the edge function by less
+/// than 1 rounding of the reach (encounter.cpp).
+double rounding_of(const Ray& ray, const std::array<Vec3f, 3>& corner) {
   double reach = 0;
   for (const Vec3f& at : corner) {
     reach = std::max(reach, length(Vec3d(at) - Vec3d(ray.origin)));
   }
-  // The shear moves a vertex by less than 7, the edge function by less than 1 rounding of the reach (encounter.cpp).
-  const double near = 8 * 0x1p-24 * reach;
+  return 8 * 0x1p-24 * reach;
+}
+
+Feature feature_near(const std::array<Vec3f, 3>& corner, const Across& across, double near) {
   Feature feature;
   std::size_t vertex_count = 0, edge_count = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -111,7 +115,11 @@ Sector sector_of(const Across::Point& a, const Across::Point& b) {
   return {first, last >= first ? last - first : last - first + 2 * std::numbers::pi};
 }
 
-std::vector<std::uint32_t> around_vertex(std::span<const PrimitiveValues> primitives, const Vec3f& vertex, const Across& across) {
+/// Whether the ray is within `near` of the segment between a and b.
+bool passes(const Across& across, const Vec3f& a, const Vec3f& b, double near) { return distance(across(a), across(b)) <= near; }
+
+std::vector<std::uint32_t> around_vertex(std::span<const PrimitiveValues> primitives, const Vec3f& vertex, const Across& across,
+                                         double near) {
   std::vector<std::uint32_t> fan;
   std::vector<Sector> sectors;
   for (std::uint32_t id = 0; id < primitives.size(); ++id) {
@@ -121,6 +129,9 @@ std::vector<std::uint32_t> around_vertex(std::span<const PrimitiveValues> primit
     const std::array<Vec3f, 3> corner = vertices(primitives[id]);
     for (std::size_t k = 0; k < 3; ++k) {
       if (corner[k] == vertex) {
+        if (passes(across, corner[(k + 1) % 3], corner[(k + 2) % 3], near)) {
+          return {};  // the fan's border
+        }
         const Across::Point center = across(vertex);
         sectors.push_back(sector_of(from(center, across(corner[(k + 1) % 3])), from(center, across(corner[(k + 2) % 3]))));
         fan.push_back(id);
@@ -136,7 +147,7 @@ std::vector<std::uint32_t> around_vertex(std::span<const PrimitiveValues> primit
 }
 
 std::vector<std::uint32_t> around_edge(std::span<const PrimitiveValues> primitives, const Vec3f& a, const Vec3f& b,
-                                       const Across& across) {
+                                       const Across& across, double near) {
   std::vector<std::uint32_t> fan;
   bool left = false, right = false;
   for (std::uint32_t id = 0; id < primitives.size(); ++id) {
@@ -147,6 +158,9 @@ std::vector<std::uint32_t> around_edge(std::span<const PrimitiveValues> primitiv
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3f &first = corner[k], &second = corner[(k + 1) % 3], &third = corner[(k + 2) % 3];
       if ((first == a && second == b) || (first == b && second == a)) {
+        if (passes(across, second, third, near) || passes(across, third, first, near)) {
+          return {};  // the fan's border
+        }
         const double side = turn(from(across(a), across(b)), from(across(a), across(third)));
         left = left || side > 0;
         right = right || side < 0;
@@ -162,12 +176,13 @@ std::vector<std::uint32_t> around_edge(std::span<const PrimitiveValues> primitiv
 std::vector<std::uint32_t> closed_fan(const Ray& ray, std::span<const PrimitiveValues> primitives, std::uint32_t id) {
   const Across across(ray);
   const std::array<Vec3f, 3> corner = vertices(primitives[id]);
-  const Feature feature = feature_near(ray, corner, across);
+  const double near = rounding_of(ray, corner);
+  const Feature feature = feature_near(corner, across, near);
   std::vector<std::uint32_t> fan;
   if (feature.vertex) {
-    fan = around_vertex(primitives, corner[*feature.vertex], across);
+    fan = around_vertex(primitives, corner[*feature.vertex], across, near);
   } else if (feature.edge) {
-    fan = around_edge(primitives, corner[*feature.edge], corner[(*feature.edge + 1) % 3], across);
+    fan = around_edge(primitives, corner[*feature.edge], corner[(*feature.edge + 1) % 3], across, near);
   }
   const bool holds_ignored = std::find(fan.begin(), fan.end(), ray.ignored_primitive) != fan.end();
   return holds_ignored ? std::vector<std::uint32_t>{} : fan;

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "apps/bench_stability.h"
 #include "apps/check.h"
 #include "apps/compare.h"
 #include "apps/interrupt.h"
@@ -40,6 +41,7 @@ struct Execute {
   int operator()(const CompareOptions& options) const { return compare_command(options, interrupt, std::cout); }
   int operator()(const MachineOptions& options) const { return machine_command(options, std::cout); }
   int operator()(const PaperStudyOptions& options) const { return study_paper_command(options, interrupt, std::cout); }
+  int operator()(const StabilityOptions& options) const { return bench_stability_command(options, interrupt, std::cout); }
   int operator()(const StudyOptions& options) const { return study_command(options, interrupt, std::cout); }
 };
 

@@ -28,15 +28,25 @@ Command parse_command_line(std::span<const std::string> arguments) {
   add_options(study.add_command(SpeedupStudy::name, SpeedupStudy::description), speedup);
   PaperStudyOptions paper;
   add_options(study.add_command("paper", "Regenerate the tables and claims of the 1994 article"), paper);
+  StabilityOptions stability;
+  OptionSet bench = line.add_command("bench", "Put our own arithmetic to the test and print a table");
+  add_options(bench.add_command("stability", "Stress tests of numerical stability, beside Embree on the same rays"), stability);
   const std::variant<HelpText, std::string> parsed = line.parse(arguments);
   if (const auto* help = std::get_if<HelpText>(&parsed)) {
     return *help;
   }
   const auto& name = std::get<std::string>(parsed);
-  const std::map<std::string, Command> commands = {{"render", render},         {"scene", scene},       {"check", check},
-                                                   {"compare", compare},       {"machine", machine},   {"study balance", balance},
-                                                   {"study traffic", traffic}, {"study cache", cache}, {"study speedup", speedup},
-                                                   {"study paper", paper}};
+  const std::map<std::string, Command> commands = {{"render", render},
+                                                   {"scene", scene},
+                                                   {"check", check},
+                                                   {"compare", compare},
+                                                   {"machine", machine},
+                                                   {"study balance", balance},
+                                                   {"study traffic", traffic},
+                                                   {"study cache", cache},
+                                                   {"study speedup", speedup},
+                                                   {"study paper", paper},
+                                                   {"bench stability", stability}};
   return commands.at(name);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "apps/bench_stability.h"
 #include "apps/check.h"
 #include "apps/command_line.h"
 #include "apps/compare.h"
@@ -17,7 +18,7 @@
 namespace dmpc::apps {
 
 using Command = std::variant<HelpText, RenderOptions, SceneOptions, CheckOptions, CompareOptions, MachineOptions, StudyOptions,
-                             PaperStudyOptions>;
+                             PaperStudyOptions, StabilityOptions>;
 
 /// `arguments` without the program's name. Throws core::UsageError, whose message ends with a hint at the right --help, for
 /// anything wrong that can be seen without reading a file.

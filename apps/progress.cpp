@@ -38,12 +38,12 @@ std::string clock_text(double seconds) {
 
 }  // namespace
 
-std::string progress_line(std::uint64_t done, std::uint64_t total, double seconds) {
+std::string progress_line(std::uint64_t done, std::uint64_t total, double seconds, const std::string& unit) {
   std::ostringstream text;
   text << std::setw(3) << 100 * done / total << " % [" << bar(done, total) << "]";
   if (done > 0 && seconds > 0) {
     const double rate = static_cast<double>(done) / seconds;
-    text << ' ' << std::fixed << std::setprecision(0) << std::setw(8) << rate << " pixels/s, "
+    text << ' ' << std::fixed << std::setprecision(0) << std::setw(8) << rate << ' ' << unit << "/s, "
          << clock_text(static_cast<double>(total - done) / rate) << " left";
   }
   return text.str();
@@ -51,8 +51,8 @@ std::string progress_line(std::uint64_t done, std::uint64_t total, double second
 
 bool stderr_is_terminal() { return ::isatty(STDERR_FILENO) == 1; }
 
-Progress::Progress(std::ostream& output, bool shown, std::string label)
-    : output_(output), shown_(shown), label_(std::move(label)), start_(Clock::now()), next_(start_) {
+Progress::Progress(std::ostream& output, bool shown, std::string label, std::string unit)
+    : output_(output), shown_(shown), label_(std::move(label)), unit_(std::move(unit)), start_(Clock::now()), next_(start_) {
   if (shown_ && !label_.empty()) {
     output_ << back_and_clear << label_ << std::flush;
   }
@@ -74,7 +74,7 @@ void Progress::update(std::uint64_t done, std::uint64_t total) {
   }
   next_ = now + std::chrono::milliseconds(100);
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  output_ << back_and_clear << label_ << progress_line(done, total, seconds) << std::flush;
+  output_ << back_and_clear << label_ << progress_line(done, total, seconds, unit_) << std::flush;
 }
 
 }  // namespace dmpc::apps

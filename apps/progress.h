@@ -8,9 +8,9 @@
 
 namespace dmpc::apps {
 
-/// " 42 % [========>           ]  123456 pixels/s, 0:07 left", without a line end. `done` <= `total`, `total` > 0, `seconds` >= 0
-/// since the start. What cannot be known yet is left out.
-std::string progress_line(std::uint64_t done, std::uint64_t total, double seconds);
+/// " 42 % [========>           ]  123456 pixels/s, 0:07 left", without a line end; `unit` is what is counted. `done` <= `total`,
+/// `total` > 0, `seconds` >= 0 since the start. What cannot be known yet is left out.
+std::string progress_line(std::uint64_t done, std::uint64_t total, double seconds, const std::string& unit = "pixels");
 
 /// Whether stderr is a terminal.
 bool stderr_is_terminal();
@@ -19,7 +19,7 @@ bool stderr_is_terminal();
 class Progress {
  public:
   /// Says nothing at all unless `shown`; else `label`, if there is one, at once and before every line. `output` outlives it.
-  Progress(std::ostream& output, bool shown, std::string label = "");
+  Progress(std::ostream& output, bool shown, std::string label = "", std::string unit = "pixels");
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -31,7 +31,7 @@ class Progress {
 
   std::ostream& output_;
   bool shown_;
-  std::string label_;
+  std::string label_, unit_;
   Clock::time_point start_;
   Clock::time_point next_;  ///< no rewriting before
 };

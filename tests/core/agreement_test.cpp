@@ -3,38 +3,21 @@
 
 #include <cmath>
 
+#include "apps/stability_crowd.h"
+#include "apps/stability_random.h"
+#include "apps/stability_records.h"
 #include "core/scenes.h"
-#include "tests/support/mesh.h"
-#include "tests/support/random.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
 using namespace dmpc::core;
+using namespace dmpc::apps;
 using namespace dmpc::tests;
 
 namespace {
 
-/// Says absent the first time that it is asked for a record, and keeps no more than that one record.
-class OneRecord {
- public:
-  explicit OneRecord(const Database& database) : all_(database.bytes()) {}
-
-  const std::byte* find(Address address) {
-    if (address != held_) {
-      return nullptr;
-    }
-    held_ = no_address;
-    return all_.find(address);
-  }
-  void fetch(Address address) { held_ = address; }
-
- private:
-  LocalRecords all_;
-  Address held_ = no_address;
-};
-
 Hit shoot_interrupted(const Database& database, const Ray& ray, std::size_t& interruptions) {
-  OneRecord records(database);
+  OneRecord records(database.bytes());
   Cursor cursor;
   Operations operations;
   while (trace(ray, cursor, records, database.header(), {}, operations) == Traced::absent) {
@@ -42,39 +25,6 @@ Hit shoot_interrupted(const Database& database, const Ray& ray, std::size_t& int
     ++interruptions;
   }
   return cursor.best;
-}
-
-/// Triangles, spheres and cones strewn over the floor of a mostly empty room.
-Scene mixed_scene() {
-  Random random(21);
-  Scene scene;
-  SceneBuilder builder(scene);
-  builder.polygon({{-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}});
-  for (int i = 0; i < 150; ++i) {
-    const Vec3d at{random.between(-1, 1), random.between(-1, 1), random.between(0, 0.3)};
-    builder.sphere(at, random.between(0.005, 0.05));
-    builder.cone(at, 0.02, at + random.in_box(-0.2, 0.2), random.between(0, 0.03));
-    builder.polygon({at, at + random.in_box(-0.2, 0.2), at + random.in_box(-0.2, 0.2)});
-  }
-  add(scene, moved(sphere_mesh(12, 16, 0.1), 0.4, {2, 2, 0.3}));
-  return scene;
-}
-
-Ray random_ray(const Database& database, Random& random) {
-  const GridFrame& frame = database.header().frame;
-  return ray_through(to_local(frame, random.in_box(-4, 4)), to_local(frame, {random.between(-1, 1), random.between(-1, 1), 0.1}));
-}
-
-/// A ray that meets the plane of a random triangle at 89.9 degrees and more from its normal, near the triangle.
-Ray grazing_ray(const Database& database, Random& random) {
-  const auto& triangle = database.primitives()[random.below(database.primitives().size())];
-  const Vec3d a = point_of(triangle, 0), b = point_of(triangle, 3), c = point_of(triangle, 6);
-  const Vec3d normal = normalize(cross(b - a, c - a));
-  const double u = random.unit(), v = random.unit() * (1 - u);
-  const Vec3d target = a + (b - a) * u + (c - a) * v;
-  const Vec3d along = normalize(cross(normal, random.direction()));
-  const double rise = std::pow(10.0, random.between(-9, -2.76));
-  return ray_through(target - (along - normal * rise) * random.between(0.01, 1.5), target);
 }
 
 Ray as_shadow(Ray ray, double t_max) {
@@ -135,7 +85,7 @@ TEST_CASE("an interrupted walk counts the work of one that is not") {
   Operations once, often;
   Cursor cursor, resumed;
   LocalRecords all(database.bytes());
-  OneRecord one(database);
+  OneRecord one(database.bytes());
   trace(ray, cursor, all, database.header(), {}, once);
   while (trace(ray, resumed, one, database.header(), {}, often) == Traced::absent) {
     one.fetch(resumed.absent);

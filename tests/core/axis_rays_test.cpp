@@ -4,73 +4,17 @@
 #include <array>
 #include <vector>
 
-#include "tests/support/mesh.h"
-#include "tests/support/random.h"
+#include "apps/stability_axes.h"
+#include "apps/stability_random.h"
 #include "tests/support/referee.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
 using namespace dmpc::core;
+using namespace dmpc::apps;
 using namespace dmpc::tests;
 
 namespace {
-
-/// What stands for 0 in a direction: both zeros, a denormal number, a number whose reciprocal overflows with the grid's extent.
-constexpr std::array<float, 8> zeros{0.0F, -0.0F, 1e-40F, -1e-40F, 1e-30F, -1e-30F, 9e-19F, -9e-19F};
-
-/// The 26 directions with components -1, 0 and 1, not of unit length.
-std::vector<Vec3f> directions(float zero) {
-  std::vector<Vec3f> all;
-  const std::array<float, 3> values{-1.0F, zero, 1.0F};
-  for (std::size_t i = 0; i < 27; ++i) {
-    if (i != 13) {
-      all.push_back({values[i % 3], values[i / 3 % 3], values[i / 9]});
-    }
-  }
-  return all;
-}
-
-Vec3f normalised(const Vec3f& d) {
-  const double size = length(Vec3d(d));
-  const auto scaled_down = [&](float x) { return std::fabs(x) < 1.0F ? x : static_cast<float>(double{x} / size); };
-  return {scaled_down(d.x), scaled_down(d.y), scaled_down(d.z)};
-}
-
-/// Boxes with faces along the axes, two meshes without, and sheets that cut through everything.
-Scene crowded_scene() {
-  Scene scene;
-  add(scene, moved(sphere_mesh(8, 12, 0.2), 0.5, {0.3, 0.3, 0}));
-  add(scene, cube());
-  add(scene, moved(cube(), 0.25, {-0.5, -0.5, 0.5}));
-  add(scene, moved(tetrahedron(), 0.25, {0.5, -0.5, -0.5}));
-  SceneBuilder builder(scene);
-  for (const double z : {-0.5, 0.0, 0.25}) {
-    builder.polygon({{-0.9, -0.9, z}, {0.9, -0.9, z}, {0.9, 0.9, z}, {-0.9, 0.9, z}});
-  }
-  return scene;
-}
-
-/// A coordinate on a cell's plane (of a random level), on the scene's bound, or anywhere.
-double awkward(const Database& database, std::size_t axis, Random& random) {
-  const GridFrame& frame = database.header().frame;
-  const int cells = frame.resolution[axis] * finest_per_top;
-  switch (random.below(4)) {
-    case 0:
-      return double{frame.finest_cell} * (random.below(static_cast<std::size_t>(cells)) &
-                                          -static_cast<std::uint32_t>(span_of(static_cast<int>(random.below(4)))));
-    case 1:
-      return to_local(frame, random.bits() % 2 == 0 ? Vec3d{-1, -1, -1} : Vec3d{1, 1, 1})[axis];
-    case 2:
-      return to_local(frame, Vec3d{0.25, 0.25, 0.25})[axis];
-    default:
-      return random.between(0, double{frame.finest_cell} * cells);
-  }
-}
-
-Vec3f awkward_point(const Database& database, Random& random) {
-  const double x = awkward(database, 0, random), y = awkward(database, 1, random);
-  return Vec3f(Vec3d{x, y, awkward(database, 2, random)});
-}
 
 struct Differences {
   std::size_t from_brute_force = 0, from_referee = 0;
@@ -82,8 +26,7 @@ Differences shoot_everywhere(const Database& database, double back, std::size_t 
   Differences differences;
   for (std::size_t i = 0; i < points; ++i) {
     const Vec3f at = awkward_point(database, random);
-    for (const Vec3f& raw : directions(zeros[i % zeros.size()])) {
-      const Vec3f d = normalised(raw);
+    for (const Vec3f& d : axis_directions(zeros[i % zeros.size()])) {
       const Ray ray = ray_from(at - d * static_cast<float>(back), d);
       const Hit hit = shoot(database, ray);
       differences.from_brute_force += same_hit(hit, brute_force(database, ray)) ? 0 : 1;

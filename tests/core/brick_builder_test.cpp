@@ -4,12 +4,13 @@
 
 #include <algorithm>
 
-#include "tests/support/listing.h"
-#include "tests/support/random.h"
+#include "apps/stability_listing.h"
+#include "apps/stability_random.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
 using namespace dmpc::core;
+using namespace dmpc::apps;
 using namespace dmpc::tests;
 
 namespace {

@@ -5,11 +5,12 @@
 #include <cstring>
 #include <limits>
 
+#include "apps/stability_mesh.h"
 #include "core/expect.h"
-#include "tests/support/mesh.h"
 #include "tests/support/shooting.h"
 
 using namespace dmpc::core;
+using namespace dmpc::apps;
 using namespace dmpc::tests;
 
 namespace {

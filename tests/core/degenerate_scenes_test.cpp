@@ -1,12 +1,13 @@
 // Scenes that are empty, flat, of one piece, all in one place or in two places far apart.
 #include <doctest/doctest.h>
 
-#include "tests/support/mesh.h"
-#include "tests/support/random.h"
+#include "apps/stability_mesh.h"
+#include "apps/stability_random.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
 using namespace dmpc::core;
+using namespace dmpc::apps;
 using namespace dmpc::tests;
 
 namespace {

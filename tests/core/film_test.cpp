@@ -6,11 +6,12 @@
 #include <limits>
 #include <vector>
 
+#include "apps/stability_random.h"
 #include "core/expect.h"
-#include "tests/support/random.h"
 
+using namespace dmpc::apps;
 using namespace dmpc::core;
-using dmpc::tests::Random;
+using dmpc::apps::Random;
 
 namespace {
 

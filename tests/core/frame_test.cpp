@@ -4,10 +4,11 @@
 
 #include <cmath>
 
-#include "tests/support/random.h"
+#include "apps/stability_random.h"
 
+using namespace dmpc::apps;
 using namespace dmpc::core;
-using dmpc::tests::Random;
+using dmpc::apps::Random;
 
 namespace {
 

@@ -4,13 +4,14 @@
 #include <array>
 #include <limits>
 
+#include "apps/stability_mesh.h"
+#include "apps/stability_random.h"
 #include "core/render.h"
-#include "tests/support/mesh.h"
-#include "tests/support/random.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
 using namespace dmpc::core;
+using namespace dmpc::apps;
 using namespace dmpc::tests;
 
 namespace {

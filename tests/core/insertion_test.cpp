@@ -3,36 +3,17 @@
 
 #include <numbers>
 
-#include "tests/support/listing.h"
-#include "tests/support/random.h"
+#include "apps/stability_listing.h"
+#include "apps/stability_random.h"
+#include "apps/stability_targets.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
 using namespace dmpc::core;
+using namespace dmpc::apps;
 using namespace dmpc::tests;
 
 namespace {
-
-/// A point of the primitive in local coordinates, in double: off by less than 1e-15.
-Vec3d sample(const PrimitiveValues& primitive, Random& random) {
-  switch (primitive.kind) {
-    case PrimitiveKind::triangle: {
-      const double share = random.below(4) == 0 ? 0.0 : random.unit(),
-                   other = random.below(4) == 0 ? 0.0 : random.unit() * (1 - share);
-      const Vec3d a = point_of(primitive, 0);
-      return a + (point_of(primitive, 3) - a) * share + (point_of(primitive, 6) - a) * other;
-    }
-    case PrimitiveKind::sphere:
-      return point_of(primitive, 0) + random.direction() * std::fabs(double{primitive.value[3]});
-    case PrimitiveKind::cone:
-      break;
-  }
-  const Vec3d base = point_of(primitive, 0), axis = point_of(primitive, 4) - base;
-  const Vec3d across = cross(axis, random.direction()), radial = normalize(across);
-  const double height = random.below(8) == 0 ? 1.0 : random.unit();
-  const double low = std::fabs(double{primitive.value[3]}), high = std::fabs(double{primitive.value[7]});
-  return base + axis * height + radial * (low + (high - low) * height);
-}
 
 /// How many of `count` points a primitive lie in a voxel that does not list it. A point less than `slack` from another voxel may
 /// be listed there instead.
@@ -42,7 +23,7 @@ std::size_t unlisted(const Database& database, std::size_t count, double slack) 
   std::size_t missing = 0;
   for (std::uint32_t id = 0; id < database.primitives().size(); ++id) {
     for (std::size_t i = 0; i < count; ++i) {
-      const Vec3d at = sample(database.primitives()[id], random);
+      const Vec3d at = surface_point(database.primitives()[id], random);
       bool listed = listing.lists(at, id);
       for (std::size_t corner = 0; corner < 8 && !listed && slack > 0; ++corner) {
         const auto towards = [&](std::size_t axis) { return (corner >> axis & 1U) != 0 ? slack : -slack; };

@@ -9,12 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "apps/stability_random.h"
 #include "core/records.h"
-#include "tests/support/random.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
 using namespace dmpc::core;
+using namespace dmpc::apps;
 using namespace dmpc::tests;
 
 namespace {

@@ -3,12 +3,14 @@
 
 #include <vector>
 
-#include "tests/support/mesh.h"
-#include "tests/support/random.h"
+#include "apps/stability_mesh.h"
+#include "apps/stability_random.h"
+#include "apps/stability_targets.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
 using namespace dmpc::core;
+using namespace dmpc::apps;
 using namespace dmpc::tests;
 
 namespace {
@@ -17,13 +19,9 @@ namespace {
 std::vector<Vec3d> targets_of(const Database& database) {
   std::vector<Vec3d> targets;
   for (const PrimitiveValues& triangle : database.primitives()) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3d from = point_of(triangle, 3 * i), to = point_of(triangle, 3 * ((i + 1) % 3));
-      for (const double share : {0.0, 0.125, 0.3, 0.5, 0.7, 0.9375}) {
-        targets.push_back(from + (to - from) * share);
-      }
+    for (std::size_t i = 0; i < targets_per_triangle; ++i) {
+      targets.push_back(target_of(triangle, i));
     }
-    targets.push_back((point_of(triangle, 0) + point_of(triangle, 3) + point_of(triangle, 6)) * (1.0 / 3.0));
   }
   return targets;
 }

@@ -4,10 +4,11 @@
 
 #include <cmath>
 
-#include "tests/support/random.h"
+#include "apps/stability_random.h"
 #include "tests/support/scaled.h"
 
 using namespace dmpc::core;
+using namespace dmpc::apps;
 using namespace dmpc::tests;
 
 namespace {

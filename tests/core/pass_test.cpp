@@ -4,12 +4,14 @@
 #include <cstring>
 #include <optional>
 
+#include "apps/stability_random.h"
 #include "core/database.h"
 #include "core/traversal.h"
-#include "tests/support/random.h"
 #include "tests/support/small_scenes.h"
 
 namespace dmpc::tests {
+
+using apps::Random;
 
 namespace {
 

@@ -4,11 +4,12 @@
 
 #include <vector>
 
+#include "apps/stability_mesh.h"
 #include "core/expect.h"
-#include "tests/support/mesh.h"
 #include "tests/support/shooting.h"
 
 using namespace dmpc::core;
+using namespace dmpc::apps;
 using namespace dmpc::tests;
 
 namespace {

@@ -6,11 +6,12 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/support/random.h"
+#include "apps/stability_random.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
 using namespace dmpc::core;
+using namespace dmpc::apps;
 using namespace dmpc::tests;
 
 namespace {

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "apps/stability_random.h"
 #include "core/database.h"
 #include "core/record_writer.h"
 #include "core/scenes.h"
-#include "tests/support/random.h"
 #include "tests/support/subject.h"
 
 namespace {
@@ -17,7 +17,7 @@ namespace {
 using namespace dmpc;
 
 std::vector<std::uint16_t> random_sizes(std::size_t count) {
-  tests::Random random(count);
+  apps::Random random(count);
   std::vector<std::uint16_t> sizes(count);
   for (std::uint16_t& size : sizes) {
     size = static_cast<std::uint16_t>(1 + random.below(core::record_bytes_max));

@@ -2,10 +2,11 @@
 
 #include <doctest/doctest.h>
 
-#include "tests/support/random.h"
+#include "apps/stability_random.h"
 
+using namespace dmpc::apps;
 using namespace dmpc::core;
-using dmpc::tests::Random;
+using dmpc::apps::Random;
 
 TEST_CASE("no record crosses a page's border, and addresses ascend") {
   for (std::size_t page_size = 512; page_size <= 65536; page_size *= 2) {

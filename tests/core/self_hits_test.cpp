@@ -4,37 +4,19 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/shade.h"
-#include "tests/support/mesh.h"
-#include "tests/support/random.h"
+#include "apps/stability_children.h"
+#include "apps/stability_mesh.h"
+#include "apps/stability_random.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
 using namespace dmpc::core;
+using namespace dmpc::apps;
 using namespace dmpc::tests;
 
 namespace {
 
 const Material mirror{.specular = 0.5, .shine = 10};
-
-/// All children of a hit, in order.
-std::vector<Ray> children_of(const Database& database, const Ray& ray, const Hit& hit) {
-  const LocalRecords records(database.bytes());
-  std::vector<Ray> children;
-  if (!hit.found()) {
-    return children;
-  }
-  HitState state = begin_shading(ray, hit);
-  Operations operations;
-  while (state.stage != HitState::Stage::finished) {
-    const Address needed = record_needed(state, database.header());
-    Ray child;
-    if (shade_step(state, needed == no_address ? nullptr : records.find(needed), database.header(), {}, child, operations)) {
-      children.push_back(child);
-    }
-  }
-  return children;
-}
 
 /// A convex body under eight lights that surround it.
 template <class Add>

@@ -4,12 +4,13 @@
 
 #include <array>
 
+#include "apps/stability_mesh.h"
 #include "core/extract.h"
 #include "tests/support/border_scene.h"
-#include "tests/support/mesh.h"
 #include "tests/support/shooting.h"
 
 using namespace dmpc::core;
+using namespace dmpc::apps;
 using namespace dmpc::tests;
 
 namespace {

@@ -6,11 +6,12 @@
 #include <map>
 #include <numbers>
 
+#include "apps/stability_random.h"
 #include "core/scenes.h"
-#include "tests/support/random.h"
 
+using namespace dmpc::apps;
 using namespace dmpc::core;
-using dmpc::tests::Random;
+using dmpc::apps::Random;
 
 namespace {
 

@@ -4,12 +4,13 @@
 
 #include <numeric>
 
-#include "tests/support/random.h"
+#include "apps/stability_random.h"
 
 namespace dmpc::tests {
 
 namespace {
 
+using apps::Random;
 using core::Corner;
 using dataflow::Boundary;
 using dataflow::Bsp;

@@ -4,11 +4,11 @@
 
 #include <cstring>
 
+#include "apps/stability_random.h"
 #include "core/database.h"
 #include "core/traversal.h"
 #include "dataflow/balance.h"
 #include "dataflow/distribution.h"
-#include "tests/support/random.h"
 #include "tests/support/small_scenes.h"
 
 using namespace dmpc;
@@ -87,7 +87,7 @@ TEST_CASE("a ray that passes empty regions ends with the bits that it has when e
   const core::GridFrame& frame = hat.settings.header.frame;
   const core::Corner size = core::grid_size(frame);
   const dataflow::Bsp unmarked = dataflow::equal_size_bsp(core::grid_size(frame), dataflow::axes_facing(hat.settings.camera), 24);
-  tests::Random random(20'261);
+  apps::Random random(20'261);
   std::uint32_t asked = 0, asked_of_all = 0, hits = 0;
   for (int i = 0; i < 4000; ++i) {
     core::Ray ray;

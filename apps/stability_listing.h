@@ -11,7 +11,7 @@
 #include "core/database.h"
 #include "core/directory.h"
 
-namespace dmpc::tests {
+namespace dmpc::apps {
 
 /// Reads a database's records by address, as a node would.
 class Listing {
@@ -82,4 +82,4 @@ class Listing {
   const core::Database* database_;
 };
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::apps

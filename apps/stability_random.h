@@ -7,7 +7,7 @@
 #include "core/sampling.h"
 #include "core/vec.h"
 
-namespace dmpc::tests {
+namespace dmpc::apps {
 
 /// A counter put through a hash: equal seeds, equal sequences.
 class Random {
@@ -38,4 +38,4 @@ class Random {
   std::uint64_t state_;
 };
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::apps

@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "apps/stability_random.h"
 #include "core/scene.h"
 #include "core/vec.h"
-#include "tests/support/random.h"
 
-namespace dmpc::tests {
+namespace dmpc::apps {
 
 struct Mesh {
   std::vector<core::Vec3d> vertices;
@@ -115,4 +115,4 @@ inline core::Scene scene_of(const Mesh& mesh) {
   return scene;
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::apps

@@ -1,0 +1,94 @@
+// R11: rays and vertices with NaN, infinite, huge and denormal numbers: a miss or a valid hit, never a hang.
+#include <array>
+#include <limits>
+#include <memory>
+
+#include "apps/stability_case.h"
+#include "apps/stability_mesh.h"
+#include "apps/stability_rays.h"
+
+namespace dmpc::apps {
+namespace {
+
+using core::Hit;
+using core::Ray;
+using core::Vec3d;
+using core::Vec3f;
+
+constexpr float infinite = std::numeric_limits<float>::infinity();
+constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
+
+float odd_number(Random& random) {
+  constexpr std::array<float, 16> odd{0.0F,    -0.0F,  no_number, infinite, -infinite, 3e38F, -3e38F, 1e-40F,
+                                      -1e-40F, 1e-30F, 1e-18F,    -1e-17F,  0.5F,      1.0F,  1e10F,  -1e20F};
+  return random.bits() % 3 == 0 ? static_cast<float>(random.unit()) : odd[random.below(odd.size())];
+}
+
+Vec3f odd_vector(Random& random) {
+  const float x = odd_number(random), y = odd_number(random);
+  return {x, y, odd_number(random)};
+}
+
+/// Among triangles, spheres and cones of ordinary numbers, some of odd ones.
+core::Scene scene_with_odd_numbers() {
+  Random random(9);
+  core::Scene scene = scene_of(sphere_mesh(6, 8, 0.1));
+  core::SceneBuilder builder(scene);
+  builder.sphere({1.5, 0, 0}, 0.3);
+  builder.cone({0, 1.5, 0}, 0.3, {0, 2, 0}, 0.1);
+  for (int i = 0; i < 200; ++i) {
+    const auto odd = [&] { return Vec3d(odd_vector(random)); };
+    const auto scale = [](const Vec3d& v) { return v * 1e-10; };
+    const Vec3d a = odd(), b = odd();
+    builder.polygon({a, b, odd()});
+    builder.sphere(random.in_box(-1, 1), double{odd_number(random)});
+    builder.cone(scale(odd()), double{odd_number(random)}, odd(), double{odd_number(random)});
+  }
+  scene.view.from = {0, 0, 5};
+  return scene;
+}
+
+bool is_valid(const Ray& ray, const Hit& hit) {
+  return !hit.found() || (is_finite(ray.origin) && is_finite(ray.direction) && hit.t > 0.0F && hit.t < ray.t_max);
+}
+
+void count_answers(const Ray& ray, const StabilityAnswers& answers, KernelCounts& counts) {
+  const Hit& grid = answers[index_of(StabilityKernel::grid)];
+  for (std::size_t k = 0; k < answers.size(); ++k) {
+    const auto kernel = static_cast<StabilityKernel>(k);
+    if (is_embree(kernel) && !embree_takes(ray)) {
+      continue;
+    }
+    const bool any_hit = kernel == StabilityKernel::any_hit;
+    ++counts[k].tried;
+    if (!is_valid(ray, answers[k])) {
+      ++counts[k].wrong_hits;
+    } else if (!is_embree(kernel) && !(any_hit ? answers[k].found() == grid.found() : same_hit(answers[k], grid))) {
+      ++counts[k].unexplained;
+    } else if (is_embree(kernel) && answers[k].primitive != grid.primitive) {
+      ++counts[k].explained;  // where numbers overflow there is no right answer
+    }
+  }
+}
+
+ShootRays odd_rays() {
+  const auto subject = std::make_shared<const StabilitySubject>(scene_with_odd_numbers());
+  return [subject](Random& random, std::uint64_t, std::uint64_t count) {
+    KernelCounts counts{};
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const Vec3f origin = odd_vector(random);
+      Ray ray = ray_from(origin, odd_vector(random));
+      ray.t_max = random.bits() % 2 == 0 ? infinite : odd_number(random);
+      count_answers(ray, ask_kernels(*subject, ray), counts);
+    }
+    return counts;
+  };
+}
+
+}  // namespace
+
+StabilityCases hostile_cases(const StabilityAmount& amount) {
+  return {{"R11 hostile numbers", "rays and vertices", amount.share(10'000'000, 1), odd_rays}};
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,96 @@
+#include "apps/stability_judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "apps/encounter.h"
+#include "apps/stability_rays.h"
+
+namespace dmpc::apps {
+namespace {
+
+using core::Hit;
+using core::Ray;
+using Kernel = StabilityKernel;
+using Must = StabilityExpectation::Must;
+
+/// Distances within this share of each other need no explanation.
+constexpr double level_share = 1e-6;
+
+Answer answer_of(const Hit& hit) { return {hit.found(), hit.primitive, hit.t}; }
+
+bool level(const Hit& a, const Hit& b) {
+  return !a.found() || std::fabs(double{a.t} - double{b.t}) <= level_share * std::fabs(double{b.t});
+}
+
+/// Whether all kernels name the same primitive at about the same distance.
+bool agree(const StabilityAnswers& answers) {
+  const Hit& grid = answers[index_of(Kernel::grid)];
+  for (std::size_t k = 0; k < answers.size(); ++k) {
+    const bool same = k == index_of(Kernel::any_hit) ? answers[k].found() == grid.found()
+                                                     : answers[k].primitive == grid.primitive && level(answers[k], grid);
+    if (!same) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// One ray before the referee.
+class Hearing {
+ public:
+  Hearing(const StabilitySubject& subject, const Ray& ray) : subject_(subject), ray_(ray) {}
+
+  bool admissible(Kernel kernel, const Hit& hit) const {
+    Ray ray = ray_;
+    ray.kind = kernel == Kernel::any_hit ? core::RayKind::shadow : core::RayKind::primary;
+    return subject_.referee.admissible(ray, answer_of(hit), is_embree(kernel) ? Renderer::embree : Renderer::grid);
+  }
+  /// Whether rounding can have given the distance of `hit`, which is admissible.
+  bool distance_explained(const Hit& hit) const {
+    std::vector<Encounter> met;
+    add_encounters(ray_, subject_.database.primitives()[hit.primitive], hit.primitive, met);
+    return std::any_of(met.begin(), met.end(), [&](const Encounter& seen) {
+      return std::fabs(double{hit.t} - seen.t) <= seen.t_error + level_share * std::fabs(seen.t);
+    });
+  }
+
+ private:
+  const StabilitySubject& subject_;
+  const Ray& ray_;
+};
+
+bool same_bits(Kernel kernel, const Hit& hit, const Hit& expected) {
+  return kernel == Kernel::any_hit ? hit.found() == expected.found() : same_hit(hit, expected);
+}
+
+}  // namespace
+
+void judge(const StabilitySubject& subject, const Ray& ray, const StabilityAnswers& answers,
+           const StabilityExpectation& expectation, KernelCounts& counts) {
+  const Hearing hearing(subject, ray);
+  const Hit& grid = answers[index_of(Kernel::grid)];
+  const Hit& expected = expectation.bits != nullptr ? *expectation.bits : grid;
+  const bool heard = expectation.to_referee || !agree(answers);
+  for (std::size_t k = 0; k < answers.size(); ++k) {
+    const auto kernel = static_cast<Kernel>(k);
+    const Hit& hit = answers[k];
+    StabilityCounts& count = counts[k];
+    ++count.tried;
+    if (!hit.found() && expectation.must == Must::hit) {
+      ++count.leaks;
+    } else if (hit.found() && expectation.must == Must::miss) {
+      ++count.wrong_hits;
+    } else if (heard && !hearing.admissible(kernel, hit)) {
+      ++(hit.found() ? count.wrong_hits : count.leaks);
+    } else if ((!is_embree(kernel) && !same_bits(kernel, hit, expected)) ||
+               (heard && hit.found() && kernel != Kernel::any_hit && !hearing.distance_explained(hit))) {
+      ++count.unexplained;
+    } else if (is_embree(kernel) && hit.primitive != grid.primitive) {
+      ++count.explained;
+    }
+  }
+}
+
+}  // namespace dmpc::apps
