@@ -99,8 +99,8 @@ class Owners {
     return {};
   }
 
-  /// How many owners claim `hit` who know nothing of each other: the ray comes to each without a candidate, and what lies before it
-  /// enters is not theirs.
+  /// How many owners claim `hit` who know nothing of each other: the ray comes to each without a candidate, and what lies before
+  /// it enters is not theirs.
   std::uint64_t claims(const Ray& ray, const Hit& hit) const {
     std::uint64_t count = 0;
     core::Operations operations;

@@ -7,14 +7,15 @@
 #include <numeric>
 #include <utility>
 
+#include "apps/stability_random.h"
 #include "core/expect.h"
 #include "tests/support/gray.h"
-#include "tests/support/random.h"
 
 namespace dmpc::tests {
 
 using apps::flip;
 using apps::Image;
+using apps::Random;
 
 namespace {
 
