@@ -107,6 +107,12 @@ void OutputFile::commit() {
   committed_ = true;
 }
 
+void write_file(const fs::path& path, std::string_view text) {
+  OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
+
 void OutputFile::write(std::string_view text) const {
   std::ofstream stream(temporary_, std::ios::binary);
   stream << text;

@@ -54,4 +54,7 @@ class OutputFile {
   std::optional<RemovedAtOnce> removed_at_once_;
 };
 
+/// Writes `text` to `path`, whole or not at all. Throws core::InputError if that fails.
+void write_file(const std::filesystem::path& path, std::string_view text);
+
 }  // namespace dmpc::apps

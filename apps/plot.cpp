@@ -83,11 +83,18 @@ class Script {
 
  private:
   bool is_meant(const PlotSeries& series, const std::vector<Cell>& row) const {
-    const bool is_number = !std::holds_alternative<std::monostate>(row[number_of_column(table_, series.column)]) &&
-                           !std::holds_alternative<std::string>(row[number_of_column(table_, series.column)]);
-    return is_number && std::all_of(series.where.begin(), series.where.end(), [&](const auto& condition) {
+    return is_visible(row[number_of_column(table_, series.column)]) &&
+           std::all_of(series.where.begin(), series.where.end(), [&](const auto& condition) {
              return text_of_cell(row[number_of_column(table_, condition.first)]) == condition.second;
            });
+  }
+
+  /// A number that the axis has a place for.
+  bool is_visible(const Cell& cell) const {
+    const double* const real = std::get_if<double>(&cell);
+    const std::uint64_t* const whole = std::get_if<std::uint64_t>(&cell);
+    const bool is_positive = (real != nullptr && *real > 0) || (whole != nullptr && *whole > 0);
+    return plot_.y.scale == PlotScale::linear ? real != nullptr || whole != nullptr : is_positive;
   }
 
   void add_place(const std::vector<Cell>& row) {
@@ -176,7 +183,7 @@ class Script {
       case PlotMark::points:
         return "points" + shape + " pointsize 1.1" + color;
       default:
-        return "lines linewidth 2" + color;
+        return "linespoints linewidth 2" + shape + " pointsize 0.4" + color;
     }
   }
 
@@ -185,8 +192,9 @@ class Script {
     std::string text = "plot ";
     for (std::size_t drawn = 0; drawn < drawn_.size(); ++drawn) {
       const std::size_t series = plot_.is_stacked ? drawn_.size() - 1 - drawn : drawn;
-      text += (drawn == 0 ? "" : ", \\\n  ") + quoted(data_) + " using (" + x_of(series) + "):(" + y_of(series) + ") with " +
-              style_of(*drawn_[series]) + " title " + quoted(drawn_[series]->title);
+      text += (drawn == 0 ? "" : ", \\\n  ") + quoted(data_) + " using (" + x_of(series) + "):(" + y_of(series) + ")" +
+              (drawn_[series]->mark == PlotMark::line ? " smooth unique" : "") + " with " + style_of(*drawn_[series]) +
+              " title " + quoted(drawn_[series]->title);
     }
     return text + "\n";
   }

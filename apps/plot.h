@@ -12,7 +12,7 @@
 
 namespace dmpc::apps {
 
-/// How a series is drawn: what was computed as a line, what it is held against as points.
+/// How a series is drawn: what was computed as a line from left to right, what it is held against as points.
 enum class PlotMark : std::uint8_t { line, points, bars };
 
 /// One column, or those of its rows that are meant.

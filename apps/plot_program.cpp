@@ -154,9 +154,7 @@ std::optional<PlotOutcome> draw(const Plot& plot, const Table& table, const fs::
     fs::remove(script_path, ignored);
     return std::nullopt;
   }
-  OutputFile file(script_path);
-  file.write(*script);
-  file.commit();
+  write_file(script_path, *script);
   PlotOutcome outcome = run_script(folder, plot.name, program);
   if (!outcome.is_drawn) {
     fs::remove(picture_path, ignored);

@@ -1,6 +1,8 @@
 #include "apps/study.h"
 
+#include <exception>
 #include <iostream>
+#include <optional>
 #include <ostream>
 #include <set>
 #include <string>
@@ -21,10 +23,24 @@
 namespace dmpc::apps {
 namespace {
 
+/// What the pictures are drawn from, in their folder.
+std::string data_file_of(const std::string& study) { return study + ".csv"; }
+
+/// Makes the folder: whether an output lies in it is known only then.
+void add_plot_files(const StudyOptions& options, std::vector<NamedFile>& outputs) {
+  make_output_folder(*options.plots, "--plots");
+  std::visit(
+      [&](const auto& study) {
+        outputs.push_back({"--plots", *options.plots / data_file_of(study.name)});
+        for (const Plot& plot : study.plots()) {
+          outputs.push_back({"--plots", *options.plots / (plot.name + ".gnuplot")});
+          outputs.push_back({"--plots", *options.plots / (plot.name + ".svg")});
+        }
+      },
+      options.study);
+}
+
 void check_output(const StudyOptions& options) {
-  if (!options.output) {
-    return;
-  }
   std::vector<NamedFile> inputs;
   if (!core::find_scene_name(options.picture.scene)) {
     inputs.push_back({"SCENE", options.picture.scene});
@@ -32,13 +48,16 @@ void check_output(const StudyOptions& options) {
   if (!options.machine_name.empty() && find_machine_preset(options.machine_name) == nullptr) {
     inputs.push_back({"--machine", options.machine_name});
   }
-  check_distinct(inputs, {{"-o", *options.output}});
-  check_output_path(*options.output, "-o");
-}
-
-void make_plot_folder(const StudyOptions& options) {
+  std::vector<NamedFile> outputs;
+  if (options.output) {
+    outputs.push_back({"-o", *options.output});
+  }
   if (options.plots) {
-    make_output_folder(*options.plots, "--plots");
+    add_plot_files(options, outputs);
+  }
+  check_distinct(inputs, outputs);
+  if (options.output) {
+    check_output_path(*options.output, "-o");
   }
 }
 
@@ -66,12 +85,11 @@ std::string film_note(const StudyRuns& runs) {
   return "Film of every run, " + std::to_string(runs.count()) + " in all: " + hash_text(*runs.film_hash()) + ".";
 }
 
-/// Complaints go to stderr: a picture is an extra.
-void draw_plots(const Table& table, const std::vector<Plot>& plots, const std::filesystem::path& folder) {
-  const std::string data_file = "study.csv";
-  OutputFile file(folder / data_file);
-  file.write(text_of(table, TableFormat::csv));
-  file.commit();
+/// Complaints about pictures go to stderr: they are an extra.
+void draw_plots(const std::string& study, const Table& table, const std::vector<Plot>& plots,
+                const std::filesystem::path& folder) {
+  const std::string data_file = data_file_of(study);
+  write_file(folder / data_file, text_of(table, TableFormat::csv));
   std::set<std::string> complaints;
   for (const Plot& plot : plots) {
     const auto outcome = draw(plot, table, folder, data_file);
@@ -81,20 +99,18 @@ void draw_plots(const Table& table, const std::vector<Plot>& plots, const std::f
   }
 }
 
-void write(Table& table, const std::vector<Plot>& plots, const StudyRuns& runs, const StudyOptions& options,
-           std::ostream& output) {
+template <class OneStudy>
+void write(const OneStudy& study, Table& table, const StudyRuns& runs, const StudyOptions& options, std::ostream& output) {
   table.add_note(film_note(runs));
-  if (options.plots) {
-    draw_plots(table, plots, *options.plots);
-  }
   const std::string text = text_of(table, options.format);
   if (options.output) {
-    OutputFile file(*options.output);
-    file.write(text);
-    file.commit();
+    write_file(*options.output, text);
   } else {
     output << text;
     finish_output(output, "the table");
+  }
+  if (options.plots) {
+    draw_plots(OneStudy::name, table, study.plots(), *options.plots);
   }
 }
 
@@ -107,23 +123,39 @@ Table empty_table(const OneStudy& study, const StudyOptions& options, const Subj
   return table;
 }
 
+/// What ended it before its time, if anything did; the rows finished before are in the table, and a note that others are missing.
+template <class OneStudy>
+std::exception_ptr measure(const OneStudy& study, StudyRuns& runs, Table& table) {
+  try {
+    study.measure(runs, table);
+    return nullptr;
+  } catch (const Interrupted&) {
+    table.add_note("Interrupted: rows are missing.");
+    return std::current_exception();
+  } catch (const std::exception&) {
+    table.add_note("Ended by an error: rows are missing.");
+    return std::current_exception();
+  }
+}
+
 template <class OneStudy>
 void carry_out(const OneStudy& study, const StudyOptions& options, Interrupt& interrupt, std::ostream& output) {
   const Subject subject = load(options, interrupt);
   Table table = empty_table(study, options, subject);
   StudyRuns runs(subject.database, subject.settings, {std::cerr, stderr_is_terminal(), study.run_count()}, interrupt);
-  try {
-    study.measure(runs, table);
-    interrupt.set_consequence(options.output ? "nothing was written" : "the table is incomplete");
-    const Interrupt::EndAtOnce end_at_once(interrupt);
-    write(table, study.plots(), runs, options, output);
-  } catch (const Interrupted&) {
-    if (!table.rows().empty()) {
-      interrupt.set_consequence("the table has the rows finished before");
-      table.add_note("Interrupted: rows are missing.");
-      write(table, study.plots(), runs, options, output);
+  const std::exception_ptr failure = measure(study, runs, table);
+  if (!failure || !table.rows().empty()) {
+    interrupt.set_consequence(failure          ? "the table has the rows finished before"
+                              : options.output ? "nothing was written"
+                                               : "the table is incomplete");
+    std::optional<Interrupt::EndAtOnce> end_at_once;
+    if (!failure) {
+      end_at_once.emplace(interrupt);
     }
-    throw;
+    write(study, table, runs, options, output);
+  }
+  if (failure) {
+    std::rethrow_exception(failure);
   }
 }
 
@@ -131,7 +163,6 @@ void carry_out(const OneStudy& study, const StudyOptions& options, Interrupt& in
 
 int study_command(const StudyOptions& options, Interrupt& interrupt, std::ostream& output) {
   check_output(options);
-  make_plot_folder(options);
   std::visit([&](const auto& study) { carry_out(study, options, interrupt, output); }, options.study);
   return 0;
 }

@@ -92,7 +92,8 @@ std::vector<Plot> BalanceStudy::plots() const {
     series.push_back({kind + ", predicted", "average load predicted", {{"regions", kind}}, PlotMark::points, color});
     series.push_back({kind + ", achieved", "average load achieved", {{"regions", kind}}, PlotMark::line, color});
   }
-  return {curves("balance", "Average load of the nodes", "nodes", node_axis(), percent_axis("average load"), std::move(series))};
+  return {
+      curves("balance_load", "Average load of the nodes", "nodes", node_axis(), percent_axis("average load"), std::move(series))};
 }
 
 void BalanceStudy::measure(StudyRuns& runs, Table& table) const {

@@ -236,11 +236,11 @@ std::vector<Plot> CacheStudy::plots() const {
     policies.push_back({.title = policy_name, .column = "faults " + policy_name, .color = policies.size()});
   }
   policies.push_back({.title = "optimum", .column = "faults optimum", .color = policies.size()});
-  std::vector<Plot> plots = {curves("faults", "Page faults", "cache pages", sizes, count, std::move(policies))};
+  std::vector<Plot> plots = {curves("cache_faults", "Page faults", "cache pages", sizes, count, std::move(policies))};
   if (machine) {
-    plots.push_back(curves("efficiency", "Efficiency", "cache pages", sizes, percent_axis("efficiency"),
+    plots.push_back(curves("cache_efficiency", "Efficiency", "cache pages", sizes, percent_axis("efficiency"),
                            {{"on " + machine->name, "efficiency"}}));
-    plots.push_back(curves("traffic", "Pages received by a node", "cache pages", sizes, rate,
+    plots.push_back(curves("cache_traffic", "Pages received by a node", "cache pages", sizes, rate,
                            {{"on " + machine->name, "page traffic a node"}}));
   }
   return plots;

@@ -104,13 +104,13 @@ std::vector<Column> SpeedupStudy::columns() const {
 std::vector<Plot> SpeedupStudy::plots() const {
   const PlotAxis times{.label = "speedup", .scale = PlotScale::powers_of_2};
   const std::string who = std::string(name_of(run.strategy)) + " on " + run.computer.machine->name;
-  Plot losses = curves("losses", "Where the nodes' time goes", "nodes", {}, percent_axis("of the nodes' time"), {});
+  Plot losses = curves("speedup_losses", "Where the nodes' time goes", "nodes", {}, percent_axis("of the nodes' time"), {});
   losses.is_stacked = true;
   for (const char* part : time_part_names) {
     losses.series.push_back({part, part, {}, PlotMark::bars, losses.series.size()});
   }
   return {curves("speedup", "Speedup", "nodes", node_axis(), times, {{who, "speedup"}}),
-          curves("efficiency", "Efficiency", "nodes", node_axis(), percent_axis("efficiency"), {{who, "efficiency"}}),
+          curves("speedup_efficiency", "Efficiency", "nodes", node_axis(), percent_axis("efficiency"), {{who, "efficiency"}}),
           std::move(losses)};
 }
 

@@ -53,7 +53,9 @@ TEST_CASE("a script names its files, its axes and their scales") {
   CHECK(contains(text, "set xlabel 'nodes'\nset xrange [0.9:72]\nset logscale x 2\n"));
   CHECK(contains(text, "set ylabel 'time (s)'\nset yrange [*:*]\n"));
   CHECK_FALSE(contains(text, "logscale y"));
-  CHECK(contains(text, "'t.csv' using (column('nodes')):(stringcolumn('scene') eq 'a' ? column('time (s)') : NaN) with lines"));
+  CHECK(contains(text,
+                 "'t.csv' using (column('nodes')):(stringcolumn('scene') eq 'a' ? column('time (s)') : NaN) smooth unique with "
+                 "linespoints"));
   CHECK(contains(text, "(stringcolumn('scene') eq 'a' ? column('loss (%)') : NaN) with points"));
 }
 

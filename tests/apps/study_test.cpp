@@ -109,28 +109,50 @@ TEST_CASE("pictures of a study go to a folder that is made for them, beside the 
   options.plots = folder / "new" / "plots";
   options.format = apps::TableFormat::csv;
   const std::string table = output_of(options);
-  CHECK(file_text(*options.plots / "study.csv") == table);
-  for (const char* name : {"traffic.gnuplot", "memory.gnuplot"}) {
-    CHECK(contains(file_text(*options.plots / name), "study.csv"));
+  CHECK(file_text(*options.plots / "traffic.csv") == table);
+  for (const char* name : {"traffic_bytes.gnuplot", "traffic_memory.gnuplot"}) {
+    CHECK(contains(file_text(*options.plots / name), "traffic.csv"));
   }
-  options.plots = folder / "new" / "plots" / "study.csv";
+  options.plots = folder / "new" / "plots" / "traffic.csv";
   CHECK_THROWS_AS(output_of(options), core::InputError);
+}
+
+TEST_CASE("a table may lie in the folder of its pictures, but not in place of one of their files or of the folder") {
+  const TemporaryFolder folder;
+  StudyOptions options = small_study();
+  options.plots = folder / "plots";
+  options.output = folder / "plots" / "table.md";
+  CHECK(output_of(options).empty());
+  CHECK(contains(file_text(*options.output), "Film of every run"));
+  options.output = folder / "plots" / "traffic.csv";
+  CHECK_THROWS_AS(output_of(options), core::UsageError);
+  options.plots = options.output = folder / "other";
+  CHECK_THROWS_AS(output_of(options), core::InputError);
+}
+
+TEST_CASE("what is in the way of pictures does not lose the table") {
+  const TemporaryFolder folder;
+  StudyOptions options = small_study();
+  options.plots = folder / "plots";
+  options.output = folder / "table.md";
+  std::filesystem::create_directories(folder / "plots" / "traffic.csv" / "full");
+  CHECK_THROWS_AS(output_of(options), core::InputError);
+  CHECK(contains(file_text(*options.output), "Film of every run"));
 }
 
 TEST_CASE("every study's pictures show columns that its table has, under names of their own") {
   const apps::CacheStudy timed{.machine = nodes::Machine()};
-  const std::vector<apps::Study> studies = {apps::BalanceStudy(), apps::TrafficStudy(), apps::CacheStudy(), timed,
-                                            apps::SpeedupStudy()};
+  const std::vector<apps::Study> studies = {apps::BalanceStudy(), apps::TrafficStudy(), timed, apps::SpeedupStudy()};
+  std::set<std::string> names;
   for (const apps::Study& study : studies) {
     const auto [columns, plots] = std::visit([](const auto& one) { return std::pair(one.columns(), one.plots()); }, study);
     apps::Table table("", columns);
     table.add_row(std::vector<apps::Cell>(columns.size(), std::uint64_t{1}));
-    std::set<std::string> names;
     for (const apps::Plot& plot : plots) {
       CHECK(names.insert(plot.name).second);
-      CHECK_NOTHROW(apps::script_of(plot, table, "study.csv"));
+      CHECK_NOTHROW(apps::script_of(plot, table, "t.csv"));
     }
-    CHECK_FALSE(names.empty());
+    CHECK_FALSE(plots.empty());
   }
 }
 
