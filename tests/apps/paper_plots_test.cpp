@@ -47,7 +47,7 @@ TEST_CASE("Table 3 is drawn as points where it is printed and as lines where it 
   const Plot& plot = plot_named(plots, "table_3");
   const std::string script = script_of(plot, table_3(catalogue, as_printed(catalogue)), "table_3.csv").value_or("");
   CHECK(count(script, " with points") == 4);
-  CHECK(count(script, " with lines") == 4);
+  CHECK(count(script, " with linespoints") == 4);
   for (std::size_t series = 0; series < plot.series.size(); series += 2) {
     CHECK(plot.series[series].color == plot.series[series + 1].color);
     CHECK(plot.series[series].where == plot.series[series + 1].where);

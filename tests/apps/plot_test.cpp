@@ -82,6 +82,17 @@ TEST_CASE("bars of one place stand side by side about its middle, stacked ones u
   CHECK(stacked.find("(column('time (s)') + column('loss (%)')) with boxes") < stacked.find("(column('time (s)')) with boxes"));
 }
 
+TEST_CASE("a logarithmic axis leaves a series out that has nothing above 0") {
+  Plot plot = curves();
+  plot.y.scale = PlotScale::powers_of_10;
+  plot.series[1].where = {{"scene", "a"}, {"nodes", "4"}};
+  Table table = small_table();
+  table.add_row({"a", std::uint64_t{4}, 3.0, 0.0, "x, y"});
+  CHECK_FALSE(contains(script(plot, table), "a''s loss"));
+  plot.y.scale = PlotScale::linear;
+  CHECK(contains(script(plot, table), "a''s loss"));
+}
+
 TEST_CASE("a series without a row is left out, and without any series there is no script") {
   Plot plot = curves();
   plot.series[1].where = {{"scene", "nobody"}};
