@@ -168,6 +168,16 @@ std::vector<std::pair<std::string, std::string>> sources_of(const Fields& fields
   return sources;
 }
 
+/// A port is something to contend for.
+bool has_memory_port(const Fields& fields) {
+  const bool has_port = fields.flag("has_memory_port");
+  if (has_port && !fields.flag("has_contention")) {
+    fields.refuse("has_memory_port",
+                  "true does not go with has_contention false: without contention no message waits for a port");
+  }
+  return has_port;
+}
+
 MachineDescription description_of(const Fields& fields) {
   const Keys message_keys = {"send_ns", "latency_ns", "receive_ns", "byte_ps"};
   const Keys operation_keys(nodes::charge_names.begin(), nodes::charge_names.end());
@@ -180,7 +190,7 @@ MachineDescription description_of(const Fields& fields) {
                       .service_ns = fields.number("service_ns", time_ns_max),
                       .cost_ps = operations_of(fields.object("operation_ps", operation_keys)),
                       .has_contention = fields.flag("has_contention"),
-                      .has_memory_port = fields.flag("has_memory_port")},
+                      .has_memory_port = has_memory_port(fields)},
           .sources = sources_of(fields)};
 }
 

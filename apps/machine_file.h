@@ -19,7 +19,8 @@ namespace dmpc::apps {
 ///   service_ns         of an interrupt, beside receiving and sending
 ///   operation_ps       by the names of nodes::Charge
 ///   has_contention     whether a link carries one message at a time
-///   has_memory_port    whether a node sends one message at a time and receives one at a time, over whatever links
+///   has_memory_port    whether a node sends one message at a time and receives one at a time, over whatever links; goes with
+///                      has_contention only
 nlohmann::ordered_json machine_json(const nodes::Machine& machine);
 
 /// That and "sources", an object of texts by sourced_keys; indented, with a line end.
@@ -27,7 +28,7 @@ std::string machine_text(const MachineDescription& description);
 
 /// Reads what machine_text() writes. "sources" may be missing, any other key may not. Throws core::InputError, naming `file`, the
 /// place or key and what was expected, for anything else: no JSON, unknown, missing and repeated keys, wrong types, numbers that
-/// are not whole or out of range (times to 1 s, operations to 0.1 s, bytes to 1 ms).
+/// are not whole or out of range (times to 1 s, operations to 0.1 s, bytes to 1 ms), memory ports without contention.
 MachineDescription parse_machine(std::string_view text, const std::string& file);
 
 /// The preset with this name, or what is in the file of that name, 1 MiB at most. Throws core::InputError if there is neither, or

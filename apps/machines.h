@@ -13,9 +13,10 @@
 
 namespace dmpc::apps {
 
-/// The keys of a machine file that have a source, in order.
-inline constexpr std::array<std::string_view, 8> sourced_keys = {
-    "topology", "short_bytes_max", "short_message", "long_message", "hop_ns", "service_ns", "operation_ps", "has_memory_port"};
+/// The keys of a machine file that have a source, in order; cached_lookup is one of those in operation_ps.
+inline constexpr std::array<std::string_view, 9> sourced_keys = {"topology",     "short_bytes_max", "short_message",
+                                                                 "long_message", "hop_ns",          "service_ns",
+                                                                 "operation_ps", "cached_lookup",   "has_memory_port"};
 
 /// A machine and what its figures rest on.
 struct MachineDescription {
@@ -30,6 +31,10 @@ const std::vector<MachineDescription>& machine_presets();
 const MachineDescription* find_machine_preset(std::string_view name);
 /// "ipsc2, ipsc860, ..., hdr", for messages.
 std::string machine_preset_names();
+
+/// The machine's name and what is special about its links, if anything is: "ipsc2", "ipsc2 without contention" or "ipsc2 with
+/// memory ports". Thread-safe.
+std::string name_with_links(const nodes::Machine& machine);
 
 /// What the operations cost on a processor that takes `slowdown` times as long as the core on which dataflow/work.cpp's prices
 /// were measured, in picoseconds by nodes::Charge. Thread-safe.

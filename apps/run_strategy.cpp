@@ -94,8 +94,13 @@ void choose_machine(StrategyOptions& options) {
     return;
   }
   nodes::Machine machine = load_machine(options.computer.machine_name).machine;
-  machine.has_contention = machine.has_contention && !options.computer.no_contention;
-  machine.has_memory_port = machine.has_memory_port || options.computer.memory_port;
+  const ComputerOptions& computer = options.computer;
+  if (computer.memory_port && !machine.has_contention) {
+    throw core::UsageError("--memory-port does not go with --machine=" + computer.machine_name +
+                           ", whose has_contention is false: without contention no message waits for a port");
+  }
+  machine.has_contention = machine.has_contention && !computer.no_contention;
+  machine.has_memory_port = machine.has_contention && (machine.has_memory_port || computer.memory_port);
   choose_machine(options, machine);
 }
 

@@ -20,12 +20,14 @@ using RunProgress = std::function<void(std::uint32_t, std::uint32_t)>;
 /// Everything is planned and, for dataflow, balanced and dealt.
 struct ReadyRun {
   std::vector<std::string> notes;  ///< what the user should know before: sentences
-  /// Renders. Throws core::InternalError if a law of conservation is broken.
+  /// Renders. Throws core::InputError if the real computer has too little memory or too few threads, and core::InternalError if a
+  /// law of conservation is broken.
   std::function<Report(const RunProgress&, std::stop_token)> start;
 };
 
 /// Reads the machine that is to be modelled, if one is: with its links and ports as asked for, and its topology as that onto
-/// which regions are mapped. Throws core::InputError as load_machine() does.
+/// which regions are mapped; without contention there are no ports. Throws core::InputError as load_machine() does, and
+/// core::UsageError for memory ports that are asked for on a machine whose file has no contention.
 void choose_machine(StrategyOptions& options);
 /// The same with this machine as it is.
 void choose_machine(StrategyOptions& options, const nodes::Machine& machine);
@@ -33,7 +35,7 @@ void choose_machine(StrategyOptions& options, const nodes::Machine& machine);
 /// The options are such as choose_machine() leaves them. For dataflow it renders the subsampled picture, in haste once a stop is
 /// requested: then the result is good for a run that the same stop ends at once. `database` and `settings` outlive the result.
 /// Throws core::UsageError for options that the strategy does not take, core::InputError if the nodes' memory is too small,
-/// naming what works.
+/// naming what works. No memory of a node is asked of the real computer before the start.
 ReadyRun make_ready(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
                     const std::stop_token& stop = {});
 

@@ -54,9 +54,10 @@ struct RenderRecord {
 ///   links          messages, hops (links passed, summed over messages), wait (virtual seconds that messages stood before links
 ///                  that others held, summed), busiest (virtual seconds that the busiest link was held), used (links that carried
 ///                  anything); summed over these: passages (of messages), bytes (headers included), busy (virtual seconds held).
-///                  columns {from, to, messages, bytes, busy, wait} and a row for each link, the busiest first, at most 256: all
-///                  there are on machines of up to 32 nodes. A wait counts for the link that became free last. The ends are "node
-///                  3", "host", "switch 0", "place 9" (a router without a node) and, of memory ports, "memory 3"
+///                  columns {from, to, messages, bytes, busy, wait} and a row for each link, the busiest first, at most 256: as a
+///                  rule all there are on machines of up to 32 nodes, though a crossbar has more. A wait counts for the link that
+///                  became free last. The ends are "node 3", "host", "switch 0", "place 9" (a router without a node) and, of
+///                  memory ports, "memory 3"
 ///   database       bytes, pages, page_size, primitives, references, dropped
 ///   packets        sent, received, bytes, overflow (by way of the host), and by_kind: packets and bytes
 ///   pages          references, hits, home_hits, cache_hits, misses, faults, evictions, served, distinct, distinct_per_pixel

@@ -104,16 +104,17 @@ void add_machine_options(OptionSet options, ComputerOptions& computer, const std
                    "A node sends one message at a time and receives one at a time, over whatever links" + when);
 }
 
-void add_page_options(OptionSet options, PageOptions& pages) {
+void add_page_options(OptionSet options, PageOptions& pages, const std::string& in_flight_default) {
   options.begin_group("Strategies svm and replicated");
-  options.add_number("--cache-pages", pages.cache_pages, 1, 0x7fffffff, "what the memory holds",
+  options.add_number("--cache-pages", pages.cache_pages, 1, 0x7fffffff,
+                     "a quarter of the database; with --node-memory what it holds",
                      "Pages of other nodes that a node can keep (svm)");
   using svm::Replacement;
   options.add_choice<Replacement>(
       "--replacement", pages.replacement,
       {{"lru", Replacement::lru}, {"clock", Replacement::clock}, {"fifo", Replacement::fifo}, {"random", Replacement::random}},
       "Which of them makes room for another (svm)");
-  options.add_number("--in-flight", pages.in_flight, 1, svm::in_flight_max, "16, replicated 1, runner virtual 1",
+  options.add_number("--in-flight", pages.in_flight, 1, svm::in_flight_max, in_flight_default,
                      "Pixels that a node works on at once");
   options.add_number("--work-item", pages.work_item_side, 0, 1024, "3",
                      "Side in pixels of what a node gives to an idle one; 0: nothing is given");

@@ -75,8 +75,11 @@ void add_strategy_option(OptionSet options, Strategy& strategy);
 void add_memory_option(OptionSet options, std::optional<std::size_t>& node_memory_bytes);
 /// Declares --machine, --no-contention and --memory-port; `when` is what their help says of when they go, such as " (virtual)".
 void add_machine_options(OptionSet options, ComputerOptions& computer, const std::string& when);
-/// Declare the options of svm and replicated but --count-pages, and of dataflow but --topology, each in a group of its own.
-void add_page_options(OptionSet options, PageOptions& pages);
+/// Declares the options of svm and replicated but --count-pages, in a group of their own. `in_flight_default` is what help says
+/// of the default of --in-flight; as it stands here it covers every runner.
+void add_page_options(OptionSet options, PageOptions& pages,
+                      const std::string& in_flight_default = "16, replicated 1, runner virtual 1");
+/// Declares the options of dataflow but --topology in a group of their own.
 void add_ray_options(OptionSet options, RayOptions& rays);
 
 /// For OptionSet::check_in_the_end(): throws core::UsageError for options, of those declared above or --topology or

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "apps/figures.h"
 #include "apps/run_strategy.h"
 #include "apps/side_by_side.h"
 #include "core/elementary.h"
@@ -102,24 +103,15 @@ class Sweep {
   Sweep(const Sweep&) = delete;
   Sweep& operator=(const Sweep&) = delete;
 
-  /// After a signal the table has the rows whose runs had all ended.
+  /// After a signal or an error, too, the table has the rows whose runs had all ended.
   void carry_out(StudyRuns& runs) {
-    std::vector<StrategyOptions> options;
-    for (const Job& job : jobs_) {
-      options.push_back(job.options);
+    try {
+      run_jobs(runs);
+    } catch (...) {
+      add_finished_rows();
+      throw;
     }
-    runs.run_side_by_side(options, [this](std::size_t index, const StudyOutcome& outcome) {
-      if (!outcome.report) {
-        throw core::InputError(outcome.misfit);
-      }
-      jobs_[index].take(std::get<svm::Report>(*outcome.report));
-      --rows_[jobs_[index].row].jobs_left;
-    });
-    for (const Row& row : rows_) {
-      if (row.jobs_left == 0) {
-        table_.add_row(row.cells);
-      }
-    }
+    add_finished_rows();
   }
 
  private:
@@ -132,6 +124,28 @@ class Sweep {
     std::vector<Cell> cells;
     std::size_t jobs_left = 0;
   };
+
+  void run_jobs(StudyRuns& runs) {
+    std::vector<StrategyOptions> options;
+    for (const Job& job : jobs_) {
+      options.push_back(job.options);
+    }
+    runs.run_side_by_side(options, [this](std::size_t index, const StudyOutcome& outcome) {
+      if (!outcome.report) {
+        throw core::InputError(outcome.misfit);
+      }
+      jobs_[index].take(std::get<svm::Report>(*outcome.report));
+      --rows_[jobs_[index].row].jobs_left;
+    });
+  }
+
+  void add_finished_rows() {
+    for (const Row& row : rows_) {
+      if (row.jobs_left == 0) {
+        table_.add_row(row.cells);
+      }
+    }
+  }
 
   static std::uint64_t total_ns(const svm::Report& report) { return report.virtual_time->total_ns; }
 
@@ -189,9 +203,12 @@ class Sweep {
 };
 
 std::string needs_note(const svm::MissCurve& lru) {
-  return "The node that references most has to do with " + std::to_string(lru.distinct_pages()) +
-         " different pages of others; from " + std::to_string(lru.sufficient_pages()) +
-         " frames on lru faults on each page's first reference only, " + std::to_string(lru.cold_misses()) + " times in all.";
+  if (lru.references() == 0) {
+    return "No node references a page of another.";
+  }
+  return "The node that references most has to do with " + counted(lru.distinct_pages(), "different page") + " of others; from " +
+         counted(std::max(lru.sufficient_pages(), 1U), "frame") + " on lru faults on each page's first reference only, " +
+         counted(lru.cold_misses(), "time") + " in all.";
 }
 
 }  // namespace
@@ -264,8 +281,7 @@ std::vector<std::string> CacheStudy::notes(const std::string& scene) const {
       "Faults and misses: pixels shared out beforehand, one in flight on a node, so that all policies see the same references "
       "and every miss is a fault. Misses are given as a share of all references, pages at home included.",
       "Lru: from the stack distances of one run's references (Mattson, Gecsei, Slutz and Traiger, 1970). Clock, fifo, random: by "
-      "a "
-      "run each, but for sizes that leave no choice. Optimum: the page that leaves is the one needed last (Belady, 1966)."};
+      "a run each, but for sizes that leave no choice. Optimum: the page that leaves is the one needed last (Belady, 1966)."};
   if (machine) {
     notes.push_back(
         "Virtual time, efficiency against one node with all pages at home, and bytes of pages received a node and "

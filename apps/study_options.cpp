@@ -106,7 +106,7 @@ struct AddOwn {
     add_strategy_option(set, study.run.strategy);
     add_memory_option(set, study.run.computer.node_memory_bytes);
     add_machine_options(set, study.run.computer, "");
-    add_page_options(set, study.run.pages);
+    add_page_options(set, study.run.pages, "1");
     add_ray_options(set, study.run.rays);
     set.check_in_the_end([set = set, &study, &file = machine_name] {
       file = study.run.computer.machine_name;
@@ -117,7 +117,8 @@ struct AddOwn {
         "  dmpc study speedup rings-4-t1\n"
         "  dmpc study speedup rings-4-t1 --node-memory=1MiB --replacement=clock --in-flight=4 --format=csv -o rings.csv\n"
         "  dmpc study speedup teapot-12 --strategy=dataflow --machine=hdr --nodes=1,16,256,1024\n"
-        "A number of nodes whose memory cannot hold the scene has a row without figures, and a note that says what would do.");
+        "A number of nodes whose memory cannot hold the scene has a row without figures, and a note that says what would do.\n"
+        "If none can, the exit status is 1.");
   }
 };
 

@@ -1,5 +1,6 @@
 #include "apps/study_runs.h"
 
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -72,17 +73,21 @@ svm::Report StudyRuns::run(const std::string& computer, svm::RunOptions options)
   return run_shown(computer, std::move(options), svm::run_svm);
 }
 
-/// Nothing if a signal kept it from its end.
+/// Nothing if a signal kept it from its end. Throws what the run throws. Only a plan that cannot be made is a misfit: what goes
+/// wrong later is an error.
 std::optional<StudyOutcome> StudyRuns::outcome_of(const StrategyOptions& run,
                                                   const std::function<void(std::uint32_t, std::uint32_t)>& progress) const {
   core::expect(run.computer.machine.has_value(), "runs side by side have no threads");
   StudyOutcome outcome;
+  ReadyRun ready;
   try {
-    const ReadyRun ready = make_ready(run, database_, settings_, interrupt_.token());
-    outcome.notes = ready.notes;
-    outcome.report = ready.start(progress, interrupt_.token());
+    ready = make_ready(run, database_, settings_, interrupt_.token());
   } catch (const core::InputError& error) {
     outcome.misfit = error.what();
+  }
+  if (ready.start) {
+    outcome.notes = std::move(ready.notes);
+    outcome.report = ready.start(progress, interrupt_.token());
   }
   const bool is_stopped = outcome.report ? account_of(*outcome.report).end == nodes::RunEnd::interrupted : interrupt_.requested();
   return is_stopped ? std::nullopt : std::optional(std::move(outcome));
@@ -91,12 +96,18 @@ std::optional<StudyOutcome> StudyRuns::outcome_of(const StrategyOptions& run,
 void StudyRuns::run_side_by_side(std::span<const StrategyOptions> runs, const Take& take) {
   Progress line(progress_.output, progress_.is_shown, "runs " + numbers(runs.size()) + ", side by side: ");
   CommonProgress progress(line, runs.size(), settings_.camera.pixel_count());
+  std::vector<std::string> misfits;
   side_by_side(runs.size(), [&](std::size_t index) -> std::function<void()> {
     if (interrupt_.requested()) {
       return [] {};
     }
     const auto update = [&progress, index](std::uint32_t done, std::uint32_t) { progress.update(index, done); };
-    const auto outcome = std::make_shared<const std::optional<StudyOutcome>>(outcome_of(runs[index], update));
+    std::shared_ptr<const std::optional<StudyOutcome>> outcome;
+    try {
+      outcome = std::make_shared<const std::optional<StudyOutcome>>(outcome_of(runs[index], update));
+    } catch (...) {
+      return [error = std::current_exception()] { std::rethrow_exception(error); };  // when it is this run's turn
+    }
     if (!*outcome) {
       return [] {};
     }
@@ -104,11 +115,16 @@ void StudyRuns::run_side_by_side(std::span<const StrategyOptions> runs, const Ta
       if ((*outcome)->report) {
         compare(account_of(*(*outcome)->report).film);
         ++count_;
+      } else {
+        misfits.push_back((*outcome)->misfit);
       }
       take(index, **outcome);
       progress.finish(index);
     };
   });
+  if (!runs.empty() && misfits.size() == runs.size()) {
+    throw NothingFits(misfits.front());
+  }
 }
 
 void StudyRuns::compare(const core::Film& film) {

@@ -14,6 +14,7 @@
 #include "apps/report.h"
 #include "apps/strategy_options.h"
 #include "core/database.h"
+#include "core/expect.h"
 #include "core/film.h"
 #include "core/pixel_task.h"
 #include "dataflow/run.h"
@@ -35,6 +36,11 @@ struct StudyOutcome {
   std::vector<std::string> notes;  ///< what had to be reduced to fit: sentences
 };
 
+/// The scene fits none of the computers that were to render it: the message is the first one's misfit.
+struct NothingFits : core::InputError {
+  using core::InputError::InputError;
+};
+
 /// Not thread-safe. What it is made from outlives it.
 class StudyRuns {
  public:
@@ -50,8 +56,10 @@ class StudyRuns {
   /// Told of runs[i]: one at a time, in the order of i, on any thread.
   using Take = std::function<void(std::size_t, const StudyOutcome&)>;
   /// Renders by any strategies on modelled machines, which have no threads, as many at a time as the real computer has cores.
-  /// After a signal the runs that it stopped or kept from beginning are left out, and check() throws. Throws core::UsageError for
-  /// options that their strategy does not take, and core::InternalError if a film is not the first run's.
+  /// After a signal the runs that it stopped or kept from beginning are left out, and check() throws. Throws NothingFits when
+  /// `take` has been told of a misfit for every run, if there are any; before that core::UsageError for options that their
+  /// strategy does not take, core::InternalError if a film is not the first run's, and whatever else a run throws: `take` has
+  /// then been told of all runs before that one, and of none after it.
   void run_side_by_side(std::span<const StrategyOptions> runs, const Take& take);
 
   /// Throws Interrupted if a signal has come. From any thread.

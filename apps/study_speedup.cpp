@@ -80,8 +80,7 @@ std::string rays_text(const RayOptions& rays) {
 }
 
 std::string machine_text(const nodes::Machine& machine) {
-  const char* const links = !machine.has_contention ? " without contention" : machine.has_memory_port ? " with memory ports" : "";
-  return "Machine " + machine.name + links + " (machine_digest " + hash_text(machine.digest()) + ")";
+  return "Machine " + name_with_links(machine) + " (machine_digest " + hash_text(machine.digest()) + ")";
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ struct SpeedupStudy {
   /// How many times measure() renders.
   std::uint32_t run_count() const { return static_cast<std::uint32_t>(node_counts.size()); }
   /// Adds to `table`, which has columns(), a row for each node count, those that were finished after a signal; and notes: why a
-  /// row is empty (the scene does not fit so many nodes), and what was reduced to fit. Throws as StudyRuns does.
+  /// row is empty (the scene does not fit so many nodes), and what was reduced to fit. Throws as StudyRuns does:
+  /// NothingFits when all rows are there, without figures.
   void measure(StudyRuns& runs, Table& table) const;
   /// What the columns mean, and what runs.
   std::vector<std::string> notes(const std::string& scene) const;

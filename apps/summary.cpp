@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "apps/figures.h"
+#include "apps/machines.h"
 #include "apps/ray_hops.h"
 #include "apps/time_parts.h"
 #include "nodes/size_text.h"
@@ -97,10 +98,8 @@ std::string virtual_lines(const Account& account, const std::optional<nodes::Mac
     return "";
   }
   const nodes::VirtualReport& report = *account.virtual_time;
-  const std::string time = fixed(static_cast<double>(report.total_ns) / 1e9, 6) + " s on " + machine->name;
-  const std::string links =
-      machine->has_contention ? machine->has_memory_port ? " with memory ports" : "" : " without contention";
-  return "virtual  " + time + links + ", " + counted(report.events, "event") + "; run_hash " +
+  const std::string time = fixed(static_cast<double>(report.total_ns) / 1e9, 6) + " s on " + name_with_links(*machine);
+  return "virtual  " + time + ", " + counted(report.events, "event") + "; run_hash " +
          hash_text(report.run_hash(account.film.hash())) + ", machine_digest " + hash_text(report.machine_digest) +
          "\nlosses   " + parts_text(parts_of(sum_of_nodes(report), account.waits), account.waits) + "\n";
 }

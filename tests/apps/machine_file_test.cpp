@@ -68,7 +68,7 @@ TEST_CASE("every figure reaches its own field") {
     "long_message": {"byte_ps": 9, "send_ns": 6, "latency_ns": 7, "receive_ns": 8}, "hop_ns": 10, "service_ns": 11,
     "operation_ps": {"ray_setup": 12, "cell_step": 13, "brick_read": 14, "triangle_test": 15, "sphere_test": 16, "cone_test": 17,
       "shading": 18, "home_lookup": 19, "cached_lookup": 20, "page_install": 21, "ray_packing": 22}, "has_contention": false,
-    "has_memory_port": true})";
+    "has_memory_port": false})";
   const MachineDescription description = parse_machine(text, "m.json");
   const nodes::Machine& machine = description.machine;
   CHECK(machine.name == "mine");
@@ -81,7 +81,9 @@ TEST_CASE("every figure reaches its own field") {
   CHECK(machine.service_ns == 11);
   CHECK(machine.cost_ps == std::array<std::uint64_t, nodes::charge_count>{12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22});
   CHECK_FALSE(machine.has_contention);
-  CHECK(machine.has_memory_port);
+  CHECK_FALSE(machine.has_memory_port);
+  CHECK(parse_machine(with(plain_text(), "\"has_memory_port\": false", "\"has_memory_port\": true"), "m.json")
+            .machine.has_memory_port);
   CHECK(description.sources.empty());
 }
 
@@ -122,6 +124,14 @@ TEST_CASE("a value of the wrong type or out of range is named with what was expe
   }
   CHECK(says(complaint_with("\"sources\": {}", "\"sources\": {\"hop_ns\": 3}"), "sources.hop_ns: expected a text, got 3"));
   CHECK(says(complaint_with("\"sources\": {}", "\"sources\": []"), "sources: expected an object, got []"));
+}
+
+TEST_CASE("memory ports without contention are refused, both named") {
+  const std::string ported = with(plain_text(), "\"has_memory_port\": false", "\"has_memory_port\": true");
+  CHECK(complaint(ported) == "");
+  CHECK(complaint_with("true", "false") == "");
+  CHECK(says(complaint(with(ported, "\"has_contention\": true", "\"has_contention\": false")),
+             "m.json: has_memory_port: true does not go with has_contention false: "));
 }
 
 TEST_CASE("what is no JSON is named with its place") {

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,28 @@ TEST_CASE("every figure of every machine has a source and a certainty, or is tol
       CHECK((is_certain_to_a_degree || source == "one class of messages" || source == "as a long message"));
     }
   }
+}
+
+TEST_CASE("the price of a cached look-up is told to be fitted on the iPSC/2, and carried over everywhere else") {
+  for (const MachineDescription& preset : machine_presets()) {
+    CAPTURE(preset.machine.name);
+    const auto source = std::find_if(preset.sources.begin(), preset.sources.end(), [](const auto& keyed) {
+                          return keyed.first == "cached_lookup";
+                        })->second;
+    const bool is_fitted_here = source.find("fitted to Mountain on two nodes") == 0;
+    CHECK(is_fitted_here == (preset.machine.name == "ipsc2"));
+    CHECK(is_fitted_here !=
+          (source.find("carried over by the slowdown: not measured on this machine, low") != std::string::npos));
+  }
+}
+
+TEST_CASE("a machine's name is told with what is special about its links") {
+  nodes::Machine cm5 = machine("cm5");
+  CHECK(name_with_links(cm5) == "cm5");
+  cm5.has_memory_port = true;
+  CHECK(name_with_links(cm5) == "cm5 with memory ports");
+  cm5.has_contention = false;
+  CHECK(name_with_links(cm5) == "cm5 without contention");
 }
 
 TEST_CASE("a message of the iPSC/2 takes what the 1994 paper and its handbooks say") {

@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "apps/machine_file.h"
 #include "core/expect.h"
 #include "core/units.h"
 #include "tests/apps/rendered.h"
+#include "tests/support/temporary_folder.h"
 
 namespace dmpc::apps {
 
@@ -120,11 +122,30 @@ TEST_CASE("the machine asked for is read, and regions are mapped onto its topolo
   CHECK(chosen(computer).rays.topology == nodes::TopologyKind::mesh);
   CHECK(chosen(computer).computer.machine.value().has_contention);
   CHECK_FALSE(chosen(computer).computer.machine.value().has_memory_port);
-  computer.no_contention = computer.memory_port = true;
-  CHECK_FALSE(chosen(computer).computer.machine.value().has_contention);
+  computer.memory_port = true;
   CHECK(chosen(computer).computer.machine.value().has_memory_port);
+  computer.memory_port = false;
+  computer.no_contention = true;
+  CHECK_FALSE(chosen(computer).computer.machine.value().has_contention);
   computer.machine_name = "abacus";
   CHECK_THROWS_AS(chosen(computer), core::InputError);
+}
+
+TEST_CASE("without contention there are no memory ports, and to ask for them is wrong usage") {
+  const tests::TemporaryFolder folder;
+  MachineDescription mine = *find_machine_preset("cm5");
+  StrategyOptions options{.computer = {.runner = RunnerKind::virtual_time, .machine_name = folder / "mine.json"}};
+  mine.machine.has_memory_port = true;
+  tests::write_text(folder / "mine.json", machine_text(mine));
+  options.computer.no_contention = true;
+  choose_machine(options);
+  CHECK_FALSE(options.computer.machine.value().has_memory_port);
+  mine.machine.has_contention = mine.machine.has_memory_port = false;
+  tests::write_text(folder / "mine.json", machine_text(mine));
+  options.computer.no_contention = false;
+  CHECK_NOTHROW(choose_machine(options));
+  options.computer.memory_port = true;
+  CHECK_THROWS_WITH_AS(choose_machine(options), doctest::Contains("whose has_contention is false"), core::UsageError);
 }
 
 TEST_CASE("links that do not contend let no message wait") {

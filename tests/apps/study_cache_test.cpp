@@ -114,6 +114,26 @@ TEST_CASE("without a machine nothing is timed") {
   CHECK(CacheStudy().columns().size() + 3 == CacheStudy{.machine = ipsc2()}.columns().size());
 }
 
+TEST_CASE("what the nodes need is told in words that suit the numbers") {
+  const auto last_note = [](const char* scene, std::uint32_t node_count) {
+    StudySubject subject(scene);
+    return subject.measure(CacheStudy{.node_count = node_count, .cache_pages = {2}}).notes().back();
+  };
+  const std::string many = last_note("rings-2-t1", 4);
+  CHECK(many.find("The node that references most has to do with ") == 0);
+  CHECK(many.find(" different pages of others; from ") != std::string::npos);
+  const std::string few = last_note("balls-1", 2);
+  CHECK(few.find(" 1 different page of others; from 1 frame on lru faults ") != std::string::npos);
+}
+
+TEST_CASE("a study that an error ends has the rows that were finished before") {
+  StudySubject subject("balls-1");
+  const CacheStudy study{.node_count = 2, .cache_pages = {1, 0, 1}, .machine = ipsc2()};
+  Table table("", study.columns());
+  CHECK_THROWS_WITH_AS(study.measure(subject.runs, table), doctest::Contains("--cache-pages=0"), core::UsageError);
+  CHECK(table.rows().size() == 1);
+}
+
 TEST_CASE("two studies of the same scene find the same") {
   const CacheStudy study{.node_count = 3, .machine = ipsc2()};
   const Table one = StudySubject("balls-2").measure(study), other = StudySubject("balls-2").measure(study);

@@ -131,6 +131,13 @@ TEST_CASE("the options of the study of speedup are those of a run") {
   CHECK(speedup({"--strategy=replicated", "--in-flight=2"}).run.strategy == Strategy::replicated);
 }
 
+TEST_CASE("the help of the study of speedup tells its own defaults") {
+  const std::string text = std::get<HelpText>(parse_command_line(std::vector<std::string>{"study", "speedup", "--help"})).text;
+  CHECK(text.find("--in-flight 1..4096 [1]") != std::string::npos);
+  CHECK(text.find("[a quarter of the database") != std::string::npos);
+  CHECK(text.find("replicated 1") == std::string::npos);
+}
+
 TEST_CASE("options of a study of speedup that do not go together are refused with the reason") {
   const auto says = [](std::initializer_list<std::string> more, const std::string& part) {
     std::vector<std::string> arguments = {"study", "speedup", "teapot-12"};

@@ -9,6 +9,7 @@
 #include "apps/machines.h"
 #include "apps/run_strategy.h"
 #include "core/expect.h"
+#include "tests/support/child_process.h"
 #include "tests/support/study_subject.h"
 
 namespace dmpc::tests {
@@ -86,9 +87,12 @@ TEST_CASE("a run side by side with others has the hash and the counters that it 
   for (const apps::Strategy strategy : {apps::Strategy::svm, apps::Strategy::dataflow, apps::Strategy::replicated}) {
     runs.push_back(modelled(strategy, 7));
   }
-  const std::vector<std::string> alone = prints(subject, std::span(runs).first(1)), beside = prints(subject, runs);
-  CHECK(beside.front() == alone.front());
-  CHECK(prints(subject, runs) == beside);
+  std::vector<std::string> alone;
+  for (const apps::StrategyOptions& run : runs) {
+    alone.push_back(prints(subject, std::span(&run, 1)).front());
+  }
+  CHECK(prints(subject, runs) == alone);
+  CHECK(prints(subject, runs) == alone);
 }
 
 TEST_CASE("a scene that does not fit is no report but a reason, and the others are rendered") {
@@ -107,6 +111,40 @@ TEST_CASE("a scene that does not fit is no report but a reason, and the others a
   CHECK(misfits[1].find("is too small for --nodes=3: node ") != std::string::npos);
   CHECK(misfits[2].empty());
   CHECK(subject.runs.count() == 1);
+}
+
+TEST_CASE("a scene that fits no computer is an error, once all have been told of, and the first one's reason") {
+  StudySubject subject("balls-1");
+  std::vector<apps::StrategyOptions> runs = {modelled(apps::Strategy::dataflow, 3), modelled(apps::Strategy::svm, 2)};
+  std::size_t misfits = 0;
+  for (apps::StrategyOptions& run : runs) {
+    run.computer.node_memory_bytes = 1000;
+  }
+  CHECK_THROWS_WITH_AS(subject.runs.run_side_by_side(runs, [&](std::size_t, const apps::StudyOutcome&) { ++misfits; }),
+                       doctest::Contains("is too small for --nodes=3: node "), apps::NothingFits);
+  CHECK(misfits == 2);
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which need more than all of that
+TEST_CASE("memory that the real computer does not have is no misfit but an error") {
+  ChildProcess process({"/bin/sh", "-c",
+                        "ulimit -v 3000000; exec \"$0\" study speedup balls-1 --strategy=dataflow --nodes=1,64 "
+                        "--ray-queue=16384 --ray-batch=600 --resolution=8x8",
+                        DMPC_PROGRAM});
+  CHECK(process.status() == 1);
+  CHECK(process.errors().find("dmpc: this computer has no ") == 0);
+  CHECK(process.output().find("does not fit") == std::string::npos);
+}
+#endif
+
+TEST_CASE("1,024 nodes run in virtual time") {
+  StudySubject subject("balls-1", 16);
+  const std::vector<apps::StrategyOptions> runs = {modelled(apps::Strategy::svm, 1024), modelled(apps::Strategy::dataflow, 1024)};
+  std::vector<std::size_t> node_counts;
+  subject.runs.run_side_by_side(runs, [&](std::size_t, const apps::StudyOutcome& outcome) {
+    node_counts.push_back(apps::account_of(outcome.report.value()).nodes.size());
+  });
+  CHECK(node_counts == std::vector<std::size_t>{1024, 1024});
 }
 
 TEST_CASE("what had to be reduced for a run to fit is noted") {

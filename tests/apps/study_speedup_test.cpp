@@ -98,11 +98,20 @@ TEST_CASE("replicated fits nowhere if it does not fit one node") {
   StudySubject subject("tetra-6");
   SpeedupStudy study = study_of(Strategy::replicated, {1, 4});
   study.run.computer.node_memory_bytes = 500 << 10U;
-  const Table table = subject.measure(study);
+  Table table("", study.columns());
+  CHECK_THROWS_WITH_AS(study.measure(subject.runs, table), doctest::Contains("is too small for --nodes=1: "), apps::NothingFits);
   CHECK(is_missing(table, 0, "virtual time"));
   CHECK(is_missing(table, 1, "virtual time"));
   CHECK(has_note(table, "4 nodes: the scene does not fit."));
   CHECK(subject.runs.count() == 0);
+}
+
+TEST_CASE("a study of speedup that an error ends has the rows before it") {
+  StudySubject subject("balls-1");
+  const SpeedupStudy study = study_of(Strategy::dataflow, {1, 2, 1025, 4});
+  Table table("", study.columns());
+  CHECK_THROWS_AS(study.measure(subject.runs, table), core::UsageError);
+  CHECK(table.rows().size() == 2);
 }
 
 TEST_CASE("the notes say what ran") {
