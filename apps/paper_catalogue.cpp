@@ -58,7 +58,7 @@ void add_rings(Catalogue& catalogue, const PaperRun& like) {
   }
 }
 
-/// Whole memories in place of the article's share, and records without an order in space.
+/// Records without an order in space; other memories than those of the article's text.
 void add_memories(Catalogue& catalogue) {
   for (std::size_t row = 0; row < missing_rows.size(); ++row) {
     const std::size_t scene = missing_rows[row];
@@ -67,6 +67,10 @@ void add_memories(Catalogue& catalogue) {
       run.record_order = core::RecordOrder::scattered;
       catalogue.scattered[row][column] = catalogue.add(run);
       run.record_order = core::RecordOrder::spatial;
+      if (run.node_count > 1) {
+        run.cache_share = paper_scenes[scene].cache_share(run.node_count, cache_scenes[row].shared_kilobytes());
+      }
+      catalogue.figures_memory[row][column] = catalogue.add(run);
       run.cache_share.reset();
       run.node_memory_bytes = node_memory_bytes;
       catalogue.whole_memory[row][column] = catalogue.add(run);
@@ -74,7 +78,7 @@ void add_memories(Catalogue& catalogue) {
   }
 }
 
-/// At half the resolution a side: small caches miss so often that a picture of 512x512 takes minutes.
+/// At half the resolution a side: small caches miss so often that a whole picture takes minutes.
 void add_caches(Catalogue& catalogue, const PaperRun& like) {
   for (std::size_t scene = 0; scene < cache_scenes.size(); ++scene) {
     PaperRun run = like;
@@ -93,6 +97,7 @@ void add_caches(Catalogue& catalogue, const PaperRun& like) {
 
 Catalogue catalogue_of(std::uint32_t resolution) {
   Catalogue catalogue;
+  catalogue.resolution = resolution;
   const PaperRun like{.machine = preset("ipsc2"), .resolution = resolution};
   add_tables(catalogue, like);
   add_rings(catalogue, like);
@@ -104,6 +109,7 @@ Catalogue catalogue_of(std::uint32_t resolution) {
   PaperRun dearer = catalogue.runs[catalogue.timed[calibration_row][1]];
   dearer.machine.cost_ps[static_cast<std::size_t>(nodes::Charge::cached_lookup)] *= 2;
   catalogue.dearer_cache = catalogue.add(dearer);
+  catalogue.run_count_without_variations = catalogue.runs.size();
   return catalogue;
 }
 

@@ -1,9 +1,10 @@
 #include "apps/paper_claims.h"
 
 #include <algorithm>
-#include <array>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/figures.h"
@@ -12,11 +13,23 @@
 namespace dmpc::apps {
 namespace {
 
-void add_claim(Table& table, const std::string& claim, bool is_held, const std::string& found) {
-  table.add_row({claim, is_held ? "held" : "not held", found});
-}
+/// Rows of claims.
+class Claims {
+ public:
+  /// Prices are fitted to the article's resolution: pictures of another say nothing about its claims.
+  explicit Claims(std::uint32_t resolution) : is_judged_(resolution == paper_resolution) {}
 
-void claim_efficiency(Table& table, const Catalogue& catalogue, const PaperResults& results) {
+  void add(const std::string& claim, bool is_held, const std::string& found) {
+    table_.add_row({claim, !is_judged_ ? "not judged" : is_held ? "held" : "not held", found});
+  }
+  Table table() && { return std::move(table_); }
+
+ private:
+  bool is_judged_;
+  Table table_{"What the text claims", {{"claim"}, {"verdict"}, {"found"}}};
+};
+
+void claim_efficiency(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
   const std::vector<CellOfTable3> cells = cells_of_table_3(catalogue, results);
   if (cells.empty()) {
     return;
@@ -25,25 +38,48 @@ void claim_efficiency(Table& table, const Catalogue& catalogue, const PaperResul
   for (const CellOfTable3& cell : cells) {
     least = std::min(least, cell.efficiency);
   }
-  add_claim(table, "With up to 64 nodes the efficiency is almost always above 78 %", least > 78,
-            "the least is " + fixed(least, 1) + " %");
+  rows.add("With up to 64 nodes the efficiency is almost always above 78 %", least > 78,
+           "the least is " + fixed(least, 1) + " %");
 }
 
-void claim_rays_fall(Table& table, const Catalogue& catalogue, const PaperResults& results) {
+/// In percent against one node, by node count; nothing if a run is missing.
+std::optional<std::vector<double>> efficiencies_of(const std::optional<PaperResult>& first, const PaperResults& results,
+                                                   const Catalogue::ByNodeCount& runs) {
+  std::vector<double> efficiencies;
+  for (std::size_t column = 0; column < runs.size(); ++column) {
+    const auto& result = results[runs[column]];
+    if (!first || !result) {
+      return std::nullopt;
+    }
+    efficiencies.push_back(efficiency(first->seconds(), 1, result->seconds(), paper_node_counts[column]));
+  }
+  return efficiencies;
+}
+
+/// Each below the one before.
+bool is_falling(const std::vector<double>& values) {
+  return std::adjacent_find(values.begin(), values.end(), std::less_equal<>()) == values.end();
+}
+
+/// "100.0, 97.5, 96.0".
+std::string listed(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) {
+    text += (text.empty() ? "" : ", ") + fixed(value, 1);
+  }
+  return text;
+}
+
+void claim_rays_fall(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
   for (std::size_t scene = 0; scene < rings.size(); ++scene) {
     const auto& first = results[catalogue.rings_by_pages[scene][0]];
-    const auto& few = results[catalogue.rings_by_rays[scene][2]];
-    const auto& many = results[catalogue.rings_by_rays[scene].back()];
-    const auto& pages = results[catalogue.rings_by_pages[scene].back()];
-    if (first && few && many && pages) {
-      const double at_4 = efficiency(first->seconds(), 1, few->seconds(), 4);
-      const double at_64 = efficiency(first->seconds(), 1, many->seconds(), 64);
-      const double by_pages = efficiency(first->seconds(), 1, pages->seconds(), 64);
-      add_claim(
-          table,
+    const auto by_rays = efficiencies_of(first, results, catalogue.rings_by_rays[scene]);
+    const auto by_pages = efficiencies_of(first, results, catalogue.rings_by_pages[scene]);
+    if (by_rays && by_pages) {
+      rows.add(
           std::string("The efficiency of travelling rays falls with the nodes, and is below travelling pages', ") + rings[scene],
-          at_64 < at_4 && at_64 < by_pages,
-          fixed(at_4, 1) + " % on 4 nodes, " + fixed(at_64, 1) + " % on 64; pages " + fixed(by_pages, 1) + " %");
+          is_falling(*by_rays) && by_rays->back() < by_pages->back(),
+          listed(*by_rays) + " % on 1 to 64 nodes; pages " + fixed(by_pages->back(), 1) + " % on 64");
     }
   }
 }
@@ -68,10 +104,11 @@ std::vector<CachePoint> points_of(const Catalogue& catalogue, const PaperResults
   return points;
 }
 
-/// The smallest cache with more than 50 %; nothing if none has.
+/// The smallest cache from which on all have more than 50 %; nothing if there is none. `points` are by size.
 std::optional<CachePoint> cache_for_half(const std::vector<CachePoint>& points) {
-  const auto found = std::find_if(points.begin(), points.end(), [](const CachePoint& point) { return point.efficiency > 50; });
-  return found == points.end() ? std::nullopt : std::optional(*found);
+  const auto largest_without =
+      std::find_if(points.rbegin(), points.rend(), [](const CachePoint& point) { return point.efficiency <= 50; });
+  return largest_without == points.rbegin() ? std::nullopt : std::optional(*largest_without.base());
 }
 
 std::string from_cache(const std::optional<CachePoint>& cache) {
@@ -85,43 +122,43 @@ std::string to_text(const CachePoint& point) { return std::to_string(point.pages
 /// Pages that a node receives, of what messages of 1 KB allow.
 double share_of_network(const CachePoint& point) { return point.page_rate / 0.9e6; }
 
-void claim_caches(Table& table, const Catalogue& catalogue, const PaperResults& results) {
+void claim_caches(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
   const std::vector<CachePoint> of_rings = points_of(catalogue, results, 0), of_tetra = points_of(catalogue, results, 1);
   if (of_rings.empty() || of_tetra.empty()) {
     return;
   }
   const std::optional<CachePoint> for_rings = cache_for_half(of_rings), for_tetra = cache_for_half(of_tetra);
-  add_claim(table, "Rings4 needs larger caches than Tetra9 to stay above 50 %, as a share of the database",
-            for_tetra && (!for_rings || for_rings->share > for_tetra->share),
-            "Rings4 " + from_cache(for_rings) + ", Tetra9 " + from_cache(for_tetra));
+  rows.add("Rings4 needs larger caches than Tetra9 to stay above 50 %, as a share of the database",
+           for_tetra && (!for_rings || for_rings->share > for_tetra->share),
+           "Rings4 " + from_cache(for_rings) + ", Tetra9 " + from_cache(for_tetra));
   const auto peak = std::max_element(of_rings.begin(), of_rings.end(),
                                      [](const CachePoint& a, const CachePoint& b) { return a.page_rate < b.page_rate; });
-  add_claim(table, "The communication rate of Rings4 peaks (theirs at 204 pages) and falls for smaller caches",
-            peak != of_rings.begin() && peak->pages < of_rings.back().pages, "the peak is at " + to_text(*peak));
+  rows.add("The communication rate of Rings4 peaks (theirs at 204 pages) and falls for smaller caches",
+           peak != of_rings.begin() && peak->pages < of_rings.back().pages, "the peak is at " + to_text(*peak));
   const double share = share_of_network(*peak);
-  add_claim(table, "At the peak the network carries about 70 % of the 0.9 MB/s that messages of 1 KB allow",
-            share > 0.6 && share < 0.8, "a node receives " + fixed(100 * share, 0) + " %, and sends as much");
+  rows.add("At the peak the network carries about 70 % of the 0.9 MB/s that messages of 1 KB allow", share > 0.6 && share < 0.8,
+           "a node receives " + fixed(100 * share, 0) + " %, and sends as much");
 }
 
-void claim_faster_machine(Table& table, const Catalogue& catalogue, const PaperResults& results) {
-  const auto& slow = results[catalogue.timed[2][5]];
+void claim_faster_machine(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
+  const auto& slow = results[catalogue.timed[rings_row][faster_column]];
   const auto& fast = results[catalogue.faster_machine];
   if (slow && fast) {
     const double ratio = slow->seconds() / fast->seconds();
-    add_claim(table, "The iPSC/860 is about 7 times faster (Rings4, 32 nodes)", ratio > 6 && ratio < 8,
-              fixed(ratio, 2) + " times; its processor is modelled as 7 times faster, so this tests the network alone");
+    rows.add("The iPSC/860 is about 7 times faster (Rings4, 32 nodes)", ratio > 6 && ratio < 8,
+             fixed(ratio, 2) + " times; its processor is modelled as 7 times faster, so this tests the network alone");
   }
 }
 
 }  // namespace
 
 Table claims(const Catalogue& catalogue, const PaperResults& results) {
-  Table table("What the text claims", {{"claim"}, {"verdict"}, {"found"}});
-  claim_efficiency(table, catalogue, results);
-  claim_rays_fall(table, catalogue, results);
-  claim_caches(table, catalogue, results);
-  claim_faster_machine(table, catalogue, results);
-  return table;
+  Claims rows(catalogue.resolution);
+  claim_efficiency(rows, catalogue, results);
+  claim_rays_fall(rows, catalogue, results);
+  claim_caches(rows, catalogue, results);
+  claim_faster_machine(rows, catalogue, results);
+  return std::move(rows).table();
 }
 
 }  // namespace dmpc::apps

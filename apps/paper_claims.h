@@ -6,7 +6,8 @@
 
 namespace dmpc::apps {
 
-/// A row a claim whose runs have ended: the claim, "held" or "not held", and what was found.
+/// A row a claim whose runs have ended: the claim, "held" or "not held", and what was found. Of pictures that are not of the
+/// article's resolution none is judged.
 Table claims(const Catalogue& catalogue, const PaperResults& results);
 
 }  // namespace dmpc::apps

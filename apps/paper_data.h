@@ -9,13 +9,16 @@
 
 namespace dmpc::apps {
 
-/// Of the 4 MB of a node's memory, about so many KB serve the shared memory: its own pages and its cache.
+/// Of the 4 MB of a node's memory, about so many KB serve the shared memory: its own pages and its cache. So says the text.
 inline constexpr double shared_kilobytes = 3.2 * 1024;
+
+/// Pixels a side of its pictures.
+inline constexpr std::uint32_t paper_resolution = 512;
 
 /// The node counts of Table 3.
 inline constexpr std::array<std::uint32_t, 7> paper_node_counts = {1, 2, 4, 8, 16, 32, 64};
 
-/// One of its scenes, and which of ours stands for it. 512x512 pixels.
+/// One of its scenes, and which of ours stands for it.
 struct PaperScene {
   const char* title;
   const char* scene;  ///< a built-in scene's name
@@ -32,11 +35,11 @@ struct PaperScene {
     }
     return column;
   }
-  /// What the cache of one of so many nodes holds, as a share of the database: what is left of the shared memory beside the
-  /// node's own pages, at most all others.
-  constexpr double cache_share(std::uint32_t node_count) const {
+  /// What the cache of one of so many nodes holds, as a share of the database: what is left of the shared memory, of so many KB,
+  /// beside the node's own pages, at most all others.
+  constexpr double cache_share(std::uint32_t node_count, double shared = shared_kilobytes) const {
     const double own = 1.0 / node_count;
-    return std::clamp(shared_kilobytes / static_cast<double>(database_kilobytes) - own, 0.0, 1 - own);
+    return std::clamp(shared / static_cast<double>(database_kilobytes) - own, 0.0, 1 - own);
   }
 };
 

@@ -128,7 +128,7 @@ Table against_law(const Catalogue& catalogue, const PaperResults& results) {
   add_summary(table, "those of 64 nodes, Mountain's apart", all,
               [&](const Comparison& one) { return on_64(one) && one.cell.scene != calibration_row; });
   if (all.size() < predicted_cell_count()) {
-    table.add_note("Interrupted: " + std::to_string(predicted_cell_count() - all.size()) + " cells are missing.");
+    table.add_note("Unfinished: " + std::to_string(predicted_cell_count() - all.size()) + " cells are missing.");
   }
   table.add_note("The law has seen two cells of every scene, our model two of Mountain and none of the others.");
   return table;

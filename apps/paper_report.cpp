@@ -4,6 +4,7 @@
 #include <map>
 
 #include "apps/output_file.h"
+#include "apps/paper_data.h"
 #include "apps/paper_plots.h"
 #include "apps/plot_program.h"
 
@@ -34,7 +35,8 @@ void complain(std::vector<std::string>& complaints, const PlotOutcome& outcome) 
   }
 }
 
-Pictures draw_all(const std::vector<NamedTable>& tables, const std::filesystem::path& folder, PaperReport& report) {
+Pictures draw_all(const std::vector<NamedTable>& tables, const std::filesystem::path& folder,
+                  std::vector<std::string>& complaints) {
   Pictures pictures;
   for (const PaperPlot& of_table : paper_plots()) {
     const auto named = std::find_if(tables.begin(), tables.end(), [&](const auto& at) { return at.name == of_table.table; });
@@ -45,38 +47,47 @@ Pictures draw_all(const std::vector<NamedTable>& tables, const std::filesystem::
     if (outcome && outcome->is_drawn) {
       pictures[named->name] += "\n![" + of_table.plot.title + "](" + of_table.plot.name + ".svg)\n";
     } else if (outcome) {
-      complain(report.complaints, *outcome);
+      complain(complaints, *outcome);
     }
   }
   return pictures;
 }
 
-}  // namespace
-
-PaperReport write_report(const std::vector<NamedTable>& tables, std::uint32_t resolution, bool is_complete,
-                         const std::optional<std::filesystem::path>& folder) {
-  PaperReport report;
-  Pictures pictures;
-  if (folder) {
-    write_tables(tables, *folder);
-    pictures = draw_all(tables, *folder, report);
-  }
-  const std::string side = std::to_string(resolution);
-  report.text =
+std::string head_of(const PaperReport& report) {
+  const std::string side = std::to_string(report.resolution), fitted_side = std::to_string(paper_resolution);
+  std::string text =
       "# The tables of 1994, regenerated\n\nD. Badouel, K. Bouatouch, T. Priol, \"Distributing Data and Control for Ray Tracing "
       "in Parallel\", on the modelled iPSC/2 (`dmpc machine ipsc2`), pictures of " +
       side + "x" + side + " pixels.\n";
-  report.text += is_complete ? "" : "\nInterrupted: rows are missing.\n";
-  for (const std::string& complaint : report.complaints) {
-    report.text += "\nNote: " + complaint + ".\n";
+  if (report.resolution != paper_resolution) {
+    text += "\nThe machine's prices are fitted to pictures of " + fitted_side + "x" + fitted_side +
+            " pixels: those of another size show how the study works, and no more.\n";
   }
-  for (const NamedTable& named : tables) {
-    report.text += "\n" + text_of(named.table, TableFormat::markdown) + pictures[named.name];
+  return text + (report.is_complete ? "" : "\nUnfinished: rows are missing.\n");
+}
+
+std::string text_with(const PaperReport& report, const Pictures& pictures, const std::vector<std::string>& complaints) {
+  std::string text = head_of(report);
+  for (const std::string& complaint : complaints) {
+    text += "\nNote: " + complaint + ".\n";
   }
-  if (folder) {
-    write_file(*folder / "report.md", report.text);
+  for (const NamedTable& named : report.tables) {
+    const auto links = pictures.find(named.name);
+    text += "\n" + text_of(named.table, TableFormat::markdown) + (links == pictures.end() ? "" : links->second);
   }
-  return report;
+  return text;
+}
+
+}  // namespace
+
+std::string text_of(const PaperReport& report) { return text_with(report, {}, {}); }
+
+std::vector<std::string> write_report(const PaperReport& report, const std::filesystem::path& folder) {
+  std::vector<std::string> complaints;
+  write_tables(report.tables, folder);
+  const Pictures pictures = draw_all(report.tables, folder, complaints);
+  write_file(folder / "report.md", text_with(report, pictures, complaints));
+  return complaints;
 }
 
 }  // namespace dmpc::apps

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,14 +17,17 @@ struct NamedTable {
 };
 
 struct PaperReport {
-  std::string text;                     ///< in Markdown, with links to the pictures
-  std::vector<std::string> complaints;  ///< sentences about pictures that could not be drawn; in the text, too
+  std::vector<NamedTable> tables;
+  std::uint32_t resolution = 0;  ///< pixels a side of the pictures that the tables are of
+  bool is_complete = true;       ///< no row is missing
 };
 
-/// Pictures of `resolution` pixels a side. With a folder also writes there each table as CSV and JSON, a gnuplot script for each
-/// picture, the pictures that gnuplot makes of them, and the text as report.md. Throws core::InputError for what cannot be
-/// written.
-PaperReport write_report(const std::vector<NamedTable>& tables, std::uint32_t resolution, bool is_complete,
-                         const std::optional<std::filesystem::path>& folder);
+/// In Markdown, without pictures.
+std::string text_of(const PaperReport& report);
+
+/// Writes to a folder each table as CSV and JSON, a gnuplot script for each picture, the pictures that gnuplot makes of them, and
+/// as report.md the text with links to the pictures. Returns sentences about pictures that could not be drawn, which stand in
+/// report.md, too. Throws core::InputError for what cannot be written.
+std::vector<std::string> write_report(const PaperReport& report, const std::filesystem::path& folder);
 
 }  // namespace dmpc::apps

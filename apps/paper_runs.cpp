@@ -88,9 +88,9 @@ std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs) {
   return subjects;
 }
 
-std::vector<std::optional<PaperResult>> carry_out(std::span<const PaperRun> runs, std::span<const PaperSubject> subjects,
-                                                  const Interrupt& interrupt) {
-  std::vector<std::optional<PaperResult>> results(runs.size());
+void carry_out(std::span<const PaperRun> runs, std::span<const PaperSubject> subjects, const Interrupt& interrupt,
+               PaperResults& results) {
+  core::expect(results.size() == runs.size(), "every run has a place for its result");
   std::map<std::pair<std::string, std::uint32_t>, std::uint64_t> films;  // by scene and size
   Progress progress(std::cerr, stderr_is_terminal(), std::to_string(runs.size()) + " runs: ");
   std::uint64_t done_pixels = 0;
@@ -113,7 +113,6 @@ std::vector<std::optional<PaperResult>> carry_out(std::span<const PaperRun> runs
       progress.update(done_pixels, all_pixels);
     };
   });
-  return results;
 }
 
 }  // namespace dmpc::apps

@@ -59,9 +59,13 @@ struct PaperSubject {
 /// Those that the runs need. Takes a second or so for the largest.
 std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs);
 
-/// Result i is run i's; after a signal some are missing, the last ones mostly. Progress on stderr if that is a terminal. Throws
-/// core::InternalError if two runs of one scene and size give different films.
-std::vector<std::optional<PaperResult>> carry_out(std::span<const PaperRun> runs, std::span<const PaperSubject> subjects,
-                                                  const Interrupt& interrupt);
+/// By a run's number; nothing where it did not come to its end.
+using PaperResults = std::vector<std::optional<PaperResult>>;
+
+/// Gives each run its place in `results`, as many as runs; after a signal some are left as they are, the last ones mostly.
+/// Progress on stderr if that is a terminal. Throws core::InternalError if two runs of one scene and size give different films,
+/// and whatever a run throws: `results` has what was finished before.
+void carry_out(std::span<const PaperRun> runs, std::span<const PaperSubject> subjects, const Interrupt& interrupt,
+               PaperResults& results);
 
 }  // namespace dmpc::apps

@@ -16,7 +16,7 @@ namespace dmpc::apps {
 struct Variation {
   std::string figure;
   std::string value;   ///< as it is unchanged, with its unit; empty for a switch
-  std::string change;  ///< "-20 %", "+20 %", "off"
+  std::string change;  ///< "-20 %", "+20 %"; in words if it is neither, and then no part of the picture
   nodes::Machine machine;
 };
 

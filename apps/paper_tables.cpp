@@ -58,7 +58,7 @@ std::size_t printed_cell_count() {
 void note_missing_rows(Table& table, std::size_t expected) {
   core::expect(table.rows().size() <= expected, "a table has no more rows than it can have");
   if (const std::size_t missing = expected - table.rows().size(); missing > 0) {
-    table.add_note("Interrupted: " + std::to_string(missing) + " of " + std::to_string(expected) + " rows are missing.");
+    table.add_note("Unfinished: " + std::to_string(missing) + " of " + std::to_string(expected) + " rows are missing.");
   }
 }
 
@@ -91,7 +91,9 @@ Table table_2(const Catalogue& catalogue, const PaperResults& results, const std
     if (!result) {
       continue;
     }
-    const auto subject = std::find_if(subjects.begin(), subjects.end(), [&](const auto& at) { return at.scene == paper.scene; });
+    const PaperRun& run = catalogue.runs[catalogue.counted[scene]];
+    const auto subject = std::find_if(subjects.begin(), subjects.end(), [&](const auto& at) { return at.is_of(run); });
+    core::expect(subject != subjects.end(), "every run has its scene");
     const core::Database& database = subject->subject.database;
     table.add_row({paper.title, paper.scene, paper.polygons, std::uint64_t{database.header().primitive_count}, paper.rays,
                    result->rays, paper.database_kilobytes, std::uint64_t{database.bytes().size() / 1024}, paper.pages_a_pixel,
@@ -122,7 +124,7 @@ Table table_3(const Catalogue& catalogue, const PaperResults& results) {
   const Differences errors = differences_of(catalogue, results);
   table.add_note(
       "Caches hold the share of the database that they held in the article: of 3.2 MB shared memory a node, what its own pages "
-      "leave. Another table shows memories of 4 MB in place of that.");
+      "leave. Another table shows other memories in place of that.");
   table.add_note(
       "Calibrated: two figures of the machine were fitted to these two cells, the price of an operation and that of "
       "looking up a cached page. All others are predictions.");
@@ -171,6 +173,11 @@ Table algorithms(const Catalogue& catalogue, const PaperResults& results) {
     }
   }
   table.add_note("Both against one node, on which nothing travels. The curves of the article are not printed as numbers.");
+  table.add_note(
+      "On several nodes the pages of rings-4-t1 travel on the machines of Table 3, whose caches have the article's share of the "
+      "database; its rays, and all of rings-3-t1, on nodes with memories of 4 MiB.");
+  table.add_note(
+      "In the article Rings4 by travelling rays did not fit into the memories of 2 and 4 nodes; our smaller database does.");
   note_missing_rows(table, rings.size() * paper_node_counts.size());
   return table;
 }

@@ -51,7 +51,7 @@ struct Differences {
 /// All that are printed and whose runs have ended, scene by scene.
 std::vector<CellOfTable3> cells_of_table_3(const Catalogue& catalogue, const PaperResults& results);
 
-/// Says in a note how many of its `expected` rows are missing, if any: their runs were interrupted.
+/// Says in a note how many of its `expected` rows are missing, if any: their runs were interrupted, or an error ended the study.
 void note_missing_rows(Table& table, std::size_t expected);
 
 /// Each has the rows whose runs have ended, and says how many are missing.

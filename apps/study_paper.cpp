@@ -21,22 +21,22 @@
 namespace dmpc::apps {
 namespace {
 
-Table claims_with_note(const Catalogue& catalogue, const PaperResults& results, bool has_all) {
-  Table table = claims(catalogue, results);
-  if (!has_all) {
-    table.add_note("Interrupted: claims are missing, and others may rest on fewer runs.");
-  }
-  return table;
-}
-
 bool has_first(const PaperResults& results, std::size_t count) {
   return std::all_of(results.begin(), results.begin() + static_cast<std::ptrdiff_t>(count),
                      [](const auto& result) { return result.has_value(); });
 }
 
-/// All but the sensitivity, which rest on the first runs.
+Table claims_with_note(const Catalogue& catalogue, const PaperResults& results) {
+  Table table = claims(catalogue, results);
+  if (!has_first(results, catalogue.run_count_without_variations)) {
+    table.add_note("Unfinished: claims are missing, and others may rest on fewer runs.");
+  }
+  return table;
+}
+
+/// All but the sensitivity.
 std::vector<NamedTable> tables_of(const Catalogue& catalogue, const PaperResults& results,
-                                  const std::vector<PaperSubject>& subjects, std::size_t run_count) {
+                                  const std::vector<PaperSubject>& subjects) {
   return {{"table_2", table_2(catalogue, results, subjects)},
           {"table_3", table_3(catalogue, results)},
           {"calibration", calibration(catalogue, results)},
@@ -46,7 +46,29 @@ std::vector<NamedTable> tables_of(const Catalogue& catalogue, const PaperResults
           {"losses", losses(catalogue, results)},
           {"algorithms", algorithms(catalogue, results)},
           {"caches", caches(catalogue, results)},
-          {"claims", claims_with_note(catalogue, results, has_first(results, run_count))}};
+          {"claims", claims_with_note(catalogue, results)}};
+}
+
+PaperReport report_of(const Catalogue& catalogue, const std::vector<VariedRuns>& varied, const PaperResults& results,
+                      const std::vector<PaperSubject>& subjects) {
+  PaperReport report{.tables = tables_of(catalogue, results, subjects),
+                     .resolution = catalogue.resolution,
+                     .is_complete = has_first(results, results.size())};
+  if (!varied.empty()) {
+    report.tables.push_back({"sensitivity", sensitivity(catalogue, results, varied)});
+  }
+  return report;
+}
+
+/// Writes what is known: to `output` before the folder, so that a file in the way there loses nothing.
+void publish(const PaperReport& report, const PaperStudyOptions& options, std::ostream& output) {
+  output << text_of(report) << std::flush;
+  if (options.output) {
+    for (const std::string& complaint : write_report(report, *options.output)) {
+      std::cerr << "dmpc: " << complaint << std::endl;
+    }
+  }
+  finish_output(output, "the report");
 }
 
 }  // namespace
@@ -61,7 +83,7 @@ void add_options(OptionSet options, PaperStudyOptions& paper) {
       "Examples:\n"
       "  dmpc study paper -o paper              the article's pictures: some minutes\n"
       "  dmpc study paper --sensitivity -o paper\n"
-      "  dmpc study paper --resolution=64       a quick look");
+      "  dmpc study paper --resolution=64       to see what it prints, not what is true");
 }
 
 int study_paper_command(const PaperStudyOptions& options, Interrupt& interrupt, std::ostream& output) {
@@ -69,27 +91,31 @@ int study_paper_command(const PaperStudyOptions& options, Interrupt& interrupt, 
     make_output_folder(*options.output, "-o");
   }
   Catalogue catalogue = catalogue_of(options.resolution);
-  const std::size_t run_count = catalogue.runs.size();  // without the sensitivity's
   const std::vector<VariedRuns> varied = options.has_sensitivity ? add_variations(catalogue) : std::vector<VariedRuns>();
+  study_catalogue(catalogue, varied, options, interrupt, output);
+  return 0;
+}
+
+void study_catalogue(const Catalogue& catalogue, const std::vector<VariedRuns>& varied, const PaperStudyOptions& options,
+                     Interrupt& interrupt, std::ostream& output) {
   const std::vector<PaperSubject> subjects = [&] {
     const Interrupt::EndAtOnce end_at_once(interrupt);
     return paper_subjects(catalogue.runs);
   }();
-  const PaperResults results = carry_out(catalogue.runs, subjects, interrupt);
-  const bool is_complete = has_first(results, results.size());
-  interrupt.set_consequence(is_complete ? "the report is complete" : "the report has the rows finished before");
-  std::vector<NamedTable> tables = tables_of(catalogue, results, subjects, run_count);
-  if (options.has_sensitivity) {
-    tables.push_back({"sensitivity", sensitivity(catalogue, results, varied)});
+  PaperResults results(catalogue.runs.size());
+  const auto publish_results = [&] {
+    const PaperReport report = report_of(catalogue, varied, results, subjects);
+    interrupt.set_consequence(report.is_complete ? "the report is complete" : "the report has the rows finished before");
+    publish(report, options, output);
+  };
+  try {
+    carry_out(catalogue.runs, subjects, interrupt, results);
+  } catch (...) {
+    publish_results();
+    throw;
   }
-  const PaperReport report = write_report(tables, options.resolution, is_complete, options.output);
-  for (const std::string& complaint : report.complaints) {
-    std::cerr << "dmpc: " << complaint << std::endl;
-  }
-  output << report.text;
-  finish_output(output, "the report");
+  publish_results();
   interrupt.check();
-  return 0;
 }
 
 }  // namespace dmpc::apps

@@ -5,15 +5,18 @@
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
+#include <vector>
 
 #include "apps/command_line.h"
 #include "apps/interrupt.h"
+#include "apps/paper_catalogue.h"
+#include "apps/paper_sensitivity.h"
 
 namespace dmpc::apps {
 
 struct PaperStudyOptions {
-  /// Pixels a side of every picture. The article's is 512; smaller ones are quicker and prove nothing.
-  std::uint32_t resolution = 512;
+  /// Pixels a side of every picture. With others than the article's nothing is judged.
+  std::uint32_t resolution = paper_resolution;
   bool has_sensitivity = false;                 ///< also change each figure of the machine and see what that does
   std::optional<std::filesystem::path> output;  ///< a folder for the report, its tables and plots; without it the report alone
 };
@@ -21,11 +24,17 @@ struct PaperStudyOptions {
 /// Declares them.
 void add_options(OptionSet options, PaperStudyOptions& paper);
 
-/// Renders some seventy pictures in virtual time, with the sensitivity three hundred more, as many at once as there are cores,
-/// and writes the report as Markdown to `output`; with options.output also each table as CSV and JSON and its pictures there.
-/// Progress goes to stderr if that is a terminal, and so does a sentence on pictures that could not be drawn. Returns 0. After a
-/// signal the tables have the rows that are known and say how many are missing; then throws Interrupted. Throws core::InputError
-/// for a folder that cannot be written, core::InternalError if two runs of a scene give different films.
+/// Renders some hundred pictures in virtual time, with the sensitivity two hundred and fifty more. Returns 0. Throws
+/// core::InputError for a folder that cannot be written, and what study_catalogue() throws.
 int study_paper_command(const PaperStudyOptions& options, Interrupt& interrupt, std::ostream& output);
+
+/// Carries out the catalogue's runs, as many at once as there are cores, and writes the report as Markdown to `output`; then,
+/// with options.output, the report with its pictures and each table as CSV and JSON to that folder, which exists. Without varied
+/// runs there is no table of the sensitivity. Progress goes to stderr if that is a terminal; a sentence on pictures that could
+/// not be drawn goes there always. After a signal, or whatever a run throws, all of this has the rows that are known and says how
+/// many are missing; then throws Interrupted, or rethrows. Throws core::InputError for what cannot be written,
+/// core::InternalError if two runs of a scene give different films.
+void study_catalogue(const Catalogue& catalogue, const std::vector<VariedRuns>& varied, const PaperStudyOptions& options,
+                     Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

@@ -33,9 +33,7 @@ std::vector<PaperRun> runs_on(const nodes::Machine& machine, std::uint32_t resol
 
 FitTimes times_on(const nodes::Machine& machine, std::uint32_t resolution) {
   const std::vector<PaperRun> runs = runs_on(machine, resolution);
-  const std::vector<PaperSubject> subjects = paper_subjects(runs);
-  Interrupt interrupt;
-  const PaperResults results = carry_out(runs, subjects, interrupt);
+  const PaperResults results = carried_out(runs, paper_subjects(runs));
   return {results[0]->seconds(), results[1]->seconds(), results[2]->seconds()};
 }
 
@@ -97,7 +95,7 @@ TEST_CASE("a calibration without its runs is empty and says so, and so is one th
   const Catalogue catalogue = catalogue_of(16);
   const Table none = calibration(catalogue, as_printed(catalogue));
   CHECK(none.rows().empty());
-  CHECK(none.notes().front() == "Interrupted: 2 of 2 rows are missing.");
+  CHECK(none.notes().front() == "Unfinished: 2 of 2 rows are missing.");
   PaperResults results = as_printed(catalogue);
   results[catalogue.dearer_cache] = results[catalogue.timed[1][1]];
   CHECK(calibration(catalogue, results).rows().empty());

@@ -97,11 +97,11 @@ TEST_CASE("without results the comparison is empty and says what is missing") {
   const Catalogue catalogue = catalogue_of(16);
   const PaperResults none(catalogue.runs.size());
   CHECK(against_law(catalogue, none).rows().empty());
-  CHECK(against_law(catalogue, none).notes().front() == "Interrupted: 18 cells are missing.");
+  CHECK(against_law(catalogue, none).notes().front() == "Unfinished: 18 cells are missing.");
   const Table beside = beside_law(catalogue, none);
   CHECK(beside.rows().size() == 1);
   CHECK(std::any_of(beside.notes().begin(), beside.notes().end(),
-                    [](const std::string& note) { return note == "Interrupted: 18 of 19 rows are missing."; }));
+                    [](const std::string& note) { return note == "Unfinished: 18 of 19 rows are missing."; }));
 }
 
 }  // namespace dmpc::tests

@@ -3,9 +3,12 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
+#include <vector>
 
+#include "apps/paper_sensitivity.h"
 #include "apps/paper_tables.h"
 #include "tests/support/paper_results.h"
 
@@ -29,6 +32,18 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
+/// Whole, of results that are all alike.
+std::map<std::string, Table> drawn_tables() {
+  Catalogue catalogue = catalogue_of(16);
+  const std::vector<VariedRuns> varied = add_variations(catalogue);
+  const PaperResults results = all_alike(catalogue);
+  return {{"table_3", table_3(catalogue, results)},
+          {"losses", losses(catalogue, results)},
+          {"algorithms", algorithms(catalogue, results)},
+          {"caches", caches(catalogue, results)},
+          {"sensitivity", sensitivity(catalogue, results, varied)}};
+}
+
 }  // namespace
 
 TEST_CASE("every picture of the study has files of its own, a title, and axes with labels") {
@@ -38,7 +53,29 @@ TEST_CASE("every picture of the study has files of its own, a title, and axes wi
     CHECK(names.insert(plot.plot.name).second);
     CHECK_FALSE(plot.plot.title.empty());
     CHECK_FALSE(plot.plot.y.label.empty());
+    const bool is_bars = plot.plot.series.front().mark == PlotMark::bars;  // their places have names in place of a label
+    CHECK(plot.plot.x.label.empty() == is_bars);
   }
+}
+
+TEST_CASE("every picture of the study is of columns and rows that its table has") {
+  const std::map<std::string, Table> tables = drawn_tables();
+  CHECK(paper_plots().size() == 6);
+  for (const PaperPlot& plot : paper_plots()) {
+    CAPTURE(plot.plot.name);
+    REQUIRE(tables.contains(plot.table));
+    const std::string script = script_of(plot.plot, tables.at(plot.table), "data.csv").value_or("");
+    CHECK(count(script, " title ") == plot.plot.series.size() + 1);  // that of the picture, too
+  }
+}
+
+TEST_CASE("what is changed by other than a fifth is not in the picture of the sensitivity") {
+  const std::vector<PaperPlot> plots = paper_plots();
+  const std::string script =
+      script_of(plot_named(plots, "sensitivity"), drawn_tables().at("sensitivity"), "data.csv").value_or("");
+  CHECK(script.find("'cached look-up'") != std::string::npos);
+  CHECK(script.find("'home look-up'") == std::string::npos);
+  CHECK(script.find("'contention for links'") == std::string::npos);
 }
 
 TEST_CASE("Table 3 is drawn as points where it is printed and as lines where it is found, of one colour a scene") {

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "apps/paper_tables.h"
 #include "tests/support/paper_results.h"
@@ -15,10 +16,10 @@ using namespace apps;
 
 namespace {
 
-std::vector<NamedTable> two_tables() {
-  const Catalogue catalogue = catalogue_of(16);
+PaperReport report_of(std::uint32_t resolution) {
+  const Catalogue catalogue = catalogue_of(resolution);
   const PaperResults results = as_printed(catalogue);
-  return {{"table_3", table_3(catalogue, results)}, {"losses", losses(catalogue, results)}};
+  return {.tables = {{"table_3", table_3(catalogue, results)}, {"losses", losses(catalogue, results)}}, .resolution = resolution};
 }
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
@@ -37,23 +38,29 @@ class OnlyPath {
 
 }  // namespace
 
-TEST_CASE("a report without a folder is a text without pictures") {
-  const PaperReport report = write_report(two_tables(), 16, true, std::nullopt);
-  CHECK(contains(report.text, "pictures of 16x16 pixels"));
-  CHECK(contains(report.text, "**Table 3"));
-  CHECK_FALSE(contains(report.text, ".svg"));
-  CHECK_FALSE(contains(report.text, "Interrupted"));
-  CHECK(report.complaints.empty());
+TEST_CASE("a report as a text has all tables and no pictures") {
+  const std::string text = text_of(report_of(512));
+  CHECK(contains(text, "pictures of 512x512 pixels"));
+  CHECK(contains(text, "**Table 3"));
+  CHECK(contains(text, "**Where the nodes' time goes"));
+  CHECK_FALSE(contains(text, ".svg"));
+  CHECK_FALSE(contains(text, "Unfinished"));
+}
+
+TEST_CASE("only a report of pictures that prices are not fitted to says so") {
+  const std::string words = "fitted to pictures of 512x512 pixels: those of another size show how the study works, and no more.";
+  CHECK_FALSE(contains(text_of(report_of(512)), words));
+  CHECK(contains(text_of(report_of(511)), words));
+  CHECK(contains(text_of(report_of(1024)), words));
 }
 
 TEST_CASE("a report in a folder has each table twice, each picture with its script, and links to the pictures") {
   const TemporaryFolder folder;
-  const PaperReport report = write_report(two_tables(), 16, true, folder.path());
-  CHECK(report.complaints.empty());
+  CHECK(write_report(report_of(16), folder.path()).empty());
   CHECK(folder.entry_count() == 9);
-  CHECK(file_text(folder / "report.md") == report.text);
+  const std::string text = file_text(folder / "report.md");
   for (const std::string name : {"table_3", "losses"}) {
-    CHECK(contains(report.text, "](" + name + ".svg)"));
+    CHECK(contains(text, "](" + name + ".svg)"));
     for (const std::string extension : {".csv", ".json", ".gnuplot", ".svg"}) {
       CHECK(std::filesystem::file_size(folder / (name + extension)) > 100);
     }
@@ -63,11 +70,12 @@ TEST_CASE("a report in a folder has each table twice, each picture with its scri
 TEST_CASE("without gnuplot the report is complete but for the pictures, and one sentence says so") {
   const TemporaryFolder folder, empty;
   const OnlyPath path(empty.path());
-  const PaperReport report = write_report(two_tables(), 16, true, folder.path());
-  REQUIRE(report.complaints.size() == 1);
-  CHECK(contains(report.complaints[0], "the plots are not drawn: gnuplot cannot be started"));
-  CHECK(contains(report.text, "Note: " + report.complaints[0]));
-  CHECK_FALSE(contains(report.text, ".svg)"));
+  const std::vector<std::string> complaints = write_report(report_of(16), folder.path());
+  REQUIRE(complaints.size() == 1);
+  CHECK(contains(complaints[0], "the plots are not drawn: gnuplot cannot be started"));
+  const std::string text = file_text(folder / "report.md");
+  CHECK(contains(text, "Note: " + complaints[0]));
+  CHECK_FALSE(contains(text, ".svg)"));
   CHECK(folder.entry_count() == 7);
 }
 
@@ -76,22 +84,23 @@ TEST_CASE("a gnuplot that fails is quoted once for each picture, and the report 
   write_text(bin / "gnuplot", "#!/bin/sh\necho >&2 unknown terminal svg\nexit 1\n");
   std::filesystem::permissions(bin / "gnuplot", std::filesystem::perms::owner_all);
   const OnlyPath path(bin.path());
-  const PaperReport report = write_report(two_tables(), 16, true, folder.path());
-  REQUIRE(report.complaints.size() == 2);
-  CHECK(contains(report.complaints[0], "gnuplot could not draw table_3.svg, its exit status is 1: unknown terminal svg"));
-  CHECK(file_text(folder / "report.md") == report.text);
+  const std::vector<std::string> complaints = write_report(report_of(16), folder.path());
+  REQUIRE(complaints.size() == 2);
+  CHECK(contains(complaints[0], "gnuplot could not draw table_3.svg, its exit status is 1: unknown terminal svg"));
+  CHECK(contains(file_text(folder / "report.md"), "**Where the nodes' time goes"));
 }
 
-TEST_CASE("an interrupted report says so, and empty tables have no picture") {
+TEST_CASE("an unfinished report says so, and empty tables have no picture") {
   const TemporaryFolder folder;
   const Catalogue catalogue = catalogue_of(16);
   const PaperResults none(catalogue.runs.size());
-  const PaperReport report = write_report({{"table_3", table_3(catalogue, none)}}, 16, false, folder.path());
-  CHECK(contains(report.text, "Interrupted: rows are missing."));
-  CHECK(contains(report.text, "Interrupted: 24 of 24 rows are missing."));
-  CHECK(contains(file_text(folder / "table_3.json"), "Interrupted: 24 of 24 rows are missing."));
+  const PaperReport report{.tables = {{"table_3", table_3(catalogue, none)}}, .resolution = 16, .is_complete = false};
+  CHECK(write_report(report, folder.path()).empty());
+  CHECK(file_text(folder / "report.md") == text_of(report));
+  CHECK(contains(text_of(report), "Unfinished: rows are missing."));
+  CHECK(contains(text_of(report), "Unfinished: 24 of 24 rows are missing."));
+  CHECK(contains(file_text(folder / "table_3.json"), "Unfinished: 24 of 24 rows are missing."));
   CHECK(folder.entry_count() == 3);
-  CHECK(report.complaints.empty());
 }
 
 }  // namespace dmpc::tests

@@ -6,9 +6,13 @@
 
 #include "apps/machines.h"
 #include "apps/paper_data.h"
+#include "core/expect.h"
 #include "core/scenes.h"
+#include "tests/support/paper_results.h"
 
-namespace dmpc::apps {
+namespace dmpc::tests {
+
+using namespace apps;
 
 namespace {
 
@@ -39,8 +43,7 @@ TEST_CASE("the runs of a study give one film, and more nodes are quicker") {
   const std::vector<PaperRun> runs = small_runs();
   const std::vector<PaperSubject> subjects = paper_subjects(runs);
   CHECK(subjects.size() == 1);
-  Interrupt interrupt;
-  const auto results = carry_out(runs, subjects, interrupt);
+  const PaperResults results = carried_out(runs, subjects);
   REQUIRE(results.size() == 3);
   REQUIRE((results[0] && results[1] && results[2]));
   CHECK(results[1]->total_ns < results[0]->total_ns);
@@ -53,17 +56,37 @@ TEST_CASE("the runs of a study give one film, and more nodes are quicker") {
 TEST_CASE("the runs of a study take the same virtual time every time") {
   const std::vector<PaperRun> runs = small_runs();
   const std::vector<PaperSubject> subjects = paper_subjects(runs);
-  Interrupt interrupt;
-  const auto first = carry_out(runs, subjects, interrupt), second = carry_out(runs, subjects, interrupt);
+  const PaperResults first = carried_out(runs, subjects), second = carried_out(runs, subjects);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     CHECK(first[i]->total_ns == second[i]->total_ns);
   }
 }
 
 TEST_CASE("no run is no result") {
-  Interrupt interrupt;
   CHECK(paper_subjects({}).empty());
-  CHECK(carry_out({}, {}, interrupt).empty());
+  CHECK(carried_out({}, {}).empty());
 }
 
-}  // namespace dmpc::apps
+TEST_CASE("two runs of a scene that give different films are an error, and what was finished before is kept") {
+  std::vector<PaperRun> runs = small_runs(), other = runs;
+  runs[1].record_order = core::RecordOrder::scattered;
+  other[1].scene = "tetra-2";
+  std::vector<PaperSubject> subjects = paper_subjects(other);
+  REQUIRE(subjects.size() == 2);
+  subjects[1].scene = "tetra-3";  // it is not
+  subjects[1].record_order = core::RecordOrder::scattered;
+  Interrupt interrupt;
+  PaperResults results(runs.size());
+  CHECK_THROWS_AS(carry_out(runs, subjects, interrupt, results), core::InternalError);
+  CHECK(results[0].has_value());
+  CHECK_FALSE(results[1].has_value());
+}
+
+TEST_CASE("results without a place for each run are an error") {
+  const std::vector<PaperRun> runs = small_runs();
+  Interrupt interrupt;
+  PaperResults too_few(2);
+  CHECK_THROWS_AS(carry_out(runs, paper_subjects(runs), interrupt, too_few), core::InternalError);
+}
+
+}  // namespace dmpc::tests

@@ -7,6 +7,7 @@
 #include <string>
 #include <variant>
 
+#include "nodes/charge.h"
 #include "tests/support/paper_results.h"
 
 namespace dmpc::tests {
@@ -76,6 +77,14 @@ TEST_CASE("every figure is made a fifth less and more, and nothing else is chang
   CHECK_FALSE(find(variations, "contention for links", "off").machine.has_contention);
 }
 
+TEST_CASE("a home look-up, which is free, gets a fifth of a cached one's price, and its row says so") {
+  const nodes::Machine machine = preset();
+  const auto price = [](const nodes::Machine& of, nodes::Charge charge) { return of.cost_ps[static_cast<std::size_t>(charge)]; };
+  const Variation dearer = find(variations_of(machine), "home look-up", "a fifth of a cached one's");
+  CHECK(price(machine, nodes::Charge::home_lookup) == 0);
+  CHECK(price(dearer.machine, nodes::Charge::home_lookup) == price(machine, nodes::Charge::cached_lookup) / 5);
+}
+
 TEST_CASE("no two variations are the same machine") {
   std::set<std::vector<std::uint64_t>> machines;
   const std::vector<Variation> variations = variations_of(preset());
@@ -125,7 +134,7 @@ TEST_CASE("variations whose runs are missing are left out, and the table says ho
   results[varied.back().timed[3][6]].reset();
   const Table table = sensitivity(catalogue, results, varied);
   CHECK(table.rows().size() == varied.size() - 1);
-  CHECK(table.notes().back() == "Interrupted: 1 of 32 rows are missing.");
+  CHECK(table.notes().back() == "Unfinished: 1 of 32 rows are missing.");
   results[catalogue.timed[1][0]].reset();  // what all are held against
   CHECK(sensitivity(catalogue, results, varied).rows().empty());
 }

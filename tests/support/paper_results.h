@@ -1,7 +1,10 @@
-// Results of the study `paper` without its runs.
+// Results of the study `paper` without its runs, and of a few runs.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "apps/paper_catalogue.h"
 #include "apps/paper_data.h"
@@ -21,6 +24,39 @@ inline apps::PaperResults as_printed(const apps::Catalogue& catalogue) {
     }
   }
   return results;
+}
+
+/// As if every run had taken the same time.
+inline apps::PaperResults all_alike(const apps::Catalogue& catalogue) {
+  return apps::PaperResults(catalogue.runs.size(), result_of_seconds(100));
+}
+
+/// What these runs come to.
+inline apps::PaperResults carried_out(const std::vector<apps::PaperRun>& runs, const std::vector<apps::PaperSubject>& subjects) {
+  apps::Interrupt interrupt;
+  apps::PaperResults results(runs.size());
+  apps::carry_out(runs, subjects, interrupt, results);
+  return results;
+}
+
+/// On one node, what it takes others to have so many percent of an efficiency.
+inline constexpr std::uint64_t one_node_seconds = 6'400'000;
+inline apps::PaperResult result_of_efficiency(double percent, std::uint32_t node_count) {
+  return {.total_ns = static_cast<std::uint64_t>(1e9 * one_node_seconds * 100 / percent / node_count)};
+}
+
+/// One scene's caches: efficiencies and rates of the pages that a node receives, by size.
+struct CacheFigures {
+  std::array<double, apps::cache_size_count> efficiency{}, page_rate{};
+};
+inline void set_caches(apps::PaperResults& results, const apps::Catalogue& catalogue, std::size_t scene,
+                       const CacheFigures& figures) {
+  results[catalogue.cache_base[scene]] = result_of_seconds(one_node_seconds);
+  for (std::size_t size = 0; size < apps::cache_size_count; ++size) {
+    apps::PaperResult result = result_of_efficiency(figures.efficiency[size], apps::cache_node_count);
+    result.page_bytes = static_cast<std::uint64_t>(figures.page_rate[size] * apps::cache_node_count * result.seconds());
+    results[catalogue.cached[scene][size]] = result;
+  }
 }
 
 }  // namespace dmpc::tests
