@@ -132,6 +132,8 @@ std::exception_ptr measure(const OneStudy& study, StudyRuns& runs, Table& table)
   } catch (const Interrupted&) {
     table.add_note("Interrupted: rows are missing.");
     return std::current_exception();
+  } catch (const NothingFits&) {
+    return std::current_exception();
   } catch (const std::exception&) {
     table.add_note("Ended by an error: rows are missing.");
     return std::current_exception();
