@@ -12,6 +12,9 @@ namespace {
 
 constexpr std::uint64_t batch_rays = 1024;
 
+/// The last of them may be short.
+std::uint64_t batches_in(std::uint64_t rays) { return (rays + batch_rays - 1) / batch_rays; }
+
 std::uint64_t hash_of(const std::string& text) {
   std::uint64_t hash = text.size();
   for (const char letter : text) {
@@ -62,10 +65,10 @@ void StabilityRun::go_on(StabilityState& state, const std::function<void()>& aft
 void StabilityRun::run_case(const StabilityCase& one, StabilityState& state, const std::function<void()>& after_batch) const {
   core::expect(state.rays_done % batch_rays == 0 || state.rays_done == one.rays, "a run stops between batches");
   const ShootRays shoot_rays = one.prepare();
-  const std::uint64_t first_batch = state.rays_done / batch_rays, batches = (one.rays + batch_rays - 1) / batch_rays;
+  const std::uint64_t first_batch = batches_in(state.rays_done), batches = batches_in(one.rays);
   const std::uint64_t key = core::mix(seed_) ^ hash_of(one.row + "/" + one.name);
   KernelCounts& sum = row_of(state, one.row);
-  side_by_side(batches - std::min(first_batch, batches), [&](std::size_t index) -> std::function<void()> {
+  side_by_side(batches - first_batch, [&](std::size_t index) -> std::function<void()> {
     const std::uint64_t first = (first_batch + index) * batch_rays, count = std::min(batch_rays, one.rays - first);
     Random random(core::mix(key + first));
     const KernelCounts counts = shoot_rays(random, first, count);

@@ -68,10 +68,13 @@ void triangles(const ShearedRay& ray, const float* rows, std::size_t count, floa
   }
   const Vector weighted =
       hn::MulAdd(hn::Div(u, determinant), a.z, hn::MulAdd(hn::Div(v, determinant), b.z, hn::Mul(hn::Div(w, determinant), c.z)));
-  hn::StoreU(hn::IfThenElse(hit, hn::Mul(weighted, hn::Set(tag, ray.scale_z)), hn::Set(tag, missed)), tag, times);
-  if (!hn::AllFalse(tag, on_edge)) [[unlikely]] {
+  const Vector t = hn::IfThenElse(hit, hn::Mul(weighted, hn::Set(tag, ray.scale_z)), hn::Set(tag, missed));
+  hn::StoreU(t, tag, times);
+  const auto near = hn::And(hit, hn::Lt(hn::Abs(t), hn::Set(tag, near_start)));
+  const auto in_doubt = hn::Or(on_edge, near);
+  if (!hn::AllFalse(tag, in_doubt)) [[unlikely]] {
     std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(tag, on_edge, bits);
+    hn::StoreMaskBits(tag, in_doubt, bits);
     for (std::uint32_t rest = bits[0]; rest != 0; rest &= rest - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
       times[lane] = intersect_triangle(ray, rows, count, lane);

@@ -36,6 +36,28 @@ float exact_edge(const ShearedVertex& a, const ShearedVertex& b) {
   return static_cast<float>(double{a.x} * double{b.y} - double{a.y} * double{b.x});
 }
 
+/// Whether the edge functions differ in sign; zeros are on either side, so an edge belongs to both its triangles.
+bool outside(float u, float v, float w) {
+  if constexpr (mutation == Mutation::exclusive_edges) {
+    return (u <= 0.0F || v <= 0.0F || w <= 0.0F) && (u >= 0.0F || v >= 0.0F || w >= 0.0F);
+  }
+  return (u < 0.0F || v < 0.0F || w < 0.0F) && (u > 0.0F || v > 0.0F || w > 0.0F);
+}
+
+/// A vertex as seen from the ray's origin, in the ray's order of axes: exact but for double's rounding.
+Vec3d seen_vertex(const ShearedRay& ray, const float* vertex, std::size_t stride) {
+  const auto along = [&](std::uint32_t axis) { return double{vertex[axis * stride]} - double{ray.origin[axis]}; };
+  return {along(ray.axis_x), along(ray.axis_y), along(ray.axis_z)};
+}
+
+/// t of the plane of the lane that `rows` starts with.
+double plane_distance(const ShearedRay& ray, const float* rows, std::size_t stride) {
+  const Vec3d a = seen_vertex(ray, rows, stride), b = seen_vertex(ray, rows + 3 * stride, stride),
+              c = seen_vertex(ray, rows + 6 * stride, stride);
+  const Vec3d normal = cross(b - a, c - a);
+  return dot(normal, a) / dot(normal, {double{ray.shear_x}, double{ray.shear_y}, 1.0}) * double{ray.scale_z};
+}
+
 Vec3d row_vector(const float* rows, std::size_t stride, std::size_t lane, std::size_t row) {
   return {double{rows[row * stride + lane]}, double{rows[(row + 1) * stride + lane]}, double{rows[(row + 2) * stride + lane]}};
 }
@@ -65,7 +87,7 @@ float intersect_triangle(const ShearedRay& ray, const float* rows, std::size_t s
     v = exact_edge(a, c);
     w = exact_edge(b, a);
   }
-  if ((u < 0.0F || v < 0.0F || w < 0.0F) && (u > 0.0F || v > 0.0F || w > 0.0F)) {
+  if (outside(u, v, w)) {
     return missed;
   }
   const float determinant = u + v + w;
@@ -74,7 +96,12 @@ float intersect_triangle(const ShearedRay& ray, const float* rows, std::size_t s
   }
   // Each weight is divided before the sum: a cubic in length would overflow and underflow far too soon.
   const float weighted = std::fma(u / determinant, a.z, std::fma(v / determinant, b.z, (w / determinant) * c.z));
-  return weighted * ray.scale_z;
+  const float t = weighted * ray.scale_z;
+  if (std::fabs(t) < near_start) {
+    const double exact = plane_distance(ray, rows + lane, stride);
+    return (exact > 0.0) == (t > 0.0F) ? t : exact > 0.0 ? rounded(exact) : missed;
+  }
+  return t;
 }
 
 float intersect_sphere(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {

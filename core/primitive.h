@@ -18,12 +18,18 @@ struct ShearedRay {
   std::uint32_t axis_x, axis_y, axis_z;  ///< which coordinate plays x, y, z; axis_z is the direction's largest
 };
 
+/// Nearer to 0 than this the sign of a triangle's t is decided in double. Rounding moves t by some 2^-24 of the distance, on a
+/// triangle of length E and area A by E^3 / A times as much.
+inline constexpr float near_start = 0x1p-10F;
+
 /// The t of a ray that misses: never in (0, t_max).
 inline constexpr float missed = -1.0F;
 
 /// `rows` points at a block's first value, `stride` is its lane count. Returns the t of the hit of lane `lane`, or `missed`.
 /// Triangles: float, edge functions unfused, decided in double when one is zero (watertight along shared edges and at shared
 /// vertices), barycentric weights divided before t is summed, so that scaling all coordinates by a power of two scales t exactly.
+/// A t nearer to 0 than `near_start` whose sign is not that of double's t gives way to it: on needles t is off by more than a
+/// secondary ray starts off its surface, and the ray must neither hit what shares its surface's plane nor pass what lies ahead.
 float intersect_triangle(const ShearedRay& ray, const float* rows, std::size_t stride, std::size_t lane);
 
 /// Spheres and cones: solved in double about the point of the ray nearest to the centre (base), so that distance cancels nothing;

@@ -6,6 +6,7 @@
 #include "apps/stability_listing.h"
 #include "apps/stability_random.h"
 #include "apps/stability_targets.h"
+#include "tests/support/border_scene.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
@@ -68,6 +69,12 @@ TEST_CASE("triangles that lie in cell planes are listed wherever they reach") {
     builder.polygon({on_lattice(random), on_lattice(random), on_lattice(random)});
   }
   check_listed(scene, scaled(1000));
+}
+
+TEST_CASE("triangles exactly in planes between cells are listed on a side of them even without a pad") {
+  BuildOptions options = BorderScene::options();
+  options.pad_share = 0;
+  CHECK(unlisted(build_database(BorderScene().scene(), options), scaled(1000), 1e-12) == 0);
 }
 
 TEST_CASE("needles a million times longer than wide are listed wherever they reach") {

@@ -124,6 +124,17 @@ TEST_CASE("vectors of 1 to 8 lanes give the scalar twin's bits, whatever lies be
   CHECK(hits > scaled(10'000));
 }
 
+TEST_CASE("a ray that has left a plane does not meet a needle that lies in it") {
+  const Triangle needle{{Vec3f{0.711276472F, 0.485763639F, 0.258575141F}, Vec3f{0.299474895F, 0.580835521F, 0.258575141F},
+                         Vec3f{0.276886404F, 0.585476339F, 0.258575141F}}};
+  const Ray leaving = ray_from({0.417535782F, 0.553579032F, 0.258574665F}, {-0.652881801F, 0.632484794F, -0.416783363F});
+  CHECK_FALSE(tested({needle}, leaving).found());
+  CHECK_FALSE(tested({front, needle, behind}, leaving).found());
+  Ray coming = leaving;
+  coming.direction = -coming.direction;
+  CHECK(tested({needle}, coming).found());
+}
+
 TEST_CASE("a lane's place changes no bit of its answer") {
   Random random(2);
   for (std::size_t i = 0; i < scaled(2000); ++i) {

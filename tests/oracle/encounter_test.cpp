@@ -61,6 +61,14 @@ TEST_CASE("an edge-on triangle is never exactly a hit") {
   }
 }
 
+TEST_CASE("a ray that all but lies in a triangle's plane meets it between its vertices") {
+  for (const Encounter& encounter : met(ray({0.25F, -2, 0x1p-26F}, {0, 1, 0x1p-27F}), corner)) {
+    CHECK(encounter.t >= 2);
+    CHECK(encounter.t <= 3);
+  }
+  CHECK(met(ray({0.25F, -2, 0x1p-26F}, {0, 1, 0x1p-27F}), corner).size() == 1);
+}
+
 TEST_CASE("a hit within rounding of the ray's end is in doubt") {
   const auto encounters = met(shadow_ray({0.25F, 0.25F, -2}, {0, 0, 1}, std::nextafter(2.0F, 3.0F)), corner);
   REQUIRE(encounters.size() == 1);

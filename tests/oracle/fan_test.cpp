@@ -45,5 +45,14 @@ TEST_CASE("a fan with the triangle that the ray starts on does not close up") {
   CHECK(apps::closed_fan(leaving, pyramid, 0).empty());
 }
 
+TEST_CASE("a fan whose border lies within rounding of the ray does not close up") {
+  Primitives narrow = pyramid;  // seen from afar, one triangle is no wider than rounding
+  narrow[0] = triangle({0, 0, 0}, {1, 0x1p-26F, 0}, {-1, 0x1p-26F, 0});
+  narrow[1] = triangle({0, 0, 0}, {-1, 0x1p-26F, 0}, {-1, -1, 0});
+  narrow[2] = triangle({0, 0, 0}, {-1, -1, 0}, {1, -1, 0});
+  narrow[3] = triangle({0, 0, 0}, {1, -1, 0}, {1, 0x1p-26F, 0});
+  CHECK(apps::closed_fan(ray({0, 0, -2}, {0, 0, 1}), narrow, 2).empty());
+}
+
 }  // namespace
 }  // namespace dmpc::tests

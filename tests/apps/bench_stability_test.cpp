@@ -1,0 +1,72 @@
+#include "apps/bench_stability.h"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <sstream>
+
+#include "apps/options.h"
+#include "core/expect.h"
+#include "tests/support/temporary_folder.h"
+
+namespace dmpc::tests {
+
+using apps::StabilityOptions;
+
+namespace {
+
+StabilityOptions parse(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {"bench", "stability"});
+  return std::get<StabilityOptions>(apps::parse_command_line(arguments));
+}
+
+std::string output_of(const StabilityOptions& options) {
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  CHECK(apps::bench_stability_command(options, interrupt, output) == 0);
+  return output.str();
+}
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("bench stability prints a row for each kernel, and where the other tests are") {
+  const std::string table = output_of(parse({"--tests=R5,R6", "--rays=20"}));
+  CHECK(says(table, "| R5 sequence of cells"));
+  CHECK(says(table, "| R6 points listed, no pad"));
+  CHECK(says(table, "Our grid: no failure."));
+  CHECK(says(table, "tests/chaos"));
+  CHECK_FALSE(says(table, "R1 "));
+}
+
+TEST_CASE("bench stability writes its table and its state, and goes on from the state") {
+  const TemporaryFolder folder;
+  StabilityOptions options = parse({"--tests=R5", "--rays=2000", "--resume=" + (folder / "state").string()});
+  const std::string first = output_of(options);
+  CHECK(std::filesystem::exists(folder / "state"));
+  options.output = folder / "table.md";
+  CHECK(output_of(options).empty());
+  CHECK(std::filesystem::file_size(folder / "table.md") == first.size());
+  options.seed = 2;
+  apps::Interrupt interrupt;
+  std::ostringstream unused;
+  CHECK_THROWS_AS(apps::bench_stability_command(options, interrupt, unused), core::InputError);
+}
+
+TEST_CASE("the amounts of rays of bench stability exclude each other") {
+  CHECK(parse({}).rays == StabilityOptions::standard_rays);
+  CHECK(parse({"--quick"}).rays == StabilityOptions::quick_rays);
+  CHECK(parse({"--long"}).rays == 0);
+  CHECK(parse({"--rays=7"}).rays == 7);
+  CHECK_THROWS_AS(parse({"--quick", "--long"}), core::UsageError);
+  CHECK_THROWS_AS(parse({"--quick", "--rays=7"}), core::UsageError);
+  CHECK_THROWS_AS(parse({"--rays=0"}), core::UsageError);
+}
+
+TEST_CASE("bench stability refuses a test that is none") {
+  CHECK(parse({"--tests=R1,quadrics"}).tests == std::vector<std::string>{"R1", "quadrics"});
+  CHECK_THROWS_AS(parse({"--tests=R13"}), core::UsageError);
+}
+
+}  // namespace dmpc::tests
