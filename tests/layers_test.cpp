@@ -37,15 +37,15 @@ const std::vector<Foreign> foreign = {
     {"embree", {"apps/oracle.cpp"}},
     {"OpenImageIO/", {"apps/image_file.cpp"}},
     {"CLI/", {"apps/command_line.cpp"}},
-    {"nlohmann/", {"apps/stats", "apps/machine_file.", "apps/study_table.cpp"}},
+    {"nlohmann/", {"apps/stats", "apps/machine_file.", "apps/study_table.cpp", "apps/compare.cpp", "tests/apps/"}},
     {"oneapi/", {"apps/inspection.cpp", "apps/side_by_side.cpp"}},
     {"tbb/", {"apps/inspection.cpp", "apps/side_by_side.cpp"}},
     {"hwy/", {"core/kernel.cpp"}},
     {"doctest/", {"tests/"}},
-    // Threads are the computer's; the edge has one, which waits for signals.
+    // Threads are the computer's; the edge has one, which waits for signals, and runs side by side that share their progress.
     {"thread", {"nodes/", "tests/", "apps/interrupt."}},
     {"atomic", {"nodes/", "tests/", "apps/interrupt."}},
-    {"mutex", {"nodes/", "tests/"}},
+    {"mutex", {"nodes/", "tests/", "apps/study_runs.cpp"}},
     {"shared_mutex", {"nodes/", "tests/"}},
     {"condition_variable", {"nodes/", "tests/"}},
     {"future", {"nodes/", "tests/"}},
