@@ -3,7 +3,10 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
+#include <chrono>
+#include <memory>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace dmpc::apps {
@@ -45,6 +48,25 @@ TEST_CASE("an exception of a piece or its finish comes out, and not all others a
                                  }),
                     std::out_of_range);
     CHECK(worked < 10'000);
+  }
+}
+
+TEST_CASE("what pieces have made is gone when an exception comes out") {
+  for (int repeat = 0; repeat < 5; ++repeat) {
+    const auto made = std::make_shared<int>(0);
+    CHECK_THROWS_AS(side_by_side(1000,
+                                 [&made](std::size_t index) -> std::function<void()> {
+                                   if (index == 5) {  // where there are several cores, later ones wait for this one
+                                     std::this_thread::sleep_for(std::chrono::milliseconds(10));
+                                   }
+                                   return [index, mine = made] {
+                                     if (index == 5) {
+                                       throw std::out_of_range("five");
+                                     }
+                                   };
+                                 }),
+                    std::out_of_range);
+    CHECK(made.use_count() == 1);
   }
 }
 
