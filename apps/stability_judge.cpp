@@ -18,19 +18,25 @@ using Must = StabilityExpectation::Must;
 /// Distances within this share of each other need no explanation.
 constexpr double level_share = 1e-6;
 
+Renderer renderer_of(Kernel kernel) { return is_embree(kernel) ? Renderer::embree : Renderer::grid; }
+
 Answer answer_of(const Hit& hit) { return {hit.found(), hit.primitive, hit.t}; }
 
-bool level(const Hit& a, const Hit& b) {
-  return !a.found() || std::fabs(double{a.t} - double{b.t}) <= level_share * std::fabs(double{b.t});
-}
+bool level(const Hit& a, const Hit& b) { return std::fabs(double{a.t} - double{b.t}) <= level_share * std::fabs(double{b.t}); }
 
-/// Whether all kernels name the same primitive at about the same distance.
-bool agree(const StabilityAnswers& answers) {
+/// Whether all kernels say the same, or name primitives that the ray meets at about one distance: then the grid's answer, which
+/// is sampled, speaks for all. A miss of a ray that must hit needs no judge.
+bool agree(const StabilitySubject& subject, const Ray& ray, const StabilityAnswers& answers, Must must) {
   const Hit& grid = answers[index_of(Kernel::grid)];
   for (std::size_t k = 0; k < answers.size(); ++k) {
-    const bool same = k == index_of(Kernel::any_hit) ? answers[k].found() == grid.found()
-                                                     : answers[k].primitive == grid.primitive && level(answers[k], grid);
-    if (!same) {
+    const Hit& hit = answers[k];
+    const auto kernel = static_cast<Kernel>(k);
+    if (!hit.found() || !grid.found() || kernel == Kernel::any_hit) {
+      if (hit.found() != grid.found() && (hit.found() || must != Must::hit)) {
+        return false;
+      }
+    } else if (!level(hit, grid) ||
+               (hit.primitive != grid.primitive && !subject.referee.examine(ray, hit.primitive).possible(renderer_of(kernel)))) {
       return false;
     }
   }
@@ -45,7 +51,7 @@ class Hearing {
   bool admissible(Kernel kernel, const Hit& hit) const {
     Ray ray = ray_;
     ray.kind = kernel == Kernel::any_hit ? core::RayKind::shadow : core::RayKind::primary;
-    return subject_.referee.admissible(ray, answer_of(hit), is_embree(kernel) ? Renderer::embree : Renderer::grid);
+    return subject_.referee.admissible(ray, answer_of(hit), renderer_of(kernel));
   }
   /// Whether rounding can have given the distance of `hit`, which is admissible.
   bool distance_explained(const Hit& hit) const {
@@ -72,7 +78,7 @@ void judge(const StabilitySubject& subject, const Ray& ray, const StabilityAnswe
   const Hearing hearing(subject, ray);
   const Hit& grid = answers[index_of(Kernel::grid)];
   const Hit& expected = expectation.bits != nullptr ? *expectation.bits : grid;
-  const bool heard = expectation.to_referee || !agree(answers);
+  const bool heard = expectation.to_referee || !agree(subject, ray, answers, expectation.must);
   for (std::size_t k = 0; k < answers.size(); ++k) {
     const auto kernel = static_cast<Kernel>(k);
     const Hit& hit = answers[k];
