@@ -100,17 +100,6 @@ class KeptRun {
   Clock::time_point saved_ = Clock::now();
 };
 
-void write(const std::string& text, const StabilityOptions& options, std::ostream& output) {
-  if (options.output) {
-    OutputFile file(*options.output);
-    file.write(text);
-    file.commit();
-  } else {
-    output << text;
-    finish_output(output, "the table");
-  }
-}
-
 }  // namespace
 
 void add_options(OptionSet set, StabilityOptions& options) {
@@ -148,7 +137,7 @@ int bench_stability_command(const StabilityOptions& options, Interrupt& interrup
   const StabilityRun run(stability_cases({options.rays}, options.tests), options.seed);
   KeptRun kept(options, run);
   const StabilityState& state = kept.finish(interrupt);
-  write(text_of(table_of(state, options.seed), options.format), options, output);
+  write_to(options.output, text_of(table_of(state, options.seed), options.format), output, "the table");
   return state.own_failures() == 0 ? 0 : failed_status;
 }
 

@@ -65,9 +65,9 @@ void print_json(std::ostream& output, const CompareOptions& options, const Pictu
   output << json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
 }
 
-void write_picture(const std::optional<std::filesystem::path>& path, const Image& image, Interrupt& interrupt) {
-  OutputFile file(*path);
-  write_image(*path, image, file);
+void write_picture(const std::filesystem::path& path, const Image& image, Interrupt& interrupt) {
+  OutputFile file(path);
+  write_image(path, image, file);
   interrupt.set_consequence("the output may be incomplete");
   file.commit();
 }
@@ -96,10 +96,10 @@ int compare_command(const CompareOptions& options, Interrupt& interrupt, std::os
   const Image reference = read_image(options.reference);
   const PictureError error = measure_error(picture, reference);
   if (options.difference) {
-    write_picture(options.difference, difference_picture(picture, reference), interrupt);
+    write_picture(*options.difference, difference_picture(picture, reference), interrupt);
   }
   if (options.flip) {
-    write_picture(options.flip, flip_picture(picture, reference), interrupt);
+    write_picture(*options.flip, flip_picture(picture, reference), interrupt);
   }
   interrupt.set_consequence("the output may be incomplete");
   (options.format == CompareFormat::json ? print_json : print_text)(output, options, error);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "core/expect.h"
@@ -145,13 +146,7 @@ Kernel gaussian(double b, int radius, double pixels_per_degree) {
   });
 }
 
-double sum_of(const Kernel& kernel) {
-  double sum = 0;
-  for (const double weight : kernel) {
-    sum += weight;
-  }
-  return sum;
-}
+double sum_of(const Kernel& kernel) { return std::accumulate(kernel.begin(), kernel.end(), 0.0); }
 
 /// The plane as the eye sees it: both Gaussians' weights over the plane of pixels sum to 1 together.
 Plane blurred(const Plane& plane, const Sharpness& eye, const Filter& filter, double pixels_per_degree) {

@@ -113,6 +113,15 @@ void write_file(const fs::path& path, std::string_view text) {
   file.commit();
 }
 
+void write_to(const std::optional<fs::path>& path, std::string_view text, std::ostream& output, std::string_view what) {
+  if (path) {
+    write_file(*path, text);
+  } else {
+    output << text;
+    finish_output(output, what);
+  }
+}
+
 void OutputFile::write(std::string_view text) const {
   std::ofstream stream(temporary_, std::ios::binary);
   stream << text;

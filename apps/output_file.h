@@ -57,4 +57,8 @@ class OutputFile {
 /// Writes `text` to `path`, whole or not at all. Throws core::InputError if that fails.
 void write_file(const std::filesystem::path& path, std::string_view text);
 
+/// The same, or without a path to the standard output, `output`; `what` is for the message.
+void write_to(const std::optional<std::filesystem::path>& path, std::string_view text, std::ostream& output,
+              std::string_view what);
+
 }  // namespace dmpc::apps

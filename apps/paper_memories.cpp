@@ -38,26 +38,14 @@ Table table_of(const Kinds& kinds) {
   return {"Table 3 by other memories and another order of records", std::move(columns)};
 }
 
-/// Of one cell by one kind of run; nothing if a run is missing.
-std::optional<double> efficiency_by(const Catalogue::ByNodeCount& runs, const PaperResults& results, std::size_t base,
-                                    std::size_t column) {
-  const auto &first = results[runs[base]], &result = results[runs[column]];
-  if (!first || !result) {
-    return std::nullopt;
-  }
-  return efficiency(first->seconds(), paper_node_counts[base], result->seconds(), paper_node_counts[column]);
-}
-
 void add_cell(Table& table, Kinds& kinds, const Catalogue& catalogue, const PaperResults& results, std::size_t row,
               std::size_t column) {
   const PaperScene& paper = paper_scenes[missing_rows[row]];
-  const std::size_t base = paper.base();
-  const double printed =
-      efficiency(paper.seconds[base], paper_node_counts[base], paper.seconds[column], paper_node_counts[column]);
+  const double printed = printed_efficiency(paper, column);
   std::vector<Cell> cells = {paper.title, std::uint64_t{paper_node_counts[column]}, printed};
   std::array<double, std::tuple_size_v<Kinds>> found{};
   for (std::size_t kind = 0; kind < found.size(); ++kind) {
-    const auto by_kind = efficiency_by(kinds[kind].of(catalogue, row), results, base, column);
+    const auto by_kind = found_efficiency(kinds[kind].of(catalogue, row), results, paper.base(), column);
     if (!by_kind) {
       return;
     }

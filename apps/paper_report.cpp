@@ -14,12 +14,6 @@ namespace {
 /// Of a table, by its name: links to them in Markdown.
 using Pictures = std::map<std::string, std::string>;
 
-void write_file(const std::filesystem::path& path, const std::string& text) {
-  OutputFile file(path);
-  file.write(text);
-  file.commit();
-}
-
 void write_tables(const std::vector<NamedTable>& tables, const std::filesystem::path& folder) {
   for (const NamedTable& named : tables) {
     write_file(folder / (named.name + ".csv"), text_of(named.table, TableFormat::csv));

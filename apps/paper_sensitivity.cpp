@@ -108,20 +108,18 @@ struct Watched {
   Differences differences;
 };
 
-template <class Runs>
-std::optional<Watched> watched(const PaperResults& results, const Runs& timed) {
+std::optional<Watched> watched(const PaperResults& results,
+                               const std::array<Catalogue::ByNodeCount, paper_scenes.size()>& timed) {
   Watched watched;
   for (std::size_t i = 0; i < watched_cells.size(); ++i) {
     const auto [scene, column] = watched_cells[i];
     const PaperScene& paper = paper_scenes[scene];
-    const std::uint32_t base_count = paper_node_counts[paper.base()], count = paper_node_counts[column];
-    const auto &base = results[timed[scene][paper.base()]], &result = results[timed[scene][column]];
-    if (!base || !result) {
+    const auto found = found_efficiency(timed[scene], results, paper.base(), column);
+    if (!found) {
       return std::nullopt;
     }
-    watched.efficiency[i] = efficiency(base->seconds(), base_count, result->seconds(), count);
-    watched.differences.add(watched.efficiency[i] -
-                            efficiency(paper.seconds[paper.base()], base_count, paper.seconds[column], count));
+    watched.efficiency[i] = *found;
+    watched.differences.add(*found - printed_efficiency(paper, column));
   }
   return watched;
 }

@@ -16,23 +16,21 @@ std::optional<CellOfTable3> cell_of(const Catalogue& catalogue, const PaperResul
                                     std::size_t column) {
   const PaperScene& paper = paper_scenes[scene];
   const std::size_t base = paper.base();
-  if (column < base || !results[catalogue.timed[scene][base]] || !results[catalogue.timed[scene][column]]) {
+  const auto found = column < base ? std::nullopt : found_efficiency(catalogue.timed[scene], results, base, column);
+  if (!found) {
     return std::nullopt;
   }
-  const PaperResult& first = *results[catalogue.timed[scene][base]];
   const PaperResult& result = *results[catalogue.timed[scene][column]];
-  const std::uint32_t nodes = paper_node_counts[column];
-  return CellOfTable3{
-      .scene = scene,
-      .title = paper.title,
-      .nodes = nodes,
-      .printed_seconds = static_cast<double>(paper.seconds[column]),
-      .seconds = result.seconds(),
-      .printed_efficiency = efficiency(paper.seconds[base], paper_node_counts[base], paper.seconds[column], nodes),
-      .efficiency = efficiency(first.seconds(), paper_node_counts[base], result.seconds(), nodes),
-      .is_calibrated = scene == calibration_row && column < calibration_cell_count,
-      .is_base = column == base,
-      .parts = result.parts};
+  return CellOfTable3{.scene = scene,
+                      .title = paper.title,
+                      .nodes = paper_node_counts[column],
+                      .printed_seconds = static_cast<double>(paper.seconds[column]),
+                      .seconds = result.seconds(),
+                      .printed_efficiency = printed_efficiency(paper, column),
+                      .efficiency = *found,
+                      .is_calibrated = scene == calibration_row && column < calibration_cell_count,
+                      .is_base = column == base,
+                      .parts = result.parts};
 }
 
 Differences differences_of(const Catalogue& catalogue, const PaperResults& results) {
@@ -46,6 +44,15 @@ Differences differences_of(const Catalogue& catalogue, const PaperResults& resul
 }
 
 }  // namespace
+
+std::optional<double> found_efficiency(const Catalogue::ByNodeCount& runs, const PaperResults& results, std::size_t base,
+                                       std::size_t column) {
+  const auto &first = results[runs[base]], &result = results[runs[column]];
+  if (!first || !result) {
+    return std::nullopt;
+  }
+  return efficiency(first->seconds(), paper_node_counts[base], result->seconds(), paper_node_counts[column]);
+}
 
 std::size_t printed_cell_count() {
   std::size_t count = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "apps/paper_catalogue.h"
@@ -17,6 +18,15 @@ namespace dmpc::apps {
 constexpr double efficiency(double base_seconds, std::uint32_t base_count, double seconds, std::uint32_t node_count) {
   return 100 * base_seconds * base_count / (seconds * node_count);
 }
+
+/// The same of what is printed in a scene's row of Table 3, against the row's first time. Requires a column with a time.
+inline double printed_efficiency(const PaperScene& scene, std::size_t column) {
+  const std::size_t base = scene.base();
+  return efficiency(scene.seconds[base], paper_node_counts[base], scene.seconds[column], paper_node_counts[column]);
+}
+/// The same of a row of runs, against the one at `base`; nothing if either has no result.
+std::optional<double> found_efficiency(const Catalogue::ByNodeCount& runs, const PaperResults& results, std::size_t base,
+                                       std::size_t column);
 
 /// What Table 3 says of one scene on so many nodes, printed and found; nothing if it is not printed or not known.
 struct CellOfTable3 {

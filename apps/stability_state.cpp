@@ -62,9 +62,7 @@ std::string text_of(const StabilityState& state, const std::string& options) {
 }
 
 void save_state(const std::filesystem::path& path, const StabilityState& state, const std::string& options) {
-  OutputFile file(path);
-  file.write(text_of(state, options));
-  file.commit();
+  write_file(path, text_of(state, options));
 }
 
 void load_state(const std::filesystem::path& path, StabilityState& state, const std::string& options) {

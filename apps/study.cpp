@@ -102,13 +102,7 @@ void draw_plots(const std::string& study, const Table& table, const std::vector<
 template <class OneStudy>
 void write(const OneStudy& study, Table& table, const StudyRuns& runs, const StudyOptions& options, std::ostream& output) {
   table.add_note(film_note(runs));
-  const std::string text = text_of(table, options.format);
-  if (options.output) {
-    write_file(*options.output, text);
-  } else {
-    output << text;
-    finish_output(output, "the table");
-  }
+  write_to(options.output, text_of(table, options.format), output, "the table");
   if (options.plots) {
     draw_plots(OneStudy::name, table, study.plots(), *options.plots);
   }

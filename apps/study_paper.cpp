@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iostream>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "apps/output_file.h"
