@@ -8,7 +8,6 @@
 #include <variant>
 #include <vector>
 
-#include "apps/bench_stability.h"
 #include "apps/check.h"
 #include "apps/compare.h"
 #include "apps/interrupt.h"
@@ -17,6 +16,7 @@
 #include "apps/output_file.h"
 #include "apps/render.h"
 #include "apps/scene.h"
+#include "apps/stability/command.h"
 #include "apps/study.h"
 #include "core/expect.h"
 

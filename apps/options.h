@@ -5,13 +5,13 @@
 #include <string>
 #include <variant>
 
-#include "apps/bench_stability.h"
 #include "apps/check.h"
 #include "apps/command_line.h"
 #include "apps/compare.h"
 #include "apps/machine.h"
 #include "apps/render_options.h"
 #include "apps/scene.h"
+#include "apps/stability/command.h"
 #include "apps/study_options.h"
 #include "apps/study_paper.h"
 

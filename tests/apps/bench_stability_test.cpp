@@ -1,4 +1,4 @@
-#include "apps/bench_stability.h"
+#include "apps/stability/command.h"
 
 #include <doctest/doctest.h>
 

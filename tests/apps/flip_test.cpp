@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "apps/stability_random.h"
+#include "apps/stability/random.h"
 #include "core/expect.h"
 #include "tests/support/gray.h"
 

@@ -1,10 +1,10 @@
-#include "apps/stability_bodies.h"
+#include "apps/stability/bodies.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "apps/stability_mesh.h"
+#include "apps/stability/mesh.h"
 
 namespace dmpc::tests {
 

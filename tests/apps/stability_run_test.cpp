@@ -1,4 +1,4 @@
-#include "apps/stability_run.h"
+#include "apps/stability/run.h"
 
 #include <doctest/doctest.h>
 

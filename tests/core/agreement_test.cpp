@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "apps/stability_crowd.h"
-#include "apps/stability_random.h"
-#include "apps/stability_records.h"
+#include "apps/stability/crowd.h"
+#include "apps/stability/random.h"
+#include "apps/stability/records.h"
 #include "core/scenes.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "apps/stability_axes.h"
-#include "apps/stability_random.h"
+#include "apps/stability/axes.h"
+#include "apps/stability/random.h"
 #include "tests/support/referee.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "apps/stability_listing.h"
-#include "apps/stability_random.h"
+#include "apps/stability/listing.h"
+#include "apps/stability/random.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <limits>
 
-#include "apps/stability_mesh.h"
+#include "apps/stability/mesh.h"
 #include "core/expect.h"
 #include "tests/support/shooting.h"
 

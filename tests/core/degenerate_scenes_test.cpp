@@ -1,8 +1,8 @@
 // Scenes that are empty, flat, of one piece, all in one place or in two places far apart.
 #include <doctest/doctest.h>
 
-#include "apps/stability_mesh.h"
-#include "apps/stability_random.h"
+#include "apps/stability/mesh.h"
+#include "apps/stability/random.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 

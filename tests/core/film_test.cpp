@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "apps/stability_random.h"
+#include "apps/stability/random.h"
 #include "core/expect.h"
 
 using namespace dmpc::apps;

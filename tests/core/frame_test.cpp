@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "apps/stability_random.h"
+#include "apps/stability/random.h"
 
 using namespace dmpc::apps;
 using namespace dmpc::core;

@@ -4,8 +4,8 @@
 #include <array>
 #include <limits>
 
-#include "apps/stability_mesh.h"
-#include "apps/stability_random.h"
+#include "apps/stability/mesh.h"
+#include "apps/stability/random.h"
 #include "core/render.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"

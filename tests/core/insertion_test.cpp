@@ -3,9 +3,9 @@
 
 #include <numbers>
 
-#include "apps/stability_listing.h"
-#include "apps/stability_random.h"
-#include "apps/stability_targets.h"
+#include "apps/stability/listing.h"
+#include "apps/stability/random.h"
+#include "apps/stability/targets.h"
 #include "tests/support/border_scene.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/stability_random.h"
+#include "apps/stability/random.h"
 #include "core/records.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "apps/stability_mesh.h"
-#include "apps/stability_random.h"
-#include "apps/stability_targets.h"
+#include "apps/stability/mesh.h"
+#include "apps/stability/random.h"
+#include "apps/stability/targets.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 

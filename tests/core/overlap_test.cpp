@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "apps/stability_random.h"
+#include "apps/stability/random.h"
 #include "tests/support/scaled.h"
 
 using namespace dmpc::core;

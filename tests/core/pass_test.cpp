@@ -4,7 +4,7 @@
 #include <cstring>
 #include <optional>
 
-#include "apps/stability_random.h"
+#include "apps/stability/random.h"
 #include "core/database.h"
 #include "core/traversal.h"
 #include "tests/support/small_scenes.h"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "apps/stability_mesh.h"
+#include "apps/stability/mesh.h"
 #include "core/expect.h"
 #include "tests/support/shooting.h"
 

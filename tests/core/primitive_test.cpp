@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "apps/stability_random.h"
+#include "apps/stability/random.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/stability_random.h"
+#include "apps/stability/random.h"
 #include "core/database.h"
 #include "core/record_writer.h"
 #include "core/scenes.h"

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "apps/stability_random.h"
+#include "apps/stability/random.h"
 
 using namespace dmpc::apps;
 using namespace dmpc::core;

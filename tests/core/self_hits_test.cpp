@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "apps/stability_children.h"
-#include "apps/stability_mesh.h"
-#include "apps/stability_random.h"
+#include "apps/stability/children.h"
+#include "apps/stability/mesh.h"
+#include "apps/stability/random.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 

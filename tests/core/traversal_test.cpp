@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "apps/stability_mesh.h"
+#include "apps/stability/mesh.h"
 #include "core/extract.h"
 #include "tests/support/border_scene.h"
 #include "tests/support/shooting.h"

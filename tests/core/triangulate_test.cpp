@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include "apps/stability_random.h"
+#include "apps/stability/random.h"
 #include "core/scenes.h"
 
 using namespace dmpc::apps;

@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "apps/stability_random.h"
+#include "apps/stability/random.h"
 
 namespace dmpc::tests {
 

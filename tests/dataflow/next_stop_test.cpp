@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "apps/stability_random.h"
+#include "apps/stability/random.h"
 #include "core/database.h"
 #include "core/traversal.h"
 #include "dataflow/balance.h"

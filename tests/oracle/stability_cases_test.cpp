@@ -1,7 +1,7 @@
 // Every stress test of `bench stability`, at a small size: our grid fails none.
 #include <doctest/doctest.h>
 
-#include "apps/stability_run.h"
+#include "apps/stability/run.h"
 #include "tests/support/scaled.h"
 
 namespace dmpc::tests {

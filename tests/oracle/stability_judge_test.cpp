@@ -1,11 +1,11 @@
-#include "apps/stability_judge.h"
+#include "apps/stability/judge.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "apps/stability_bodies.h"
-#include "apps/stability_rays.h"
+#include "apps/stability/bodies.h"
+#include "apps/stability/rays.h"
 #include "core/frame.h"
 
 namespace dmpc::tests {

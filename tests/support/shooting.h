@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "apps/stability_rays.h"
+#include "apps/stability/rays.h"
 #include "core/database.h"
 #include "core/frame.h"
 #include "core/kernel.h"

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/stability_case.h"
-#include "apps/stability_crowd.h"
-#include "apps/stability_rays.h"
+#include "apps/stability/case.h"
+#include "apps/stability/crowd.h"
+#include "apps/stability/rays.h"
 #include "core/expect.h"
 #include "core/extract.h"
 #include "core/frame.h"

@@ -1,4 +1,4 @@
-#include "apps/bench_stability.h"
+#include "apps/stability/command.h"
 
 #include <chrono>
 #include <iostream>
@@ -9,9 +9,9 @@
 #include "apps/distinct_files.h"
 #include "apps/output_file.h"
 #include "apps/progress.h"
-#include "apps/stability_run.h"
-#include "apps/stability_state.h"
-#include "apps/stability_table.h"
+#include "apps/stability/run.h"
+#include "apps/stability/state.h"
+#include "apps/stability/table.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "apps/stability_run.h"
+#include "apps/stability/run.h"
 #include "apps/study_table.h"
 
 namespace dmpc::apps {

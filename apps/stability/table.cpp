@@ -1,4 +1,4 @@
-#include "apps/stability_table.h"
+#include "apps/stability/table.h"
 
 #include <string>
 #include <utility>

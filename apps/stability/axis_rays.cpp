@@ -3,10 +3,10 @@
 #include <memory>
 #include <string>
 
-#include "apps/stability_axes.h"
-#include "apps/stability_case.h"
-#include "apps/stability_judge.h"
-#include "apps/stability_rays.h"
+#include "apps/stability/axes.h"
+#include "apps/stability/case.h"
+#include "apps/stability/judge.h"
+#include "apps/stability/rays.h"
 
 namespace dmpc::apps {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/stability_random.h"
+#include "apps/stability/random.h"
 #include "core/scene.h"
 #include "core/vec.h"
 

@@ -1,4 +1,4 @@
-#include "apps/stability_bodies.h"
+#include "apps/stability/bodies.h"
 
 #include <array>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "apps/stability_mesh.h"
+#include "apps/stability/mesh.h"
 
 namespace dmpc::apps {
 namespace {

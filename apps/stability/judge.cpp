@@ -1,11 +1,11 @@
-#include "apps/stability_judge.h"
+#include "apps/stability/judge.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "apps/encounter.h"
-#include "apps/stability_rays.h"
+#include "apps/stability/rays.h"
 
 namespace dmpc::apps {
 namespace {

@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "apps/stability_case.h"
-#include "apps/stability_crowd.h"
-#include "apps/stability_judge.h"
+#include "apps/stability/case.h"
+#include "apps/stability/crowd.h"
+#include "apps/stability/judge.h"
 #include "core/frame.h"
 #include "core/scenes.h"
 

@@ -4,11 +4,11 @@
 #include <memory>
 #include <vector>
 
-#include "apps/stability_bodies.h"
-#include "apps/stability_case.h"
-#include "apps/stability_rays.h"
-#include "apps/stability_subject.h"
-#include "apps/stability_walk.h"
+#include "apps/stability/bodies.h"
+#include "apps/stability/case.h"
+#include "apps/stability/rays.h"
+#include "apps/stability/subject.h"
+#include "apps/stability/walk.h"
 #include "core/frame.h"
 #include "core/kernel.h"
 

@@ -1,4 +1,4 @@
-#include "apps/stability_run.h"
+#include "apps/stability/run.h"
 
 #include <algorithm>
 #include <utility>

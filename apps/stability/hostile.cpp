@@ -3,9 +3,9 @@
 #include <limits>
 #include <memory>
 
-#include "apps/stability_case.h"
-#include "apps/stability_mesh.h"
-#include "apps/stability_rays.h"
+#include "apps/stability/case.h"
+#include "apps/stability/mesh.h"
+#include "apps/stability/rays.h"
 
 namespace dmpc::apps {
 namespace {

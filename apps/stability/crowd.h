@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "apps/stability_mesh.h"
-#include "apps/stability_random.h"
-#include "apps/stability_rays.h"
+#include "apps/stability/mesh.h"
+#include "apps/stability/random.h"
+#include "apps/stability/rays.h"
 #include "core/database.h"
 #include "core/frame.h"
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "apps/stability_mesh.h"
-#include "apps/stability_random.h"
+#include "apps/stability/mesh.h"
+#include "apps/stability/random.h"
 #include "core/database.h"
 #include "core/frame.h"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "apps/stability_run.h"
+#include "apps/stability/run.h"
 
 namespace dmpc::apps {
 

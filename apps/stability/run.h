@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/stability_case.h"
+#include "apps/stability/case.h"
 
 namespace dmpc::apps {
 

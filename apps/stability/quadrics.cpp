@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "apps/curved.h"
-#include "apps/stability_case.h"
-#include "apps/stability_rays.h"
+#include "apps/stability/case.h"
+#include "apps/stability/rays.h"
 #include "core/primitive.h"
 
 namespace dmpc::apps {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "apps/stability_kernels.h"
+#include "apps/stability/kernels.h"
 
 namespace dmpc::apps {
 

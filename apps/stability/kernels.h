@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "apps/stability_subject.h"
+#include "apps/stability/subject.h"
 #include "core/hit.h"
 #include "core/ray.h"
 

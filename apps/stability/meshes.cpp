@@ -3,11 +3,11 @@
 #include <cmath>
 #include <memory>
 
-#include "apps/stability_bodies.h"
-#include "apps/stability_case.h"
-#include "apps/stability_judge.h"
-#include "apps/stability_rays.h"
-#include "apps/stability_targets.h"
+#include "apps/stability/bodies.h"
+#include "apps/stability/case.h"
+#include "apps/stability/judge.h"
+#include "apps/stability/rays.h"
+#include "apps/stability/targets.h"
 #include "core/frame.h"
 
 namespace dmpc::apps {

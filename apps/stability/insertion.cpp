@@ -6,10 +6,10 @@
 #include <string>
 #include <utility>
 
-#include "apps/stability_case.h"
-#include "apps/stability_crowd.h"
-#include "apps/stability_listing.h"
-#include "apps/stability_targets.h"
+#include "apps/stability/case.h"
+#include "apps/stability/crowd.h"
+#include "apps/stability/listing.h"
+#include "apps/stability/targets.h"
 
 namespace dmpc::apps {
 namespace {

@@ -6,9 +6,9 @@
 #include <memory>
 #include <optional>
 
-#include "apps/stability_bodies.h"
-#include "apps/stability_case.h"
-#include "apps/stability_rays.h"
+#include "apps/stability/bodies.h"
+#include "apps/stability/case.h"
+#include "apps/stability/rays.h"
 #include "core/frame.h"
 #include "core/traversal.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/stability_counts.h"
-#include "apps/stability_random.h"
+#include "apps/stability/counts.h"
+#include "apps/stability/random.h"
 
 namespace dmpc::apps {
 

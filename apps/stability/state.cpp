@@ -1,4 +1,4 @@
-#include "apps/stability_state.h"
+#include "apps/stability/state.h"
 
 #include <fstream>
 #include <sstream>

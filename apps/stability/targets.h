@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "apps/stability_random.h"
-#include "apps/stability_rays.h"
+#include "apps/stability/random.h"
+#include "apps/stability/rays.h"
 #include "core/database.h"
 
 namespace dmpc::apps {

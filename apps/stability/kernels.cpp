@@ -1,10 +1,10 @@
-#include "apps/stability_kernels.h"
+#include "apps/stability/kernels.h"
 
 #include <cmath>
 
-#include "apps/stability_rays.h"
-#include "apps/stability_records.h"
-#include "apps/stability_walk.h"
+#include "apps/stability/rays.h"
+#include "apps/stability/records.h"
+#include "apps/stability/walk.h"
 #include "core/traversal.h"
 
 namespace dmpc::apps {

@@ -1,8 +1,8 @@
 // Judges what the kernels say of one ray: against each other, against the referee, and against what the test knows.
 #pragma once
 
-#include "apps/stability_counts.h"
-#include "apps/stability_kernels.h"
+#include "apps/stability/counts.h"
+#include "apps/stability/kernels.h"
 
 namespace dmpc::apps {
 

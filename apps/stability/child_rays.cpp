@@ -6,12 +6,12 @@
 #include <memory>
 #include <string>
 
-#include "apps/stability_bodies.h"
-#include "apps/stability_case.h"
-#include "apps/stability_children.h"
-#include "apps/stability_judge.h"
-#include "apps/stability_rays.h"
-#include "apps/stability_targets.h"
+#include "apps/stability/bodies.h"
+#include "apps/stability/case.h"
+#include "apps/stability/children.h"
+#include "apps/stability/judge.h"
+#include "apps/stability/rays.h"
+#include "apps/stability/targets.h"
 #include "core/frame.h"
 #include "core/scenes.h"
 

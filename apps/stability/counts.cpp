@@ -1,4 +1,4 @@
-#include "apps/stability_counts.h"
+#include "apps/stability/counts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/stability_random.h"
+#include "apps/stability/random.h"
 #include "core/database.h"
 #include "core/scene.h"
 
