@@ -1,11 +1,5 @@
 #include "apps/oracle.h"
 
-#if __has_include(<embree3/rtcore.h>)
-#include <embree3/rtcore.h>
-#else
-#include <embree4/rtcore.h>
-#endif
-
 #include <array>
 #include <cstring>
 #include <limits>
@@ -13,44 +7,22 @@
 #include <vector>
 
 #include "apps/curved.h"
+#include "apps/embree.h"
 #include "core/expect.h"
 #include "core/primitive.h"
 
 namespace dmpc::apps {
 namespace {
 
-// Embree 4 renamed the context and moved it into an arguments structure. That branch is untested: Debian 12 has 3.13.
-#if RTC_VERSION_MAJOR >= 4
-using Context = RTCRayQueryContext;
-void start(Context& context) { rtcInitRayQueryContext(&context); }
-void intersect(RTCScene scene, Context& context, RTCRayHit& ray_hit) {
-  RTCIntersectArguments arguments;
-  rtcInitIntersectArguments(&arguments);
-  arguments.context = &context;
-  rtcIntersect1(scene, &ray_hit, &arguments);
-}
-void occlude(RTCScene scene, Context& context, RTCRay& ray) {
-  RTCOccludedArguments arguments;
-  rtcInitOccludedArguments(&arguments);
-  arguments.context = &context;
-  rtcOccluded1(scene, &ray, &arguments);
-}
-#else
-using Context = RTCIntersectContext;
-void start(Context& context) { rtcInitIntersectContext(&context); }
-void intersect(RTCScene scene, Context& context, RTCRayHit& ray_hit) { rtcIntersect1(scene, &context, &ray_hit); }
-void occlude(RTCScene scene, Context& context, RTCRay& ray) { rtcOccluded1(scene, &context, &ray); }
-#endif
-
 /// What the callbacks know of the query under way. Embree hands back the address of `context`, the first member.
 struct Query {
-  Context context;
+  embree::Context context;
   const core::Ray* ray = nullptr;
   core::Hit best;
 };
 static_assert(std::is_standard_layout_v<Query>);
 
-Query& query_of(Context* context) { return *reinterpret_cast<Query*>(context); }
+Query& query_of(embree::Context* context) { return *reinterpret_cast<Query*>(context); }
 
 /// Whether primitive `id` at distance `t` is the query's best so far; if so it is noted.
 bool improves(Query& query, float t, std::uint32_t id) {
@@ -124,7 +96,7 @@ RTCRay embree_ray(const core::Ray& ray) {
 
 Query start_query(const core::Ray& ray) {
   Query query;
-  start(query.context);
+  embree::start(query.context);
   query.ray = &ray;
   return query;
 }
@@ -217,7 +189,7 @@ core::Hit EmbreeScene::closest(const core::Ray& ray) const {
     RTCRayHit ray_hit{};
     ray_hit.ray = embree_ray(ray);
     ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    intersect(parts_->scene, query.context, ray_hit);
+    embree::intersect(parts_->scene, query.context, ray_hit);
   }
   return query.best;
 }
@@ -227,8 +199,8 @@ bool EmbreeScene::occluded(const core::Ray& ray) const {
     return false;
   }
   Query query = start_query(ray);
-  RTCRay embree = embree_ray(ray);
-  occlude(parts_->scene, query.context, embree);
+  RTCRay asked = embree_ray(ray);
+  embree::occlude(parts_->scene, query.context, asked);
   return query.best.found();
 }
 

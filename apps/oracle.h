@@ -1,4 +1,4 @@
-// Embree as oracle: an independent answer to what a ray hits. Only oracle.cpp names Embree.
+// Embree as oracle: an independent answer to what a ray hits.
 #pragma once
 
 #include <cstddef>
