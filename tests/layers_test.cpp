@@ -38,8 +38,8 @@ const std::vector<Foreign> foreign = {
     {"OpenImageIO/", {"apps/image_file.cpp"}},
     {"CLI/", {"apps/command_line.cpp"}},
     {"nlohmann/", {"apps/stats", "apps/machine_file.", "apps/study_table.cpp", "apps/compare.cpp", "tests/apps/"}},
-    {"oneapi/", {"apps/inspection.cpp", "apps/side_by_side.cpp", "apps/accurate/picture.cpp"}},
-    {"tbb/", {"apps/inspection.cpp", "apps/side_by_side.cpp", "apps/accurate/picture.cpp"}},
+    {"oneapi/", {"apps/inspection.cpp", "apps/side_by_side.cpp", "apps/accurate/picture.cpp", "tests/accurate/"}},
+    {"tbb/", {"apps/inspection.cpp", "apps/side_by_side.cpp", "apps/accurate/picture.cpp", "tests/accurate/"}},
     {"hwy/", {"core/kernel.cpp"}},
     {"doctest/", {"tests/"}},
     // Threads are the computer's; the edge has one, which waits for signals, and runs side by side that share their progress.

@@ -74,7 +74,10 @@ AccurateTracer::Touch AccurateTracer::touch(const AccurateRay& ray, const Accura
   return result;
 }
 
-core::Vec3d AccurateTracer::shade(const Touch& touch) { return direct_light(touch) + children(touch); }
+core::Vec3d AccurateTracer::shade(const Touch& touch) {
+  const Vec3d direct = direct_light(touch);  // before the children: a watcher relies on the order
+  return direct + children(touch);
+}
 
 AccurateRay AccurateTracer::child(const Touch& touch, const Vec3d& towards, RayKind kind) const {
   const double side = dot(towards, touch.surface.normal) < 0 ? -1 : 1;
