@@ -12,6 +12,9 @@ constexpr double flat_share = 1e-4;
 /// Margin in voxels (quarters of a top cell) between the grid's first plane and the scene.
 constexpr double margin_voxels = 0.3137;
 constexpr double top_cells_min = 1.0;
+/// The least extent, as a share of the largest coordinate: far more than what a double rounds off coordinates and radii, so that
+/// the grid holds what its records say.
+constexpr double far_share = 0x1p-36;
 /// The extent given to a scene that is one point.
 constexpr double point_extent = 1e-6;
 
@@ -53,9 +56,10 @@ GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double top_c
     return frame;
   }
   Vec3d extent = bounds.high - bounds.low;
-  const double size = largest(extent) > 0 ? largest(extent) : point_extent;
+  const double least = far_share * std::max(largest(bounds.high), largest(-bounds.low));
+  const double spread = std::max(largest(extent), least), size = spread > 0 ? spread : point_extent;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    extent[axis] = std::max(extent[axis], flat_share * size);
+    extent[axis] = std::max({extent[axis], flat_share * size, least});
   }
   const double wanted = std::max(top_cells_min, static_cast<double>(primitive_count) * top_cells_per_primitive);
   const double cell = top_cell_edge(extent, wanted);

@@ -1,10 +1,9 @@
 #include "apps/stability/judge.h"
 
-#include <algorithm>
 #include <cmath>
-#include <vector>
 
-#include "apps/encounter.h"
+#include "apps/stability/hearing.h"
+#include "apps/stability/own_kernels.h"
 #include "apps/stability/rays.h"
 
 namespace dmpc::apps {
@@ -15,12 +14,7 @@ using core::Ray;
 using Kernel = StabilityKernel;
 using Must = StabilityExpectation::Must;
 
-/// Distances within this share of each other need no explanation.
-constexpr double level_share = 1e-6;
-
 Renderer renderer_of(Kernel kernel) { return is_embree(kernel) ? Renderer::embree : Renderer::grid; }
-
-Answer answer_of(const Hit& hit) { return {hit.found(), hit.primitive, hit.t}; }
 
 bool level(const Hit& a, const Hit& b) { return std::fabs(double{a.t} - double{b.t}) <= level_share * std::fabs(double{b.t}); }
 
@@ -43,30 +37,6 @@ bool agree(const StabilitySubject& subject, const Ray& ray, const StabilityAnswe
   return true;
 }
 
-/// One ray before the referee.
-class Hearing {
- public:
-  Hearing(const StabilitySubject& subject, const Ray& ray) : subject_(subject), ray_(ray) {}
-
-  bool admissible(Kernel kernel, const Hit& hit) const {
-    Ray ray = ray_;
-    ray.kind = kernel == Kernel::any_hit ? core::RayKind::shadow : core::RayKind::primary;
-    return subject_.referee.admissible(ray, answer_of(hit), renderer_of(kernel));
-  }
-  /// Whether rounding can have given the distance of `hit`, which is admissible.
-  bool distance_explained(const Hit& hit) const {
-    std::vector<Encounter> met;
-    add_encounters(ray_, subject_.database.primitives()[hit.primitive], hit.primitive, met);
-    return std::any_of(met.begin(), met.end(), [&](const Encounter& seen) {
-      return std::fabs(double{hit.t} - seen.t) <= seen.t_error + level_share * std::fabs(seen.t);
-    });
-  }
-
- private:
-  const StabilitySubject& subject_;
-  const Ray& ray_;
-};
-
 bool same_bits(Kernel kernel, const Hit& hit, const Hit& expected) {
   return kernel == Kernel::any_hit ? hit.found() == expected.found() : same_hit(hit, expected);
 }
@@ -75,7 +45,8 @@ bool same_bits(Kernel kernel, const Hit& hit, const Hit& expected) {
 
 void judge(const StabilitySubject& subject, const Ray& ray, const StabilityAnswers& answers,
            const StabilityExpectation& expectation, KernelCounts& counts) {
-  const Hearing hearing(subject, ray);
+  const Hearing nearest(subject.database, subject.referee, of_kind(ray, core::RayKind::primary)),
+      any(subject.database, subject.referee, of_kind(ray, core::RayKind::shadow));
   const Hit& grid = answers[index_of(Kernel::grid)];
   const Hit& expected = expectation.bits != nullptr ? *expectation.bits : grid;
   const bool heard = expectation.to_referee || !agree(subject, ray, answers, expectation.must);
@@ -88,10 +59,10 @@ void judge(const StabilitySubject& subject, const Ray& ray, const StabilityAnswe
       ++count.leaks;
     } else if (hit.found() && expectation.must == Must::miss) {
       ++count.wrong_hits;
-    } else if (heard && !hearing.admissible(kernel, hit)) {
+    } else if (heard && !(kernel == Kernel::any_hit ? any : nearest).admissible(hit, renderer_of(kernel))) {
       ++(hit.found() ? count.wrong_hits : count.leaks);
     } else if ((!is_embree(kernel) && !same_bits(kernel, hit, expected)) ||
-               (heard && hit.found() && kernel != Kernel::any_hit && !hearing.distance_explained(hit))) {
+               (heard && hit.found() && kernel != Kernel::any_hit && !nearest.distance_explained(hit))) {
       ++count.unexplained;
     } else if (is_embree(kernel) && hit.primitive != grid.primitive) {
       ++count.explained;

@@ -16,8 +16,10 @@
 #include "apps/nff_reader.h"
 #include "core/expect.h"
 #include "core/scenes.h"
+#include "tests/support/same_scene.h"
 
 using namespace dmpc;
+using namespace dmpc::tests;
 
 namespace {
 
@@ -31,48 +33,6 @@ std::string written(const core::Scene& scene) {
 core::Scene read_back(const std::string& text) {
   std::istringstream input(text);
   return apps::read_nff(input, "written");
-}
-
-/// Every number of a scene, as bits, so that zeros of either sign differ.
-std::vector<std::uint64_t> bits_of(const core::Scene& scene) {
-  std::vector<std::uint64_t> bits;
-  const auto add = [&bits](double value) { bits.push_back(std::bit_cast<std::uint64_t>(value)); };
-  const auto add_vector = [&add](const core::Vec3d& v) {
-    add(v.x);
-    add(v.y);
-    add(v.z);
-  };
-  for (const auto* pool : {&scene.vertices, &scene.normals}) {
-    for (const core::Vec3d& v : *pool) add_vector(v);
-  }
-  for (const core::Sphere& sphere : scene.spheres) {
-    add_vector(sphere.center);
-    add(sphere.radius);
-  }
-  for (const core::Cone& cone : scene.cones) {
-    add_vector(cone.base);
-    add(cone.base_radius);
-    add_vector(cone.apex);
-    add(cone.apex_radius);
-  }
-  for (const core::PointLight& light : scene.lights) {
-    add_vector(light.position);
-    add_vector(light.color);
-  }
-  for (const core::Vec3d& v : {scene.view.from, scene.view.at, scene.view.up, scene.background}) add_vector(v);
-  for (const double value : {scene.view.angle_degrees, scene.view.hither, double(scene.view.width), double(scene.view.height)})
-    add(value);
-  return bits;
-}
-
-bool same_objects(const core::Scene& a, const core::Scene& b) {
-  bool same = a.objects.size() == b.objects.size();
-  for (std::size_t i = 0; same && i < a.objects.size(); ++i) {
-    const core::Object &x = a.objects[i], &y = b.objects[i];
-    same = x.kind == y.kind && x.first == y.first && x.vertex_count == y.vertex_count && x.first_normal == y.first_normal &&
-           a.materials[x.material] == b.materials[y.material];
-  }
-  return same;
 }
 
 /// A folder of its own for a test, gone at its end.

@@ -67,6 +67,23 @@ TEST_CASE("flat, line-like and point-like scenes get a thickness") {
   }
 }
 
+TEST_CASE("a scene that is tiny for its distance gets as much room as rounding takes") {
+  for (const double far : {1e5, 1e12, 6e27, 1e30}) {
+    for (const double radius : {0.0, 1e-3, 0.37}) {
+      for (const Vec3d& center : {Vec3d{0, 0, far}, Vec3d{-far, 0.5, 0.5}, Vec3d{far, far, -far}}) {
+        const Vec3d half{radius, radius, radius};
+        const GridFrame frame = fit_frame(box_of(center - half, center + half), 10, 0.125);
+        const Vec3d local = to_local(frame, center), reach = half * frame.scale;
+        check_covers(frame, {center, center});
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          CHECK(local[axis] - reach[axis] > 0);
+          CHECK(local[axis] + reach[axis] < double{frame.finest_cell} * finest_per_top * frame.resolution[axis]);
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("no bounds give a frame of one cell") {
   const GridFrame frame = fit_frame({}, 0, 0.125);
   CHECK(cells(frame) == 1);

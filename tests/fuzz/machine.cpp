@@ -1,0 +1,111 @@
+// Any bytes as a machine file, if they begin with a brace, else as the options of `render`, one a line: refused with
+// core::InputError or core::UsageError, or accepted and within the ranges that are promised.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/command_line.h"
+#include "apps/machine_file.h"
+#include "apps/option_values.h"
+#include "apps/render_options.h"
+#include "core/expect.h"
+
+using namespace dmpc;
+
+namespace {
+
+using core::expect;
+using Lines = std::vector<std::string>;
+
+constexpr std::size_t lines_max = 32;
+
+/// What `parse` makes of it, or nothing if it throws `Refusal`.
+template <class Refusal, class Parse>
+auto accepted(const Parse& parse) -> std::optional<decltype(parse())> {
+  try {
+    return parse();
+  } catch (const Refusal& error) {
+    expect(!std::string_view(error.what()).empty(), "who refuses says why");
+    return std::nullopt;
+  }
+}
+
+// ---- Machine files ---------------------------------------------------------------------------------------------------------
+
+void try_machine(const std::string& text) {
+  const auto parse = [](const std::string& json) {
+    return accepted<core::InputError>([&] { return apps::parse_machine(json, "input"); });
+  };
+  if (const auto machine = parse(text)) {
+    const std::string written = apps::machine_text(*machine);
+    const auto again = parse(written);
+    expect(again.has_value(), "a machine that is written is read");
+    expect(apps::machine_text(*again) == written, "a machine that is written and read again has the same text");
+    expect(again->machine.digest() == machine->machine.digest(), "a machine that is written and read again has the same figures");
+    expect(again->machine.name == machine->machine.name && again->sources == machine->sources, "names and sources stay");
+  }
+}
+
+// ---- Values and options ----------------------------------------------------------------------------------------------------
+
+void try_value(const std::string& text) {
+  using core::UsageError;
+  const auto size = accepted<UsageError>([&] { return apps::parse_size_bytes(text, "--size"); });
+  expect(!size || *size <= std::size_t{1} << 40U, "a size is a TiB at most");
+  const auto page = accepted<UsageError>([&] { return apps::parse_page_size(text); });
+  expect(!page || (size == page && *page >= 512 && *page <= 65536), "a page's size is a size, from 512 B to 64 KiB");
+  const auto resolution = accepted<UsageError>([&] { return apps::parse_resolution(text); });
+  expect(!resolution || (resolution->width > 0 && resolution->height > 0 &&
+                         std::int64_t{resolution->width} * resolution->height <= apps::picture_pixels_max),
+         "a resolution has a pixel, and not too many");
+  const auto seed = accepted<UsageError>([&] { return apps::parse_seed(text, "--seed"); });
+  const auto again = accepted<UsageError>([&] { return apps::parse_seed(std::to_string(seed.value_or(0)), "--seed"); });
+  expect(!seed || again == seed, "a seed that is written is read");
+}
+
+void check(const apps::RenderOptions& render) {
+  expect(render.computer.node_count >= 1, "there is a node");
+  expect(render.picture.samples >= 1 && render.picture.samples <= 32768, "samples are 1 to 32768");
+  expect(render.picture.depth >= 1 && render.picture.depth <= 255, "the depth is 1 to 255");
+  expect(!(render.computer.no_contention && render.computer.memory_port), "ports need contention");
+}
+
+void try_options(const Lines& lines) {
+  apps::CommandLine line("description", "version", "examples");
+  apps::RenderOptions render;
+  add_options(line.add_command("render", "description"), render);
+  const auto parsed = accepted<core::UsageError>([&] { return line.parse(lines); });
+  if (parsed && std::holds_alternative<std::string>(*parsed)) {
+    check(render);
+  }
+}
+
+Lines lines_of(const std::string& text) {
+  Lines lines{"render"};
+  std::istringstream stream(text);
+  for (std::string line; lines.size() <= lines_max && std::getline(stream, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(data, data + size);
+  if (text.starts_with('{')) {
+    try_machine(text);
+    return 0;
+  }
+  const Lines lines = lines_of(text);
+  for (const std::string& line : lines) {
+    try_value(line);
+  }
+  try_options(lines);
+  return 0;
+}

@@ -1,0 +1,118 @@
+// Any bytes as a scene and rays: every kernel gives the same bits, and the referee can explain them.
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iostream>
+
+#include "apps/referee.h"
+#include "apps/stability/children.h"
+#include "apps/stability/hearing.h"
+#include "apps/stability/own_kernels.h"
+#include "apps/stability/rays.h"
+#include "core/database.h"
+#include "core/expect.h"
+#include "tests/fuzz/bytes.h"
+#include "tests/fuzz/mesh_rays.h"
+#include "tests/fuzz/mesh_scene.h"
+
+using namespace dmpc;
+
+namespace {
+
+using core::expect;
+using core::Hit;
+using core::Ray;
+using core::RayKind;
+
+constexpr std::size_t rays_max = 16;
+
+struct Subject {
+  core::Database database;
+  apps::Referee referee{database.primitives()};
+};
+
+bool is_valid(const Ray& ray, const Hit& hit) {
+  return !hit.found() || (is_finite(ray.origin) && is_finite(ray.direction) && hit.t > 0.0F && hit.t < ray.t_max);
+}
+
+/// Whether the grid answers for this ray to the referee: its direction is of unit length, and it starts no farther away than the
+/// pad allows for (core/frame.h). Other rays only have to end, and in one way.
+bool is_ordinary(const core::Database& database, const Ray& ray) {
+  const core::GridFrame& frame = database.header().frame;
+  core::Vec3d size;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    size[axis] = double{frame.finest_cell} * core::finest_per_top * frame.resolution[axis];
+  }
+  const double extent = std::max({size.x, size.y, size.z});
+  const double distance_max = ((database.pad() / extent - 1e-6) * 0x1p21 - 1) * extent;
+  const double distance = length(core::Vec3d(ray.origin) - size * 0.5);
+  return std::fabs(length(core::Vec3d(ray.direction)) - 1) < 1e-6 && distance <= distance_max;
+}
+
+void compare(const Ray& ray, const apps::OwnAnswers& answers) {
+  constexpr std::array<const char*, apps::own_kernel_count> sentences{
+      "a hit lies within the ray", "the scalar twin has the same bits", "skipping empty space changes no bit",
+      "stopping before each record changes no bit", "there is a nearest hit where there is any"};
+  const Hit& grid = answers.front();
+  expect(is_valid(ray, grid), sentences.front());
+  for (std::size_t k = 1; k + 1 < answers.size(); ++k) {
+    expect(apps::same_hit(answers[k], grid), sentences[k]);
+  }
+  expect(answers.back().found() == grid.found(), sentences.back());
+}
+
+void judge(const Subject& subject, const Ray& ray, const apps::OwnAnswers& answers) {
+  const apps::Hearing nearest(subject.database, subject.referee, apps::of_kind(ray, RayKind::primary)),
+      any(subject.database, subject.referee, apps::of_kind(ray, RayKind::shadow));
+  const Hit& grid = answers.front();
+  expect(nearest.admissible(grid, apps::Renderer::grid), "rounding explains the nearest hit, or the miss");
+  expect(any.admissible(answers.back(), apps::Renderer::grid), "rounding explains any hit, or the miss");
+  expect(!grid.found() || nearest.distance_explained(grid), "rounding explains the distance");
+}
+
+void describe(const Subject& subject, const Ray& ray, const Hit& hit) {
+  std::cerr.precision(9);
+  for (const core::PrimitiveValues& primitive : subject.database.primitives()) {
+    std::cerr << "primitive of kind " << static_cast<int>(primitive.kind) << ':';
+    for (const float value : primitive.value) {
+      std::cerr << ' ' << value;
+    }
+    std::cerr << '\n';
+  }
+  std::cerr << "ray from " << ray.origin.x << ' ' << ray.origin.y << ' ' << ray.origin.z << " along " << ray.direction.x << ' '
+            << ray.direction.y << ' ' << ray.direction.z << " to " << ray.t_max << ", ignores " << ray.ignored_primitive
+            << "; hit " << hit.primitive << " at " << hit.t << '\n';
+}
+
+/// The nearest hit.
+Hit try_ray(const Subject& subject, const Ray& ray) {
+  const apps::OwnAnswers answers = apps::ask_own_kernels(subject.database, ray);
+  try {
+    compare(ray, answers);
+    if (is_ordinary(subject.database, ray)) {
+      judge(subject, ray, answers);
+    }
+  } catch (const core::InternalError&) {
+    describe(subject, ray, answers.front());
+    throw;
+  }
+  return answers.front();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  tests::Bytes bytes(data, size);
+  const core::Scene scene = tests::mesh_scene(bytes);
+  const Subject subject{core::build_database(scene, tests::mesh_options(bytes, scene))};
+  tests::MeshRays rays(bytes, subject.database);
+  for (std::size_t i = 0; i < rays_max && !bytes.empty(); ++i) {
+    const Ray ray = rays.next();
+    for (const Ray& child : apps::children_of(subject.database, ray, try_ray(subject, ray))) {
+      try_ray(subject, child);
+    }
+  }
+  return 0;
+}

@@ -1,0 +1,64 @@
+// Any bytes as an NFF file: refused with core::InputError, or read, written and read again without a change, built and rendered.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "apps/nff_reader.h"
+#include "apps/nff_writer.h"
+#include "core/database.h"
+#include "core/expect.h"
+#include "core/render.h"
+#include "core/scene.h"
+#include "tests/support/same_scene.h"
+
+using namespace dmpc;
+
+namespace {
+
+/// More of them make an input slow and find nothing new.
+constexpr std::size_t vertices_max = 2000, lights_max = 16;
+constexpr int picture_side = 4, depth_max = 4;
+
+std::optional<core::Scene> read(const std::string& text) {
+  std::istringstream input(text);
+  try {
+    return apps::read_nff(input, "input");
+  } catch (const core::InputError&) {
+    return std::nullopt;
+  }
+}
+
+void check_round_trip(const core::Scene& scene) {
+  std::ostringstream text;
+  apps::NffWriter writer(text);
+  core::replay(scene, writer);
+  const std::optional<core::Scene> again = read(text.str());
+  core::expect(again.has_value(), "what the writer writes is read");
+  core::expect(tests::same_scene(scene, *again), "what is written and read again is the same scene");
+}
+
+void render(const core::Scene& scene) {
+  const core::Database database = core::build_database(scene, {});
+  core::LocalRecords records(database.bytes());
+  core::GridTracer tracer(records, database.header(), {});
+  const core::Camera camera(scene.view, database.header().frame, picture_side, picture_side, 1);
+  core::Operations operations;
+  const core::Film film = core::render(tracer, {database.header(), camera, {.depth_max = depth_max}}, operations);
+  core::expect(film.pixels().size() == picture_side * picture_side, "every pixel is there");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::optional<core::Scene> scene = read(std::string(data, data + size));
+  if (scene && scene->vertices.size() <= vertices_max) {
+    check_round_trip(*scene);
+    if (scene->lights.size() <= lights_max) {
+      render(*scene);
+    }
+  }
+  return 0;
+}
