@@ -12,6 +12,7 @@
 #include "apps/output_file.h"
 #include "apps/progress.h"
 #include "apps/subject.h"
+#include "core/expect.h"
 
 namespace dmpc::apps {
 namespace {
@@ -166,6 +167,12 @@ std::uint64_t print_report(const CheckOptions& options, const core::Database& da
 
 void add_options(OptionSet options, CheckOptions& check) {
   add_options(options, check.picture);
+  options.check_in_the_end([&check] {
+    if (check.picture.is_refined) {
+      throw core::UsageError(
+          "--samples=auto goes with render and study; check traces as many rays through each pixel as you say");
+    }
+  });
   options.add_number("--list", check.list, 0, 1000000, "10", "Differences to print in full");
   options.add_number("--brute-force", check.brute_force, 0, std::int64_t{1} << 40U, "0",
                      "Rays that are tested against every primitive in double precision, too");

@@ -59,6 +59,16 @@ void check_command_name(CLI::App& app, std::span<const std::string> arguments, c
 
 }  // namespace
 
+OptionSet::OptionSet(CLI::App& app) : app_(&app) {
+  const auto checks = std::make_shared<Checks>();
+  checks_ = checks.get();
+  app.final_callback([checks] {
+    for (const auto& check : *checks) {
+      check();
+    }
+  });
+}
+
 OptionSet OptionSet::add_command(const std::string& name, const std::string& description) {
   app_->require_subcommand(1);
   return OptionSet(*app_->add_subcommand(name, description));
@@ -121,7 +131,7 @@ void OptionSet::add_number_as(const std::string& name, std::int64_t least, std::
 
 void OptionSet::set_examples(const std::string& text) { app_->footer(text); }
 
-void OptionSet::check_in_the_end(const std::function<void()>& check) { app_->final_callback(check); }
+void OptionSet::check_in_the_end(const std::function<void()>& check) { checks_->push_back(check); }
 
 bool OptionSet::is_given(const std::string& name) const {
   const CLI::Option* const option = app_->get_option_no_throw(name);

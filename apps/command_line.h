@@ -66,14 +66,16 @@ class OptionSet {
 
   /// What help says in the end.
   void set_examples(const std::string& text);
-  /// Called when all options of a line with this command are read; may throw core::UsageError.
+  /// Called when all options of a line with this command are read, after the checks given before; may throw core::UsageError.
   void check_in_the_end(const std::function<void()>& check);
   /// Whether the user gave the option, if it is one of this command; for check_in_the_end().
   bool is_given(const std::string& name) const;
 
  private:
   friend class CommandLine;
-  explicit OptionSet(CLI::App& app) : app_(&app) {}
+  using Checks = std::vector<std::function<void()>>;
+
+  explicit OptionSet(CLI::App& app);
 
   void add_words_as(const std::string& name, const std::vector<std::string>& words, const std::string& shown_default,
                     const TakeText& take, const std::string& description);
@@ -81,6 +83,7 @@ class OptionSet {
                      const TakeNumber& take, const std::string& description);
 
   CLI::App* app_;
+  Checks* checks_;  ///< the app's, in the order in which they are made
 };
 
 /// All commands of the program, for one line.

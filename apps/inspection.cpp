@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "core/expect.h"
+#include "core/render.h"
 #include "core/sampling.h"
 
 namespace dmpc::apps {
@@ -126,12 +126,7 @@ void trace_pixels(const core::Database& database, const EmbreeScene& scene, cons
   core::PixelTask task(stack);
   for (std::uint32_t pixel = first; pixel < last; ++pixel) {
     tracer.start_pixel();
-    task.start(pixel, settings, harvest.operations);
-    core::TaskState state = core::TaskState::more;
-    while (state != core::TaskState::finished) {
-      state = task.run(tracer, settings, harvest.operations);
-      core::expect(state != core::TaskState::absent, "the whole database is there");
-    }
+    core::render_pixel(task, pixel, settings.first_samples(), tracer, settings, harvest.operations);
   }
 }
 

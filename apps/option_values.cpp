@@ -1,6 +1,7 @@
 #include "apps/option_values.h"
 
 #include <charconv>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -14,7 +15,29 @@ namespace {
   throw core::UsageError(std::string(option) + "=" + std::string(text) + ": expected " + expected);
 }
 
+/// A finite number that fills the whole text, or NaN.
+double number_in(std::string_view text) {
+  double number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && rest == end ? number : std::numeric_limits<double>::quiet_NaN();
+}
+
 }  // namespace
+
+double parse_share(std::string_view text, std::string_view option, bool or_zero) {
+  const std::size_t slash = text.find('/');
+  const double divisor = slash == std::string_view::npos ? 1 : number_in(text.substr(slash + 1));
+  const double share = number_in(text.substr(0, slash)) / divisor;
+  if (share > 0 && share <= 1 && divisor >= 1) {
+    return share;
+  }
+  if (or_zero && share == 0 && divisor >= 1) {
+    return 0;
+  }
+  refuse(text, option,
+         or_zero ? "a number from 0 to 1 such as 0.004 or 1/255" : "a number above 0, at most 1, such as 0.004 or 1/255");
+}
 
 std::size_t parse_size_bytes(std::string_view text, std::string_view option) {
   std::uint64_t count = 0;

@@ -10,6 +10,10 @@ namespace dmpc::apps {
 /// "300", "300B", "4KiB", "4MiB", "1GiB" in bytes. Throws core::UsageError naming `option` for anything else or more than 1 TiB.
 std::size_t parse_size_bytes(std::string_view text, std::string_view option);
 
+/// A number such as 0.004, 4e-3 or 1/255, above 0 and at most 1; with `or_zero` 0 as well. Throws core::UsageError naming
+/// `option` for anything else.
+double parse_share(std::string_view text, std::string_view option, bool or_zero = false);
+
 /// A whole number from 0 to 2^64 - 1. Throws core::UsageError naming `option` for anything else.
 std::uint64_t parse_seed(std::string_view text, std::string_view option);
 

@@ -2,9 +2,43 @@
 
 #include <charconv>
 
+#include "apps/option_values.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
+
+namespace {
+
+constexpr int samples_max = 32768;
+/// Two on each plane would tell more of the error, one is what most pixels of most pictures need.
+constexpr int refined_samples = 2;
+constexpr double default_error = 1.0 / 255;
+
+void take_samples(PictureOptions& picture, std::string_view text) {
+  picture.is_refined = text == "auto";
+  if (picture.is_refined) {
+    picture.samples = refined_samples;
+    return;
+  }
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, picture.samples);
+  if (error != std::errc() || rest != end || picture.samples < 1 || picture.samples > samples_max) {
+    throw core::UsageError("--samples=" + std::string(text) + ": expected a whole number from 1 to 32768, or auto");
+  }
+}
+
+void check_refinement(const OptionSet& options, PictureOptions& picture) {
+  for (const char* option : {"--error", "--samples-max"}) {
+    if (!picture.is_refined && options.is_given(option)) {
+      throw core::UsageError(std::string(option) + " goes with --samples=auto");
+    }
+  }
+  if (picture.is_refined && picture.refinement.error == 0) {
+    picture.refinement.error = default_error;
+  }
+}
+
+}  // namespace
 
 void add_options(OptionSet options, PictureOptions& picture) {
   options.add_argument(
@@ -13,19 +47,34 @@ void add_options(OptionSet options, PictureOptions& picture) {
   options.add_text(
       "--resolution", "WxH [the scene's]", [&picture](const std::string& text) { picture.resolution = parse_resolution(text); },
       "Pixels of the picture");
-  options.add_number("--samples", picture.samples, 1, 32768, "1", "Rays through each pixel");
+  options.add_text(
+      "--samples", "1..32768|auto [1]", [&picture](const std::string& text) { take_samples(picture, text); },
+      "Rays through each pixel; auto: as many as it needs for --error");
+  options.add_text(
+      "--error", "E [1/255]", [&picture](const std::string& text) { picture.refinement.error = parse_share(text, "--error"); },
+      "With --samples=auto: the estimated root mean square error of the linear picture at which it is done");
+  options.add_number("--samples-max", picture.refinement.samples_max, 2, 32768, "4096",
+                     "With --samples=auto: no pixel gets more rays than this");
   options.add_number("--depth", picture.depth, 1, 255, "5",
                      "Longest chain of reflections and refractions; 1 is the eye's ray alone");
   options.add_choice<core::Convention>("--convention", picture.convention,
                                        {{"haines", core::Convention::haines}, {"paper", core::Convention::paper}},
                                        "When shadow rays are cast: towards lights that the surface faces, or towards all");
+  options.add_text(
+      "--cutoff", "C [0]", [&picture](const std::string& text) { picture.cutoff = parse_share(text, "--cutoff", true); },
+      "Shoot no ray that can bring at most C of light to its sample; 0 is exact");
+  options.check_in_the_end([options, &picture] { check_refinement(options, picture); });
 }
 
 core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database) {
   const Resolution size = options.resolution.value_or(Resolution{scene.view.width, scene.view.height});
   return {.header = database.header(),
           .camera = core::Camera(scene.view, database.header().frame, size.width, size.height, options.samples),
-          .shade = {.convention = options.convention, .depth_max = options.depth}};
+          .shade = {.convention = options.convention,
+                    .depth_max = options.depth,
+                    .cutoff = options.cutoff,
+                    .radiance_bound = core::radiance_bound(scene, options.depth)},
+          .refinement = options.refinement};
 }
 
 Resolution parse_resolution(std::string_view text) {

@@ -24,9 +24,12 @@ struct Resolution {
 struct PictureOptions {
   std::string scene;                     ///< an NFF file or a built-in name
   std::optional<Resolution> resolution;  ///< the view's own if not given
-  int samples = 1;                       ///< per pixel, 1 to 32768 (core/film.h says why)
+  int samples = 1;                       ///< per pixel, 1 to 32768 (core/film.h says why); if refined, in the first pass
+  bool is_refined = false;               ///< --samples=auto
+  core::RefinementOptions refinement;    ///< its error is 0 unless the picture is refined
   int depth = 5;                         ///< hits of this depth cast shadow rays only; 1 to 255
   core::Convention convention = core::Convention::haines;
+  double cutoff = 0;  ///< core::ShadeOptions::cutoff
 };
 
 /// Declares them.

@@ -138,7 +138,7 @@ void write_outputs(const RenderOptions& options, const core::Database& database,
   const Interrupt::EndAtOnce end_at_once(interrupt);
   Stopwatch stopwatch;
   OutputFile picture(options.image);
-  write_image(options.image, image_of(account_of(report).film, options.picture.samples), picture);
+  write_image(options.image, image_of(account_of(report).film), picture);
   seconds.write = stopwatch.lap();
   const ProcessorTime all = processor_time();
   seconds.user = all.user;
@@ -153,10 +153,10 @@ void write_outputs(const RenderOptions& options, const core::Database& database,
 
 }  // namespace
 
-Image image_of(const core::Film& film, int samples) {
+Image image_of(const core::Film& film) {
   Image image(film.width(), film.height());
   for (std::uint32_t pixel = 0; pixel < film.pixels().size(); ++pixel) {
-    const core::Vec3d radiance = film.radiance(pixel, samples);
+    const core::Vec3d radiance = film.radiance(pixel);
     for (std::size_t channel = 0; channel < 3; ++channel) {
       image.rgb[std::size_t{pixel} * 3 + channel] = static_cast<float>(radiance[channel]);
     }

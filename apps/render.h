@@ -11,7 +11,7 @@
 namespace dmpc::apps {
 
 /// Mean linear radiance of each pixel; requires samples > 0.
-Image image_of(const core::Film& film, int samples);
+Image image_of(const core::Film& film);
 
 /// Renders, writes the picture (and the counters if asked for), and prints the closing lines to `output`, the standard output,
 /// unless quiet; progress and remarks go to stderr. What can be seen beforehand (paths, scene, memory) is checked before anything

@@ -28,14 +28,14 @@ WaitKinds waits_of(const svm::Report&) {
   using svm::Kind;
   return {.data = "page",
           .data_kinds = bits_of({Kind::page_reply}),
-          .work_kinds = bits_of({Kind::work_request, Kind::work_reply}),
+          .work_kinds = bits_of({Kind::work_request, Kind::work_reply, Kind::mask_part, Kind::begin_pass}),
           .end_kinds = bits_of({Kind::stop})};
 }
 WaitKinds waits_of(const dataflow::Report&) {
   using dataflow::Kind;
   return {.data = "ray",
           .data_kinds = bits_of({Kind::rays, Kind::forwarded}),
-          .work_kinds = 0,
+          .work_kinds = bits_of({Kind::primaries}),
           .end_kinds = bits_of({Kind::finish, Kind::stop})};
 }
 
@@ -52,7 +52,8 @@ Account account_of_strategy(const StrategyReport& report) {
                   .sent = report.sent(),
                   .kind_names = kind_names(report),
                   .virtual_time = report.virtual_time,
-                  .waits = waits_of(report)};
+                  .waits = waits_of(report),
+                  .refinement = report.refinement};
   for (const auto& node : report.nodes) {
     account.nodes.push_back({node.program.operations, node.counters, node.memory_planned, node.memory_used});
   }

@@ -43,6 +43,7 @@ struct Account {
   std::span<const char* const> kind_names;                    ///< of the strategy's packets
   const std::optional<nodes::VirtualReport>& virtual_time;    ///< of a modelled machine
   WaitKinds waits;                                            ///< what the waits for these packets are
+  core::RefinementResult refinement;
 };
 
 /// Thread-safe, as long as nobody changes the report.

@@ -55,6 +55,24 @@ Json operations_json(const core::Operations& operations) {
           {"deposits_saturated", operations.deposits_saturated}};
 }
 
+/// How samples were shared out.
+Json sampling_json(const RenderOptions& options, const Account& account) {
+  const std::uint64_t samples = account.film.samples();
+  Json result = {{"samples", samples},
+                 {"samples_per_pixel", static_cast<double>(samples) / static_cast<double>(account.film.pixels().size())},
+                 {"passes", account.refinement.passes}};
+  result["estimated_error"] = options.picture.is_refined ? Json(account.refinement.error) : Json();
+  return result;
+}
+
+/// The cutoff's own bound: on average a sample lacks at most so much light.
+Json cutoff_json(const RenderOptions& options, const Account& account) {
+  const auto cut = static_cast<double>(account.operations.rays_cut);
+  return {{"cutoff", options.picture.cutoff},
+          {"rays_cut", account.operations.rays_cut},
+          {"mean_error_bound", options.picture.cutoff * cut / static_cast<double>(account.film.samples())}};
+}
+
 Json packets_json(const nodes::NodeCounters& counters) {
   const Traffic sent = nodes::total(counters.sent);
   const Traffic received = nodes::total(counters.received);
@@ -156,7 +174,10 @@ Json options_json(const RenderRecord& record, const Account& account, const Json
   Json result = {{"scene", options.picture.scene},
                  {"width", account.film.width()},
                  {"height", account.film.height()},
-                 {"samples", options.picture.samples},
+                 {"samples", options.picture.is_refined ? Json("auto") : Json(options.picture.samples)},
+                 {"error", options.picture.is_refined ? Json(options.picture.refinement.error) : Json()},
+                 {"samples_max", options.picture.is_refined ? Json(options.picture.refinement.samples_max) : Json()},
+                 {"cutoff", options.picture.cutoff},
                  {"depth", options.picture.depth},
                  {"convention", options.picture.convention == core::Convention::haines ? "haines" : "paper"},
                  {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
@@ -220,6 +241,7 @@ std::string stats_json(const RenderRecord& record) {
               {"runner", name_of(record.options.computer.runner)},
               {"machine", machine ? machine_json(*machine) : Json()},
               {"film_hash", hash_text(account.film.hash())},
+              {"sampling", sampling_json(record.options, account)},
               {"rays", rays_json(account.operations.rays)},
               {"hits", hits_json(account.operations)},
               {"operations", operations_json(account.operations)},
@@ -228,7 +250,8 @@ std::string stats_json(const RenderRecord& record) {
   all.update({{"database", database_json(record.database)}, {"packets", all_packets_json(account, special.packets_overflowed)}});
   all.update(filled({"pages", "work", "travel", "load", "regions", "mapping", "pairs"}, special.all));
   all["chaos"] = chaos_json(account, special.chaos);
-  all["skips"] = {{"empty_space", record.options.computer.traversal.skip_empty_space}};
+  all["skips"] = {{"empty_space", record.options.computer.traversal.skip_empty_space},
+                  {"cutoff", cutoff_json(record.options, account)}};
   all["nodes"] = nodes_json(account, special, timed);
   all["host"] = host_json(account, special.host, timed.host);
   return all.dump(2) + "\n";

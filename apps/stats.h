@@ -28,13 +28,15 @@ struct RenderRecord {
 /// One JSON object, indented, with a line end. The keys are an interface; what does not apply is null, and no number is NaN or
 /// infinite. "rays" below stands for primary, reflected, refracted, shadow, total.
 ///   program        name and version
-///   options        what was asked for and what it became: scene, width, height, samples, depth, convention, tracer, grid_axes,
-///                  record_order, strategy, nodes, node_memory (bytes a node, the most), page_size; of pages: cache_pages,
-///                  in_flight, work_item, count_pages; of dataflow: balance, subsample, balance_grid, ray_batch, ray_credits,
-///                  ray_queue, topology
+///   options        what was asked for and what it became: scene, width, height, samples (a number or "auto"), error,
+///                  samples_max, cutoff, depth, convention, tracer, grid_axes, record_order, strategy, nodes, node_memory (bytes
+///                  a node, the most), page_size; of pages: cache_pages, in_flight, work_item, count_pages; of dataflow: balance,
+///                  subsample, balance_grid, ray_batch, ray_credits, ray_queue, topology
 ///   runner         threads or virtual
 ///   machine        that was modelled, as machine_file.h says; null with threads, as is all that follows from virtual time
 ///   film_hash      of the film's integers, 16 hexadecimal digits: equal pictures, equal hashes
+///   sampling       samples (of all pixels), samples_per_pixel, passes, and where they are refined estimated_error (root mean
+///                  square of the linear channels)
 ///   rays           rays shot
 ///   hits           primary, secondary, shadow_blocked, total_internal_reflections
 ///   operations     cell_steps, brick_reads, triangle_tests, sphere_tests, cone_tests, shadings, deposits_saturated
@@ -76,7 +78,8 @@ struct RenderRecord {
 ///                  nodes of which one has sent the other a ray
 ///   chaos          seed, packets_held, quanta_sat_out, and credits that were left: request_credits, ray_credits, host_credits,
 ///                  film_credits; null when calm
-///   skips          empty_space: whether the short cut was on
+///   skips          empty_space: whether the short cut was on; cutoff {cutoff, rays_cut, mean_error_bound: light that a sample
+///                  lacks at most, on average}
 ///   nodes          for each node: rays, hits, operations, packets {sent, received, bytes: sent, bytes_received, refused: tried
 ///                  without credit}, pages, work, travel, load {work_ps, predicted_ps}, region
 ///                  {low, high: corners in finest cells, share of the grid's volume, part_bytes, primitive_copies,

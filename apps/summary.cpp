@@ -59,6 +59,19 @@ std::string pages_text(const svm::Report& report) {
   return text;
 }
 
+/// A whole line of what adaptive sampling did, or nothing.
+std::string sampling_line(const RenderOptions& options, const Account& account) {
+  if (!options.picture.is_refined) {
+    return "";
+  }
+  const double mean = static_cast<double>(account.film.samples()) / static_cast<double>(account.film.pixels().size());
+  const core::RefinementResult& result = account.refinement;
+  return "samples  " + fixed(mean, 2) + " a pixel, in " + std::to_string(result.passes) +
+         (result.passes == 1 ? " pass" : " passes") + "; estimated error " + fixed(255 * result.error, 3) + "/255" +
+         (result.error > options.picture.refinement.error ? ", more than was asked for: no pixel may have more samples" : "") +
+         "\n";
+}
+
 StrategyLines lines_of(const RenderOptions& options, const svm::Report& report) {
   const bool paged = options.strategy == Strategy::svm;
   const std::string in_flight = counted(report.plan.in_flight, "pixel") + " in flight";
@@ -120,9 +133,9 @@ void print_summary(std::ostream& output, const RenderRecord& record) {
          << "\ncomputer " << counted(account.nodes.size(), "node") << ", " << name_of(record.options.strategy) << ", "
          << special.computer << "\nmemory   " << memory_text(account) << "\nrays     "
          << rays_text(account.operations, record.seconds.render) << '\n'
-         << special.figures << virtual_lines(account, record.options.computer.machine) << "time     " << time_text(record.seconds)
-         << "\npicture  " << record.options.image.string() << ", " << account.film.width() << "x" << account.film.height()
-         << ", film " << hash_text(account.film.hash()) << '\n';
+         << sampling_line(record.options, account) << special.figures << virtual_lines(account, record.options.computer.machine)
+         << "time     " << time_text(record.seconds) << "\npicture  " << record.options.image.string() << ", "
+         << account.film.width() << "x" << account.film.height() << ", film " << hash_text(account.film.hash()) << '\n';
 }
 
 }  // namespace dmpc::apps

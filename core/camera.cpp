@@ -5,7 +5,7 @@
 #include "core/elementary.h"
 #include "core/expect.h"
 #include "core/frame.h"
-#include "core/sampling.h"
+#include "core/sample_position.h"
 
 namespace dmpc::core {
 
@@ -27,8 +27,9 @@ Ray Camera::primary_ray(std::uint32_t pixel, std::uint32_t sample) const {
   double column = static_cast<double>(pixel % static_cast<std::uint32_t>(width_)) - 0.5 * (width_ - 1);
   double row = static_cast<double>(pixel / static_cast<std::uint32_t>(width_)) - 0.5 * (height_ - 1);
   if (samples_ > 1) {
-    column += sample_value(pixel, sample, 0) - 0.5;
-    row += sample_value(pixel, sample, 1) - 0.5;
+    const SamplePosition position = sample_position(pixel, sample);
+    column += position.x - 0.5;
+    row += position.y - 0.5;
   }
   Ray ray;
   ray.origin = origin_;

@@ -214,15 +214,6 @@ class DatabaseBuilder {
     add(values, index, !finite || degenerate_cone(values), ShadingReference::flat(object.material));
   }
 
-  /// A light without a colour shines with 1 / sqrt(number of lights): twice Haines' suggestion, since nothing here is ambient.
-  Color intensity(const PointLight& light) const {
-    if (light.has_color) {
-      return Color(light.color);
-    }
-    const auto equal = static_cast<float>(1.0 / std::sqrt(static_cast<double>(scene_.lights.size())));
-    return {equal, equal, equal};
-  }
-
   void write_tables() {
     header().region.high = grid_size(header().frame);
     header().directory_size = header().frame.resolution;
@@ -232,7 +223,7 @@ class DatabaseBuilder {
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
       const PointLight& light = scene_.lights[i];
       writer_.write(header().lights, i * sizeof(LightRecord),
-                    LightRecord{.position = Vec3f(local(light.position)), .intensity = intensity(light)});
+                    LightRecord{.position = Vec3f(local(light.position)), .intensity = Color(intensity_of(light, scene_))});
     }
     header().material_count = static_cast<std::uint32_t>(scene_.materials.size());
     header().materials = writer_.allocate_array<MaterialRecord>(scene_.materials.size());

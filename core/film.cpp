@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/expect.h"
 
@@ -31,6 +32,10 @@ class Fnv1a {
   std::uint64_t hash_ = 0xcbf29ce484222325ULL;
 };
 
+Vec3d sum_of(const FixedColor& plane) {
+  return {static_cast<double>(plane.channel[0]), static_cast<double>(plane.channel[1]), static_cast<double>(plane.channel[2])};
+}
+
 }  // namespace
 
 FixedColor to_fixed(const Color& light) { return {{fixed(light.x), fixed(light.y), fixed(light.z)}}; }
@@ -49,6 +54,7 @@ bool add(FixedColor& sum, const FixedColor& deposit) {
 Film::Film(int width, int height) : width_(width), height_(height) {
   expect(width > 0 && height > 0, "a film has pixels");
   pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  samples_.resize(pixels_.size());
 }
 
 bool Film::deposit(std::uint32_t pixel, const PixelSums& sums) {
@@ -58,15 +64,18 @@ bool Film::deposit(std::uint32_t pixel, const PixelSums& sums) {
   return even || odd;
 }
 
-Vec3d Film::radiance(std::uint32_t pixel, int samples) const {
-  expect(samples > 0, "a picture has samples");
-  const PixelSums& sums = pixels_[pixel];
-  Vec3d mean;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double sum = static_cast<double>(sums.plane[0].channel[i]) + static_cast<double>(sums.plane[1].channel[i]);
-    mean[i] = sum * film_resolution / samples;
-  }
-  return mean;
+std::uint64_t Film::samples() const { return std::accumulate(samples_.begin(), samples_.end(), std::uint64_t{0}); }
+
+Vec3d Film::radiance(std::uint32_t pixel) const {
+  expect(samples_[pixel] > 0, "a picture has samples");
+  return (sum_of(pixels_[pixel].plane[0]) + sum_of(pixels_[pixel].plane[1])) * (film_resolution / samples_[pixel]);
+}
+
+Vec3d Film::half_difference(std::uint32_t pixel) const {
+  expect(samples_[pixel] > 1, "both planes of a pixel have samples");
+  const std::uint32_t odd = samples_[pixel] / 2, even = samples_[pixel] - odd;
+  const double scale = 0.5 * film_resolution;
+  return sum_of(pixels_[pixel].plane[0]) * (scale / even) - sum_of(pixels_[pixel].plane[1]) * (scale / odd);
 }
 
 std::uint64_t Film::hash() const {

@@ -40,14 +40,22 @@ class Film {
   /// Adds a node's sums of one pixel; returns whether a channel saturated. Requires pixel < width * height.
   bool deposit(std::uint32_t pixel, const PixelSums& sums);
   std::span<const PixelSums> pixels() const { return pixels_; }
-  /// Mean linear radiance of a pixel over `samples` samples; requires samples > 0.
-  Vec3d radiance(std::uint32_t pixel, int samples) const;
-  /// FNV-1a over the integers and the size: equal pictures, equal hashes.
+  /// Says that a pixel's deposits are those of so many more samples, half of them even or one more.
+  void add_samples(std::uint32_t pixel, std::uint32_t count) { samples_[pixel] += count; }
+  std::uint32_t samples(std::uint32_t pixel) const { return samples_[pixel]; }
+  /// Of all pixels.
+  std::uint64_t samples() const;
+  /// Mean linear radiance of a pixel; requires samples(pixel) > 0.
+  Vec3d radiance(std::uint32_t pixel) const;
+  /// Half of the difference between the means of its even and its odd samples; requires samples(pixel) > 1.
+  Vec3d half_difference(std::uint32_t pixel) const;
+  /// FNV-1a over the sums and the size: equal pictures, equal hashes.
   std::uint64_t hash() const;
 
  private:
   int width_, height_;
   std::vector<PixelSums> pixels_;
+  std::vector<std::uint32_t> samples_;
 };
 
 }  // namespace dmpc::core

@@ -23,6 +23,7 @@ Operations& operator+=(Operations& sum, const Operations& more) {
   sum.shadow_blocked += more.shadow_blocked;
   sum.total_internal_reflections += more.total_internal_reflections;
   sum.deposits_saturated += more.deposits_saturated;
+  sum.rays_cut += more.rays_cut;
   return sum;
 }
 

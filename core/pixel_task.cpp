@@ -4,13 +4,14 @@
 
 namespace dmpc::core {
 
-void PixelTask::start(std::uint32_t pixel, const RenderSettings& settings, Operations& operations) {
+void PixelTask::start(std::uint32_t pixel, const SampleRange& samples, const RenderSettings& settings, Operations& operations) {
   expect(stack_.size() >= static_cast<std::size_t>(settings.shade.depth_max), "the ray stack holds a hit a depth");
   pixel_ = pixel;
-  sample_ = 0;
+  sample_ = samples.first;
+  sample_end_ = samples.first + samples.count;
   sums_ = {};
   stack_size_ = 0;
-  shoot(settings.camera.primary_ray(pixel, 0), operations);
+  shoot(settings.camera.primary_ray(pixel, sample_), operations);
 }
 
 void PixelTask::shoot(const Ray& ray, Operations& operations) {
@@ -47,9 +48,9 @@ void PixelTask::end_ray(Traced result, const RenderSettings& settings, Operation
   stack_[stack_size_++] = begin_shading(ray_, cursor_.best);
 }
 
-/// With no hit left to shade: the pixel's next sample, if there is one.
+/// With no hit left to shade: the next sample, if there is one.
 bool PixelTask::next_sample(const RenderSettings& settings, Operations& operations) {
-  if (++sample_ >= static_cast<std::uint32_t>(settings.camera.samples())) {
+  if (++sample_ == sample_end_) {
     return false;
   }
   shoot(settings.camera.primary_ray(pixel_, sample_), operations);

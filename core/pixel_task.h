@@ -7,6 +7,7 @@
 #include "core/camera.h"
 #include "core/film.h"
 #include "core/operations.h"
+#include "core/refinement.h"
 #include "core/shade.h"
 #include "core/traversal.h"
 
@@ -39,13 +40,16 @@ class GridTracer {
 /// What a pixel needs beside the records; by value in every node.
 struct RenderSettings {
   DatabaseHeader header;
-  Camera camera;
+  Camera camera;  ///< knows the samples of the first pass
   ShadeOptions shade;
+  RefinementOptions refinement;
+
+  SampleRange first_samples() const { return {0, static_cast<std::uint32_t>(camera.samples())}; }
 };
 
 enum class TaskState : std::uint8_t { finished, more, absent };
 
-/// Renders one pixel, all its samples, depth first, last in first out: a hit is shaded one child at a time, and each child is
+/// Renders samples of one pixel, depth first, last in first out: a hit is shaded one child at a time, and each child is
 /// traced to its end before the next is made, so the stack holds at most one hit a depth, whatever the number of lights. Lives in
 /// memory given by its owner; never allocates. Copyable as bytes.
 class PixelTask {
@@ -53,7 +57,7 @@ class PixelTask {
   /// `stack` has at least settings.shade.depth_max entries and outlives the task.
   explicit PixelTask(std::span<HitState> stack) : stack_(stack) {}
 
-  void start(std::uint32_t pixel, const RenderSettings& settings, Operations& operations);
+  void start(std::uint32_t pixel, const SampleRange& samples, const RenderSettings& settings, Operations& operations);
 
   /// Goes on until the pixel is finished, a ray has ended (`more`), or a record is absent (see absent()). One call ends at
   /// most one ray, so it is a bounded quantum.
@@ -78,7 +82,7 @@ class PixelTask {
   PixelSums sums_;
   Address absent_ = no_address;
   std::uint32_t pixel_ = 0;
-  std::uint32_t sample_ = 0;
+  std::uint32_t sample_ = 0, sample_end_ = 0;
   std::uint32_t stack_size_ = 0;
   bool tracing_ = false;
 };

@@ -9,21 +9,34 @@
 
 namespace dmpc::core {
 
-/// Renders every pixel in order with `tracer` (which never answers absent) and adds the work to `operations`.
+/// Renders the samples of one pixel with `tracer`, which never answers absent, and adds the work to `operations`.
+template <Tracer T>
+PixelSums render_pixel(PixelTask& task, std::uint32_t pixel, const SampleRange& samples, T& tracer,
+                       const RenderSettings& settings, Operations& operations) {
+  task.start(pixel, samples, settings, operations);
+  TaskState state = TaskState::more;
+  while (state != TaskState::finished) {
+    state = task.run(tracer, settings, operations);
+    expect(state != TaskState::absent, "the reference renderer has every record");
+  }
+  return task.sums();
+}
+
+/// Renders every pixel in order, pass after pass.
 template <Tracer T>
 Film render(T& tracer, const RenderSettings& settings, Operations& operations) {
-  Film film(settings.camera.width(), settings.camera.height());
+  const int width = settings.camera.width(), height = settings.camera.height();
+  Film film(width, height);
+  Refinement refinement(settings.refinement, settings.first_samples().count, width, height);
   std::vector<HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
   PixelTask task(stack);
-  for (std::uint32_t pixel = 0; pixel < settings.camera.pixel_count(); ++pixel) {
-    task.start(pixel, settings, operations);
-    TaskState state = TaskState::more;
-    while (state != TaskState::finished) {
-      state = task.run(tracer, settings, operations);
-      expect(state != TaskState::absent, "the reference renderer has every record");
+  do {
+    for (std::uint32_t pixel = 0; pixel < settings.camera.pixel_count(); ++pixel) {
+      if (refinement.pixels().has(pixel)) {
+        film.deposit(pixel, render_pixel(task, pixel, refinement.samples(), tracer, settings, operations));
+      }
     }
-    film.deposit(pixel, task.sums());
-  }
+  } while (refinement.next_pass(film));
   return film;
 }
 

@@ -1,6 +1,7 @@
 #include "core/scene.h"
 
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -108,6 +109,14 @@ void SceneBuilder::add(ObjectKind kind, std::size_t first, std::size_t vertex_co
   pool_index(first + vertex_count);
   scene_.objects.push_back(
       {kind, material_, pool_index(first), static_cast<std::uint32_t>(vertex_count), pool_index(first_normal)});
+}
+
+Vec3d intensity_of(const PointLight& light, const Scene& scene) {
+  if (light.has_color) {
+    return light.color;
+  }
+  const double equal = 1.0 / std::sqrt(static_cast<double>(scene.lights.size()));
+  return {equal, equal, equal};
 }
 
 void replay(const Scene& scene, SceneSink& sink) {

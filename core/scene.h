@@ -77,6 +77,10 @@ struct Scene {
   std::vector<Cone> cones;
 };
 
+/// What a light of the scene shines with. One without a colour shines with 1 / sqrt(number of lights): twice Haines' suggestion,
+/// since nothing here is ambient.
+Vec3d intensity_of(const PointLight& light, const Scene& scene);
+
 /// What takes the entities of a scene one by one, in a file's order: a builder, a writer, or a step on the way to one. Objects
 /// get the material given last before them.
 class SceneSink {

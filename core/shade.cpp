@@ -196,7 +196,38 @@ bool refract(HitState& state, Ray& child) {
   return true;
 }
 
+double brightest(const Vec3d& color) { return std::max({color.x, color.y, color.z, 0.0}); }
+
+/// What a ray can bring to its sample at most, in any channel.
+double contribution_bound(const Ray& ray, const ShadeOptions& options) {
+  return brightest(Vec3d(ray.weight)) * (ray.kind == RayKind::shadow ? 1.0 : options.radiance_bound);
+}
+
+/// Whether a step has made a child, and one that is worth its shot.
+bool kept(bool has_child, const Ray& child, const ShadeOptions& options, Operations& operations) {
+  const bool is_cut = has_child && options.cutoff > 0 && contribution_bound(child, options) < options.cutoff;
+  operations.rays_cut += is_cut ? 1 : 0;
+  return has_child && !is_cut;
+}
+
 }  // namespace
+
+double radiance_bound(const Scene& scene, int depth_max) {
+  double light = 0, direct = 0, passed_on = 0;
+  for (const PointLight& point_light : scene.lights) {
+    light += brightest(intensity_of(point_light, scene));
+  }
+  for (const Material& material : scene.materials) {
+    direct = std::max(direct, light * (material.diffuse * brightest(material.color) + material.specular));
+    passed_on = std::max(passed_on, material.specular + material.transmittance);
+  }
+  const double background = brightest(scene.background);
+  double bound = std::max(background, direct);
+  for (int depth = depth_max; depth > 2; --depth) {
+    bound = std::max(background, direct + passed_on * bound);
+  }
+  return bound;
+}
 
 HitState begin_shading(const Ray& ray, const Hit& hit) {
   HitState state;
@@ -233,11 +264,11 @@ bool shade_step(HitState& state, const std::byte* record, const DatabaseHeader& 
       read_material(state, record, header, options, operations);
       return false;
     case Stage::light:
-      return read_light(state, record, header, options, child);
+      return kept(read_light(state, record, header, options, child), child, options, operations);
     case Stage::reflected:
-      return reflect(state, child);
+      return kept(reflect(state, child), child, options, operations);
     case Stage::refracted:
-      return refract(state, child);
+      return kept(refract(state, child), child, options, operations);
     case Stage::finished:
       break;
   }

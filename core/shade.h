@@ -8,6 +8,7 @@
 #include "core/operations.h"
 #include "core/ray.h"
 #include "core/record.h"
+#include "core/scene.h"
 #include "core/vec.h"
 
 namespace dmpc::core {
@@ -19,7 +20,15 @@ enum class Convention : std::uint8_t { haines, paper };
 struct ShadeOptions {
   Convention convention = Convention::haines;
   int depth_max = 5;  ///< hits at this depth spawn shadow rays only; the primary ray has depth 1
+  /// A ray that can bring at most so much light to its sample, in any channel, is not shot: each one cut adds less than this to
+  /// the sample's error. 0: none is cut (after R. Hall, D. Greenberg, "A Testbed for Realistic Image Synthesis", 1983).
+  double cutoff = 0;
+  double radiance_bound = 0;  ///< radiance_bound() of the scene; read only if there is a cutoff
 };
+
+/// No reflected or refracted ray in the scene finds more light than this, in any channel: each hit reflects at most the share of
+/// all lights that its material allows, and passes on at most its share of what a ray of the next depth finds.
+double radiance_bound(const Scene& scene, int depth_max);
 
 /// A hit being shaded: a record on the ray stack, resumable between any two of its records. Each step reads exactly one record.
 struct HitState {

@@ -19,10 +19,13 @@ std::size_t light_words(const Plan& plan) {
 
 }  // namespace
 
-HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, Progress progress)
+HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, Progress progress, DealPrimaries deal)
     : node_(&node),
       film_(&film),
       progress_(std::move(progress)),
+      deal_(std::move(deal)),
+      refinement_(plan.request.refinement, plan.request.first_samples, film.width(), film.height()),
+      undealt_(plan.node_count()),
       kept_(plan.node_count()),
       packet_(node.memory().allocate<std::byte>(Category::queues, ray_packet_bytes(plan.ray_batch))),
       has_light_(node.memory().allocate<std::uint64_t>(Category::film_tiles, light_words(plan))),
@@ -31,6 +34,7 @@ HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, 
       pixels_total_(plan.request.width * plan.request.height) {
   for (std::uint32_t i = 0; i < node_count_; ++i) {
     node.grant(nodes::NodeId{i}, ray_channel, plan.host_credits);
+    node.grant(nodes::NodeId{i}, film_channel, plan.request.refinement.is_wanted() ? dealt_packets : 0);
   }
 }
 
@@ -51,6 +55,9 @@ void HostProgram::receive(const nodes::Packet& packet) {
       return termination_.take(packet.as<Token>());
     case Kind::done:
       return take_done(packet.as<Done>());
+    case Kind::primaries_taken:
+      node_->grant(packet.source, film_channel, packet.as<PrimariesTaken>().count);
+      return deal(nodes::index_of(packet.source));
     default:
       core::expect(false, "the host receives only what is sent to the host");
   }
@@ -63,7 +70,7 @@ bool HostProgram::work() {
       forward(owner);
     }
   }
-  if (finishing_ || !host_is_passive(kept_.size())) {
+  if (finishing_ || !is_passive()) {
     return false;
   }
   if (const std::optional<Token> token = termination_.hand_on()) {
@@ -123,7 +130,7 @@ void HostProgram::take_film(const nodes::Packet& packet) {
   counters_.film_entries += header.count;
   send_control(*node_, packet.source, Kind::film_acknowledgement, FilmAcknowledgement{header.count});
   if (progress_) {
-    progress_(pixels_with_light_, pixels_total_);
+    progress_(pixels_with_light_, refinement_.pixel_count());
   }
 }
 
@@ -147,10 +154,46 @@ void HostProgram::take_done(const Done& done) {
   }
   core::expect(entries_announced_ == counters_.film_entries, "all light that was sent has arrived");
   if (progress_) {
-    progress_(pixels_total_, pixels_total_);
+    progress_(refinement_.pixel_count(), refinement_.pixel_count());
   }
-  tell_all(Kind::stop);
-  stopped_ = true;
+  end_pass();
+}
+
+/// All light of the pass is on the film: deals the next, or stops all.
+void HostProgram::end_pass() {
+  if (!refinement_.next_pass(*film_)) {
+    tell_all(Kind::stop);
+    stopped_ = true;
+    return;
+  }
+  finishing_ = false;
+  termination_.begin_again();
+  entries_announced_ = nodes_done_ = pixels_with_light_ = 0;
+  std::fill(has_light_.begin(), has_light_.end(), 0);
+  undealt_ = deal_(refinement_.samples(), refinement_.pixels());
+  for (std::uint32_t i = 0; i < node_count_; ++i) {
+    std::reverse(undealt_[i].begin(), undealt_[i].end());
+    deal(i);
+  }
+}
+
+/// Sends a node as many of its primary rays as it has room for.
+void HostProgram::deal(std::uint32_t index) {
+  std::vector<PrimaryRun>& left = undealt_[index];
+  while (!left.empty() && node_->credits(nodes::NodeId{index}, film_channel) > 0) {
+    DealtPrimaries packet{.samples = refinement_.samples()};
+    for (; !left.empty() && packet.count < packet.runs.size(); left.pop_back()) {
+      packet.runs[packet.count++] = left.back();
+    }
+    node_->send_reserved(nodes::NodeId{index}, film_channel, number_of(Kind::primaries), packet);
+    termination_.ray_packet_sent();
+  }
+}
+
+/// In the sense of termination: has no ray to send.
+bool HostProgram::is_passive() const {
+  return host_is_passive(kept_.size()) &&
+         std::all_of(undealt_.begin(), undealt_.end(), [](const std::vector<PrimaryRun>& left) { return left.empty(); });
 }
 
 void HostProgram::tell_all(Kind kind) {
@@ -165,7 +208,8 @@ void HostProgram::tell_all(Kind kind) {
 
 std::string HostProgram::describe() const {
   return std::to_string(kept_.size()) + " rays kept, light on " + std::to_string(pixels_with_light_) + " of " +
-         std::to_string(pixels_total_) + " pixels, ray packets sent - received " + std::to_string(termination_.balance()) +
+         std::to_string(refinement_.pixel_count()) + " pixels of pass " + std::to_string(refinement_.result().passes) +
+         ", ray packets sent - received " + std::to_string(termination_.balance()) +
          (termination_.holds_token() ? ", holds the token" : "") + (termination_.is_black() ? ", black, " : ", white, ") +
          std::to_string(nodes_done_) + " of " + std::to_string(node_count_) + " nodes done" + (finishing_ ? ", finishing" : "");
 }

@@ -5,8 +5,10 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/film.h"
+#include "core/refinement.h"
 #include "dataflow/flow_control.h"
 #include "dataflow/kept_rays.h"
 #include "dataflow/packets.h"
@@ -17,9 +19,13 @@
 
 namespace dmpc::dataflow {
 
-/// Called on the host's thread whenever light arrives: (pixels that have light, pixels in all), and at the end with all. If it
-/// throws, the run ends with that.
+/// Called on the host's thread whenever light arrives: (pixels that have light, pixels in all) of the pass, and at the end with
+/// all. If it throws, the run ends with that.
 using Progress = std::function<void(std::uint32_t, std::uint32_t)>;
+
+/// The primary rays of a pass, by node.
+using DealPrimaries =
+    std::function<std::vector<std::vector<PrimaryRun>>(const core::SampleRange& samples, const core::PixelMask& pixels)>;
 
 /// What the host counts beside the packets.
 struct HostCounters {
@@ -32,11 +38,13 @@ struct HostCounters {
   std::uint64_t deposits_saturated = 0;  ///< on the host's film
 };
 
-/// Depends on nobody: film and overflow are taken and acknowledged at once.
+/// Depends on nobody: film and overflow are taken and acknowledged at once. When the end of a pass is proved and its film
+/// complete, it deals the primary rays of the next, if there is one, packet by packet as nodes have room.
 class HostProgram final : public nodes::Program {
  public:
   /// `film` outlives the program and is written by it alone until the run's end. `progress` may be empty.
-  HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, Progress progress);
+  /// `deal` finds whose the primary rays of a later pass are.
+  HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, Progress progress, DealPrimaries deal);
   /// Adds to `memory` exactly what the constructor takes of the local memory.
   static void add_needs(nodes::MemoryPlan& memory, const Plan& plan);
 
@@ -47,6 +55,7 @@ class HostProgram final : public nodes::Program {
 
   /// Call it only while the program is not running.
   HostCounters report() const;
+  const core::Refinement& refinement() const { return refinement_; }
 
  private:
   void take_film(const nodes::Packet& packet);
@@ -55,11 +64,17 @@ class HostProgram final : public nodes::Program {
   void take_done(const Done& done);
   bool can_forward(std::uint32_t owner) const;
   void forward(std::uint32_t owner);
+  void end_pass();
+  void deal(std::uint32_t index);
+  bool is_passive() const;
   void tell_all(Kind kind);
 
   nodes::Node* node_;
   core::Film* film_;
   Progress progress_;
+  DealPrimaries deal_;
+  core::Refinement refinement_;
+  std::vector<std::vector<PrimaryRun>> undealt_;  ///< of each node, the next one last
   KeptRays kept_;
   Termination termination_ = Termination::initiator();
   std::span<std::byte> packet_;         ///< where a packet is put together

@@ -13,6 +13,11 @@
 //   finish                 host -> node          control   small  once a run
 //   done                   node -> host          control   small  once a run
 //   stop                   host -> node          control   small  once a run
+//   primaries              host -> node          film      bulk   the host's credits for dealing to that node
+//   primaries_taken        node -> host          control   small  the packet of primaries whose credit it gives back
+//
+// The last two exist only where the picture is refined: the host deals the primary rays of every pass but the first, a packet
+// that counts as one of rays for the proof of the end. Finish and done then come once a pass.
 #pragma once
 
 #include <array>
@@ -23,8 +28,10 @@
 #include "core/cursor.h"
 #include "core/film.h"
 #include "core/ray.h"
+#include "core/refinement.h"
 #include "core/units.h"
 #include "dataflow/bsp.h"
+#include "dataflow/primary_run.h"
 #include "dataflow/termination.h"
 #include "nodes/node.h"
 #include "nodes/packet.h"
@@ -45,13 +52,15 @@ enum class Kind : nodes::PacketKind {
   token,
   finish,
   done,
-  stop
+  stop,
+  primaries,
+  primaries_taken
 };
 constexpr nodes::PacketKind number_of(Kind kind) { return static_cast<nodes::PacketKind>(kind); }
-static_assert(number_of(Kind::stop) < nodes::packet_kind_count);
-inline constexpr std::array<const char*, 12> kind_names = {
-    "rays",  "overflow", "forwarded", "credits", "hold", "hold_acknowledgement", "film", "film_acknowledgement",
-    "token", "finish",   "done",      "stop"};
+static_assert(number_of(Kind::primaries_taken) < nodes::packet_kind_count);
+inline constexpr std::array<const char*, 14> kind_names = {
+    "rays",  "overflow", "forwarded", "credits", "hold",      "hold_acknowledgement", "film", "film_acknowledgement",
+    "token", "finish",   "done",      "stop",    "primaries", "primaries_taken"};
 /// The packet's name, for reports.
 constexpr const char* name_of(Kind kind) { return kind_names[number_of(kind)]; }
 
@@ -152,7 +161,23 @@ struct Finish {
 
 /// All that the sender put on the film has been acknowledged.
 struct Done {
-  std::uint64_t entries = 0;
+  std::uint64_t entries = 0;  ///< since the start
+};
+
+/// Primary rays of a pass that enter the grid in the target's region.
+struct DealtPrimaries {
+  core::SampleRange samples;
+  std::uint32_t count = 0;  ///< of runs
+  std::uint32_t padding = 0;
+  std::array<PrimaryRun, 60> runs{};  ///< numbered within the pass
+};
+static_assert(std::is_trivially_copyable_v<DealtPrimaries> && sizeof(DealtPrimaries) > nodes::small_payload_bytes);
+/// So many of them a node can keep: one is worked off while the next is under way.
+inline constexpr std::uint32_t dealt_packets = 2;
+
+/// The sender has room for so many more packets of primaries.
+struct PrimariesTaken {
+  std::uint32_t count = 0;
 };
 
 /// Every node is done.
@@ -163,7 +188,7 @@ struct Stop {
 template <class T>
 inline constexpr bool is_small_packet = std::is_trivially_copyable_v<T> && sizeof(T) <= nodes::small_payload_bytes;
 static_assert(is_small_packet<Credits> && is_small_packet<FilmAcknowledgement> && is_small_packet<Token>);
-static_assert(is_small_packet<Hold> && is_small_packet<HoldAcknowledgement>);
+static_assert(is_small_packet<PrimariesTaken> && is_small_packet<Hold> && is_small_packet<HoldAcknowledgement>);
 static_assert(is_small_packet<Finish> && is_small_packet<Done> && is_small_packet<Stop>);
 
 /// Sends a small packet for which the protocol keeps a place in the target's mailbox (the table above).

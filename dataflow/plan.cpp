@@ -37,6 +37,7 @@ constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 /// What a node's mailbox must be able to hold, whoever sends when; the mailbox itself adds the slot of the packet being received.
 nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   const std::uint32_t others = plan.node_count() - 1;
+  const std::uint32_t dealt = plan.request.refinement.is_wanted() ? dealt_packets : 0;
   return {.small_slots = others * plan.ray_credits  // credits back from each other node, at least one a packet
                          + plan.host_credits        // the same from the host
                          + others                   // Hold: one from each other node, until it is acknowledged
@@ -46,14 +47,17 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
                          + 1                        // Finish
                          + 1,                       // Stop
           .bulk_slots = others * plan.ray_credits   // rays: each other node's credits for this one
-                        + plan.host_credits,        // forwarded rays: the host's
-          .bulk_payload_bytes = ray_packet_bytes(plan.ray_batch)};
+                        + plan.host_credits         // forwarded rays: the host's
+                        + dealt,                    // primary rays of later passes
+          .bulk_payload_bytes = std::max(ray_packet_bytes(plan.ray_batch), dealt > 0 ? sizeof(DealtPrimaries) : 0)};
 }
 
 nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
+  const std::uint32_t dealt = plan.request.refinement.is_wanted() ? dealt_packets : 0;
   return {.small_slots = plan.node_count() * plan.host_credits  // credits back for forwarded rays
                          + 1                                    // the token
-                         + plan.node_count(),                   // Done: one from each node
+                         + plan.node_count()                    // Done: one from each node
+                         + plan.node_count() * dealt,           // credits back for primary rays
           .bulk_slots = plan.node_count() * plan.host_credits   // overflow: each node's credits for the host
                         + plan.node_count() * plan.film_credits,
           .bulk_payload_bytes = std::max(ray_packet_bytes(plan.ray_batch), film_packet_bytes(film_packet_entries))};
@@ -65,7 +69,8 @@ void plan_chaos(Plan& plan, const nodes::Chaos& chaos) {
   plan.host_credits = nodes::shrunk_credits(chaos, plan.host_credits, nodes::channel_count);
   plan.film_credits = nodes::shrunk_credits(chaos, plan.film_credits, film_channel);
   plan.queue_packets = nodes::shrunk_credits(chaos, plan.queue_packets, nodes::channel_count + 1);
-  plan.held_bytes = nodes::HeldPackets::room_bytes(plan.host_mailbox.bulk_payload_bytes);
+  plan.held_bytes =
+      nodes::HeldPackets::room_bytes(std::max(plan.node_mailbox.bulk_payload_bytes, plan.host_mailbox.bulk_payload_bytes));
 }
 
 /// What may be given up where memory is scarce.

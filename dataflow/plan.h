@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/refinement.h"
 #include "dataflow/bsp.h"
 #include "nodes/chaos.h"
 #include "nodes/local_memory.h"
@@ -36,6 +37,8 @@ struct PlanRequest {
   std::optional<std::uint32_t> queue_packets = std::nullopt;
   std::uint32_t depth_max = 5;  ///< of a ray
   std::uint32_t width = 0, height = 0;
+  std::uint32_t first_samples = 1;     ///< of each pixel in the first pass
+  core::RefinementOptions refinement;  ///< if it is wanted, nodes have room for the primary rays of later passes
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;  ///< of each node's thread
   /// Fewer credits, and room for packets held back; mailboxes stay as they are.
   std::optional<nodes::Chaos> chaos = std::nullopt;

@@ -1,5 +1,9 @@
 #include "dataflow/primaries.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "core/expect.h"
 #include "core/traversal.h"
 #include "dataflow/next_stop.h"
 
@@ -46,20 +50,72 @@ class Dealer {
 }  // namespace
 
 std::vector<std::vector<PrimaryRun>> deal_primaries(const core::Camera& camera, const core::GridFrame& frame, const Bsp& bsp,
+                                                    const core::SampleRange& samples, const core::PixelMask& pixels,
                                                     const std::stop_token& stop) {
-  const auto samples = static_cast<std::uint32_t>(camera.samples());
   std::vector<std::vector<PrimaryRun>> runs(bsp.region_count());
   Dealer dealer(camera, frame, bsp);
-  for (std::uint64_t number = 0; number < std::uint64_t{camera.pixel_count()} * samples && !stop.stop_requested(); ++number) {
-    std::vector<PrimaryRun>& of_node =
-        runs[dealer.node_of(static_cast<std::uint32_t>(number / samples), static_cast<std::uint32_t>(number % samples))];
-    if (!of_node.empty() && of_node.back().first + of_node.back().count == number) {
-      ++of_node.back().count;
-    } else {
-      of_node.push_back({number, 1});
+  for (std::uint32_t pixel = 0; pixel < camera.pixel_count() && !stop.stop_requested(); ++pixel) {
+    for (std::uint32_t i = 0; i < samples.count && pixels.has(pixel); ++i) {
+      const std::uint64_t number = std::uint64_t{pixel} * samples.count + i;
+      std::vector<PrimaryRun>& of_node = runs[dealer.node_of(pixel, samples.first + i)];
+      if (!of_node.empty() && of_node.back().first + of_node.back().count == number) {
+        ++of_node.back().count;
+      } else {
+        of_node.push_back({number, 1});
+      }
     }
   }
   return runs;
+}
+
+std::size_t Primaries::capacity(std::size_t run_count, bool is_refined) {
+  return std::max(run_count, is_refined ? dealt_packets * std::tuple_size_v<decltype(DealtPrimaries::runs)> : 0);
+}
+
+Primaries::Primaries(nodes::LocalMemory& memory, std::span<const PrimaryRun> runs, const core::SampleRange& samples,
+                     bool is_refined)
+    : runs_(memory.allocate<PrimaryRun>(nodes::Category::queues, capacity(runs.size(), is_refined))),
+      count_(runs.size()),
+      samples_(samples) {
+  std::copy(runs.begin(), runs.end(), runs_.begin());
+  for (const PrimaryRun& run : runs) {
+    left_ += run.count;
+  }
+}
+
+void Primaries::add_needs(nodes::MemoryPlan& plan, std::size_t run_count, bool is_refined) {
+  plan[nodes::Category::queues] += nodes::LocalMemory::bytes_for<PrimaryRun>(capacity(run_count, is_refined));
+}
+
+std::uint64_t Primaries::take() {
+  core::expect(left_ > 0, "a primary ray starts once");
+  --left_;
+  const PrimaryRun& run = runs_[first_];
+  const std::uint64_t number = run.first + started_of_run_;
+  if (++started_of_run_ == run.count) {
+    first_ = (first_ + 1) % runs_.size();
+    --count_;
+    started_of_run_ = 0;
+  }
+  return number;
+}
+
+void Primaries::put(const DealtPrimaries& dealt) {
+  core::expect(dealt.count <= dealt.runs.size() && count_ + dealt.count <= runs_.size(), "dealt rays come by credit");
+  core::expect(empty() || dealt.samples == samples_, "a pass begins when the one before has ended");
+  samples_ = dealt.samples;
+  ++packets_;
+  for (std::uint32_t i = 0; i < dealt.count; ++i) {
+    runs_[(first_ + count_) % runs_.size()] = dealt.runs[i];
+    ++count_;
+    left_ += dealt.runs[i].count;
+  }
+}
+
+std::uint32_t Primaries::packets_worked_off() {
+  const std::size_t room = DealtPrimaries().runs.size();
+  const auto kept = static_cast<std::uint32_t>((count_ + room - 1) / room);
+  return packets_ > kept ? std::exchange(packets_, kept) - kept : 0;
 }
 
 }  // namespace dmpc::dataflow

@@ -71,7 +71,7 @@ NodeProgram::NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& de
       part_(keep_part(node.memory(), deal.part.bytes)),
       records_(part_),
       tracer_(records_, deal.part.header, deal.traversal),
-      primaries_(node.memory(), deal.primaries),
+      primaries_(node.memory(), deal.primaries, deal.settings.first_samples(), plan.request.refinement.is_wanted()),
       backlog_(node.memory(), backlog_capacity(plan)),
       task_(node.memory(), node.id(), plan.request.depth_max),
       gather_(node, gather_capacity(plan)),
@@ -82,7 +82,7 @@ void NodeProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::ui
   const Share& share = plan.request.shares[index];
   memory[Category::constants] += LocalMemory::bytes_for<std::byte>(sizeof(Constants));
   memory[Category::home_pages] += LocalMemory::bytes_for<std::byte>(share.part_bytes + core::overread_bytes);
-  Primaries::add_needs(memory, share.primary_runs);
+  Primaries::add_needs(memory, share.primary_runs, plan.request.refinement.is_wanted());
   RayQueue::add_needs(memory, backlog_capacity(plan));
   RayTask::add_needs(memory, plan.request.depth_max);
   Gather::add_needs(memory, gather_capacity(plan));
@@ -108,7 +108,10 @@ void NodeProgram::receive(const nodes::Packet& packet) {
     case Kind::finish:
       core::expect(is_passive(state()), "the end is proved only when every node is passive");
       finishing_ = true;
+      done_ = false;
       return;
+    case Kind::primaries:
+      return receive_primaries(packet.as<DealtPrimaries>());
     case Kind::stop:
       core::expect(done_ && !stopped_, "the host stops only nodes that are done, and once");
       stopped_ = true;
@@ -118,14 +121,25 @@ void NodeProgram::receive(const nodes::Packet& packet) {
   }
 }
 
+/// A packet with rays has come: this pass has not ended, or the next has begun.
+void NodeProgram::wake() {
+  core::expect(!finishing_ || done_, "no ray comes after the end");
+  finishing_ = false;
+  termination_.ray_packet_received();
+}
+
+void NodeProgram::receive_primaries(const DealtPrimaries& dealt) {
+  wake();
+  primaries_.put(dealt);
+}
+
 void NodeProgram::receive_rays(const nodes::Packet& packet) {
-  core::expect(!finishing_, "no ray comes after the end");
+  wake();
   core::expect(packet.payload.size() >= sizeof(RayPacketHeader), "a packet of rays has a header");
   RayPacketHeader header;
   std::memcpy(&header, packet.payload.data(), sizeof(header));
   core::expect(packet.payload.size() == ray_packet_bytes(header.count), "a packet of rays is as long as it says");
   core::expect(nodes::NodeId{header.owner} == node_->id(), "rays come to their owner");
-  termination_.ray_packet_received();
   const std::uint32_t sender = nodes::index_of(packet.source);
   backlog_.accept_packet(sender, header.count);
   for (std::uint32_t i = 0; i < header.count; ++i) {
@@ -218,9 +232,11 @@ void NodeProgram::take_received() {
 
 void NodeProgram::start_primary() {
   const std::uint64_t number = primaries_.take();
-  const auto samples = static_cast<std::uint64_t>(constants_->settings.camera.samples());
-  shoot(constants_->settings.camera.primary_ray(static_cast<std::uint32_t>(number / samples),
-                                                static_cast<std::uint32_t>(number % samples)));
+  const core::SampleRange& samples = primaries_.samples();
+  if (const std::uint32_t count = primaries_.packets_worked_off(); count > 0) {
+    send_control(*node_, host_, Kind::primaries_taken, PrimariesTaken{count});
+  }
+  shoot(constants_->settings.camera.primary_ray(pixel_of(number, samples), sample_of(number, samples)));
   if (task_.is_tracing()) {
     trace();
   }

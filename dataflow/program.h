@@ -93,6 +93,8 @@ class NodeProgram final : public nodes::Program {
   static Gather::Capacity gather_capacity(const Plan& plan);
   NodeState state() const;
 
+  void wake();
+  void receive_primaries(const DealtPrimaries& dealt);
   void receive_rays(const nodes::Packet& packet);
   void take_credits(nodes::NodeId receiver, std::uint32_t count);
   void perform(Task task);
@@ -130,7 +132,7 @@ class NodeProgram final : public nodes::Program {
   Termination termination_ = Termination::member();
   core::Operations operations_;
   RayCounters counters_;
-  bool finishing_ = false;  ///< the host has proved that no ray is left
+  bool finishing_ = false;  ///< the host has proved that no ray of the pass is left
   bool done_ = false;
   bool stopped_ = false;
 };

@@ -22,6 +22,8 @@ PlanRequest request_of(const Distribution& distribution, const core::RenderSetti
           .depth_max = static_cast<std::uint32_t>(settings.shade.depth_max),
           .width = static_cast<std::uint32_t>(settings.camera.width()),
           .height = static_cast<std::uint32_t>(settings.camera.height()),
+          .first_samples = settings.first_samples().count,
+          .refinement = settings.refinement,
           .stack_reserve_bytes = options.stack_reserve_bytes,
           .chaos = options.chaos};
 }
@@ -108,11 +110,8 @@ void check_rays(const Report& report) {
   core::expect(operations.shadings == operations.primary_hits + operations.secondary_hits, "each hit was claimed by one node");
   core::expect(report.host_rays.rays_in == report.gathers().rays_overflowed, "every ray that overflowed came to the host");
   core::expect(report.host_rays.rays_in == report.host_rays.rays_out, "every ray that overflowed was forwarded");
-  std::uint64_t dealt = 0;
-  for (const NodeReport& node : report.nodes) {
-    dealt += node.primary_rays;
-  }
-  core::expect(dealt == operations.rays[static_cast<std::size_t>(core::RayKind::primary)], "every primary ray was shot");
+  core::expect(report.film.samples() == operations.rays[static_cast<std::size_t>(core::RayKind::primary)],
+               "every primary ray was shot");
 }
 
 void check_packets(const Report& report) {
@@ -141,7 +140,9 @@ void fill(Report& report, nodes::Runner& runner, const Distribution& distributio
     report.nodes.push_back(report_of(runner.node(i), runner.program(i), distribution));
   }
   report.host = runner.node(node_count).counters();
-  report.host_rays = dynamic_cast<const HostProgram&>(runner.program(node_count)).report();
+  const auto& host = dynamic_cast<const HostProgram&>(runner.program(node_count));
+  report.host_rays = host.report();
+  report.refinement = host.refinement().result();
   if (report.end == nodes::RunEnd::finished) {
     check_rays(report);
     check_packets(report);
@@ -263,7 +264,10 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
     };
     specifications.push_back({plan.node_memory(i), plan.node_mailbox, make_program, plan.held_bytes});
   }
-  const auto make_host = [&](nodes::Node& node) { return std::make_unique<HostProgram>(node, plan, film, progress); };
+  const auto deal = [&](const core::SampleRange& samples, const core::PixelMask& pixels) {
+    return deal_primaries(settings.camera, settings.header.frame, distribution.bsp, samples, pixels);
+  };
+  const auto make_host = [&, deal](nodes::Node& node) { return std::make_unique<HostProgram>(node, plan, film, progress, deal); };
   specifications.push_back({plan.host_memory(), plan.host_mailbox, make_host, plan.held_bytes});
   return specifications;
 }

@@ -52,7 +52,7 @@ struct NodeReport {
   core::Region region;                 ///< finest cells
   std::size_t part_bytes = 0;          ///< the records of the region
   std::uint64_t primitive_copies = 0;  ///< in them
-  std::uint64_t primary_rays = 0;      ///< dealt
+  std::uint64_t primary_rays = 0;      ///< dealt before the start
 };
 
 struct Report {
@@ -65,6 +65,7 @@ struct Report {
   std::vector<NodeReport> nodes;
   nodes::NodeCounters host;
   HostCounters host_rays;
+  core::RefinementResult refinement;
   std::optional<nodes::VirtualReport> virtual_time;  ///< of a modelled machine
 
   core::Operations operations() const;  ///< summed over the nodes

@@ -78,6 +78,13 @@ class Termination {
   /// Only the host can know: no ray is left anywhere, and no ray packet is under way. For good.
   bool is_terminated() const { return is_terminated_; }
 
+  /// The host's: rays will be sent again. Requires is_terminated().
+  void begin_again() {
+    core::expect(is_terminated_ && holds_token_, "what begins again has ended");
+    is_terminated_ = false;
+    is_black_ = true;
+  }
+
   /// Ray packets that this member has sent minus those that it has received. Over all members the sum is 0 at the end.
   std::int64_t balance() const { return balance_; }
   bool is_black() const { return is_black_; }

@@ -1,5 +1,6 @@
 #include "svm/host.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -17,10 +18,13 @@ HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, 
     : node_(&node),
       film_(&film),
       progress_(std::move(progress)),
+      refinement_(plan.request.refinement, plan.request.first_samples, film.width(), film.height()),
       arrived_(node.memory().allocate<std::uint64_t>(nodes::Category::film_tiles,
                                                      words_for(plan.request.width * plan.request.height))),
+      words_sent_(plan.request.refinement.is_wanted() ? plan.request.node_count : 0),
       node_count_(plan.request.node_count),
-      pixels_total_(plan.request.width * plan.request.height) {
+      width_(plan.request.width),
+      height_(plan.request.height) {
   for (std::uint32_t i = 0; i < node_count_; ++i) {
     node.grant(nodes::NodeId{i}, control_channel, 1);  // for Stop; an acknowledgement's place is reserved by its film packet
   }
@@ -36,6 +40,8 @@ void HostProgram::receive(const nodes::Packet& packet) {
       return take_film(packet);
     case Kind::done:
       return take_done(packet.as<Done>());
+    case Kind::mask_acknowledgement:
+      return send_mask(nodes::index_of(packet.source));
     default:
       core::expect(false, "the host receives film and word that nodes are done");
   }
@@ -54,12 +60,12 @@ void HostProgram::take_film(const nodes::Packet& packet) {
   node_->grant(packet.source, control_channel);
   node_->send_reserved(packet.source, control_channel, number_of(Kind::film_acknowledgement), FilmAcknowledgement{header.count});
   if (progress_) {
-    progress_(pixels_done_, pixels_total_);
+    progress_(pixels_done_, refinement_.pixel_count());
   }
 }
 
 void HostProgram::take_pixel(const FilmEntry& entry) {
-  core::expect(entry.pixel < pixels_total_, "a finished pixel lies in the picture");
+  core::expect(entry.pixel < film_->pixels().size() && refinement_.pixels().has(entry.pixel), "a finished pixel is of the pass");
   std::uint64_t& word = arrived_[entry.pixel / 64];
   const std::uint64_t bit = std::uint64_t{1} << (entry.pixel % 64);
   core::expect((word & bit) == 0, "each pixel arrives once");
@@ -72,17 +78,63 @@ void HostProgram::take_done(const Done& done) {
   ++nodes_done_;
   pixels_announced_ += done.pixels_rendered;
   if (nodes_done_ == node_count_) {
-    core::expect(pixels_announced_ == pixels_total_ && pixels_done_ == pixels_total_, "every pixel is rendered and has arrived");
-    for (std::uint32_t i = 0; i < node_count_; ++i) {
-      node_->send_reserved(nodes::NodeId{i}, control_channel, number_of(Kind::stop), Stop{pixels_total_});
-    }
-    stopped_ = true;
+    const std::uint32_t pixels = refinement_.pixel_count();
+    core::expect(pixels_announced_ == pixels && pixels_done_ == pixels, "every pixel is rendered and has arrived");
+    end_pass();
   }
 }
 
+/// The film is complete: begins with the next pass, or stops all.
+void HostProgram::end_pass() {
+  if (!refinement_.next_pass(*film_)) {
+    return stop();
+  }
+  std::fill(arrived_.begin(), arrived_.end(), 0);
+  std::fill(words_sent_.begin(), words_sent_.end(), 0);
+  pixels_of_old_passes_ += std::exchange(pixels_done_, 0);
+  pixels_announced_ = nodes_done_ = nodes_masked_ = 0;
+  for (std::uint32_t i = 0; i < node_count_; ++i) {
+    send_mask(i);
+  }
+}
+
+/// The next part of a node's mask; when all nodes have theirs, the word to begin.
+void HostProgram::send_mask(std::uint32_t index) {
+  const PixelRectangle submap = submap_of({0, 0, width_, height_}, index, node_count_);
+  MaskPart part{words_sent_[index]};
+  const std::uint64_t first = std::uint64_t{part.first_word} * 64;
+  if (first >= submap.pixel_count()) {
+    nodes_masked_ += 1;
+    return nodes_masked_ == node_count_ ? begin_pass() : void();
+  }
+  const std::uint64_t count = std::min<std::uint64_t>(part.words.size() * 64, submap.pixel_count() - first);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const std::uint64_t x = submap.x + (first + i) % submap.width, y = submap.y + (first + i) / submap.width;
+    part.words[i / 64] |= std::uint64_t{refinement_.pixels().has(static_cast<std::uint32_t>(y * width_ + x))} << (i % 64);
+  }
+  words_sent_[index] += static_cast<std::uint32_t>(part.words.size());
+  node_->grant(nodes::NodeId{index}, bulk_channel);  // one part is under way to each node
+  node_->send_reserved(nodes::NodeId{index}, bulk_channel, number_of(Kind::mask_part), part);
+}
+
+void HostProgram::begin_pass() {
+  for (std::uint32_t i = 0; i < node_count_; ++i) {
+    node_->grant(nodes::NodeId{i}, control_channel);  // its node is done, so that nothing else of the host's is under way
+    node_->send_reserved(nodes::NodeId{i}, control_channel, number_of(Kind::begin_pass), BeginPass{refinement_.samples()});
+  }
+}
+
+void HostProgram::stop() {
+  for (std::uint32_t i = 0; i < node_count_; ++i) {
+    node_->send_reserved(nodes::NodeId{i}, control_channel, number_of(Kind::stop), Stop{width_ * height_});
+  }
+  stopped_ = true;
+}
+
 std::string HostProgram::describe() const {
-  return std::to_string(pixels_done_) + " of " + std::to_string(pixels_total_) + " pixels arrived, " +
-         std::to_string(nodes_done_) + " of " + std::to_string(node_count_) + " nodes done";
+  return std::to_string(pixels_done_) + " of " + std::to_string(refinement_.pixel_count()) + " pixels of pass " +
+         std::to_string(refinement_.result().passes) + " arrived, " + std::to_string(nodes_done_) + " of " +
+         std::to_string(node_count_) + " nodes done";
 }
 
 }  // namespace dmpc::svm

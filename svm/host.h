@@ -1,12 +1,14 @@
-// The host's program: takes the finished pixels, counts who is done, and stops the run.
+// The host's program: takes the finished pixels, counts who is done, begins passes, and stops the run.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/film.h"
+#include "core/refinement.h"
 #include "nodes/node.h"
 #include "nodes/program.h"
 #include "svm/packets.h"
@@ -14,11 +16,13 @@
 
 namespace dmpc::svm {
 
-/// Called on the host's thread whenever finished pixels arrive: (pixels done, pixels in all). If it throws, the run ends with
-/// that.
+/// Called on the host's thread whenever finished pixels arrive: (pixels done, pixels in all) of the pass. If it throws, the run
+/// ends with that.
 using Progress = std::function<void(std::uint32_t, std::uint32_t)>;
 
-/// Every pixel arrives exactly once, which it checks; when every node is done and the film complete, it sends each node a Stop.
+/// Every pixel of a pass arrives exactly once, which it checks. When every node is done and the film complete, it ends the pass;
+/// if another follows, it sends each node its submap's part of the mask, and begins it when all have theirs; else it sends each
+/// node a Stop.
 class HostProgram final : public nodes::Program {
  public:
   /// `film` outlives the program and is written by it alone until the run's end. `progress` may be empty.
@@ -33,22 +37,31 @@ class HostProgram final : public nodes::Program {
 
   /// Deposits that saturated a sum on the host's film.
   std::uint64_t deposits_saturated() const { return deposits_saturated_; }
-  std::uint32_t pixels_done() const { return pixels_done_; }
+  /// Over all passes.
+  std::uint64_t pixels_done() const { return pixels_of_old_passes_ + pixels_done_; }
+  const core::Refinement& refinement() const { return refinement_; }
 
  private:
   void take_film(const nodes::Packet& packet);
   void take_pixel(const FilmEntry& entry);
   void take_done(const Done& done);
+  void end_pass();
+  void send_mask(std::uint32_t index);
+  void begin_pass();
+  void stop();
 
   nodes::Node* node_;
   core::Film* film_;
   Progress progress_;
-  std::span<std::uint64_t> arrived_;  ///< a bit a pixel
-  std::uint32_t node_count_;
-  std::uint32_t pixels_total_;
+  core::Refinement refinement_;
+  std::span<std::uint64_t> arrived_;       ///< a bit a pixel
+  std::vector<std::uint32_t> words_sent_;  ///< of the mask, to each node; empty unless the picture is refined
+  std::uint32_t node_count_, width_, height_;
+  std::uint32_t nodes_masked_ = 0;  ///< how many have their whole mask
   std::uint32_t pixels_done_ = 0;
   std::uint32_t nodes_done_ = 0;
   std::uint64_t pixels_announced_ = 0;
+  std::uint64_t pixels_of_old_passes_ = 0;
   std::uint64_t deposits_saturated_ = 0;
   bool stopped_ = false;
 };

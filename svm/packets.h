@@ -9,6 +9,12 @@
 //   film_acknowledgement   host -> node        control   small  the film packet
 //   done                   node -> host        control   small  once a run
 //   stop                   host -> node        control   small  once a run
+//   mask_part              host -> node        bulk      bulk   the host's credit for that node
+//   mask_acknowledgement   node -> host        control   small  the part of the mask
+//   begin_pass             host -> node        control   small  once a pass, when all nodes are done with the one before
+//
+// The last three exist only where the picture is refined: when all nodes are done with a pass, each gets the bits of its submap
+// that tell which pixels have more samples, part by part, and when all nodes have theirs the pass begins.
 #pragma once
 
 #include <array>
@@ -17,6 +23,7 @@
 #include <type_traits>
 
 #include "core/film.h"
+#include "core/refinement.h"
 #include "nodes/node.h"
 #include "nodes/packet.h"
 #include "svm/page.h"
@@ -32,12 +39,16 @@ enum class Kind : nodes::PacketKind {
   film_sums,
   film_acknowledgement,
   done,
-  stop
+  stop,
+  mask_part,
+  mask_acknowledgement,
+  begin_pass
 };
 constexpr nodes::PacketKind number_of(Kind kind) { return static_cast<nodes::PacketKind>(kind); }
-static_assert(number_of(Kind::stop) < nodes::packet_kind_count);
-inline constexpr std::array<const char*, 8> kind_names = {"page_request", "page_reply",           "work_request", "work_reply",
-                                                          "film_sums",    "film_acknowledgement", "done",         "stop"};
+static_assert(number_of(Kind::begin_pass) < nodes::packet_kind_count);
+inline constexpr std::array<const char*, 11> kind_names = {"page_request", "page_reply",           "work_request", "work_reply",
+                                                           "film_sums",    "film_acknowledgement", "done",         "stop",
+                                                           "mask_part",    "mask_acknowledgement", "begin_pass"};
 /// The packet's name, for reports.
 constexpr const char* name_of(Kind kind) { return kind_names[number_of(kind)]; }
 
@@ -78,7 +89,14 @@ struct WorkReply {
 };
 static_assert(is_small_packet<WorkReply>);
 
-/// A pixel, complete. Each is sent once.
+/// What answers a work request where the picture is refined.
+struct MaskedWorkReply {
+  WorkReply reply;
+  std::uint64_t pixels = 0;  ///< of the item, row by row: a bit for each that has samples in this pass
+};
+static_assert(is_small_packet<MaskedWorkReply>);
+
+/// A pixel, with all samples of the pass. Each is sent once a pass.
 struct FilmEntry {
   std::uint32_t pixel = 0;
   std::uint32_t padding = 0;
@@ -103,9 +121,28 @@ static_assert(is_small_packet<FilmAcknowledgement>);
 
 /// The sender has no pixels left, knows of none elsewhere, and all that it sent has been acknowledged. It still serves pages.
 struct Done {
-  std::uint64_t pixels_rendered = 0;
+  std::uint64_t pixels_rendered = 0;  ///< in this pass
 };
 static_assert(is_small_packet<Done>);
+
+/// Bits of the target's submap, row by row, a bit for each pixel that has samples in the next pass.
+struct MaskPart {
+  std::uint32_t first_word = 0;
+  std::uint32_t padding = 0;
+  std::array<std::uint64_t, 60> words{};  ///< those beyond the submap are 0
+};
+static_assert(std::is_trivially_copyable_v<MaskPart> && sizeof(MaskPart) > nodes::small_payload_bytes, "every part is bulk");
+
+struct MaskAcknowledgement {
+  std::uint32_t padding = 0;
+};
+static_assert(is_small_packet<MaskAcknowledgement>);
+
+/// Every node has its part of the mask: render these samples of the mask's pixels.
+struct BeginPass {
+  core::SampleRange samples;
+};
+static_assert(is_small_packet<BeginPass>);
 
 /// Every node is done and the film is complete.
 struct Stop {

@@ -13,6 +13,7 @@
 #include "svm/packets.h"
 #include "svm/pager.h"
 #include "svm/slots.h"
+#include "svm/work_source.h"
 
 namespace dmpc::svm {
 namespace {
@@ -63,17 +64,24 @@ nodes::MailboxCapacity node_mailbox_of(const PlanRequest& request, std::uint32_t
                          + (ring ? 1 : 0)          // the reply to this node's own work request
                          + film_credits            // acknowledgements: one for each film packet of this node's
                          + 1;                      // Stop
+  if (request.refinement.is_wanted()) {
+    capacity.small_slots += 1;  // BeginPass
+    capacity.bulk_slots = 1;    // a part of the mask: the next one follows its acknowledgement
+    capacity.bulk_payload_bytes = sizeof(MaskPart);
+  }
   if (pages_travel(request)) {
     // Replies: one for each fault under way; a fault has at least one pixel in flight, and a pixel waits for one page.
-    capacity.bulk_slots = in_flight;
-    capacity.bulk_payload_bytes = sizeof(PageReplyHeader) + request.page_size_bytes;
+    capacity.bulk_slots += in_flight;
+    capacity.bulk_payload_bytes = std::max(capacity.bulk_payload_bytes, sizeof(PageReplyHeader) + request.page_size_bytes);
   }
   return capacity;
 }
 
 nodes::MailboxCapacity host_mailbox_of(const PlanRequest& request, std::uint32_t film_entries) {
-  return {.small_slots = request.node_count,                // Done: one from each node
-          .bulk_slots = request.node_count * film_credits,  // film packets: each node's credits
+  return {.small_slots = request.node_count  // Done: one from each node
+                         + (request.refinement.is_wanted() ? request.node_count
+                                                           : 0),  // acknowledgements: one for each node's part of the mask
+          .bulk_slots = request.node_count * film_credits,        // film packets: each node's credits
           .bulk_payload_bytes = sizeof(FilmHeader) + film_entries * sizeof(FilmEntry)};
 }
 
@@ -204,6 +212,13 @@ std::optional<std::uint32_t> smallest_node_count(PlanRequest request) {
   throw core::InputError(sentence);
 }
 
+/// With an item's pixels in a word where they are masked.
+PlanRequest with_small_items(PlanRequest request) {
+  request.work_item_side =
+      request.refinement.is_wanted() ? std::min(request.work_item_side, masked_side_max) : request.work_item_side;
+  return request;
+}
+
 void note_reductions(Plan& plan) {
   const PlanRequest& request = plan.request;
   if (plan.in_flight < wanted_in_flight(request)) {
@@ -235,11 +250,20 @@ nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
   }
   Slots<core::PixelTask>::add_needs(plan, in_flight, static_cast<std::uint32_t>(request.depth_max));
   FilmGather::add_needs(plan, film_entries, in_flight);
+  WorkSource::add_needs(plan, request, index);
   plan[Category::constants] += LocalMemory::bytes_for<std::byte>(sizeof(core::RenderSettings));
   plan[Category::mailbox] += node_mailbox.bytes();
   plan[Category::queues] += nodes::credit_table_bytes(request.node_count + 1) + held_bytes;
   plan[Category::reserve] += request.stack_reserve_bytes;
   return plan;
+}
+
+std::size_t Plan::node_memory_max_bytes() const {
+  std::size_t most = node_memory(0).total();  // it has as many pages at home as any
+  for (std::uint32_t index = 1; request.refinement.is_wanted() && index < request.node_count; ++index) {
+    most = std::max(most, node_memory(index).total());
+  }
+  return most;
 }
 
 nodes::MemoryPlan Plan::host_memory() const {
@@ -253,8 +277,9 @@ nodes::MemoryPlan Plan::host_memory() const {
 
 std::size_t smallest_node_memory_bytes(const PlanRequest& request) { return bytes_with(request, frames_min(request), 1); }
 
-Plan make_plan(const PlanRequest& request) {
-  check(request);
+Plan make_plan(const PlanRequest& asked) {
+  check(asked);
+  const PlanRequest request = with_small_items(asked);
   std::uint32_t in_flight = wanted_in_flight(request);
   std::uint32_t frames = auto_frames(request);
   if (request.node_memory_bytes) {
@@ -268,6 +293,10 @@ Plan make_plan(const PlanRequest& request) {
   core::expect(plan.node_memory_max_bytes() <= request.node_memory_bytes.value_or(plan.node_memory_max_bytes()),
                "a plan keeps within the node's memory");
   note_reductions(plan);
+  if (request.work_item_side < asked.work_item_side) {
+    plan.notes.push_back("work items reduced from " + std::to_string(asked.work_item_side) + " to " +
+                         std::to_string(masked_side_max) + " pixels a side: where samples are refined none is larger");
+  }
   return plan;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/refinement.h"
 #include "nodes/chaos.h"
 #include "nodes/local_memory.h"
 #include "nodes/runner.h"
@@ -39,7 +40,9 @@ struct PlanRequest {
   std::uint32_t work_item_side = 3;  ///< pixels along the side of a work item; 0: no node gives work to another
   int depth_max = 5;                 ///< entries of a pixel's ray stack
   std::uint32_t width = 0, height = 0;
-  bool count_pages = false;  ///< count the distinct pages of each pixel; costs a bit a page for each pixel in flight
+  std::uint32_t first_samples = 1;     ///< of each pixel in the first pass
+  core::RefinementOptions refinement;  ///< if it is wanted each node keeps a bit for each pixel of its submap
+  bool count_pages = false;            ///< count the distinct pages of each pixel; costs a bit a page for each pixel in flight
   /// Record every node's page references. Only where these depend on neither the cache nor the schedule: without work given
   /// from node to node, and with one pixel in flight. Not with count_pages.
   bool record_references = false;
@@ -66,7 +69,7 @@ struct Plan {
   /// Exactly what node `index` takes, by category. Home pages differ by one page at most between nodes.
   nodes::MemoryPlan node_memory(std::uint32_t index) const;
   /// The most that any node takes.
-  std::size_t node_memory_max_bytes() const { return node_memory(0).total(); }
+  std::size_t node_memory_max_bytes() const;
   nodes::MemoryPlan host_memory() const;
   /// Each node's.
   CacheShape cache() const { return {frames, request.page_size_bytes, request.replacement}; }

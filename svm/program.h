@@ -48,7 +48,8 @@ class ControlProgram final : public NodeProgram {
         tracer_(make_tracer(records_)),
         slots_(node.memory(), plan.in_flight, static_cast<std::uint32_t>(plan.request.depth_max)),
         work_(node, plan),
-        film_(node, plan) {
+        film_(node, plan),
+        samples_(settings.first_samples()) {
     node.grant(host_, control_channel, 1);  // for Done
   }
 
@@ -61,13 +62,18 @@ class ControlProgram final : public NodeProgram {
       case Kind::work_request:
         return work_.answer(packet.as<WorkRequest>());
       case Kind::work_reply:
-        return work_.take_reply(packet.as<WorkReply>());
+        return work_.take_reply(packet);
       case Kind::film_acknowledgement:
         return film_.acknowledged();
+      case Kind::mask_part:
+        return take_mask(packet);
+      case Kind::begin_pass:
+        return begin_pass(packet.as<BeginPass>());
       case Kind::stop:
         return stop();
       case Kind::film_sums:
       case Kind::done:
+      case Kind::mask_acknowledgement:
         break;
     }
     core::expect(false, "a node receives only what is sent to nodes");
@@ -121,7 +127,7 @@ class ControlProgram final : public NodeProgram {
 
   void start() {
     const std::uint32_t slot = slots_.take_free();
-    slots_.task(slot).start(work_.next_pixel(), settings_, operations_);
+    slots_.task(slot).start(work_.next_pixel(), samples_, settings_, operations_);
     if constexpr (counts_pages) {
       records_.select(slot);
       records_.forget();
@@ -193,9 +199,25 @@ class ControlProgram final : public NodeProgram {
     }
     if (!done_ && slots_.active() == 0 && work_.exhausted() && film_.settled()) {
       core::expect(pending_faults() == 0, "no page is awaited when no pixel is in flight");
-      node_->send_reserved(host_, control_channel, number_of(Kind::done), Done{pixels_rendered_});
+      node_->send_reserved(host_, control_channel, number_of(Kind::done), Done{pixels_rendered_ - pixels_announced_});
+      pixels_announced_ = pixels_rendered_;
       done_ = true;
     }
+  }
+
+  void take_mask(const nodes::Packet& packet) {
+    core::expect(done_, "the mask of a pass comes when the one before has ended");
+    work_.take_mask(packet.as<MaskPart>());
+    node_->grant(host_, control_channel);  // the place that the part has reserved
+    node_->send_reserved(host_, control_channel, number_of(Kind::mask_acknowledgement), MaskAcknowledgement{});
+  }
+
+  void begin_pass(const BeginPass& pass) {
+    core::expect(done_ && !stopped_, "a pass begins when the one before has ended");
+    samples_ = pass.samples;
+    work_.begin_pass();
+    node_->grant(host_, control_channel);  // for Done
+    done_ = false;
   }
 
   void stop() {
@@ -218,8 +240,9 @@ class ControlProgram final : public NodeProgram {
   Slots<Task> slots_;
   WorkSource work_;
   FilmGather film_;
+  core::SampleRange samples_;  ///< of the pass
   core::Operations operations_;
-  std::uint64_t pixels_rendered_ = 0;
+  std::uint64_t pixels_rendered_ = 0, pixels_announced_ = 0;
   std::uint64_t rays_ended_ = 0;
   bool done_ = false;
   bool stopped_ = false;

@@ -26,6 +26,8 @@ PlanRequest request_of(Strategy strategy, const core::Database& database, const 
           .depth_max = settings.shade.depth_max,
           .width = static_cast<std::uint32_t>(settings.camera.width()),
           .height = static_cast<std::uint32_t>(settings.camera.height()),
+          .first_samples = settings.first_samples().count,
+          .refinement = settings.refinement,
           .count_pages = options.count_pages,
           .record_references = options.record_references,
           .stack_reserve_bytes = options.stack_reserve_bytes,
@@ -67,7 +69,7 @@ void check_conservation(const Report& report) {
   }
   const WorkCounters work = report.work();
   core::expect(work.items_given == work.items_taken, "every work item given was taken");
-  core::expect(work.pixels_rendered == report.film.pixels().size(), "every pixel was rendered once");
+  core::expect(work.pixels_rendered == report.pixels_done, "every pixel was rendered once a pass");
   core::expect(packets_of(report.sent(), Kind::film_sums) == packets_of(report.host.received, Kind::film_sums),
                "every film packet sent was received");
 }
@@ -195,8 +197,10 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
     report.nodes.push_back(report_of(runner->node(i), runner->program(i)));
   }
   report.host = runner->node(plan.request.node_count).counters();
-  report.host_deposits_saturated =
-      dynamic_cast<const HostProgram&>(runner->program(plan.request.node_count)).deposits_saturated();
+  const auto& host = dynamic_cast<const HostProgram&>(runner->program(plan.request.node_count));
+  report.host_deposits_saturated = host.deposits_saturated();
+  report.pixels_done = host.pixels_done();
+  report.refinement = host.refinement().result();
   if (report.end == nodes::RunEnd::finished) {
     check_conservation(report);
     report.virtual_time = runner->virtual_report();

@@ -65,6 +65,8 @@ struct Report {
   nodes::NodeCounters host;
   std::optional<nodes::VirtualReport> virtual_time;  ///< of a modelled machine
   std::uint64_t host_deposits_saturated = 0;         ///< pixels whose sums saturated on the host's film
+  std::uint64_t pixels_done = 0;                     ///< over all passes
+  core::RefinementResult refinement;
 
   core::Operations operations() const;  ///< summed over the nodes
   PageCounters pages() const;

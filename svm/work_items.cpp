@@ -1,6 +1,7 @@
 #include "svm/work_items.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "core/expect.h"
 #include "core/units.h"
@@ -49,11 +50,17 @@ WorkItems::WorkItems(const PixelRectangle& submap, std::uint32_t side)
   }
 }
 
-std::optional<PixelRectangle> WorkItems::take() {
+std::optional<PixelRectangle> WorkItems::front() const {
   if (empty()) {
     return std::nullopt;
   }
-  return item(next_++);
+  return item(next_);
+}
+
+std::optional<PixelRectangle> WorkItems::take() {
+  const std::optional<PixelRectangle> first = front();
+  next_ += first ? 1 : 0;
+  return first;
 }
 
 std::optional<PixelRectangle> WorkItems::give() {
@@ -69,8 +76,19 @@ PixelRectangle WorkItems::item(std::uint64_t index) const {
   return {submap_.x + left, submap_.y + top, std::min(side_x_, submap_.width - left), std::min(side_y_, submap_.height - top)};
 }
 
+PixelScan::PixelScan(const PixelRectangle& item, std::uint64_t wanted)
+    : item_(item), left_(static_cast<std::uint64_t>(std::popcount(wanted))), wanted_(wanted) {
+  core::expect(item.pixel_count() <= 64 && (item.pixel_count() == 64 || wanted >> item.pixel_count() == 0),
+               "a masked item has a bit for each of its pixels");
+}
+
 std::uint32_t PixelScan::next(std::uint32_t image_width) {
   core::expect(!empty(), "a scan gives each pixel of its item once");
+  if (wanted_) {
+    next_ = static_cast<std::uint64_t>(std::countr_zero(*wanted_));
+    *wanted_ &= *wanted_ - 1;
+  }
+  --left_;
   const std::uint64_t x = item_.x + next_ % item_.width;
   const std::uint64_t y = item_.y + next_ / item_.width;
   ++next_;

@@ -27,6 +27,8 @@ class WorkItems {
 
   bool empty() const { return next_ == end_; }
   std::uint64_t count() const { return end_ - next_; }
+  /// The next item in scan order, which is left there.
+  std::optional<PixelRectangle> front() const;
   /// The next item in scan order, for the node itself.
   std::optional<PixelRectangle> take();
   /// The last item in scan order, for another node: the one that its owner would have come to last.
@@ -41,19 +43,25 @@ class WorkItems {
   std::uint64_t next_ = 0, end_ = 0;
 };
 
-/// The pixels of one item, row by row.
+/// A masked item has as many pixels a side at most, so that a word has a bit for each of its pixels.
+inline constexpr std::uint32_t masked_side_max = 8;
+
+/// The pixels of one item, row by row, or those of them that are wanted.
 class PixelScan {
  public:
   PixelScan() = default;
-  explicit PixelScan(const PixelRectangle& item) : item_(item) {}
+  explicit PixelScan(const PixelRectangle& item) : item_(item), left_(item.pixel_count()) {}
+  /// `wanted`: a bit for each pixel, row by row. Requires sides of at most masked_side_max.
+  PixelScan(const PixelRectangle& item, std::uint64_t wanted);
 
-  bool empty() const { return next_ == item_.pixel_count(); }
+  bool empty() const { return left_ == 0; }
   /// The next pixel's index in an image of this width. Requires !empty().
   std::uint32_t next(std::uint32_t image_width);
 
  private:
   PixelRectangle item_;
-  std::uint64_t next_ = 0;
+  std::uint64_t next_ = 0, left_ = 0;
+  std::optional<std::uint64_t> wanted_;
 };
 
 }  // namespace dmpc::svm

@@ -1,23 +1,100 @@
 #include "svm/work_source.h"
 
+#include <algorithm>
+
 #include "core/expect.h"
+#include "core/units.h"
 
 namespace dmpc::svm {
+namespace {
+
+PixelRectangle own_submap(const PlanRequest& request, std::uint32_t index) {
+  return submap_of({0, 0, request.width, request.height}, index, request.node_count);
+}
+
+/// A bit a pixel; at least a word, so that a node without pixels has a mask, too.
+std::size_t mask_words(const PlanRequest& request, std::uint32_t index) {
+  return request.refinement.is_wanted() ? core::ceil_divide<std::size_t>(own_submap(request, index).pixel_count(), 64) + 1 : 0;
+}
+
+/// A node that gives no work away has its submap as one item, or in masked ones.
+std::uint32_t item_side_of(const PlanRequest& request) {
+  return request.refinement.is_wanted() && request.work_item_side == 0 ? masked_side_max : request.work_item_side;
+}
+
+}  // namespace
 
 WorkSource::WorkSource(nodes::Node& node, const Plan& plan)
     : node_(&node),
       node_count_(plan.request.node_count),
       self_(nodes::index_of(node.id())),
       image_width_(plan.request.width),
-      items_(submap_of({0, 0, plan.request.width, plan.request.height}, self_, node_count_), plan.request.work_item_side),
+      item_side_(item_side_of(plan.request)),
+      submap_(own_submap(plan.request, self_)),
+      mask_(node.memory().allocate<std::uint64_t>(nodes::Category::queues, mask_words(plan.request, self_))),
+      items_(submap_, item_side_),
       last_giver_((self_ + 1) % node_count_),
-      no_more_(plan.request.work_item_side == 0 || node_count_ == 1) {}
+      is_alone_(plan.request.work_item_side == 0 || node_count_ == 1),
+      no_more_(is_alone_) {
+  std::fill(mask_.begin(), mask_.end(), ~std::uint64_t{0});
+}
+
+void WorkSource::add_needs(nodes::MemoryPlan& memory, const PlanRequest& request, std::uint32_t index) {
+  memory[nodes::Category::queues] += nodes::LocalMemory::bytes_for<std::uint64_t>(mask_words(request, index));
+}
+
+void WorkSource::take_mask(const MaskPart& part) {
+  core::expect(exhausted() && part.first_word < mask_.size(), "a mask is the next pass's, and the submap's");
+  const std::size_t count = std::min(part.words.size(), mask_.size() - part.first_word);
+  std::copy_n(part.words.begin(), count, mask_.begin() + part.first_word);
+}
+
+void WorkSource::begin_pass() {
+  core::expect(exhausted() && !asking_, "a pass begins when the one before has ended");
+  items_ = WorkItems(submap_, item_side_);
+  last_giver_ = (self_ + 1) % node_count_;
+  no_more_ = is_alone_;
+  skip_unwanted();
+}
+
+/// The bits of an item of the submap.
+std::uint64_t WorkSource::wanted(const PixelRectangle& item) const {
+  std::uint64_t bits = 0, bit = 1;
+  for (std::uint32_t y = 0; y < item.height; ++y) {
+    std::uint64_t index = std::uint64_t{item.y - submap_.y + y} * submap_.width + (item.x - submap_.x);
+    for (std::uint32_t x = 0; x < item.width; ++x, ++index, bit <<= 1U) {
+      bits |= (mask_[index / 64] >> (index % 64) & 1U) != 0 ? bit : 0;
+    }
+  }
+  return bits;
+}
+
+PixelScan WorkSource::scan_of(const PixelRectangle& item) const {
+  return refines() ? PixelScan(item, wanted(item)) : PixelScan(item);
+}
+
+/// So that the first item left, if any, has a pixel.
+void WorkSource::skip_unwanted() {
+  while (refines() && !items_.empty() && wanted(*items_.front()) == 0) {
+    items_.take();
+  }
+}
+
+/// The last item that has a pixel.
+std::optional<PixelRectangle> WorkSource::give() {
+  std::optional<PixelRectangle> item = items_.give();
+  while (refines() && item && wanted(*item) == 0) {
+    item = items_.give();
+  }
+  return item;
+}
 
 std::uint32_t WorkSource::next_pixel() {
   if (scan_.empty()) {
     const auto item = items_.take();
     core::expect(item.has_value(), "a node takes pixels only while it has some");
-    scan_ = PixelScan(*item);
+    scan_ = scan_of(*item);
+    skip_unwanted();
   }
   return scan_.next(image_width_);
 }
@@ -42,7 +119,7 @@ void WorkSource::ask() {
 
 void WorkSource::answer(const WorkRequest& request) {
   core::expect(request.asker != self_ && request.visits_left > 0, "a work request asks each other node once");
-  if (const auto item = items_.give()) {
+  if (const auto item = give()) {
     ++counters_.items_given;
     reply(request.asker, *item);
   } else if (request.visits_left == 1) {
@@ -56,11 +133,19 @@ void WorkSource::answer(const WorkRequest& request) {
 
 void WorkSource::reply(std::uint32_t asker, const PixelRectangle& item) {
   node_->grant(nodes::NodeId{asker}, control_channel);  // the place that the request has reserved
-  node_->send_reserved(nodes::NodeId{asker}, control_channel, number_of(Kind::work_reply), WorkReply{item, self_});
+  const WorkReply work{item, self_};
+  if (refines()) {
+    const std::uint64_t pixels = item.pixel_count() == 0 ? 0 : wanted(item);
+    node_->send_reserved(nodes::NodeId{asker}, control_channel, number_of(Kind::work_reply), MaskedWorkReply{work, pixels});
+  } else {
+    node_->send_reserved(nodes::NodeId{asker}, control_channel, number_of(Kind::work_reply), work);
+  }
 }
 
-void WorkSource::take_reply(const WorkReply& reply) {
+void WorkSource::take_reply(const nodes::Packet& packet) {
   core::expect(asking_ && !has_pixel(), "a work reply answers the one request under way");
+  const auto masked = refines() ? packet.as<MaskedWorkReply>() : MaskedWorkReply{packet.as<WorkReply>()};
+  const WorkReply& reply = masked.reply;
   asking_ = false;
   if (reply.item.pixel_count() == 0) {
     no_more_ = true;
@@ -68,7 +153,7 @@ void WorkSource::take_reply(const WorkReply& reply) {
   }
   ++counters_.items_taken;
   last_giver_ = reply.giver;
-  scan_ = PixelScan(reply.item);
+  scan_ = refines() ? PixelScan(reply.item, masked.pixels) : PixelScan(reply.item);
 }
 
 std::string WorkSource::describe() const {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "nodes/node.h"
@@ -16,9 +18,14 @@ namespace dmpc::svm {
 /// that has items left answers the asker directly; the last of all others to be asked tells it that there is no more work,
 /// and since submaps only shrink this stays true. The first request enters the ring at the next node, a later one at the node
 /// that gave last, because all before it had nothing. Thread safety: none.
+///
+/// Where the picture is refined, a pass after the first has only those pixels of the submap that the host's mask names.
 class WorkSource {
  public:
+  /// In the first pass all pixels are wanted.
   WorkSource(nodes::Node& node, const Plan& plan);
+  /// Adds to `memory` exactly what the constructor takes at node `index`.
+  static void add_needs(nodes::MemoryPlan& memory, const PlanRequest& request, std::uint32_t index);
 
   /// A pixel of the current item, of the submap, or of an item received is left.
   bool has_pixel() const { return !scan_.empty() || !items_.empty(); }
@@ -29,7 +36,11 @@ class WorkSource {
   /// Gives an item to the asker or passes the request on.
   void answer(const WorkRequest& request);
   /// Takes the answer to this node's own request.
-  void take_reply(const WorkReply& reply);
+  void take_reply(const nodes::Packet& packet);
+  /// Takes a part of the next pass's mask. Requires exhausted(), as begin_pass() does.
+  void take_mask(const MaskPart& part);
+  /// Starts with the whole submap again, as far as the mask wants it.
+  void begin_pass();
 
   /// No pixel is left here, and none anywhere else.
   bool exhausted() const { return !has_pixel() && no_more_; }
@@ -38,17 +49,26 @@ class WorkSource {
 
  private:
   std::uint32_t after(std::uint32_t node, std::uint32_t asker) const;
+  bool refines() const { return !mask_.empty(); }
+  std::uint64_t wanted(const PixelRectangle& item) const;
+  PixelScan scan_of(const PixelRectangle& item) const;
+  void skip_unwanted();
+  std::optional<PixelRectangle> give();
   void reply(std::uint32_t asker, const PixelRectangle& item);
 
   nodes::Node* node_;
   std::uint32_t node_count_;
   std::uint32_t self_;
   std::uint32_t image_width_;
+  std::uint32_t item_side_;
+  PixelRectangle submap_;
+  std::span<std::uint64_t> mask_;  ///< of the submap, row by row; empty unless the picture is refined
   WorkItems items_;
   PixelScan scan_;
   WorkCounters counters_;
   std::uint32_t last_giver_;
   bool asking_ = false;
+  bool is_alone_;  ///< no other node ever gives it work
   bool no_more_;
 };
 

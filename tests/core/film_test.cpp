@@ -67,15 +67,29 @@ TEST_CASE("sums do not depend on the order of the deposits, saturated or not") {
 TEST_CASE("a pixel's radiance is the mean of both planes over the samples") {
   Film film(2, 1);
   CHECK_FALSE(film.deposit(1, {{to_fixed({1, 2, 3}), to_fixed({3, 2, 1})}}));
-  CHECK(film.radiance(1, 4) == Vec3d{1, 1, 1});
-  CHECK(film.radiance(0, 4) == Vec3d{});
+  film.add_samples(0, 1);
+  film.add_samples(1, 1);
+  film.add_samples(1, 3);
+  CHECK(film.radiance(1) == Vec3d{1, 1, 1});
+  CHECK(film.radiance(0) == Vec3d{});
+  CHECK(film.samples(1) == 4);
+  CHECK(film.samples() == 5);
+}
+
+TEST_CASE("half of the difference of a pixel's planes is between the means of its even and of its odd samples") {
+  Film film(1, 1);
+  film.deposit(0, {{to_fixed({6, 0, 2}), to_fixed({1, 1, 1})}});
+  film.add_samples(0, 3);  // two even ones, and one odd
+  CHECK(film.half_difference(0) == Vec3d{1, -0.5, 0});
 }
 
 TEST_CASE("a film tells of saturation, of pixels beyond it and of no samples") {
   Film film(2, 2);
   CHECK(film.deposit(3, even({infinite, 0, 0})));
   CHECK_THROWS_AS(film.deposit(4, {}), InternalError);
-  CHECK_THROWS_AS(film.radiance(0, 0), InternalError);
+  CHECK_THROWS_AS(film.radiance(0), InternalError);
+  film.add_samples(0, 1);
+  CHECK_THROWS_AS(film.half_difference(0), InternalError);
   CHECK_THROWS_AS(Film(0, 1), InternalError);
 }
 

@@ -46,7 +46,7 @@ TEST_CASE("a grid along the screen's axes gives the same picture to rounding") {
   CHECK(world.hash() != screen.hash());
   int far_apart = 0;
   for (std::uint32_t pixel = 0; pixel < world.pixels().size(); ++pixel) {
-    const core::Vec3d difference = world.radiance(pixel, 1) - screen.radiance(pixel, 1);
+    const core::Vec3d difference = world.radiance(pixel) - screen.radiance(pixel);
     far_apart += core::length(difference) > 1e-3 ? 1 : 0;
   }
   CHECK(far_apart <= 3);  // of 2,304 pixels: silhouettes

@@ -56,7 +56,7 @@ PixelSums starved(const Database& database, const RenderSettings& settings, std:
   GridTracer<OneRecord> tracer(records, database.header(), {});
   std::vector<HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
   PixelTask task(stack);
-  task.start(pixel, settings, operations);
+  task.start(pixel, settings.first_samples(), settings, operations);
   for (;;) {
     switch (task.run(tracer, settings, operations)) {
       case TaskState::finished:
@@ -76,7 +76,7 @@ PixelSums fed(const Database& database, const RenderSettings& settings, std::uin
   GridTracer<LocalRecords> tracer(records, database.header(), {});
   std::vector<HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
   PixelTask task(stack);
-  task.start(pixel, settings, operations);
+  task.start(pixel, settings.first_samples(), settings, operations);
   while (task.run(tracer, settings, operations) != TaskState::finished) {
   }
   return task.sums();
@@ -109,7 +109,7 @@ TEST_CASE("a stack of a hit a depth is enough, a smaller one is refused") {
   std::vector<HitState> stack(4);
   PixelTask task(stack);
   Operations operations;
-  CHECK_THROWS_AS(task.start(0, settings_of(database, scene, 1, 5), operations), InternalError);
+  CHECK_THROWS_AS(task.start(0, {}, settings_of(database, scene, 1, 5), operations), InternalError);
 }
 
 TEST_CASE("rays that hit nothing bring the background, half of the samples to each plane") {
@@ -132,7 +132,7 @@ TEST_CASE("one call ends at most one ray") {
   std::vector<HitState> stack(5);
   PixelTask task(stack);
   Operations operations;
-  task.start(6, settings, operations);
+  task.start(6, settings.first_samples(), settings, operations);
   std::uint64_t calls = 0;
   while (task.run(tracer, settings, operations) != TaskState::finished) {
     ++calls;

@@ -28,7 +28,7 @@ struct LoneHost {
       : plan(plan_for(2, batch)),
         film(4, 2),
         single(plan.host_memory(), 2, 3),
-        program(single.node, plan, film, std::move(progress)) {}
+        program(single.node, plan, film, std::move(progress), {}) {}
 
   template <class T>
   void receive(std::uint32_t sender, Kind kind, const T& value) {

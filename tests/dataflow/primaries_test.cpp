@@ -16,9 +16,9 @@ using dataflow::PrimaryRun;
 TEST_CASE("a node starts the rays of its runs, in order, once") {
   const std::vector<PrimaryRun> runs = {{3, 2}, {10, 1}, {20, 3}};
   nodes::MemoryPlan plan;
-  Primaries::add_needs(plan, runs.size());
+  Primaries::add_needs(plan, runs.size(), false);
   nodes::LocalMemory memory(plan);
-  Primaries primaries(memory, runs);
+  Primaries primaries(memory, runs, {}, false);
   CHECK(primaries.left() == 6);
   for (const std::uint64_t number : {3U, 4U, 10U, 20U, 21U, 22U}) {
     CHECK(primaries.take() == number);
@@ -29,9 +29,44 @@ TEST_CASE("a node starts the rays of its runs, in order, once") {
 
 TEST_CASE("a node may have no primary ray") {
   nodes::MemoryPlan plan;
-  Primaries::add_needs(plan, 0);
+  Primaries::add_needs(plan, 0, false);
   nodes::LocalMemory memory(plan);
-  CHECK(Primaries(memory, {}).empty());
+  CHECK(Primaries(memory, {}, {}, false).empty());
+}
+
+TEST_CASE("rays of later passes come packet by packet, and each makes room for another when it is worked off") {
+  nodes::MemoryPlan plan;
+  Primaries::add_needs(plan, 1, true);
+  nodes::LocalMemory memory(plan);
+  Primaries primaries(memory, std::vector<PrimaryRun>{{0, 1}}, {0, 2}, true);
+  CHECK(primaries.take() == 0);
+  CHECK(primaries.packets_worked_off() == 0);
+  dataflow::DealtPrimaries packet{.samples = {2, 2}, .count = static_cast<std::uint32_t>(packet.runs.size())};
+  for (std::uint32_t i = 0; i < packet.count; ++i) {
+    packet.runs[i] = {10 * i, 2};
+  }
+  primaries.put(packet);
+  primaries.put(packet);
+  CHECK_THROWS_AS(primaries.put(packet), core::InternalError);
+  CHECK(primaries.samples() == core::SampleRange{2, 2});
+  CHECK(primaries.left() == 4 * packet.count);
+  for (std::uint32_t i = 0; i < 2 * packet.count; ++i) {
+    CHECK(primaries.packets_worked_off() == 0);
+    CHECK(primaries.take() == i / 2 * 10 + i % 2);
+  }
+  CHECK(primaries.packets_worked_off() == 1);
+  CHECK(primaries.packets_worked_off() == 0);
+  primaries.put(packet);
+  for (std::uint32_t i = 0; i < 4 * packet.count; ++i) {
+    primaries.take();
+  }
+  CHECK(primaries.packets_worked_off() == 2);
+  CHECK(primaries.empty());
+}
+
+TEST_CASE("a ray's number tells its pixel and its sample") {
+  CHECK(dataflow::pixel_of(17, {8, 4}) == 4);
+  CHECK(dataflow::sample_of(17, {8, 4}) == 9);
 }
 
 TEST_CASE("every primary ray is dealt once, to the owner of the cell in which it enters, and the sky is spread") {
@@ -41,7 +76,7 @@ TEST_CASE("every primary ray is dealt once, to the owner of the cell in which it
   const core::GridFrame& frame = database.header().frame;
   const core::Camera camera(scene.view, frame, 30, 20, 3);
   const dataflow::Bsp bsp = dataflow::equal_size_bsp(core::grid_size(frame), dataflow::axes_facing(camera), 5);
-  const auto runs = dataflow::deal_primaries(camera, frame, bsp);
+  const auto runs = dataflow::deal_primaries(camera, frame, bsp, {0, 3}, core::PixelMask(camera.pixel_count(), true));
   std::vector<int> dealt(camera.pixel_count() * 3);
   std::vector<int> sky(5);
   for (std::uint32_t node = 0; node < 5; ++node) {

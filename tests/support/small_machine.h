@@ -82,7 +82,7 @@ class FakeTask {
  public:
   explicit FakeTask(std::span<core::HitState>) {}
 
-  void start(std::uint32_t pixel, const core::RenderSettings&, core::Operations& operations) {
+  void start(std::uint32_t pixel, const core::SampleRange&, const core::RenderSettings&, core::Operations& operations) {
     pixel_ = pixel;
     state_ = mixed(pixel);
     rays_left_ = static_cast<std::uint32_t>(state_ % 4) + 1;
@@ -147,7 +147,7 @@ inline core::Film fake_reference(const FakePages& pages, const core::RenderSetti
   core::Operations operations;
   for (std::uint32_t pixel = 0; pixel < settings.camera.pixel_count(); ++pixel) {
     FakeTask task({});
-    task.start(pixel, settings, operations);
+    task.start(pixel, settings.first_samples(), settings, operations);
     while (task.run(tracer, settings, operations) != core::TaskState::finished) {
     }
     film.deposit(pixel, task.sums());

@@ -99,5 +99,5 @@ TEST_CASE("the host tells how far the picture is") {
   small.film_from(0, {0});
   small.film_from(1, {1, 2});
   CHECK(calls == std::vector<std::uint32_t>{1, 3, 3, 3});
-  CHECK(small.host.describe().find("3 of 3 pixels arrived, 0 of 2 nodes done") != std::string::npos);
+  CHECK(small.host.describe().find("3 of 3 pixels of pass 1 arrived, 0 of 2 nodes done") != std::string::npos);
 }

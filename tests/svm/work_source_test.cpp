@@ -24,6 +24,11 @@ struct SmallSource {
       work.next_pixel();
     }
   }
+  template <class Reply>
+  void take_reply(const Reply& reply) {
+    work.take_reply(parcel_of(0, svm::Kind::work_reply, reply).packet());
+  }
+  void take_reply(const svm::WorkReply& reply) { take_reply<svm::WorkReply>(reply); }
   Parcel sent() {
     REQUIRE(lone.post.parcels.size() == 1);
     const Parcel parcel = lone.post.parcels.front();
@@ -87,7 +92,7 @@ TEST_CASE("an item that was given becomes the asker's pixels, and the giver is a
   small.use_up();
   small.work.ask();
   small.sent();
-  small.work.take_reply({{9, 1, 2, 1}, 3});
+  small.take_reply({{9, 1, 2, 1}, 3});
   REQUIRE(small.work.has_pixel());
   CHECK(small.work.next_pixel() == 12 + 9);
   CHECK(small.work.next_pixel() == 12 + 10);
@@ -102,7 +107,7 @@ TEST_CASE("an empty item ends the asking") {
   small.use_up();
   small.work.ask();
   small.sent();
-  small.work.take_reply({{}, 0});
+  small.take_reply({{}, 0});
   CHECK(small.work.exhausted());
   small.work.ask();
   CHECK(small.lone.post.parcels.empty());
@@ -120,7 +125,7 @@ TEST_CASE("a static run and a node alone never ask") {
 
 TEST_CASE("a reply to no request, and a request of one's own, are errors") {
   SmallSource small(1, 4, 3);
-  CHECK_THROWS_AS(small.work.take_reply({{}, 0}), core::InternalError);
+  CHECK_THROWS_AS(small.take_reply({{}, 0}), core::InternalError);
   CHECK_THROWS_AS(small.work.answer({1, 2}), core::InternalError);
   CHECK_THROWS_AS(small.work.answer({2, 0}), core::InternalError);
 }
