@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/expect.h"
+#include "core/sample_position.h"
 #include "core/sampling.h"
 
 namespace dmpc::apps {
@@ -30,8 +31,8 @@ class SamplePattern {
       return {(sample % columns_ + random(pixel, sample, 0)) / columns_ - 0.5,
               (sample / columns_ + random(pixel, sample, 1)) / rows_ - 0.5};
     }
-    return count() == 1 ? SamplePosition{}
-                        : SamplePosition{core::sample_value(pixel, sample, 0) - 0.5, core::sample_value(pixel, sample, 1) - 0.5};
+    const core::SamplePosition position = count() == 1 ? core::SamplePosition{0.5, 0.5} : core::sample_position(pixel, sample);
+    return {position.x - 0.5, position.y - 0.5};
   }
 
  private:
