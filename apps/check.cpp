@@ -7,6 +7,7 @@
 #include <numeric>
 #include <string>
 
+#include "apps/figures.h"
 #include "apps/inspection.h"
 #include "apps/load_scene.h"
 #include "apps/output_file.h"
@@ -140,6 +141,12 @@ std::uint64_t print_brute_force(const Inspection& inspection, const Referee& ref
   return bad.size();
 }
 
+/// Of the picture as Embree would make it.
+void print_pixels(std::uint64_t differing, std::uint64_t pixels) {
+  std::cout << "Pixels that Embree would change: " << differing << " of " << pixels << ", "
+            << fixed(1e6 * static_cast<double>(differing) / static_cast<double>(pixels), 1) << " ppm\n";
+}
+
 Inspection inspect_shown(const CheckOptions& options, const core::Database& database, const core::RenderSettings& settings) {
   const EmbreeScene embree(database.primitives(), EmbreeMode::robust);
   Progress progress(std::cerr, stderr_is_terminal());
@@ -158,6 +165,7 @@ std::uint64_t print_report(const CheckOptions& options, const core::Database& da
   const Referee referee(database.primitives());
   std::uint64_t unexplained = print_table(inspection);
   print_list(referee, inspection.differences, options.list, width);
+  print_pixels(inspection.differing_pixels, camera.pixel_count());
   unexplained += print_brute_force(inspection, referee, options.list, width);
   std::cout << (unexplained == 0 ? "Every ray is explained.\n" : "UNEXPLAINED rays: our grid has an error.\n");
   return unexplained;

@@ -57,6 +57,14 @@ void check_command_name(CLI::App& app, std::span<const std::string> arguments, c
   throw UsageError(arguments.front() + " is no command: expected " + listed(names) + hint(outer));
 }
 
+std::function<void(const std::vector<std::string>&)> one_by_one(const OptionSet::TakeText& take) {
+  return [take](const std::vector<std::string>& given) {
+    for (const std::string& word : given) {
+      take(word);
+    }
+  };
+}
+
 }  // namespace
 
 OptionSet::OptionSet(CLI::App& app) : app_(&app) {
@@ -78,6 +86,10 @@ void OptionSet::begin_group(const std::string& title) { app_->option_defaults()-
 
 void OptionSet::add_argument(const std::string& name, const TakeText& take, const std::string& description) {
   app_->add_option_function<std::string>(name, take, description)->required()->option_text(" ");
+}
+
+void OptionSet::add_arguments(const std::string& name, const TakeText& take, const std::string& description) {
+  app_->add_option_function<std::vector<std::string>>(name, one_by_one(take), description)->option_text(" ");
 }
 
 void OptionSet::add_required(const std::string& name, const std::string& shown, const TakeText& take,
@@ -102,12 +114,7 @@ void OptionSet::add_flag(const std::string& name, bool& flag, const std::string&
 
 void OptionSet::add_words(const std::string& name, const std::vector<std::string>& words, const TakeText& take,
                           const std::string& description) {
-  const auto take_all = [take](const std::vector<std::string>& given) {
-    for (const std::string& word : given) {
-      take(word);
-    }
-  };
-  app_->add_option_function<std::vector<std::string>>(name, take_all, description)
+  app_->add_option_function<std::vector<std::string>>(name, one_by_one(take), description)
       ->allow_extra_args(false)
       ->check(CLI::IsMember(words))
       ->type_name("")

@@ -39,6 +39,8 @@ class OptionSet {
   void begin_group(const std::string& title);
   /// A word without an option's name that must be given; help calls it `name`.
   void add_argument(const std::string& name, const TakeText& take, const std::string& description);
+  /// The same for any number of words, or none; `take` is called with one after the other.
+  void add_arguments(const std::string& name, const TakeText& take, const std::string& description);
   /// An option with a text that must be given; `shown` is what the help says of its value.
   void add_required(const std::string& name, const std::string& shown, const TakeText& take, const std::string& description);
   /// An option with a text; `shown` is what the help says of its value.

@@ -5,6 +5,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "core/render.h"
 #include "core/sampling.h"
@@ -117,17 +118,50 @@ struct Harvest {
   }
 };
 
+template <core::Tracer T>
+core::PixelSums pixel_sums(T& tracer, const core::RenderSettings& settings, std::uint32_t pixel, core::Operations& operations) {
+  std::vector<core::HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
+  core::PixelTask task(stack);
+  return core::render_pixel(task, pixel, settings.first_samples(), tracer, settings, operations);
+}
+
 void trace_pixels(const core::Database& database, const EmbreeScene& scene, const core::RenderSettings& settings,
                   const core::TraversalOptions& traversal, std::uint32_t first, std::uint32_t last, Harvest& harvest) {
   core::LocalRecords records(database.bytes());
   BothTracer::Grid grid(records, settings.header, traversal);
   BothTracer tracer(grid, scene, harvest.differences, harvest.draw);
-  std::vector<core::HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
-  core::PixelTask task(stack);
   for (std::uint32_t pixel = first; pixel < last; ++pixel) {
     tracer.start_pixel();
-    core::render_pixel(task, pixel, settings.first_samples(), tracer, settings, harvest.operations);
+    pixel_sums(tracer, settings, pixel, harvest.operations);
   }
+}
+
+/// The pixels that the rays belong to, once each. `rays` come by pixel.
+std::vector<std::uint32_t> pixels_of(const std::vector<TracedRay>& rays) {
+  std::vector<std::uint32_t> pixels;
+  for (const TracedRay& traced : rays) {
+    if (pixels.empty() || pixels.back() != traced.ray.pixel) {
+      pixels.push_back(traced.ray.pixel);
+    }
+  }
+  return pixels;
+}
+
+/// How many of `pixels` get other sums from Embree than from the grid.
+std::uint64_t count_differing(const core::Database& database, const EmbreeScene& scene, const core::RenderSettings& settings,
+                              const core::TraversalOptions& traversal, const std::vector<std::uint32_t>& pixels) {
+  const auto count = [&](const tbb::blocked_range<std::size_t>& range, std::uint64_t differing) {
+    core::LocalRecords records(database.bytes());
+    BothTracer::Grid grid(records, settings.header, traversal);
+    EmbreeTracer embree(scene, database, records);
+    core::Operations unused;
+    for (std::size_t index = range.begin(); index < range.end(); ++index) {
+      const bool same = pixel_sums(grid, settings, pixels[index], unused) == pixel_sums(embree, settings, pixels[index], unused);
+      differing += same ? 0 : 1;
+    }
+    return differing;
+  };
+  return tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, pixels.size()), std::uint64_t{0}, count, std::plus<>());
 }
 
 Harvest trace_band(const core::Database& database, const EmbreeScene& scene, const core::RenderSettings& settings,
@@ -166,7 +200,10 @@ Inspection inspect(const core::Database& database, const EmbreeScene& scene, con
   }
   options.progress(pixel_count, pixel_count);
   const Referee referee(database.primitives());
-  return {harvest.operations, settle(referee, harvest.differences), settle(referee, harvest.draw.finish())};
+  return {.operations = harvest.operations,
+          .differences = settle(referee, harvest.differences),
+          .differing_pixels = count_differing(database, scene, settings, options.traversal, pixels_of(harvest.differences)),
+          .brute_forced = settle(referee, harvest.draw.finish())};
 }
 
 }  // namespace dmpc::apps

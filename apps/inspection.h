@@ -28,8 +28,11 @@ struct SettledRay {
 
 /// What came out; the same bits for every number of threads.
 struct Inspection {
-  core::Operations operations;           ///< of our grid; the render follows its answers
-  std::vector<SettledRay> differences;   ///< all of them, by pixel and shot
+  core::Operations operations;          ///< of our grid; the render follows its answers
+  std::vector<SettledRay> differences;  ///< all of them, by pixel and shot
+  /// Pixels whose sums have other bits where Embree names the primitives (EmbreeTracer): only some of those with a differing ray,
+  /// as the same surface may go by two names.
+  std::uint64_t differing_pixels = 0;
   std::vector<SettledRay> brute_forced;  ///< the random rays, whose ruling says whether both answers can be explained
 };
 

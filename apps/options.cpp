@@ -31,6 +31,9 @@ Command parse_command_line(std::span<const std::string> arguments) {
   StabilityOptions stability;
   OptionSet bench = line.add_command("bench", "Put our own arithmetic to the test and print a table");
   add_options(bench.add_command("stability", "Stress tests of numerical stability, beside Embree on the same rays"), stability);
+  PrecisionOptions precision;
+  add_options(bench.add_command("precision", "The picture in float against double precision, every differing pixel explained"),
+              precision);
   const std::variant<HelpText, std::string> parsed = line.parse(arguments);
   if (const auto* help = std::get_if<HelpText>(&parsed)) {
     return *help;
@@ -46,7 +49,8 @@ Command parse_command_line(std::span<const std::string> arguments) {
                                                    {"study cache", cache},
                                                    {"study speedup", speedup},
                                                    {"study paper", paper},
-                                                   {"bench stability", stability}};
+                                                   {"bench stability", stability},
+                                                   {"bench precision", precision}};
   return commands.at(name);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "apps/accurate/precision_command.h"
 #include "apps/check.h"
 #include "apps/command_line.h"
 #include "apps/compare.h"
@@ -18,7 +19,7 @@
 namespace dmpc::apps {
 
 using Command = std::variant<HelpText, RenderOptions, SceneOptions, CheckOptions, CompareOptions, MachineOptions, StudyOptions,
-                             PaperStudyOptions, StabilityOptions>;
+                             PaperStudyOptions, StabilityOptions, PrecisionOptions>;
 
 /// `arguments` without the program's name. Throws core::UsageError, whose message ends with a hint at the right --help, for
 /// anything wrong that can be seen without reading a file.

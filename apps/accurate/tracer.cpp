@@ -36,9 +36,31 @@ struct AccurateTracer::Touch {
   bool transmits() const { return material.transmittance > 0 && refracted_cosine_squared() >= 0; }
 };
 
-core::Vec3d AccurateTracer::radiance(AccurateRay ray) {
+Vec3d AccurateTracer::radiance(AccurateRay ray) {
   const AccurateHit hit = trace(ray);
-  return hit.found() ? shade(touch(ray, hit)) : ray.weight * scene_.background;
+  if (!hit.found()) {
+    return ray.weight * scene_.background;
+  }
+  Vec3d sum;
+  for (AccurateRay& child : spawned(ray, hit)) {
+    if (child.kind != RayKind::shadow) {
+      sum = sum + radiance(child);
+    } else if (!trace(child).found()) {
+      sum = sum + child.weight;
+    }
+  }
+  return sum;
+}
+
+std::vector<AccurateRay> AccurateTracer::spawned(const AccurateRay& ray, const AccurateHit& hit) const {
+  const Touch met = touch(ray, hit);
+  std::vector<AccurateRay> rays;
+  rays.reserve(scene_.lights.size() + 2);
+  add_shadow_rays(met, rays);
+  if (ray.depth < options_.depth_max && (met.material.specular > 0 || met.material.transmittance > 0)) {
+    add_children(met, rays);
+  }
+  return rays;
 }
 
 AccurateHit AccurateTracer::trace(AccurateRay& ray) {
@@ -53,7 +75,7 @@ AccurateHit AccurateTracer::trace(AccurateRay& ray) {
   return hit;
 }
 
-AccurateTracer::Touch AccurateTracer::touch(const AccurateRay& ray, const AccurateHit& hit) {
+AccurateTracer::Touch AccurateTracer::touch(const AccurateRay& ray, const AccurateHit& hit) const {
   const AccurateBody& body = scene_.bodies[hit.body];
   Touch result{ray, hit.body, scene_.materials[body.material], surface_at(body, ray, hit.t), {}};
   if (watcher_ != nullptr) {
@@ -74,11 +96,6 @@ AccurateTracer::Touch AccurateTracer::touch(const AccurateRay& ray, const Accura
   return result;
 }
 
-core::Vec3d AccurateTracer::shade(const Touch& touch) {
-  const Vec3d direct = direct_light(touch);  // before the children: a watcher relies on the order
-  return direct + children(touch);
-}
-
 AccurateRay AccurateTracer::child(const Touch& touch, const Vec3d& towards, RayKind kind) const {
   const double side = dot(towards, touch.surface.normal) < 0 ? -1 : 1;
   AccurateRay ray;
@@ -91,11 +108,10 @@ AccurateRay AccurateTracer::child(const Touch& touch, const Vec3d& towards, RayK
   return ray;
 }
 
-/// Diffuse light and Phong's highlight of every light that nothing hides.
-core::Vec3d AccurateTracer::direct_light(const Touch& touch) {
+/// Each with the diffuse light and Phong's highlight that it brings unless something hides the light.
+void AccurateTracer::add_shadow_rays(const Touch& touch, std::vector<AccurateRay>& rays) const {
   const core::Material& material = touch.material;
   const Vec3d mirror = mirrored(touch.ray.direction, touch.normal);
-  Vec3d sum;
   for (std::uint32_t index = 0; index < scene_.lights.size(); ++index) {
     const AccurateLight& light = scene_.lights[index];
     const Vec3d towards = light.position - touch.surface.point;
@@ -115,28 +131,23 @@ core::Vec3d AccurateTracer::direct_light(const Touch& touch) {
       ray.weight = touch.ray.weight * light.intensity *
                    (material.color * (material.diffuse * cosine) + Vec3d{highlight, highlight, highlight});
     }
-    sum = trace(ray).found() ? sum : sum + ray.weight;
+    rays.push_back(ray);
   }
-  return sum;
 }
 
-/// What comes by mirror and through glass. What cannot be transmitted is reflected.
-core::Vec3d AccurateTracer::children(const Touch& touch) {
+/// The mirrored ray and the one through glass. What cannot be transmitted is reflected.
+void AccurateTracer::add_children(const Touch& touch, std::vector<AccurateRay>& rays) const {
   const core::Material& material = touch.material;
-  if (touch.ray.depth >= options_.depth_max || !(material.specular > 0 || material.transmittance > 0)) {
-    return {};
-  }
   AccurateRay reflected = child(touch, mirrored(touch.ray.direction, touch.normal), RayKind::reflected);
   reflected.weight = reflected.weight * (material.specular + (touch.transmits() ? 0 : material.transmittance));
-  const Vec3d by_mirror = radiance(reflected);
-  if (!touch.transmits()) {
-    return by_mirror;
+  rays.push_back(reflected);
+  if (touch.transmits()) {
+    const double cosine = -dot(touch.ray.direction, touch.normal), behind = std::sqrt(touch.refracted_cosine_squared());
+    const Vec3d through = touch.ray.direction * touch.index + touch.normal * (touch.index * cosine - behind);
+    AccurateRay refracted = child(touch, through, RayKind::refracted);
+    refracted.weight = refracted.weight * material.transmittance;
+    rays.push_back(refracted);
   }
-  const double cosine = -dot(touch.ray.direction, touch.normal), behind = std::sqrt(touch.refracted_cosine_squared());
-  const Vec3d through = touch.ray.direction * touch.index + touch.normal * (touch.index * cosine - behind);
-  AccurateRay refracted = child(touch, through, RayKind::refracted);
-  refracted.weight = refracted.weight * material.transmittance;
-  return by_mirror + radiance(refracted);
 }
 
 }  // namespace dmpc::apps

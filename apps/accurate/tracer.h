@@ -2,8 +2,8 @@
 // definition, as what core's shading is measured against.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <vector>
 
 #include "apps/accurate/finder.h"
 #include "apps/accurate/scene.h"
@@ -33,8 +33,10 @@ class AccurateTracer {
                  RayWatcher* watcher = nullptr)
       : scene_(scene), finder_(finder), options_(options), watcher_(watcher) {}
 
-  /// Linear radiance of a primary ray, with all rays that follow from it.
+  /// Linear radiance that a ray brings, with all rays that follow from it.
   core::Vec3d radiance(AccurateRay ray);
+  /// The rays that start where `ray`, which is no shadow ray, meets `hit`, in the order in which they are traced.
+  std::vector<AccurateRay> spawned(const AccurateRay& ray, const AccurateHit& hit) const;
   /// Rays traced so far, of all kinds.
   std::uint64_t rays() const { return rays_; }
 
@@ -42,11 +44,10 @@ class AccurateTracer {
   struct Touch;
 
   AccurateHit trace(AccurateRay& ray);
-  core::Vec3d shade(const Touch& touch);
-  Touch touch(const AccurateRay& ray, const AccurateHit& hit);
-  core::Vec3d direct_light(const Touch& touch);
-  core::Vec3d children(const Touch& touch);
+  Touch touch(const AccurateRay& ray, const AccurateHit& hit) const;
   AccurateRay child(const Touch& touch, const core::Vec3d& towards, core::RayKind kind) const;
+  void add_shadow_rays(const Touch& touch, std::vector<AccurateRay>& rays) const;
+  void add_children(const Touch& touch, std::vector<AccurateRay>& rays) const;
 
   const AccurateScene& scene_;
   const AccurateFinder& finder_;

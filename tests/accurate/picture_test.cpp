@@ -43,7 +43,7 @@ int differing(const core::Scene& scene, int side, int samples, const core::Shade
   const core::Film film = of_product(scene, side, samples, shade);
   int count = 0;
   for (std::uint32_t pixel = 0; pixel < picture.radiance.size(); ++pixel) {
-    const Vec3d off = film.radiance(pixel, samples) - picture.radiance[pixel];
+    const Vec3d off = film.radiance(pixel) - picture.radiance[pixel];
     count += std::fabs(off.x) > 1e-4 || std::fabs(off.y) > 1e-4 || std::fabs(off.z) > 1e-4 ? 1 : 0;
   }
   return count;

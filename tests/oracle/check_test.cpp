@@ -45,6 +45,7 @@ TEST_CASE("check prints a table and ends with status 0 where every ray is explai
   CHECK(said.status == 0);
   CHECK(said.text.find("tetra-3: 64 primitives, 40x30 pixels") != std::string::npos);
   CHECK(said.text.find("primary            1200") != std::string::npos);
+  CHECK(said.text.find("Pixels that Embree would change: 0 of 1200, 0.0 ppm") != std::string::npos);
   CHECK(said.text.find("Every ray is explained.") != std::string::npos);
 }
 

@@ -50,6 +50,22 @@ TEST_CASE("every ray of a small render of every family is explained") {
   }
 }
 
+TEST_CASE("an inspection counts the pixels that the tracers render differently") {
+  const Looked looked("rings-2", 96);
+  const apps::EmbreeScene embree(looked.database.primitives(), apps::EmbreeMode::robust);
+  core::LocalRecords records(looked.database.bytes());
+  core::GridTracer<core::LocalRecords> grid(records, looked.database.header(), {});
+  apps::EmbreeTracer oracle(embree, looked.database, records);
+  core::Operations operations;
+  const core::Film ours = core::render(grid, looked.settings, operations),
+                   theirs = core::render(oracle, looked.settings, operations);
+  std::uint64_t differing = 0;
+  for (std::uint32_t pixel = 0; pixel < ours.pixels().size(); ++pixel) {
+    differing += ours.pixels()[pixel] == theirs.pixels()[pixel] ? 0 : 1;
+  }
+  CHECK(looked.inspect().differing_pixels == differing);
+}
+
 TEST_CASE("an inspection counts the rays that the reference renderer counts") {
   const Looked looked("mount-3", 40);
   core::LocalRecords records(looked.database.bytes());
