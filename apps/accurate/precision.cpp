@@ -28,6 +28,7 @@ std::vector<Vec3d> render_row(const Subject& subject, std::uint32_t row) {
   std::vector<Vec3d> radiance(width);
   for (std::uint32_t column = 0; column < width; ++column) {
     film.deposit(column, core::render_pixel(task, row * width + column, {0, 1}, tracer, settings, operations));
+    film.add_samples(column, 1);
     radiance[column] = film.radiance(column);
   }
   return radiance;

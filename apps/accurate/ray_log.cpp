@@ -189,6 +189,7 @@ ProductLog ProductLogger::log_of(std::uint32_t pixel) const {
   core::Operations operations;
   core::Film film(1, 1);
   film.deposit(0, core::render_pixel(task, pixel, {0, 1}, tracer, settings_, operations));
+  film.add_samples(0, 1);
   log.radiance = film.radiance(0);
   return log;
 }

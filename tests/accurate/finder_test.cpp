@@ -27,18 +27,21 @@ AccurateHit brute_force(const AccurateScene& scene, const AccurateRay& ray) {
   return best;
 }
 
+double random_share(std::uint32_t number, std::uint32_t dimension) {
+  return static_cast<double>(core::mix(std::uint64_t{number} << 32U | (dimension + 1)) >> 11U) * 0x1p-53;
+}
+
 Vec3d random_place(const AccurateScene& scene, std::uint32_t number, std::uint32_t dimension) {
   const Vec3d extent = scene.bounds.high - scene.bounds.low;
-  const Vec3d share{core::sample_value(number, 0, dimension), core::sample_value(number, 1, dimension),
-                    core::sample_value(number, 2, dimension)};
-  return scene.bounds.low + extent * share;
+  return scene.bounds.low + extent * Vec3d{random_share(number, dimension), random_share(number, dimension + 1),
+                                           random_share(number, dimension + 2)};
 }
 
 /// From places in the scene's box, or from the eye, to places in it.
 AccurateRay random_ray(const AccurateScene& scene, const Vec3d& eye, std::uint32_t number) {
   AccurateRay ray;
   ray.origin = number % 2 == 0 ? eye : random_place(scene, number, 0);
-  ray.direction = normalize(random_place(scene, number, 1) - ray.origin);
+  ray.direction = normalize(random_place(scene, number, 3) - ray.origin);
   return ray;
 }
 
