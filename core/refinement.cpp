@@ -164,7 +164,8 @@ bool Refinement::choose(double sum) {
   const double wanted = aim * options_.error * options_.error * static_cast<double>(levels_.size());
   const std::size_t threshold = gains().threshold(sum - wanted);
   const auto is_worth_it = [&](std::uint32_t pixel) {
-    return levels_[pixel] < level_max_ && Bins::of(worth(square_errors_[pixel], samples_at(levels_[pixel]))) >= threshold;
+    return levels_[pixel] < level_max_ && square_errors_[pixel] > 0 &&
+           Bins::of(worth(square_errors_[pixel], samples_at(levels_[pixel]))) >= threshold;
   };
   std::uint32_t level = level_max_;
   for (std::uint32_t pixel = 0; pixel < levels_.size(); ++pixel) {

@@ -106,6 +106,29 @@ TEST_CASE("svm, replicated and dataflow give one film along the world's axes, an
   }
 }
 
+TEST_CASE("refined samples give one picture, whoever renders it on any number of nodes") {
+  const Subject subject(tests::mirrors_and_glass(), {.width = 24, .height = 20, .samples = 2, .refinement = {.error = 0.01}});
+  REQUIRE(subject.outcome().rays[0] > 3 * 24 * 20);
+  check_strategies(subject);
+  for (const std::uint32_t side : {0U, 1U, 8U, 20U}) {
+    CAPTURE(side);
+    CHECK(outcome_of(run_svm(subject, {.node_count = 5, .work_item_side = side})) == subject.outcome());
+  }
+}
+
+TEST_CASE("refined samples give one picture when rays of later passes come in many packets") {
+  const Subject subject(tests::built_in("balls-2"), {.width = 70, .height = 64, .samples = 2, .refinement = {.error = 0.004}});
+  CHECK(outcome_of(run_dataflow(subject, {.node_count = 3})) == subject.outcome());
+  CHECK(outcome_of(run_svm(subject, {.node_count = 1})) == subject.outcome());
+}
+
+TEST_CASE("a cutoff gives one picture, with fewer rays than without") {
+  const core::Scene scene = tests::mirrors_and_glass();
+  const Subject exact(scene, {.width = 24, .height = 20}), cut(scene, {.width = 24, .height = 20, .cutoff = 0.05});
+  CHECK(cut.outcome().rays[1] < exact.outcome().rays[1]);
+  check_strategies(cut);
+}
+
 TEST_CASE("twenty runs on 64 nodes give one picture") {
   const Subject subject(tests::mirrors_and_glass(), {64, 64});
   for (int run = 0; run < 20; ++run) {

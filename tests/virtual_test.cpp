@@ -96,6 +96,17 @@ TEST_CASE("virtual time: svm, replicated and dataflow give the reference's pictu
   }
 }
 
+TEST_CASE("virtual time: a refined picture is the same, and equal runs have equal events") {
+  const Subject subject(mirrors_and_glass(), {.width = 16, .height = 16, .samples = 2, .refinement = {.error = 0.02}});
+  const auto svm = [&] { return run_svm(subject, {.node_count = 5, .cache_pages = 2, .machine = slow_network()}); };
+  const auto dataflow = [&] { return run_dataflow(subject, {.node_count = 5, .machine = slow_network()}); };
+  check(subject, svm());
+  check(subject, dataflow());
+  CHECK(svm().refinement.passes > 2);
+  CHECK(hashes(svm()) == hashes(svm()));
+  CHECK(hashes(dataflow()) == hashes(dataflow()));
+}
+
 TEST_CASE("virtual time: starved runs give the same picture") {
   const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
   for (const std::uint32_t nodes : node_counts) {

@@ -14,6 +14,24 @@ namespace dmpc::apps {
 using core::UsageError;
 using core::operator""_MiB;
 
+TEST_CASE("a share is a number above 0 and at most 1, or a fraction that is") {
+  CHECK(parse_share("0.25", "--x") == 0.25);
+  CHECK(parse_share("4e-3", "--x") == 0.004);
+  CHECK(parse_share("1/255", "--x") == 1.0 / 255);
+  CHECK(parse_share("1.5/2", "--x") == 0.75);
+  CHECK(parse_share("1", "--x") == 1);
+  CHECK(parse_share("0", "--x", true) == 0);
+  for (const char* text :
+       {"", "/", "1/", "/2", "0", "-0.1", "1.1", "2/1", "1/0", "0/0", "1/2/3", "nan", "inf", "1/inf", "0.1x", " 1"}) {
+    CAPTURE(std::string(text));
+    CHECK_THROWS_AS(parse_share(text, "--x"), UsageError);
+  }
+  for (const char* text : {"", "-0.1", "1.1", "0/0", "nan", "1e-400/x"}) {
+    CAPTURE(std::string(text));
+    CHECK_THROWS_AS(parse_share(text, "--x", true), UsageError);
+  }
+}
+
 TEST_CASE("a size is a whole number with a binary unit") {
   CHECK(parse_size_bytes("0", "--x") == 0);
   CHECK(parse_size_bytes("300", "--x") == 300);

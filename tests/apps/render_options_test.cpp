@@ -103,6 +103,28 @@ TEST_CASE("every option of the picture reaches its field") {
   CHECK_FALSE(options.computer.node_memory_bytes);
 }
 
+TEST_CASE("samples refined to an error start with two a pixel, and the error is an eight-bit step unless said") {
+  const PictureOptions options = render({"--samples=auto"}).picture;
+  CHECK(options.is_refined);
+  CHECK(options.samples == 2);
+  CHECK(options.refinement.error == doctest::Approx(1.0 / 255));
+  CHECK(render({"--error=2/255", "--samples=auto"}).picture.refinement.error == doctest::Approx(2.0 / 255));
+  CHECK(render({"--samples=auto", "--samples-max=64"}).picture.refinement.samples_max == 64);
+  CHECK_FALSE(render().picture.refinement.is_wanted());
+  CHECK(says(render_complaint({"--error=0.01"}), "--error goes with --samples=auto"));
+  CHECK(says(render_complaint({"--samples-max=9", "--samples=2"}), "--samples-max goes with --samples=auto"));
+  for (const std::string wrong : {"automatic", "0", "-1", "1.5", "32769", "AUTO", "4x"}) {
+    CHECK_MESSAGE(says(render_complaint({"--samples=" + wrong}), "--samples=" + wrong + ": expected a whole number"), wrong);
+  }
+}
+
+TEST_CASE("a cutoff is exact unless said otherwise") {
+  CHECK(render().picture.cutoff == 0);
+  CHECK(render({"--cutoff=0"}).picture.cutoff == 0);
+  CHECK(render({"--cutoff=1/512"}).picture.cutoff == 1.0 / 512);
+  CHECK(says(render_complaint({"--cutoff=-0.1"}), "--cutoff=-0.1: expected a number from 0 to 1"));
+}
+
 TEST_CASE("a value may follow its option as a word of its own") { CHECK(render({"--nodes", "3"}).computer.node_count == 3); }
 
 TEST_CASE("a value out of range or of the wrong kind names its option") {

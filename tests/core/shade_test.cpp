@@ -82,6 +82,34 @@ TEST_CASE("a mirror reflects at the angle of incidence with the weight Ks") {
   CHECK(child.ignored_primitive != no_primitive);
 }
 
+TEST_CASE("a ray that can bring less than the cutoff is not shot, and one that can bring as much is") {
+  const Database database = database_of(floor_scene({.specular = 0.25}, {{0, 0, 1}}));
+  const auto children = [&](double cutoff) {
+    return shaded(database, towards_middle(database, {-1, 0, 1}), {.cutoff = cutoff, .radiance_bound = 2});
+  };
+  CHECK(children(0).children.size() == 2);
+  CHECK(children(0.5).of(RayKind::reflected).size() == 1);  // 0.25 of at most 2
+  const Shaded cut = children(0.500001);
+  CHECK(cut.of(RayKind::reflected).empty());
+  CHECK(cut.of(RayKind::shadow).size() == 1);
+  CHECK(cut.operations.rays_cut == 1);
+  CHECK(children(10).children.empty());
+  CHECK(children(10).operations.rays_cut == 2);
+}
+
+TEST_CASE("no ray finds more light than a bound by the scene's lights, materials and depth") {
+  Scene scene =
+      floor_scene({.color = {0.5, 1, 0}, .diffuse = 0.5, .specular = 0.25, .transmittance = 0.5}, {{0, 0, 1}, {1, 0, 1}});
+  CHECK(radiance_bound(scene, 1) == doctest::Approx(1.5));  // two lights, 0.5 diffuse and 0.25 in the highlight
+  CHECK(radiance_bound(scene, 2) == doctest::Approx(1.5));
+  CHECK(radiance_bound(scene, 3) == doctest::Approx(1.5 + 0.75 * 1.5));
+  scene.background = {0, 9, 0};
+  CHECK(radiance_bound(scene, 2) == doctest::Approx(9));
+  CHECK(radiance_bound(scene, 3) == doctest::Approx(9));
+  CHECK(radiance_bound(scene, 5) == doctest::Approx(9));
+  CHECK(radiance_bound(Scene{}, 5) == 0);
+}
+
 TEST_CASE("a ray into glass bends by Snell's law") {
   const Database database = database_of(floor_scene({.transmittance = 0.5, .refraction_index = 1.5}, {}));
   const auto refracted = shaded(database, towards_middle(database, {-1, 0, 1})).of(RayKind::refracted);

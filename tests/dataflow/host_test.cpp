@@ -80,6 +80,44 @@ TEST_CASE("the host gives the credit of an overflow back at once and forwards it
   CHECK(forwarded.payload.size() == dataflow::ray_packet_bytes(2));
 }
 
+TEST_CASE("primary rays of a later pass are dealt as nodes have room, and the host is not passive before") {
+  const std::size_t room = dataflow::DealtPrimaries().runs.size();
+  dataflow::Plan plan = plan_for(2, 2);
+  plan.request.first_samples = 2;
+  plan.request.refinement.error = 1e-9;
+  core::Film film(4, 2);
+  tests::SingleNode single(plan.host_memory(), 2, 3);
+  const auto deal = [&](const core::SampleRange&, const core::PixelMask&) {
+    return std::vector<std::vector<dataflow::PrimaryRun>>{{}, std::vector<dataflow::PrimaryRun>(2 * room + 1, {0, 1})};
+  };
+  dataflow::HostProgram host(single.node, plan, film, {}, deal);
+  const auto receive = [&](std::uint32_t sender, Kind kind, const auto& value) {
+    host.receive({NodeId{sender}, dataflow::number_of(kind), std::as_bytes(std::span(&value, 1))});
+  };
+  const auto sent = [&](Kind kind) {
+    return std::count_if(single.post.parcels.begin(), single.post.parcels.end(),
+                         [&](const Parcel& parcel) { return parcel.kind == dataflow::number_of(kind); });
+  };
+  LoneHost::FilmPacket light;
+  light.entry.light.channel[1] = 1 << 20;
+  receive(0, Kind::film, light);
+  host.work();
+  receive(0, Kind::token, dataflow::Token{0, 0});
+  host.work();
+  receive(0, Kind::done, dataflow::Done{1});
+  receive(1, Kind::done, dataflow::Done{0});
+  CHECK(sent(Kind::stop) == 0);
+  CHECK(sent(Kind::primaries) == dataflow::dealt_packets);
+  const auto tokens = sent(Kind::token);
+  host.work();
+  CHECK(sent(Kind::token) == tokens);  // it has rays to deal
+  receive(1, Kind::primaries_taken, dataflow::PrimariesTaken{1});
+  CHECK(sent(Kind::primaries) == dataflow::dealt_packets + 1);
+  CHECK(single.post.parcels.back().packet().as<dataflow::DealtPrimaries>().count == 1);
+  host.work();
+  CHECK(sent(Kind::token) == tokens + 1);
+}
+
 TEST_CASE("without a credit for the owner the host keeps rays until one comes") {
   LoneHost host;
   for (std::uint32_t i = 0; i < 4; ++i) {

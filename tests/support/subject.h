@@ -53,12 +53,16 @@ class Subject {
   /// In pixels, and samples of each.
   struct Size {
     int width = 1, height = 1, samples = 1;
+    core::RefinementOptions refinement = {};
+    double cutoff = 0;
   };
 
   Subject(const core::Scene& scene, const Size& size, const core::BuildOptions& options = {})
       : database_(core::build_database(scene, options)),
-        settings_{
-            database_.header(), core::Camera(scene.view, database_.header().frame, size.width, size.height, size.samples), {}} {
+        settings_{database_.header(),
+                  core::Camera(scene.view, database_.header().frame, size.width, size.height, size.samples),
+                  {.cutoff = size.cutoff, .radiance_bound = 10},
+                  size.refinement} {
     core::LocalRecords records(database_.bytes());
     core::GridTracer tracer(records, settings_.header, core::TraversalOptions{});
     core::Operations operations;

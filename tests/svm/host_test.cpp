@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,43 @@ struct SmallHost {
 };
 
 }  // namespace
+
+TEST_CASE("where the error is too large each node gets its mask part by part, and the pass begins when all have theirs") {
+  const svm::Plan plan = svm::make_plan(
+      {.page_count = 4, .node_count = 2, .width = 8000, .height = 1, .first_samples = 2, .refinement = {.error = 1e-9}});
+  LoneNode lone(plan, 2);
+  core::Film film(8000, 1);
+  svm::HostProgram host(lone.node, plan, film, {});
+  const auto sent = [&](Kind kind) {
+    return std::count_if(lone.post.parcels.begin(), lone.post.parcels.end(),
+                         [&](const Parcel& parcel) { return parcel.kind == svm::number_of(kind); });
+  };
+  for (std::uint32_t pixel = 0; pixel < 8000; ++pixel) {
+    Parcel parcel = parcel_of(0, Kind::film_sums, svm::FilmHeader{1});
+    svm::FilmEntry entry{pixel, 0, {}};
+    entry.sums.plane[1].channel[2] = pixel % 4000 == 10 ? 1 << 20 : 0;
+    const Parcel bytes = parcel_of(0, Kind::film_sums, entry);
+    parcel.payload.insert(parcel.payload.end(), bytes.payload.begin(), bytes.payload.end());
+    host.receive(parcel.packet());
+  }
+  for (std::uint32_t node = 0; node < 2; ++node) {
+    host.receive(parcel_of(node, Kind::done, svm::Done{4000}).packet());
+  }
+  CHECK(sent(Kind::stop) == 0);
+  CHECK(sent(Kind::mask_part) == 2);
+  const auto part = lone.post.parcels.back().packet().as<svm::MaskPart>();
+  CHECK(part.words[0] == 0b1110'0000'0000);
+  host.receive(parcel_of(0, Kind::mask_acknowledgement, svm::MaskAcknowledgement{}).packet());
+  CHECK(sent(Kind::mask_part) == 3);  // 60 words of 63 were sent
+  host.receive(parcel_of(1, Kind::mask_acknowledgement, svm::MaskAcknowledgement{}).packet());
+  host.receive(parcel_of(0, Kind::mask_acknowledgement, svm::MaskAcknowledgement{}).packet());
+  CHECK(sent(Kind::begin_pass) == 0);
+  host.receive(parcel_of(1, Kind::mask_acknowledgement, svm::MaskAcknowledgement{}).packet());
+  CHECK(sent(Kind::mask_part) == 4);
+  CHECK(sent(Kind::begin_pass) == 2);
+  CHECK(lone.post.parcels.back().packet().as<svm::BeginPass>().samples == core::SampleRange{2, 2});
+  CHECK(host.describe().find("0 of 6 pixels of pass 2 arrived, 0 of 2 nodes done") != std::string::npos);
+}
 
 TEST_CASE("finished pixels go onto the film and are acknowledged") {
   SmallHost small;

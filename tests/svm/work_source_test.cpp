@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <set>
+
 #include "core/expect.h"
 #include "svm/packets.h"
 #include "tests/support/small_machine.h"
@@ -111,6 +113,71 @@ TEST_CASE("an empty item ends the asking") {
   CHECK(small.work.exhausted());
   small.work.ask();
   CHECK(small.lone.post.parcels.empty());
+}
+
+TEST_CASE("a later pass has the pixels of the mask alone") {
+  svm::Plan plan = svm::make_plan({.page_count = 4,
+                                   .node_count = 1,
+                                   .work_item_side = 3,
+                                   .width = 12,
+                                   .height = 8,
+                                   .first_samples = 2,
+                                   .refinement = {.error = 1}});
+  LoneNode lone(plan, 0);
+  svm::WorkSource work(lone.node, plan);
+  std::set<std::uint32_t> first, second;
+  while (work.has_pixel()) {
+    first.insert(work.next_pixel());
+  }
+  CHECK(first.size() == 96);
+  svm::MaskPart mask;
+  mask.words[0] = std::uint64_t{1} << 13U | 1U;
+  mask.words[1] = std::uint64_t{1} << 31U;
+  work.take_mask(mask);
+  work.begin_pass();
+  while (work.has_pixel()) {
+    second.insert(work.next_pixel());
+  }
+  CHECK(second == std::set<std::uint32_t>{0, 13, 95});
+  CHECK(work.exhausted());
+  work.take_mask({});
+  work.begin_pass();
+  CHECK(work.exhausted());
+}
+
+TEST_CASE("an item that is given away takes its part of the mask along, and items without wanted pixels stay") {
+  const svm::Plan plan = svm::make_plan({.page_count = 4,
+                                         .node_count = 2,
+                                         .work_item_side = 2,
+                                         .width = 8,
+                                         .height = 2,
+                                         .first_samples = 2,
+                                         .refinement = {.error = 1}});
+  LoneNode giver_node(plan, 0), taker_node(plan, 1);
+  svm::WorkSource giver(giver_node.node, plan), taker(taker_node.node, plan);
+  for (svm::WorkSource* work : {&giver, &taker}) {
+    while (work->has_pixel()) {
+      work->next_pixel();
+    }
+    work->ask();
+  }
+  giver.take_reply(parcel_of(1, Kind::work_reply, svm::MaskedWorkReply{}).packet());
+  taker.take_reply(parcel_of(0, Kind::work_reply, svm::MaskedWorkReply{}).packet());
+  svm::MaskPart mask;
+  mask.words[0] = 0b0010'0001;  // of a submap of 4x2: the first item's first pixel and its last one
+  giver.take_mask(mask);
+  giver.begin_pass();
+  taker.take_mask({});
+  taker.begin_pass();
+  giver_node.post.parcels.clear();
+  giver.answer({1, 1});
+  REQUIRE(giver_node.post.parcels.size() == 1);
+  CHECK_FALSE(giver.has_pixel());
+  taker.ask();
+  taker.take_reply(giver_node.post.parcels.front().packet());
+  CHECK(taker.next_pixel() == 0);
+  CHECK(taker.next_pixel() == 8 + 1);
+  CHECK_FALSE(taker.has_pixel());
 }
 
 TEST_CASE("a static run and a node alone never ask") {
