@@ -13,9 +13,11 @@ constexpr double float_rounding = 0x1p-24;
 /// What the product's secondary rays start off their surface by, grid-local.
 constexpr double surface_offset = 0x1p-21;
 
-double height_of(const AccurateBody& triangle) {
-  const Vec3d a = triangle.place[1] - triangle.place[0], b = triangle.place[2] - triangle.place[0];
-  return length(cross(a, b)) / std::max({length(a), length(b), length(b - a)});
+/// Of the triangle or the cone, whose normal turns where an end of it is moved.
+double height_of(const AccurateBody& body) {
+  const Vec3d a = body.place[1] - body.place[0], b = body.place[2] - body.place[0];
+  return body.kind == core::PrimitiveKind::cone ? length(a)
+                                                : length(cross(a, b)) / std::max({length(a), length(b), length(b - a)});
 }
 
 }  // namespace
@@ -47,7 +49,7 @@ void Disturbance::touch(const AccurateRay& ray, const AccurateBody& body, Accura
   const double before = dot(surface.point - ray.origin, ray.direction);
   const double t = distance_to(body, shifted).value_or(before);
   surface = surface_at(body, shifted, t + float_rounding * (t + unit_) * random());
-  if (body.kind == core::PrimitiveKind::triangle) {
+  if (body.kind != core::PrimitiveKind::sphere) {
     surface.normal = normalize(surface.normal + random_vector() * (float_rounding * unit_ / height_of(body)));
   }
   normal_ = surface.normal;

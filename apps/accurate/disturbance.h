@@ -14,7 +14,7 @@ namespace dmpc::apps {
 ///   its direction     4 u: its own rounding, that of the normal and of the index of refraction
 ///   a surface         u L against the ray, which moves the hit the farther the more they graze each other; then the distance is
 ///                     rounded, u (t + L), and point, normal and weights follow
-///   a triangle        its corners are rounded by u L, which turns it by that over its height
+///   a triangle        its corners are rounded by u L, which turns it by that over its height; a cone's ends likewise
 class Disturbance final : public RayWatcher {
  public:
   /// `unit`: L in world units.
