@@ -38,6 +38,8 @@ using Long = long double;
 using Vec3l = core::Vec3<long double>;
 
 constexpr double float_rounding = 0x1p-24;
+/// Half a unit in the last place of floats that are denormal, which rounding to float costs at least.
+constexpr double denormal_rounding = 0x1p-150;
 constexpr Long double_rounding = 0x1p-53L;
 constexpr double tiny = std::numeric_limits<double>::min();
 
@@ -276,7 +278,7 @@ Encounter meet_curved(const Curved& curved, Long t) {
   }
   Encounter encounter;
   encounter.t = static_cast<double>(t);
-  encounter.t_error = static_cast<double>(error + static_cast<Long>(float_rounding) * std::fabs(t));
+  encounter.t_error = static_cast<double>(error + static_cast<Long>(float_rounding) * std::fabs(t)) + denormal_rounding;
   encounter.margin.fill(static_cast<double>(margin));
   encounter.exact = margin >= 0;
   return encounter;

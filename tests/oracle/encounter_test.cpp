@@ -81,6 +81,14 @@ TEST_CASE("a ray through a sphere encounters it twice, from inside once") {
   CHECK(met(ray({0, 0, 0}, {0, 0, 1}), sphere({0, 0, 0}, 1)).size() == 1);
 }
 
+TEST_CASE("a distance below all normal floats may be off by half of the least float") {
+  const auto encounters = met(ray({0, 0, 0}, {1, 0, 0}), cone({0, 0, 0}, 5e-41F, {0, 1, 0}, 5e-41F));
+  REQUIRE(encounters.size() == 1);
+  CHECK(encounters[0].t == doctest::Approx(5e-41));
+  CHECK(encounters[0].t_error > 0x1p-150);
+  CHECK(encounters[0].t_error < 0x1p-149);
+}
+
 TEST_CASE("a tangent ray is in doubt, a ray one float farther out misses in double as well") {
   const auto encounters = met(ray({1, 0, -3}, {0, 0, 1}), sphere({0, 0, 0}, 1));
   REQUIRE_FALSE(encounters.empty());
