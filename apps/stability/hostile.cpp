@@ -1,11 +1,13 @@
-// R11: rays and vertices with NaN, infinite, huge and denormal numbers: a miss or a valid hit, never a hang.
+// R11: rays and vertices with NaN, infinite, huge and denormal numbers: a miss or a valid hit, for no more work than other rays.
 #include <array>
 #include <limits>
 #include <memory>
+#include <numeric>
 
 #include "apps/stability/case.h"
 #include "apps/stability/mesh.h"
 #include "apps/stability/rays.h"
+#include "core/traversal.h"
 
 namespace dmpc::apps {
 namespace {
@@ -17,6 +19,9 @@ using core::Vec3f;
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
+
+/// Times the work of usual rays.
+constexpr double hostile_work_max = 2.5;
 
 float odd_number(Random& random) {
   constexpr std::array<float, 16> odd{0.0F,    -0.0F,  no_number, infinite, -infinite, 3e38F, -3e38F, 1e-40F,
@@ -71,16 +76,59 @@ void count_answers(const Ray& ray, const StabilityAnswers& answers, KernelCounts
   }
 }
 
+Ray odd_ray(Random& random) {
+  const Vec3f origin = odd_vector(random);
+  Ray ray = ray_from(origin, odd_vector(random));
+  ray.t_max = random.bits() % 2 == 0 ? infinite : odd_number(random);
+  return ray;
+}
+
+/// Between two points of the grid and on.
+Ray usual_ray(const core::Database& database, Random& random) {
+  const core::GridFrame& frame = database.header().frame;
+  const auto point = [&] {
+    Vec3d at = random.in_box(0, double{frame.finest_cell} * core::finest_per_top);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      at[axis] *= frame.resolution[axis];
+    }
+    return at;
+  };
+  const Vec3d origin = point();
+  return ray_through(origin, point());
+}
+
+/// Steps of the walk and tests of primitives.
+double work_of(const core::Database& database, const Ray& ray) {
+  core::LocalRecords records(database.bytes());
+  core::Cursor cursor;
+  core::Operations operations;
+  core::trace(ray, cursor, records, database.header(), {}, operations);
+  const auto& tests = operations.primitive_tests;
+  return static_cast<double>(std::accumulate(tests.begin(), tests.end(), operations.cell_steps));
+}
+
+double usual_work(const core::Database& database) {
+  constexpr int rays = 4096;
+  Random random(11);
+  double sum = 0;
+  for (int i = 0; i < rays; ++i) {
+    sum += work_of(database, usual_ray(database, random));
+  }
+  return sum / rays;
+}
+
 ShootRays odd_rays() {
   const auto subject = std::make_shared<const StabilitySubject>(scene_with_odd_numbers());
-  return [subject](Random& random, std::uint64_t, std::uint64_t count) {
+  const double work_max = hostile_work_max * usual_work(subject->database);
+  return [subject, work_max](Random& random, std::uint64_t, std::uint64_t count) {
     KernelCounts counts{};
+    double work = 0;
     for (std::uint64_t i = 0; i < count; ++i) {
-      const Vec3f origin = odd_vector(random);
-      Ray ray = ray_from(origin, odd_vector(random));
-      ray.t_max = random.bits() % 2 == 0 ? infinite : odd_number(random);
+      const Ray ray = odd_ray(random);
       count_answers(ray, ask_kernels(*subject, ray), counts);
+      work += work_of(subject->database, ray);
     }
+    counts[index_of(StabilityKernel::grid)].unexplained += work > work_max * static_cast<double>(count) ? 1 : 0;
     return counts;
   };
 }

@@ -80,6 +80,13 @@ inline double mesh_radius(Bytes& bytes) {
   }
 }
 
+/// Closed, so that a ray can leak out.
+inline void add_tetrahedron(const std::array<core::Vec3d, 4>& corners, core::SceneBuilder& builder) {
+  for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+    builder.polygon({corners[(left_out + 1) % 4], corners[(left_out + 2) % 4], corners[(left_out + 3) % 4]});
+  }
+}
+
 inline void add_primitive(Bytes& bytes, MeshPoints& points, core::SceneBuilder& builder) {
   const core::Vec3d a = points.next();
   switch (bytes.below(8)) {
@@ -93,6 +100,10 @@ inline void add_primitive(Bytes& bytes, MeshPoints& points, core::SceneBuilder& 
     case 2: {
       const core::Vec3d b = points.next(), c = points.next();
       return builder.polygon({a, b, c, points.next()});
+    }
+    case 3: {
+      const core::Vec3d b = points.next(), c = points.next();
+      return add_tetrahedron({a, b, c, points.next()}, builder);
     }
     default: {
       const core::Vec3d b = points.next();
