@@ -42,6 +42,8 @@ void try_machine(const std::string& text) {
     return accepted<core::InputError>([&] { return apps::parse_machine(json, "input"); });
   };
   if (const auto machine = parse(text)) {
+    expect(machine->machine.has_contention || !machine->machine.has_memory_port, "ports need contention");
+    expect(!machine->machine.name.empty() && machine->machine.name.size() <= 64, "a name has 1 to 64 characters");
     const std::string written = apps::machine_text(*machine);
     const auto again = parse(written);
     expect(again.has_value(), "a machine that is written is read");
@@ -75,7 +77,8 @@ void check(const apps::RenderOptions& render) {
   expect(!(render.computer.no_contention && render.computer.memory_port), "ports need contention");
 }
 
-void try_options(const Lines& lines) {
+void try_options(Lines lines) {
+  lines.insert(lines.begin(), "render");
   apps::CommandLine line("description", "version", "examples");
   apps::RenderOptions render;
   add_options(line.add_command("render", "description"), render);
@@ -86,9 +89,9 @@ void try_options(const Lines& lines) {
 }
 
 Lines lines_of(const std::string& text) {
-  Lines lines{"render"};
+  Lines lines;
   std::istringstream stream(text);
-  for (std::string line; lines.size() <= lines_max && std::getline(stream, line);) {
+  for (std::string line; lines.size() < lines_max && std::getline(stream, line);) {
     lines.push_back(line);
   }
   return lines;
@@ -100,12 +103,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string text(data, data + size);
   if (text.starts_with('{')) {
     try_machine(text);
-    return 0;
+  } else if (text.starts_with('-')) {
+    try_options(lines_of(text));
+  } else {
+    for (const std::string& line : lines_of(text)) {
+      try_value(line);
+    }
   }
-  const Lines lines = lines_of(text);
-  for (const std::string& line : lines) {
-    try_value(line);
-  }
-  try_options(lines);
   return 0;
 }
