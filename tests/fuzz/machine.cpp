@@ -55,6 +55,10 @@ void try_machine(const std::string& text) {
 
 // ---- Values and options ----------------------------------------------------------------------------------------------------
 
+bool is_possible(const apps::Resolution& size) {
+  return size.width > 0 && size.height > 0 && std::int64_t{size.width} * size.height <= apps::picture_pixels_max;
+}
+
 void try_value(const std::string& text) {
   using core::UsageError;
   const auto size = accepted<UsageError>([&] { return apps::parse_size_bytes(text, "--size"); });
@@ -62,15 +66,14 @@ void try_value(const std::string& text) {
   const auto page = accepted<UsageError>([&] { return apps::parse_page_size(text); });
   expect(!page || (size == page && *page >= 512 && *page <= 65536), "a page's size is a size, from 512 B to 64 KiB");
   const auto resolution = accepted<UsageError>([&] { return apps::parse_resolution(text); });
-  expect(!resolution || (resolution->width > 0 && resolution->height > 0 &&
-                         std::int64_t{resolution->width} * resolution->height <= apps::picture_pixels_max),
-         "a resolution has a pixel, and not too many");
+  expect(!resolution || is_possible(*resolution), "a resolution has a pixel, and not too many");
   const auto seed = accepted<UsageError>([&] { return apps::parse_seed(text, "--seed"); });
   const auto again = accepted<UsageError>([&] { return apps::parse_seed(std::to_string(seed.value_or(0)), "--seed"); });
   expect(!seed || again == seed, "a seed that is written is read");
 }
 
 void check(const apps::RenderOptions& render) {
+  expect(!render.picture.resolution || is_possible(*render.picture.resolution), "a resolution has a pixel, and not too many");
   expect(render.computer.node_count >= 1, "there is a node");
   expect(render.picture.samples >= 1 && render.picture.samples <= 32768, "samples are 1 to 32768");
   expect(render.picture.depth >= 1 && render.picture.depth <= 255, "the depth is 1 to 255");
