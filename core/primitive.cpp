@@ -50,12 +50,15 @@ Vec3d seen_vertex(const ShearedRay& ray, const float* vertex, std::size_t stride
   return {along(ray.axis_x), along(ray.axis_y), along(ray.axis_z)};
 }
 
-/// t of the plane of the lane that `rows` starts with.
+/// t of the plane of the lane that `rows` starts with, no farther than the triangle reaches: a ray that all but lies in the plane
+/// crosses it anywhere. Not finite for a ray parallel to it.
 double plane_distance(const ShearedRay& ray, const float* rows, std::size_t stride) {
   const Vec3d a = seen_vertex(ray, rows, stride), b = seen_vertex(ray, rows + 3 * stride, stride),
               c = seen_vertex(ray, rows + 6 * stride, stride);
   const Vec3d normal = cross(b - a, c - a);
-  return dot(normal, a) / dot(normal, {double{ray.shear_x}, double{ray.shear_y}, 1.0}) * double{ray.scale_z};
+  const double depth = dot(normal, a) / dot(normal, {double{ray.shear_x}, double{ray.shear_y}, 1.0});
+  const auto [least, greatest] = std::minmax({a.z, b.z, c.z});
+  return (std::isfinite(depth) ? std::clamp(depth, least, greatest) : depth) * double{ray.scale_z};
 }
 
 Vec3d row_vector(const float* rows, std::size_t stride, std::size_t lane, std::size_t row) {

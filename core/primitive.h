@@ -28,8 +28,9 @@ inline constexpr float missed = -1.0F;
 /// `rows` points at a block's first value, `stride` is its lane count. Returns the t of the hit of lane `lane`, or `missed`.
 /// Triangles: float, edge functions unfused, decided in double when one is zero (watertight along shared edges and at shared
 /// vertices), barycentric weights divided before t is summed, so that scaling all coordinates by a power of two scales t exactly.
-/// A t nearer to 0 than `near_start` whose sign is not that of double's t gives way to it: on needles t is off by more than a
-/// secondary ray starts off its surface, and the ray must neither hit what shares its surface's plane nor pass what lies ahead.
+/// A t nearer to 0 than `near_start` whose sign is not that of double's t (within the triangle's depths) gives way to it: on
+/// needles t is off by more than a secondary ray starts off its surface, and the ray must neither hit what shares its surface's
+/// plane nor pass what lies ahead.
 float intersect_triangle(const ShearedRay& ray, const float* rows, std::size_t stride, std::size_t lane);
 
 /// Spheres and cones: solved in double about the point of the ray nearest to the centre (base), so that distance cancels nothing;

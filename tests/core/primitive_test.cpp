@@ -59,6 +59,13 @@ TEST_CASE("a triangle seen edge-on or without area is missed") {
   CHECK(misses(triangle({0, 0, 0, 0, 0, 0, 0, 0, 0}, ray_from({0, 0, 1}, {0, 0, -1}))));
 }
 
+TEST_CASE("a ray that all but lies in a triangle's plane meets it no farther than it reaches") {
+  const float low = 0.00809230097F, middle = 0.133092299F;  // the ray runs along an edge, from one of its ends
+  const float t = triangle({0.383092314F, 0.258092314F, middle, low, low, low, middle, low, low},
+                           ray_from({middle, low, low}, {-1, 9e-19F, 9e-19F}));
+  CHECK(t <= middle - low);
+}
+
 TEST_CASE("scaling a triangle and the origin by a power of two scales t exactly") {
   Random random(1);
   std::size_t differences = 0, hits = 0;
