@@ -11,6 +11,7 @@
 #include "apps/accurate/precision_command.h"
 #include "apps/check.h"
 #include "apps/compare.h"
+#include "apps/error/command.h"
 #include "apps/interrupt.h"
 #include "apps/machine.h"
 #include "apps/options.h"
@@ -42,6 +43,7 @@ struct Execute {
   int operator()(const CompareOptions& options) const { return compare_command(options, interrupt, std::cout); }
   int operator()(const MachineOptions& options) const { return machine_command(options, std::cout); }
   int operator()(const PaperStudyOptions& options) const { return study_paper_command(options, interrupt, std::cout); }
+  int operator()(const ErrorOptions& options) const { return bench_error_command(options, interrupt, std::cout); }
   int operator()(const StabilityOptions& options) const { return bench_stability_command(options, interrupt, std::cout); }
   int operator()(const PrecisionOptions& options) const { return bench_precision_command(options, interrupt, std::cout); }
   int operator()(const StudyOptions& options) const { return study_command(options, interrupt, std::cout); }

@@ -34,6 +34,8 @@ Command parse_command_line(std::span<const std::string> arguments) {
   PrecisionOptions precision;
   add_options(bench.add_command("precision", "The picture in float against double precision, every differing pixel explained"),
               precision);
+  ErrorOptions error;
+  add_options(bench.add_command("error", "What every knob costs, and does to the picture's error"), error);
   const std::variant<HelpText, std::string> parsed = line.parse(arguments);
   if (const auto* help = std::get_if<HelpText>(&parsed)) {
     return *help;
@@ -50,7 +52,8 @@ Command parse_command_line(std::span<const std::string> arguments) {
                                                    {"study speedup", speedup},
                                                    {"study paper", paper},
                                                    {"bench stability", stability},
-                                                   {"bench precision", precision}};
+                                                   {"bench precision", precision},
+                                                   {"bench error", error}};
   return commands.at(name);
 }
 

@@ -9,6 +9,7 @@
 #include "apps/check.h"
 #include "apps/command_line.h"
 #include "apps/compare.h"
+#include "apps/error/command.h"
 #include "apps/machine.h"
 #include "apps/render_options.h"
 #include "apps/scene.h"
@@ -19,7 +20,7 @@
 namespace dmpc::apps {
 
 using Command = std::variant<HelpText, RenderOptions, SceneOptions, CheckOptions, CompareOptions, MachineOptions, StudyOptions,
-                             PaperStudyOptions, StabilityOptions, PrecisionOptions>;
+                             PaperStudyOptions, StabilityOptions, PrecisionOptions, ErrorOptions>;
 
 /// `arguments` without the program's name. Throws core::UsageError, whose message ends with a hint at the right --help, for
 /// anything wrong that can be seen without reading a file.

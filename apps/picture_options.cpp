@@ -10,8 +10,6 @@ namespace dmpc::apps {
 namespace {
 
 constexpr int samples_max = 32768;
-/// Two on each plane would tell more of the error, one is what most pixels of most pictures need.
-constexpr int refined_samples = 2;
 constexpr double default_error = 1.0 / 255;
 
 void take_samples(PictureOptions& picture, std::string_view text) {
@@ -44,9 +42,7 @@ void add_options(OptionSet options, PictureOptions& picture) {
   options.add_argument(
       "SCENE", [&picture](const std::string& text) { picture.scene = text; },
       "An NFF file, or a built-in scene such as teapot-12, rings-4-t1, tetra-9");
-  options.add_text(
-      "--resolution", "WxH [the scene's]", [&picture](const std::string& text) { picture.resolution = parse_resolution(text); },
-      "Pixels of the picture");
+  add_view_options(options, picture);
   options.add_text(
       "--samples", "1..32768|auto [1]", [&picture](const std::string& text) { take_samples(picture, text); },
       "Rays through each pixel; auto: as many as it needs for --error");
@@ -55,15 +51,21 @@ void add_options(OptionSet options, PictureOptions& picture) {
       "With --samples=auto: the estimated root mean square error of the linear picture at which it is done");
   options.add_number("--samples-max", picture.refinement.samples_max, 2, 32768, "4096",
                      "With --samples=auto: no pixel gets more rays than this");
-  options.add_number("--depth", picture.depth, 1, 255, "5",
-                     "Longest chain of reflections and refractions; 1 is the eye's ray alone");
-  options.add_choice<core::Convention>("--convention", picture.convention,
-                                       {{"haines", core::Convention::haines}, {"paper", core::Convention::paper}},
-                                       "When shadow rays are cast: towards lights that the surface faces, or towards all");
   options.add_text(
       "--cutoff", "C [0]", [&picture](const std::string& text) { picture.cutoff = parse_share(text, "--cutoff", true); },
       "Shoot no ray that can bring at most C of light to its sample; 0 is exact");
   options.check_in_the_end([options, &picture] { check_refinement(options, picture); });
+}
+
+void add_view_options(OptionSet options, PictureOptions& picture) {
+  options.add_text(
+      "--resolution", "WxH [the scene's]", [&picture](const std::string& text) { picture.resolution = parse_resolution(text); },
+      "Pixels of the picture");
+  options.add_number("--depth", picture.depth, 1, 255, std::to_string(picture.depth),
+                     "Longest chain of reflections and refractions; 1 is the eye's ray alone");
+  options.add_choice<core::Convention>("--convention", picture.convention,
+                                       {{"haines", core::Convention::haines}, {"paper", core::Convention::paper}},
+                                       "When shadow rays are cast: towards lights that the surface faces, or towards all");
 }
 
 core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database) {

@@ -17,6 +17,10 @@ namespace dmpc::apps {
 /// Pixels of one picture, whether the scene or the command line asks for them.
 inline constexpr std::int64_t picture_pixels_max = std::int64_t{1} << 28;
 
+/// In the first pass of a refined picture: two on each plane would tell more of the error, one is what most pixels of most
+/// pictures need.
+inline constexpr int refined_samples = 2;
+
 struct Resolution {
   int width = 0, height = 0;  ///< both above 0
 };
@@ -34,6 +38,8 @@ struct PictureOptions {
 
 /// Declares them.
 void add_options(OptionSet options, PictureOptions& picture);
+/// Declares those that neither are the scene nor trade error for time: --resolution, --depth and --convention.
+void add_view_options(OptionSet options, PictureOptions& picture);
 
 /// What the nodes need beside the records.
 core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database);

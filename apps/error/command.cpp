@@ -1,0 +1,257 @@
+#include "apps/error/command.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "apps/distinct_files.h"
+#include "apps/error/findings.h"
+#include "apps/error/table.h"
+#include "apps/figures.h"
+#include "apps/output_file.h"
+#include "apps/plot_program.h"
+#include "core/expect.h"
+#include "core/scenes.h"
+#include "svm/plan.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr std::uint32_t default_reference_side = 32;
+
+std::uint32_t core_count() { return static_cast<std::uint32_t>(std::max(1L, ::sysconf(_SC_NPROCESSORS_ONLN))); }
+
+/// An even number: the reference has two halves.
+std::uint32_t parse_reference_side(const std::string& text) {
+  std::uint32_t side = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, side);
+  if (error != std::errc() || rest != end || side < 2 || side > 128 || side % 2 != 0) {
+    throw core::UsageError("--reference-samples=" + text + ": expected an even number from 2 to 128");
+  }
+  return side;
+}
+
+std::string plot_name_of(const std::string& scene) { return "error_" + file_text(scene); }
+std::string data_file_of(const std::string& scene) { return plot_name_of(scene) + ".csv"; }
+
+void check_scenes(const ErrorOptions& options) {
+  if (options.scenes.empty()) {
+    throw core::UsageError("SCENE: expected one or more");
+  }
+  std::set<std::string> names;
+  for (const std::string& scene : options.scenes) {
+    if (!names.insert(file_text(scene)).second) {
+      throw core::UsageError("SCENE " + scene + ": there is another one with this name, and their outputs would clash");
+    }
+    if (options.has_tessellation && tessellations_of(scene, options.measure.is_quick).empty()) {
+      throw core::UsageError(
+          "--knobs=tessellation: " + scene +
+          " is no built-in scene of at most a million triangles that has exact spheres or cones to tessellate");
+    }
+  }
+}
+
+void add_plot_files(const ErrorOptions& options, std::vector<NamedFile>& outputs) {
+  make_output_folder(*options.plots, "--plots");
+  for (const std::string& scene : options.scenes) {
+    outputs.push_back({"--plots", *options.plots / data_file_of(scene)});
+    for (const char* cost : {"_rays", "_seconds"}) {
+      outputs.push_back({"--plots", *options.plots / (plot_name_of(scene) + cost + ".gnuplot")});
+      outputs.push_back({"--plots", *options.plots / (plot_name_of(scene) + cost + ".svg")});
+    }
+  }
+}
+
+void check_files(const ErrorOptions& options) {
+  std::vector<NamedFile> inputs, outputs;
+  for (const std::string& scene : options.scenes) {
+    if (!core::find_scene_name(scene)) {
+      inputs.push_back({"SCENE", scene});
+    }
+  }
+  if (options.output) {
+    outputs.push_back({"-o", *options.output});
+    check_output_path(*options.output, "-o");
+  }
+  if (options.plots) {
+    add_plot_files(options, outputs);
+  }
+  if (options.measure.pictures) {
+    make_output_folder(*options.measure.pictures, "--pictures");
+  }
+  check_distinct(inputs, outputs);
+}
+
+/// Of the last minute; 0 where the system does not say.
+double machine_load() {
+  std::array<double, 1> load{};
+  return ::getloadavg(load.data(), 1) == 1 ? load[0] : 0;
+}
+
+std::string load_note(double before) {
+  return "Load of the machine, whose cores are " + std::to_string(core_count()) + ": " + fixed(before, 1) + " before, " +
+         fixed(machine_load(), 1) + " after.";
+}
+
+std::string title_of(const ErrorOptions& options) {
+  const MeasureOptions& measure = options.measure;
+  return "Error against time: about " + counted(static_cast<std::uint64_t>(measure.picture.samples), "sample") +
+         " a pixel at depth " + std::to_string(measure.picture.depth) + ", convention " +
+         (measure.picture.convention == core::Convention::haines ? "haines" : "paper") + ", " +
+         name_of(measure.strategy.strategy) + " on " + counted(measure.strategy.computer.node_count, "node") + ", " +
+         counted(measure.rounds, "round");
+}
+
+const std::vector<std::string>& explanations() {
+  static const std::vector<std::string> sentences = {
+      "Errors without a word before them are against the converged picture in double precision; a row below the reference, whose "
+      "RMSE is less than 10 times the reference's own error, claims nothing and is on no Pareto front.",
+      "Deterministic errors are those of the knob alone: against the picture with the same samples and the knob at its exact "
+      "position, of arithmetic against the same samples in double precision.",
+      "Ratios at equal RMSE are interpolated in logarithms, after the reference's own error is taken off in squares."};
+  return sentences;
+}
+
+Table finished_table(const ErrorOptions& options, std::span<const SceneResult> results, double load) {
+  Table table = table_of(results, title_of(options));
+  for (const std::string& sentence : explanations()) {
+    table.add_note(sentence);
+  }
+  if (options.measure.pictures) {
+    table.add_note("Pictures show the absolute error, " + fixed(static_cast<double>(picture_scale), 0) + " times as bright.");
+  }
+  for (const SceneResult& result : results) {
+    for (std::string& sentence : findings_of(result)) {
+      table.add_note(std::move(sentence));
+    }
+  }
+  for (std::string& sentence : findings_of_all(results)) {
+    table.add_note(std::move(sentence));
+  }
+  table.add_note(load_note(load));
+  return table;
+}
+
+/// Complaints about pictures go to stderr: they are an extra.
+void draw_plots(const ErrorOptions& options, std::span<const SceneResult> results) {
+  std::set<std::string> complaints;
+  for (const SceneResult& result : results) {
+    const Table table = plotted_table(result);
+    const std::string data_file = data_file_of(result.scene);
+    write_file(*options.plots / data_file, text_of(table, TableFormat::csv));
+    for (const Plot& plot : plots_of(result, plot_name_of(result.scene))) {
+      const auto outcome = draw(plot, table, *options.plots, data_file);
+      if (outcome && !outcome->is_drawn && complaints.insert(sentence_on(*outcome)).second) {
+        std::cerr << "dmpc: " << sentence_on(*outcome) << std::endl;
+      }
+    }
+  }
+}
+
+/// What ended it before its time, if anything did.
+std::exception_ptr measure_all(const ErrorOptions& options, const Interrupt& interrupt, std::vector<SceneResult>& results) {
+  try {
+    for (const std::string& scene : options.scenes) {
+      measure_scene(scene, options.measure, interrupt, results.emplace_back());
+    }
+    return nullptr;
+  } catch (...) {
+    return std::current_exception();
+  }
+}
+
+bool has_measurements(const SceneResult& result) {
+  return std::any_of(result.measurements.begin(), result.measurements.end(), [](const auto& one) { return one.is_done(); });
+}
+
+}  // namespace
+
+ErrorOptions::ErrorOptions() {
+  measure.picture.samples = Setting().samples;
+  measure.picture.depth = Setting().depth;
+  measure.strategy.strategy = Strategy::replicated;
+  measure.strategy.computer.node_count = core_count();
+  measure.knobs = all_knobs();
+  measure.reference.samples_a_side = default_reference_side;
+}
+
+void add_options(OptionSet set, ErrorOptions& options) {
+  MeasureOptions& measure = options.measure;
+  set.add_arguments(
+      "SCENE", [&options](const std::string& text) { options.scenes.push_back(text); },
+      "NFF files, or built-in scenes such as teapot-12, rings-3, tetra-6");
+  set.add_text(
+      "--knobs", "NAME,NAME,... [all]",
+      [&](const std::string& text) {
+        measure.knobs = parse_knobs(text);
+        options.has_tessellation = measure.knobs.contains(Knob::tessellation);
+      },
+      "What is turned, one at a time: samples, adaptive (sampling), cutoff, depth, tessellation, arithmetic; adaptive with "
+      "cutoff "
+      "or depth together as well");
+  set.add_flag("--quick", measure.is_quick, "Fewer positions of each knob");
+  set.add_number("--repeat", measure.rounds, 1, 1000, "3", "Rounds in which everything is rendered and timed");
+  set.add_number("--samples", measure.picture.samples, 2, 4096, std::to_string(measure.picture.samples),
+                 "Rays through each pixel where they are not what is turned");
+  add_view_options(set, measure.picture);
+  set.add_text(
+      "--reference-samples", "N, even, 2..128 [" + std::to_string(default_reference_side) + "]",
+      [&measure](const std::string& text) { measure.reference.samples_a_side = parse_reference_side(text); },
+      "N x N rays through each pixel of the reference");
+  set.add_path("--references", "FOLDER [~/.cache/dmpc]", measure.reference.folder, "Where references are kept");
+  add_strategy_option(set, measure.strategy.strategy);
+  set.add_number("--nodes", measure.strategy.computer.node_count, 1, svm::node_count_max,
+                 std::to_string(measure.strategy.computer.node_count), "Nodes that render");
+  set.add_path("--plots", "FOLDER", options.plots,
+               "Where pictures by gnuplot go, with their scripts and what they are drawn from");
+  set.add_path("--pictures", "FOLDER", measure.pictures,
+               "Where pictures of every point's error go, " + fixed(static_cast<double>(picture_scale), 0) + " times as bright");
+  set.add_choice<TableFormat>("--format", options.format,
+                              {{"markdown", TableFormat::markdown}, {"csv", TableFormat::csv}, {"json", TableFormat::json}},
+                              "How the table is written");
+  set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
+  set.set_examples(
+      "Examples:\n"
+      "  dmpc bench error teapot-12 --quick --resolution=256x256\n"
+      "  dmpc bench error rings-3 balls-3 --knobs=samples,adaptive --plots=plots -o error.md\n"
+      "  dmpc bench error shells-3 --knobs=depth,cutoff --repeat=1 --pictures=errors --format=csv -o shells.csv\n"
+      "The reference and the base point have the depth given; the other depths are below it.");
+  set.check_in_the_end([set, &options] {
+    check_scenes(options);
+    check_together(set, options.measure.strategy);
+    check_node_count(options.measure.strategy.strategy, options.measure.strategy.computer.node_count);
+  });
+}
+
+int bench_error_command(const ErrorOptions& options, Interrupt& interrupt, std::ostream& output) {
+  check_files(options);
+  const double load = machine_load();
+  std::vector<SceneResult> results;
+  const std::exception_ptr failure = measure_all(options, interrupt, results);
+  if (!failure || std::any_of(results.begin(), results.end(), has_measurements)) {
+    interrupt.set_consequence("the table has the points measured before");
+    Table table = finished_table(options, results, load);
+    if (failure) {
+      table.add_note("Ended before its time: points or rounds are missing.");
+    }
+    write_to(options.output, text_of(table, options.format), output, "the table");
+    if (options.plots) {
+      draw_plots(options, results);
+    }
+  }
+  if (failure) {
+    std::rethrow_exception(failure);
+  }
+  return 0;
+}
+
+}  // namespace dmpc::apps

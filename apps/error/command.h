@@ -1,0 +1,37 @@
+// The command `bench error`: what every knob of a render costs, and what it does to the picture's error.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/command_line.h"
+#include "apps/error/measure.h"
+#include "apps/interrupt.h"
+#include "apps/study_table.h"
+
+namespace dmpc::apps {
+
+struct ErrorOptions {
+  ErrorOptions();  ///< 16 samples and depth 8, replicated on as many nodes as there are cores
+
+  std::vector<std::string> scenes;
+  MeasureOptions measure;
+  TableFormat format = TableFormat::markdown;
+  std::optional<std::filesystem::path> output;  ///< stdout if not given
+  std::optional<std::filesystem::path> plots;   ///< a folder for pictures by gnuplot and what they are drawn from
+  bool has_tessellation = false;                ///< asked for by name: a scene that has none is refused
+};
+
+/// Declares them.
+void add_options(OptionSet set, ErrorOptions& options);
+
+/// Writes the table to the file asked for (whole or not at all), else to `output`, with the plots and pictures asked for;
+/// progress goes to stderr if that is a terminal. After a signal the points that are measured are written before Interrupted goes
+/// on. Returns the exit status 0. Throws core::UsageError for outputs that clash, core::InputError for a scene that will not do
+/// or files that cannot be written.
+int bench_error_command(const ErrorOptions& options, Interrupt& interrupt, std::ostream& output);
+
+}  // namespace dmpc::apps

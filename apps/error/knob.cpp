@@ -1,0 +1,52 @@
+#include "apps/error/knob.h"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+#include "core/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr std::array<const char*, 8> names = {
+    "samples", "adaptive", "cutoff", "depth", "tessellation", "arithmetic", "adaptive and cutoff", "adaptive and depth"};
+/// Of these the command line knows.
+constexpr std::size_t single_count = 6;
+
+Knob knob_of(const std::string& word, const std::string& text) {
+  const auto* const end = names.begin() + single_count;
+  const auto* const found = std::find(names.begin(), end, word);
+  if (found == end) {
+    throw core::UsageError("--knobs=" + text +
+                           ": expected some of samples,adaptive,cutoff,depth,tessellation,arithmetic with commas between them");
+  }
+  return static_cast<Knob>(found - names.begin());
+}
+
+void add_pairs(std::set<Knob>& knobs) {
+  if (knobs.contains(Knob::adaptive) && knobs.contains(Knob::cutoff)) {
+    knobs.insert(Knob::adaptive_and_cutoff);
+  }
+  if (knobs.contains(Knob::adaptive) && knobs.contains(Knob::depth)) {
+    knobs.insert(Knob::adaptive_and_depth);
+  }
+}
+
+}  // namespace
+
+const char* name_of(Knob knob) { return names[static_cast<std::size_t>(knob)]; }
+
+std::set<Knob> parse_knobs(const std::string& text) {
+  std::set<Knob> knobs;
+  std::istringstream words(text + ",");
+  for (std::string word; std::getline(words, word, ',');) {
+    knobs.insert(knob_of(word, text));
+  }
+  add_pairs(knobs);
+  return knobs;
+}
+
+std::set<Knob> all_knobs() { return parse_knobs("samples,adaptive,cutoff,depth,tessellation,arithmetic"); }
+
+}  // namespace dmpc::apps

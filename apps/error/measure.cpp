@@ -1,0 +1,246 @@
+#include "apps/error/measure.h"
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "apps/accurate/picture.h"
+#include "apps/load_scene.h"
+#include "apps/progress.h"
+#include "apps/render.h"
+#include "apps/run_strategy.h"
+#include "apps/subject.h"
+#include "core/expect.h"
+#include "core/scenes.h"
+
+namespace dmpc::apps {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+PictureOptions picture_of(PictureOptions picture, const Setting& setting) {
+  picture.samples = setting.samples;
+  picture.is_refined = setting.is_refined();
+  picture.refinement.error = setting.error;
+  picture.depth = setting.depth;
+  picture.cutoff = setting.cutoff;
+  return picture;
+}
+
+/// The scene in all its tessellations, each built when it is first asked for.
+class Scenes {
+ public:
+  Scenes(const std::string& name, PictureOptions picture) : picture_(std::move(picture)) {
+    picture_.scene = name;
+    add(0);
+  }
+
+  struct Built {
+    core::Scene scene;
+    Subject subject;
+  };
+  const Built& of(int tessellation) { return scenes_.contains(tessellation) ? scenes_.at(tessellation) : add(tessellation); }
+  const core::Scene& exact() const { return scenes_.at(0).scene; }
+
+ private:
+  const Built& add(int tessellation) {
+    core::Scene scene = load(tessellation);
+    Subject subject = build_subject(scene, picture_);
+    return scenes_.emplace(tessellation, Built{std::move(scene), std::move(subject)}).first->second;
+  }
+  core::Scene load(int tessellation) const {
+    if (tessellation == 0) {
+      return load_scene(picture_);
+    }
+    core::SceneName name = core::parse_scene_name(picture_.scene);
+    name.tessellation = tessellation;
+    return core::built_in_scene(name);
+  }
+
+  PictureOptions picture_;
+  std::map<int, Built> scenes_;
+};
+
+/// One render that has ended.
+struct Rendered {
+  Image picture;
+  double seconds = 0;
+  std::uint64_t rays = 0, samples = 0, film_hash = 0;
+};
+
+Image accurate_image(const AccuratePicture& accurate) {
+  Image image(accurate.width, accurate.height);
+  for (std::size_t i = 0; i < image.rgb.size(); ++i) {
+    image.rgb[i] = static_cast<float>(accurate.radiance[i / 3][i % 3]);
+  }
+  return image;
+}
+
+/// Makes the measurements of one scene.
+class Bench {
+ public:
+  Bench(const std::string& scene, const MeasureOptions& options, const Interrupt& interrupt, SceneResult& result)
+      : options_(options), interrupt_(interrupt), result_(result), scenes_(scene, options.picture) {
+    const core::View& view = scenes_.exact().view;
+    const Resolution size = options.picture.resolution.value_or(Resolution{view.width, view.height});
+    result_.scene = scene;
+    result_.width = size.width;
+    result_.height = size.height;
+    result_.base = {.samples = options.picture.samples, .depth = options.picture.depth};
+    result_.reference_samples_a_side = options.reference.samples_a_side;
+    const bool is_tessellated = options.knobs.contains(Knob::tessellation);
+    result_.points = sweep(result_.base, options.knobs,
+                           is_tessellated ? tessellations_of(scene, options.is_quick) : std::vector<int>(), options.is_quick);
+    add_measurements();
+  }
+
+  void measure() {
+    find_reference();
+    find_accurate();
+    const std::size_t count = result_.measurements.size();
+    Progress progress(std::cerr, stderr_is_terminal(), result_.scene + ":", "renders");
+    round_by_round(options_.rounds, count, [&](std::size_t round, std::size_t index) {
+      progress.update(round * count + index, options_.rounds * count);
+      measure(result_.measurements[index]);
+    });
+  }
+
+ private:
+  /// The base point comes first, if any point is there: others are held against its picture.
+  void add_measurements() {
+    for (const Point& point : result_.points) {
+      if (point.setting == result_.base && result_.measurements.empty()) {
+        result_.measurements.push_back({.setting = result_.base});
+      }
+    }
+    for (const Point& point : result_.points) {
+      auto& all = result_.measurements;
+      const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.setting == point.setting; });
+      result_.measurement_of.push_back(static_cast<std::size_t>(found - all.begin()));
+      if (found == all.end()) {
+        all.push_back({.setting = point.setting});
+      }
+    }
+  }
+
+  void find_reference() {
+    Progress progress(std::cerr, stderr_is_terminal(), "reference of " + result_.scene + ":", "rows");
+    const PictureOptions picture = picture_of(options_.picture, result_.base);
+    result_.reference = reference_for(scenes_.exact(), picture, options_.reference, attendance(progress));
+  }
+
+  Attendance attendance(Progress& progress) const {
+    return {.progress = [&progress](std::uint64_t done, std::uint64_t all) { progress.update(done, all); },
+            .stop = interrupt_.token()};
+  }
+
+  /// The base point in double precision, sample by sample, if that is asked for.
+  void find_accurate() {
+    if (!options_.knobs.contains(Knob::arithmetic)) {
+      return;
+    }
+    Progress progress(std::cerr, stderr_is_terminal(), result_.scene + " in double precision:", "rows");
+    const AccurateScene scene = accurate_scene(scenes_.exact());
+    const AccurateFinder finder(scene, scenes_.exact().view.from);
+    const AccurateCamera camera(scenes_.exact().view, result_.width, result_.height);
+    const auto pattern = SamplePattern::of_product(static_cast<std::uint32_t>(result_.base.samples));
+    accurate_ = accurate_image(render_accurately(scene, finder, camera, pattern,
+                                                 {.convention = options_.picture.convention, .depth_max = result_.base.depth},
+                                                 attendance(progress)));
+  }
+
+  Rendered render(const Setting& setting) {
+    const Scenes::Built& built = scenes_.of(setting.tessellation);
+    const core::Database& database = built.subject.database;
+    const core::RenderSettings settings = render_settings(picture_of(options_.picture, setting), built.scene, database);
+    const ReadyRun run = make_ready(options_.strategy, database, settings, interrupt_.token());
+    interrupt_.check();
+    const Clock::time_point start = Clock::now();
+    const Report report = run.start([](std::uint32_t, std::uint32_t) {}, interrupt_.token());
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    interrupt_.check();
+    const Account account = account_of(report);
+    const auto& rays = account.operations.rays;
+    return {.picture = image_of(account.film),
+            .seconds = seconds,
+            .rays = std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}),
+            .samples = account.film.samples(),
+            .film_hash = account.film.hash()};
+  }
+
+  void measure(Measurement& measurement) {
+    const Rendered rendered = render(measurement.setting);
+    if (measurement.is_done()) {
+      core::expect(rendered.film_hash == measurement.film_hash, "a setting has one film in all rounds");
+    } else {
+      measurement.rays = rendered.rays;
+      measurement.samples = rendered.samples;
+      measurement.film_hash = rendered.film_hash;
+      judge(measurement, rendered.picture);
+    }
+    measurement.seconds.push_back(rendered.seconds);
+  }
+
+  void judge(Measurement& measurement, const Image& picture) {
+    const Setting& setting = measurement.setting;
+    if (setting == result_.base) {
+      base_ = picture;
+      if (accurate_) {
+        result_.arithmetic = measure_error(picture, *accurate_);
+      }
+    }
+    measurement.error = measure_error(picture, result_.reference.picture);
+    if (base_ && !setting.is_refined() && setting.samples == result_.base.samples) {
+      measurement.deterministic = measure_error(picture, *base_);
+    }
+    if (options_.pictures) {
+      write_pictures(measurement, picture);
+    }
+  }
+
+  void write_pictures(const Measurement& measurement, const Image& picture) const {
+    for (std::size_t point = 0; point < result_.points.size(); ++point) {
+      if (&result_.of(point) != &measurement) {
+        continue;
+      }
+      const std::string name = file_text(result_.scene) + "_" + file_text(name_of(result_.points[point].knob)) + "_" +
+                               file_text(result_.points[point].text);
+      write_error(name, picture, result_.reference.picture);
+      if (deterministic_error(result_, point)) {
+        write_error(name + "_deterministic", picture, result_.points[point].knob == Knob::arithmetic ? *accurate_ : *base_);
+      }
+    }
+  }
+  void write_error(const std::string& name, const Image& picture, const Image& reference) const {
+    Image error = difference_picture(picture, reference);
+    std::transform(error.rgb.begin(), error.rgb.end(), error.rgb.begin(), [](float value) { return picture_scale * value; });
+    write_image(*options_.pictures / (name + ".png"), error);
+  }
+
+  const MeasureOptions& options_;
+  const Interrupt& interrupt_;
+  SceneResult& result_;
+  Scenes scenes_;
+  std::optional<Image> accurate_, base_;
+};
+
+}  // namespace
+
+std::string file_text(const std::string& text) {
+  std::string safe = text;
+  std::replace_if(
+      safe.begin(), safe.end(), [](unsigned char character) { return std::isalnum(character) == 0; }, '-');
+  return safe;
+}
+
+void measure_scene(const std::string& scene, const MeasureOptions& options, const Interrupt& interrupt, SceneResult& result) {
+  Bench(scene, options, interrupt, result).measure();
+  result.reference.picture = {};
+}
+
+}  // namespace dmpc::apps

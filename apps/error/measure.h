@@ -1,0 +1,51 @@
+// The renders of `bench error`: every setting of a scene, round by round, beside its reference.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "apps/accurate/reference.h"
+#include "apps/error/knob.h"
+#include "apps/error/result.h"
+#include "apps/interrupt.h"
+#include "apps/picture_options.h"
+#include "apps/strategy_options.h"
+
+namespace dmpc::apps {
+
+struct MeasureOptions {
+  PictureOptions picture;    ///< resolution and convention; samples and depth are the base point's; `scene` is not read
+  StrategyOptions strategy;  ///< that renders, on threads
+  std::set<Knob> knobs;      ///< tessellation only of scenes that can be
+  bool is_quick = false;
+  std::size_t rounds = 3;
+  ReferenceOptions reference;
+  std::optional<std::filesystem::path> pictures;  ///< an existing folder for pictures of the errors
+};
+
+/// Calls visit(round, index) for every index below `count` before the next round, so that a busy minute of the machine hits all
+/// indices alike and not the last ones.
+template <class Visit>
+void round_by_round(std::size_t rounds, std::size_t count, const Visit& visit) {
+  for (std::size_t round = 0; round < rounds; ++round) {
+    for (std::size_t index = 0; index < count; ++index) {
+      visit(round, index);
+    }
+  }
+}
+
+/// How much brighter than the error, in linear light, its pictures are.
+inline constexpr float picture_scale = 32;
+
+/// `text` as a part of a file's name: letters, digits and hyphens; what else it has becomes a hyphen.
+std::string file_text(const std::string& text);
+
+/// Finds the reference, then renders every setting once a round. `result` has what is measured so far at any time, thrown at or
+/// not. Progress goes to stderr if that is a terminal. Throws Interrupted after a signal; core::InputError for a scene, a memory
+/// or a file that will not do; core::InternalError if a setting's film differs between rounds.
+void measure_scene(const std::string& scene, const MeasureOptions& options, const Interrupt& interrupt, SceneResult& result);
+
+}  // namespace dmpc::apps
