@@ -117,6 +117,7 @@ const std::vector<std::string>& explanations() {
       "RMSE is less than 10 times the reference's own error, claims nothing and is on no Pareto front.",
       "Deterministic errors are those of the knob alone: against the picture with the same samples and the knob at its exact "
       "position, of arithmetic against the same samples in double precision.",
+      "Adaptive sampling is asked for no smaller error than the reference's own.",
       "Ratios at equal RMSE are interpolated in logarithms, after the reference's own error is taken off in squares."};
   return sentences;
 }

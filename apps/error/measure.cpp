@@ -93,15 +93,12 @@ class Bench {
     result_.height = size.height;
     result_.base = {.samples = options.picture.samples, .depth = options.picture.depth};
     result_.reference_samples_a_side = options.reference.samples_a_side;
-    const bool is_tessellated = options.knobs.contains(Knob::tessellation);
-    result_.points = sweep(result_.base, options.knobs,
-                           is_tessellated ? tessellations_of(scene, options.is_quick) : std::vector<int>(), options.is_quick);
-    add_measurements();
   }
 
   void measure() {
     find_reference();
     find_accurate();
+    plan();
     const std::size_t count = result_.measurements.size();
     Progress progress(std::cerr, stderr_is_terminal(), result_.scene + ":", "renders");
     round_by_round(options_.rounds, count, [&](std::size_t round, std::size_t index) {
@@ -111,6 +108,16 @@ class Bench {
   }
 
  private:
+  /// An error smaller than the reference's own could not be seen.
+  void plan() {
+    SweepOptions options{.knobs = options_.knobs, .is_quick = options_.is_quick, .error_least = result_.reference.own_error};
+    if (options.knobs.contains(Knob::tessellation)) {
+      options.tessellations = tessellations_of(result_.scene, options.is_quick);
+    }
+    result_.points = sweep(result_.base, options);
+    add_measurements();
+  }
+
   /// The base point comes first, if any point is there: others are held against its picture.
   void add_measurements() {
     for (const Point& point : result_.points) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "apps/picture_options.h"
 #include "core/expect.h"
@@ -35,15 +35,14 @@ constexpr std::uint64_t tessellated_primitives_max = 1'000'000;
 /// The points of one sweep on their way. A quick sweep leaves out every other position, but never the last one.
 class Sweep {
  public:
-  Sweep(const Setting& base, const std::vector<int>& tessellations, bool is_quick)
-      : base_(base), tessellations_(tessellations), is_quick_(is_quick) {}
+  Sweep(const Setting& base, const SweepOptions& options) : base_(base), options_(options) {}
 
   void add(Knob knob) {
     switch (knob) {
       case Knob::samples:
         return add_samples();
       case Knob::adaptive:
-        return add_each(errors, [&](const Named& error) { add(Knob::adaptive, error.text, refined(error)); });
+        return add_errors();
       case Knob::cutoff:
         return add_each(cutoffs, [&](const Named& cutoff) { add(Knob::cutoff, cutoff.text, cut(base_, cutoff)); });
       case Knob::depth:
@@ -68,7 +67,7 @@ class Sweep {
   void add_each(const Positions& positions, const Add& add_one) const {
     const std::size_t last = positions.size() - 1;
     for (std::size_t i = 0; i <= last; ++i) {
-      if (!is_quick_ || (last - i) % 2 == 0) {
+      if (!options_.is_quick || (last - i) % 2 == 0) {
         add_one(positions[i]);
       }
     }
@@ -89,8 +88,20 @@ class Sweep {
     return setting;
   }
 
+  /// A quick sweep has those about an 8-bit step.
+  void add_errors() {
+    for (std::size_t i = options_.is_quick ? 2 : 0; i < (options_.is_quick ? 6 : errors.size()); ++i) {
+      add_refined(Knob::adaptive, errors[i].text, refined(errors[i]));
+    }
+  }
+  void add_refined(Knob knob, const std::string& text, const Setting& setting) {
+    if (setting.error >= options_.error_least) {
+      add(knob, text, setting);
+    }
+  }
+
   void add_samples() {
-    std::set<int> counts = is_quick_ ? std::set{1, 4, 16, 64} : std::set{1, 4, 16, 32, 64, 256};
+    std::set<int> counts = options_.is_quick ? std::set{1, 4, 16, 32, 64} : std::set{1, 4, 16, 32, 64, 256};
     counts.insert(base_.samples);
     for (const int count : counts) {
       Setting setting = base_;
@@ -110,12 +121,12 @@ class Sweep {
   }
 
   void add_tessellations() {
-    for (const int tessellation : tessellations_) {
+    for (const int tessellation : options_.tessellations) {
       Setting setting = base_;
       setting.tessellation = tessellation;
       add(Knob::tessellation, "t" + std::to_string(tessellation), setting);
     }
-    if (!tessellations_.empty()) {
+    if (!options_.tessellations.empty()) {
       add(Knob::tessellation, "exact", base_);
     }
   }
@@ -124,26 +135,25 @@ class Sweep {
   template <class Positions, class Turn>
   void add_pairs(const Positions& positions, Knob knob, const std::string& between, const Turn& turn) {
     for (const Named& position : positions) {
-      for (std::size_t error = 1; error + 1 < errors.size(); error += is_quick_ ? 3 : 1) {
+      for (std::size_t error = 1; error + 1 < errors.size(); error += options_.is_quick ? 3 : 1) {
         const Setting setting = turn(refined(errors[error]), position);
         if (setting.depth < base_.depth || setting.cutoff > 0) {
-          add(knob, errors[error].text + between + position.text, setting);
+          add_refined(knob, errors[error].text + between + position.text, setting);
         }
       }
     }
   }
 
-  Setting base_;
-  const std::vector<int>& tessellations_;
-  bool is_quick_;
+  const Setting& base_;
+  const SweepOptions& options_;
 };
 
 }  // namespace
 
-std::vector<Point> sweep(const Setting& base, const std::set<Knob>& knobs, const std::vector<int>& tessellations, bool is_quick) {
+std::vector<Point> sweep(const Setting& base, const SweepOptions& options) {
   core::expect(!base.is_refined() && base.cutoff == 0 && base.tessellation == 0, "the base point is exact");
-  Sweep result(base, tessellations, is_quick);
-  for (const Knob knob : knobs) {
+  Sweep result(base, options);
+  for (const Knob knob : options.knobs) {
     result.add(knob);
   }
   return std::move(result.points);

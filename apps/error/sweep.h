@@ -28,9 +28,16 @@ struct Point {
   Setting setting;
 };
 
+struct SweepOptions {
+  std::set<Knob> knobs;
+  std::vector<int> tessellations;  ///< positions of that knob beside exact quadrics, above 0
+  bool is_quick = false;           ///< fewer positions of each knob
+  double error_least = 0;          ///< no refined picture is asked for a smaller error than this
+};
+
 /// By knob, from the cheapest position of each to the base point's or beyond. `base` is exact: neither refined nor cut off nor
-/// tessellated, and no depth is above its own. `tessellations` are positions of that knob beside exact quadrics, above 0.
-std::vector<Point> sweep(const Setting& base, const std::set<Knob>& knobs, const std::vector<int>& tessellations, bool is_quick);
+/// tessellated, and no depth is above its own.
+std::vector<Point> sweep(const Setting& base, const SweepOptions& options);
 
 /// Powers of 2 by which a built-in scene can be tessellated into different scenes of at most a million primitives; none for
 /// scenes without spheres and cones, tessellated ones, and files.
