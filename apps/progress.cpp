@@ -73,6 +73,8 @@ void Progress::update(std::uint64_t done, std::uint64_t total) {
     return;
   }
   next_ = now + std::chrono::milliseconds(100);
+  start_ = done < done_ ? now : start_;
+  done_ = done;
   const double seconds = std::chrono::duration<double>(now - start_).count();
   output_ << back_and_clear << label_ << progress_line(done, total, seconds, unit_) << std::flush;
 }

@@ -24,6 +24,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// Less done than before: another stretch has begun, with a total and a rate of its own.
   void update(std::uint64_t done, std::uint64_t total);
 
  private:
@@ -32,6 +33,7 @@ class Progress {
   std::ostream& output_;
   bool shown_;
   std::string label_, unit_;
+  std::uint64_t done_ = 0;
   Clock::time_point start_;
   Clock::time_point next_;  ///< no rewriting before
 };

@@ -21,8 +21,11 @@ double spread(std::uint32_t samples) { return samples * std::sqrt(double{1} * sa
 
 /// By what a square error falls when samples double: 1 / spread(2).
 constexpr double doubling = 0.35355339059327373;
-/// The share of the error asked for that passes aim at, squared: a little lower, or many small passes come at the end.
+/// The share of the square error asked for that a pass aims at: a little lower, or many small passes come at the end. It aims
+/// lower again, a few times, if it would have fewer than one in so many samples of those that there are.
 constexpr double aim = 0.9;
+constexpr std::uint64_t pass_share_min = 32;
+constexpr int attempts_max = 6;
 
 /// What is won for a sample where `samples` are doubled, but for a constant factor.
 double worth(double square_error, std::uint32_t samples) { return square_error / samples; }
@@ -103,6 +106,7 @@ bool Refinement::next_pass(Film& film) {
 
 /// Counts the samples of the pass, and notes the own variance of its pixels.
 void Refinement::end_pass(Film& film) {
+  samples_total_ += pass_samples();
   for (std::uint32_t pixel = 0; pixel < film.pixels().size(); ++pixel) {
     if (!pixels_.has(pixel)) {
       continue;
@@ -161,8 +165,21 @@ double Refinement::estimate(const Film& film, std::uint32_t pixel) const {
 
 /// The next pass, for a sum of all square errors that is too large.
 bool Refinement::choose(double sum) {
-  const double wanted = aim * options_.error * options_.error * static_cast<double>(levels_.size());
-  const std::size_t threshold = gains().threshold(sum - wanted);
+  const Bins gains = this->gains();
+  double wanted = options_.error * options_.error * static_cast<double>(levels_.size());
+  for (int attempt = 0; attempt < attempts_max; ++attempt) {
+    wanted *= aim;
+    select(gains.threshold(sum - wanted));
+    if (pass_samples() * pass_share_min >= samples_total_) {
+      break;
+    }
+  }
+  result_.passes += pixel_count_ > 0 ? 1 : 0;
+  return pixel_count_ > 0;
+}
+
+/// Pixels of the lowest level that has any whose next doubling is worth at least as much as the threshold's bin says.
+void Refinement::select(std::size_t threshold) {
   const auto is_worth_it = [&](std::uint32_t pixel) {
     return levels_[pixel] < level_max_ && square_errors_[pixel] > 0 &&
            Bins::of(worth(square_errors_[pixel], samples_at(levels_[pixel]))) >= threshold;
@@ -181,8 +198,6 @@ bool Refinement::choose(double sum) {
   }
   samples_ = {samples_at(level), samples_at(level)};
   pixel_count_ = pixels_.count();
-  result_.passes += pixel_count_ > 0 ? 1 : 0;
-  return pixel_count_ > 0;
 }
 
 /// What each doubling of any pixel's samples would take off the sum of square errors, by what it is worth.

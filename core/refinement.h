@@ -81,6 +81,8 @@ class Refinement {
   bool touches_pass(std::uint32_t pixel) const;
   double estimate(const Film& film, std::uint32_t pixel) const;
   bool choose(double sum);
+  void select(std::size_t threshold);
+  std::uint64_t pass_samples() const { return std::uint64_t{pixel_count_} * samples_.count; }
   Bins gains() const;
   std::uint32_t samples_at(std::uint32_t level) const { return first_samples_ << level; }
 
@@ -91,6 +93,7 @@ class Refinement {
   SampleRange samples_;
   PixelMask pixels_;
   std::uint32_t pixel_count_;
+  std::uint64_t samples_total_ = 0;  ///< of all pixels, in passes that have ended
   RefinementResult result_;
   std::vector<std::uint8_t> levels_;  ///< of each pixel; this and the next are empty without refinement
   std::vector<double> variances_;     ///< of a sample, by the pixel's own difference
