@@ -25,6 +25,29 @@ void take_samples(PictureOptions& picture, std::string_view text) {
   }
 }
 
+/// What a quality stands for, where no option says otherwise. The errors asked for leave room for an estimate that is too low by
+/// a fifth; bench error shows what they cost and what comes of them.
+struct QualityChoice {
+  double error, cutoff;
+};
+QualityChoice choice_of(Quality quality) {
+  return quality == Quality::draft ? QualityChoice{4.0 / 255, 1.0 / 255} : QualityChoice{1.0 / 255, 1.0 / 1024};
+}
+
+void apply_quality(const OptionSet& options, PictureOptions& picture) {
+  if (!picture.quality) {
+    return;
+  }
+  const QualityChoice choice = choice_of(*picture.quality);
+  if (!options.is_given("--samples")) {
+    take_samples(picture, "auto");
+  }
+  picture.cutoff = options.is_given("--cutoff") ? picture.cutoff : choice.cutoff;
+  if (picture.is_refined && !options.is_given("--error")) {
+    picture.refinement.error = choice.error;
+  }
+}
+
 void check_refinement(const OptionSet& options, PictureOptions& picture) {
   for (const char* option : {"--error", "--samples-max"}) {
     if (!picture.is_refined && options.is_given(option)) {
@@ -54,7 +77,13 @@ void add_options(OptionSet options, PictureOptions& picture) {
   options.add_text(
       "--cutoff", "C [0]", [&picture](const std::string& text) { picture.cutoff = parse_share(text, "--cutoff", true); },
       "Shoot no ray that can bring at most C of light to its sample; 0 is exact");
-  options.check_in_the_end([options, &picture] { check_refinement(options, picture); });
+  options.add_choice<Quality>("--quality", picture.quality, {{"draft", Quality::draft}, {"default", Quality::standard}},
+                              "one ray a pixel",
+                              "As --samples=auto with an error and a cutoff for a quick look, or for a good one");
+  options.check_in_the_end([options, &picture] {
+    apply_quality(options, picture);
+    check_refinement(options, picture);
+  });
 }
 
 void add_view_options(OptionSet options, PictureOptions& picture) {

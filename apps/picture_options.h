@@ -25,6 +25,10 @@ struct Resolution {
   int width = 0, height = 0;  ///< both above 0
 };
 
+/// Names for choices of samples and cutoff, to be had without knowing them: draft shows within 5 of 255 steps, on average, what
+/// the converged picture would, standard within 2.
+enum class Quality : std::uint8_t { draft, standard };
+
 struct PictureOptions {
   std::string scene;                     ///< an NFF file or a built-in name
   std::optional<Resolution> resolution;  ///< the view's own if not given
@@ -33,7 +37,8 @@ struct PictureOptions {
   core::RefinementOptions refinement;    ///< its error is 0 unless the picture is refined
   int depth = 5;                         ///< hits of this depth cast shadow rays only; 1 to 255
   core::Convention convention = core::Convention::haines;
-  double cutoff = 0;  ///< core::ShadeOptions::cutoff
+  double cutoff = 0;               ///< core::ShadeOptions::cutoff
+  std::optional<Quality> quality;  ///< --quality, already in the fields above
 };
 
 /// Declares them.

@@ -118,6 +118,20 @@ TEST_CASE("samples refined to an error start with two a pixel, and the error is 
   }
 }
 
+TEST_CASE("a quality chooses what no other option has said") {
+  const PictureOptions standard = render({"--quality=default"}).picture, draft = render({"--quality=draft"}).picture;
+  CHECK(standard.is_refined);
+  CHECK(standard.refinement.error == doctest::Approx(1.0 / 255));
+  CHECK(draft.refinement.error > 2 * standard.refinement.error);
+  CHECK(draft.cutoff > standard.cutoff);
+  CHECK(render({"--quality=draft", "--cutoff=0"}).picture.cutoff == 0);
+  CHECK(render({"--error=0.5", "--quality=draft"}).picture.refinement.error == 0.5);
+  const PictureOptions even = render({"--quality=draft", "--samples=3"}).picture;
+  CHECK(even.samples == 3);
+  CHECK_FALSE(even.refinement.is_wanted());
+  CHECK(says(render_complaint({"--quality=best"}), "--quality"));
+}
+
 TEST_CASE("a cutoff is exact unless said otherwise") {
   CHECK(render().picture.cutoff == 0);
   CHECK(render({"--cutoff=0"}).picture.cutoff == 0);
