@@ -90,7 +90,7 @@ class Sweep {
 
   /// A quick sweep has those about an 8-bit step.
   void add_errors() {
-    for (std::size_t i = options_.is_quick ? 2 : 0; i < (options_.is_quick ? 6 : errors.size()); ++i) {
+    for (std::size_t i = options_.is_quick ? 1 : 0; i < (options_.is_quick ? 6 : errors.size()); ++i) {
       add_refined(Knob::adaptive, errors[i].text, refined(errors[i]));
     }
   }

@@ -58,6 +58,7 @@ TEST_CASE("a quick sweep has fewer points and keeps the base point") {
   const auto quick = sweep({}, {.knobs = knobs, .is_quick = true}), whole = sweep({}, {.knobs = knobs});
   CHECK(quick.size() < whole.size());
   CHECK(texts(sweep({}, {.knobs = {Knob::cutoff}, .is_quick = true})).back() == "0");
+  CHECK(texts(sweep({}, {.knobs = {Knob::adaptive}, .is_quick = true})) == Texts{"8/255", "4/255", "2/255", "1/255", "1/510"});
 }
 
 TEST_CASE("a sweep asks for no smaller error than can be seen") {
