@@ -62,10 +62,11 @@ GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double top_c
     extent[axis] = std::max({extent[axis], flat_share * size, least});
   }
   const double wanted = std::max(top_cells_min, static_cast<double>(primitive_count) * top_cells_per_primitive);
-  const double cell = top_cell_edge(extent, wanted);
   int exponent = 0;
   std::frexp(size, &exponent);
   frame.scale = std::ldexp(1.0, -exponent);
+  // In units of the scene, so that one scaled by a power of two gets the same grid to the last bit.
+  const double cell = top_cell_edge(extent * frame.scale, wanted) / frame.scale;
   frame.resolution = cells_along(extent, cell);
   frame.finest_cell = static_cast<float>(cell * frame.scale / finest_per_top);
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -57,6 +57,23 @@ TEST_CASE("the scale is a power of two that brings the largest extent above 1/2 
   }
 }
 
+TEST_CASE("a scene scaled by a power of two gets the same grid to the last bit") {
+  Random random(3);
+  for (int scene = 0; scene < 1000; ++scene) {
+    const Vec3d low = random.in_box(-1, 1), size = random.in_box(0.001, 2);
+    const std::size_t primitives = 1 + random.below(100'000);
+    const GridFrame frame = fit_frame(box_of(low, low + size), primitives, 0.25);
+    for (const int exponent : {-40, -13, -1, 1, 2, 40}) {
+      const double factor = std::ldexp(1.0, exponent);
+      const GridFrame scaled = fit_frame(box_of(low * factor, (low + size) * factor), primitives, 0.25);
+      REQUIRE(scaled.resolution == frame.resolution);
+      REQUIRE(scaled.finest_cell == frame.finest_cell);
+      REQUIRE(scaled.scale * factor == frame.scale);
+      REQUIRE(scaled.origin == frame.origin * factor);
+    }
+  }
+}
+
 TEST_CASE("flat, line-like and point-like scenes get a thickness") {
   for (const Vec3d& size : {Vec3d{1, 1, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 0}, Vec3d{1, 1e-9, 1}}) {
     const Box box = box_of({5, 6, 7}, Vec3d{5, 6, 7} + size);
