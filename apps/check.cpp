@@ -178,7 +178,7 @@ void add_options(OptionSet options, CheckOptions& check) {
   options.check_in_the_end([&check] {
     if (check.picture.is_refined) {
       throw core::UsageError(
-          "--samples=auto goes with render and study; check traces as many rays through each pixel as you say");
+          "--samples=auto and --quality go with render and study; check traces as many rays through each pixel as you say");
     }
   });
   options.add_number("--list", check.list, 0, 1000000, "10", "Differences to print in full");

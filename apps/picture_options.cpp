@@ -25,15 +25,6 @@ void take_samples(PictureOptions& picture, std::string_view text) {
   }
 }
 
-/// What a quality stands for, where no option says otherwise. The errors asked for leave room for an estimate that is too low by
-/// a fifth; bench error shows what they cost and what comes of them.
-struct QualityChoice {
-  double error, cutoff;
-};
-QualityChoice choice_of(Quality quality) {
-  return quality == Quality::draft ? QualityChoice{4.0 / 255, 1.0 / 255} : QualityChoice{1.0 / 255, 1.0 / 1024};
-}
-
 void apply_quality(const OptionSet& options, PictureOptions& picture) {
   if (!picture.quality) {
     return;
@@ -61,6 +52,10 @@ void check_refinement(const OptionSet& options, PictureOptions& picture) {
 
 }  // namespace
 
+QualityChoice choice_of(Quality quality) {
+  return quality == Quality::draft ? QualityChoice{4.0 / 255, 1.0 / 64} : QualityChoice{1.0 / 255, 1.0 / 255};
+}
+
 void add_options(OptionSet options, PictureOptions& picture) {
   options.add_argument(
       "SCENE", [&picture](const std::string& text) { picture.scene = text; },
@@ -76,10 +71,10 @@ void add_options(OptionSet options, PictureOptions& picture) {
                      "With --samples=auto: no pixel gets more rays than this");
   options.add_text(
       "--cutoff", "C [0]", [&picture](const std::string& text) { picture.cutoff = parse_share(text, "--cutoff", true); },
-      "Shoot no ray that can bring at most C of light to its sample; 0 is exact");
-  options.add_choice<Quality>("--quality", picture.quality, {{"draft", Quality::draft}, {"default", Quality::standard}},
-                              "one ray a pixel",
-                              "As --samples=auto with an error and a cutoff for a quick look, or for a good one");
+      "Shoot no ray that can bring but less than C of light to its sample; 0 is exact");
+  options.add_choice<Quality>(
+      "--quality", picture.quality, {{"draft", Quality::draft}, {"default", Quality::standard}}, "one ray a pixel",
+      "As --samples=auto with an error and a cutoff for a quick look, or for a good one; what other options say counts more");
   options.check_in_the_end([options, &picture] {
     apply_quality(options, picture);
     check_refinement(options, picture);

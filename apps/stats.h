@@ -63,7 +63,7 @@ struct RenderRecord {
 ///   database       bytes, pages, page_size, primitives, references, dropped
 ///   packets        sent, received, bytes, overflow (by way of the host), and by_kind: packets and bytes
 ///   pages          references, hits, home_hits, cache_hits, misses, faults, evictions, served, distinct, distinct_per_pixel
-///   work           pixels, items_asked, items_taken, items_given
+///   work           pixels (over all passes), items_asked, items_taken, items_given
 ///   travel         of dataflow: rays_in and rays_out (rays), messages_per_ray (hops: rays sent over rays shot), packets (of
 ///                  rays), packets_flushed (sent before they were full), packets_queued (sent after a wait for credit), mean_fill
 ///                  (rays in a packet over those in a full one), bytes (headers included; in total those that the host forwards,
@@ -72,7 +72,7 @@ struct RenderRecord {
 ///   load           of dataflow: work_ps (picoseconds by measured prices), predicted_ps (of the subsampled picture), average and
 ///                  average_predicted (mean over maximum of the nodes)
 ///   regions        of dataflow: grid (finest cells along x, y, z), duplication (copies of primitives over primitives listed),
-///                  part_bytes, primitive_copies, primary_rays (dealt)
+///                  part_bytes, primitive_copies, primary_rays (dealt before the start)
 ///   mapping        of dataflow: topology, mean_hops (links that a ray message passes), mean_hops_random (on random nodes)
 ///   pairs          of dataflow: columns {from, to, rays by kind, packets with rays, rays_overflowed}, and a row for each two
 ///                  nodes of which one has sent the other a ray

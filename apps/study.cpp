@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/distinct_files.h"
+#include "apps/figures.h"
 #include "apps/load_scene.h"
 #include "apps/machines.h"
 #include "apps/output_file.h"
@@ -67,14 +68,20 @@ Subject load(const StudyOptions& options, Interrupt& interrupt) {
   return build_subject(load_scene(options.picture), options.picture, options.database);
 }
 
+std::string samples_text(const PictureOptions& picture) {
+  const std::string text = picture.is_refined
+                               ? "samples refined to an error of " + fixed(255 * picture.refinement.error, 3) + "/255"
+                               : std::to_string(picture.samples) + (picture.samples == 1 ? " sample" : " samples") + " a pixel";
+  return picture.cutoff > 0 ? text + ", cutoff " + fixed(255 * picture.cutoff, 3) + "/255" : text;
+}
+
 std::string title_of(const std::string& study, const StudyOptions& options, const Subject& subject) {
   const PictureOptions& picture = options.picture;
   const core::Camera& camera = subject.settings.camera;
   return "Study " + study + " of " + picture.scene + ": " + std::to_string(camera.width()) + "x" +
-         std::to_string(camera.height()) + " pixels, " + std::to_string(picture.samples) +
-         (picture.samples == 1 ? " sample" : " samples") + " a pixel, depth " + std::to_string(picture.depth) + ", convention " +
-         (picture.convention == core::Convention::haines ? "haines" : "paper") + ", grid axes " + name_of(options.database.axes) +
-         ", record order " + name_of(options.database.record_order) + ", " +
+         std::to_string(camera.height()) + " pixels, " + samples_text(picture) + ", depth " + std::to_string(picture.depth) +
+         ", convention " + (picture.convention == core::Convention::haines ? "haines" : "paper") + ", grid axes " +
+         name_of(options.database.axes) + ", record order " + name_of(options.database.record_order) + ", " +
          std::to_string(subject.database.header().primitive_count) + " primitives";
 }
 

@@ -27,6 +27,9 @@ constexpr double aim = 0.9;
 constexpr std::uint64_t pass_share_min = 32;
 constexpr int attempts_max = 6;
 
+/// Pixels with less than this square error are good enough, whatever becomes of the others.
+double negligible(const RefinementOptions& options) { return 1e-3 * options.error * options.error; }
+
 /// What is won for a sample where `samples` are doubled, but for a constant factor.
 double worth(double square_error, std::uint32_t samples) { return square_error / samples; }
 
@@ -181,7 +184,7 @@ bool Refinement::choose(double sum) {
 /// Pixels of the lowest level that has any whose next doubling is worth at least as much as the threshold's bin says.
 void Refinement::select(std::size_t threshold) {
   const auto is_worth_it = [&](std::uint32_t pixel) {
-    return levels_[pixel] < level_max_ && square_errors_[pixel] > 0 &&
+    return levels_[pixel] < level_max_ && square_errors_[pixel] > negligible(options_) &&
            Bins::of(worth(square_errors_[pixel], samples_at(levels_[pixel]))) >= threshold;
   };
   std::uint32_t level = level_max_;
@@ -203,10 +206,9 @@ void Refinement::select(std::size_t threshold) {
 /// What each doubling of any pixel's samples would take off the sum of square errors, by what it is worth.
 Refinement::Bins Refinement::gains() const {
   Bins gains;
-  const double negligible = 1e-3 * options_.error * options_.error;
   for (std::uint32_t pixel = 0; pixel < levels_.size(); ++pixel) {
     double square_error = square_errors_[pixel];
-    for (std::uint32_t level = levels_[pixel]; level < level_max_ && square_error > negligible; ++level) {
+    for (std::uint32_t level = levels_[pixel]; level < level_max_ && square_error > negligible(options_); ++level) {
       gains.add(worth(square_error, samples_at(level)), square_error * (1 - doubling));
       square_error *= doubling;
     }

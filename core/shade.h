@@ -20,8 +20,8 @@ enum class Convention : std::uint8_t { haines, paper };
 struct ShadeOptions {
   Convention convention = Convention::haines;
   int depth_max = 5;  ///< hits at this depth spawn shadow rays only; the primary ray has depth 1
-  /// A ray that can bring at most so much light to its sample, in any channel, is not shot: each one cut adds less than this to
-  /// the sample's error. 0: none is cut (after R. Hall, D. Greenberg, "A Testbed for Realistic Image Synthesis", 1983).
+  /// A ray that can bring but less light than this to its sample, in every channel, is not shot: each one cut adds less to the
+  /// sample's error. 0: none is cut (after R. Hall, D. Greenberg, "A Testbed for Realistic Image Synthesis", 1983).
   double cutoff = 0;
   double radiance_bound = 0;  ///< radiance_bound() of the scene; read only if there is a cutoff
 };

@@ -135,7 +135,8 @@ void HostProgram::take_film(const nodes::Packet& packet) {
 }
 
 void HostProgram::take_entry(const FilmEntry& entry) {
-  core::expect(entry.pixel < pixels_total_ && entry.plane < 2, "light falls on the picture");
+  core::expect(entry.pixel < pixels_total_ && refinement_.pixels().has(entry.pixel) && entry.plane < 2,
+               "light falls on a pixel of the pass");
   core::PixelSums sums;
   sums.plane[entry.plane] = entry.light;
   counters_.deposits_saturated += film_->deposit(entry.pixel, sums) ? 1 : 0;

@@ -44,7 +44,7 @@ class Dealer {
   const core::GridFrame& frame_;
   const Bsp& bsp_;
   std::vector<std::uint32_t> sky_nodes_;
-  core::Operations operations_;  // nobody's: the host deals before the clock starts
+  core::Operations operations_;  // nobody's: dealing is the host's, which the model does not charge
 };
 
 }  // namespace

@@ -130,6 +130,9 @@ void check_credits(nodes::Runner& runner, const Plan& plan) {
       const bool with_host = i == plan.node_count() || j == plan.node_count();
       const std::uint32_t planned = i == j ? 0 : with_host ? plan.host_credits : plan.ray_credits;
       core::expect(runner.node(i).credits(nodes::NodeId{j}, ray_channel) == planned, "every credit has come back");
+      const bool deals = i == plan.node_count() && j < i && plan.request.refinement.is_wanted();
+      core::expect(!deals || runner.node(i).credits(nodes::NodeId{j}, film_channel) == dealt_packets,
+                   "every packet of primary rays was worked off");
     }
   }
 }

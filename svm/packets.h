@@ -7,7 +7,7 @@
 //   work_reply             giver -> asker      control   small  the work request
 //   film_sums              node -> host        bulk      bulk   the sender's film credits
 //   film_acknowledgement   host -> node        control   small  the film packet
-//   done                   node -> host        control   small  once a run
+//   done                   node -> host        control   small  once a pass
 //   stop                   host -> node        control   small  once a run
 //   mask_part              host -> node        bulk      bulk   the host's credit for that node
 //   mask_acknowledgement   node -> host        control   small  the part of the mask

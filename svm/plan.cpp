@@ -143,6 +143,8 @@ void check(const PlanRequest& request) {
   check_use(request.strategy == Strategy::svm || request.replacement == Replacement::lru,
             "--replacement goes with --strategy=svm: replicated has no cache, every node holds the whole database");
   check_use(request.strategy == Strategy::svm || !request.count_pages, "distinct pages are counted with --strategy=svm only");
+  check_use(!request.count_pages || !request.refinement.is_wanted(),
+            "distinct pages are counted where all pixels have the same samples, not with --samples=auto");
   check_use(request.cache_pages.value_or(1) >= 1, "--cache-pages=0: a node needs at least one frame for the pages of others");
   check_recording(request);
   core::expect(request.page_count >= 1 && request.depth_max >= 1, "a database has a page, and a ray a depth");

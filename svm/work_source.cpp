@@ -14,7 +14,8 @@ PixelRectangle own_submap(const PlanRequest& request, std::uint32_t index) {
 
 /// A bit a pixel; at least a word, so that a node without pixels has a mask, too.
 std::size_t mask_words(const PlanRequest& request, std::uint32_t index) {
-  return request.refinement.is_wanted() ? core::ceil_divide<std::size_t>(own_submap(request, index).pixel_count(), 64) + 1 : 0;
+  const std::uint64_t pixels = std::max<std::uint64_t>(own_submap(request, index).pixel_count(), 1);
+  return request.refinement.is_wanted() ? core::ceil_divide<std::size_t>(pixels, 64) : 0;
 }
 
 /// A node that gives no work away has its submap as one item, or in masked ones.

@@ -16,7 +16,8 @@ namespace dmpc::svm {
 
 /// A node without pixels sends one work request at a time. It hops along the ring of nodes, from i to i + 1 mod N; the first
 /// that has items left answers the asker directly; the last of all others to be asked tells it that there is no more work,
-/// and since submaps only shrink this stays true. The first request enters the ring at the next node, a later one at the node
+/// and since submaps only shrink this stays true (but for a node that the word to begin a later pass has not reached yet:
+/// an asker that is so told rests for that pass). The first request enters the ring at the next node, a later one at the node
 /// that gave last, because all before it had nothing. Thread safety: none.
 ///
 /// Where the picture is refined, a pass after the first has only those pixels of the submap that the host's mask names.

@@ -196,7 +196,8 @@ void add_options(OptionSet set, ErrorOptions& options) {
         measure.knobs = parse_knobs(text);
         options.has_tessellation = measure.knobs.contains(Knob::tessellation);
       },
-      "What is turned, one at a time: samples, adaptive (sampling), cutoff, depth, tessellation, arithmetic; adaptive with "
+      "What is turned, one at a time: samples, adaptive (sampling), cutoff, depth, tessellation, arithmetic, quality (draft, "
+      "default); adaptive with "
       "cutoff "
       "or depth together as well");
   set.add_flag("--quick", measure.is_quick, "Fewer positions of each knob");

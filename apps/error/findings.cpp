@@ -105,6 +105,33 @@ std::string cheapest_text(const SceneResult& result) {
                       : result.scene + ": cheapest with a deterministic RMSE below a quarter of an 8-bit step: " + text + ".";
 }
 
+const Measurement* measured(const SceneResult& result, Knob knob, const std::string& position) {
+  for (std::size_t point = 0; point < result.points.size(); ++point) {
+    if (result.points[point].knob == knob && result.points[point].text == position && result.of(point).is_done()) {
+      return &result.of(point);
+    }
+  }
+  return nullptr;
+}
+
+/// "0.9/255" with a mark where it is not claimed.
+std::string error_text(const SceneResult& result, const Measurement& measurement) {
+  return fixed(255 * measurement.error.root_mean_square, 2) + "/255" +
+         (is_claimed(result, measurement) ? "" : " (below the reference)");
+}
+
+std::string quality_text(const SceneResult& result) {
+  const Measurement *const draft = measured(result, Knob::quality, "draft"), *const standard =
+                                                                                 measured(result, Knob::quality, "default");
+  if (draft == nullptr || standard == nullptr) {
+    return "";
+  }
+  const double rays = static_cast<double>(draft->rays) / static_cast<double>(std::max<std::uint64_t>(standard->rays, 1));
+  return result.scene + ": default quality has an RMSE of " + error_text(result, *standard) + ", draft " +
+         error_text(result, *draft) + " for " + fixed(rays, 3) + " times the rays (" +
+         fixed(median(draft->seconds) / median(standard->seconds), 3) + " times the seconds).";
+}
+
 std::string scientific(double value) {
   std::ostringstream text;
   text.precision(3);
@@ -151,7 +178,7 @@ std::optional<std::size_t> cheapest_point(const SceneResult& result, Knob knob) 
 
 std::vector<std::string> findings_of(const SceneResult& result) {
   std::vector<std::string> sentences = {reference_text(result)};
-  for (std::string text : {adaptive_text(result), cheapest_text(result)}) {
+  for (std::string text : {adaptive_text(result), cheapest_text(result), quality_text(result)}) {
     if (!text.empty()) {
       sentences.push_back(std::move(text));
     }

@@ -9,17 +9,19 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::array<const char*, 8> names = {
-    "samples", "adaptive", "cutoff", "depth", "tessellation", "arithmetic", "adaptive and cutoff", "adaptive and depth"};
+constexpr std::array<const char*, 9> names = {"samples",           "adaptive",   "cutoff",  "depth",
+                                              "tessellation",      "arithmetic", "quality", "adaptive and cutoff",
+                                              "adaptive and depth"};
 /// Of these the command line knows.
-constexpr std::size_t single_count = 6;
+constexpr std::size_t single_count = 7;
 
 Knob knob_of(const std::string& word, const std::string& text) {
   const auto* const end = names.begin() + single_count;
   const auto* const found = std::find(names.begin(), end, word);
   if (found == end) {
-    throw core::UsageError("--knobs=" + text +
-                           ": expected some of samples,adaptive,cutoff,depth,tessellation,arithmetic with commas between them");
+    throw core::UsageError(
+        "--knobs=" + text +
+        ": expected some of samples,adaptive,cutoff,depth,tessellation,arithmetic,quality with commas between them");
   }
   return static_cast<Knob>(found - names.begin());
 }
@@ -47,6 +49,6 @@ std::set<Knob> parse_knobs(const std::string& text) {
   return knobs;
 }
 
-std::set<Knob> all_knobs() { return parse_knobs("samples,adaptive,cutoff,depth,tessellation,arithmetic"); }
+std::set<Knob> all_knobs() { return parse_knobs("samples,adaptive,cutoff,depth,tessellation,arithmetic,quality"); }
 
 }  // namespace dmpc::apps

@@ -15,6 +15,7 @@ enum class Knob : std::uint8_t {
   depth,
   tessellation,
   arithmetic,
+  quality,
   adaptive_and_cutoff,
   adaptive_and_depth
 };

@@ -51,6 +51,9 @@ class Sweep {
         return add_tessellations();
       case Knob::arithmetic:
         return add(Knob::arithmetic, "float", base_);
+      case Knob::quality:
+        add(Knob::quality, "draft", with_quality(Quality::draft));
+        return add(Knob::quality, "default", with_quality(Quality::standard));
       case Knob::adaptive_and_cutoff:
         return add_pairs(std::array{cutoffs[1], cutoffs[3]}, knob, " cutoff ", cut);
       case Knob::adaptive_and_depth:
@@ -77,6 +80,13 @@ class Sweep {
     Setting setting = base_;
     setting.samples = refined_samples;
     setting.error = error.value;
+    return setting;
+  }
+  Setting with_quality(Quality quality) const {
+    Setting setting = base_;
+    setting.samples = refined_samples;
+    setting.error = choice_of(quality).error;
+    setting.cutoff = choice_of(quality).cutoff;
     return setting;
   }
   static Setting cut(Setting setting, const Named& cutoff) {

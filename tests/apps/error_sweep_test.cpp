@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/picture_options.h"
 #include "core/expect.h"
 
 namespace dmpc::tests {
@@ -53,6 +54,14 @@ TEST_CASE("two knobs together leave out what one of them alone has") {
   CHECK(sweep({.depth = 3}, {.knobs = {Knob::adaptive_and_depth}}).empty());
 }
 
+TEST_CASE("the qualities are what the command line's are") {
+  const auto points = sweep({}, {.knobs = {Knob::quality}});
+  CHECK(texts(points) == Texts{"draft", "default"});
+  CHECK(points[0].setting.error == apps::choice_of(apps::Quality::draft).error);
+  CHECK(points[1].setting.cutoff == apps::choice_of(apps::Quality::standard).cutoff);
+  CHECK(points[1].setting.is_refined());
+}
+
 TEST_CASE("a quick sweep has fewer points and keeps the base point") {
   const std::set<Knob> knobs = apps::all_knobs();
   const auto quick = sweep({}, {.knobs = knobs, .is_quick = true}), whole = sweep({}, {.knobs = knobs});
@@ -86,7 +95,7 @@ TEST_CASE("scenes with spheres or cones are tessellated as far as a million tria
 TEST_CASE("knobs are listed by name and bring those that are turned together") {
   CHECK(apps::parse_knobs("samples") == std::set{Knob::samples});
   CHECK(apps::parse_knobs("cutoff,adaptive") == std::set{Knob::cutoff, Knob::adaptive, Knob::adaptive_and_cutoff});
-  CHECK(apps::all_knobs().size() == 8);
+  CHECK(apps::all_knobs().size() == 9);
   for (const char* text : {"", ",", "samples,", "sample", "adaptive and cutoff", "samples adaptive"}) {
     CAPTURE(std::string(text));
     CHECK_THROWS_AS(apps::parse_knobs(text), core::UsageError);

@@ -153,6 +153,22 @@ TEST_CASE("a picture that may not have more samples is left as it is, with its e
   CHECK(refinement.result().error > 1e-9);
 }
 
+TEST_CASE("a pixel that stays bad with all its samples costs only those around it") {
+  Film film(20, 20);
+  Refinement refinement({.error = 1e-3, .samples_max = 64}, 2, 20, 20);
+  for (std::uint32_t pixel = 0; pixel < 400; ++pixel) {
+    shine(film, pixel, 0, 1e-6F);
+  }
+  do {
+    shine_evenly(film, refinement);
+    shine(film, 10 * 20 + 10, 100 * static_cast<float>(refinement.samples().count), 0);
+  } while (refinement.next_pass(film));
+  CHECK(film.samples(10 * 20 + 10) == 64);
+  CHECK(film.samples(0) == 2);
+  CHECK(film.samples() < 400 * 2 + 9 * 64 + 1);
+  CHECK(refinement.result().error > 1e-3);
+}
+
 TEST_CASE("a picture to be refined needs samples on both planes from the start") {
   CHECK_THROWS_AS(Refinement({.error = 0.1}, 1, 2, 2), InternalError);
   CHECK_THROWS_AS(Refinement({.error = 0.1, .samples_max = 2}, 4, 2, 2), InternalError);

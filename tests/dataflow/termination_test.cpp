@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "core/expect.h"
+
 namespace dmpc::tests {
 
 using dataflow::Termination;
@@ -69,6 +71,20 @@ TEST_CASE("a packet under way keeps the end from being proved, round after round
   host.ray_packet_received();
   CHECK(host.hand_on().has_value());  // black now
   CHECK_FALSE(host.is_terminated());
+}
+
+TEST_CASE("what begins again is proved anew, from the packets that follow") {
+  Termination host = Termination::initiator(), last = Termination::member(), first = Termination::member();
+  CHECK_THROWS_AS(host.begin_again(), core::InternalError);
+  go_round(host, last, first);
+  CHECK_FALSE(host.hand_on().has_value());
+  host.begin_again();
+  CHECK_FALSE(host.is_terminated());
+  host.ray_packet_sent();
+  go_round(host, last, first);
+  CHECK(host.token() == Token{0, 0});
+  CHECK(host.hand_on().has_value());  // the packet is under way
+  first.ray_packet_received();
 }
 
 TEST_CASE("a member without the token hands nothing on") {

@@ -18,12 +18,14 @@ namespace {
 std::uint64_t allocated_by(const dataflow::PlanRequest& bounds, std::uint32_t node_count) {
   const core::Scene scene = core::built_in_scene(core::parse_scene_name("balls-2"));
   const core::Database database = core::build_database(scene, {});
-  const core::RenderSettings settings{database.header(), core::Camera(scene.view, database.header().frame, 16, 16, 1), {}};
+  const core::RenderSettings settings{
+      database.header(), core::Camera(scene.view, database.header().frame, 16, 16, 2), {}, bounds.refinement};
   const dataflow::Distribution distribution = dataflow::distribute(
       database, settings, dataflow::share_out(dataflow::column_loads(database, settings, {}), node_count, {}).bsp);
   dataflow::PlanRequest request = bounds;
   request.shares = distribution.shares();
   request.width = request.height = 16;
+  request.first_samples = 2;
   const dataflow::Plan plan = dataflow::make_plan(request);
   core::Film film(16, 16);
   const dataflow::Progress progress;
@@ -43,6 +45,7 @@ TEST_CASE("a node of dataflow allocates nothing while it traces, receives and se
   CHECK(allocated_by({}, 5) == 0);
   CHECK(allocated_by({.ray_batch = 1, .ray_credits = 1}, 5) == 0);
   CHECK(allocated_by({.ray_credits = 0}, 3) == 0);
+  CHECK(allocated_by({.refinement = {.error = 0.01}}, 3) == 0);
 }
 
 }  // namespace

@@ -17,12 +17,14 @@ namespace dmpc::tests {
 
 namespace {
 
-/// Renders a small scene with every node and the host under watch; returns what they allocated and freed.
+/// Renders a small scene with every node and the host (unless it chooses passes) under watch; returns what they allocated and
+/// freed.
 template <class Records>
-std::uint64_t allocated_by(svm::Strategy strategy, const svm::RunOptions& options) {
+std::uint64_t allocated_by(svm::Strategy strategy, const svm::RunOptions& options, double error = 0) {
   const core::Scene scene = core::built_in_scene(core::parse_scene_name("balls-2"));
   const core::Database database = core::build_database(scene, {.page_size_bytes = 512});
-  const core::RenderSettings settings{database.header(), core::Camera(scene.view, database.header().frame, 16, 16, 1), {}};
+  const core::RenderSettings settings{
+      database.header(), core::Camera(scene.view, database.header().frame, 16, 16, 2), {}, {.error = error}};
   const svm::Plan plan = svm::plan_of(strategy, database, settings, options);
   const svm::MakeProgram make_program = [&](std::uint32_t, nodes::Node& node) {
     const auto make_tracer = [&](Records& records) { return core::GridTracer<Records>(records, settings.header, {}); };
@@ -32,8 +34,8 @@ std::uint64_t allocated_by(svm::Strategy strategy, const svm::RunOptions& option
   core::Film film(16, 16);
   const svm::Progress progress;
   std::vector<nodes::NodeSpecification> specifications = svm::specifications_of(plan, make_program, film, progress);
-  for (nodes::NodeSpecification& specification : specifications) {
-    specification = watched(specification);
+  for (std::uint32_t i = 0; i < options.node_count + (error == 0 ? 1 : 0); ++i) {
+    specifications[i] = watched(specifications[i]);
   }
   nodes::ThreadsRunner runner(specifications);
   const Allocations before = watched_allocations();
@@ -50,6 +52,10 @@ TEST_CASE("a node of svm allocates nothing while it renders, pages, asks for wor
   CHECK(allocated_by<svm::Pager>(svm::Strategy::svm, options) == 0);
   options.count_pages = true;
   CHECK(allocated_by<svm::CountingPager>(svm::Strategy::svm, options) == 0);
+}
+
+TEST_CASE("a node of svm allocates nothing in passes that refine samples") {
+  CHECK(allocated_by<svm::Pager>(svm::Strategy::svm, {.node_count = 5}, 0.01) == 0);
 }
 
 TEST_CASE("a node of replicated allocates nothing while it renders") {
