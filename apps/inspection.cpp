@@ -118,21 +118,16 @@ struct Harvest {
   }
 };
 
-template <core::Tracer T>
-core::PixelSums pixel_sums(T& tracer, const core::RenderSettings& settings, std::uint32_t pixel, core::Operations& operations) {
-  std::vector<core::HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
-  core::PixelTask task(stack);
-  return core::render_pixel(task, pixel, settings.first_samples(), tracer, settings, operations);
-}
-
 void trace_pixels(const core::Database& database, const EmbreeScene& scene, const core::RenderSettings& settings,
                   const core::TraversalOptions& traversal, std::uint32_t first, std::uint32_t last, Harvest& harvest) {
   core::LocalRecords records(database.bytes());
   BothTracer::Grid grid(records, settings.header, traversal);
   BothTracer tracer(grid, scene, harvest.differences, harvest.draw);
+  std::vector<core::HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
+  core::PixelTask task(stack);
   for (std::uint32_t pixel = first; pixel < last; ++pixel) {
     tracer.start_pixel();
-    pixel_sums(tracer, settings, pixel, harvest.operations);
+    core::render_pixel(task, pixel, settings.first_samples(), tracer, settings, harvest.operations);
   }
 }
 
@@ -154,10 +149,14 @@ std::uint64_t count_differing(const core::Database& database, const EmbreeScene&
     core::LocalRecords records(database.bytes());
     BothTracer::Grid grid(records, settings.header, traversal);
     EmbreeTracer embree(scene, database, records);
+    std::vector<core::HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
+    core::PixelTask task(stack);
     core::Operations unused;
+    const auto sums = [&](auto& tracer, std::uint32_t pixel) {
+      return core::render_pixel(task, pixel, settings.first_samples(), tracer, settings, unused);
+    };
     for (std::size_t index = range.begin(); index < range.end(); ++index) {
-      const bool same = pixel_sums(grid, settings, pixels[index], unused) == pixel_sums(embree, settings, pixels[index], unused);
-      differing += same ? 0 : 1;
+      differing += sums(grid, pixels[index]) == sums(embree, pixels[index]) ? 0 : 1;
     }
     return differing;
   };

@@ -21,6 +21,12 @@ core::Scene load_scene(const std::string& scene, std::int64_t pixels_max) {
   return read_nff_file(scene, pixels_max);
 }
 
+void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs) {
+  if (!core::find_scene_name(scene)) {
+    inputs.push_back({"SCENE", scene});
+  }
+}
+
 core::Scene load_scene(const PictureOptions& picture) {
   return load_scene(picture.scene, picture.resolution ? std::numeric_limits<std::int64_t>::max() : picture_pixels_max);
 }

@@ -63,7 +63,7 @@ PaperResult result_of(const Report& report) {
   const Account account = account_of(report);
   PaperResult result{.total_ns = account.virtual_time->total_ns,
                      .parts = parts_of(sum_of_nodes(*account.virtual_time), account.waits),
-                     .rays = std::accumulate(account.operations.rays.begin(), account.operations.rays.end(), std::uint64_t{0}),
+                     .rays = account.operations.ray_count(),
                      .film_hash = account.film.hash()};
   if (const auto* pages = std::get_if<svm::Report>(&report)) {
     result.faults = pages->pages().faults;

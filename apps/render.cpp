@@ -19,7 +19,6 @@
 #include "apps/stats.h"
 #include "apps/subject.h"
 #include "apps/summary.h"
-#include "core/scenes.h"
 
 namespace dmpc::apps {
 
@@ -52,9 +51,7 @@ ProcessorTime processor_time() {
 
 void check_outputs(const RenderOptions& options) {
   std::vector<NamedFile> inputs, outputs = {{"-o", options.image}};
-  if (!core::find_scene_name(options.picture.scene)) {
-    inputs.push_back({"SCENE", options.picture.scene});
-  }
+  add_scene_file(options.picture.scene, inputs);
   if (options.computer.runner == RunnerKind::virtual_time && find_machine_preset(options.computer.machine_name) == nullptr) {
     inputs.push_back({"--machine", options.computer.machine_name});
   }

@@ -43,9 +43,7 @@ void add_plot_files(const StudyOptions& options, std::vector<NamedFile>& outputs
 
 void check_output(const StudyOptions& options) {
   std::vector<NamedFile> inputs;
-  if (!core::find_scene_name(options.picture.scene)) {
-    inputs.push_back({"SCENE", options.picture.scene});
-  }
+  add_scene_file(options.picture.scene, inputs);
   if (!options.machine_name.empty() && find_machine_preset(options.machine_name) == nullptr) {
     inputs.push_back({"--machine", options.machine_name});
   }

@@ -10,6 +10,7 @@
 #include "apps/machines.h"
 #include "apps/region_options.h"
 #include "apps/run_strategy.h"
+#include "apps/table_options.h"
 #include "core/expect.h"
 #include "dataflow/bsp.h"
 #include "svm/plan.h"
@@ -127,9 +128,7 @@ struct AddOwn {
 void add_options(OptionSet set, StudyOptions& options) {
   add_options(set, options.picture);
   add_options(set, options.database);
-  set.add_choice<TableFormat>("--format", options.format,
-                              {{"markdown", TableFormat::markdown}, {"csv", TableFormat::csv}, {"json", TableFormat::json}},
-                              "How the table is written");
+  add_format_option(set, options.format);
   set.add_path("--plots", "FOLDER", options.plots, "Where pictures by gnuplot go, with their scripts and the table as CSV");
   set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
   std::visit(AddOwn{set, options.machine_name}, options.study);

@@ -1,7 +1,6 @@
 #include "apps/summary.h"
 
 #include <algorithm>
-#include <numeric>
 #include <ostream>
 #include <variant>
 
@@ -39,7 +38,7 @@ std::string memory_text(const Account& account) {
 
 std::string rays_text(const core::Operations& operations, double render_seconds) {
   const auto count = [&](core::RayKind kind) { return grouped(operations.rays[static_cast<std::size_t>(kind)]); };
-  const std::uint64_t total = std::accumulate(operations.rays.begin(), operations.rays.end(), std::uint64_t{0});
+  const std::uint64_t total = operations.ray_count();
   const double rate = render_seconds > 0 ? static_cast<double>(total) / render_seconds : 0;
   return grouped(total) + " (primary " + count(core::RayKind::primary) + ", reflected " + count(core::RayKind::reflected) +
          ", refracted " + count(core::RayKind::refracted) + ", shadow " + count(core::RayKind::shadow) + "), " +

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numeric>
 
 #include "core/ray.h"
 #include "core/record.h"
@@ -23,6 +24,9 @@ struct Operations {
   std::uint64_t total_internal_reflections = 0;
   std::uint64_t deposits_saturated = 0;
   std::uint64_t rays_cut = 0;  ///< not shot, because they could bring less light than the cutoff
+
+  /// Rays shot, of all kinds.
+  std::uint64_t ray_count() const { return std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}); }
 };
 
 /// Sums field by field.

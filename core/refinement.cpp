@@ -122,21 +122,12 @@ void Refinement::end_pass(Film& film) {
   }
 }
 
-/// The pixel and those around it, as far as the picture goes: [x_first, x_last] x [y_first, y_last].
-struct Refinement::Neighbourhood {
-  int x_first, x_last, y_first, y_last;
-};
-
-Refinement::Neighbourhood Refinement::around(std::uint32_t pixel) const {
-  const int x = static_cast<int>(pixel) % width_, y = static_cast<int>(pixel) / width_;
-  return {std::max(x - 1, 0), std::min(x + 1, width_ - 1), std::max(y - 1, 0), std::min(y + 1, height_ - 1)};
-}
-
+/// Calls visit(pixel) for the pixel and those around it, as far as the picture goes.
 template <class Visit>
 void Refinement::visit_around(std::uint32_t pixel, const Visit& visit) const {
-  const Neighbourhood near = around(pixel);
-  for (int y = near.y_first; y <= near.y_last; ++y) {
-    for (int x = near.x_first; x <= near.x_last; ++x) {
+  const int column = static_cast<int>(pixel) % width_, row = static_cast<int>(pixel) / width_;
+  for (int y = std::max(row - 1, 0); y <= std::min(row + 1, height_ - 1); ++y) {
+    for (int x = std::max(column - 1, 0); x <= std::min(column + 1, width_ - 1); ++x) {
       visit(static_cast<std::uint32_t>(y * width_ + x));
     }
   }

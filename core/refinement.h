@@ -72,10 +72,8 @@ class Refinement {
 
  private:
   class Bins;
-  struct Neighbourhood;
 
   void end_pass(Film& film);
-  Neighbourhood around(std::uint32_t pixel) const;
   template <class Visit>
   void visit_around(std::uint32_t pixel, const Visit& visit) const;
   bool touches_pass(std::uint32_t pixel) const;

@@ -34,7 +34,7 @@ HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, 
       pixels_total_(plan.request.width * plan.request.height) {
   for (std::uint32_t i = 0; i < node_count_; ++i) {
     node.grant(nodes::NodeId{i}, ray_channel, plan.host_credits);
-    node.grant(nodes::NodeId{i}, film_channel, plan.request.refinement.is_wanted() ? dealt_packets : 0);
+    node.grant(nodes::NodeId{i}, film_channel, plan.dealing_credits());
   }
 }
 

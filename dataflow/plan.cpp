@@ -37,7 +37,7 @@ constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 /// What a node's mailbox must be able to hold, whoever sends when; the mailbox itself adds the slot of the packet being received.
 nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   const std::uint32_t others = plan.node_count() - 1;
-  const std::uint32_t dealt = plan.request.refinement.is_wanted() ? dealt_packets : 0;
+  const std::uint32_t dealt = plan.dealing_credits();
   return {.small_slots = others * plan.ray_credits  // credits back from each other node, at least one a packet
                          + plan.host_credits        // the same from the host
                          + others                   // Hold: one from each other node, until it is acknowledged
@@ -53,12 +53,11 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
 }
 
 nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
-  const std::uint32_t dealt = plan.request.refinement.is_wanted() ? dealt_packets : 0;
-  return {.small_slots = plan.node_count() * plan.host_credits  // credits back for forwarded rays
-                         + 1                                    // the token
-                         + plan.node_count()                    // Done: one from each node
-                         + plan.node_count() * dealt,           // credits back for primary rays
-          .bulk_slots = plan.node_count() * plan.host_credits   // overflow: each node's credits for the host
+  return {.small_slots = plan.node_count() * plan.host_credits          // credits back for forwarded rays
+                         + 1                                            // the token
+                         + plan.node_count()                            // Done: one from each node
+                         + plan.node_count() * plan.dealing_credits(),  // credits back for primary rays
+          .bulk_slots = plan.node_count() * plan.host_credits           // overflow: each node's credits for the host
                         + plan.node_count() * plan.film_credits,
           .bulk_payload_bytes = std::max(ray_packet_bytes(plan.ray_batch), film_packet_bytes(film_packet_entries))};
 }
@@ -179,6 +178,8 @@ void note_reductions(Plan& plan) {
 }
 
 }  // namespace
+
+std::uint32_t Plan::dealing_credits() const { return request.refinement.is_wanted() ? dealt_packets : 0; }
 
 nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
   nodes::MemoryPlan plan;

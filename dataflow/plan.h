@@ -66,6 +66,9 @@ struct Plan {
   /// Packets that one sender can have in a node's backlog.
   std::uint32_t packets_each() const { return ray_credits > host_credits ? ray_credits : host_credits; }
 
+  /// Packets of primary rays that the host may have under way to each node.
+  std::uint32_t dealing_credits() const;
+
   /// Exactly what node `index` takes, by category.
   nodes::MemoryPlan node_memory(std::uint32_t index) const;
   /// The node that takes most.

@@ -105,7 +105,7 @@ std::uint64_t sum_of(const std::array<std::uint64_t, core::ray_kind_count>& by_k
 void check_rays(const Report& report) {
   const RayCounters rays = report.rays();
   const core::Operations operations = report.operations();
-  core::expect(sum_of(operations.rays) == rays.ended, "every ray shot has ended");
+  core::expect(operations.ray_count() == rays.ended, "every ray shot has ended");
   core::expect(rays.in == rays.out, "every ray sent was received, of every kind");
   core::expect(operations.shadings == operations.primary_hits + operations.secondary_hits, "each hit was claimed by one node");
   core::expect(report.host_rays.rays_in == report.gathers().rays_overflowed, "every ray that overflowed came to the host");
@@ -130,8 +130,8 @@ void check_credits(nodes::Runner& runner, const Plan& plan) {
       const bool with_host = i == plan.node_count() || j == plan.node_count();
       const std::uint32_t planned = i == j ? 0 : with_host ? plan.host_credits : plan.ray_credits;
       core::expect(runner.node(i).credits(nodes::NodeId{j}, ray_channel) == planned, "every credit has come back");
-      const bool deals = i == plan.node_count() && j < i && plan.request.refinement.is_wanted();
-      core::expect(!deals || runner.node(i).credits(nodes::NodeId{j}, film_channel) == dealt_packets,
+      const bool deals = i == plan.node_count() && j < i;
+      core::expect(!deals || runner.node(i).credits(nodes::NodeId{j}, film_channel) == plan.dealing_credits(),
                    "every packet of primary rays was worked off");
     }
   }
@@ -199,7 +199,7 @@ std::vector<std::uint64_t> Report::ray_matrix() const {
 }
 
 double Report::messages_per_ray() const {
-  const std::uint64_t shot = sum_of(operations().rays);
+  const std::uint64_t shot = operations().ray_count();
   return shot == 0 ? 0.0 : static_cast<double>(sum_of(rays().out)) / static_cast<double>(shot);
 }
 

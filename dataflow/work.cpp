@@ -1,7 +1,5 @@
 #include "dataflow/work.h"
 
-#include <numeric>
-
 namespace dmpc::dataflow {
 
 // How they were measured: 12 scenes (balls, gears, jacks, mount, rings, shells, teapot, tetra, tree; curved ones also as
@@ -16,7 +14,7 @@ const WorkPrices measured_prices{.ray_ps = 49'000,
                                  .shading_ps = 167'000};
 
 std::uint64_t work_of(const core::Operations& operations, const WorkPrices& prices) {
-  std::uint64_t sum = std::accumulate(operations.rays.begin(), operations.rays.end(), std::uint64_t{0}) * prices.ray_ps;
+  std::uint64_t sum = operations.ray_count() * prices.ray_ps;
   for (std::size_t kind = 0; kind < core::primitive_kind_count; ++kind) {
     sum += operations.primitive_tests[kind] * prices.primitive_test_ps[kind];
   }

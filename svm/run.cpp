@@ -43,18 +43,10 @@ std::uint64_t packets_of(const std::array<nodes::Traffic, nodes::packet_kind_cou
   return traffic[number_of(kind)].packets;
 }
 
-std::uint64_t rays_of(const core::Operations& operations) {
-  std::uint64_t rays = 0;
-  for (const std::uint64_t of_kind : operations.rays) {
-    rays += of_kind;
-  }
-  return rays;
-}
-
 void check_conservation(const NodeReport& report) {
   const ProgramReport& program = report.program;
   const nodes::NodeCounters& counters = report.counters;
-  core::expect(rays_of(program.operations) == program.rays_ended, "every ray shot has ended");
+  core::expect(program.operations.ray_count() == program.rays_ended, "every ray shot has ended");
   core::expect(program.pages.faults == packets_of(counters.sent, Kind::page_request), "every fault was requested, once");
   core::expect(program.pages.faults == packets_of(counters.received, Kind::page_reply), "every page request was replied to");
   core::expect(program.pages.served == packets_of(counters.received, Kind::page_request), "every page request was served");

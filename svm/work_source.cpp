@@ -58,7 +58,7 @@ void WorkSource::begin_pass() {
   skip_unwanted();
 }
 
-/// The bits of an item of the submap.
+/// The bits of an item of the submap; none of an empty one.
 std::uint64_t WorkSource::wanted(const PixelRectangle& item) const {
   std::uint64_t bits = 0, bit = 1;
   for (std::uint32_t y = 0; y < item.height; ++y) {
@@ -136,8 +136,7 @@ void WorkSource::reply(std::uint32_t asker, const PixelRectangle& item) {
   node_->grant(nodes::NodeId{asker}, control_channel);  // the place that the request has reserved
   const WorkReply work{item, self_};
   if (refines()) {
-    const std::uint64_t pixels = item.pixel_count() == 0 ? 0 : wanted(item);
-    node_->send_reserved(nodes::NodeId{asker}, control_channel, number_of(Kind::work_reply), MaskedWorkReply{work, pixels});
+    node_->send_reserved(nodes::NodeId{asker}, control_channel, number_of(Kind::work_reply), MaskedWorkReply{work, wanted(item)});
   } else {
     node_->send_reserved(nodes::NodeId{asker}, control_channel, number_of(Kind::work_reply), work);
   }

@@ -9,6 +9,7 @@
 #include "apps/load_scene.h"
 #include "apps/output_file.h"
 #include "apps/progress.h"
+#include "apps/table_options.h"
 #include "core/scenes.h"
 
 namespace dmpc::apps {
@@ -34,9 +35,7 @@ void check_files(const PrecisionOptions& options) {
   }
   std::vector<NamedFile> inputs;
   for (const std::string& scene : options.scenes) {
-    if (!core::find_scene_name(scene)) {
-      inputs.push_back({"SCENE", scene});
-    }
+    add_scene_file(scene, inputs);
   }
   check_distinct(inputs, {{"-o", *options.output}});
   check_output_path(*options.output, "-o");
@@ -109,9 +108,7 @@ void add_options(OptionSet set, PrecisionOptions& options) {
       "--resolution", "WxH [256x256]", [&options](const std::string& text) { options.resolution = parse_resolution(text); },
       "Pixels of the pictures");
   set.add_number("--depth", options.depth, 1, 255, "5", "Longest chain of reflections and refractions");
-  set.add_choice<TableFormat>("--format", options.format,
-                              {{"markdown", TableFormat::markdown}, {"csv", TableFormat::csv}, {"json", TableFormat::json}},
-                              "How the table is written");
+  add_format_option(set, options.format);
   set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
   set.set_examples(
       "Examples:\n"

@@ -69,9 +69,8 @@ AccurateScene accurate_scene(const core::Scene& scene) {
   AccurateScene result;
   result.materials = scene.materials;
   result.background = scene.background;
-  const double equal = scene.lights.empty() ? 0 : 1 / std::sqrt(static_cast<double>(scene.lights.size()));
   for (const core::PointLight& light : scene.lights) {
-    result.lights.push_back({light.position, light.has_color ? light.color : Vec3d{equal, equal, equal}});
+    result.lights.push_back({light.position, core::intensity_of(light, scene)});
   }
   for (std::uint32_t index = 0; index < scene.objects.size(); ++index) {
     add_object(result, scene, index);

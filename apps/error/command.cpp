@@ -16,10 +16,11 @@
 #include "apps/error/findings.h"
 #include "apps/error/table.h"
 #include "apps/figures.h"
+#include "apps/load_scene.h"
 #include "apps/output_file.h"
 #include "apps/plot_program.h"
+#include "apps/table_options.h"
 #include "core/expect.h"
-#include "core/scenes.h"
 #include "svm/plan.h"
 
 namespace dmpc::apps {
@@ -74,9 +75,7 @@ void add_plot_files(const ErrorOptions& options, std::vector<NamedFile>& outputs
 void check_files(const ErrorOptions& options) {
   std::vector<NamedFile> inputs, outputs;
   for (const std::string& scene : options.scenes) {
-    if (!core::find_scene_name(scene)) {
-      inputs.push_back({"SCENE", scene});
-    }
+    add_scene_file(scene, inputs);
   }
   if (options.output) {
     outputs.push_back({"-o", *options.output});
@@ -217,9 +216,7 @@ void add_options(OptionSet set, ErrorOptions& options) {
                "Where pictures by gnuplot go, with their scripts and what they are drawn from");
   set.add_path("--pictures", "FOLDER", measure.pictures,
                "Where pictures of every point's error go, " + fixed(static_cast<double>(picture_scale), 0) + " times as bright");
-  set.add_choice<TableFormat>("--format", options.format,
-                              {{"markdown", TableFormat::markdown}, {"csv", TableFormat::csv}, {"json", TableFormat::json}},
-                              "How the table is written");
+  add_format_option(set, options.format);
   set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
   set.set_examples(
       "Examples:\n"

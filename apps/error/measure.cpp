@@ -6,7 +6,6 @@
 #include <functional>
 #include <iostream>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "apps/accurate/picture.h"
@@ -172,10 +171,9 @@ class Bench {
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     interrupt_.check();
     const Account account = account_of(report);
-    const auto& rays = account.operations.rays;
     return {.picture = image_of(account.film),
             .seconds = seconds,
-            .rays = std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}),
+            .rays = account.operations.ray_count(),
             .samples = account.film.samples(),
             .film_hash = account.film.hash()};
   }

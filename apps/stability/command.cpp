@@ -12,6 +12,7 @@
 #include "apps/stability/run.h"
 #include "apps/stability/state.h"
 #include "apps/stability/table.h"
+#include "apps/table_options.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -113,9 +114,7 @@ void add_options(OptionSet set, StabilityOptions& options) {
       "Only these: R1 to R12, R14, quadrics");
   set.add_number("--seed", options.seed, 0, std::numeric_limits<std::int64_t>::max(), "1", "Other rays, as good as these");
   set.add_path("--resume", "FILE", options.resume, "Keep the run's state in FILE, and go on from there if it exists");
-  set.add_choice<TableFormat>("--format", options.format,
-                              {{"markdown", TableFormat::markdown}, {"csv", TableFormat::csv}, {"json", TableFormat::json}},
-                              "How the table is written");
+  add_format_option(set, options.format);
   set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
   set.set_examples(
       "Examples:\n"
