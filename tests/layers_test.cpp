@@ -41,7 +41,11 @@ const std::vector<Foreign> foreign = {
      {"apps/stats", "apps/machine_file.", "apps/study_table.cpp", "apps/compare.cpp", "apps/accurate/reference_file.cpp",
       "tests/apps/"}},
     {"oneapi/", {"apps/inspection.cpp", "apps/side_by_side.cpp", "apps/accurate/picture.cpp", "tests/accurate/"}},
-    {"tbb/", {"apps/inspection.cpp", "apps/side_by_side.cpp", "apps/accurate/picture.cpp", "tests/accurate/"}},
+    {"tbb/",
+     {"apps/inspection.cpp", "apps/side_by_side.cpp", "apps/accurate/picture.cpp", "tests/accurate/", "tests/bench/rivals.h"}},
+    {"benchmark/", {"tests/bench/"}},
+    {"boost/", {"tests/bench/rivals.h"}},
+    {"concurrentqueue/", {"tests/bench/rivals.h"}},
     {"hwy/", {"core/kernel.cpp"}},
     {"doctest/", {"tests/"}},
     // Threads are the computer's; the edge has one, which waits for signals, and runs side by side that share their progress.
