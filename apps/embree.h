@@ -1,5 +1,12 @@
-// The only file that includes Embree: one ray asked of its version 3 or 4.
+// The only file that includes Embree: its geometries, and one ray asked of its version 3 or 4.
 #pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/database.h"
+#include "core/ray.h"
 
 #if __has_include(<embree3/rtcore.h>)
 #include <embree3/rtcore.h>
@@ -34,5 +41,26 @@ inline void intersect(RTCScene scene, Context& context, RTCRayHit& ray_hit) { rt
 /// Any hit.
 inline void occlude(RTCScene scene, Context& context, RTCRay& ray) { rtcOccluded1(scene, &context, &ray); }
 #endif
+
+/// The ray as Embree takes it: from 0 to its t_max, seen by all geometries.
+inline RTCRay ray_of(const core::Ray& ray) {
+  RTCRay result{};
+  result.org_x = ray.origin.x, result.org_y = ray.origin.y, result.org_z = ray.origin.z;
+  result.dir_x = ray.direction.x, result.dir_y = ray.direction.y, result.dir_z = ray.direction.z;
+  result.tfar = ray.t_max;
+  result.mask = ~0U;
+  return result;
+}
+
+/// A mesh, not yet committed, of the triangles `ids` of `primitives`, in their order and without shared vertices; the caller
+/// releases it.
+RTCGeometry triangle_mesh(RTCDevice device, std::span<const core::PrimitiveValues> primitives,
+                          std::span<const std::uint32_t> ids);
+
+/// `box`: lower x y z, upper x y z.
+inline void set_bounds(RTCBounds& bounds, const std::array<float, 6>& box) {
+  bounds.lower_x = box[0], bounds.lower_y = box[1], bounds.lower_z = box[2];
+  bounds.upper_x = box[3], bounds.upper_y = box[4], bounds.upper_z = box[5];
+}
 
 }  // namespace dmpc::apps::embree

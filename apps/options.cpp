@@ -36,6 +36,8 @@ Command parse_command_line(std::span<const std::string> arguments) {
               precision);
   ErrorOptions error;
   add_options(bench.add_command("error", "What every knob costs, and does to the picture's error"), error);
+  SpeedOptions speed;
+  add_options(bench.add_command("speed", "Our grid, pictures, computers and databases beside Embree and each other"), speed);
   const std::variant<HelpText, std::string> parsed = line.parse(arguments);
   if (const auto* help = std::get_if<HelpText>(&parsed)) {
     return *help;
@@ -53,7 +55,8 @@ Command parse_command_line(std::span<const std::string> arguments) {
                                                    {"study paper", paper},
                                                    {"bench stability", stability},
                                                    {"bench precision", precision},
-                                                   {"bench error", error}};
+                                                   {"bench error", error},
+                                                   {"bench speed", speed}};
   return commands.at(name);
 }
 

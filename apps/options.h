@@ -13,6 +13,7 @@
 #include "apps/machine.h"
 #include "apps/render_options.h"
 #include "apps/scene.h"
+#include "apps/speed/command.h"
 #include "apps/stability/command.h"
 #include "apps/study_options.h"
 #include "apps/study_paper.h"
@@ -20,7 +21,7 @@
 namespace dmpc::apps {
 
 using Command = std::variant<HelpText, RenderOptions, SceneOptions, CheckOptions, CompareOptions, MachineOptions, StudyOptions,
-                             PaperStudyOptions, StabilityOptions, PrecisionOptions, ErrorOptions>;
+                             PaperStudyOptions, StabilityOptions, PrecisionOptions, ErrorOptions, SpeedOptions>;
 
 /// `arguments` without the program's name. Throws core::UsageError, whose message ends with a hint at the right --help, for
 /// anything wrong that can be seen without reading a file.

@@ -1,6 +1,5 @@
 #include "apps/oracle.h"
 
-#include <array>
 #include <cstring>
 #include <limits>
 #include <optional>
@@ -84,16 +83,6 @@ struct EmbreeScene::Parts {
 
 namespace {
 
-RTCRay embree_ray(const core::Ray& ray) {
-  RTCRay result{};
-  result.org_x = ray.origin.x, result.org_y = ray.origin.y, result.org_z = ray.origin.z;
-  result.dir_x = ray.direction.x, result.dir_y = ray.direction.y, result.dir_z = ray.direction.z;
-  result.tnear = 0;
-  result.tfar = ray.t_max;
-  result.mask = ~0U;
-  return result;
-}
-
 Query start_query(const core::Ray& ray) {
   Query query;
   embree::start(query.context);
@@ -107,10 +96,7 @@ bool can_hit(const core::Ray& ray) { return is_finite(ray.origin) && is_finite(r
 
 void EmbreeScene::Parts::bounds_callback(const RTCBoundsFunctionArguments* arguments) {
   const Parts& parts = of(arguments->geometryUserPtr);
-  const std::array<float, 6> box = bounds_of_curved(parts.primitives[parts.curved[arguments->primID]]);
-  RTCBounds& bounds = *arguments->bounds_o;
-  bounds.lower_x = box[0], bounds.lower_y = box[1], bounds.lower_z = box[2];
-  bounds.upper_x = box[3], bounds.upper_y = box[4], bounds.upper_z = box[5];
+  embree::set_bounds(*arguments->bounds_o, bounds_of_curved(parts.primitives[parts.curved[arguments->primID]]));
 }
 
 void EmbreeScene::Parts::intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
@@ -132,20 +118,7 @@ void EmbreeScene::Parts::occluded_callback(const RTCOccludedFunctionNArguments* 
 }
 
 void EmbreeScene::Parts::add_triangles() {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<float*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * triangles.size()));
-  auto* indices = static_cast<unsigned*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), triangles.size()));
-  core::expect(vertices != nullptr && indices != nullptr, "Embree has memory for the triangles");
-  for (std::size_t index = 0; index < triangles.size(); ++index) {
-    for (std::size_t k = 0; k < 9; ++k) {
-      vertices[9 * index + k] = primitives[triangles[index]].value[k];
-    }
-    for (std::size_t k = 3 * index; k < 3 * index + 3; ++k) {
-      indices[k] = static_cast<unsigned>(k);
-    }
-  }
+  RTCGeometry geometry = embree::triangle_mesh(device, primitives, triangles);
   rtcSetGeometryUserData(geometry, triangles.data());
   rtcSetGeometryIntersectFilterFunction(geometry, filter_triangle);
   rtcSetGeometryOccludedFilterFunction(geometry, filter_triangle);
@@ -187,7 +160,7 @@ core::Hit EmbreeScene::closest(const core::Ray& ray) const {
   Query query = start_query(ray);
   if (can_hit(ray)) {
     RTCRayHit ray_hit{};
-    ray_hit.ray = embree_ray(ray);
+    ray_hit.ray = embree::ray_of(ray);
     ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     embree::intersect(parts_->scene, query.context, ray_hit);
   }
@@ -199,7 +172,7 @@ bool EmbreeScene::occluded(const core::Ray& ray) const {
     return false;
   }
   Query query = start_query(ray);
-  RTCRay asked = embree_ray(ray);
+  RTCRay asked = embree::ray_of(ray);
   embree::occlude(parts_->scene, query.context, asked);
   return query.best.found();
 }

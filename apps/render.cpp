@@ -2,13 +2,11 @@
 
 #include <sys/resource.h>
 
-#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <iostream>
 #include <optional>
 #include <ostream>
-#include <utility>
 
 #include "apps/distinct_files.h"
 #include "apps/load_scene.h"
@@ -17,24 +15,13 @@
 #include "apps/progress.h"
 #include "apps/run_strategy.h"
 #include "apps/stats.h"
+#include "apps/stopwatch.h"
 #include "apps/subject.h"
 #include "apps/summary.h"
 
 namespace dmpc::apps {
 
 namespace {
-
-/// Wall clock since the last call or the making.
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 struct ProcessorTime {
   double user = 0, system = 0;

@@ -48,8 +48,9 @@ const std::vector<Foreign> foreign = {
     {"concurrentqueue/", {"tests/bench/rivals.h"}},
     {"hwy/", {"core/kernel.cpp"}},
     {"doctest/", {"tests/"}},
-    // Threads are the computer's; the edge has one, which waits for signals, and runs side by side that share their progress.
-    {"thread", {"nodes/", "tests/", "apps/interrupt."}},
+    // Threads are the computer's; the edge has one, which waits for signals, those on which rays are timed, and runs side by side
+    // that share their progress.
+    {"thread", {"nodes/", "tests/", "apps/interrupt.", "apps/speed/crew."}},
     {"atomic", {"nodes/", "tests/", "apps/interrupt."}},
     {"mutex", {"nodes/", "tests/", "apps/study_runs.cpp"}},
     {"shared_mutex", {"nodes/", "tests/"}},

@@ -1,11 +1,7 @@
 #include "apps/error/command.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <set>
@@ -17,6 +13,7 @@
 #include "apps/error/table.h"
 #include "apps/figures.h"
 #include "apps/load_scene.h"
+#include "apps/machine_load.h"
 #include "apps/output_file.h"
 #include "apps/plot_program.h"
 #include "apps/table_options.h"
@@ -27,8 +24,6 @@ namespace dmpc::apps {
 namespace {
 
 constexpr std::uint32_t default_reference_side = 32;
-
-std::uint32_t core_count() { return static_cast<std::uint32_t>(std::max(1L, ::sysconf(_SC_NPROCESSORS_ONLN))); }
 
 /// An even number: the reference has two halves.
 std::uint32_t parse_reference_side(const std::string& text) {
@@ -88,17 +83,6 @@ void check_files(const ErrorOptions& options) {
     make_output_folder(*options.measure.pictures, "--pictures");
   }
   check_distinct(inputs, outputs);
-}
-
-/// Of the last minute; 0 where the system does not say.
-double machine_load() {
-  std::array<double, 1> load{};
-  return ::getloadavg(load.data(), 1) == 1 ? load[0] : 0;
-}
-
-std::string load_note(double before) {
-  return "Load of the machine, whose cores are " + std::to_string(core_count()) + ": " + fixed(before, 1) + " before, " +
-         fixed(machine_load(), 1) + " after.";
 }
 
 std::string title_of(const ErrorOptions& options) {

@@ -21,10 +21,4 @@ std::vector<bool> pareto_front(std::span<const CostPoint> points, const std::vec
 /// several with one error the cheapest counts.
 std::optional<double> cost_at(std::span<const CostPoint> points, double error);
 
-/// Of numbers above 0; nothing if there are none.
-std::optional<double> geometric_mean(std::span<const double> numbers);
-
-/// The middle one, or the mean of the two in the middle. Requires some.
-double median(std::vector<double> numbers);
-
 }  // namespace dmpc::apps

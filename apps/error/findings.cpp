@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "apps/averages.h"
 #include "apps/error/curve.h"
 #include "apps/figures.h"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
 #include <functional>
 #include <iostream>
 #include <map>
@@ -12,15 +11,15 @@
 #include "apps/load_scene.h"
 #include "apps/progress.h"
 #include "apps/render.h"
+#include "apps/rounds.h"
 #include "apps/run_strategy.h"
+#include "apps/stopwatch.h"
 #include "apps/subject.h"
 #include "core/expect.h"
 #include "core/scenes.h"
 
 namespace dmpc::apps {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 PictureOptions picture_of(PictureOptions picture, const Setting& setting) {
   picture.samples = setting.samples;
@@ -166,9 +165,9 @@ class Bench {
     const core::RenderSettings settings = render_settings(picture_of(options_.picture, setting), built.scene, database);
     const ReadyRun run = make_ready(options_.strategy, database, settings, interrupt_.token());
     interrupt_.check();
-    const Clock::time_point start = Clock::now();
+    Stopwatch stopwatch;
     const Report report = run.start([](std::uint32_t, std::uint32_t) {}, interrupt_.token());
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const double seconds = stopwatch.lap();
     interrupt_.check();
     const Account account = account_of(report);
     return {.picture = image_of(account.film),

@@ -26,17 +26,6 @@ struct MeasureOptions {
   std::optional<std::filesystem::path> pictures;  ///< an existing folder for pictures of the errors
 };
 
-/// Calls visit(round, index) for every index below `count` before the next round, so that a busy minute of the machine hits all
-/// indices alike and not the last ones.
-template <class Visit>
-void round_by_round(std::size_t rounds, std::size_t count, const Visit& visit) {
-  for (std::size_t round = 0; round < rounds; ++round) {
-    for (std::size_t index = 0; index < count; ++index) {
-      visit(round, index);
-    }
-  }
-}
-
 /// How much brighter than the error, in linear light, its pictures are.
 inline constexpr float picture_scale = 32;
 

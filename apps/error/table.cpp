@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "apps/averages.h"
 #include "apps/error/curve.h"
 
 namespace dmpc::apps {

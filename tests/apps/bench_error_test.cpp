@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "apps/error/measure.h"
@@ -45,12 +44,6 @@ std::string output_of(const ErrorOptions& options) {
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
-
-TEST_CASE("every round visits all settings before the next begins") {
-  std::vector<std::pair<std::size_t, std::size_t>> visits;
-  apps::round_by_round(2, 3, [&](std::size_t round, std::size_t index) { visits.emplace_back(round, index); });
-  CHECK(visits == std::vector<std::pair<std::size_t, std::size_t>>{{0, 0}, {0, 1}, {0, 2}, {1, 0}, {1, 1}, {1, 2}});
-}
 
 TEST_CASE("bench error prints a row for each point, and what they say") {
   const TemporaryFolder folder;

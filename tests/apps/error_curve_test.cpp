@@ -11,8 +11,6 @@ namespace dmpc::tests {
 
 using apps::cost_at;
 using apps::CostPoint;
-using apps::geometric_mean;
-using apps::median;
 using apps::pareto_front;
 
 namespace {
@@ -58,19 +56,6 @@ TEST_CASE("nothing is known of the cost at an error outside the curve") {
   CHECK_FALSE(cost_at(points, 0.99));
   CHECK_FALSE(cost_at({}, 1));
   CHECK_FALSE(cost_at(std::vector<CostPoint>{{0, 2}, {400, 1}, {9, 0}}, 1.5));
-}
-
-TEST_CASE("a geometric mean is that of factors") {
-  CHECK(*geometric_mean(std::vector{0.5, 2.0}) == doctest::Approx(1));
-  CHECK(*geometric_mean(std::vector{1.0, 10.0, 100.0}) == doctest::Approx(10));
-  CHECK_FALSE(geometric_mean({}));
-}
-
-TEST_CASE("a median is the number in the middle or the mean of two") {
-  CHECK(median({3}) == 3);
-  CHECK(median({9, 1, 2}) == 2);
-  CHECK(median({4, 1, 9, 2}) == 3);
-  CHECK_THROWS_AS(median({}), core::InternalError);
 }
 
 }  // namespace dmpc::tests

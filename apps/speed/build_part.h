@@ -1,0 +1,17 @@
+// Building databases in `bench speed`, beside Embree's trees.
+#pragma once
+
+#include <vector>
+
+#include "apps/interrupt.h"
+#include "apps/speed/comparison.h"
+#include "apps/speed/part.h"
+
+namespace dmpc::apps {
+
+/// Builds each scene's database and Embree's robust trees of it, of its default quality and of its highest, on each number of
+/// threads. Embree's time is its tree's alone, from vertices that lie ready; ours is from the scene to the pages. `results`,
+/// progress and errors as measure_kernel()'s.
+void measure_build(const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results);
+
+}  // namespace dmpc::apps

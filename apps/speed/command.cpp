@@ -1,0 +1,199 @@
+#include "apps/speed/command.h"
+
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/distinct_files.h"
+#include "apps/load_scene.h"
+#include "apps/machine_load.h"
+#include "apps/oracle.h"
+#include "apps/output_file.h"
+#include "apps/plot_program.h"
+#include "apps/speed/build_part.h"
+#include "apps/speed/comparison.h"
+#include "apps/speed/emulation_part.h"
+#include "apps/speed/kernel_part.h"
+#include "apps/speed/memory_part.h"
+#include "apps/speed/pages_part.h"
+#include "apps/speed/picture_part.h"
+#include "apps/speed/table.h"
+#include "apps/speed/target.h"
+#include "apps/table_options.h"
+#include "core/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+std::string plot_name_of(SpeedPart part) { return std::string("speed_") + name_of(part); }
+std::string data_file_of(SpeedPart part) { return plot_name_of(part) + ".csv"; }
+
+void add_plot_files(const SpeedOptions& options, std::vector<NamedFile>& outputs) {
+  make_output_folder(*options.plots, "--plots");
+  for (const SpeedPart part : options.parts) {
+    outputs.push_back({"--plots", *options.plots / data_file_of(part)});
+    for (const char* extension : {".gnuplot", ".svg"}) {
+      outputs.push_back({"--plots", *options.plots / (plot_name_of(part) + extension)});
+    }
+  }
+}
+
+void check_files(const SpeedOptions& options) {
+  std::vector<NamedFile> inputs, outputs;
+  for (const std::string& scene : options.settings.scenes) {
+    add_scene_file(scene, inputs);
+  }
+  if (options.output) {
+    outputs.push_back({"-o", *options.output});
+    check_output_path(*options.output, "-o");
+  }
+  if (options.plots) {
+    add_plot_files(options, outputs);
+  }
+  check_distinct(inputs, outputs);
+}
+
+void measure_part(SpeedPart part, const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results) {
+  switch (part) {
+    case SpeedPart::kernel:
+      return measure_kernel(settings, interrupt, results);
+    case SpeedPart::picture:
+      return measure_picture(settings, interrupt, results);
+    case SpeedPart::emulation:
+      return measure_emulation(settings, interrupt, results);
+    case SpeedPart::build:
+      return measure_build(settings, interrupt, results);
+    case SpeedPart::memory:
+      return measure_memory(settings, interrupt, results);
+    case SpeedPart::pages:
+      return measure_pages(settings, interrupt, results);
+  }
+}
+
+/// What ended it before its time, if anything did.
+std::exception_ptr measure_all(const SpeedOptions& options, const Interrupt& interrupt, std::vector<Comparison>& results) {
+  try {
+    for (const SpeedPart part : options.parts) {
+      measure_part(part, options.settings, interrupt, results);
+    }
+    return nullptr;
+  } catch (...) {
+    return std::current_exception();
+  }
+}
+
+/// How each part's figures come about.
+const char* explanation_of(SpeedPart part) {
+  switch (part) {
+    case SpeedPart::kernel:
+      return "kernel: rays of one render, up to so many a class, and bounces at random from what the eye sees; all contenders "
+             "trace the same rays as closest and as any hit, in the processor time of the busiest thread. Embree is asked by "
+             "rtcIntersect1 and rtcOccluded1 without filters, "
+             "its trees are of high quality. The pager is that of a node of eight, all other nodes' pages in its cache.";
+    case SpeedPart::picture:
+      return "picture: what `render` does, on 2 nodes. Embree's tree is built within its phase render; the whole is the sum of "
+             "the phases.";
+    case SpeedPart::emulation:
+      return "emulation: seconds of the phase render, dealing out the database included; the nodes share the same cores.";
+    case SpeedPart::build:
+      return "build: our database from the scene to the pages, Embree's tree from vertices that lie ready, of its default "
+             "quality "
+             "and of its highest, on as many threads.";
+    case SpeedPart::memory:
+      return "memory: the most anonymous memory of a process that renders on 8 nodes, above that of one which renders a "
+             "triangle, "
+             "against the sum of the nodes' local memories.";
+    case SpeedPart::pages:
+      return "pages: our databases and the distinct pages of a pixel against Table 2 of the article, with its counting of rays.";
+  }
+  return "";
+}
+
+Table finished_table(const SpeedOptions& options, const std::vector<Comparison>& results, double load) {
+  Table table = table_of(results, std::string("Speed beside Embree ") + embree_version() +
+                                      " and of emulated computers; ratios are medians over rounds, subject over rival");
+  for (const SpeedPart part : options.parts) {
+    table.add_note(explanation_of(part));
+  }
+  for (const Target& target : speed_targets()) {
+    if (std::optional<std::string> sentence = sentence_on(target, results)) {
+      table.add_note(std::move(*sentence));
+    }
+  }
+  table.add_note(load_note(load));
+  return table;
+}
+
+/// Complaints about pictures go to stderr: they are an extra.
+void draw_plots(const SpeedOptions& options, const std::vector<Comparison>& results) {
+  std::set<std::string> complaints;
+  for (const SpeedPart part : options.parts) {
+    const Table table = plotted_table(part, results);
+    write_file(*options.plots / data_file_of(part), text_of(table, TableFormat::csv));
+    const auto outcome = draw(plot_of(part, table, plot_name_of(part)), table, *options.plots, data_file_of(part));
+    if (outcome && !outcome->is_drawn && complaints.insert(sentence_on(*outcome)).second) {
+      std::cerr << "dmpc: " << sentence_on(*outcome) << std::endl;
+    }
+  }
+}
+
+}  // namespace
+
+void add_options(OptionSet set, SpeedOptions& options) {
+  SpeedSettings& settings = options.settings;
+  set.add_arguments(
+      "SCENE", [&settings](const std::string& text) { settings.scenes.push_back(text); },
+      "NFF files, or built-in scenes such as teapot-12, rings-3, tetra-6; without any teapot-12, mount-6-t6, rings-4-t1 and "
+      "tetra-9, with tetra-10 for build and memory, and for pages those of the 1994 article");
+  set.add_text(
+      "--parts", "NAME,NAME,... [all]", [&options](const std::string& text) { options.parts = parse_speed_parts(text); },
+      "What is measured: kernel (rays a second), picture (a whole render), emulation (many nodes, small caches), build "
+      "(databases), memory (of the real computer), pages (against the article)");
+  set.add_flag("--quick", settings.is_quick, "Fewer rays, rounds and pixels, and no scene of a million triangles");
+  set.add_number("--repeat", settings.rounds, 1, 1000, "kernel 7, others 3", "Rounds in which everything is timed");
+  set.add_text(
+      "--threads", "N,N,... [1 and all cores]",
+      [&settings](const std::string& text) { settings.thread_counts = parse_thread_counts(text); },
+      "Threads that trace in kernel, and that build in build");
+  set.add_text(
+      "--resolution", "WxH [512x512, emulation 1024x1024]",
+      [&settings](const std::string& text) { settings.resolution = parse_resolution(text); }, "Pixels of the pictures");
+  set.add_path("--plots", "FOLDER", options.plots,
+               "Where pictures by gnuplot go, with their scripts and what they are drawn from");
+  add_format_option(set, options.format);
+  set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
+  set.set_examples(
+      "Examples:\n"
+      "  dmpc bench speed --quick\n"
+      "  dmpc bench speed --parts=kernel --threads=1 --plots=plots -o speed.md\n"
+      "  dmpc bench speed my.nff rings-5-t1 --parts=kernel,picture --resolution=256x256 --format=csv -o speed.csv\n"
+      "All figures are of one run on one machine, side by side; figures of two runs do not compare.");
+}
+
+int bench_speed_command(const SpeedOptions& options, Interrupt& interrupt, std::ostream& output) {
+  check_files(options);
+  const double load = machine_load();
+  std::vector<Comparison> results;
+  const std::exception_ptr failure = measure_all(options, interrupt, results);
+  const bool has_figures = std::any_of(results.begin(), results.end(), [](const auto& one) { return one.rounds() > 0; });
+  if (!failure || has_figures) {
+    interrupt.set_consequence("the table has what was measured before");
+    Table table = finished_table(options, results, load);
+    if (failure) {
+      table.add_note("Ended before its time: parts or rounds are missing.");
+    }
+    write_to(options.output, text_of(table, options.format), output, "the table");
+    if (options.plots) {
+      draw_plots(options, results);
+    }
+  }
+  if (failure) {
+    std::rethrow_exception(failure);
+  }
+  return 0;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,33 @@
+// The command `bench speed`: our grid, pictures, emulated computers and databases beside Embree and each other.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <set>
+
+#include "apps/command_line.h"
+#include "apps/interrupt.h"
+#include "apps/speed/part.h"
+#include "apps/study_table.h"
+
+namespace dmpc::apps {
+
+struct SpeedOptions {
+  SpeedSettings settings;
+  std::set<SpeedPart> parts = all_speed_parts();
+  TableFormat format = TableFormat::markdown;
+  std::optional<std::filesystem::path> output;  ///< stdout if not given
+  std::optional<std::filesystem::path> plots;   ///< a folder for pictures by gnuplot and what they are drawn from
+};
+
+/// Declares them.
+void add_options(OptionSet set, SpeedOptions& options);
+
+/// Measures part by part, and writes the table to the file asked for (whole or not at all), else to `output`, with the plots
+/// asked for; progress goes to stderr if that is a terminal. After a signal or an error what is measured is written before it
+/// goes on. Returns the exit status 0, whatever the figures are. Throws core::UsageError for outputs that clash, core::InputError
+/// for a scene that will not do or files that cannot be written, Interrupted after a signal.
+int bench_speed_command(const SpeedOptions& options, Interrupt& interrupt, std::ostream& output);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,23 @@
+#include "apps/speed/comparison.h"
+
+#include <algorithm>
+
+#include "apps/averages.h"
+#include "core/expect.h"
+
+namespace dmpc::apps {
+
+std::size_t Comparison::rounds() const { return std::min(subject_figures.size(), rival_figures.size()); }
+
+RatioSpread ratio_of(const Comparison& comparison) {
+  std::vector<double> ratios(comparison.rounds());
+  for (std::size_t round = 0; round < ratios.size(); ++round) {
+    core::expect(comparison.rival_figures[round] > 0, "a ratio is taken to a figure above 0");
+    ratios[round] = comparison.subject_figures[round] / comparison.rival_figures[round];
+  }
+  core::expect(!ratios.empty(), "a comparison has been measured at least once");
+  const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
+  return {median(ratios), *least, *most};
+}
+
+}  // namespace dmpc::apps

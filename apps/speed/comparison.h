@@ -1,0 +1,35 @@
+// What was measured of one thing, side by side with what it is held against.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/speed/part.h"
+
+namespace dmpc::apps {
+
+/// Figures by round; of each round's two the ratio is taken, so that a busy minute of the machine touches both.
+struct Comparison {
+  SpeedPart part{};
+  std::string scene;
+  std::string what;            ///< "closest hit", "whole picture"
+  std::string detail;          ///< a kind of `what`, such as the class of rays; may be empty
+  std::uint32_t threads = 0;   ///< that worked, or nodes that rendered; 0: does not matter
+  std::string subject, rival;  ///< whose figures they are
+  std::string unit;            ///< of the figures: "Mray/s", "s"
+  std::vector<double> subject_figures = {}, rival_figures = {};
+
+  /// Rounds that have both figures.
+  std::size_t rounds() const;
+};
+
+/// The middle one of the rounds' ratios of subject to rival, and the outermost ones. Figures of the rival are above 0.
+struct RatioSpread {
+  double median = 0, least = 0, most = 0;
+};
+/// Requires a round.
+RatioSpread ratio_of(const Comparison& comparison);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,133 @@
+#include "apps/speed/part.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "apps/machine_load.h"
+#include "apps/paper_data.h"
+#include "core/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr std::array<const char*, 6> names = {"kernel", "picture", "emulation", "build", "memory", "pages"};
+constexpr std::uint32_t thread_count_max = 1024;
+/// A million triangles.
+constexpr const char* big_scene = "tetra-10";
+
+/// The words between commas: one at least, perhaps empty.
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> words(1);
+  for (const char character : text) {
+    if (character == ',') {
+      words.emplace_back();
+    } else {
+      words.back() += character;
+    }
+  }
+  return words;
+}
+
+SpeedPart parse_part(const std::string& word) {
+  const auto found = std::find(names.begin(), names.end(), word);
+  if (found == names.end()) {
+    throw core::UsageError("--parts=" + word +
+                           ": expected kernel, picture, emulation, build, memory, pages, with commas between");
+  }
+  return SpeedPart{static_cast<std::uint8_t>(found - names.begin())};
+}
+
+std::uint32_t parse_thread_count(const std::string& word) {
+  std::uint32_t count = 0;
+  const char* const end = word.data() + word.size();
+  const auto [rest, error] = std::from_chars(word.data(), end, count);
+  if (error != std::errc() || rest != end || count < 1 || count > thread_count_max) {
+    throw core::UsageError("--threads=" + word + ": expected numbers from 1 to 1024, with commas between");
+  }
+  return count;
+}
+
+std::vector<std::string> article_scenes() {
+  std::vector<std::string> scenes;
+  for (const PaperScene& scene : paper_scenes) {
+    scenes.emplace_back(scene.scene);
+  }
+  return scenes;
+}
+
+std::vector<std::string> default_scenes(SpeedPart part) {
+  switch (part) {
+    case SpeedPart::pages:
+      return article_scenes();
+    case SpeedPart::memory:
+      return {"tetra-9", big_scene};
+    case SpeedPart::build:
+      return {"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9", big_scene};
+    default:
+      return {"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9"};
+  }
+}
+
+int default_side(SpeedPart part) { return part == SpeedPart::emulation ? 1024 : static_cast<int>(paper_resolution); }
+
+}  // namespace
+
+const char* name_of(SpeedPart part) { return names[static_cast<std::size_t>(part)]; }
+
+std::set<SpeedPart> all_speed_parts() {
+  std::set<SpeedPart> parts;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    parts.insert(SpeedPart{static_cast<std::uint8_t>(i)});
+  }
+  return parts;
+}
+
+std::set<SpeedPart> parse_speed_parts(const std::string& text) {
+  std::set<SpeedPart> parts;
+  for (const std::string& word : split(text)) {
+    parts.insert(parse_part(word));
+  }
+  return parts;
+}
+
+SpeedSettings::SpeedSettings() : thread_counts{1}, program("/proc/self/exe") {
+  if (core_count() > 1) {
+    thread_counts.push_back(core_count());
+  }
+}
+
+std::vector<std::string> SpeedSettings::scenes_of(SpeedPart part) const {
+  std::vector<std::string> chosen = scenes.empty() ? default_scenes(part) : scenes;
+  if (scenes.empty() && is_quick) {
+    std::erase(chosen, big_scene);
+  }
+  if (part == SpeedPart::pages) {
+    const std::vector<std::string> known = article_scenes();
+    std::erase_if(chosen, [&](const std::string& scene) { return std::find(known.begin(), known.end(), scene) == known.end(); });
+  }
+  return chosen;
+}
+
+std::size_t SpeedSettings::rounds_of(SpeedPart part) const {
+  const std::size_t standard = part == SpeedPart::kernel ? 7 : 3;
+  return rounds.value_or(is_quick ? (standard - 1) / 2 : standard);
+}
+
+PictureOptions SpeedSettings::picture_of(SpeedPart part, const std::string& scene) const {
+  const int side = is_quick ? 128 : default_side(part);
+  PictureOptions picture;
+  picture.scene = scene;
+  picture.resolution = resolution.value_or(Resolution{side, side});
+  return picture;
+}
+
+std::vector<std::uint32_t> parse_thread_counts(const std::string& text) {
+  std::set<std::uint32_t> counts;
+  for (const std::string& word : split(text)) {
+    counts.insert(parse_thread_count(word));
+  }
+  return {counts.begin(), counts.end()};
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,37 @@
+// A folder for files that nobody wants to keep.
+#pragma once
+
+#include <stdlib.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/expect.h"
+
+namespace dmpc::apps {
+
+/// Made where the system keeps temporary files; gone with everything in it in the end. Throws core::InputError if none can be
+/// made.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "dmpc-bench-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) {
+      throw core::InputError("no temporary folder can be made as " + name);
+    }
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace dmpc::apps

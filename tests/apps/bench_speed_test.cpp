@@ -1,0 +1,151 @@
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "apps/options.h"
+#include "apps/speed/command.h"
+#include "apps/speed/kernel_part.h"
+#include "apps/speed/table.h"
+#include "apps/speed/watched_process.h"
+#include "core/expect.h"
+#include "tests/support/temporary_folder.h"
+
+namespace dmpc::tests {
+
+using apps::Comparison;
+using apps::SpeedOptions;
+using apps::SpeedPart;
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+SpeedOptions parse(Words arguments) {
+  arguments.insert(arguments.begin(), {"bench", "speed"});
+  return std::get<SpeedOptions>(apps::parse_command_line(arguments));
+}
+
+SpeedOptions tiny(Words more = {}) {
+  more.insert(more.end(), {"tetra-2", "--resolution=16x16", "--quick", "--repeat=2"});
+  SpeedOptions options = parse(more);
+  options.settings.program = DMPC_PROGRAM;
+  return options;
+}
+
+std::string output_of(const SpeedOptions& options) {
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  CHECK(apps::bench_speed_command(options, interrupt, output) == 0);
+  return output.str();
+}
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("bench speed measures all its parts and holds them against what is to be reached") {
+  const std::string table = output_of(tiny());
+  for (const char* part : {"| kernel ", "| picture ", "| emulation ", "| build ", "| memory ", "| Embree robust ",
+                           "| Embree fast ", "| secondary", "| dataflow on 64 nodes ", "Kernel over Embree robust, records local",
+                           "8 nodes with a cache of 10 %", "Anonymous memory above", "Load of the machine"}) {
+    CAPTURE(std::string(part));
+    CHECK(says(table, part) == (std::string(part) != "| secondary"));  // of which the scene has none
+  }
+}
+
+TEST_CASE("bench speed holds a scene of the article against its table") {
+  SpeedOptions options = tiny({"--parts=pages"});
+  options.settings.scenes = {"mount-6-t6", "tetra-2"};
+  const std::string table = output_of(options);
+  CHECK(says(table, "| pages | mount-6-t6 | database "));
+  CHECK(says(table, "Distinct pages a pixel over the article's (worst of 1)"));
+}
+
+TEST_CASE("the kernel is measured for all classes, queries and threads, all in each round") {
+  SpeedOptions options = tiny({"--threads=1,3"});
+  apps::Interrupt interrupt;
+  std::vector<Comparison> results;
+  apps::measure_kernel(options.settings, interrupt, results);
+  CHECK(results.size() == 3 * 2 * 2 * 4);
+  for (const Comparison& one : results) {
+    CHECK(one.subject_figures.size() == 2);
+    CHECK(one.rival_figures.size() == 2);
+    CHECK(one.subject_figures.front() > 0);
+  }
+}
+
+TEST_CASE("bench speed writes its table and plots where they are asked for") {
+  const TemporaryFolder folder;
+  const SpeedOptions options = tiny(
+      {"--parts=kernel,build", "--plots=" + (folder / "plots").string(), "--format=csv", "-o" + (folder / "table.csv").string()});
+  CHECK(output_of(options).empty());
+  CHECK(says(file_text(folder / "table.csv"), "largest ratio"));
+  for (const char* name : {"speed_kernel.csv", "speed_kernel.gnuplot", "speed_build.gnuplot"}) {
+    CHECK(std::filesystem::exists(folder / "plots" / name));
+  }
+}
+
+TEST_CASE("bench speed writes what was measured before an error ended it") {
+  const TemporaryFolder folder;
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  SpeedOptions options = tiny({"--parts=kernel,memory"});
+  options.settings.program = folder / "no program";
+  CHECK_THROWS_AS(apps::bench_speed_command(options, interrupt, output), core::InputError);
+  CHECK(says(output.str(), "| kernel "));
+  CHECK(says(output.str(), "Ended before its time"));
+}
+
+TEST_CASE("an interrupted bench speed writes nothing before anything is measured") {
+  const TemporaryFolder folder;
+  SpeedOptions options = tiny();
+  options.output = folder / "table.md";
+  apps::Interrupt interrupt;
+  ::kill(::getpid(), SIGINT);
+  while (!interrupt.requested()) {
+  }
+  std::ostringstream output;
+  CHECK_THROWS_AS(apps::bench_speed_command(options, interrupt, output), apps::Interrupted);
+  CHECK_FALSE(std::filesystem::exists(folder / "table.md"));
+}
+
+TEST_CASE("bench speed refuses what makes no sense before it begins") {
+  for (const Words& words : {Words{"--parts=speed"}, {"--threads=0"}, {"--repeat=0"}, {"--resolution=16"}, {"--format=xml"}}) {
+    CAPTURE(words.front());
+    CHECK_THROWS_AS(parse(words), core::UsageError);
+  }
+  CHECK(parse({}).settings.scenes.empty());
+  CHECK(parse({}).parts == apps::all_speed_parts());
+}
+
+TEST_CASE("a plot of a part has a bar for each pair, the mean over what was traced") {
+  const auto comparison = [](const char* detail, double figure) {
+    return Comparison{SpeedPart::kernel, "tetra-2", "any hit", detail, 1, "grid", "Embree fast", "", {figure}, {1}};
+  };
+  const std::vector<Comparison> results = {comparison("primary", 1), comparison("bounce", 4), {.part = SpeedPart::kernel}};
+  const apps::Table table = plotted_table(SpeedPart::kernel, results);
+  REQUIRE(table.rows().size() == 1);
+  CHECK(std::get<double>(table.rows()[0][3]) == doctest::Approx(2));
+  CHECK(plot_of(SpeedPart::kernel, table, "name").series.size() == 1);
+  CHECK(plotted_table(SpeedPart::build, results).rows().empty());
+}
+
+TEST_CASE("anonymous memory is read from a process's status") {
+  CHECK(apps::anonymous_bytes_in("VmHWM:\t    9 kB\nRssAnon:\t   12 kB\nRssFile:\t 7 kB\n") == 12 * 1024);
+  CHECK(apps::anonymous_bytes_in("") == 0);
+  CHECK(apps::anonymous_bytes_in("RssAnon:") == 0);
+}
+
+TEST_CASE("a watched process that fails or cannot be started is an error") {
+  const apps::Interrupt interrupt;
+  CHECK_THROWS_AS(apps::peak_anonymous_bytes(DMPC_PROGRAM, {"no-command"}, interrupt), core::InputError);
+  CHECK_THROWS_AS(apps::peak_anonymous_bytes("/no/program", {}, interrupt), core::InputError);
+  CHECK(apps::peak_anonymous_bytes(DMPC_PROGRAM, {"machine", "ipsc2"}, interrupt) > 10'000);
+}
+
+}  // namespace dmpc::tests
