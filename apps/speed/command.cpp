@@ -16,6 +16,7 @@
 #include "apps/speed/build_part.h"
 #include "apps/speed/comparison.h"
 #include "apps/speed/emulation_part.h"
+#include "apps/speed/kernel_means.h"
 #include "apps/speed/kernel_part.h"
 #include "apps/speed/memory_part.h"
 #include "apps/speed/pages_part.h"
@@ -122,6 +123,9 @@ Table finished_table(const SpeedOptions& options, const std::vector<Comparison>&
     if (std::optional<std::string> sentence = sentence_on(target, results)) {
       table.add_note(std::move(*sentence));
     }
+  }
+  for (std::string& sentence : kernel_means(results)) {
+    table.add_note(std::move(sentence));
   }
   table.add_note(load_note(load));
   return table;

@@ -71,4 +71,12 @@ TEST_CASE("the kernel's target is that of one thread over robust Embree") {
   CHECK(sentence_of(kernel).empty());
 }
 
+TEST_CASE("the build's target is that of a million triangles over the tree of default quality") {
+  Comparison build{.part = SpeedPart::build, .scene = "tetra-10", .subject = "database", .rival = "Embree robust"};
+  build.subject_figures = build.rival_figures = {1};
+  CHECK(sentence_of(build).starts_with("Database build over Embree's"));
+  build.rival = "Embree robust of high quality";
+  CHECK(sentence_of(build).empty());
+}
+
 }  // namespace dmpc::tests
