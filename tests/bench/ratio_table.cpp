@@ -31,9 +31,10 @@ RatioTable::Row RatioTable::row_of(const Run& run, std::vector<double> item_ns) 
   const std::size_t slash = name.find('/');
   core::expect(slash != std::string::npos, "a row has a group and a subject");
   std::sort(item_ns.begin(), item_ns.end());
-  const double median = item_ns[item_ns.size() / 2];
-  return {run.family_index, name.substr(0, slash), name.substr(slash + 1), median,
-          50 * (item_ns.back() - item_ns.front()) / median};
+  const std::size_t count = item_ns.size();
+  const double median = item_ns[count / 2];
+  const double quartile_distance = item_ns[count * 3 / 4] - item_ns[count / 4];
+  return {run.family_index, name.substr(0, slash), name.substr(slash + 1), median, 50 * quartile_distance / median};
 }
 
 void RatioTable::Finalize() {

@@ -10,8 +10,8 @@
 
 namespace dmpc::bench {
 
-/// Collects all rows and prints them at the end. With repetitions a time is their median, and the spread is half of what lies
-/// between the fastest and the slowest, in percent of it. Thread safety: none.
+/// Collects all rows and prints them at the end. With repetitions a time is their median, and the spread is half the distance of
+/// their quartiles, in percent of it. Thread safety: none.
 class RatioTable final : public benchmark::BenchmarkReporter {
  public:
   /// Prints the date, the machine and its load to stderr.

@@ -48,30 +48,32 @@ class Relay final : public tests::ToyProgram {
   nodes::Charges charges_;
 };
 
+struct Run {
+  double seconds = 0;
+  std::uint64_t events = 0;
+};
+
 /// One run from the first event to the last; building the computer takes no time.
-double run_seconds(const nodes::Machine& machine, std::uint64_t& events) {
+Run run_on(const nodes::Machine& machine) {
   nodes::VirtualRunner runner(tests::equal_nodes(node_count + 1, Relay::mailbox, tests::making<Relay>()), machine);
   const auto begin = std::chrono::steady_clock::now();
   core::expect(runner.run({}) == nodes::RunEnd::finished, "nobody interrupts this run");
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   const nodes::VirtualReport report = *runner.virtual_report();
-  core::expect(events == 0 || events == report.events, "equal runs have equal events");
   core::expect(report.links.messages == std::uint64_t{node_count} * tokens_a_node, "each token is one message");
-  events = report.events;
-  return seconds.count();
+  return {seconds.count(), report.events};
 }
 
 void add(const std::string& subject, nodes::TopologyKind topology, bool has_contention) {
   nodes::Machine machine = tests::toy_model(topology);
   machine.has_contention = has_contention;
   const std::string group = "an event of the virtual runner, " + std::to_string(node_count) + " nodes";
-  add_row(group, subject, [machine](benchmark::State& state) {
-    std::uint64_t events = 0;
-    for (auto _ : state) {
-      state.SetIterationTime(run_seconds(machine, events));
-    }
-    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(events));
-  })->UseManualTime();
+  const std::uint64_t events = run_on(machine).events;
+  add_timed_row(group, subject, events, [machine, events] {
+    const Run run = run_on(machine);
+    core::expect(run.events == events, "equal runs have equal events");
+    return run.seconds;
+  });
 }
 
 }  // namespace
