@@ -4,10 +4,12 @@
 // Each look-up needs what the last one found: a record says where the next one is, and all together make one round, as a
 // traversal goes from record to record.
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
-#include <memory>
 #include <numeric>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
