@@ -21,10 +21,12 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// The processor time of the thread that makes and asks it: what others do on the machine meanwhile counts little. Runs from its
-/// making.
-class ThreadStopwatch {
+/// Processor time, which what others do on the machine meanwhile changes little. Runs from its making.
+class ProcessorStopwatch {
  public:
+  /// CLOCK_PROCESS_CPUTIME_ID: of all threads together; CLOCK_THREAD_CPUTIME_ID: of the one that makes and asks it.
+  explicit ProcessorStopwatch(clockid_t clock) : clock_(clock), last_(seconds()) {}
+
   /// Seconds since the last call or the making.
   double lap() {
     const double now = seconds();
@@ -32,13 +34,30 @@ class ThreadStopwatch {
   }
 
  private:
-  static double seconds() {
+  double seconds() const {
     timespec time{};
-    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    ::clock_gettime(clock_, &time);
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
   }
 
-  double last_ = seconds();
+  clockid_t clock_;
+  double last_;
+};
+
+/// What something took.
+struct Times {
+  double wall_seconds = 0;
+  double processor_seconds = 0;  ///< of all threads of the process together
+};
+
+/// Both clocks at once. Runs from its making.
+class DoubleStopwatch {
+ public:
+  Times lap() { return {wall_.lap(), processor_.lap()}; }
+
+ private:
+  Stopwatch wall_;
+  ProcessorStopwatch processor_{CLOCK_PROCESS_CPUTIME_ID};
 };
 
 }  // namespace dmpc::apps

@@ -102,7 +102,7 @@ const char* explanation_of(SpeedPart part) {
     case SpeedPart::build:
       return "build: our database from the scene to the pages, Embree's tree from vertices that lie ready, of its default "
              "quality "
-             "and of its highest, on as many threads.";
+             "and of its highest, on as many threads; on one thread in processor time.";
     case SpeedPart::memory:
       return "memory: the most anonymous memory of a process that renders on 8 nodes, above that of one which renders a "
              "triangle, "

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/speed/part.h"
+#include "apps/stopwatch.h"
 
 namespace dmpc::apps {
 
@@ -21,6 +22,7 @@ struct Comparison {
   std::string unit;            ///< of the figures: "Mray/s", "s"
   std::vector<double> subject_figures = {}, rival_figures = {};
 
+  bool is_by_wall_clock() const { return detail == "wall clock"; }
   /// Rounds that have both figures.
   std::size_t rounds() const;
 };
@@ -31,5 +33,10 @@ struct RatioSpread {
 };
 /// Requires a round.
 RatioSpread ratio_of(const Comparison& comparison);
+
+/// Adds the comparison twice: its detail "wall clock", then "processor time".
+void add_timed(Comparison comparison, std::vector<Comparison>& results);
+/// Notes what the subject or the rival took, in one round, in two comparisons made by add_timed(), the first of which is given.
+void note(const Times& times, bool is_rival, Comparison* first);
 
 }  // namespace dmpc::apps

@@ -64,26 +64,23 @@ class EmulationBench {
                  std::vector<Comparison>& results)
       : interrupt_(interrupt), results_(results), first_(results.size()), subject_(subject_of(scene, settings)) {
     for (const Pairing& pairing : pairings) {
-      results_.push_back({.part = SpeedPart::emulation,
-                          .scene = scene,
-                          .what = pairing.what,
-                          .detail = "",
-                          .threads = computers[pairing.subject].node_count,
-                          .subject = pairing.subject_name,
-                          .rival = pairing.rival_name,
-                          .unit = "s"});
+      add_timed({.part = SpeedPart::emulation,
+                 .scene = scene,
+                 .what = pairing.what,
+                 .detail = "",
+                 .threads = computers[pairing.subject].node_count,
+                 .subject = pairing.subject_name,
+                 .rival = pairing.rival_name,
+                 .unit = "s"},
+                results_);
     }
   }
 
   void measure(std::size_t computer) {
-    const double seconds = render(computers[computer]);
+    const Times times = render(computers[computer]);
     for (std::size_t i = 0; i < pairings.size(); ++i) {
-      Comparison& comparison = results_[first_ + i];
-      if (pairings[i].subject == computer) {
-        comparison.subject_figures.push_back(seconds);
-      }
-      if (pairings[i].rival == computer) {
-        comparison.rival_figures.push_back(seconds);
+      if (pairings[i].subject == computer || pairings[i].rival == computer) {
+        note(times, pairings[i].rival == computer, &results_[first_ + 2 * i]);
       }
     }
   }
@@ -94,18 +91,18 @@ class EmulationBench {
     return build_subject(load_scene(picture), picture);
   }
 
-  double render(const Computer& computer) {
+  Times render(const Computer& computer) {
     const ReadyRun run =
         make_ready(strategy_of(computer, subject_.database), subject_.database, subject_.settings, interrupt_.token());
     interrupt_.check();
-    Stopwatch stopwatch;
+    DoubleStopwatch stopwatch;
     const Report report = run.start([](std::uint32_t, std::uint32_t) {}, interrupt_.token());
-    const double seconds = stopwatch.lap();
+    const Times times = stopwatch.lap();
     interrupt_.check();
     const std::uint64_t hash = account_of(report).film.hash();
     core::expect(film_hash_.value_or(hash) == hash, "all computers render one film");
     film_hash_ = hash;
-    return seconds;
+    return times;
   }
 
   const Interrupt& interrupt_;

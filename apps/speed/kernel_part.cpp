@@ -25,7 +25,7 @@ namespace {
 
 /// Who traces: our grid over records in an array, or through a pager; Embree.
 enum class Contender : std::uint8_t { grid, paged_grid, robust, fast };
-constexpr std::array<const char*, 4> contender_names = {"grid", "grid through the pager", "Embree robust", "Embree fast"};
+constexpr std::array<const char*, 4> contender_names = {"grid", "paged grid", "Embree robust", "Embree fast"};
 constexpr std::array<Query, 2> queries = {Query::closest, Query::any};
 
 /// Threads take turns at pieces of so many rays: no thread gets the hard part of a picture.
@@ -82,7 +82,7 @@ class Arena {
     const std::span<const core::Ray> rays = recording_.of(ray_class);
     std::vector<Traced> shares(threads);
     on_threads(threads, [&](std::size_t thread) {
-      ThreadStopwatch stopwatch;
+      ProcessorStopwatch stopwatch(CLOCK_THREAD_CPUTIME_ID);
       std::uint64_t hits = 0;
       for (std::size_t first = thread * piece_rays; first < rays.size(); first += threads * piece_rays) {
         hits += trace_piece(contender, rays.subspan(first, std::min(piece_rays, rays.size() - first)), query, thread);

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <iostream>
-#include <numeric>
 #include <string>
 
 #include "apps/image_file.h"
@@ -20,7 +19,7 @@ namespace {
 
 constexpr std::uint32_t node_count = 2;
 constexpr std::array<const char*, 6> phase_names = {"load", "build", "prepare", "render", "write", "whole picture"};
-using Phases = std::array<double, phase_names.size()>;
+using Phases = std::array<Times, phase_names.size()>;
 
 StrategyOptions strategy_of(bool is_rival) {
   StrategyOptions options;
@@ -30,11 +29,11 @@ StrategyOptions strategy_of(bool is_rival) {
   return options;
 }
 
-/// Seconds of each phase, and in the end of all.
+/// Times of each phase, and in the end of all.
 Phases render_whole(const PictureOptions& picture, const StrategyOptions& strategy, const std::filesystem::path& path,
                     const Interrupt& interrupt) {
   Phases phases{};
-  Stopwatch stopwatch;
+  DoubleStopwatch stopwatch;
   const core::Scene scene = load_scene(picture);
   phases[0] = stopwatch.lap();
   const Subject subject = build_subject(scene, picture);
@@ -46,20 +45,24 @@ Phases render_whole(const PictureOptions& picture, const StrategyOptions& strate
   phases[3] = stopwatch.lap();
   write_image(path, image_of(account_of(report).film));
   phases[4] = stopwatch.lap();
-  phases[5] = std::accumulate(phases.begin(), phases.end(), 0.0);
+  for (std::size_t phase = 0; phase < 5; ++phase) {
+    phases[5].wall_seconds += phases[phase].wall_seconds;
+    phases[5].processor_seconds += phases[phase].processor_seconds;
+  }
   return phases;
 }
 
 void add_comparisons(const std::string& scene, std::vector<Comparison>& results) {
   for (const char* phase : phase_names) {
-    results.push_back({.part = SpeedPart::picture,
-                       .scene = scene,
-                       .what = phase,
-                       .detail = "",
-                       .threads = node_count,
-                       .subject = "svm",
-                       .rival = "replicated with Embree",
-                       .unit = "s"});
+    add_timed({.part = SpeedPart::picture,
+               .scene = scene,
+               .what = phase,
+               .detail = "",
+               .threads = node_count,
+               .subject = "svm",
+               .rival = "replicated with Embree",
+               .unit = "s"},
+              results);
   }
 }
 
@@ -81,8 +84,7 @@ void measure_picture(const SpeedSettings& settings, const Interrupt& interrupt, 
     const PictureOptions picture = settings.picture_of(SpeedPart::picture, scenes[index / 2]);
     const Phases phases = render_whole(picture, strategy_of(is_rival), folder / "picture.png", interrupt);
     for (std::size_t phase = 0; phase < phases.size(); ++phase) {
-      Comparison& comparison = results[first + index / 2 * phases.size() + phase];
-      (is_rival ? comparison.rival_figures : comparison.subject_figures).push_back(phases[phase]);
+      note(phases[phase], is_rival, &results[first + 2 * (index / 2 * phases.size() + phase)]);
     }
   });
 }

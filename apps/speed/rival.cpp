@@ -7,7 +7,6 @@
 
 #include "apps/curved.h"
 #include "apps/embree.h"
-#include "apps/stopwatch.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -41,7 +40,7 @@ struct EmbreeRival::Parts {
   RTCScene scene = nullptr;
   std::span<const core::PrimitiveValues> primitives;
   std::vector<std::uint32_t> triangles, curved;  ///< Embree's index -> primitive id
-  double build_seconds = 0;
+  Times build_times;
 };
 
 void EmbreeRival::Parts::sort(std::span<const core::PrimitiveValues> given) {
@@ -111,9 +110,9 @@ void EmbreeRival::Parts::build(EmbreeMode mode, EmbreeQuality quality) {
   if (!curved.empty()) {
     attach(curved_geometry(), effort);
   }
-  Stopwatch stopwatch;
+  DoubleStopwatch stopwatch;
   rtcCommitScene(scene);
-  build_seconds = stopwatch.lap();
+  build_times = stopwatch.lap();
   core::expect(rtcGetDeviceError(device) == RTC_ERROR_NONE, "Embree builds the scene without an error");
 }
 
@@ -146,6 +145,6 @@ std::uint64_t EmbreeRival::trace(std::span<const core::Ray> rays, Query query) c
   return hits;
 }
 
-double EmbreeRival::build_seconds() const { return parts_->build_seconds; }
+Times EmbreeRival::build_times() const { return parts_->build_times; }
 
 }  // namespace dmpc::apps

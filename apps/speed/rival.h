@@ -6,6 +6,7 @@
 #include <span>
 
 #include "apps/oracle.h"
+#include "apps/stopwatch.h"
 #include "core/database.h"
 #include "core/ray.h"
 
@@ -31,7 +32,7 @@ class EmbreeRival {
   /// Asks about the rays, one by one, up to their t_max; returns how many hit.
   std::uint64_t trace(std::span<const core::Ray> rays, Query query) const;
   /// What Embree took to build its tree, from vertices that lay ready.
-  double build_seconds() const;
+  Times build_times() const;
 
  private:
   struct Parts;

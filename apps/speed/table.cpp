@@ -55,16 +55,16 @@ struct Bar {
 };
 
 std::string pair_of(const Comparison& comparison) {
-  const std::string threads = comparison.part == SpeedPart::kernel || comparison.part == SpeedPart::build
-                                  ? " with threads: " + std::to_string(comparison.threads)
-                                  : "";
-  return comparison.subject + " over " + comparison.rival + threads;
+  const bool is_threaded = comparison.part == SpeedPart::kernel || comparison.part == SpeedPart::build;
+  const std::string threads = is_threaded ? " x" + std::to_string(comparison.threads) : "";
+  return comparison.subject + " / " + comparison.rival + threads;
 }
 
 std::vector<Bar> bars_of(SpeedPart part, std::span<const Comparison> comparisons) {
   std::vector<Bar> bars;
   for (const Comparison& comparison : comparisons) {
-    if (comparison.part != part || comparison.rounds() == 0) {
+    const bool is_timed = comparison.part == SpeedPart::picture || comparison.part == SpeedPart::emulation;
+    if (comparison.part != part || comparison.rounds() == 0 || (is_timed && !comparison.is_by_wall_clock())) {
       continue;
     }
     const std::string pair = pair_of(comparison);

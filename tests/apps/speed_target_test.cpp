@@ -71,6 +71,14 @@ TEST_CASE("the kernel's target is that of one thread over robust Embree") {
   CHECK(sentence_of(kernel).empty());
 }
 
+TEST_CASE("the wall clock decides where two clocks are read") {
+  Comparison emulation{.part = SpeedPart::emulation, .what = "cache", .detail = "wall clock", .subject = "10 %"};
+  emulation.subject_figures = emulation.rival_figures = {1};
+  CHECK(sentence_of(emulation).starts_with("8 nodes with a cache of 10 %"));
+  emulation.detail = "processor time";
+  CHECK(sentence_of(emulation).empty());
+}
+
 TEST_CASE("the build's target is that of a million triangles over the tree of default quality") {
   Comparison build{.part = SpeedPart::build, .scene = "tetra-10", .subject = "database", .rival = "Embree robust"};
   build.subject_figures = build.rival_figures = {1};
