@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <sstream>
@@ -9,6 +10,7 @@
 
 #include "apps/options.h"
 #include "apps/speed/command.h"
+#include "apps/speed/emulation_part.h"
 #include "apps/speed/kernel_part.h"
 #include "apps/speed/table.h"
 #include "apps/speed/watched_process.h"
@@ -79,6 +81,38 @@ TEST_CASE("the kernel is measured for all classes, queries and threads, all in e
     CHECK(one.rival_figures.size() == 2);
     CHECK(one.subject_figures.front() > 0);
   }
+}
+
+TEST_CASE("each of our grids is held against each Embree by the figures of one round") {
+  SpeedOptions options = tiny({"--threads=1"});
+  apps::Interrupt interrupt;
+  std::vector<Comparison> results;
+  apps::measure_kernel(options.settings, interrupt, results);
+  for (std::size_t first = 0; first < results.size(); first += 4) {
+    const Comparison* const pairs = &results[first];
+    CHECK(pairs[0].subject_figures == pairs[1].subject_figures);
+    CHECK(pairs[2].subject_figures == pairs[3].subject_figures);
+    CHECK(pairs[0].subject_figures != pairs[2].subject_figures);
+    CHECK(pairs[0].rival_figures == pairs[2].rival_figures);
+    CHECK(pairs[1].rival_figures == pairs[3].rival_figures);
+    CHECK(pairs[0].rival_figures != pairs[1].rival_figures);
+    CHECK(pairs[1].rival == "Embree fast");
+    CHECK(pairs[2].subject == "paged grid");
+  }
+}
+
+TEST_CASE("a computer that is in several comparisons has one time in all") {
+  SpeedOptions options = tiny();
+  apps::Interrupt interrupt;
+  std::vector<Comparison> results;
+  apps::measure_emulation(options.settings, interrupt, results);
+  const auto of = [&](const std::string& subject) {
+    return *std::find_if(results.begin(), results.end(), [&](const Comparison& one) { return one.subject == subject; });
+  };
+  CHECK(of("svm on 64 nodes").rival_figures == of("svm on 8 nodes").rival_figures);
+  CHECK(of("svm on 8 nodes").subject_figures == of("10 %").rival_figures);
+  CHECK(of("5 %").rival_figures == of("25 %").rival_figures);
+  CHECK(of("5 %").subject_figures.size() == 2);
 }
 
 TEST_CASE("bench speed writes its table and plots where they are asked for") {
