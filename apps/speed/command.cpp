@@ -92,21 +92,20 @@ const char* explanation_of(SpeedPart part) {
     case SpeedPart::kernel:
       return "kernel: rays of one render, up to so many a class, and bounces at random from what the eye sees; all contenders "
              "trace the same rays as closest and as any hit, in the processor time of the busiest thread. Embree is asked by "
-             "rtcIntersect1 and rtcOccluded1 without filters, "
-             "its trees are of high quality. The pager is that of a node of eight, all other nodes' pages in its cache.";
+             "rtcIntersect1 and rtcOccluded1 without filters, its trees are of high quality. The pager is that of a node of "
+             "eight, all other nodes' pages in its cache.";
     case SpeedPart::picture:
       return "picture: what `render` does, on 2 nodes. Embree's tree is built within its phase render; the whole is the sum of "
              "the phases.";
     case SpeedPart::emulation:
-      return "emulation: seconds of the phase render, dealing out the database included; the nodes share the same cores.";
+      return "emulation: seconds of the phase render, setting the nodes' memories aside and dealing out the database included; "
+             "the nodes share the same cores.";
     case SpeedPart::build:
       return "build: our database from the scene to the pages, Embree's tree from vertices that lie ready, of its default "
-             "quality "
-             "and of its highest, on as many threads; on one thread in processor time.";
+             "quality and of its highest, on as many threads; on one thread in processor time.";
     case SpeedPart::memory:
       return "memory: the most anonymous memory of a process that renders on 8 nodes, above that of one which renders a "
-             "triangle, "
-             "against the sum of the nodes' local memories.";
+             "triangle, against the sum of the nodes' local memories.";
     case SpeedPart::pages:
       return "pages: our databases and the distinct pages of a pixel against Table 2 of the article, with its counting of rays.";
   }
