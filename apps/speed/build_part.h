@@ -9,7 +9,7 @@
 
 namespace dmpc::apps {
 
-/// Builds each scene's database and Embree's robust trees of it, of its default quality and of its highest, on each number of
+/// Builds each scene's database and two of Embree's trees, the robust one and the fast one of high quality, on each number of
 /// threads. Embree's time is its tree's alone, from vertices that lie ready; ours is from the scene to the pages. `results`,
 /// progress and errors as measure_kernel()'s.
 void measure_build(const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results);

@@ -101,8 +101,8 @@ const char* explanation_of(SpeedPart part) {
       return "emulation: seconds of the phase render, setting the nodes' memories aside and dealing out the database included; "
              "the nodes share the same cores.";
     case SpeedPart::build:
-      return "build: our database from the scene to the pages, Embree's tree from vertices that lie ready, of its default "
-             "quality and of its highest, on as many threads; on one thread in processor time.";
+      return "build: our database from the scene to the pages; Embree's robust tree, and its fast one of high quality (spatial "
+             "splits, which robust trees have not), from vertices that lie ready; on as many threads, on one in processor time.";
     case SpeedPart::memory:
       return "memory: the most anonymous memory of a process that renders on 8 nodes, above that of one which renders a "
              "triangle, against the sum of the nodes' local memories.";

@@ -15,7 +15,8 @@ namespace dmpc::apps {
 /// What every traced ray is asked for.
 enum class Query : std::uint8_t { closest, any };
 
-/// How much work Embree puts into its tree: its default, or all it can.
+/// How much work Embree puts into its tree: its default, or all it can. In version 3 that adds spatial splits to fast trees, and
+/// nothing to robust ones.
 enum class EmbreeQuality : std::uint8_t { medium, high };
 
 /// No filters, no order among equal t, no triangle left out: a raw ray and a plain call. Spheres and cones are user geometry.
