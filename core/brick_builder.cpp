@@ -1,250 +1,329 @@
 #include "core/brick_builder.h"
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cmath>
 #include <utility>
 
-#include "core/morton.h"
+#include "core/expect.h"
 #include "core/overlap.h"
 
 namespace dmpc::core {
 namespace {
 
-/// A nested brick pays when a ray that crosses it meets clearly fewer primitives: it passes about three of its occupied voxels,
-/// each with the mean count, against all of them. Coincident or very large primitives lie in most voxels alike and fail this at
-/// once.
-constexpr double voxels_crossed = 3.0;
-constexpr double worthwhile_share = 0.6;
-constexpr std::size_t sample_size = 256;
+/// Groups up to this size are cut at the best of all places, larger ones between bins.
+constexpr std::size_t exact_cut_max = 64;
+constexpr std::size_t bin_count = 32;
+constexpr std::uint32_t bound_max = 255;
 
-Corner voxel_corner(const Corner& corner, int voxel_level, std::size_t voxel) {
-  const std::int32_t span = span_of(voxel_level);
-  const auto at = [&](std::size_t shift) { return static_cast<std::int32_t>(voxel >> shift & 3U) * span; };
-  return {corner[0] + at(0), corner[1] + at(2), corner[2] + at(4)};
+/// Half the surface.
+double area(const Box& box) {
+  const Vec3d size = box.high - box.low;
+  return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
-std::uint64_t quantised(double value, double low, double high) {
-  return static_cast<std::uint64_t>(std::clamp((value - low) / (high - low), 0.0, 1.0) * 1023.0);
+void include(Box& box, const Box& other) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] = std::min(box.low[axis], other.low[axis]);
+    box.high[axis] = std::max(box.high[axis], other.high[axis]);
+  }
+}
+
+template <class Items>
+Box bounds_of_items(const Items& items) {
+  Box box;
+  for (const auto& item : items) {
+    include(box, item.bounds);
+  }
+  return box;
+}
+
+/// The largest number that a brick of `level` may hold without care for balance: what is below it fits however it is cut.
+std::size_t carefree_count(int level) { return std::size_t{1} << (3 * (brick_levels_max - level)); }
+
+double blocks_for(std::size_t count) { return static_cast<double>(ceil_divide(count, block_lanes)); }
+
+template <class Item>
+bool before(std::size_t axis, const Item& a, const Item& b) {
+  const double at_a = a.bounds.low[axis] + a.bounds.high[axis], at_b = b.bounds.low[axis] + b.bounds.high[axis];
+  return at_a < at_b || (at_a == at_b && a.id < b.id);
+}
+
+template <class Item>
+void sort_along(std::size_t axis, std::span<Item> items) {
+  std::sort(items.begin(), items.end(), [axis](const Item& a, const Item& b) { return before(axis, a, b); });
+}
+
+/// Where to cut, and what a ray that meets the whole pays for the two parts, but for a factor.
+struct Cut {
+  double cost = std::numeric_limits<double>::infinity();
+  std::size_t axis = 0;
+  std::size_t place = 0;  ///< how many items, or bins, lie before it
+};
+
+/// The best of all cuts between the items in their order along each axis.
+template <class Item>
+std::size_t cut_exactly(std::span<Item> items) {
+  const std::size_t count = items.size();
+  std::array<double, exact_cut_max> rest{};
+  Cut best;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    sort_along(axis, items);
+    Box box;
+    for (std::size_t i = count; i-- > 1;) {
+      include(box, items[i].bounds);
+      rest[i] = area(box) * blocks_for(count - i);
+    }
+    box = Box();
+    for (std::size_t i = 1; i < count; ++i) {
+      include(box, items[i - 1].bounds);
+      const double cost = area(box) * blocks_for(i) + rest[i];
+      if (cost < best.cost) {
+        best = {cost, axis, i};
+      }
+    }
+  }
+  sort_along(best.axis, items);
+  return best.place;
+}
+
+/// Equal numbers on both sides, along the axis on which the centres are farthest apart.
+template <class Item>
+std::size_t cut_in_the_middle(std::span<Item> items) {
+  Box centers;
+  for (const Item& item : items) {
+    centers.include(item.bounds.center());
+  }
+  const Vec3d size = centers.high - centers.low;
+  const std::size_t axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const std::size_t middle = items.size() / 2;
+  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(middle), items.end(),
+                   [axis](const Item& a, const Item& b) { return before(axis, a, b); });
+  return middle;
+}
+
+/// Slices of equal width of where the items' centres lie along an axis.
+struct Bins {
+  double low, scale;
+
+  template <class Item>
+  std::size_t of(const Item& item, std::size_t axis) const {
+    const double at = (item.bounds.low[axis] + item.bounds.high[axis] - low) * scale;
+    return std::min(static_cast<std::size_t>(std::max(at, 0.0)), bin_count - 1);
+  }
+};
+
+template <class Item>
+Bins bins_along(std::size_t axis, std::span<const Item> items) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Item& item : items) {
+    const double at = item.bounds.low[axis] + item.bounds.high[axis];
+    low = std::min(low, at);
+    high = std::max(high, at);
+  }
+  return {low, high > low ? static_cast<double>(bin_count) / (high - low) : 0.0};
+}
+
+/// The best cut between two bins of an axis (I. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007).
+template <class Item>
+Cut cut_between_bins(std::size_t axis, const Bins& bins, std::span<const Item> items) {
+  std::array<Box, bin_count> box{};
+  std::array<std::size_t, bin_count> count{};
+  for (const Item& item : items) {
+    const std::size_t bin = bins.of(item, axis);
+    include(box[bin], item.bounds);
+    ++count[bin];
+  }
+  std::array<double, bin_count> rest{};
+  Box behind;
+  std::size_t items_behind = 0;
+  for (std::size_t i = bin_count; i-- > 1;) {
+    include(behind, box[i]);
+    items_behind += count[i];
+    rest[i] = items_behind > 0 ? area(behind) * static_cast<double>(items_behind) : 0.0;
+  }
+  Cut best;
+  Box ahead;
+  std::size_t items_ahead = 0;
+  for (std::size_t i = 1; i < bin_count; ++i) {
+    include(ahead, box[i - 1]);
+    items_ahead += count[i - 1];
+    const double cost = area(ahead) * static_cast<double>(items_ahead) + rest[i];
+    if (items_ahead > 0 && items_ahead < items.size() && cost < best.cost) {
+      best = {cost, axis, i};
+    }
+  }
+  return best;
+}
+
+template <class Item>
+std::size_t cut_by_bins(std::span<Item> items) {
+  Cut best;
+  std::array<Bins, 3> bins{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    bins[axis] = bins_along<Item>(axis, items);
+    if (bins[axis].scale > 0) {
+      const Cut cut = cut_between_bins<Item>(axis, bins[axis], items);
+      best = cut.cost < best.cost ? cut : best;
+    }
+  }
+  if (best.place == 0) {
+    return cut_in_the_middle(items);
+  }
+  const auto second = std::partition(items.begin(), items.end(),
+                                     [&](const Item& item) { return bins[best.axis].of(item, best.axis) < best.place; });
+  return static_cast<std::size_t>(second - items.begin());
+}
+
+/// Reorders the items and says how many come first.
+template <class Item>
+std::size_t cut(std::span<Item> items, bool balanced) {
+  return balanced ? cut_in_the_middle(items) : items.size() <= exact_cut_max ? cut_exactly(items) : cut_by_bins(items);
+}
+
+/// The one to be cut next: the largest, or that which costs most; none if all fit blocks.
+template <class Group>
+std::size_t costliest(const std::vector<Group>& groups, bool balanced) {
+  std::size_t found = groups.size();
+  double most = -1;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const auto count = static_cast<double>(groups[i].items.size());
+    const double cost = balanced ? count : count * area(groups[i].bounds);
+    if (groups[i].items.size() > block_lanes && cost > most) {
+      most = cost;
+      found = i;
+    }
+  }
+  return found;
+}
+
+float rounded_down(double value) {
+  const auto rounded = static_cast<float>(value);
+  return double{rounded} <= value ? rounded : std::nextafter(rounded, -std::numeric_limits<float>::infinity());
+}
+
+/// A brick whose bounds reach from `low` to `high`.
+Brick brick_over(const Vec3d& low, const Vec3d& high) {
+  Brick brick;
+  double size = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    brick.origin[axis] = rounded_down(low[axis]);
+    size = std::max(size, high[axis] - double{brick.origin[axis]});
+  }
+  int exponent = 0;
+  std::frexp(size / bound_max, &exponent);
+  brick.unit = std::ldexp(1.0F, exponent);
+  return brick;
 }
 
 }  // namespace
 
 BrickBuilder::BrickBuilder(std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading, double pad,
-                           float finest_cell, int voxel_primitives_max, RecordWriter& writer)
+                           float finest_cell, RecordWriter& writer)
     : primitives_(primitives),
       shading_(shading),
       pad_(pad),
-      finest_cell_(double{finest_cell}),
-      voxel_primitives_max_(static_cast<std::size_t>(voxel_primitives_max)),
+      top_edge_(double{finest_cell} * finest_per_top),
       writer_(&writer),
-      places_(primitives.size()),
-      block_of_(primitives.size()) {}
+      places_(primitives.size()) {}
 
-Address BrickBuilder::build_top(const Corner& corner, std::span<const std::uint32_t> ids) {
-  return build(0, corner, split(0, corner, ids));
+Address BrickBuilder::build(const Corner& corner, std::span<const std::uint32_t> ids) {
+  if (ids.size() > carefree_count(0)) {
+    throw InputError("more than 16,777,216 primitives lie in one place: render a smaller scene");
+  }
+  std::vector<Item> items = items_of(corner, ids);
+  return write_brick(0, by_kind(items));
 }
 
-/// Sorts the primitives of the cell at `corner` into its 64 voxels.
-VoxelLists BrickBuilder::split(int level, const Corner& corner, std::span<const std::uint32_t> ids) const {
-  const double edge = span_of(level + 1) * finest_cell_;
-  const Vec3d low{corner[0] * finest_cell_, corner[1] * finest_cell_, corner[2] * finest_cell_};
-  const Vec3d half{edge / 2 + pad_, edge / 2 + pad_, edge / 2 + pad_};
-  std::vector<std::pair<std::uint8_t, std::uint32_t>> found;
+std::vector<BrickBuilder::Item> BrickBuilder::items_of(const Corner& corner, std::span<const std::uint32_t> ids) const {
+  Box cell;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    cell.low[axis] = corner[axis] / finest_per_top * top_edge_;
+    cell.high[axis] = cell.low[axis] + top_edge_;
+  }
+  cell = cell.padded({pad_, pad_, pad_});
+  std::vector<Item> items;
+  items.reserve(ids.size());
   for (const std::uint32_t id : ids) {
-    const Overlap overlap(primitives_[id]);
-    const Box box = bounds_of(primitives_[id]).padded({pad_, pad_, pad_});
-    int first[3], last[3];
+    const Box whole = bounds_of(primitives_[id]);
+    Item item{id, {}};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      first[axis] = static_cast<int>(std::clamp(std::floor((box.low[axis] - low[axis]) / edge), 0.0, 3.0));
-      last[axis] = static_cast<int>(std::clamp(std::floor((box.high[axis] - low[axis]) / edge), 0.0, 3.0));
+      item.bounds.low[axis] = std::clamp(whole.low[axis], cell.low[axis], cell.high[axis]);
+      item.bounds.high[axis] = std::clamp(whole.high[axis], cell.low[axis], cell.high[axis]);
     }
-    for (int z = first[2]; z <= last[2]; ++z) {
-      for (int y = first[1]; y <= last[1]; ++y) {
-        for (int x = first[0]; x <= last[0]; ++x) {
-          if (overlap.touches(low + Vec3d{x + 0.5, y + 0.5, z + 0.5} * edge, half)) {
-            found.emplace_back(static_cast<std::uint8_t>(x + 4 * y + 16 * z), id);
-          }
-        }
-      }
-    }
+    items.push_back(item);
   }
-  VoxelLists lists;
-  for (const auto& [voxel, id] : found) {
-    ++lists.start[voxel + 1U];
-  }
-  for (std::size_t voxel = 0; voxel < 64; ++voxel) {
-    lists.start[voxel + 1] += lists.start[voxel];
-  }
-  lists.ids.assign(found.size(), 0U);
-  auto next = lists.start;
-  for (const auto& [voxel, id] : found) {
-    lists.ids[next[voxel]++] = id;
-  }
-  return lists;
+  return items;
 }
 
-bool BrickBuilder::worth_nesting(int voxel_level, std::span<const std::uint32_t> ids, const VoxelLists& inner) const {
-  std::size_t occupied = 0;
-  for (std::size_t voxel = 0; voxel < 64; ++voxel) {
-    occupied += inner.of(voxel).empty() ? 0 : 1;
+/// Blocks are of one kind, so the first cuts are between kinds.
+std::vector<BrickBuilder::Group> BrickBuilder::by_kind(std::span<Item> items) const {
+  const auto kind_of = [&](const Item& item) { return primitives_[item.id].kind; };
+  std::stable_sort(items.begin(), items.end(), [&](const Item& a, const Item& b) { return kind_of(a) < kind_of(b); });
+  std::vector<Group> groups;
+  for (std::size_t first = 0; first < items.size();) {
+    std::size_t last = first;
+    while (last < items.size() && kind_of(items[last]) == kind_of(items[first])) {
+      ++last;
+    }
+    const auto part = items.subspan(first, last - first);
+    groups.push_back({part, bounds_of_items(part)});
+    first = last;
   }
-  const double mean = static_cast<double>(inner.ids.size()) / static_cast<double>(std::max<std::size_t>(occupied, 1));
-  return voxel_level < finest_level && voxels_crossed * mean <= worthwhile_share * static_cast<double>(ids.size());
+  return groups;
 }
 
-/// The same judged from a sample, so that long lists which nesting does not shorten cost no time.
-bool BrickBuilder::promising(int voxel_level, const Corner& corner, std::span<const std::uint32_t> ids) const {
-  if (ids.size() < 4 * sample_size) {
-    return true;
+/// Cuts the groups until there are 8 or each fits a block, and writes the brick, its blocks, and then its bricks.
+Address BrickBuilder::write_brick(int level, std::vector<Group> groups) {
+  std::size_t count = 0;
+  for (const Group& group : groups) {
+    count += group.items.size();
   }
-  std::vector<std::uint32_t> sample;
-  for (std::size_t i = 0; i < sample_size; ++i) {
-    sample.push_back(ids[i * ids.size() / sample_size]);
+  const bool balanced = count > carefree_count(level);
+  for (std::size_t i = 0; groups.size() < brick_children_max && (i = costliest(groups, balanced)) < groups.size();) {
+    const auto items = groups[i].items;
+    const std::size_t first = cut(items, balanced);
+    groups[i] = {items.first(first), bounds_of_items(items.first(first))};
+    groups.push_back({items.subspan(first), bounds_of_items(items.subspan(first))});
   }
-  return worth_nesting(voxel_level, sample, split(voxel_level, corner, sample));
-}
-
-/// Writes the brick of the cell of `level` at `corner`, then its blocks, further sheets and nested bricks.
-Address BrickBuilder::build(int level, const Corner& corner, const VoxelLists& lists) {
-  struct Nested {
-    std::size_t voxel;
-    VoxelLists lists;
-  };
-  std::vector<Nested> nested;
-  std::vector<std::uint32_t> ids;
-  Brick brick;
-  for (std::size_t voxel = 0; voxel < 64; ++voxel) {
-    const auto list = lists.of(voxel);
-    if (list.empty()) {
-      continue;
+  expect(level < brick_levels_max, "a tree of bricks is no deeper than a walk can go");
+  Box bounds;
+  for (const Group& group : groups) {
+    include(bounds, group.bounds);
+  }
+  Brick brick = brick_over(bounds.low - Vec3d{pad_, pad_, pad_}, bounds.high + Vec3d{pad_, pad_, pad_});
+  set_bounds(brick, groups);
+  const Address address = writer_->allocate(sizeof(Brick));
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (groups[i].items.size() <= block_lanes) {
+      brick.child[i] = BrickChild::block(write_block(groups[i]));
     }
-    brick.occupied |= std::uint64_t{1} << voxel;
-    if (list.size() > voxel_primitives_max_ && level + 1 < finest_level &&
-        promising(level + 1, voxel_corner(corner, level + 1, voxel), list)) {
-      VoxelLists inner = split(level + 1, voxel_corner(corner, level + 1, voxel), list);
-      if (worth_nesting(level + 1, list, inner)) {
-        brick.nested |= std::uint64_t{1} << voxel;
-        nested.push_back({voxel, std::move(inner)});
-        continue;
-      }
+  }
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (groups[i].items.size() > block_lanes) {
+      brick.child[i] = BrickChild::brick(write_brick(level + 1, {groups[i]}));
     }
-    ids.insert(ids.end(), list.begin(), list.end());
   }
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  const Vec3d low{corner[0] * finest_cell_, corner[1] * finest_cell_, corner[2] * finest_cell_};
-  const double edge = span_of(level) * finest_cell_;
-  sort_for_blocks({low, low + Vec3d{edge, edge, edge}}, ids);
-
-  const std::vector<Sheet> sheets = cut_into_sheets(lists, brick.nested, ids);
-  brick.next_sheet = no_address;
-  const Address address = writer_->allocate(sheet_bytes(brick.occupied, brick.nested, sheets[0]));
-  std::vector<Address> children;
-  std::vector<Address> blocks = write_blocks(sheets[0]);
-  if (sheets.size() > 1) {
-    brick.next_sheet = write_further_sheets(sheets);
-  }
-  for (const Nested& inner : nested) {
-    children.push_back(build(level + 1, voxel_corner(corner, level + 1, inner.voxel), inner.lists));
-  }
-  write_sheet(address, brick, sheets[0], blocks, children);
+  writer_->write(address, 0, brick);
   return address;
 }
 
-/// Groups sorted ids into blocks of one kind, up to 8 blocks a sheet, and notes which voxel each block has a primitive in.
-std::vector<BrickBuilder::Sheet> BrickBuilder::cut_into_sheets(const VoxelLists& lists, std::uint64_t nested,
-                                                               std::span<std::uint32_t> ids) {
-  std::vector<Sheet> sheets(1);
-  std::uint32_t block_count = 0;
-  for (std::size_t first = 0; first < ids.size(); ++block_count) {
-    std::size_t last = first;
-    while (last < ids.size() && last - first < block_lanes && primitives_[ids[last]].kind == primitives_[ids[first]].kind) {
-      block_of_[ids[last++]] = block_count;
-    }
-    if (block_count > 0 && block_count % blocks_per_sheet == 0) {
-      sheets.emplace_back();
-    }
-    const auto block = ids.subspan(first, last - first);
-    std::sort(block.begin(), block.end());
-    sheets.back().blocks.push_back(block);
-    first = last;
-  }
-  for (std::size_t voxel = 0; voxel < 64; ++voxel) {
-    if ((nested >> voxel & 1U) == 0) {
-      for (const std::uint32_t id : lists.of(voxel)) {
-        auto& mask = sheets[block_of_[id] / blocks_per_sheet].mask[voxel];
-        mask = static_cast<std::uint8_t>(mask | 1U << block_of_[id] % blocks_per_sheet);
-      }
-    }
-  }
-  return sheets;
-}
-
-std::size_t BrickBuilder::sheet_bytes(std::uint64_t occupied, std::uint64_t nested, const Sheet& sheet) {
-  const auto links = sheet.blocks.size() + static_cast<std::size_t>(std::popcount(nested));
-  return sizeof(Brick) + links * sizeof(Address) + static_cast<std::size_t>(std::popcount(occupied & ~nested));
-}
-
-std::vector<Address> BrickBuilder::write_blocks(const Sheet& sheet) {
-  std::vector<Address> blocks;
-  for (const auto ids : sheet.blocks) {
-    blocks.push_back(write_block(ids));
-  }
-  return blocks;
-}
-
-/// All sheets but the first, chained; returns the second one's address.
-Address BrickBuilder::write_further_sheets(std::span<const Sheet> sheets) {
-  Address next = no_address;
-  for (std::size_t i = sheets.size() - 1; i > 0; --i) {
-    Brick brick;
-    for (std::size_t voxel = 0; voxel < 64; ++voxel) {
-      brick.occupied |= std::uint64_t{sheets[i].mask[voxel] != 0} << voxel;
-    }
-    brick.next_sheet = next;
-    next = writer_->allocate(sheet_bytes(brick.occupied, 0, sheets[i]));
-    const std::vector<Address> blocks = write_blocks(sheets[i]);
-    write_sheet(next, brick, sheets[i], blocks, {});
-  }
-  return next;
-}
-
-void BrickBuilder::write_sheet(Address address, Brick brick, const Sheet& sheet, std::span<const Address> blocks,
-                               std::span<const Address> children) {
-  brick.block_count = static_cast<std::uint8_t>(blocks.size());
-  writer_->write(address, 0, brick);
-  std::size_t offset = sizeof(Brick);
-  writer_->write(address, offset, std::as_bytes(blocks));
-  offset += blocks.size_bytes();
-  writer_->write(address, offset, std::as_bytes(children));
-  offset += children.size_bytes();
-  for (std::size_t voxel = 0; voxel < 64; ++voxel) {
-    if ((brick.occupied & ~brick.nested) >> voxel & 1U) {
-      writer_->write(address, offset++, sheet.mask[voxel]);
+void BrickBuilder::set_bounds(Brick& brick, std::span<const Group> groups) const {
+  brick.child_count = static_cast<std::uint32_t>(groups.size());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double origin = double{brick.origin[axis]}, unit = double{brick.unit};
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      const Box& box = groups[i].bounds;
+      brick.bounds[axis][i] = static_cast<std::uint8_t>(std::floor((box.low[axis] - pad_ - origin) / unit));
+      brick.bounds[axis + 3][i] = static_cast<std::uint8_t>(std::ceil((box.high[axis] + pad_ - origin) / unit));
     }
   }
 }
 
-/// Kinds apart, then neighbours in space together.
-void BrickBuilder::sort_for_blocks(const Box& box, std::vector<std::uint32_t>& ids) const {
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
-  keyed.reserve(ids.size());
-  for (const std::uint32_t id : ids) {
-    const Vec3d center = bounds_of(primitives_[id]).center();
-    const std::uint64_t code = morton_code(quantised(center.x, box.low.x, box.high.x), quantised(center.y, box.low.y, box.high.y),
-                                           quantised(center.z, box.low.z, box.high.z));
-    keyed.emplace_back(std::uint64_t{static_cast<std::uint8_t>(primitives_[id].kind)} << 60U | code, id);
-  }
-  std::sort(keyed.begin(), keyed.end());
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    ids[i] = keyed[i].second;
-  }
-}
-
-Address BrickBuilder::write_block(std::span<const std::uint32_t> ids) {
-  const PrimitiveKind kind = primitives_[ids[0]].kind;
-  const std::size_t count = ids.size();
+Address BrickBuilder::write_block(const Group& group) {
+  std::sort(group.items.begin(), group.items.end(), [](const Item& a, const Item& b) { return a.id < b.id; });
+  const PrimitiveKind kind = primitives_[group.items[0].id].kind;
+  const std::size_t count = group.items.size();
   const Address address = writer_->allocate(block_bytes(kind, count));
   BlockHeader header;
   header.kind = kind;
@@ -252,7 +331,7 @@ Address BrickBuilder::write_block(std::span<const std::uint32_t> ids) {
   writer_->write(address, 0, header);
   const auto at = [&](std::size_t row, std::size_t lane) { return sizeof(BlockHeader) + 4 * (row * count + lane); };
   for (std::size_t lane = 0; lane < count; ++lane) {
-    const std::uint32_t id = ids[lane];
+    const std::uint32_t id = group.items[lane].id;
     for (std::size_t row = 0; row < value_count(kind); ++row) {
       writer_->write(address, at(row, lane), primitives_[id].value[row]);
     }

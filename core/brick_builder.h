@@ -1,7 +1,6 @@
-// Builds the bricks below one top cell: which voxels, which blocks, which nested bricks.
+// Builds the bricks below one top cell: which primitives share a block, and which blocks a brick.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,56 +12,44 @@
 
 namespace dmpc::core {
 
-/// Ids sorted into the 64 voxels of a brick; ids of a voxel ascend.
-struct VoxelLists {
-  std::array<std::uint32_t, 65> start{};
-  std::vector<std::uint32_t> ids;
-
-  std::span<const std::uint32_t> of(std::size_t voxel) const {
-    return std::span(ids).subspan(start[voxel], start[voxel + 1] - start[voxel]);
-  }
-};
-
-/// Serial; one builder a database.
+/// A tree of at most brick_levels_max bricks, by the surface area heuristic: a ray meets a box in proportion to its surface
+/// (J. D. MacDonald, K. S. Booth, "Heuristics for Ray Tracing Using Space Subdivision", 1990). Serial; one builder a database.
 class BrickBuilder {
  public:
   BrickBuilder(std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading, double pad,
-               float finest_cell, int voxel_primitives_max, RecordWriter& writer);
+               float finest_cell, RecordWriter& writer);
 
-  /// The brick of the top cell at `corner`; `ids`, ascending, are the primitives that touch it.
-  Address build_top(const Corner& corner, std::span<const std::uint32_t> ids);
+  /// The brick of the top cell at `corner`; `ids`, at least one and ascending, are the primitives that touch it. Throws
+  /// InputError for more than 8^8.
+  Address build(const Corner& corner, std::span<const std::uint32_t> ids);
 
   std::span<const Database::Place> places() const { return places_; }
   std::uint64_t references() const { return references_; }
 
  private:
-  VoxelLists split(int level, const Corner& corner, std::span<const std::uint32_t> ids) const;
-  bool worth_nesting(int voxel_level, std::span<const std::uint32_t> ids, const VoxelLists& inner) const;
-  bool promising(int voxel_level, const Corner& corner, std::span<const std::uint32_t> ids) const;
-  /// Up to 8 blocks, and for each voxel which of them have a primitive in it.
-  struct Sheet {
-    std::vector<std::span<const std::uint32_t>> blocks;
-    std::array<std::uint8_t, 64> mask{};
+  /// A primitive and the bounds of what of it lies in the top cell.
+  struct Item {
+    std::uint32_t id;
+    Box bounds;
+  };
+  /// Primitives of one kind, and their bounds.
+  struct Group {
+    std::span<Item> items;
+    Box bounds;
   };
 
-  Address build(int level, const Corner& corner, const VoxelLists& lists);
-  std::vector<Sheet> cut_into_sheets(const VoxelLists& lists, std::uint64_t nested, std::span<std::uint32_t> ids);
-  static std::size_t sheet_bytes(std::uint64_t occupied, std::uint64_t nested, const Sheet& sheet);
-  std::vector<Address> write_blocks(const Sheet& sheet);
-  Address write_further_sheets(std::span<const Sheet> sheets);
-  void write_sheet(Address address, Brick brick, const Sheet& sheet, std::span<const Address> blocks,
-                   std::span<const Address> children);
-  void sort_for_blocks(const Box& box, std::vector<std::uint32_t>& ids) const;
-  Address write_block(std::span<const std::uint32_t> ids);
+  std::vector<Item> items_of(const Corner& corner, std::span<const std::uint32_t> ids) const;
+  std::vector<Group> by_kind(std::span<Item> items) const;
+  Address write_brick(int level, std::vector<Group> groups);
+  void set_bounds(Brick& brick, std::span<const Group> groups) const;
+  Address write_block(const Group& group);
 
   std::span<const PrimitiveValues> primitives_;
   std::span<const ShadingReference> shading_;
   double pad_;
-  double finest_cell_;
-  std::size_t voxel_primitives_max_;
+  double top_edge_;
   RecordWriter* writer_;
   std::vector<Database::Place> places_;
-  std::vector<std::uint32_t> block_of_;  ///< scratch: the block of each primitive in the brick being built
   std::uint64_t references_ = 0;
 };
 

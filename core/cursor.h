@@ -19,30 +19,61 @@ struct Passage {
   Hit best;                     ///< the nearest candidate so far, beyond t_enter
 };
 
+/// A child of a brick whose box the ray meets, and where it does.
+struct MetChild {
+  BrickChild record = BrickChild::none();
+  float t_enter = 0;
+
+  bool found() const { return record.bits != BrickChild::none().bits; }
+};
+
+/// Met children that have not been visited, the nearest last. Not initialised: that would cost as much as a step.
+struct MetChildren {
+  /// Each brick takes one child's place and leaves up to 8.
+  static constexpr std::size_t count_max = brick_levels_max * (brick_children_max - 1) + 1;
+
+  std::uint32_t count;
+  std::array<BrickChild, count_max> record;
+  std::array<float, count_max> t_enter;
+
+  /// Puts a child among those from place `first` on, which are in order and stay so.
+  void add(const MetChild& met, std::uint32_t first) {
+    std::uint32_t place = count++;
+    for (; place > first && t_enter[place - 1] < met.t_enter; --place) {
+      record[place] = record[place - 1];
+      t_enter[place] = t_enter[place - 1];
+    }
+    record[place] = met.record;
+    t_enter[place] = met.t_enter;
+  }
+  /// Takes the last; count > 0.
+  MetChild take() {
+    --count;
+    return {record[count], t_enter[count]};
+  }
+};
+
+/// Where a ray leaves a box of cells.
+struct Exit {
+  double t = 0;
+  std::int32_t plane = 0;  ///< in finest cells
+  std::uint8_t axis = 0;
+};
+
 /// The state of a walk between two records. A step reads exactly one record, and whatever the next one needs is here by value, so
 /// a cache of one page makes progress. Reciprocals and plane constants are pure functions of the ray and are recomputed.
 struct Cursor {
-  /// One brick on the path from the top cell to the current cell.
-  struct Level {
-    std::uint64_t occupied = 0;
-    Address brick = no_address;
-    std::uint8_t tested = 0;  ///< blocks of the first sheet that this ray has been tested against
-  };
-
   Hit best;
   Address absent = no_address;  ///< the record that trace() needs next, after Traced::absent
-  double t_enter = 0;
-  std::array<std::int32_t, 3> cell{};              ///< lower corner of the current cell, in finest cells
-  std::array<Level, finest_level> path;            ///< path[l]: the brick whose voxels are the cells of level l + 1
-  std::array<Address, blocks_per_sheet> blocks{};  ///< still to be tested in the current voxel, the last first
-  Address sheet = no_address;                      ///< the sheet of the current voxel to be read next
-  std::uint8_t block_count = 0;
-  std::uint8_t level = 0;       ///< of the current cell
+  double t_enter = 0;           ///< where the ray enters the current cell
+  Exit exit;                    ///< where it leaves the cell or the region; known while children are visited
+  Corner cell{};                ///< lower corner of the current top cell, in finest cells
+  Corner arrival{};             ///< with Stage::left: the finest cell that is entered
+  MetChild next;                ///< what the next step reads, with Stage::child
   std::uint8_t entry_axis = 3;  ///< through which plane the cell was entered; 3: the walk starts here
-  /// What the next step reads: the directory entry of `cell`, the brick path[level], `sheet`, or the last of `blocks`.
-  enum class Stage : std::uint8_t { start, directory, brick, sheet, block, left, finished } stage = Stage::start;
-  bool arrived = false;  ///< the walk has not left the finest cell `arrival` yet, in which it entered the region
-  Corner arrival{};      ///< the finest cell entered: this region's, or, with Stage::left, the next one's
+  /// What the next step reads: the directory entry of `cell`, or `next`.
+  enum class Stage : std::uint8_t { start, directory, child, left, finished } stage = Stage::start;
+  MetChildren waiting;  ///< known while children are visited
 };
 static_assert(std::is_trivially_copyable_v<Cursor>);
 

@@ -130,7 +130,7 @@ class DatabaseBuilder {
 
   void fit() {
     const Box bounds = bounds_of_scene();
-    header().frame = fit_frame(bounds, scene_.objects.size(), options_.top_cells_per_primitive, options_.axes);
+    header().frame = fit_frame(bounds, scene_.objects.size(), options_.cells_per_primitive, options_.axes);
     header().background = Color(scene_.background);
     if (!bounds.empty()) {
       const Vec3d extent = bounds.high - bounds.low;
@@ -216,7 +216,7 @@ class DatabaseBuilder {
 
   void write_tables() {
     header().region.high = grid_size(header().frame);
-    header().directory_size = header().frame.resolution;
+    header().directory_size = top_cells(header().frame);
     header().directory = writer_.allocate_array<DirectoryEntry>(directory_entry_count(header().directory_size));
     header().light_count = static_cast<std::uint32_t>(scene_.lights.size());
     header().lights = writer_.allocate_array<LightRecord>(scene_.lights.size());
@@ -284,12 +284,13 @@ class DatabaseBuilder {
     const GridFrame& frame = result_.header_.frame;
     const double cell = double{frame.finest_cell} * finest_per_top, pad = result_.pad_;
     const Vec3d half{cell / 2 + pad, cell / 2 + pad, cell / 2 + pad};
+    const auto size = top_cells(frame);
     const Overlap overlap(result_.primitives_[id]);
     const Box box = bounds_of(result_.primitives_[id]).padded({pad, pad, pad});
     Corner first, last;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto clamped = [&](double at) {
-        return static_cast<std::int32_t>(std::clamp(std::floor(at / cell), 0.0, frame.resolution[axis] - 1.0));
+        return static_cast<std::int32_t>(std::clamp(std::floor(at / cell), 0.0, size[axis] - 1.0));
       };
       first[axis] = clamped(box.low[axis]);
       last[axis] = clamped(box.high[axis]);
@@ -308,8 +309,8 @@ class DatabaseBuilder {
 
   void write_grid(const TopLists& lists) {
     const GridFrame& frame = header().frame;
-    BrickBuilder builder(result_.primitives_, shading_, result_.pad_, frame.finest_cell, options_.voxel_primitives_max, writer_);
-    std::vector<DirectoryEntry> directory(directory_entry_count(frame.resolution));
+    BrickBuilder builder(result_.primitives_, shading_, result_.pad_, frame.finest_cell, writer_);
+    std::vector<DirectoryEntry> directory(directory_entry_count(header().directory_size));
     std::vector<std::uint32_t> ids;
     for (std::size_t first = 0; first < lists.size();) {
       std::size_t last = first;
@@ -318,7 +319,7 @@ class DatabaseBuilder {
         ids.push_back(lists[last++].second);
       }
       const Corner corner = corner_of(lists[first].first);
-      directory[directory_index(frame.resolution, corner)].bits = static_cast<std::uint32_t>(builder.build_top(corner, ids));
+      directory[directory_index(header().directory_size, corner)].bits = static_cast<std::uint32_t>(builder.build(corner, ids));
       first = last;
     }
     measure_empty_space(directory);
@@ -342,7 +343,7 @@ class DatabaseBuilder {
 
   /// Chebyshev distance of every empty top cell to the nearest occupied one, breadth first over 26 neighbours, capped.
   void measure_empty_space(std::vector<DirectoryEntry>& directory) const {
-    const auto& size = result_.header_.frame.resolution;
+    const auto& size = result_.header_.directory_size;
     const auto entry = [&](const Corner& top) -> DirectoryEntry& {
       return directory[directory_index(size, {top[0] * finest_per_top, top[1] * finest_per_top, top[2] * finest_per_top})];
     };

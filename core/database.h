@@ -14,8 +14,7 @@ namespace dmpc::core {
 
 struct BuildOptions {
   std::size_t page_size_bytes = 1024;  ///< a power of two, 512 B to 64 KiB
-  double top_cells_per_primitive = 0.125;
-  int voxel_primitives_max = 32;  ///< a voxel with more becomes a brick of its own, as long as that helps
+  double cells_per_primitive = 0.125;  ///< sets the size of cells, and with it that of top cells and of the finest lattice
   RecordOrder record_order = RecordOrder::spatial;
   GridAxes axes = world_axes;  ///< the grid's directions: another grid, so other bits, but the same picture to rounding
   double pad_share = 1;        ///< of insertion_pad(); less than 1 only to test what the pad would hide

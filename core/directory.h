@@ -17,12 +17,13 @@ constexpr std::uint64_t directory_entry_count(const std::array<std::int32_t, 3>&
   return count;
 }
 
-/// The index of the entry of the top cell whose lower corner is `cell` (in finest cells).
+/// The index of the entry of the top cell whose lower corner is `cell` (in finest cells, not negative).
 constexpr std::uint64_t directory_index(const std::array<std::int32_t, 3>& resolution, const std::array<std::int32_t, 3>& cell) {
-  const auto top = [&](std::size_t axis) { return static_cast<std::uint64_t>(cell[axis] / finest_per_top); };
-  const auto tiles = [&](std::size_t axis) { return static_cast<std::uint64_t>(ceil_divide(resolution[axis], 4)); };
-  const std::uint64_t tile = top(0) / 4 + tiles(0) * (top(1) / 4 + tiles(1) * (top(2) / 4));
-  return tile * 64 + top(0) % 4 + 4 * (top(1) % 4) + 16 * (top(2) % 4);
+  const auto top = [&](std::size_t axis) { return static_cast<std::uint32_t>(cell[axis]) / finest_per_top; };
+  const auto tiles = [&](std::size_t axis) { return (static_cast<std::uint32_t>(resolution[axis]) + 3U) / 4U; };
+  const std::uint32_t x = top(0), y = top(1), z = top(2);
+  const std::uint64_t tile = x / 4 + std::uint64_t{tiles(0)} * (y / 4 + std::uint64_t{tiles(1)} * (z / 4));
+  return tile * 64 + x % 4 + 4 * (y % 4) + 16 * (z % 4);
 }
 
 /// The record that holds the entry: two entries share one, since addresses count in 8 bytes.
@@ -34,7 +35,7 @@ constexpr Address directory_address(const DatabaseHeader& header, const std::arr
 
 /// The entry of `cell` in its record: neighbours along x alternate.
 inline DirectoryEntry directory_entry(const std::byte* record, const std::array<std::int32_t, 3>& cell) {
-  return read<DirectoryEntry>(record + static_cast<std::size_t>(cell[0] / finest_per_top % 2) * sizeof(DirectoryEntry));
+  return read<DirectoryEntry>(record + (static_cast<std::uint32_t>(cell[0]) / finest_per_top % 2U) * sizeof(DirectoryEntry));
 }
 
 }  // namespace dmpc::core

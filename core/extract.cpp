@@ -1,6 +1,5 @@
 #include "core/extract.h"
 
-#include <bit>
 #include <cstring>
 #include <map>
 #include <utility>
@@ -17,33 +16,10 @@ constexpr std::int32_t tile_edge = 4 * finest_per_top;
 /// Nothing depends on a part's pages; the smallest wastes least at its end.
 constexpr std::size_t part_page_bytes = 512;
 
-/// A brick's record, taken apart.
-struct BrickView {
-  Brick brick;
-  const std::byte* links;
-
-  explicit BrickView(const std::byte* record) : brick(read<Brick>(record)), links(record + sizeof(Brick)) {}
-  std::size_t child_count() const { return static_cast<std::size_t>(std::popcount(brick.nested)); }
-  Address block(std::size_t index) const { return read<Address>(links + index * sizeof(Address)); }
-  Address child(std::size_t index) const { return block(brick.block_count + index); }
-  std::uint8_t mask(std::size_t rank) const {
-    return static_cast<std::uint8_t>(links[(brick.block_count + child_count()) * sizeof(Address) + rank]);
-  }
-};
-
-Corner voxel_corner(const Corner& cell, int voxel_level, std::size_t voxel) {
-  const std::int32_t span = span_of(voxel_level);
-  return {cell[0] + static_cast<std::int32_t>(voxel & 3U) * span, cell[1] + static_cast<std::int32_t>(voxel >> 2U & 3U) * span,
-          cell[2] + static_cast<std::int32_t>(voxel >> 4U & 3U) * span};
+/// Where a bound of a brick's child lies, grid-local.
+double place_of(const Brick& brick, std::size_t row, std::size_t child) {
+  return double{brick.origin[row % 3]} + brick.bounds[row][child] * double{brick.unit};
 }
-
-/// A voxel that is kept: a nested brick's old address, or a mask of old blocks.
-struct KeptVoxel {
-  std::size_t voxel;
-  bool nested;
-  Address child = no_address;
-  std::uint8_t mask = 0;
-};
 
 class Extractor {
  public:
@@ -93,89 +69,58 @@ class Extractor {
   void copy_top_cell(const Corner& cell) {
     DirectoryEntry entry = directory_entry(at(directory_address(whole_, cell)), cell);
     if (!entry.empty()) {
-      entry.bits = region_.overlaps(cell, finest_per_top) ? static_cast<std::uint32_t>(copy_brick(entry.brick(), cell, 1, true))
-                                                          : DirectoryEntry::empty_flag | 1U;
+      const Address copy = region_.overlaps(cell, finest_per_top) ? copy_brick(brick_at(entry.brick())) : no_address;
+      entry.bits = copy != no_address ? static_cast<std::uint32_t>(copy) : DirectoryEntry::empty_flag | 1U;
     }
     const auto slot = static_cast<std::size_t>(cell[0] / finest_per_top % 2);
     writer_.write(directory_address(part_.header, cell), slot * sizeof(entry), entry);
   }
 
-  /// The voxels of one sheet that touch the region.
-  std::vector<KeptVoxel> kept_voxels(const BrickView& view, const Corner& cell, int voxel_level) const {
-    std::vector<KeptVoxel> kept;
-    std::size_t child = 0, leaf = 0;
-    for (std::size_t voxel = 0; voxel < 64; ++voxel) {
-      if ((view.brick.occupied >> voxel & 1U) == 0) {
-        continue;
+  /// Whether a child's box, borders included, touches the region.
+  bool touches(const Brick& brick, std::size_t child) const {
+    const double edge = double{whole_.frame.finest_cell};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (place_of(brick, axis, child) > region_.high[axis] * edge ||
+          place_of(brick, axis + 3, child) < region_.low[axis] * edge) {
+        return false;
       }
-      KeptVoxel found{.voxel = voxel, .nested = (view.brick.nested >> voxel & 1U) != 0};
-      if (found.nested) {
-        found.child = view.child(child++);
-      } else {
-        found.mask = view.mask(leaf++);
-      }
-      if (region_.overlaps(voxel_corner(cell, voxel_level, voxel), span_of(voxel_level))) {
-        kept.push_back(found);
+    }
+    return true;
+  }
+
+  /// The children of a brick that the region needs: blocks whose boxes touch it, and bricks that have such.
+  std::vector<std::size_t> kept_children(const Brick& brick) const {
+    std::vector<std::size_t> kept;
+    for (std::size_t child = 0; child < brick.child_count; ++child) {
+      const BrickChild& link = brick.child[child];
+      if (touches(brick, child) && (link.is_block() || !kept_children(brick_at(link.address())).empty())) {
+        kept.push_back(child);
       }
     }
     return kept;
   }
 
-  /// Copies the sheet at `from` of the brick of `cell`, and what hangs on it.
-  Address copy_brick(Address from, const Corner& cell, int voxel_level, bool first_sheet) {
-    const BrickView view(at(from));
-    const std::vector<KeptVoxel> kept = kept_voxels(view, cell, voxel_level);
-    std::uint8_t used = 0;
-    Brick brick;
-    for (const KeptVoxel& voxel : kept) {
-      used = static_cast<std::uint8_t>(used | voxel.mask);
-      brick.occupied |= std::uint64_t{1} << voxel.voxel;
-      brick.nested |= std::uint64_t{voxel.nested} << voxel.voxel;
-    }
-    brick.block_count = static_cast<std::uint8_t>(std::popcount(used));
-    const std::size_t links = brick.block_count + static_cast<std::size_t>(std::popcount(brick.nested));
-    const auto leaves = static_cast<std::size_t>(std::popcount(brick.occupied & ~brick.nested));
-    const Address to = writer_.allocate(sizeof(Brick) + links * sizeof(Address) + leaves);
-    std::vector<Address> addresses;
-    for (std::size_t block = 0; block < view.brick.block_count; ++block) {
-      if ((used >> block & 1U) != 0) {
-        addresses.push_back(copy_block(view.block(block)));
-      }
-    }
-    if (view.brick.next_sheet != no_address) {
-      brick.next_sheet = copy_brick(view.brick.next_sheet, cell, voxel_level, false);
-    }
-    for (const KeptVoxel& voxel : kept) {
-      if (voxel.nested) {
-        addresses.push_back(copy_brick(voxel.child, voxel_corner(cell, voxel_level, voxel.voxel), voxel_level + 1, true));
-      }
-    }
-    expect(first_sheet || brick.nested == 0, "only a brick's first sheet has nested bricks");
-    write_brick(to, brick, addresses, kept, used);
-    return to;
-  }
+  Brick brick_at(Address address) const { return read<Brick>(at(address)); }
 
-  void write_brick(Address to, const Brick& brick, std::span<const Address> addresses, std::span<const KeptVoxel> kept,
-                   std::uint8_t used) {
+  /// Copies what a brick has for the region; no_address if that is nothing.
+  Address copy_brick(const Brick& from) {
+    const std::vector<std::size_t> kept = kept_children(from);
+    if (kept.empty()) {
+      return no_address;
+    }
+    const Address to = writer_.allocate(sizeof(Brick));
+    Brick brick{.origin = from.origin, .unit = from.unit};
+    for (const std::size_t child : kept) {
+      const Address old = from.child[child].address();
+      const std::size_t place = brick.child_count++;
+      brick.child[place] =
+          from.child[child].is_block() ? BrickChild::block(copy_block(old)) : BrickChild::brick(copy_brick(brick_at(old)));
+      for (std::size_t row = 0; row < 6; ++row) {
+        brick.bounds[row][place] = from.bounds[row][child];
+      }
+    }
     writer_.write(to, 0, brick);
-    writer_.write(to, sizeof(Brick), std::as_bytes(addresses));
-    std::size_t offset = sizeof(Brick) + addresses.size_bytes();
-    for (const KeptVoxel& voxel : kept) {
-      if (!voxel.nested) {
-        writer_.write(to, offset++, compressed(voxel.mask, used));
-      }
-    }
-  }
-
-  /// The bits of `mask` at the places where `used` has bits, moved together.
-  static std::uint8_t compressed(std::uint8_t mask, std::uint8_t used) {
-    std::uint32_t result = 0, place = 0;
-    for (std::uint32_t bit = 0; bit < blocks_per_sheet; ++bit) {
-      if ((used >> bit & 1U) != 0) {
-        result |= (static_cast<std::uint32_t>(mask) >> bit & 1U) << place++;
-      }
-    }
-    return static_cast<std::uint8_t>(result);
+    return to;
   }
 
   Address copy_block(Address from) {

@@ -23,7 +23,8 @@ struct DatabasePart {
 };
 
 /// Copies the directory's entries, bricks, blocks and normals that cells in `region` need, and all materials and lights;
-/// addresses are made anew, values keep their bits. Voxels outside the region are left out of their bricks.
+/// addresses are made anew, values keep their bits. Children whose boxes do not touch the region are left out of
+/// their bricks.
 DatabasePart extract(const Database& database, const Region& region);
 
 }  // namespace dmpc::core

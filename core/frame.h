@@ -9,12 +9,12 @@
 
 namespace dmpc::core {
 
-/// A frame for `primitive_count` primitives within `bounds` (in the directions of `axes`), with about `top_cells_per_primitive`
-/// cubic top cells each. The grid starts a fixed odd share of a voxel outside the bounds, so that regular scenes do not put all
-/// their vertices on voxel corners; flat scenes are given a thickness of 1e-4 of their largest extent, and no scene is
+/// A frame for `primitive_count` primitives within `bounds` (in the directions of `axes`), with about `cells_per_primitive`
+/// cubic cells each. The grid starts a fixed odd share of a cell outside the bounds, so that regular scenes do not put all
+/// their vertices on corners of cells; flat scenes are given a thickness of 1e-4 of their largest extent, and no scene is
 /// thinner than 2^-36 of its largest coordinate: within less, doubles could not say where its parts are. Bounds scaled by a power
 /// of two give the same frame, scaled, to the last bit.
-GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double top_cells_per_primitive,
+GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double cells_per_primitive,
                     const GridAxes& axes = world_axes);
 
 /// Within which distance of a cell a primitive must be listed there, grid-local: more than the rounding of a ray and of its hit's

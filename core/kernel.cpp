@@ -1,7 +1,9 @@
 // The only file with SIMD. Targets from AVX2 up: below, Highway's MulAdd is not fused, so older processors take the scalar twin.
 #include "core/kernel.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "core/mutation.h"
 
@@ -19,14 +21,62 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4
 
-void triangles(const ShearedRay& ray, const float* rows, std::size_t count, float* times) {
-  triangles_scalar(ray, rows, count, times);
+MetChild children(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order, MetChildren& waiting) {
+  return meet_children_scalar(ray, brick, t_low, t_high, in_order, waiting);
+}
+
+std::uint32_t triangles(const ShearedRay& ray, const TriangleRows& block, std::uint32_t ignored, float t_most, float* times) {
+  return hit_triangles_scalar(ray, block, ignored, t_most, times);
 }
 
 #else
 
 using Tag = hn::CappedTag<float, block_lanes>;
 using Vector = hn::Vec<Tag>;
+static_assert(hn::MaxLanes(Tag()) == block_lanes && block_lanes == brick_children_max);
+
+template <class Mask>
+HWY_INLINE std::uint32_t bits_of(const Mask& mask) {
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(Tag(), mask, bits);
+  return bits[0];
+}
+
+/// Eight bytes as floats.
+HWY_INLINE Vector floats(const std::array<std::uint8_t, 8>& row) {
+  const hn::Rebind<std::int32_t, Tag> integers;
+  const hn::Rebind<std::uint8_t, Tag> bytes;
+  return hn::ConvertTo(Tag(), hn::PromoteTo(integers, hn::LoadU(bytes, row.data())));
+}
+
+MetChild children(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order, MetChildren& waiting) {
+  const Tag tag;
+  Vector enter = hn::Set(tag, t_low), leave = hn::Set(tag, t_high);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto reciprocal = hn::Set(tag, ray.reciprocal[axis]);
+    const auto slope = hn::Mul(hn::Set(tag, brick.unit), reciprocal);
+    const auto offset = hn::Mul(hn::Sub(hn::Set(tag, brick.origin[axis]), hn::Set(tag, ray.origin[axis])), reciprocal);
+    enter = hn::Max(enter, hn::MulAdd(floats(brick.bounds[ray.near_row[axis]]), slope, offset));
+    leave = hn::Min(leave, hn::MulAdd(floats(brick.bounds[ray.far_row[axis]]), slope, offset));
+  }
+  std::uint32_t met = bits_of(hn::Le(enter, leave)) & ((1U << brick.child_count) - 1U);
+  if (met == 0) {
+    return {};
+  }
+  float t_enter[brick_children_max];
+  hn::StoreU(enter, tag, t_enter);
+  const auto child = [&] {
+    const auto place = static_cast<std::size_t>(std::countr_zero(met));
+    return MetChild{brick.child[place], t_enter[place]};
+  };
+  if ((met & (met - 1)) == 0) {
+    return child();
+  }
+  for (const std::uint32_t first = waiting.count; met != 0; met &= met - 1) {
+    waiting.add(child(), in_order ? first : waiting.count);
+  }
+  return waiting.take();
+}
 
 struct Vertices {
   Vector x, y, z;
@@ -49,37 +99,40 @@ HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) {
   return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
 }
 
-void triangles(const ShearedRay& ray, const float* rows, std::size_t count, float* times) {
+std::uint32_t triangles(const ShearedRay& ray, const TriangleRows& block, std::uint32_t ignored, float t_most, float* times) {
   const Tag tag;
-  static_assert(hn::MaxLanes(Tag()) == block_lanes);
+  const hn::Rebind<std::uint32_t, Tag> id_tag;
+  const std::size_t count = block.count;
+  const float* rows = block.rows;
   const Vertices a = shear(ray, rows, count), b = shear(ray, rows + 3 * count, count), c = shear(ray, rows + 6 * count, count);
   const Vector u = edge(c, b), v = edge(a, c), w = edge(b, a);
   const Vector zero = hn::Zero(tag);
+  const Vector least = hn::Min(hn::Min(u, v), w), greatest = hn::Max(hn::Max(u, v), w);
+  const auto outside = hn::And(hn::Lt(least, zero), hn::Gt(greatest, zero));
+  const auto on_edge = hn::Or(hn::Or(hn::Eq(u, zero), hn::Eq(v, zero)), hn::Eq(w, zero));
   const auto real = hn::FirstN(tag, count);  // lanes behind the row's end hold other rows' values
-  const auto on_edge = hn::And(real, hn::Or(hn::Or(hn::Eq(u, zero), hn::Eq(v, zero)), hn::Eq(w, zero)));
-  const auto negative = hn::Or(hn::Or(hn::Lt(u, zero), hn::Lt(v, zero)), hn::Lt(w, zero));
-  const auto positive = hn::Or(hn::Or(hn::Gt(u, zero), hn::Gt(v, zero)), hn::Gt(w, zero));
-  const auto outside = hn::And(negative, positive);
-  const Vector determinant = hn::Add(hn::Add(u, v), w);
-  const auto hit = hn::And(real, hn::Not(hn::Or(outside, hn::Eq(determinant, zero))));
-  if (hn::AllFalse(tag, hn::Or(hit, on_edge))) {
-    hn::StoreU(hn::Set(tag, missed), tag, times);
-    return;
+  if (hn::AllFalse(tag, hn::And(real, hn::Or(hn::Not(outside), on_edge)))) {
+    return 0;
   }
+  const Vector determinant = hn::Add(hn::Add(u, v), w);
   const Vector weighted =
       hn::MulAdd(hn::Div(u, determinant), a.z, hn::MulAdd(hn::Div(v, determinant), b.z, hn::Mul(hn::Div(w, determinant), c.z)));
-  const Vector t = hn::IfThenElse(hit, hn::Mul(weighted, hn::Set(tag, ray.scale_z)), hn::Set(tag, missed));
+  const Vector t = hn::Mul(weighted, hn::Set(tag, ray.scale_z));
   hn::StoreU(t, tag, times);
-  const auto near = hn::And(hit, hn::Lt(hn::Abs(t), hn::Set(tag, near_start)));
-  const auto in_doubt = hn::Or(on_edge, near);
-  if (!hn::AllFalse(tag, in_doubt)) [[unlikely]] {
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(tag, in_doubt, bits);
-    for (std::uint32_t rest = bits[0]; rest != 0; rest &= rest - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-      times[lane] = intersect_triangle(ray, rows, count, lane);
-    }
+  const auto ids = hn::LoadU(id_tag, reinterpret_cast<const std::uint32_t*>(block.ids()));
+  const auto others = hn::AndNot(hn::RebindMask(tag, hn::Eq(ids, hn::Set(id_tag, ignored))), real);
+  const auto crossed = hn::AndNot(hn::Or(outside, hn::Eq(determinant, zero)), others);
+  const auto in_time = hn::And(hn::Gt(t, zero), hn::Le(t, hn::Set(tag, t_most)));
+  const auto near = hn::And(crossed, hn::Lt(hn::Abs(t), hn::Set(tag, near_start)));
+  std::uint32_t hits = bits_of(hn::And(crossed, in_time));
+  std::uint32_t rest = bits_of(hn::Or(hn::And(on_edge, others), near));
+  for (; rest != 0; rest &= rest - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+    times[lane] = intersect_triangle(ray, rows, count, lane);
+    const std::uint32_t bit = times[lane] > 0.0F && times[lane] <= t_most ? 1U << lane : 0U;
+    hits = (hits & ~(1U << lane)) | bit;
   }
+  return hits;
 }
 
 #endif
@@ -89,17 +142,68 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace dmpc::core {
+HWY_EXPORT(children);
 HWY_EXPORT(triangles);
 
-void triangles_scalar(const ShearedRay& ray, const float* rows, std::size_t count, float* times) {
-  for (std::size_t lane = 0; lane < count; ++lane) {
-    times[lane] = intersect_triangle(ray, rows, count, lane);
+namespace {
+
+/// A reciprocal that is never infinite.
+float reciprocal_of(float component) {
+  return 1.0F / std::copysign(std::max(std::fabs(component), smallest_component), component);
+}
+
+std::uint32_t bit_if(bool condition, std::size_t lane) { return condition ? 1U << lane : 0U; }
+
+}  // namespace
+
+BoxRay::BoxRay(const Ray& ray)
+    : origin(ray.origin),
+      reciprocal{reciprocal_of(ray.direction.x), reciprocal_of(ray.direction.y), reciprocal_of(ray.direction.z)} {
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    near_row[axis] = reciprocal[axis] < 0.0F ? axis + 3 : axis;
+    far_row[axis] = reciprocal[axis] < 0.0F ? axis : axis + 3;
   }
 }
 
-void triangles_simd(const ShearedRay& ray, const float* rows, std::size_t count, float* times) {
-  HWY_DYNAMIC_DISPATCH(triangles)(ray, rows, count, times);
+MetChild meet_children_scalar(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order,
+                              MetChildren& waiting) {
+  const std::uint32_t first = waiting.count;
+  for (std::size_t child = 0; child < brick.child_count; ++child) {
+    float enter = t_low, leave = t_high;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float reciprocal = ray.reciprocal[axis];
+      const float slope = brick.unit * reciprocal, offset = (brick.origin[axis] - ray.origin[axis]) * reciprocal;
+      const auto plane = [&](std::size_t row) { return std::fma(static_cast<float>(brick.bounds[row][child]), slope, offset); };
+      enter = std::max(enter, plane(ray.near_row[axis]));
+      leave = std::min(leave, plane(ray.far_row[axis]));
+    }
+    if (enter <= leave) {
+      waiting.add({brick.child[child], enter}, in_order ? first : waiting.count);
+    }
+  }
+  return waiting.count > first ? waiting.take() : MetChild{};
 }
+
+const BrickKernel meet_children = [] {
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  return HWY_DYNAMIC_DISPATCH(children);
+}();
+
+std::uint32_t hit_triangles_scalar(const ShearedRay& ray, const TriangleRows& triangles, std::uint32_t ignored, float t_most,
+                                   float* times) {
+  std::uint32_t hits = 0;
+  for (std::size_t lane = 0; lane < triangles.count; ++lane) {
+    times[lane] = intersect_triangle(ray, triangles.rows, triangles.count, lane);
+    const auto id = read<std::uint32_t>(triangles.ids() + lane * sizeof(std::uint32_t));
+    hits |= bit_if(times[lane] > 0.0F && times[lane] <= t_most && id != ignored, lane);
+  }
+  return hits;
+}
+
+const TriangleKernel hit_triangles = [] {
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  return HWY_DYNAMIC_DISPATCH(triangles);
+}();
 
 const char* simd_name() {
   const auto targets = hwy::SupportedTargets();
@@ -108,42 +212,23 @@ const char* simd_name() {
 
 namespace {
 
-void intersect_lanes(const Ray& ray, const ShearedRay& sheared, PrimitiveKind kind, const float* rows, std::size_t count,
-                     float* times) {
-  switch (kind) {
-    case PrimitiveKind::triangle:
-      triangles_simd(sheared, rows, count, times);
-      return;
-    case PrimitiveKind::sphere:
-      for (std::size_t lane = 0; lane < count; ++lane) {
-        times[lane] = intersect_sphere(ray, rows, count, lane);
-      }
-      return;
-    case PrimitiveKind::cone:
-      for (std::size_t lane = 0; lane < count; ++lane) {
-        times[lane] = intersect_cone(ray, rows, count, lane);
-      }
-      return;
+/// A bit for each lane that the ray hits at a t in (0, t_most].
+template <class Intersect>
+std::uint32_t hit_each(std::size_t count, float t_most, float* times, const Intersect& intersect) {
+  std::uint32_t hits = 0;
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    times[lane] = intersect(lane);
+    hits |= bit_if(times[lane] > 0.0F && times[lane] <= t_most, lane);
   }
+  return hits;
 }
 
 }  // namespace
 
-void test_block(const Ray& ray, const ShearedRay& sheared, const std::byte* record, Address block, Hit& best,
-                Operations& operations) {
-  const auto header = read<BlockHeader>(record);
-  const std::size_t count = header.count;
-  const auto* rows = reinterpret_cast<const float*>(record + sizeof(BlockHeader));
-  const auto* ids = reinterpret_cast<const std::uint32_t*>(rows + value_count(header.kind) * count);
-  float times[block_lanes];
-  intersect_lanes(ray, sheared, header.kind, rows, count, times);
-  operations.primitive_tests[static_cast<std::size_t>(header.kind)] += count;
-  for (std::size_t lane = 0; lane < count; ++lane) {
-    const float t = times[lane];
-    if (t > 0.0F && t < ray.t_max && replaces(t, ids[lane], best) && ids[lane] != ray.ignored_primitive) {
-      best = {t, ids[lane], block, static_cast<std::uint32_t>(lane)};
-    }
-  }
+std::uint32_t hit_curved(const Ray& ray, PrimitiveKind kind, const float* rows, std::size_t count, float t_most, float* times) {
+  const auto sphere = [&](std::size_t lane) { return intersect_sphere(ray, rows, count, lane); };
+  const auto cone = [&](std::size_t lane) { return intersect_cone(ray, rows, count, lane); };
+  return kind == PrimitiveKind::sphere ? hit_each(count, t_most, times, sphere) : hit_each(count, t_most, times, cone);
 }
 
 }  // namespace dmpc::core

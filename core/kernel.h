@@ -1,8 +1,13 @@
-// Intersection of one ray with one block of up to 8 primitives; SIMD where the machine has it, with the scalar twins' bits.
+// Intersection of one ray with up to 8 boxes or primitives of one record; SIMD where the machine has it, with the scalar twins'
+// bits.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
 
+#include "core/cursor.h"
 #include "core/hit.h"
 #include "core/operations.h"
 #include "core/primitive.h"
@@ -11,20 +16,75 @@
 
 namespace dmpc::core {
 
+/// A ray as boxes need it: a pure function of the ray's bits. A component of the direction below `smallest_component` counts as
+/// that, with its sign: such a ray passes the planes of a box that it lies between far behind and far ahead.
+struct BoxRay {
+  explicit BoxRay(const Ray& ray);
+
+  Vec3f origin, reciprocal;
+  std::array<std::uint32_t, 3> near_row{}, far_row{};  ///< which rows of a brick's bounds the ray comes to first and last
+};
+
+/// A direction's component below this counts as 0, denormals and -0 included.
+inline constexpr float smallest_component = 1e-18F;
+
+/// Which of a brick's children have boxes that the ray meets in [t_low, t_high]: returns one of them, if any, and adds the others
+/// to those that wait. With `in_order` it is the nearest, and the nearest of the others is last, else any. t_enter is where the
+/// ray enters a box, at least t_low. Planes are off by less than 2^-22 of their distance from the origin, which the insertion pad
+/// around the boxes makes good.
+using BrickKernel = MetChild (*)(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order,
+                                 MetChildren& waiting);
+/// The fastest kernel for this processor.
+extern const BrickKernel meet_children;
+/// The plain loop: the twin that every SIMD kernel must equal.
+MetChild meet_children_scalar(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order,
+                              MetChildren& waiting);
+
+/// The triangles of a block: nine rows of `count` floats, then a row of ids, readable for overread_bytes behind.
+struct TriangleRows {
+  const float* rows;
+  std::size_t count;
+
+  const std::byte* ids() const { return reinterpret_cast<const std::byte*>(rows + 9 * count); }
+};
+
+/// Which triangles the ray hits at a t in (0, t_most], a bit each, the one with id `ignored` left out; times[lane] is the t of
+/// those. `times` has room for 8.
+using TriangleKernel = std::uint32_t (*)(const ShearedRay& ray, const TriangleRows& triangles, std::uint32_t ignored,
+                                         float t_most, float* times);
+/// The fastest kernel for this processor.
+extern const TriangleKernel hit_triangles;
+/// The plain loop over intersect_triangle: the twin that every SIMD kernel must equal.
+std::uint32_t hit_triangles_scalar(const ShearedRay& ray, const TriangleRows& triangles, std::uint32_t ignored, float t_most,
+                                   float* times);
+
+/// The same for the spheres or cones of a block, in scalar code.
+std::uint32_t hit_curved(const Ray& ray, PrimitiveKind kind, const float* rows, std::size_t count, float t_most, float* times);
+
+/// The instruction set of the kernels here, for reports: "AVX3", "AVX2" or "scalar".
+const char* simd_name();
+
 /// Merges the hits of `ray` with the block at `record` (whose address is `block`) into `best`: the least (t, primitive) with t in
 /// (0, ray.t_max), the ignored primitive left out. Order and repetition of calls do not change the result.
-void test_block(const Ray& ray, const ShearedRay& sheared, const std::byte* record, Address block, Hit& best,
-                Operations& operations);
-
-/// t of all lanes of a triangle block: `times[lane]`, `missed` or any value outside (0, t_max) where there is no hit.
-/// `rows` is readable for overread_bytes behind the last row.
-using TriangleKernel = void (*)(const ShearedRay& ray, const float* rows, std::size_t count, float* times);
-
-/// The plain loop over intersect_triangle: the twin that every SIMD kernel must equal.
-void triangles_scalar(const ShearedRay& ray, const float* rows, std::size_t count, float* times);
-/// The fastest kernel for this processor.
-void triangles_simd(const ShearedRay& ray, const float* rows, std::size_t count, float* times);
-/// The instruction set that triangles_simd uses here, for reports: "AVX3", "AVX2" or "scalar".
-const char* simd_name();
+inline void test_block(const Ray& ray, const ShearedRay& sheared, const std::byte* record, Address block, Hit& best,
+                       Operations& operations) {
+  const auto header = read<BlockHeader>(record);
+  const auto* rows = reinterpret_cast<const float*>(record + sizeof(BlockHeader));
+  const std::size_t count = header.count;
+  float times[block_lanes];
+  operations.primitive_tests[static_cast<std::size_t>(header.kind)] += count;
+  const float t_most = std::min(best.t, ray.t_max);
+  std::uint32_t hits = header.kind == PrimitiveKind::triangle
+                           ? hit_triangles(sheared, {rows, count}, ray.ignored_primitive, t_most, times)
+                           : hit_curved(ray, header.kind, rows, count, t_most, times);
+  const auto* ids = reinterpret_cast<const std::uint32_t*>(rows + value_count(header.kind) * count);
+  for (; hits != 0; hits &= hits - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(hits));
+    const float t = times[lane];
+    if (t < ray.t_max && replaces(t, ids[lane], best) && ids[lane] != ray.ignored_primitive) {
+      best = {t, ids[lane], block, static_cast<std::uint32_t>(lane)};
+    }
+  }
+}
 
 }  // namespace dmpc::core

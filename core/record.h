@@ -4,7 +4,7 @@
 // starts at a multiple of record_alignment, so that a 32-bit address spans 32 GiB and page = address / (page_size / 8).
 //
 //   directory   one DirectoryEntry a top cell of the grid
-//   bricks      Brick with its arrays, followed by the primitive blocks that it names (both in Morton order)
+//   bricks      Brick with its arrays, followed by the primitive blocks that it names (top cells in Morton order)
 //   normals     PatchNormals of smooth triangles      } shading data, read for final hits only
 //   materials   MaterialRecord                        }
 //   lights      LightRecord                           }
@@ -17,6 +17,7 @@
 #include <type_traits>
 
 #include "core/region.h"
+#include "core/units.h"
 #include "core/vec.h"
 
 namespace dmpc::core {
@@ -46,13 +47,12 @@ T read(const std::byte* from) {
 
 // ---- The grid ------------------------------------------------------------------------------------------------------------
 
-/// Each level cuts a cell into brick_side^3; level 0 is the directory's top cell, level 3 the finest.
-inline constexpr int brick_side = 4;
-inline constexpr int finest_level = 3;
-/// Cells of the finest level along the edge of a top cell.
-inline constexpr int finest_per_top = 64;
-/// Cells of the finest level along the edge of a cell of `level`.
-constexpr int span_of(int level) { return finest_per_top >> (2 * level); }
+/// Space is measured in cells, whose number follows that of the primitives; the lattice on which regions are cut is finer, and
+/// the cells of the directory, which a ray walks, are coarser.
+inline constexpr int finest_per_cell = 64;
+inline constexpr int cells_per_top = 4;
+/// Cells of the finest lattice along the edge of a top cell.
+inline constexpr int finest_per_top = cells_per_top * finest_per_cell;
 
 /// One top cell: a brick's address, or empty with the Chebyshev radius r >= 1 of top cells around it that are empty too: all
 /// cells nearer than r are empty (Cohen & Sheffer 1994).
@@ -67,20 +67,34 @@ struct DirectoryEntry {
 static_assert(sizeof(DirectoryEntry) == 4);
 inline constexpr int radius_max = 64;
 
-inline constexpr std::size_t blocks_per_sheet = 8;
+/// A child of a brick: a block of primitives, or a brick of its own.
+struct BrickChild {
+  static constexpr std::uint32_t block_flag = 0x80000000U;
+  std::uint32_t bits = 0;
 
-/// A cube of 4x4x4 voxels. Behind it lie, without gaps: the addresses of its blocks (4 B each), the addresses of its nested
-/// bricks (4 B each, one a set bit of `nested` in bit order), and one byte for each set bit of `occupied & ~nested`, whose bit b
-/// says that block b has a primitive in that voxel. More than 8 blocks continue in the brick at `next_sheet`.
-struct Brick {
-  std::uint64_t occupied = 0;  ///< bit x + 4 y + 16 z: the voxel holds a primitive (of this sheet) or a nested brick
-  std::uint64_t nested = 0;    ///< subset of `occupied`: the voxel is a brick of its own
-  Address next_sheet = no_address;
-  std::uint8_t block_count = 0;
-  std::array<std::uint8_t, 3> padding{};
+  static constexpr BrickChild none() { return {0xffffffffU}; }
+  static constexpr BrickChild block(Address address) { return {block_flag | static_cast<std::uint32_t>(address)}; }
+  static constexpr BrickChild brick(Address address) { return {static_cast<std::uint32_t>(address)}; }
+  constexpr bool is_block() const { return (bits & block_flag) != 0; }
+  constexpr Address address() const { return Address{bits & ~block_flag}; }
 };
-static_assert(sizeof(Brick) == 24 && std::is_trivially_copyable_v<Brick>);
-static_assert(sizeof(Brick) + blocks_per_sheet * 4 + 64 * 4 <= record_bytes_max, "a brick fits a record");
+
+inline constexpr std::size_t brick_children_max = 8;
+/// Bricks between a top cell and a block, at most: 8^9 primitives fit below a top cell.
+inline constexpr int brick_levels_max = 8;
+
+/// What a part of a top cell holds: up to 8 children, each with the box within which a ray may meet it: child i between
+/// bounds[axis][i] and bounds[axis + 3][i] units from the origin. A box holds its child's primitives as far as they lie in the
+/// top cell, and the insertion pad around them.
+struct Brick {
+  Vec3f origin;
+  float unit = 1;  ///< a power of two
+  std::array<BrickChild, brick_children_max> child{};
+  std::array<std::array<std::uint8_t, brick_children_max>, 6> bounds{};
+  std::uint32_t child_count = 0;
+  std::uint32_t padding = 0;
+};
+static_assert(sizeof(Brick) == 104 && std::is_trivially_copyable_v<Brick> && sizeof(Brick) <= record_bytes_max);
 
 // ---- Primitive blocks ----------------------------------------------------------------------------------------------------
 
@@ -154,13 +168,19 @@ struct GridFrame {
   GridAxes axes = world_axes;  ///< the grid's x, y and z; the world's unless asked for the screen's
   Vec3d origin;                ///< in the directions of `axes`
   double scale = 1;
-  std::array<std::int32_t, 3> resolution{1, 1, 1};  ///< top cells along x, y, z
+  std::array<std::int32_t, 3> resolution{1, 1, 1};  ///< cells along x, y, z
   float finest_cell = 1;                            ///< edge of a finest cell, grid-local
 };
 
 /// The grid's size in finest cells.
 constexpr Corner grid_size(const GridFrame& frame) {
-  return {frame.resolution[0] * finest_per_top, frame.resolution[1] * finest_per_top, frame.resolution[2] * finest_per_top};
+  return {frame.resolution[0] * finest_per_cell, frame.resolution[1] * finest_per_cell, frame.resolution[2] * finest_per_cell};
+}
+
+/// Top cells along x, y, z: the last of an axis may reach beyond the grid.
+constexpr std::array<std::int32_t, 3> top_cells(const GridFrame& frame) {
+  return {ceil_divide(frame.resolution[0], cells_per_top), ceil_divide(frame.resolution[1], cells_per_top),
+          ceil_divide(frame.resolution[2], cells_per_top)};
 }
 
 /// The database's table of contents, by value in every node.

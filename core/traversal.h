@@ -1,8 +1,11 @@
 // trace(ray, cursor, records): hit, miss, or absent record r; resumable at every record, with the same bits.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
+#include "core/directory.h"
+#include "core/kernel.h"
 #include "core/records.h"
 #include "core/walk.h"
 
@@ -28,8 +31,6 @@ inline Cursor arrive(const Passage& passage) {
   cursor.best = passage.best;
   cursor.t_enter = passage.t_enter;
   cursor.entry_axis = passage.entry_axis;
-  cursor.arrived = true;
-  cursor.arrival = passage.cell;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     cursor.cell[axis] = passage.cell[axis] & -finest_per_top;
   }
@@ -51,7 +52,7 @@ inline std::optional<Passage> first_passage(const Ray& ray, const GridFrame& fra
 /// is where the ray goes on, else where it was.
 inline Traced pass(const Ray& ray, const GridFrame& frame, const Region& region, Passage& passage, Operations& operations) {
   Cursor cursor = arrive(passage);
-  Walk(ray, frame, region).leave_region(ray, cursor, operations);
+  Walk(ray, frame, region).leave_region(ray, passage.cell, cursor, operations);
   const Traced traced = finish(cursor);
   if (traced == Traced::left) {
     passage = passage_of(cursor);
@@ -59,15 +60,51 @@ inline Traced pass(const Ray& ray, const GridFrame& frame, const Region& region,
   return traced;
 }
 
-/// Walks `ray` through the grid until its nearest hit in (0, ray.t_max) is known (for a shadow ray: any hit), no hit can exist,
-/// or a record is absent. After Traced::absent, call again with the same cursor once the record of cursor.absent is there: the
-/// answer has the same bits as without the interruption. Where `header` is a region's, a ray that leaves the region answers
-/// Traced::left, and whoever owns the cell of passage_of(cursor) goes on from arrive(), with the same bits. A ray with a NaN or
-/// an infinite component misses. Source: J. Amanatides, A. Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", 1987, over
-/// nested 4^3 bricks.
-template <Records R>
-Traced trace(const Ray& ray, Cursor& cursor, R& records, const DatabaseHeader& header, const TraversalOptions& options,
-             Operations& operations) {
+/// The next child that waits and does not lie behind the best hit, if there is one.
+inline MetChild take_nearer(MetChildren& waiting, const Hit& best) {
+  while (waiting.count > 0) {
+    const MetChild child = waiting.take();
+    if (child.t_enter <= best.t) {
+      return child;
+    }
+  }
+  return {};
+}
+
+/// Visits the children of the cursor's cell that the ray meets, from cursor.next on: `test(record, address, best)` is called for
+/// blocks. False if a record is absent. `any` hit will do: it ends the visit.
+template <Records R, class Test>
+bool visit_children(const Ray& ray, const BoxRay& box, bool any, Cursor& cursor, R& records, Operations& operations,
+                    const Test& test) {
+  const auto t_low = static_cast<float>(cursor.t_enter), t_high = std::min(static_cast<float>(cursor.exit.t), ray.t_max);
+  for (MetChild child = cursor.next; child.found();) {
+    const Address address = child.record.address();
+    const std::byte* record = records.find(address);
+    if (record == nullptr) {
+      cursor.next = child;
+      cursor.absent = address;
+      return false;
+    }
+    if (child.record.is_block()) {
+      test(record, address, cursor.best);
+      if (any && cursor.best.found()) {
+        break;
+      }
+      child = {};
+    } else {
+      ++operations.brick_reads;
+      const auto& brick = *reinterpret_cast<const Brick*>(record);
+      child = meet_children(box, brick, t_low, std::min(t_high, cursor.best.t), !any, cursor.waiting);
+    }
+    child = child.found() ? child : take_nearer(cursor.waiting, cursor.best);
+  }
+  return true;
+}
+
+/// trace() with a test of blocks of one's own.
+template <Records R, class Test>
+Traced trace_blocks(const Ray& ray, Cursor& cursor, R& records, const DatabaseHeader& header, const TraversalOptions& options,
+                    Operations& operations, const Test& test) {
   if (cursor.stage == Cursor::Stage::finished) {
     return finish(cursor);
   }
@@ -75,18 +112,39 @@ Traced trace(const Ray& ray, Cursor& cursor, R& records, const DatabaseHeader& h
   if (cursor.stage == Cursor::Stage::start && !walk.enter(ray, cursor)) {
     return finish(cursor);
   }
-  const ShearedRay sheared(ray);
+  const BoxRay box(ray);
+  const bool any = ray.kind == RayKind::shadow;
   for (;;) {
-    const Address next = record_needed(cursor, header);
-    const std::byte* record = records.find(next);
-    if (record == nullptr) {
-      cursor.absent = next;
+    if (cursor.stage == Cursor::Stage::directory) {
+      const Address address = directory_address(header, cursor.cell);
+      const std::byte* record = records.find(address);
+      if (record == nullptr) {
+        cursor.absent = address;
+        return Traced::absent;
+      }
+      if (!walk.read_directory(ray, record, cursor, options, operations)) {
+        return finish(cursor);
+      }
+    } else if (!visit_children(ray, box, any, cursor, records, operations, test)) {
       return Traced::absent;
-    }
-    if (!walk.step(ray, sheared, record, cursor, options, operations)) {
+    } else if ((any && cursor.best.found()) || !walk.leave_cell(ray, cursor, operations)) {
       return finish(cursor);
     }
   }
+}
+
+/// Walks `ray` through the grid until its nearest hit in (0, ray.t_max) is known (for a shadow ray: any hit), no hit can exist,
+/// or a record is absent. After Traced::absent, call again with the same cursor once the record of cursor.absent is there: the
+/// answer has the same bits as without the interruption. Where `header` is a region's, a ray that leaves the region answers
+/// Traced::left, and whoever owns the cell of passage_of(cursor) goes on from arrive(), with the same bits. A ray with a NaN or
+/// an infinite component misses. Source: J. Amanatides, A. Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", 1987.
+template <Records R>
+Traced trace(const Ray& ray, Cursor& cursor, R& records, const DatabaseHeader& header, const TraversalOptions& options,
+             Operations& operations) {
+  const ShearedRay sheared(ray);
+  return trace_blocks(
+      ray, cursor, records, header, options, operations,
+      [&](const std::byte* record, Address address, Hit& best) { test_block(ray, sheared, record, address, best, operations); });
 }
 
 }  // namespace dmpc::core

@@ -1,13 +1,18 @@
-// The walk of one ray through the nested grid, one record a step.
+// The walk of one ray through the grid, one record a step.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "core/cursor.h"
+#include "core/directory.h"
+#include "core/expect.h"
+#include "core/kernel.h"
 #include "core/operations.h"
-#include "core/primitive.h"
 #include "core/ray.h"
 #include "core/record.h"
 
@@ -21,9 +26,12 @@ struct TraversalOptions {
 /// What a ray and a grid determine: nothing here is carried from step to step, everything is recomputed from the ray's bits.
 ///
 /// The one formula for a plane anywhere: plane i of an axis (in finest cells) is crossed at t = i * slope + offset, in double.
-/// Rounding keeps order, so t rises or falls with i without exception, and "which planes has the ray crossed at t" has one answer
-/// on every level: the cells of all levels are projections of one sequence of finest cells, and leaving a box of empty cells in
-/// one step leads to the same cell as leaving it cell by cell. Planes crossed at equal t are crossed in the order x, y, z.
+/// Rounding keeps order, so t rises or falls with i without exception, and "which planes has the ray crossed at t" has one
+/// answer: top cells, empty boxes of them and regions are all boxes of one lattice, and leaving a box of empty cells in one step
+/// leads to the same cell as leaving it cell by cell. Planes crossed at equal t are crossed in the order x, y, z.
+///
+/// Within a top cell a tree of bricks leads to the blocks whose boxes the ray meets, nearest first. The cell is left when none is
+/// nearer than the best hit.
 class Walk {
  public:
   Walk(const Ray& ray, const GridFrame& frame, const Region& region);
@@ -34,42 +42,115 @@ class Walk {
   /// The finest cell that a walk which enter() has put on its first top cell starts in.
   Corner first_cell(const Cursor& cursor) const;
 
-  /// Consumes the record of record_needed() and goes on to the next stage that needs one; false once the walk is finished, or has
-  /// left the region (then cursor.stage says so).
-  bool step(const Ray& ray, const ShearedRay& sheared, const std::byte* record, Cursor& cursor, const TraversalOptions& options,
-            Operations& operations) const;
+  /// Consumes the directory entry of the cursor's cell: then a brick is to be visited, or another entry is needed, or the walk is
+  /// finished (false) or has left the region (false, and cursor.stage says so).
+  bool read_directory(const Ray& ray, const std::byte* record, Cursor& cursor, const TraversalOptions& options,
+                      Operations& operations) const;
 
-  /// Takes a ray that has arrived in the region through all of it, as if nothing were there. The walk is then finished or has
-  /// left.
-  void leave_region(const Ray& ray, Cursor& cursor, Operations& operations) const;
+  /// Leaves the cursor's cell, whose children have been visited, for one whose entry is needed, unless the walk is finished or
+  /// has left the region (false).
+  bool leave_cell(const Ray& ray, Cursor& cursor, Operations& operations) const {
+    return leave(ray, cursor.exit, nullptr, cursor, operations);
+  }
+
+  /// Takes a ray that enters the region in finest cell `cell` through all of it, as if nothing were there. The walk is then
+  /// finished or has left.
+  void leave_region(const Ray& ray, const Corner& cell, Cursor& cursor, Operations& operations) const;
 
  private:
   double plane(std::size_t axis, std::int32_t index) const;
   bool crossed(std::size_t axis, std::int32_t index, double t, std::uint8_t entry_axis) const;
-  std::int32_t locate(std::size_t axis, double t, std::int32_t span, std::int32_t low, std::int32_t high,
-                      std::uint8_t entry_axis) const;
-  bool read_directory(const Ray& ray, const std::byte* record, Cursor& cursor, const TraversalOptions& options,
-                      Operations& operations) const;
-  void read_brick(const std::byte* record, Cursor& cursor) const;
-  bool read_sheet(const std::byte* record, Cursor& cursor) const;
-  bool test(const Ray& ray, const ShearedRay& sheared, const std::byte* record, Cursor& cursor, Operations& operations) const;
-  bool leave_box(const Ray& ray, const Corner& low, const Corner& high, Cursor& cursor, Operations& operations) const;
-  bool leave_cell(const Ray& ray, Cursor& cursor, Operations& operations) const;
-  bool leave_occupied(const Ray& ray, Cursor& cursor, Operations& operations) const;
+  std::int32_t locate(std::size_t axis, double t, std::int32_t low, std::int32_t high, std::uint8_t entry_axis) const;
+  std::int32_t locate_top(std::size_t axis, double t, std::int32_t low, std::int32_t high, std::uint8_t entry_axis) const;
+  Corner planes_ahead(const Corner& cell, std::int32_t reach, const Region& limits) const;
+  Exit exit_through(const Corner& planes) const;
+  bool leave(const Ray& ray, const Exit& exit, const Region* around, Cursor& cursor, Operations& operations) const;
   bool stays(Cursor& cursor, std::int32_t face) const;
   Corner finest_cell_of(const Cursor& cursor, std::int32_t face) const;
-  bool next_record(const Ray& ray, Cursor& cursor, Operations& operations) const;
 
   Vec3d origin_, direction_;
   std::array<double, 3> slope_{}, offset_{};
   std::array<std::int32_t, 3> step_{};  ///< -1, 0 or +1
-  Corner size_{};                       ///< of the grid, in finest cells
-  Region region_;
-  bool whole_;  ///< the region is the whole grid: nothing leaves it
-  double finest_cell_;
+  Region grid_, region_;
+  bool whole_;           ///< the region is the whole grid: nothing leaves it
+  double finest_cells_;  ///< a unit of length, in finest cells
 };
 
-/// The record that the next step reads. Requires a walk that has been entered and is not finished.
-Address record_needed(const Cursor& cursor, const DatabaseHeader& header);
+// What a ray does at every step is here, so that it becomes one loop with whatever finds the records.
+
+/// Infinite along an axis without a step.
+inline double Walk::plane(std::size_t axis, std::int32_t index) const {
+  return static_cast<double>(index) * slope_[axis] + offset_[axis];
+}
+
+/// The planes, one of each axis, that the ray comes to when it leaves the box of all cells nearer to `cell` than `reach` (finest
+/// cells, a multiple of a top cell's) as far as they lie within `limits`.
+inline Corner Walk::planes_ahead(const Corner& cell, std::int32_t reach, const Region& limits) const {
+  Corner planes;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    planes[axis] = step_[axis] > 0 ? std::min(cell[axis] + reach, limits.high[axis])
+                                   : std::max(cell[axis] - reach + finest_per_top, limits.low[axis]);
+  }
+  return planes;
+}
+
+/// The first of them.
+inline Exit Walk::exit_through(const Corner& planes) const {
+  Exit exit{std::numeric_limits<double>::infinity()};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double t = plane(axis, planes[axis]);
+    if (t < exit.t) {
+      exit = {t, planes[axis], static_cast<std::uint8_t>(axis)};
+    }
+  }
+  return exit;
+}
+
+inline bool Walk::read_directory(const Ray& ray, const std::byte* record, Cursor& cursor, const TraversalOptions& options,
+                                 Operations& operations) const {
+  const auto entry = directory_entry(record, cursor.cell);
+  if (!entry.empty()) {
+    cursor.exit = exit_through(planes_ahead(cursor.cell, finest_per_top, region_));
+    cursor.next = {BrickChild::brick(entry.brick()), 0.0F};
+    cursor.waiting.count = 0;
+    cursor.stage = Cursor::Stage::child;
+    return true;
+  }
+  const std::int32_t reach = options.skip_empty_space ? entry.radius() * finest_per_top : finest_per_top;
+  const Exit exit = exit_through(planes_ahead(cursor.cell, reach, grid_));
+  if (reach == finest_per_top) {
+    return leave(ray, exit, nullptr, cursor, operations);
+  }
+  Region box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] = std::max(0, cursor.cell[axis] - reach + finest_per_top);
+    box.high[axis] = std::min(grid_.high[axis], cursor.cell[axis] + reach);
+  }
+  return leave(ray, exit, &box, cursor, operations);
+}
+
+/// Goes on to the next top cell: the neighbour, or, from several cells `around` the cursor's, that which holds the ray. False if
+/// the walk ends.
+inline bool Walk::leave(const Ray& ray, const Exit& exit, const Region* around, Cursor& cursor, Operations& operations) const {
+  ++operations.cell_steps;
+  // At equality the next cell may hold the same t with a lower id.
+  if (double{cursor.best.t} < exit.t || exit.t >= double{ray.t_max}) {
+    return false;
+  }
+  const std::int32_t face = step_[exit.axis] > 0 ? exit.plane : exit.plane - 1;
+  if (face < 0 || face >= grid_.high[exit.axis]) {
+    return false;
+  }
+  cursor.t_enter = exit.t;
+  cursor.entry_axis = exit.axis;
+  cursor.cell[exit.axis] = face & -finest_per_top;
+  for (std::size_t axis = 0; around != nullptr && axis < 3; ++axis) {
+    if (axis != exit.axis) {
+      cursor.cell[axis] = locate_top(axis, exit.t, around->low[axis], around->high[axis], exit.axis);
+    }
+  }
+  cursor.stage = Cursor::Stage::directory;
+  return whole_ || stays(cursor, face);
+}
 
 }  // namespace dmpc::core
