@@ -71,17 +71,17 @@ inline MetChild take_nearer(MetChildren& waiting, const Hit& best) {
   return {};
 }
 
-/// Visits the children of the cursor's cell that the ray meets, from cursor.next on: `test(record, address, best)` is called for
-/// blocks. False if a record is absent. `any` hit will do: it ends the visit.
+/// Visits the children of the cursor's cell that the ray meets, from cursor.next on: `meet` finds them, `test(record, address,
+/// best)` is called for blocks. False if a record is absent. `any` hit will do: it ends the visit.
 template <Records R, class Test>
 bool visit_children(const Ray& ray, const BoxRay& box, bool any, Cursor& cursor, R& records, Operations& operations,
-                    const Test& test) {
+                    BrickKernel meet, const Test& test) {
   const auto t_low = static_cast<float>(cursor.t_enter), t_high = std::min(static_cast<float>(cursor.exit.t), ray.t_max);
   for (MetChild child = cursor.next; child.found();) {
+    cursor.next = child;
     const Address address = child.record.address();
     const std::byte* record = records.find(address);
     if (record == nullptr) {
-      cursor.next = child;
       cursor.absent = address;
       return false;
     }
@@ -94,17 +94,17 @@ bool visit_children(const Ray& ray, const BoxRay& box, bool any, Cursor& cursor,
     } else {
       ++operations.brick_reads;
       const auto& brick = *reinterpret_cast<const Brick*>(record);
-      child = meet_children(box, brick, t_low, std::min(t_high, cursor.best.t), !any, cursor.waiting);
+      child = meet(box, brick, t_low, std::min(t_high, cursor.best.t), !any, cursor.waiting);
     }
     child = child.found() ? child : take_nearer(cursor.waiting, cursor.best);
   }
   return true;
 }
 
-/// trace() with a test of blocks of one's own.
+/// trace() with kernels of one's own.
 template <Records R, class Test>
 Traced trace_blocks(const Ray& ray, Cursor& cursor, R& records, const DatabaseHeader& header, const TraversalOptions& options,
-                    Operations& operations, const Test& test) {
+                    Operations& operations, BrickKernel meet, const Test& test) {
   if (cursor.stage == Cursor::Stage::finished) {
     return finish(cursor);
   }
@@ -125,7 +125,7 @@ Traced trace_blocks(const Ray& ray, Cursor& cursor, R& records, const DatabaseHe
       if (!walk.read_directory(ray, record, cursor, options, operations)) {
         return finish(cursor);
       }
-    } else if (!visit_children(ray, box, any, cursor, records, operations, test)) {
+    } else if (!visit_children(ray, box, any, cursor, records, operations, meet, test)) {
       return Traced::absent;
     } else if ((any && cursor.best.found()) || !walk.leave_cell(ray, cursor, operations)) {
       return finish(cursor);
@@ -143,7 +143,7 @@ Traced trace(const Ray& ray, Cursor& cursor, R& records, const DatabaseHeader& h
              Operations& operations) {
   const ShearedRay sheared(ray);
   return trace_blocks(
-      ray, cursor, records, header, options, operations,
+      ray, cursor, records, header, options, operations, meet_children,
       [&](const std::byte* record, Address address, Hit& best) { test_block(ray, sheared, record, address, best, operations); });
 }
 

@@ -53,11 +53,15 @@ class ChargedPicture {
 
     const std::byte* find(core::Address address) {
       picture.settle();
+      const core::GridFrame& frame = picture.settings_.header.frame;
+      const core::Corner size = core::grid_size(frame);
       core::Region cell{cursor.cell, cursor.cell};
-      for (std::int32_t& end : cell.high) {
-        end += core::span_of(cursor.level);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        cell.high[axis] = std::min(cell.low[axis] + core::finest_per_top, size[axis]);
       }
-      picture.place_ = finest_cell_at(ray, cursor.t_enter, cell, picture.settings_.header.frame);
+      const bool in_cell = cursor.stage == core::Cursor::Stage::child;
+      const double t = in_cell ? std::max(cursor.t_enter, double{cursor.next.t_enter}) : cursor.t_enter;
+      picture.place_ = finest_cell_at(ray, t, cell, frame);
       return picture.records_.find(address);
     }
   };

@@ -148,7 +148,7 @@ TEST_CASE("dataflow: triangles in border planes and rays along border edges are 
 }
 
 TEST_CASE("dataflow: a hit beside the region of its triangle, which its owner cannot shade, goes back to its finder") {
-  const Subject subject(seen_edge_on(), {8, 8}, {.top_cells_per_primitive = 2.75});
+  const Subject subject(seen_edge_on(), {8, 8}, {.cells_per_primitive = 2.75});
   const core::Corner size = core::grid_size(subject.settings().header.frame);
   REQUIRE(subject.outcome().primary_hits == 1);
   for (const std::uint32_t nodes : {8U, 16U, 64U}) {

@@ -55,15 +55,14 @@ inline core::Scene crowded_scene() {
   return scene;
 }
 
-/// A coordinate on a cell's plane (of a random level), on the bound or on a face of crowded_scene(), or anywhere.
+/// A coordinate on a plane of the lattice, often one between cells or top cells, on the bound or on a face of crowded_scene(), or
+/// anywhere.
 inline double awkward(const core::Database& database, std::size_t axis, Random& random) {
   const core::GridFrame& frame = database.header().frame;
-  const int cells = frame.resolution[axis] * core::finest_per_top;
+  const int cells = frame.resolution[axis] * core::finest_per_cell;
   switch (random.below(4)) {
     case 0:
-      return double{frame.finest_cell} *
-             (random.below(static_cast<std::size_t>(cells)) &
-              -static_cast<std::uint32_t>(core::span_of(static_cast<int>(random.below(core::finest_level + 1)))));
+      return double{frame.finest_cell} * (random.below(static_cast<std::size_t>(cells)) & -(1U << 2 * random.below(5)));
     case 1:
       return to_local(frame, random.bits() % 2 == 0 ? core::Vec3d{-1, -1, -1} : core::Vec3d{1, 1, 1})[axis];
     case 2:

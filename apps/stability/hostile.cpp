@@ -87,7 +87,7 @@ Ray odd_ray(Random& random) {
 Ray usual_ray(const core::Database& database, Random& random) {
   const core::GridFrame& frame = database.header().frame;
   const auto point = [&] {
-    Vec3d at = random.in_box(0, double{frame.finest_cell} * core::finest_per_top);
+    Vec3d at = random.in_box(0, double{frame.finest_cell} * core::finest_per_cell);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       at[axis] *= frame.resolution[axis];
     }

@@ -9,9 +9,6 @@ namespace dmpc::apps {
 namespace {
 
 void test_scalar(const core::Ray& ray, const core::ShearedRay& sheared, const BlockView& block, core::Hit& best) {
-  if (block.kind != core::PrimitiveKind::triangle) {
-    return;
-  }
   for (std::size_t lane = 0; lane < block.count; ++lane) {
     const float t = core::intersect_triangle(sheared, block.rows, block.count, lane);
     if (t > 0.0F && t < ray.t_max && nearer(t, block.ids[lane], best) && block.ids[lane] != ray.ignored_primitive) {
@@ -23,7 +20,8 @@ void test_scalar(const core::Ray& ray, const core::ShearedRay& sheared, const Bl
 
 core::Hit shoot_scalar(const core::Database& database, const core::Ray& ray) {
   const core::ShearedRay sheared(ray);
-  return walk_blocks(database, ray, [&](const BlockView& block, core::Hit& best) { test_scalar(ray, sheared, block, best); });
+  return walk_blocks(database, ray, core::meet_children_scalar,
+                     [&](const BlockView& block, core::Hit& best) { test_scalar(ray, sheared, block, best); });
 }
 
 core::Hit shoot_resumed(const core::Database& database, const core::Ray& ray) {

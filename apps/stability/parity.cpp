@@ -18,15 +18,21 @@ namespace {
 using core::Ray;
 using core::Vec3d;
 
-/// The triangles that `kernel` says the ray hits, each once.
-std::size_t hits_on_way(const core::Database& database, const Ray& ray, core::TriangleKernel kernel) {
+struct Kernels {
+  core::BrickKernel meet;
+  core::TriangleKernel hit;
+};
+
+/// The triangles that the kernels say the ray hits, each once.
+std::size_t hits_on_way(const core::Database& database, const Ray& ray, const Kernels& kernels) {
   std::vector<std::uint32_t> ids;
   const core::ShearedRay sheared(ray);
-  walk_blocks(database, ray, [&](const BlockView& block, core::Hit&) {
+  walk_blocks(database, ray, kernels.meet, [&](const BlockView& block, core::Hit&) {
     std::array<float, core::block_lanes> times{};
-    kernel(sheared, block.rows, block.count, times.data());
+    const std::uint32_t hits =
+        kernels.hit(sheared, {block.rows, block.count}, core::no_primitive, std::numeric_limits<float>::infinity(), times.data());
     for (std::size_t lane = 0; lane < block.count; ++lane) {
-      if (times[lane] > 0.0F) {
+      if ((hits >> lane & 1U) != 0) {
         ids.push_back(block.ids[lane]);
       }
     }
@@ -41,10 +47,9 @@ bool is_generic(const Referee& referee, const Ray& ray) {
   return std::all_of(met.begin(), met.end(), [](const Encounter& seen) { return seen.certain(Renderer::grid); });
 }
 
-void judge_parity(const StabilitySubject& subject, const Ray& ray, bool inside, core::TriangleKernel kernel,
-                  StabilityCounts& count) {
+void judge_parity(const StabilitySubject& subject, const Ray& ray, bool inside, const Kernels& kernels, StabilityCounts& count) {
   ++count.tried;
-  if (hits_on_way(subject.database, ray, kernel) % 2 == (inside ? 1 : 0)) {
+  if (hits_on_way(subject.database, ray, kernels) % 2 == (inside ? 1 : 0)) {
     return;
   }
   ++(is_generic(subject.referee, ray) ? count.unexplained : count.explained);
@@ -59,8 +64,9 @@ ShootRays crossing_rays(const ClosedBody& body) {
       const Vec3d from = inside ? body.inside(random) : ClosedBody::outside(random);
       const Vec3d to = inside ? from + random.direction() : random.in_box(-1, 1);
       const Ray ray = ray_through(to_local(subject->frame(), from), to_local(subject->frame(), to));
-      judge_parity(*subject, ray, inside, core::triangles_simd, counts[index_of(StabilityKernel::grid)]);
-      judge_parity(*subject, ray, inside, core::triangles_scalar, counts[index_of(StabilityKernel::scalar)]);
+      judge_parity(*subject, ray, inside, {core::meet_children, core::hit_triangles}, counts[index_of(StabilityKernel::grid)]);
+      judge_parity(*subject, ray, inside, {core::meet_children_scalar, core::hit_triangles_scalar},
+                   counts[index_of(StabilityKernel::scalar)]);
     }
     return counts;
   };

@@ -24,26 +24,28 @@ using core::Region;
 using core::Traced;
 using core::Vec3d;
 
-/// Cuts the grid into `count` boxes at random planes between voxels.
+/// A cell in four, in finest cells.
+constexpr std::int32_t slice = core::finest_per_cell / 4;
+
+/// Cuts the grid into `count` boxes at random planes between slices.
 std::vector<Region> random_regions(const Corner& size, std::size_t count, Random& random) {
-  constexpr std::int32_t voxel = core::span_of(1);
   std::vector<Region> regions{{.high = size}};
   while (regions.size() < count) {
     Region& low = regions[random.below(regions.size())];
     const std::size_t axis = random.below(3);
-    const std::int32_t voxels = (low.high[axis] - low.low[axis]) / voxel;
-    if (voxels < 2) {
+    const std::int32_t slices = (low.high[axis] - low.low[axis]) / slice;
+    if (slices < 2) {
       continue;
     }
     Region high = low;
-    const auto cut = static_cast<std::int32_t>(1 + random.below(static_cast<std::size_t>(voxels - 1)));
-    low.high[axis] = high.low[axis] = low.low[axis] + voxel * cut;
+    const auto cut = static_cast<std::int32_t>(1 + random.below(static_cast<std::size_t>(slices - 1)));
+    low.high[axis] = high.low[axis] = low.low[axis] + slice * cut;
     regions.push_back(high);
   }
   return regions;
 }
 
-/// Squares in planes between voxels, as far as single precision holds them, within the bounds of mixed_scene(), and what it
+/// Squares in planes between slices, as far as single precision holds them, within the bounds of mixed_scene(), and what it
 /// holds.
 core::Scene walls_in_planes(const core::GridFrame& frame) {
   Random random(77);
@@ -51,8 +53,7 @@ core::Scene walls_in_planes(const core::GridFrame& frame) {
   core::SceneBuilder builder(scene);
   for (int wall = 0; wall < 60; ++wall) {
     const std::size_t axis = random.below(3), u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const auto plane =
-        core::span_of(1) * static_cast<std::int32_t>(random.below(4 * static_cast<std::size_t>(frame.resolution[axis])));
+    const auto plane = slice * static_cast<std::int32_t>(random.below(4 * static_cast<std::size_t>(frame.resolution[axis])));
     Vec3d corner{random.between(-1, 1), random.between(-1, 1), random.between(0, 0.3)};
     corner[axis] = frame.origin[axis] + plane * double{frame.finest_cell} / frame.scale;
     const auto at = [&](double along_u, double along_v) {
@@ -67,7 +68,7 @@ core::Scene walls_in_planes(const core::GridFrame& frame) {
 }
 
 /// The grid's resolution must not depend on the walls, so it does not depend on their number, either.
-core::BuildOptions options_for(std::size_t region_count) { return {.top_cells_per_primitive = region_count > 8 ? 0.5 : 0.125}; }
+core::BuildOptions options_for(std::size_t region_count) { return {.cells_per_primitive = region_count > 8 ? 0.5 : 0.125}; }
 
 core::Scene scene_with_walls(const core::BuildOptions& options) {
   // Twice: the first grid's planes say where walls are to stand, and as many walls anywhere give the grid that they will have.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 
 #include "core/database.h"
 #include "core/ray.h"
@@ -25,29 +24,23 @@ inline BlockView view_block(const std::byte* record) {
           reinterpret_cast<const std::uint32_t*>(rows + core::value_count(header.kind) * header.count)};
 }
 
-/// Calls test(block, best) for each block that `ray` meets before the walk knows its nearest hit; the walk's own test of
-/// triangles sees none of them, since its sheared ray is blind. Spheres and cones have but one kernel, and the walk tests them
-/// itself. Returns the best of both.
+/// Calls test(block, best) for each block of triangles that `ray` meets, by `meet`, before the walk knows its nearest hit.
+/// Spheres and cones have but one kernel, which tests them. Returns the best of both.
 template <class Test>
-core::Hit walk_blocks(const core::Database& database, const core::Ray& ray, const Test& test) {
-  constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
-  core::Ray blind;
-  blind.direction = {nothing, nothing, nothing};
-  const core::ShearedRay sheared(blind);
-  const core::LocalRecords records(database.bytes());
-  const core::Walk walk(ray, database.header().frame, database.header().region);
+core::Hit walk_blocks(const core::Database& database, const core::Ray& ray, core::BrickKernel meet, const Test& test) {
+  const core::ShearedRay sheared(ray);
+  core::LocalRecords records(database.bytes());
   core::Cursor cursor;
   core::Operations operations;
-  if (!walk.enter(ray, cursor)) {
-    return {};
-  }
-  const std::byte* record = nullptr;
-  do {
-    record = records.find(record_needed(cursor, database.header()));
-    if (cursor.stage == core::Cursor::Stage::block) {
-      test(view_block(record), cursor.best);
-    }
-  } while (walk.step(ray, sheared, record, cursor, {}, operations));
+  core::trace_blocks(ray, cursor, records, database.header(), {}, operations, meet,
+                     [&](const std::byte* record, core::Address address, core::Hit& best) {
+                       const BlockView block = view_block(record);
+                       if (block.kind == core::PrimitiveKind::triangle) {
+                         test(block, best);
+                       } else {
+                         core::test_block(ray, sheared, record, address, best, operations);
+                       }
+                     });
   return cursor.best;
 }
 

@@ -131,10 +131,11 @@ void repeat(benchmark::State& state, core::PrimitiveKind kind, Test test) {
 
 void test_triangles(core::TriangleKernel kernel, const Pair& pair, Answer& answer) {
   std::array<float, core::block_lanes> times{};
-  kernel(pair.sheared, pair.rows(), core::block_lanes, times.data());
   core::Hit best;
-  for (std::uint32_t lane = 0; lane < core::block_lanes; ++lane) {
-    if (times[lane] > 0.0F && core::nearer(times[lane], lane, best)) {
+  std::uint32_t hits = kernel(pair.sheared, {pair.rows(), core::block_lanes}, core::no_primitive, best.t, times.data());
+  for (; hits != 0; hits &= hits - 1) {
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(hits));
+    if (core::nearer(times[lane], lane, best)) {
       best = {.t = times[lane], .primitive = lane};
     }
   }
@@ -166,8 +167,8 @@ void add_block(const std::string& subject, core::PrimitiveKind kind) {
 }  // namespace
 
 void add_kernel_rows() {
-  add_kernel("triangles, scalar", core::triangles_scalar);
-  add_kernel(std::string("triangles, ") + core::simd_name(), core::triangles_simd);
+  add_kernel("triangles, scalar", core::hit_triangles_scalar);
+  add_kernel(std::string("triangles, ") + core::simd_name(), core::hit_triangles);
   add_block("triangles, the whole test", core::PrimitiveKind::triangle);
   add_block("spheres, the whole test", core::PrimitiveKind::sphere);
   add_block("cones, the whole test", core::PrimitiveKind::cone);

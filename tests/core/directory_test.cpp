@@ -42,7 +42,7 @@ TEST_CASE("cells of one tile share 256 bytes") {
 
 TEST_CASE("any place in a top cell leads to its entry") {
   const Triple size{8, 8, 8};
-  CHECK(directory_index(size, {64, 128, 192}) == directory_index(size, {127, 128 + 63, 192 + 1}));
+  CHECK(directory_index(size, {256, 512, 768}) == directory_index(size, {511, 512 + 255, 768 + 1}));
 }
 
 TEST_CASE("a record of two entries gives each cell its own") {

@@ -136,7 +136,7 @@ core::Ray ray_along_borders(float finest_cell, std::mt19937& random) {
   core::Ray ray;
   ray.kind = core::RayKind::reflected;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    ray.origin[axis] = static_cast<float>(random() % 9 * 16) * finest_cell;
+    ray.origin[axis] = static_cast<float>(random() % 9 * 64) * finest_cell;
     ray.direction[axis] = static_cast<float>(random() % 3) - 1.0F;
   }
   return ray;
@@ -158,7 +158,7 @@ TEST_CASE("rays in border planes, along edges and through corners find in parts 
   const core::GridFrame& frame = database.header().frame;
   std::mt19937 random(8);
   for (const std::size_t region_count : {2U, 8U, 30U}) {
-    const Parts parts(database, random_regions(core::grid_size(frame), region_count, random, 16));
+    const Parts parts(database, random_regions(core::grid_size(frame), region_count, random, 32));
     int travellers = 0;
     for (int i = 0; i < 8000; ++i) {
       CAPTURE(i);

@@ -26,7 +26,7 @@ double cells(const GridFrame& frame) {
 /// The box lies inside the grid, a margin from every side.
 void check_covers(const GridFrame& frame, const Box& box) {
   const Vec3d low = to_local(frame, box.low), high = to_local(frame, box.high);
-  const double cell = double{frame.finest_cell} * finest_per_top;
+  const double cell = double{frame.finest_cell} * finest_per_cell;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     CHECK(low[axis] > 0.07 * cell);
     CHECK(high[axis] < (frame.resolution[axis] - 0.07) * cell);
@@ -94,7 +94,7 @@ TEST_CASE("a scene that is tiny for its distance gets as much room as rounding t
         check_covers(frame, {center, center});
         for (std::size_t axis = 0; axis < 3; ++axis) {
           CHECK(local[axis] - reach[axis] > 0);
-          CHECK(local[axis] + reach[axis] < double{frame.finest_cell} * finest_per_top * frame.resolution[axis]);
+          CHECK(local[axis] + reach[axis] < double{frame.finest_cell} * finest_per_cell * frame.resolution[axis]);
         }
       }
     }
@@ -104,7 +104,7 @@ TEST_CASE("a scene that is tiny for its distance gets as much room as rounding t
 TEST_CASE("no bounds give a frame of one cell") {
   const GridFrame frame = fit_frame({}, 0, 0.125);
   CHECK(cells(frame) == 1);
-  CHECK(frame.finest_cell * finest_per_top == 1.0F);
+  CHECK(frame.finest_cell * finest_per_cell == 1.0F);
 }
 
 TEST_CASE("the insertion pad grows with the distance of the rays and never vanishes") {

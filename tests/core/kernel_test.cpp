@@ -56,13 +56,16 @@ Ray random_ray(Random& random) {
   }
 }
 
-/// Rows as in a block, then 8 floats of garbage.
+/// Rows as in a block, ids 10, 20, ..., then 8 floats of garbage.
 std::vector<float> rows_of(const std::vector<Triangle>& triangles, Random& random) {
   std::vector<float> rows;
   for (std::size_t row = 0; row < 9; ++row) {
     for (const Triangle& triangle : triangles) {
       rows.push_back(triangle.v[row / 3][row % 3]);
     }
+  }
+  for (std::size_t lane = 0; lane < triangles.size(); ++lane) {
+    rows.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(10 * (lane + 1))));
   }
   for (std::size_t i = 0; i < 8; ++i) {
     rows.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(random.bits())));
@@ -77,11 +80,7 @@ std::vector<std::byte> block_of(const std::vector<Triangle>& triangles) {
   const BlockHeader header{.kind = PrimitiveKind::triangle, .count = static_cast<std::uint8_t>(triangles.size())};
   const auto rows = rows_of(triangles, random);
   std::memcpy(bytes.data(), &header, sizeof(header));
-  std::memcpy(bytes.data() + sizeof(header), rows.data(), triangles.size() * 36);
-  for (std::size_t lane = 0; lane < triangles.size(); ++lane) {
-    const auto id = static_cast<std::uint32_t>(10 * (lane + 1));
-    std::memcpy(bytes.data() + sizeof(header) + triangles.size() * 36 + 4 * lane, &id, 4);
-  }
+  std::memcpy(bytes.data() + sizeof(header), rows.data(), triangles.size() * 40);
   return bytes;
 }
 
@@ -111,13 +110,15 @@ TEST_CASE("vectors of 1 to 8 lanes give the scalar twin's bits, whatever lies be
     }
     const auto rows = rows_of(triangles, random);
     const ShearedRay ray(random_ray(random));
+    const auto ignored = static_cast<std::uint32_t>(10 * random.below(12));
+    const float t_most = random.bits() % 4 == 0 ? 1.0F : std::numeric_limits<float>::infinity();
     float scalar[block_lanes], simd[block_lanes];
-    triangles_scalar(ray, rows.data(), count, scalar);
-    triangles_simd(ray, rows.data(), count, simd);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const bool nothing = !(scalar[lane] > 0.0F) && !(simd[lane] > 0.0F);
-      differences += nothing || std::bit_cast<std::uint32_t>(scalar[lane]) == std::bit_cast<std::uint32_t>(simd[lane]) ? 0 : 1;
-      hits += scalar[lane] > 0.0F ? 1 : 0;
+    const std::uint32_t expected = hit_triangles_scalar(ray, {rows.data(), count}, ignored, t_most, scalar);
+    differences += hit_triangles(ray, {rows.data(), count}, ignored, t_most, simd) == expected ? 0 : 1;
+    for (std::uint32_t rest = expected; rest != 0; rest &= rest - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+      differences += std::bit_cast<std::uint32_t>(scalar[lane]) == std::bit_cast<std::uint32_t>(simd[lane]) ? 0 : 1;
+      ++hits;
     }
   }
   CHECK(differences == 0);
@@ -144,11 +145,17 @@ TEST_CASE("a lane's place changes no bit of its answer") {
     }
     const ShearedRay ray(random_ray(random));
     float forward[block_lanes], backward[block_lanes];
-    triangles_simd(ray, rows_of(triangles, random).data(), block_lanes, forward);
+    const auto hits = [&](float* times) {
+      const auto rows = rows_of(triangles, random);
+      return hit_triangles(ray, {rows.data(), block_lanes}, no_primitive, std::numeric_limits<float>::infinity(), times);
+    };
+    const std::uint32_t ahead = hits(forward);
     std::reverse(triangles.begin(), triangles.end());
-    triangles_simd(ray, rows_of(triangles, random).data(), block_lanes, backward);
+    const std::uint32_t back = hits(backward);
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-      CHECK((!(forward[lane] > 0.0F) || forward[lane] == backward[block_lanes - 1 - lane]));
+      const bool is_hit = (ahead >> lane & 1U) != 0;
+      CHECK(is_hit == ((back >> (block_lanes - 1 - lane) & 1U) != 0));
+      CHECK((!is_hit || forward[lane] == backward[block_lanes - 1 - lane]));
     }
   }
 }
@@ -184,6 +191,108 @@ TEST_CASE("testing a block twice, or after a nearer hit, changes nothing") {
     test_block(along_z, ShearedRay(along_z), block.data(), Address{5}, best, operations);
     CHECK(best.primitive == 10);
   }
+}
+
+namespace {
+
+/// With up to 8 boxes of any size and place, flat ones and points too.
+Brick random_brick(Random& random) {
+  Brick brick{.origin = point(random), .unit = std::ldexp(1.0F, -8 - static_cast<int>(random.below(6)))};
+  brick.child_count = static_cast<std::uint32_t>(1 + random.below(brick_children_max));
+  for (std::size_t child = 0; child < brick.child_count; ++child) {
+    brick.child[child] = BrickChild::block(Address{static_cast<std::uint32_t>(100 + child)});
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::uint8_t>(random.below(256)), b = static_cast<std::uint8_t>(random.below(256));
+      brick.bounds[axis][child] = std::min(a, b);
+      brick.bounds[axis + 3][child] = random.below(8) == 0 ? std::min(a, b) : std::max(a, b);
+    }
+  }
+  return brick;
+}
+
+/// In any direction, or along one or two axes with zeros of either sign.
+Ray random_ray_at(const Brick& brick, Random& random) {
+  Vec3f direction(random.direction());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    direction[axis] = random.below(4) == 0 ? std::copysign(0.0F, direction[axis]) : direction[axis];
+  }
+  const Vec3f target = brick.origin + Vec3f(random.in_box(0, 255)) * brick.unit;
+  return ray_from(target - direction * static_cast<float>(random.between(-1, 3)), direction);
+}
+
+/// The child that is met first, then those that wait, the nearest first.
+std::vector<MetChild> met_by(BrickKernel meet, const Ray& ray, const Brick& brick, bool in_order, float t_high) {
+  MetChildren waiting;
+  waiting.count = 0;
+  std::vector<MetChild> met;
+  for (MetChild child = meet(BoxRay(ray), brick, 0.0F, t_high, in_order, waiting); child.found(); child = waiting.take()) {
+    met.push_back(child);
+    if (waiting.count == 0) {
+      break;
+    }
+  }
+  return met;
+}
+
+/// Whether the ray's point at t is in the box, in double.
+bool is_inside(const Brick& brick, std::size_t child, const Ray& ray, double t, double margin) {
+  bool inside = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double at = double{ray.origin[axis]} + t * double{ray.direction[axis]};
+    const double low = double{brick.origin[axis]} + brick.bounds[axis][child] * double{brick.unit};
+    const double high = double{brick.origin[axis]} + brick.bounds[axis + 3][child] * double{brick.unit};
+    inside = inside && at >= low + margin && at <= high - margin;
+  }
+  return inside;
+}
+
+}  // namespace
+
+TEST_CASE("vectors of boxes give the scalar twin's children, in its order, with its bits") {
+  Random random(3);
+  std::size_t differences = 0, found = 0;
+  for (std::size_t i = 0; i < scaled(200'000); ++i) {
+    const Brick brick = random_brick(random);
+    const Ray ray = random_ray_at(brick, random);
+    const float t_high = random.bits() % 2 == 0 ? 1.0F : std::numeric_limits<float>::infinity();
+    const bool in_order = random.bits() % 2 == 0;
+    const auto expected = met_by(meet_children_scalar, ray, brick, in_order, t_high);
+    const auto met = met_by(meet_children, ray, brick, in_order, t_high);
+    REQUIRE(met.size() == expected.size());
+    for (std::size_t child = 0; child < met.size(); ++child) {
+      differences +=
+          met[child].record.bits == expected[child].record.bits && met[child].t_enter == expected[child].t_enter ? 0 : 1;
+    }
+    found += met.size();
+  }
+  CHECK(differences == 0);
+  CHECK(found > scaled(100'000));
+}
+
+TEST_CASE("a ray meets every box that it passes through by more than rounding, nearest first") {
+  Random random(4);
+  std::size_t missed_boxes = 0, out_of_order = 0, through = 0;
+  for (std::size_t i = 0; i < scaled(50'000); ++i) {
+    const Brick brick = random_brick(random);
+    const Ray ray = random_ray_at(brick, random);
+    const auto met = met_by(meet_children, ray, brick, true, std::numeric_limits<float>::infinity());
+    for (std::size_t at = 1; at < met.size(); ++at) {
+      out_of_order += met[at - 1].t_enter > met[at].t_enter ? 1 : 0;
+    }
+    for (std::size_t child = 0; child < brick.child_count; ++child) {
+      bool inside = false;
+      for (int step = 0; step < 64; ++step) {
+        inside = inside || is_inside(brick, child, ray, step / 16.0, 0x1p-20);
+      }
+      const bool is_met =
+          std::any_of(met.begin(), met.end(), [&](const MetChild& one) { return one.record.bits == brick.child[child].bits; });
+      missed_boxes += inside && !is_met ? 1 : 0;
+      through += inside ? 1 : 0;
+    }
+  }
+  CHECK(missed_boxes == 0);
+  CHECK(out_of_order == 0);
+  CHECK(through > scaled(10'000));
 }
 
 TEST_CASE("the kernel has a name") {

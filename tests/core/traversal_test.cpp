@@ -144,7 +144,7 @@ TEST_CASE("a hit exactly in the plane in which a ray leaves its region belongs t
   int exact = 0;
   for (const bool upwards : {false, true}) {
     for (std::int32_t i = 0; i < 400; ++i) {
-      const Ray ray = ray_from({coordinate(upwards ? 32 : 128), coordinate(33 + i % 20 * 3), coordinate(33 + i / 20 * 3)},
+      const Ray ray = ray_from({coordinate(upwards ? 128 : 512), coordinate(132 + i % 20 * 12), coordinate(132 + i / 20 * 12)},
                                {upwards ? 1.0F : -1.0F, 0, 0});
       const Hit whole = shoot(border_database(), ray);
       if (double{ray.origin.x} + (upwards ? 1.0 : -1.0) * double{whole.t} != double{coordinate(middle)}) {
@@ -171,8 +171,8 @@ TEST_CASE("a ray through the edge where four regions meet crosses the planes in 
       CAPTURE(first);
       CAPTURE(second);
       CAPTURE(upwards);
-      Vec3f origin{coordinate(16), coordinate(16), coordinate(16)}, direction;
-      origin[first] = origin[second] = coordinate(upwards ? 17 : 111);
+      Vec3f origin{coordinate(64), coordinate(64), coordinate(64)}, direction;
+      origin[first] = origin[second] = coordinate(upwards ? 68 : 444);
       direction[first] = direction[second] = upwards ? 0.7071068F : -0.7071068F;
       const Ray ray = ray_from(origin, direction);
       const Stretch before = first_stretch(ray, quarter(first, !upwards, second, !upwards));

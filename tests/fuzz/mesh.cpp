@@ -43,7 +43,7 @@ bool is_ordinary(const core::Database& database, const Ray& ray) {
   const core::GridFrame& frame = database.header().frame;
   core::Vec3d size;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    size[axis] = double{frame.finest_cell} * core::finest_per_top * frame.resolution[axis];
+    size[axis] = double{frame.finest_cell} * core::finest_per_cell * frame.resolution[axis];
   }
   const double extent = std::max({size.x, size.y, size.z});
   const double distance_max = ((database.pad() / extent - 1e-6) * 0x1p21 - 1) * extent;

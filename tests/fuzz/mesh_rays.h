@@ -85,11 +85,11 @@ class MeshRays {
     }
   }
 
-  /// On a plane between cells, often of a high level.
+  /// On a plane of the lattice, often one between cells or top cells.
   double on_plane(std::size_t axis) {
     const core::GridFrame& frame = database_.header().frame;
-    const int cells = frame.resolution[axis] * core::finest_per_top;
-    const int span = core::span_of(static_cast<int>(bytes_.below(core::finest_level + 1)));
+    const int cells = frame.resolution[axis] * core::finest_per_cell;
+    const int span = 1 << 2 * bytes_.below(5);
     return double{frame.finest_cell} * (bytes_.word() % cells & -span);
   }
 

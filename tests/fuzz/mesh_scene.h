@@ -129,15 +129,13 @@ inline core::Scene mesh_scene(Bytes& bytes) {
   return scene;
 }
 
-/// Coarse grids and fine ones, nested early or late.
+/// Coarse grids and fine ones.
 inline core::BuildOptions mesh_options(Bytes& bytes, const core::Scene& scene) {
   constexpr std::array<std::size_t, 4> page_sizes{512, 1024, 4096, 65536};
-  constexpr std::array<double, 4> densities{0.125, 0.01, 4, 64};
-  constexpr std::array<int, 4> thresholds{32, 1, 2, 8};
+  constexpr std::array<double, 4> densities{0.125, 4, 64, 512};
   core::BuildOptions options;
   options.page_size_bytes = page_sizes[bytes.below(page_sizes.size())];
-  options.top_cells_per_primitive = densities[bytes.below(densities.size())];
-  options.voxel_primitives_max = thresholds[bytes.below(thresholds.size())];
+  options.cells_per_primitive = densities[bytes.below(densities.size())];
   if (bytes.byte() % 4 == 1) {
     options.axes = core::screen_axes(scene.view);
   }
