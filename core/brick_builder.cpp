@@ -15,6 +15,8 @@ namespace {
 constexpr std::size_t exact_cut_max = 64;
 constexpr std::size_t bin_count = 32;
 constexpr std::uint32_t bound_max = 255;
+/// A million grids: kernels cannot overflow, and from where rays need more than that, a float cannot aim at the grid.
+constexpr double pad_max = 0x1p20;
 
 /// Half the surface.
 double area(const Box& box) {
@@ -222,7 +224,7 @@ BrickBuilder::BrickBuilder(std::span<const PrimitiveValues> primitives, std::spa
                            float finest_cell, RecordWriter& writer)
     : primitives_(primitives),
       shading_(shading),
-      pad_(pad),
+      pad_(std::min(pad, pad_max)),
       top_edge_(double{finest_cell} * finest_per_top),
       writer_(&writer),
       places_(primitives.size()) {}

@@ -70,7 +70,7 @@ class Extractor {
     DirectoryEntry entry = directory_entry(at(directory_address(whole_, cell)), cell);
     if (!entry.empty()) {
       const Address copy = region_.overlaps(cell, finest_per_top) ? copy_brick(brick_at(entry.brick())) : no_address;
-      entry.bits = copy != no_address ? static_cast<std::uint32_t>(copy) : DirectoryEntry::empty_flag | 1U;
+      entry.bits = copy != no_address ? static_cast<std::uint32_t>(copy) : DirectoryEntry::empty_flag;
     }
     const auto slot = static_cast<std::size_t>(cell[0] / finest_per_top % 2);
     writer_.write(directory_address(part_.header, cell), slot * sizeof(entry), entry);

@@ -54,8 +54,8 @@ inline constexpr int cells_per_top = 4;
 /// Cells of the finest lattice along the edge of a top cell.
 inline constexpr int finest_per_top = cells_per_top * finest_per_cell;
 
-/// One top cell: a brick's address, or empty with the Chebyshev radius r >= 1 of top cells around it that are empty too: all
-/// cells nearer than r are empty (Cohen & Sheffer 1994).
+/// One top cell: a brick's address, or empty with the Chebyshev radius r of top cells around it that are empty too: all cells
+/// nearer than r are empty (Cohen & Sheffer 1994). r = 0: what lies in the cell is no business of this region's.
 struct DirectoryEntry {
   static constexpr std::uint32_t empty_flag = 0x80000000U;
   std::uint32_t bits = empty_flag | 1U;

@@ -116,8 +116,8 @@ inline bool Walk::read_directory(const Ray& ray, const std::byte* record, Cursor
     cursor.stage = Cursor::Stage::child;
     return true;
   }
-  const std::int32_t reach = options.skip_empty_space ? entry.radius() * finest_per_top : finest_per_top;
-  const Exit exit = exit_through(planes_ahead(cursor.cell, reach, grid_));
+  const std::int32_t reach = options.skip_empty_space ? std::max(entry.radius(), 1) * finest_per_top : finest_per_top;
+  const Exit exit = exit_through(planes_ahead(cursor.cell, reach, entry.radius() > 0 ? grid_ : region_));
   if (reach == finest_per_top) {
     return leave(ray, exit, nullptr, cursor, operations);
   }

@@ -68,7 +68,7 @@ TEST_CASE("a cache of a share of the database has so many pages, and at least on
 }
 
 TEST_CASE("scattered records are a subject of their own that gives the same film") {
-  PaperRun run{.scene = "tetra-4", .node_count = 2, .machine = catalogue_of(16).runs.front().machine, .resolution = 16};
+  PaperRun run{.scene = "tetra-6", .node_count = 2, .machine = catalogue_of(16).runs.front().machine, .resolution = 16};
   std::vector<PaperRun> runs(2, run);
   runs[1].record_order = core::RecordOrder::scattered;
   const std::vector<PaperSubject> subjects = paper_subjects(runs);

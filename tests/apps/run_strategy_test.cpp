@@ -51,7 +51,7 @@ TEST_CASE("every option of the computer reaches the run") {
 TEST_CASE("without skipping empty space every strategy takes more steps to the same film") {
   for (const Strategy strategy : {Strategy::svm, Strategy::replicated, Strategy::dataflow}) {
     RenderOptions options = small(strategy);
-    options.picture.scene = "tetra-5";
+    options.picture.scene = "tetra-8";
     const Rendered skipping(options);
     options.computer.traversal.skip_empty_space = false;
     const Rendered stepping(options);

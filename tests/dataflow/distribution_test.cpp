@@ -105,7 +105,7 @@ TEST_CASE("a scene without a primitive is dealt all the same") {
 }
 
 TEST_CASE("the smallest number of nodes that is found fits, and one fewer does not") {
-  const Subject subject(tests::built_in("tetra-5"), {8, 8});
+  const Subject subject(tests::built_in("tetra-7"), {8, 8});
   for (const std::uint32_t enough : {2U, 3U, 5U, 8U}) {
     CAPTURE(enough);
     const std::size_t memory_bytes = needed_bytes(subject, enough);
