@@ -1,4 +1,4 @@
-// Where the directory keeps a top cell's entry: tiles of 4x4x4 entries, so that neighbours in space share a page.
+// Where the directory keeps a top cell's entry: row by row, x fastest.
 #pragma once
 
 #include <array>
@@ -8,34 +8,31 @@
 
 namespace dmpc::core {
 
-/// The number of entries, those that pad the last tiles included.
-constexpr std::uint64_t directory_entry_count(const std::array<std::int32_t, 3>& resolution) {
-  std::uint64_t count = 1;
-  for (const std::int32_t cells : resolution) {
-    count *= static_cast<std::uint64_t>(round_up(cells, 4));
-  }
-  return count;
+/// The number of entries of a directory of `size` top cells along x, y, z; two share a record.
+constexpr std::uint64_t directory_entry_count(const std::array<std::int32_t, 3>& size) {
+  return round_up(static_cast<std::uint64_t>(size[0]) * static_cast<std::uint64_t>(size[1]) * static_cast<std::uint64_t>(size[2]),
+                  std::uint64_t{2});
 }
 
-/// The index of the entry of the top cell whose lower corner is `cell` (in finest cells, not negative).
-constexpr std::uint64_t directory_index(const std::array<std::int32_t, 3>& resolution, const std::array<std::int32_t, 3>& cell) {
+/// The number of the entry of the top cell that holds the finest cell `cell`, counted from the directory's corner; not negative.
+constexpr std::uint64_t directory_index(const std::array<std::int32_t, 3>& size, const Corner& cell) {
   const auto top = [&](std::size_t axis) { return static_cast<std::uint32_t>(cell[axis]) / finest_per_top; };
-  const auto tiles = [&](std::size_t axis) { return (static_cast<std::uint32_t>(resolution[axis]) + 3U) / 4U; };
-  const std::uint32_t x = top(0), y = top(1), z = top(2);
-  const std::uint64_t tile = x / 4 + std::uint64_t{tiles(0)} * (y / 4 + std::uint64_t{tiles(1)} * (z / 4));
-  return tile * 64 + x % 4 + 4 * (y % 4) + 16 * (z % 4);
+  const auto length = [&](std::size_t axis) { return static_cast<std::uint32_t>(size[axis]); };
+  return top(0) + std::uint64_t{length(0)} * (top(1) + std::uint64_t{length(1)} * top(2));
 }
 
-/// The record that holds the entry: two entries share one, since addresses count in 8 bytes.
-constexpr Address directory_address(const DatabaseHeader& header, const std::array<std::int32_t, 3>& cell) {
+/// The same in the directory of `header`, for a cell of the grid.
+constexpr std::uint64_t directory_index(const DatabaseHeader& header, const Corner& cell) {
   const Corner& low = header.directory_low;
-  const Corner relative{cell[0] - low[0], cell[1] - low[1], cell[2] - low[2]};
-  return advance(header.directory, directory_index(header.directory_size, relative) / 2 * record_alignment);
+  return directory_index(header.directory_size, {cell[0] - low[0], cell[1] - low[1], cell[2] - low[2]});
 }
 
-/// The entry of `cell` in its record: neighbours along x alternate.
-inline DirectoryEntry directory_entry(const std::byte* record, const std::array<std::int32_t, 3>& cell) {
-  return read<DirectoryEntry>(record + (static_cast<std::uint32_t>(cell[0]) / finest_per_top % 2U) * sizeof(DirectoryEntry));
+/// The record that holds entry `index`: two entries, since addresses count in 8 bytes.
+constexpr Address directory_address(const DatabaseHeader& header, std::uint64_t index) {
+  return advance(header.directory, index / 2 * record_alignment);
 }
+
+/// Where entry `index` begins in its record.
+constexpr std::size_t directory_offset(std::uint64_t index) { return index % 2 * sizeof(DirectoryEntry); }
 
 }  // namespace dmpc::core

@@ -11,8 +11,6 @@
 namespace dmpc::core {
 namespace {
 
-/// Edge of a directory tile, in finest cells.
-constexpr std::int32_t tile_edge = 4 * finest_per_top;
 /// Nothing depends on a part's pages; the smallest wastes least at its end.
 constexpr std::size_t part_page_bytes = 512;
 
@@ -31,7 +29,7 @@ class Extractor {
     header = whole_;
     header.region = region_;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      header.directory_low[axis] = region_.low[axis] / tile_edge * tile_edge;
+      header.directory_low[axis] = region_.low[axis] / finest_per_top * finest_per_top;
       header.directory_size[axis] = ceil_divide(region_.high[axis] - header.directory_low[axis], finest_per_top);
     }
     header.directory = writer_.allocate_array<DirectoryEntry>(directory_entry_count(header.directory_size));
@@ -67,13 +65,13 @@ class Extractor {
   }
 
   void copy_top_cell(const Corner& cell) {
-    DirectoryEntry entry = directory_entry(at(directory_address(whole_, cell)), cell);
+    const std::uint64_t from = directory_index(whole_, cell), to = directory_index(part_.header, cell);
+    auto entry = read<DirectoryEntry>(at(directory_address(whole_, from)) + directory_offset(from));
     if (!entry.empty()) {
       const Address copy = region_.overlaps(cell, finest_per_top) ? copy_brick(brick_at(entry.brick())) : no_address;
       entry.bits = copy != no_address ? static_cast<std::uint32_t>(copy) : DirectoryEntry::empty_flag;
     }
-    const auto slot = static_cast<std::size_t>(cell[0] / finest_per_top % 2);
-    writer_.write(directory_address(part_.header, cell), slot * sizeof(entry), entry);
+    writer_.write(directory_address(part_.header, to), directory_offset(to), entry);
   }
 
   /// Whether a child's box, borders included, touches the region.

@@ -188,7 +188,7 @@ struct DatabaseHeader {
   GridFrame frame;
   Region region;  ///< whose records are here: the whole grid, or a node's part of it
   Address directory = no_address;
-  Corner directory_low{};                        ///< finest cells, multiples of 4 top cells: where the directory begins
+  Corner directory_low{};                        ///< finest cells, a multiple of top cells: where the directory begins
   std::array<std::int32_t, 3> directory_size{};  ///< top cells along x, y, z
   Address materials = no_address;
   Address lights = no_address;

@@ -116,13 +116,14 @@ Traced trace_blocks(const Ray& ray, Cursor& cursor, R& records, const DatabaseHe
   const bool any = ray.kind == RayKind::shadow;
   for (;;) {
     if (cursor.stage == Cursor::Stage::directory) {
-      const Address address = directory_address(header, cursor.cell);
+      const std::uint64_t index = directory_index(header, cursor.cell);
+      const Address address = directory_address(header, index);
       const std::byte* record = records.find(address);
       if (record == nullptr) {
         cursor.absent = address;
         return Traced::absent;
       }
-      if (!walk.read_directory(ray, record, cursor, options, operations)) {
+      if (!walk.read(ray, read<DirectoryEntry>(record + directory_offset(index)), cursor, options, operations)) {
         return finish(cursor);
       }
     } else if (!visit_children(ray, box, any, cursor, records, operations, meet, test)) {

@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "core/cursor.h"
-#include "core/directory.h"
 #include "core/expect.h"
 #include "core/kernel.h"
 #include "core/operations.h"
@@ -42,10 +41,10 @@ class Walk {
   /// The finest cell that a walk which enter() has put on its first top cell starts in.
   Corner first_cell(const Cursor& cursor) const;
 
-  /// Consumes the directory entry of the cursor's cell: then a brick is to be visited, or another entry is needed, or the walk is
+  /// Takes the directory entry of the cursor's cell: then a brick is to be visited, or another entry is needed, or the walk is
   /// finished (false) or has left the region (false, and cursor.stage says so).
-  bool read_directory(const Ray& ray, const std::byte* record, Cursor& cursor, const TraversalOptions& options,
-                      Operations& operations) const;
+  bool read(const Ray& ray, const DirectoryEntry& entry, Cursor& cursor, const TraversalOptions& options,
+            Operations& operations) const;
 
   /// Leaves the cursor's cell, whose children have been visited, for one whose entry is needed, unless the walk is finished or
   /// has left the region (false).
@@ -106,9 +105,8 @@ inline Exit Walk::exit_through(const Corner& planes) const {
   return exit;
 }
 
-inline bool Walk::read_directory(const Ray& ray, const std::byte* record, Cursor& cursor, const TraversalOptions& options,
-                                 Operations& operations) const {
-  const auto entry = directory_entry(record, cursor.cell);
+inline bool Walk::read(const Ray& ray, const DirectoryEntry& entry, Cursor& cursor, const TraversalOptions& options,
+                       Operations& operations) const {
   if (!entry.empty()) {
     cursor.exit = exit_through(planes_ahead(cursor.cell, finest_per_top, region_));
     cursor.next = {BrickChild::brick(entry.brick()), 0.0F};

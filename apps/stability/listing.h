@@ -28,7 +28,9 @@ class Listing {
       }
       cell[axis] = static_cast<std::int32_t>(place);
     }
-    const auto entry = core::directory_entry(record(core::directory_address(database_->header(), cell)), cell);
+    const std::uint64_t index = core::directory_index(database_->header(), cell);
+    const auto entry = core::read<core::DirectoryEntry>(record(core::directory_address(database_->header(), index)) +
+                                                        core::directory_offset(index));
     std::vector<std::uint32_t> ids;
     if (!entry.empty()) {
       collect(entry.brick(), at, ids);

@@ -32,12 +32,17 @@ TEST_CASE("every top cell has an entry of its own inside the directory") {
   }
 }
 
-TEST_CASE("cells of one tile share 256 bytes") {
+TEST_CASE("neighbours along x are neighbours in the directory") {
   const Triple size{8, 8, 8};
-  for (std::int32_t i = 0; i < 64; ++i) {
-    CHECK(directory_index(size, corner(i % 4, i / 4 % 4, i / 16)) < 64);
-  }
-  CHECK(directory_index(size, corner(4, 0, 0)) == 64);
+  CHECK(directory_index(size, corner(3, 2, 1)) == directory_index(size, corner(2, 2, 1)) + 1);
+  CHECK(directory_index(size, corner(2, 3, 1)) == directory_index(size, corner(2, 2, 1)) + 8);
+  CHECK(directory_index(size, corner(2, 2, 2)) == directory_index(size, corner(2, 2, 1)) + 64);
+}
+
+TEST_CASE("an odd number of entries is made even, since records hold two") {
+  CHECK(directory_entry_count({1, 1, 1}) == 2);
+  CHECK(directory_entry_count({3, 5, 7}) == 106);
+  CHECK(directory_entry_count({2, 5, 7}) == 70);
 }
 
 TEST_CASE("any place in a top cell leads to its entry") {
@@ -45,14 +50,15 @@ TEST_CASE("any place in a top cell leads to its entry") {
   CHECK(directory_index(size, {256, 512, 768}) == directory_index(size, {511, 512 + 255, 768 + 1}));
 }
 
-TEST_CASE("a record of two entries gives each cell its own") {
+TEST_CASE("two entries share a record, and a directory may begin anywhere") {
   DatabaseHeader header;
   header.directory = Address{10};
   header.directory_size = {8, 8, 8};
-  const DirectoryEntry entries[2] = {{7}, {9}};
-  const auto* record = reinterpret_cast<const std::byte*>(entries);
-  CHECK(directory_address(header, corner(2, 0, 0)) == Address{11});
-  CHECK(directory_address(header, corner(3, 0, 0)) == Address{11});
-  CHECK(directory_entry(record, corner(2, 0, 0)).bits == 7);
-  CHECK(directory_entry(record, corner(3, 0, 0)).bits == 9);
+  header.directory_low = corner(5, 0, 0);
+  const std::uint64_t first = directory_index(header, corner(7, 0, 0)), second = directory_index(header, corner(8, 0, 0));
+  CHECK(first == 2);
+  CHECK(directory_address(header, first) == Address{11});
+  CHECK(directory_address(header, second) == Address{11});
+  CHECK(directory_offset(first) == 0);
+  CHECK(directory_offset(second) == 4);
 }
