@@ -2,16 +2,16 @@
 
 namespace dmpc::dataflow {
 
-// How they were measured: 12 scenes (balls, gears, jacks, mount, rings, shells, teapot, tetra, tree; curved ones also as
-// triangles) at 512x512, every other pixel; the time of each 32x32 tile on one thread's own clock (least of 3 runs) against its
-// counted operations; non-negative least squares of the relative errors over the 3,072 tiles. Half of the tiles are met to 12 %,
-// nine in ten to 27 %; the worst scene is balls-4-t4, whose records exceed the caches (62 % of its time). Only their ratios
+// How they were measured: 12 scenes (balls, gears, jacks, mount, rings, shells, teapot, tetra, tree; balls, rings and tree also as
+// triangles) at 512x512, every other pixel; the time of each 32x32 tile on one thread's own clock (least of 9 runs) against its
+// counted operations; non-negative least squares of the relative errors over the 3,072 tiles. Half of the tiles are met to 10 %,
+// nine in ten to 21 %; the worst scene is balls-4-t4, whose records exceed the caches (65 % of its time). Only their ratios
 // matter here.
-const WorkPrices measured_prices{.ray_ps = 49'000,
-                                 .cell_step_ps = 15'600,
-                                 .brick_read_ps = 5'800,
-                                 .primitive_test_ps = {4'700, 7'400, 17'300},
-                                 .shading_ps = 167'000};
+const WorkPrices measured_prices{.ray_ps = 50'000,
+                                 .cell_step_ps = 6'700,
+                                 .brick_read_ps = 15'600,
+                                 .primitive_test_ps = {3'300, 6'800, 17'500},
+                                 .shading_ps = 144'000};
 
 std::uint64_t work_of(const core::Operations& operations, const WorkPrices& prices) {
   std::uint64_t sum = operations.ray_count() * prices.ray_ps;
