@@ -199,7 +199,7 @@ std::array<std::uint64_t, nodes::charge_count> operation_costs_ps(std::uint64_t 
   set(Charge::shading, measured.shading_ps);
   set(Charge::home_lookup, 0);  // the measured prices hold it
   // The search of the cache: fitted to Mountain on two nodes in Table 3 of the 1994 paper.
-  set(Charge::cached_lookup, 2'660);
+  set(Charge::cached_lookup, 2'570);
   set(Charge::page_install, 10'000);  // an entry of a table: the page itself comes by direct memory access
   set(Charge::ray_packing, 2'000);    // 96 bytes copied
   return costs_ps;

@@ -4,7 +4,7 @@
 // starts at a multiple of record_alignment, so that a 32-bit address spans 32 GiB and page = address / (page_size / 8).
 //
 //   directory   one DirectoryEntry a top cell of the grid
-//   bricks      Brick with its arrays, followed by the primitive blocks that it names (top cells in Morton order)
+//   bricks      Brick, the primitive blocks that it names, and its bricks in turn (top cells in Morton order)
 //   normals     PatchNormals of smooth triangles      } shading data, read for final hits only
 //   materials   MaterialRecord                        }
 //   lights      LightRecord                           }
@@ -163,7 +163,7 @@ using GridAxes = std::array<Vec3d, 3>;
 inline constexpr GridAxes world_axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
 
 /// How grid-local coordinates come from the world's: local = (axes world - origin) * scale, scale a power of two that brings the
-/// largest extent into (1/2, 1]. Keeps voxel arithmetic exact to the grid, not to the world (grid.h says why).
+/// largest extent into (1/2, 1]. Keeps rounding in proportion to the scene, wherever it lies.
 struct GridFrame {
   GridAxes axes = world_axes;  ///< the grid's x, y and z; the world's unless asked for the screen's
   Vec3d origin;                ///< in the directions of `axes`

@@ -29,7 +29,7 @@ struct Distribution {
   std::vector<std::vector<PrimaryRun>> primaries;
 
   std::vector<Share> shares() const;
-  /// Copies of primitives in all parts over those in the database: at least about 1, more where cuts go through voxels.
+  /// Copies of primitives in all parts over those in the database: at least about 1, more where cuts go through blocks.
   double duplication(const core::Database& database) const;
 };
 

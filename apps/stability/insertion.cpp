@@ -1,4 +1,4 @@
-// R6: every point of every primitive lies in a voxel that lists the primitive, with the pad and (to rounding of the points)
+// R6: every point of every primitive lies in boxes that lead to the primitive, with the pad and (to rounding of the points)
 // without.
 #include <array>
 #include <cmath>

@@ -23,7 +23,7 @@ enum class StabilityKernel : std::uint8_t {
   embree_robust,  ///< Embree with it
   regions,        ///< the walk from owner to owner of a space cut into regions
   planes,         ///< the walk's planes alone, finest cell by finest cell
-  listing,        ///< no walk: which primitives the voxel around a point lists
+  listing,        ///< no walk: which primitives the boxes around a point list
 };
 inline constexpr std::size_t stability_kernel_count = 10;
 inline constexpr std::size_t compared_kernel_count = 7;

@@ -1,4 +1,4 @@
-// Every point of every primitive lies in a voxel that lists the primitive.
+// Every point of every primitive lies in boxes that lead to the primitive.
 #include <doctest/doctest.h>
 
 #include <numbers>
@@ -16,7 +16,7 @@ using namespace dmpc::tests;
 
 namespace {
 
-/// How many of `count` points a primitive lie in a voxel that does not list it. A point less than `slack` from another voxel may
+/// How many of `count` points a primitive lie in no box that leads to it. A point less than `slack` from another top cell may
 /// be listed there instead.
 std::size_t unlisted(const Database& database, std::size_t count, double slack) {
   const Listing listing(database);
