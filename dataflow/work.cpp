@@ -4,9 +4,9 @@ namespace dmpc::dataflow {
 
 // How they were measured: 12 scenes (balls, gears, jacks, mount, rings, shells, teapot, tetra, tree; balls, rings and tree also
 // as triangles) at 512x512, every other pixel; the time of each 32x32 tile on one thread's own clock (least of 9 runs) against
-// its counted operations; non-negative least squares of the relative errors over the 3,072 tiles. Half of the tiles are met to 10
-// %, nine in ten to 21 %; the worst scene is balls-4-t4, whose records exceed the caches (65 % of its time). Only their ratios
-// matter here.
+// its counted operations; non-negative least squares of the relative errors over the 3,072 tiles. Half of the tiles are met to
+// 10 %, nine in ten to 21 %; the worst scene is balls-4-t4, whose records exceed the caches (65 % of its time). Only their
+// ratios matter here.
 const WorkPrices measured_prices{.ray_ps = 50'000,
                                  .cell_step_ps = 6'700,
                                  .brick_read_ps = 15'600,
