@@ -17,6 +17,7 @@ struct BuildOptions {
   double cells_per_primitive = 0.125;  ///< sets the size of cells, and with it that of top cells and of the finest lattice
   RecordOrder record_order = RecordOrder::spatial;
   GridAxes axes = world_axes;  ///< the grid's directions: another grid, so other bits, but the same picture to rounding
+  std::uint32_t threads = 0;   ///< that build; 0: one for each core. The bytes are the same
   double pad_share = 1;        ///< of insertion_pad(); less than 1 only to test what the pad would hide
 };
 
@@ -48,7 +49,8 @@ class Database {
     Address block = no_address;
     std::uint32_t lane = 0;
   };
-  std::span<const Place> places() const { return places_; }
+  /// By id; found by looking through all records, so ask once.
+  std::vector<Place> find_places() const;
 
   /// Degenerate primitives (zero area or length, radius 0, not finite) that were left out, by reason in total.
   std::uint32_t dropped() const { return dropped_; }
@@ -64,7 +66,6 @@ class Database {
   std::vector<std::byte> bytes_;
   std::vector<PrimitiveValues> primitives_;
   std::vector<PrimitiveSource> sources_;
-  std::vector<Place> places_;
   std::uint32_t dropped_ = 0;
   std::uint64_t references_ = 0;
   double pad_ = 0;

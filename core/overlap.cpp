@@ -76,6 +76,18 @@ Box bounds_of(const PrimitiveValues& primitive) {
   return box;
 }
 
+Bounds rounded_bounds_of(const PrimitiveValues& primitive) {
+  if (primitive.kind != PrimitiveKind::triangle) {
+    return Bounds::around(bounds_of(primitive));
+  }
+  Bounds bounds;
+  for (std::size_t row = 0; row < 9; ++row) {
+    bounds.low[row % 3] = std::min(bounds.low[row % 3], primitive.value[row]);
+    bounds.high[row % 3] = std::max(bounds.high[row % 3], primitive.value[row]);
+  }
+  return bounds;
+}
+
 Overlap::Overlap(const PrimitiveValues& primitive)
     : kind_(primitive.kind), bounds_(bounds_of(primitive)), a_(vector_at(primitive, 0)) {
   switch (kind_) {

@@ -1,6 +1,7 @@
 // Conservative tests whether a primitive's surface touches a box: never a false no.
 #pragma once
 
+#include "core/bounds.h"
 #include "core/box.h"
 #include "core/database.h"
 
@@ -8,6 +9,8 @@ namespace dmpc::core {
 
 /// The primitive's bounding box, not padded.
 Box bounds_of(const PrimitiveValues& primitive);
+/// The same in single precision, rounded outwards.
+Bounds rounded_bounds_of(const PrimitiveValues& primitive);
 
 /// One primitive against many boxes. Boxes come enlarged by the pad; comparisons are inclusive.
 /// Triangles: separating axes, T. Akenine-Moeller, "Fast 3D Triangle-Box Overlap Testing", 2001. Spheres: the shell's two radii

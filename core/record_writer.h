@@ -35,19 +35,25 @@ class RecordWriter {
   Address allocate(std::size_t bytes) {
     expect(bytes > 0 && bytes <= record_bytes_max, "a record is at most 448 bytes long");
     if (sizes_.empty()) {
-      front_bytes_ = bytes_.size();
+      front_bytes_ = end_;
     }
     sizes_.push_back(static_cast<std::uint16_t>(bytes));
-    return take(places_.empty() ? place_in_page(bytes_.size(), bytes, page_size_) : byte_offset(places_.at(sizes_.size() - 1)),
-                bytes);
+    return take(places_.empty() ? place_in_page(end_, bytes, page_size_) : byte_offset(places_.at(sizes_.size() - 1)), bytes);
   }
   /// Room for `count` records of T one behind the other; T's size is a power of two, so that none crosses a page's border.
   template <class T>
   Address allocate_array(std::size_t count) {
     static_assert((sizeof(T) & (sizeof(T) - 1)) == 0);
-    return take(round_up(bytes_.size(), std::max(sizeof(T), record_alignment)), count * sizeof(T));
+    return take(round_up(end_, std::max(sizeof(T), record_alignment)), count * sizeof(T));
+  }
+  /// Makes all room that has been taken writable, once, so that several threads may write to different records.
+  void make_room() {
+    if (bytes_.size() < end_) {
+      bytes_.resize(end_);
+    }
   }
   void write(Address address, std::size_t offset, std::span<const std::byte> bytes) {
+    make_room();
     std::copy(bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(byte_offset(address) + offset));
   }
   template <class T>
@@ -61,7 +67,7 @@ class RecordWriter {
   std::size_t front_bytes() const { return front_bytes_; }
   /// The pages, the last one filled up, with overread_bytes behind.
   std::vector<std::byte> finish() && {
-    bytes_.resize(std::max(page_size_, round_up(bytes_.size(), page_size_)) + overread_bytes);
+    bytes_.resize(std::max(page_size_, round_up(end_, page_size_)) + overread_bytes);
     return std::move(bytes_);
   }
 
@@ -70,7 +76,7 @@ class RecordWriter {
     if (offset + bytes > bytes_max) {
       throw InputError("the scene's database would exceed 16 GiB: render a smaller scene");
     }
-    bytes_.resize(std::max(bytes_.size(), offset + bytes));
+    end_ = std::max(end_, offset + bytes);
     return Address{static_cast<std::uint32_t>(offset / record_alignment)};
   }
 
@@ -78,6 +84,7 @@ class RecordWriter {
   std::vector<Address> places_;
   std::vector<std::uint16_t> sizes_;
   std::size_t front_bytes_ = 0;
+  std::size_t end_ = 0;  ///< of the room that has been taken
   std::vector<std::byte> bytes_;
 };
 
