@@ -193,8 +193,8 @@ void add_options(OptionSet options, CheckOptions& check) {
 
 int check_command(const CheckOptions& options, Interrupt& interrupt) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
-  const core::Scene scene = load_scene(options.picture);
-  const auto [database, settings] = build_subject(scene, options.picture);
+  core::Scene scene = load_scene(options.picture);
+  const auto [database, settings] = build_subject(std::move(scene), options.picture);
   const Inspection inspection = inspect_shown(options, database, settings);
   interrupt.set_consequence("the report is incomplete");
   const std::uint64_t unexplained = print_report(options, database, settings.camera, inspection);

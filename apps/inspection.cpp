@@ -145,10 +145,11 @@ std::vector<std::uint32_t> pixels_of(const std::vector<TracedRay>& rays) {
 /// How many of `pixels` get other sums from Embree than from the grid.
 std::uint64_t count_differing(const core::Database& database, const EmbreeScene& scene, const core::RenderSettings& settings,
                               const core::TraversalOptions& traversal, const std::vector<std::uint32_t>& pixels) {
+  const std::vector<core::Database::Place> places = database.find_places();
   const auto count = [&](const tbb::blocked_range<std::size_t>& range, std::uint64_t differing) {
     core::LocalRecords records(database.bytes());
     BothTracer::Grid grid(records, settings.header, traversal);
-    EmbreeTracer embree(scene, database, records);
+    EmbreeTracer embree(scene, places, records);
     std::vector<core::HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
     core::PixelTask task(stack);
     core::Operations unused;

@@ -43,9 +43,9 @@ class EmbreeScene {
 /// differing pixel means a differing primitive. Cheap to make, one for each node over one shared scene.
 class EmbreeTracer {
  public:
-  /// `local` is a whole copy of `database`'s records; all three outlive the tracer.
-  EmbreeTracer(const EmbreeScene& scene, const core::Database& database, core::LocalRecords local)
-      : scene_(&scene), places_(database.places()), local_(local) {}
+  /// `places` are the database's, and `local` is a whole copy of its records; all three outlive the tracer.
+  EmbreeTracer(const EmbreeScene& scene, std::span<const core::Database::Place> places, core::LocalRecords local)
+      : scene_(&scene), places_(places), local_(local) {}
 
   core::Traced trace(const core::Ray& ray, core::Cursor& cursor, core::Operations& operations);
   const std::byte* find(core::Address address) const { return local_.find(address); }

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <optional>
 #include <ostream>
+#include <utility>
 
 #include "apps/distinct_files.h"
 #include "apps/load_scene.h"
@@ -56,18 +57,22 @@ void check_outputs(const RenderOptions& options) {
 Subject load(const RenderOptions& options, Interrupt& interrupt, Seconds& seconds) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   Stopwatch stopwatch;
-  const core::Scene scene = load_scene(options.picture);
+  core::Scene scene = load_scene(options.picture);
   seconds.load = stopwatch.lap();
-  Subject subject = build_subject(scene, options.picture, options.database);
+  Subject subject = build_subject(std::move(scene), options.picture, options.database);
+  if (options.tracer != TracerChoice::embree) {
+    subject.database.forget_primitives();
+  }
   seconds.build = stopwatch.lap();
   return subject;
 }
 
 /// Plans, and says what the user should know before waiting for the picture; a signal ends the process here and now.
-ReadyRun prepare(const RenderOptions& options, const Subject& subject, Interrupt& interrupt, Seconds& seconds) {
+/// The host's copy of the database is freed as soon as the nodes have theirs.
+ReadyRun prepare(const RenderOptions& options, Subject& subject, Interrupt& interrupt, Seconds& seconds) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   Stopwatch stopwatch;
-  ReadyRun run = make_ready(options, subject.database, subject.settings);
+  ReadyRun run = make_ready(options, subject.database, subject.settings, {}, [&subject] { subject.database.forget_records(); });
   seconds.prepare = stopwatch.lap();
   for (const std::string& note : run.notes) {
     if (!options.quiet) {
@@ -153,7 +158,7 @@ int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostrea
   RenderOptions options = asked;
   choose_machine(options);
   Seconds seconds;
-  const Subject subject = load(options, interrupt, seconds);
+  Subject subject = load(options, interrupt, seconds);
   const ReadyRun run = prepare(options, subject, interrupt, seconds);
   const Report report = run_timed(options, run, interrupt, seconds);
   write_outputs(options, subject.database, report, seconds, interrupt, output);

@@ -47,15 +47,18 @@ dataflow::RunOptions dataflow_options(const StrategyOptions& options) {
 svm::Report run_with_embree(const core::Database& database, const core::RenderSettings& settings, const svm::RunOptions& run,
                             std::stop_token stop) {
   const EmbreeScene scene(database.primitives(), EmbreeMode::robust);
+  const std::vector<core::Database::Place> places = database.find_places();
   return svm::run_replicated(database, settings, run, std::move(stop), [&](std::uint32_t, std::span<const std::byte> copy) {
-    return EmbreeTracer(scene, database, core::LocalRecords(copy));
+    return EmbreeTracer(scene, places, core::LocalRecords(copy));
   });
 }
 
 /// svm and replicated.
-ReadyRun ready_with_pages(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings) {
+ReadyRun ready_with_pages(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
+                          const std::function<void()>& distributed) {
   const bool paged = options.strategy == Strategy::svm, by_embree = options.tracer == TracerChoice::embree;
-  const svm::RunOptions run = svm_options(options);
+  svm::RunOptions run = svm_options(options);
+  run.distributed = distributed;
   const auto start = [&database, &settings, run, paged, by_embree](const RunProgress& progress, std::stop_token stop) -> Report {
     svm::RunOptions watched = run;
     watched.progress = progress;
@@ -70,9 +73,13 @@ ReadyRun ready_with_pages(const StrategyOptions& options, const core::Database& 
 }
 
 ReadyRun ready_with_rays(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
-                         const std::stop_token& stop) {
-  const dataflow::RunOptions run = dataflow_options(options);
-  const auto prepared = std::make_shared<const dataflow::Prepared>(dataflow::prepare(database, settings, run, stop));
+                         const std::stop_token& stop, const std::function<void()>& distributed) {
+  dataflow::RunOptions run = dataflow_options(options);
+  const auto prepared = std::make_shared<dataflow::Prepared>(dataflow::prepare(database, settings, run, stop));
+  if (distributed) {
+    distributed();
+    run.distributed = [prepared] { prepared->distribution.forget_records(); };
+  }
   const auto start = [&settings, run, prepared](const RunProgress& progress, std::stop_token stop_run) -> Report {
     dataflow::RunOptions watched = run;
     watched.progress = progress;
@@ -105,11 +112,11 @@ void choose_machine(StrategyOptions& options) {
 }
 
 ReadyRun make_ready(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
-                    const std::stop_token& stop) {
+                    const std::stop_token& stop, const std::function<void()>& distributed) {
   core::expect(options.computer.machine.has_value() == (options.computer.runner == RunnerKind::virtual_time),
                "a modelled machine has been read");
-  return options.strategy == Strategy::dataflow ? ready_with_rays(options, database, settings, stop)
-                                                : ready_with_pages(options, database, settings);
+  return options.strategy == Strategy::dataflow ? ready_with_rays(options, database, settings, stop, distributed)
+                                                : ready_with_pages(options, database, settings, distributed);
 }
 
 }  // namespace dmpc::apps

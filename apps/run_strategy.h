@@ -36,7 +36,9 @@ void choose_machine(StrategyOptions& options, const nodes::Machine& machine);
 /// requested: then the result is good for a run that the same stop ends at once. `database` and `settings` outlive the result.
 /// Throws core::UsageError for options that the strategy does not take, core::InputError if the nodes' memory is too small,
 /// naming what works. No memory of a node is asked of the real computer before the start.
+/// `distributed`: if given, the run starts at most once, and this is called when it will not read the database's records again:
+/// here, or when it starts.
 ReadyRun make_ready(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
-                    const std::stop_token& stop = {});
+                    const std::stop_token& stop = {}, const std::function<void()>& distributed = {});
 
 }  // namespace dmpc::apps

@@ -206,9 +206,12 @@ Json seconds_json(const Seconds& seconds) {
 }
 
 Json database_json(const core::Database& database) {
-  return {{"bytes", database.bytes().size()},    {"pages", database.page_count()},
-          {"page_size", database.page_size()},   {"primitives", database.header().primitive_count},
-          {"references", database.references()}, {"dropped", database.dropped()}};
+  return {{"bytes", database.page_count() * database.page_size()},
+          {"pages", database.page_count()},
+          {"page_size", database.page_size()},
+          {"primitives", database.header().primitive_count},
+          {"references", database.references()},
+          {"dropped", database.dropped()}};
 }
 
 }  // namespace

@@ -8,10 +8,10 @@
 
 namespace dmpc::apps {
 
-Subject build_subject(const core::Scene& scene, const PictureOptions& picture, const DatabaseOptions& options) {
+Subject build_subject(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options) {
   const core::GridAxes axes = options.axes == AxesChoice::screen ? core::screen_axes(scene.view) : core::world_axes;
   core::Database database = core::build_database(
-      scene, {.page_size_bytes = options.page_size_bytes, .record_order = options.record_order, .axes = axes});
+      std::move(scene), {.page_size_bytes = options.page_size_bytes, .record_order = options.record_order, .axes = axes});
   const core::RenderSettings settings = render_settings(picture, scene, database);
   if (database.dropped() > 0) {
     std::cerr << "dmpc: " << dropped_text(database.dropped()) << '\n';

@@ -18,9 +18,9 @@ struct Subject {
   core::RenderSettings settings;
 };
 
-/// The database of `scene`, and its picture. Says on stderr if primitives were left out. Throws core::InputError as
-/// core::build_database() does.
-Subject build_subject(const core::Scene& scene, const PictureOptions& picture, const DatabaseOptions& options = {});
+/// The database of `scene`, whose objects are freed on the way, and its picture. Says on stderr if primitives were left out.
+/// Throws core::InputError as core::build_database() does.
+Subject build_subject(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options = {});
 
 /// A sentence about the primitives that a database left out; empty if it left out none.
 std::string dropped_text(std::uint64_t count);

@@ -19,11 +19,11 @@ inline float rounded_down(double value) {
 /// The least float that is not below `value`.
 inline float rounded_up(double value) { return -rounded_down(-value); }
 
-/// Empty as constructed: low above high. Four numbers a corner, the last of no meaning, fill a register.
+/// Empty as constructed: low above high. Four numbers a corner, the last always 0, fill a register.
 struct alignas(16) Bounds {
   static constexpr float infinity = std::numeric_limits<float>::infinity();
-  std::array<float, 4> low{infinity, infinity, infinity, infinity};
-  std::array<float, 4> high{-infinity, -infinity, -infinity, -infinity};
+  std::array<float, 4> low{infinity, infinity, infinity, 0};
+  std::array<float, 4> high{-infinity, -infinity, -infinity, 0};
 
   /// Rounds outwards.
   static Bounds around(const Box& box) {

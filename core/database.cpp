@@ -17,13 +17,29 @@
 #include "core/top_cells.h"
 
 namespace dmpc::core {
+namespace {
+
+void forget_objects(Scene& scene) {
+  scene.objects = {};
+  scene.vertices = {};
+  scene.normals = {};
+  scene.spheres = {};
+  scene.cones = {};
+}
+
+}  // namespace
 
 /// Builds in order: frame, primitives, then the records.
 class DatabaseBuilder {
  public:
-  /// `places`: where the records go that it writes; by default in order.
-  DatabaseBuilder(const Scene& scene, const BuildOptions& options, std::vector<Address> places = {})
-      : scene_(scene), options_(options), parallel_(options.threads), writer_(options.page_size_bytes, std::move(places)) {
+  /// `places`: where the records go that it writes; by default in order. `expendable`: the scene, if its objects may be freed
+  /// once they have been converted.
+  DatabaseBuilder(const Scene& scene, const BuildOptions& options, std::vector<Address> places = {}, Scene* expendable = nullptr)
+      : scene_(scene),
+        expendable_(expendable),
+        options_(options),
+        parallel_(options.threads),
+        writer_(options.page_size_bytes, std::move(places)) {
     expect(options.page_size_bytes >= 512 && options.page_size_bytes <= 65536 &&
                (options.page_size_bytes & (options.page_size_bytes - 1)) == 0,
            "a page is a power of two from 512 B to 64 KiB");
@@ -33,6 +49,9 @@ class DatabaseBuilder {
   Database build() {
     fit();
     conversion_ = convert(scene_, header().frame, parallel_);
+    if (expendable_ != nullptr) {
+      forget_objects(*expendable_);
+    }
     header().primitive_count = static_cast<std::uint32_t>(conversion_.primitives.size());
     const TopCells cells = sort_into_top_cells();
     write_tables();
@@ -43,6 +62,7 @@ class DatabaseBuilder {
     result_.primitives_ = std::move(conversion_.primitives);
     result_.sources_ = std::move(conversion_.sources);
     result_.bytes_ = std::move(writer_).finish();
+    result_.page_count_ = (result_.bytes_.size() - overread_bytes) / result_.page_size_;
     return std::move(result_);
   }
 
@@ -140,6 +160,7 @@ class DatabaseBuilder {
   }
 
   const Scene& scene_;
+  Scene* expendable_;
   BuildOptions options_;
   Parallel parallel_;
   RecordWriter writer_;
@@ -187,6 +208,15 @@ Database build_database(const Scene& scene, const BuildOptions& options) {
   Database database = builder.build();
   return options.record_order == RecordOrder::spatial ? std::move(database)
                                                       : DatabaseBuilder(scene, options, builder.scattered()).build();
+}
+
+Database build_database(Scene&& scene, const BuildOptions& options) {
+  if (options.record_order == RecordOrder::spatial) {
+    return DatabaseBuilder(scene, options, {}, &scene).build();
+  }
+  Database database = build_database(std::as_const(scene), options);
+  forget_objects(scene);
+  return database;
 }
 
 }  // namespace dmpc::core

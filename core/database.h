@@ -36,9 +36,9 @@ class Database {
  public:
   const DatabaseHeader& header() const { return header_; }
   std::size_t page_size() const { return page_size_; }
-  std::size_t page_count() const { return bytes_.size() / page_size_; }
-  /// page_count() * page_size() bytes (overread_bytes more are readable).
-  std::span<const std::byte> bytes() const { return {bytes_.data(), page_count() * page_size_}; }
+  std::size_t page_count() const { return page_count_; }
+  /// page_count() * page_size() bytes (overread_bytes more are readable); none once they are forgotten.
+  std::span<const std::byte> bytes() const { return std::span(bytes_).first(bytes_.empty() ? 0 : page_count_ * page_size_); }
   std::span<const std::byte> page(std::size_t index) const { return bytes().subspan(index * page_size_, page_size_); }
 
   /// All primitives, by id: grid-local, the very floats of the records. Ids follow the file's order.
@@ -49,8 +49,16 @@ class Database {
     Address block = no_address;
     std::uint32_t lane = 0;
   };
-  /// By id; found by looking through all records, so ask once.
+  /// Places by id; found by looking through all records, so ask once.
   std::vector<Place> find_places() const;
+
+  /// Frees the bytes: for when the nodes have them. All figures stay.
+  void forget_records() { bytes_ = {}; }
+  /// Frees primitives() and sources(): for when no oracle, no referee and no message will ask.
+  void forget_primitives() {
+    primitives_ = {};
+    sources_ = {};
+  }
 
   /// Degenerate primitives (zero area or length, radius 0, not finite) that were left out, by reason in total.
   std::uint32_t dropped() const { return dropped_; }
@@ -62,7 +70,7 @@ class Database {
  private:
   friend class DatabaseBuilder;
   DatabaseHeader header_;
-  std::size_t page_size_ = 0;
+  std::size_t page_size_ = 0, page_count_ = 0;
   std::vector<std::byte> bytes_;
   std::vector<PrimitiveValues> primitives_;
   std::vector<PrimitiveSource> sources_;
@@ -73,5 +81,8 @@ class Database {
 
 /// Throws InputError if the database would exceed 16 GiB.
 Database build_database(const Scene& scene, const BuildOptions& options);
+/// The same, and frees the scene's objects on the way: they never lie in memory beside the records. View, lights, materials and
+/// background stay.
+Database build_database(Scene&& scene, const BuildOptions& options);
 
 }  // namespace dmpc::core

@@ -31,6 +31,12 @@ struct Distribution {
   std::vector<Share> shares() const;
   /// Copies of primitives in all parts over those in the database: at least about 1, more where cuts go through blocks.
   double duplication(const core::Database& database) const;
+  /// Frees the parts' bytes: for when the nodes have them.
+  void forget_records() {
+    for (core::DatabasePart& part : parts) {
+      part.bytes = {};
+    }
+  }
 };
 
 /// Cuts the database up; values keep their bits. Marks the regions that hold nothing, if empty space is skipped. After a stop is

@@ -71,7 +71,7 @@ Plan plan_for(const Distribution& distribution, const core::Database& database, 
   return make_plan(request, [&] { return smallest_node_count(request, make_shares); });
 }
 
-NodeReport report_of(nodes::Node& node, const nodes::Program& program, const Distribution& distribution) {
+NodeReport report_of(nodes::Node& node, const nodes::Program& program, const Distribution& distribution, std::size_t part_bytes) {
   const std::uint32_t index = nodes::index_of(node.id());
   const core::DatabasePart& part = distribution.parts[index];
   NodeReport report{.program = dynamic_cast<const NodeProgram&>(program).report(),
@@ -79,7 +79,7 @@ NodeReport report_of(nodes::Node& node, const nodes::Program& program, const Dis
                     .memory_planned = node.memory().plan(),
                     .memory_used = node.memory().used(),
                     .region = part.header.region,
-                    .part_bytes = part.record_bytes(),
+                    .part_bytes = part_bytes,
                     .primitive_copies = part.primitive_copies};
   for (const PrimaryRun& run : distribution.primaries[index]) {
     report.primary_rays += run.count;
@@ -140,7 +140,7 @@ void check_credits(nodes::Runner& runner, const Plan& plan) {
 void fill(Report& report, nodes::Runner& runner, const Distribution& distribution) {
   const std::uint32_t node_count = report.plan.node_count();
   for (std::uint32_t i = 0; i < node_count; ++i) {
-    report.nodes.push_back(report_of(runner.node(i), runner.program(i), distribution));
+    report.nodes.push_back(report_of(runner.node(i), runner.program(i), distribution, report.plan.request.shares[i].part_bytes));
   }
   report.host = runner.node(node_count).counters();
   const auto& host = dynamic_cast<const HostProgram&>(runner.program(node_count));
@@ -251,6 +251,9 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
   const auto runner = nodes::make_runner(
       specifications_of(report.plan, prepared.distribution, settings, options.traversal, report.film, options.progress),
       {options.chaos, options.machine});
+  if (options.distributed) {
+    options.distributed();
+  }
   report.end = runner->run(std::move(stop));
   fill(report, *runner, prepared.distribution);
   return report;

@@ -43,6 +43,9 @@ struct RunOptions {
   /// A modelled machine, in virtual time, in place of threads. Not with chaos.
   std::optional<nodes::Machine> machine = std::nullopt;
   Progress progress = {};  ///< called by the host's thread
+  /// Called on the calling thread when the nodes hold their parts of the database, which are not read again, before any node
+  /// starts.
+  std::function<void()> distributed = {};
 };
 
 struct NodeReport {

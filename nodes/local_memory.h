@@ -41,9 +41,6 @@ struct MemoryPlan {
   std::size_t total() const;
 };
 
-/// Whether the real computer has set the bytes of a memory aside from the start, or does so when they are first written.
-enum class Backing : std::uint8_t { from_the_start, on_demand };
-
 /// One block of memory, cut from the front and never given back; each allocation is rounded up to a cache line and counts against
 /// its category's share of the plan. Thread safety: none; belongs to one node. Under ASan the bytes not handed out are poisoned,
 /// the remainders of cache lines too.
@@ -52,9 +49,12 @@ class LocalMemory {
   static constexpr std::size_t alignment = 64;
 
   /// Reserves plan.total() bytes at once, but for the `reserve` category: that is the thread's stack, which the runner makes; it
-  /// counts as used from the start. `from_the_start`: they are touched so that the real computer backs them. Throws
-  /// core::InputError if the real computer has not so much, as far as it knows by then.
-  explicit LocalMemory(const MemoryPlan& plan, Backing backing = Backing::from_the_start);
+  /// counts as used from the start. The real computer sets bytes aside when they are first written. Throws core::InputError if it
+  /// has not so much, as far as it knows by then.
+  explicit LocalMemory(const MemoryPlan& plan);
+
+  /// Has the real computer set all bytes aside, which keep their values. Nobody else may be at work on them.
+  void back();
 
   /// `count` value-initialised objects; expects that the memory is not sealed and that the category's plan has room.
   /// T needs no destructor. Objects without a constructor of their own are not touched: the block is zero, and so are they.
@@ -87,7 +87,7 @@ class LocalMemory {
 
  private:
   using Block = std::unique_ptr<std::byte[], void (*)(std::byte*)>;
-  static Block reserve(std::size_t bytes, Backing backing);
+  static Block reserve(std::size_t bytes);
   std::byte* allocate_bytes(Category category, std::size_t bytes);
 
   MemoryPlan plan_;

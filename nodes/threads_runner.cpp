@@ -134,6 +134,9 @@ struct ThreadsRunner::Implementation final : Network {
   RunEnd run(std::stop_token stop) {
     core::expect(!started_, "a runner runs once");
     started_ = true;
+    for (const auto& processor : processors_) {
+      processor->memory.back();
+    }
     {
       const std::stop_callback on_stop(std::move(stop), [this] { end(Ending::interrupted); });
       start_threads();

@@ -73,7 +73,7 @@ struct Processor final : Network {
       : computer(of),
         mailbox(specification.mailbox),
         interrupt_kinds(specification.interrupt_kinds),
-        memory(specification.plan, Backing::on_demand),
+        memory(specification.plan),
         node(id, peer_count, memory, *this),
         ways(peer_count) {
     static_cast<void>(memory.allocate<std::byte>(Category::mailbox, specification.mailbox.bytes()));  // the model's, unused

@@ -184,6 +184,9 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
                 .host = {}};
   const auto runner = nodes::make_runner(specifications_of(plan, make_program, report.film, options.progress),
                                          {plan.request.chaos, options.machine});
+  if (options.distributed) {
+    options.distributed();
+  }
   report.end = runner->run(std::move(stop));
   for (std::uint32_t i = 0; i < plan.request.node_count; ++i) {
     report.nodes.push_back(report_of(runner->node(i), runner->program(i)));

@@ -48,6 +48,8 @@ struct RunOptions {
   /// A modelled machine, in virtual time, in place of threads. Not with chaos.
   std::optional<nodes::Machine> machine = std::nullopt;
   Progress progress = {};  ///< called by the host's thread
+  /// Called on the calling thread when the nodes hold the database, which is not read again, before any node starts.
+  std::function<void()> distributed = {};
 };
 
 struct NodeReport {

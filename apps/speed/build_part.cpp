@@ -69,7 +69,7 @@ class BuildBench {
 
   void time(const BuildMatch& match, std::size_t builder) {
     if (builder == 0) {
-      const double seconds = seconds_on(match.threads, own_times(*match.scene));
+      const double seconds = seconds_on(match.threads, own_times(*match.scene, match.threads));
       results_[match.first_comparison].subject_figures.push_back(seconds);
       results_[match.first_comparison + 1].subject_figures.push_back(seconds);
       return;
@@ -81,9 +81,9 @@ class BuildBench {
     results_[match.first_comparison + builder - 1].rival_figures.push_back(seconds);
   }
 
-  static Times own_times(const core::Scene& scene) {
+  static Times own_times(const core::Scene& scene, std::uint32_t threads) {
     DoubleStopwatch stopwatch;
-    const core::Database database = core::build_database(scene, {});
+    const core::Database database = core::build_database(scene, {.threads = threads});
     return stopwatch.lap();
   }
   /// On one thread both times are the same, but for what else the machine does.

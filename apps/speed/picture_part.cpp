@@ -34,9 +34,9 @@ Phases render_whole(const PictureOptions& picture, const StrategyOptions& strate
                     const Interrupt& interrupt) {
   Phases phases{};
   DoubleStopwatch stopwatch;
-  const core::Scene scene = load_scene(picture);
+  core::Scene scene = load_scene(picture);
   phases[0] = stopwatch.lap();
-  const Subject subject = build_subject(scene, picture);
+  const Subject subject = build_subject(std::move(scene), picture);
   phases[1] = stopwatch.lap();
   const ReadyRun run = make_ready(strategy, subject.database, subject.settings, interrupt.token());
   phases[2] = stopwatch.lap();

@@ -24,7 +24,7 @@ T read(const Database& database, Address address) {
 
 /// The shading reference of a primitive's copy.
 ShadingReference reference_of(const Database& database, std::uint32_t id) {
-  const auto place = database.places()[id];
+  const auto place = database.find_places()[id];
   const auto header = read<BlockHeader>(database, place.block);
   const std::size_t row = (value_count(header.kind) + 1) * header.count + place.lane;
   ShadingReference reference;
@@ -67,8 +67,10 @@ TEST_CASE("ids follow the file's order and name their object") {
 TEST_CASE("every primitive's place holds the primitive") {
   const Database database = database_of(scene_of(sphere_mesh(20, 30, 0)));
   CHECK(database.references() >= database.primitives().size());
-  for (std::uint32_t id = 0; id < database.primitives().size(); ++id) {
-    const auto place = database.places()[id];
+  const auto places = database.find_places();
+  REQUIRE(places.size() == database.primitives().size());
+  for (std::uint32_t id = 0; id < places.size(); ++id) {
+    const auto place = places[id];
     const auto header = read<BlockHeader>(database, place.block);
     const std::byte* block = database.bytes().data() + byte_offset(place.block) + sizeof(BlockHeader);
     REQUIRE(place.lane < header.count);

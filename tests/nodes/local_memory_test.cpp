@@ -56,32 +56,41 @@ TEST_CASE("allocations are zero, aligned, apart, and counted in whole cache line
   CHECK(memory.used().total() == LocalMemory::bytes_for<std::uint32_t>(17) + LocalMemory::bytes_for<std::uint8_t>(1));
 }
 
-TEST_CASE("allocations are zero in a memory that was used before, backed from the start or on demand") {
-  for (const Backing backing : {Backing::from_the_start, Backing::on_demand}) {
-    for (const std::size_t bytes : {std::size_t{64}, std::size_t{4096}, std::size_t{3} << 20U}) {
-      for (int again = 0; again < 3; ++again) {
-        LocalMemory memory(queues_of(bytes), backing);
-        const auto all = memory.allocate<std::byte>(Category::queues, bytes);
-        CHECK(std::all_of(all.begin(), all.end(), [](std::byte one) { return one == std::byte{0}; }));
-        CHECK(reinterpret_cast<std::uintptr_t>(all.data()) % LocalMemory::alignment == 0);
-        std::memset(all.data(), 0xff, bytes);
-      }
+TEST_CASE("allocations are zero in a memory that was used before") {
+  for (const std::size_t bytes : {std::size_t{64}, std::size_t{4096}, std::size_t{3} << 20U}) {
+    for (int again = 0; again < 3; ++again) {
+      LocalMemory memory(queues_of(bytes));
+      const auto all = memory.allocate<std::byte>(Category::queues, bytes);
+      CHECK(std::all_of(all.begin(), all.end(), [](std::byte one) { return one == std::byte{0}; }));
+      CHECK(reinterpret_cast<std::uintptr_t>(all.data()) % LocalMemory::alignment == 0);
+      std::memset(all.data(), 0xff, bytes);
     }
   }
+}
+
+TEST_CASE("a memory that is backed keeps its values, and what is handed out later is zero") {
+  constexpr std::size_t bytes = std::size_t{1} << 20U;
+  LocalMemory memory(queues_of(2 * bytes));
+  const auto first = memory.allocate<std::byte>(Category::queues, bytes);
+  std::memset(first.data(), 0xa5, bytes);
+  memory.back();
+  CHECK(std::all_of(first.begin(), first.end(), [](std::byte one) { return one == std::byte{0xa5}; }));
+  const auto second = memory.allocate<std::byte>(Category::queues, bytes);
+  CHECK(std::all_of(second.begin(), second.end(), [](std::byte one) { return one == std::byte{0}; }));
 }
 
 TEST_CASE("objects with a constructor of their own are made by it") {
   struct Made {
     int value = 7;
   };
-  LocalMemory memory(queues_of(256), Backing::on_demand);
+  LocalMemory memory(queues_of(256));
   for (const Made& made : memory.allocate<Made>(Category::queues, 5)) {
     CHECK(made.value == 7);
   }
 }
 
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-TEST_CASE("a memory backed on demand takes nothing of the real computer until it is written") {
+TEST_CASE("a memory takes nothing of the real computer until it is written or backed") {
   constexpr std::size_t bytes = std::size_t{64} << 20U, page_bytes = 4096;
   const auto resident = [](std::span<std::byte> memory) {
     std::vector<unsigned char> is_resident(memory.size() / page_bytes);
@@ -89,9 +98,11 @@ TEST_CASE("a memory backed on demand takes nothing of the real computer until it
     return static_cast<std::size_t>(
         std::count_if(is_resident.begin(), is_resident.end(), [](unsigned char one) { return (one & 1U) != 0; }));
   };
-  LocalMemory on_demand(queues_of(bytes), Backing::on_demand), touched(queues_of(bytes));
-  CHECK(resident(on_demand.allocate<std::byte>(Category::queues, bytes)) < 600);  // a huge page at most
-  CHECK(resident(touched.allocate<std::byte>(Category::queues, bytes)) == bytes / page_bytes);
+  LocalMemory memory(queues_of(bytes));
+  const auto all = memory.allocate<std::byte>(Category::queues, bytes);
+  CHECK(resident(all) < 600);  // a huge page at most
+  memory.back();
+  CHECK(resident(all) == bytes / page_bytes);
 }
 #endif
 

@@ -55,7 +55,8 @@ TEST_CASE("an inspection counts the pixels that the tracers render differently")
   const apps::EmbreeScene embree(looked.database.primitives(), apps::EmbreeMode::robust);
   core::LocalRecords records(looked.database.bytes());
   core::GridTracer<core::LocalRecords> grid(records, looked.database.header(), {});
-  apps::EmbreeTracer oracle(embree, looked.database, records);
+  const auto places = looked.database.find_places();
+  apps::EmbreeTracer oracle(embree, places, records);
   core::Operations operations;
   const core::Film ours = core::render(grid, looked.settings, operations),
                    theirs = core::render(oracle, looked.settings, operations);
@@ -123,7 +124,8 @@ TEST_CASE("progress begins at nothing and ends with every pixel") {
 /// The picture with Embree naming the primitives.
 core::Film render_by_embree(const Looked& looked, core::Operations& operations) {
   const apps::EmbreeScene embree(looked.database.primitives(), apps::EmbreeMode::robust);
-  apps::EmbreeTracer tracer(embree, looked.database, core::LocalRecords(looked.database.bytes()));
+  const auto places = looked.database.find_places();
+  apps::EmbreeTracer tracer(embree, places, core::LocalRecords(looked.database.bytes()));
   return core::render(tracer, looked.settings, operations);
 }
 
