@@ -10,6 +10,7 @@
 #include "core/directory.h"
 #include "core/empty_space.h"
 #include "core/expect.h"
+#include "core/forget.h"
 #include "core/frame.h"
 #include "core/parallel.h"
 #include "core/record_writer.h"
@@ -20,11 +21,11 @@ namespace dmpc::core {
 namespace {
 
 void forget_objects(Scene& scene) {
-  scene.objects = {};
-  scene.vertices = {};
-  scene.normals = {};
-  scene.spheres = {};
-  scene.cones = {};
+  forget(scene.objects);
+  forget(scene.vertices);
+  forget(scene.normals);
+  forget(scene.spheres);
+  forget(scene.cones);
 }
 
 }  // namespace
@@ -139,7 +140,7 @@ class DatabaseBuilder {
       writer_.write(address, 0, smooth.normals);
       conversion_.shading[smooth.primitive] = ShadingReference::smooth(address);
     }
-    conversion_.smooth = {};
+    forget(conversion_.smooth);
   }
 
   /// Cells are built at the same time, then take their room in order, and are written at the same time.

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/forget.h"
 #include "core/record.h"
 #include "core/record_order.h"
 #include "core/scene.h"
@@ -53,11 +54,11 @@ class Database {
   std::vector<Place> find_places() const;
 
   /// Frees the bytes: for when the nodes have them. All figures stay.
-  void forget_records() { bytes_ = {}; }
+  void forget_records() { forget(bytes_); }
   /// Frees primitives() and sources(): for when no oracle, no referee and no message will ask.
   void forget_primitives() {
-    primitives_ = {};
-    sources_ = {};
+    forget(primitives_);
+    forget(sources_);
   }
 
   /// Degenerate primitives (zero area or length, radius 0, not finite) that were left out, by reason in total.

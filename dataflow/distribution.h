@@ -9,6 +9,7 @@
 
 #include "core/database.h"
 #include "core/extract.h"
+#include "core/forget.h"
 #include "core/pixel_task.h"
 #include "core/traversal.h"
 #include "dataflow/bsp.h"
@@ -34,7 +35,7 @@ struct Distribution {
   /// Frees the parts' bytes: for when the nodes have them.
   void forget_records() {
     for (core::DatabasePart& part : parts) {
-      part.bytes = {};
+      core::forget(part.bytes);
     }
   }
 };
