@@ -2,12 +2,15 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "apps/stability/mesh.h"
 #include "core/expect.h"
 #include "tests/support/shooting.h"
+#include "tests/support/small_scenes.h"
 
 using namespace dmpc::core;
 using namespace dmpc::apps;
@@ -133,4 +136,55 @@ TEST_CASE("a database is whole pages, and every page is a view into it") {
   CHECK(database.bytes().size() == database.page_count() * 512);
   CHECK(database.page(database.page_count() - 1).size() == 512);
   CHECK(database.page(1).data() == database.bytes().data() + 512);
+}
+
+TEST_CASE("the bytes do not depend on the number of threads") {
+  for (const char* name : {"tetra-6", "rings-3", "balls-3", "teapot-6", "jacks-2"}) {
+    CAPTURE(name);
+    const Scene scene = built_in(name);
+    const Database one = build_database(scene, {.threads = 1});
+    for (const std::uint32_t threads : {2U, 8U}) {
+      const Database many = build_database(scene, {.threads = threads});
+      CHECK(std::equal(one.bytes().begin(), one.bytes().end(), many.bytes().begin(), many.bytes().end()));
+    }
+  }
+}
+
+TEST_CASE("a crowd in one cell, which threads share, gives the same bytes") {
+  Scene scene;
+  SceneBuilder builder(scene);
+  for (int i = 0; i < 20'000; ++i) {
+    builder.sphere({i % 100 * 1e-4, i / 100 % 100 * 1e-4, i / 10'000 * 1e-4}, 1e-5);
+  }
+  builder.sphere({100, 100, 100}, 1);
+  const Database one = build_database(scene, {.cells_per_primitive = 1e-4, .threads = 1});
+  const Database many = build_database(scene, {.cells_per_primitive = 1e-4, .threads = 8});
+  CHECK(std::equal(one.bytes().begin(), one.bytes().end(), many.bytes().begin(), many.bytes().end()));
+}
+
+TEST_CASE("a scene that is given away loses its objects and nothing else, and the database is the same") {
+  for (const RecordOrder order : {RecordOrder::spatial, RecordOrder::scattered}) {
+    Scene scene = built_in("balls-2");
+    const std::size_t lights = scene.lights.size(), materials = scene.materials.size();
+    const Database kept = build_database(scene, {.record_order = order});
+    CHECK_FALSE(scene.objects.empty());
+    const Database given = build_database(std::move(scene), {.record_order = order});
+    CHECK(std::equal(kept.bytes().begin(), kept.bytes().end(), given.bytes().begin(), given.bytes().end()));
+    CHECK(scene.objects.capacity() + scene.spheres.capacity() + scene.vertices.capacity() == 0);
+    CHECK(scene.lights.size() == lights);
+    CHECK(scene.materials.size() == materials);
+  }
+}
+
+TEST_CASE("a database that forgets its records and primitives keeps its figures") {
+  Database database = database_of(scene_of(sphere_mesh(20, 30, 0)));
+  const std::size_t pages = database.page_count();
+  const std::uint64_t references = database.references();
+  database.forget_records();
+  database.forget_primitives();
+  CHECK(database.bytes().empty());
+  CHECK(database.primitives().empty());
+  CHECK(database.page_count() == pages);
+  CHECK(database.references() == references);
+  CHECK(database.header().primitive_count > 0);
 }

@@ -184,3 +184,19 @@ TEST_CASE("what is prepared is what runs, as often as one likes") {
     }
   }
 }
+
+TEST_CASE("the host may forget the parts once they are distributed, and the outcome is the same") {
+  const Subject subject(tests::mirrors_and_glass(), {12, 12});
+  RunOptions options{.node_count = 3};
+  dataflow::Prepared prepared = dataflow::prepare(subject.database(), subject.settings(), options);
+  const std::size_t part_bytes = prepared.distribution.parts[1].record_bytes();
+  int times = 0;
+  options.distributed = [&] {
+    ++times;
+    prepared.distribution.forget_records();
+  };
+  const Report report = dataflow::run_prepared(prepared, subject.settings(), options, {});
+  CHECK(tests::outcome_of(report) == subject.outcome());
+  CHECK(report.nodes[1].part_bytes == part_bytes);
+  CHECK(times == 1);
+}

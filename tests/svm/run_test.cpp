@@ -196,3 +196,22 @@ TEST_CASE("under every replacement policy the film is the same and no node misse
     }
   }
 }
+
+TEST_CASE("the host may forget the database once it is distributed, and the film is the same") {
+  core::Operations reference;
+  const std::uint64_t hash = SmallScene("rings-2", 512, 24).reference(reference).hash();
+  for (const svm::Strategy strategy : {svm::Strategy::svm, svm::Strategy::replicated}) {
+    SmallScene small("rings-2", 512, 24);
+    int times = 0;
+    svm::RunOptions options;
+    options.distributed = [&] {
+      ++times;
+      small.database.forget_records();
+      small.database.forget_primitives();
+    };
+    const svm::Report report = strategy == svm::Strategy::svm ? svm::run_svm(small.database, small.settings, options, {})
+                                                              : svm::run_replicated(small.database, small.settings, options, {});
+    CHECK(report.film.hash() == hash);
+    CHECK(times == 1);
+  }
+}
