@@ -64,6 +64,24 @@ TEST_CASE("a cut goes through the gap, whatever the order") {
   }
 }
 
+TEST_CASE("two cuts one after the other go through the gaps of two axes") {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Cutter cutter(4);
+    for (const std::uint32_t id : {0U, 1U, 2U, 3U}) {
+      Box box;
+      Vec3d at;
+      at[axis] = id % 2 == 0 ? 0 : 100;
+      at[(axis + 1) % 3] = id < 2 ? 0 : 10;
+      box.include(at);
+      cutter.add(id, Bounds::around(box.padded({1, 1, 1})));
+    }
+    const auto [first, second] = cutter.cut(cutter.group(PrimitiveKind::triangle, 0, 4), false);
+    CHECK(ids_of(cutter, first) == std::vector<std::uint32_t>{0, 2});
+    CHECK(ids_of(cutter, second) == std::vector<std::uint32_t>{1, 3});
+    CHECK(ids_of(cutter, cutter.cut(second, false).first) == std::vector<std::uint32_t>{1});
+  }
+}
+
 TEST_CASE("a large group is cut at its gap between bins") {
   std::vector<double> places;
   for (int i = 0; i < 300; ++i) {
