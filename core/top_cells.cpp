@@ -11,8 +11,8 @@
 namespace dmpc::core {
 namespace {
 
-/// Top cells that list a primitive, on average. The SPD's scenes need 1 to 2.3, nested shells up to 5.
-constexpr std::size_t top_cells_max = 4;
+/// Top cells that list a primitive, on average. The SPD's scenes need 1 to 1.2; four times the usual memory is for the worst.
+constexpr std::size_t top_cells_max = 3;
 /// Primitives that one thread lists at a time.
 constexpr std::size_t chunk_size = 8192;
 
