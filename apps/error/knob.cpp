@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <sstream>
 
+#include "apps/words.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -41,8 +41,7 @@ const char* name_of(Knob knob) { return names[static_cast<std::size_t>(knob)]; }
 
 std::set<Knob> parse_knobs(const std::string& text) {
   std::set<Knob> knobs;
-  std::istringstream words(text + ",");
-  for (std::string word; std::getline(words, word, ',');) {
+  for (const std::string& word : words_between_commas(text)) {
     knobs.insert(knob_of(word, text));
   }
   add_pairs(knobs);

@@ -6,6 +6,7 @@
 
 #include "apps/machine_load.h"
 #include "apps/paper_data.h"
+#include "apps/words.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -15,19 +16,6 @@ constexpr std::array<const char*, 6> names = {"kernel", "picture", "emulation", 
 constexpr std::uint32_t thread_count_max = 1024;
 /// A million triangles.
 constexpr const char* big_scene = "tetra-10";
-
-/// The words between commas: one at least, perhaps empty.
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> words(1);
-  for (const char character : text) {
-    if (character == ',') {
-      words.emplace_back();
-    } else {
-      words.back() += character;
-    }
-  }
-  return words;
-}
 
 SpeedPart parse_part(const std::string& word) {
   const auto found = std::find(names.begin(), names.end(), word);
@@ -85,7 +73,7 @@ std::set<SpeedPart> all_speed_parts() {
 
 std::set<SpeedPart> parse_speed_parts(const std::string& text) {
   std::set<SpeedPart> parts;
-  for (const std::string& word : split(text)) {
+  for (const std::string& word : words_between_commas(text)) {
     parts.insert(parse_part(word));
   }
   return parts;
@@ -124,7 +112,7 @@ PictureOptions SpeedSettings::picture_of(SpeedPart part, const std::string& scen
 
 std::vector<std::uint32_t> parse_thread_counts(const std::string& text) {
   std::set<std::uint32_t> counts;
-  for (const std::string& word : split(text)) {
+  for (const std::string& word : words_between_commas(text)) {
     counts.insert(parse_thread_count(word));
   }
   return {counts.begin(), counts.end()};
