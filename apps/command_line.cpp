@@ -116,6 +116,7 @@ void OptionSet::add_words(const std::string& name, const std::vector<std::string
                           const std::string& description) {
   app_->add_option_function<std::vector<std::string>>(name, one_by_one(take), description)
       ->allow_extra_args(false)
+      ->delimiter(',')
       ->check(CLI::IsMember(words))
       ->type_name("")
       ->option_text(joined(words));

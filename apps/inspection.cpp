@@ -119,9 +119,9 @@ struct Harvest {
 };
 
 void trace_pixels(const core::Database& database, const EmbreeScene& scene, const core::RenderSettings& settings,
-                  const core::TraversalOptions& traversal, std::uint32_t first, std::uint32_t last, Harvest& harvest) {
+                  std::uint32_t first, std::uint32_t last, Harvest& harvest) {
   core::LocalRecords records(database.bytes());
-  BothTracer::Grid grid(records, settings.header, traversal);
+  BothTracer::Grid grid(records, settings.header, settings.skips);
   BothTracer tracer(grid, scene, harvest.differences, harvest.draw);
   std::vector<core::HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
   core::PixelTask task(stack);
@@ -144,11 +144,11 @@ std::vector<std::uint32_t> pixels_of(const std::vector<TracedRay>& rays) {
 
 /// How many of `pixels` get other sums from Embree than from the grid.
 std::uint64_t count_differing(const core::Database& database, const EmbreeScene& scene, const core::RenderSettings& settings,
-                              const core::TraversalOptions& traversal, const std::vector<std::uint32_t>& pixels) {
+                              const std::vector<std::uint32_t>& pixels) {
   const std::vector<core::Database::Place> places = database.find_places();
   const auto count = [&](const tbb::blocked_range<std::size_t>& range, std::uint64_t differing) {
     core::LocalRecords records(database.bytes());
-    BothTracer::Grid grid(records, settings.header, traversal);
+    BothTracer::Grid grid(records, settings.header, settings.skips);
     EmbreeTracer embree(scene, places, records);
     std::vector<core::HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
     core::PixelTask task(stack);
@@ -169,7 +169,7 @@ Harvest trace_band(const core::Database& database, const EmbreeScene& scene, con
   return tbb::parallel_reduce(
       tbb::blocked_range<std::uint32_t>(first, last, 64), Harvest(options.brute_force),
       [&](const tbb::blocked_range<std::uint32_t>& pixels, Harvest harvest) {
-        trace_pixels(database, scene, settings, options.traversal, pixels.begin(), pixels.end(), harvest);
+        trace_pixels(database, scene, settings, pixels.begin(), pixels.end(), harvest);
         return harvest;
       },
       [](Harvest left, const Harvest& right) {
@@ -202,7 +202,7 @@ Inspection inspect(const core::Database& database, const EmbreeScene& scene, con
   const Referee referee(database.primitives());
   return {.operations = harvest.operations,
           .differences = settle(referee, harvest.differences),
-          .differing_pixels = count_differing(database, scene, settings, options.traversal, pixels_of(harvest.differences)),
+          .differing_pixels = count_differing(database, scene, settings, pixels_of(harvest.differences)),
           .brute_forced = settle(referee, harvest.draw.finish())};
 }
 

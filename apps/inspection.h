@@ -38,7 +38,6 @@ struct Inspection {
 
 struct InspectionOptions {
   std::uint64_t brute_force = 0;  ///< rays that go to the referee whether they differ or not, drawn uniformly from all rays
-  core::TraversalOptions traversal;
   /// Called on the calling thread between bands of rows: (pixels done, pixels in all).
   std::function<void(std::uint64_t, std::uint64_t)> progress = [](std::uint64_t, std::uint64_t) {};
 };

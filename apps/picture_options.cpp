@@ -1,6 +1,8 @@
 #include "apps/picture_options.h"
 
 #include <charconv>
+#include <string>
+#include <vector>
 
 #include "apps/option_values.h"
 #include "core/expect.h"
@@ -22,6 +24,13 @@ void take_samples(PictureOptions& picture, std::string_view text) {
   const auto [rest, error] = std::from_chars(text.data(), end, picture.samples);
   if (error != std::errc() || rest != end || picture.samples < 1 || picture.samples > samples_max) {
     throw core::UsageError("--samples=" + std::string(text) + ": expected a whole number from 1 to 32768, or auto");
+  }
+}
+
+/// `name` is one of all_skips, or "all".
+void switch_off(core::Skips& skips, const std::string& name) {
+  for (const core::Skip& skip : core::all_skips) {
+    skips.*skip.is_on = skips.*skip.is_on && name != skip.name && name != "all";
   }
 }
 
@@ -75,10 +84,24 @@ void add_options(OptionSet options, PictureOptions& picture) {
   options.add_choice<Quality>(
       "--quality", picture.quality, {{"draft", Quality::draft}, {"default", Quality::standard}}, "one ray a pixel",
       "As --samples=auto with an error and a cutoff for a quick look, or for a good one; what other options say counts more");
+  add_skip_option(options, picture.skips);
   options.check_in_the_end([options, &picture] {
     apply_quality(options, picture);
     check_refinement(options, picture);
   });
+}
+
+void add_skip_option(OptionSet options, core::Skips& skips) {
+  std::vector<std::string> names;
+  std::string table;
+  for (const core::Skip& skip : core::all_skips) {
+    names.emplace_back(skip.name);
+    table += "\n" + std::string(skip.name) + ": " + skip.what;
+  }
+  names.emplace_back("all");
+  options.add_words(
+      "--no-skip", names, [&skips](const std::string& name) { switch_off(skips, name); },
+      "Do what is left out where a scene does not need it; the picture keeps its bits:" + table);
 }
 
 void add_view_options(OptionSet options, PictureOptions& picture) {
@@ -100,7 +123,8 @@ core::RenderSettings render_settings(const PictureOptions& options, const core::
                     .depth_max = options.depth,
                     .cutoff = options.cutoff,
                     .radiance_bound = core::radiance_bound(scene, options.depth)},
-          .refinement = options.refinement};
+          .refinement = options.refinement,
+          .skips = options.skips};
 }
 
 Resolution parse_resolution(std::string_view text) {

@@ -11,6 +11,7 @@
 #include "core/pixel_task.h"
 #include "core/scene.h"
 #include "core/shade.h"
+#include "core/skips.h"
 
 namespace dmpc::apps {
 
@@ -48,10 +49,13 @@ struct PictureOptions {
   core::Convention convention = core::Convention::haines;
   double cutoff = 0;               ///< core::ShadeOptions::cutoff
   std::optional<Quality> quality;  ///< --quality, already in the fields above
+  core::Skips skips;               ///< what is left out on the way to it
 };
 
 /// Declares them.
 void add_options(OptionSet options, PictureOptions& picture);
+/// Declares --no-skip.
+void add_skip_option(OptionSet options, core::Skips& skips);
 /// Declares those that neither are the scene nor trade error for time: --resolution, --depth and --convention.
 void add_view_options(OptionSet options, PictureOptions& picture);
 

@@ -42,9 +42,6 @@ void add_study_options(OptionSet& options, RenderOptions& render) {
   options.begin_group("Looking closer");
   options.add_choice<TracerChoice>("--tracer", render.tracer, {{"grid", TracerChoice::grid}, {"embree", TracerChoice::embree}},
                                    "Who finds what a ray hits; embree goes with --strategy=replicated only");
-  options.add_words(
-      "--no-skip", {"empty-space"}, [&render](const std::string&) { render.computer.traversal.skip_empty_space = false; },
-      "Switch off a short cut that does not change the picture");
   options.add_path("--stats", "FILE.json", render.stats, "Write all counters");
   options.add_flag("--quiet", render.quiet, "No progress, no closing lines");
 }

@@ -26,7 +26,6 @@ svm::RunOptions svm_options(const StrategyOptions& options) {
           .in_flight = in_flight(options),
           .work_item_side = options.pages.work_item_side,
           .count_pages = options.pages.count_pages,
-          .traversal = options.computer.traversal,
           .chaos = options.computer.chaos,
           .machine = options.computer.machine};
 }
@@ -39,7 +38,6 @@ dataflow::RunOptions dataflow_options(const StrategyOptions& options) {
           .queue_packets = options.rays.queue_packets,
           .balance = options.rays.balance,
           .topology = options.rays.topology,
-          .traversal = options.computer.traversal,
           .chaos = options.computer.chaos,
           .machine = options.computer.machine};
 }

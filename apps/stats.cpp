@@ -52,6 +52,7 @@ Json operations_json(const core::Operations& operations) {
           {"sphere_tests", test_count(operations, core::PrimitiveKind::sphere)},
           {"cone_tests", test_count(operations, core::PrimitiveKind::cone)},
           {"shadings", operations.shadings},
+          {"normal_reads", operations.normal_reads},
           {"deposits_saturated", operations.deposits_saturated}};
 }
 
@@ -68,9 +69,31 @@ Json sampling_json(const RenderOptions& options, const Account& account) {
 /// The cutoff's own bound: on average a sample lacks at most so much light.
 Json cutoff_json(const RenderOptions& options, const Account& account) {
   const auto cut = static_cast<double>(account.operations.rays_cut);
-  return {{"cutoff", options.picture.cutoff},
+  return {{"on", options.picture.cutoff > 0},
+          {"exact", false},
+          {"cutoff", options.picture.cutoff},
           {"rays_cut", account.operations.rays_cut},
           {"mean_error_bound", options.picture.cutoff * cut / static_cast<double>(account.film.samples())}};
+}
+
+/// A name as keys have it.
+std::string key_of(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == ' ' || c == '-'; }, '_');
+  return name;
+}
+
+/// What was left out.
+Json skips_json(const RenderOptions& options, const Account& account) {
+  Json result;
+  for (const core::Skip& skip : core::all_skips) {
+    result[key_of(skip.name)] = {{"on", options.picture.skips.*skip.is_on},
+                                 {"exact", true},
+                                 {"avoided", account.operations.skipped.*skip.avoided},
+                                 {"unit", skip.unit}};
+  }
+  result["cutoff"] = cutoff_json(options, account);
+  return result;
 }
 
 Json packets_json(const nodes::NodeCounters& counters) {
@@ -103,9 +126,7 @@ Json all_packets_json(const Account& account, std::uint64_t packets_overflowed) 
 Json memory_json(const nodes::MemoryPlan& memory) {
   Json result;
   for (std::size_t index = 0; index < nodes::category_count; ++index) {
-    std::string key = nodes::name_of(static_cast<nodes::Category>(index));
-    std::replace(key.begin(), key.end(), ' ', '_');
-    result[key] = memory.bytes[index];
+    result[key_of(nodes::name_of(static_cast<nodes::Category>(index)))] = memory.bytes[index];
   }
   result["total"] = memory.total();
   return result;
@@ -206,12 +227,21 @@ Json seconds_json(const Seconds& seconds) {
 }
 
 Json database_json(const core::Database& database) {
+  const core::RecordCounts& records = database.records();
+  const auto block_count = [&](core::PrimitiveKind kind) { return records.blocks[static_cast<std::size_t>(kind)]; };
   return {{"bytes", database.page_count() * database.page_size()},
           {"pages", database.page_count()},
           {"page_size", database.page_size()},
           {"primitives", database.header().primitive_count},
           {"references", database.references()},
-          {"dropped", database.dropped()}};
+          {"dropped", database.dropped()},
+          {"bricks", records.bricks},
+          {"triangle_blocks", block_count(core::PrimitiveKind::triangle)},
+          {"sphere_blocks", block_count(core::PrimitiveKind::sphere)},
+          {"cone_blocks", block_count(core::PrimitiveKind::cone)},
+          {"normals", records.normals},
+          {"materials", database.header().material_count},
+          {"lights", database.header().light_count}};
 }
 
 }  // namespace
@@ -253,8 +283,7 @@ std::string stats_json(const RenderRecord& record) {
   all.update({{"database", database_json(record.database)}, {"packets", all_packets_json(account, special.packets_overflowed)}});
   all.update(filled({"pages", "work", "travel", "load", "regions", "mapping", "pairs"}, special.all));
   all["chaos"] = chaos_json(account, special.chaos);
-  all["skips"] = {{"empty_space", record.options.computer.traversal.skip_empty_space},
-                  {"cutoff", cutoff_json(record.options, account)}};
+  all["skips"] = skips_json(record.options, account);
   all["nodes"] = nodes_json(account, special, timed);
   all["host"] = host_json(account, special.host, timed.host);
   return all.dump(2) + "\n";

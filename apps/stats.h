@@ -39,7 +39,9 @@ struct RenderRecord {
 ///                  square of the linear channels)
 ///   rays           rays shot
 ///   hits           primary, secondary, shadow_blocked, total_internal_reflections
-///   operations     cell_steps, brick_reads, triangle_tests, sphere_tests, cone_tests, shadings, deposits_saturated
+///   operations     cell_steps, brick_reads, triangle_tests, sphere_tests, cone_tests, shadings, normal_reads (vertex normals of
+///   smooth
+///                  triangles), deposits_saturated
 ///   seconds        load, build, prepare (plan; for dataflow balance and deal), render, write (wall clock), user, system,
 ///                  render_user, render_system
 ///   run_hash       of all events in virtual time (with the packets' targets, kinds and bytes), the machine's digest and the
@@ -60,7 +62,8 @@ struct RenderRecord {
 ///                  rule all there are on machines of up to 32 nodes, though a crossbar has more. A wait counts for the link that
 ///                  became free last. The ends are "node 3", "host", "switch 0", "place 9" (a router without a node) and, of
 ///                  memory ports, "memory 3"
-///   database       bytes, pages, page_size, primitives, references, dropped
+///   database       bytes, pages, page_size, primitives, references, dropped; records by kind: bricks, triangle_blocks,
+///                  sphere_blocks, cone_blocks, normals (of smooth triangles), materials, lights
 ///   packets        sent, received, bytes, overflow (by way of the host), and by_kind: packets and bytes
 ///   pages          references, hits, home_hits, cache_hits, misses, faults, evictions, served, distinct, distinct_per_pixel
 ///   work           pixels (over all passes), items_asked, items_taken, items_given
@@ -78,8 +81,9 @@ struct RenderRecord {
 ///                  nodes of which one has sent the other a ray
 ///   chaos          seed, packets_held, quanta_sat_out, and credits that were left: request_credits, ray_credits, host_credits,
 ///                  film_credits; null when calm
-///   skips          empty_space: whether the short cut was on; cutoff {cutoff, rays_cut, mean_error_bound: light that a sample
-///                  lacks at most, on average}
+///   skips          work that was left out: empty_space, any_hit, unlit, zero_terms, empty_regions, each {on, exact: true (it
+///                  changes no bit of the picture), avoided, unit (of the work avoided)}; cutoff {on, exact: false, cutoff,
+///                  rays_cut, mean_error_bound: light that a sample lacks at most, on average}
 ///   nodes          for each node: rays, hits, operations, packets {sent, received, bytes: sent, bytes_received, refused: tried
 ///                  without credit}, pages, work, travel, load {work_ps, predicted_ps}, region
 ///                  {low, high: corners in finest cells, share of the grid's volume, part_bytes, primitive_copies,

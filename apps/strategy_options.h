@@ -7,7 +7,6 @@
 #include <string>
 
 #include "apps/command_line.h"
-#include "core/traversal.h"
 #include "dataflow/balance.h"
 #include "nodes/chaos.h"
 #include "nodes/machine.h"
@@ -34,7 +33,6 @@ struct ComputerOptions {
   std::uint32_t node_count = 8;
   std::optional<std::size_t> node_memory_bytes;  ///< of each node; without it what the strategy needs
   std::optional<nodes::Chaos> chaos;             ///< disturbs the run
-  core::TraversalOptions traversal;
   RunnerKind runner = RunnerKind::threads;
   std::string machine_name = "ipsc2";     ///< to be modelled: a preset's name or a machine file
   bool no_contention = false;             ///< on the modelled machine

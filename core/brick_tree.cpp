@@ -24,6 +24,16 @@ Address take_room_for(BrickDraft& draft, RecordWriter& writer) {
   return address;
 }
 
+void count_below(const BrickDraft& draft, RecordCounts& records) {
+  ++records.bricks;
+  for (std::size_t i = 0; i < draft.brick.child_count; ++i) {
+    records.blocks[static_cast<std::size_t>(draft.blocks[i].kind)] += draft.blocks[i].count > 0 ? 1 : 0;
+  }
+  for (const BrickDraft& brick : draft.bricks) {
+    count_below(brick, records);
+  }
+}
+
 class TreeWriter {
  public:
   TreeWriter(const BrickTree& tree, std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading,
@@ -72,6 +82,8 @@ class TreeWriter {
 };
 
 }  // namespace
+
+void BrickTree::count(RecordCounts& records) const { count_below(top, records); }
 
 Address BrickTree::take_room(RecordWriter& writer) { return address = take_room_for(top, writer); }
 

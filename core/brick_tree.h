@@ -31,6 +31,8 @@ struct BrickTree {
   std::vector<std::uint32_t> ids;  ///< of the blocks, ascending in each
   Address address = no_address;    ///< of the first brick, once there is room
 
+  /// Adds its bricks and blocks.
+  void count(RecordCounts& records) const;
   /// Takes room for the records: a brick, its blocks, and then its bricks. Returns the first brick's address.
   Address take_room(RecordWriter& writer);
   /// Writes the records, for which room has been taken and made.

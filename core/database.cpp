@@ -135,6 +135,7 @@ class DatabaseBuilder {
   }
 
   void write_normals() {
+    result_.records_.normals = conversion_.smooth.size();
     for (const Conversion::Smooth& smooth : conversion_.smooth) {
       const Address address = writer_.allocate(sizeof(PatchNormals));
       writer_.write(address, 0, smooth.normals);
@@ -151,6 +152,7 @@ class DatabaseBuilder {
     std::vector<DirectoryEntry> directory(directory_entry_count(header().directory_size));
     for (std::size_t i = 0; i < trees.size(); ++i) {
       const std::uint64_t entry = directory_index(header().directory_size, cells.corner(i));
+      trees[i].count(result_.records_);
       directory[entry].bits = static_cast<std::uint32_t>(trees[i].take_room(writer_));
     }
     writer_.make_room();

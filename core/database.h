@@ -1,6 +1,7 @@
 // The scene as flat records cut into pages, ready for nodes (built on the host).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -31,6 +32,13 @@ struct PrimitiveSource {
 struct PrimitiveValues {
   PrimitiveKind kind{};
   std::array<float, 9> value{};
+};
+
+/// Records of the grid and of shading, by kind.
+struct RecordCounts {
+  std::uint64_t bricks = 0;
+  std::array<std::uint64_t, primitive_kind_count> blocks{};
+  std::uint64_t normals = 0;  ///< PatchNormals
 };
 
 class Database {
@@ -65,6 +73,7 @@ class Database {
   std::uint32_t dropped() const { return dropped_; }
   /// Copies of primitives in blocks, at least one each.
   std::uint64_t references() const { return references_; }
+  const RecordCounts& records() const { return records_; }
   /// Half the width of the slab within which a primitive counts as touching a cell, grid-local.
   double pad() const { return pad_; }
 
@@ -77,6 +86,7 @@ class Database {
   std::vector<PrimitiveSource> sources_;
   std::uint32_t dropped_ = 0;
   std::uint64_t references_ = 0;
+  RecordCounts records_;
   double pad_ = 0;
 };
 

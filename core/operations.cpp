@@ -17,6 +17,7 @@ Operations& operator+=(Operations& sum, const Operations& more) {
   sum.brick_reads += more.brick_reads;
   add_all(sum.primitive_tests, more.primitive_tests);
   sum.shadings += more.shadings;
+  sum.normal_reads += more.normal_reads;
   add_all(sum.rays, more.rays);
   sum.primary_hits += more.primary_hits;
   sum.secondary_hits += more.secondary_hits;
@@ -24,6 +25,7 @@ Operations& operator+=(Operations& sum, const Operations& more) {
   sum.total_internal_reflections += more.total_internal_reflections;
   sum.deposits_saturated += more.deposits_saturated;
   sum.rays_cut += more.rays_cut;
+  sum.skipped += more.skipped;
   return sum;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/ray.h"
 #include "core/record.h"
+#include "core/skips.h"
 
 namespace dmpc::core {
 
@@ -16,6 +17,7 @@ struct Operations {
   std::uint64_t brick_reads = 0;
   std::array<std::uint64_t, primitive_kind_count> primitive_tests{};  ///< lanes tested, by kind
   std::uint64_t shadings = 0;                                         ///< hits that were shaded
+  std::uint64_t normal_reads = 0;                                     ///< of those, hits on smooth triangles
 
   std::array<std::uint64_t, ray_kind_count> rays{};  ///< shot, hit or miss, by kind
   std::uint64_t primary_hits = 0;
@@ -24,6 +26,7 @@ struct Operations {
   std::uint64_t total_internal_reflections = 0;
   std::uint64_t deposits_saturated = 0;
   std::uint64_t rays_cut = 0;  ///< not shot, because they could bring less light than the cutoff
+  SkippedWork skipped;
 
   /// Rays shot, of all kinds.
   std::uint64_t ray_count() const { return std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}); }

@@ -24,17 +24,16 @@ concept Tracer = requires(T& tracer, const Ray& ray, Cursor& cursor, Operations&
 template <Records R>
 class GridTracer {
  public:
-  GridTracer(R& records, const DatabaseHeader& header, const TraversalOptions& options)
-      : records_(&records), header_(header), options_(options) {}
+  GridTracer(R& records, const DatabaseHeader& header, const Skips& skips) : records_(&records), header_(header), skips_(skips) {}
   Traced trace(const Ray& ray, Cursor& cursor, Operations& operations) {
-    return core::trace(ray, cursor, *records_, header_, options_, operations);
+    return core::trace(ray, cursor, *records_, header_, skips_, operations);
   }
   const std::byte* find(Address address) { return records_->find(address); }
 
  private:
   R* records_;
   DatabaseHeader header_;
-  TraversalOptions options_;
+  Skips skips_;
 };
 
 /// What a pixel needs beside the records; by value in every node.
@@ -43,6 +42,7 @@ struct RenderSettings {
   Camera camera;  ///< knows the samples of the first pass
   ShadeOptions shade;
   RefinementOptions refinement;
+  Skips skips;
 
   SampleRange first_samples() const { return {0, static_cast<std::uint32_t>(camera.samples())}; }
 };
@@ -120,7 +120,7 @@ TaskState PixelTask::shade(T& tracer, const RenderSettings& settings, Operations
       return TaskState::absent;
     }
     Ray child;
-    if (shade_step(state, record, settings.header, settings.shade, child, operations)) {
+    if (shade_step(state, record, settings.header, settings.shade, settings.skips, child, operations)) {
       shoot(child, operations);
       return TaskState::more;
     }

@@ -88,7 +88,8 @@ void read_geometry(HitState& state, const std::byte* record) {
 }
 
 /// Blends the vertex normals, turned to the winding's side and then to the ray's.
-void read_normals(HitState& state, const std::byte* record) {
+void read_normals(HitState& state, const std::byte* record, Operations& operations) {
+  ++operations.normal_reads;
   const auto normals = read<PatchNormals>(record);
   const Vec3d blend = Vec3d(normals.normal[0]) * (1.0 - state.u - state.v) + Vec3d(normals.normal[1]) * state.u +
                       Vec3d(normals.normal[2]) * state.v;
@@ -101,8 +102,6 @@ void read_normals(HitState& state, const std::byte* record) {
   state.stage = Stage::material;
 }
 
-bool reflects(const MaterialRecord& material) { return material.specular > 0.0F || material.transmittance > 0.0F; }
-
 /// The square of the cosine behind the surface by Snell's law; below 0 there is no refracted ray.
 double refracted_cosine_squared(const HitState& state, double relative_index) {
   const double cosine = dot(Vec3d(state.ray.direction), state.normal);
@@ -114,21 +113,46 @@ double relative_index(const HitState& state) {
   return state.leaving ? inside : 1.0 / inside;
 }
 
+/// What of the light found by a reflected ray counts: what cannot be transmitted is reflected, too.
+float mirrored_share(const HitState& state) {
+  return state.material.specular + (state.has_refraction ? 0.0F : state.material.transmittance);
+}
+
+bool reflects(const HitState& state, const Skips& skips) { return mirrored_share(state) > 0.0F || !skips.zero_terms; }
+
+bool refracts(const HitState& state, const Skips& skips) {
+  return state.has_refraction && (state.material.transmittance > 0.0F || !skips.zero_terms);
+}
+
+Stage after_reflection(const HitState& state, const Skips& skips) {
+  return refracts(state, skips) ? Stage::refracted : Stage::finished;
+}
+
 /// The stage after the lights: children only while depth is left.
-Stage after_lights(const HitState& state, const ShadeOptions& options) {
-  return state.ray.depth < options.depth_max && reflects(state.material) ? Stage::reflected : Stage::finished;
+Stage after_lights(const HitState& state, const ShadeOptions& options, const Skips& skips) {
+  if (state.ray.depth >= options.depth_max) {
+    return Stage::finished;
+  }
+  return reflects(state, skips) ? Stage::reflected : after_reflection(state, skips);
+}
+
+/// Which children the hit may have, and which it does not have since their share is nothing.
+void judge_children(HitState& state, const Skips& skips, Operations& operations) {
+  const double index = relative_index(state);
+  state.has_refraction = index <= 1.0 || !(refracted_cosine_squared(state, index) < 0.0);
+  operations.total_internal_reflections += !state.has_refraction && state.material.transmittance > 0.0F ? 1 : 0;
+  operations.skipped.zero_terms += reflects(state, skips) ? 0 : 1;
+  operations.skipped.zero_terms += !state.has_refraction || refracts(state, skips) ? 0 : 1;
 }
 
 void read_material(HitState& state, const std::byte* record, const DatabaseHeader& header, const ShadeOptions& options,
-                   Operations& operations) {
+                   const Skips& skips, Operations& operations) {
   state.material = read<MaterialRecord>(record);
-  const Stage later = after_lights(state, options);
-  if (later == Stage::reflected && state.material.transmittance > 0.0F) {
-    state.total_internal_reflection = refracted_cosine_squared(state, relative_index(state)) < 0.0;
-    operations.total_internal_reflections += state.total_internal_reflection ? 1 : 0;
-  }
   ++operations.shadings;
-  state.stage = header.light_count > 0 ? Stage::light : later;
+  if (state.ray.depth < options.depth_max) {
+    judge_children(state, skips, operations);
+  }
+  state.stage = header.light_count > 0 ? Stage::light : after_lights(state, options, skips);
 }
 
 /// A child that starts beside the hit, on the side that it goes to.
@@ -156,33 +180,42 @@ Color reflected_light(const HitState& state, const LightRecord& light, const Vec
   return Color(Vec3d(state.ray.weight) * Vec3d(light.intensity) * surface);
 }
 
-bool read_light(HitState& state, const std::byte* record, const DatabaseHeader& header, const ShadeOptions& options, Ray& child) {
+/// Whether a ray that brings `weight` from a light is left out, and why. The paper's convention shoots all.
+bool leaves_out(bool is_lit, const Color& weight, const ShadeOptions& options, const Skips& skips, Operations& operations) {
+  if (options.convention == Convention::paper || !(weight == Color{})) {
+    return false;
+  }
+  const bool leaves = is_lit ? skips.zero_terms : skips.unlit;
+  (is_lit ? operations.skipped.zero_terms : operations.skipped.unlit) += leaves ? 1 : 0;
+  return leaves;
+}
+
+bool read_light(HitState& state, const std::byte* record, const DatabaseHeader& header, const ShadeOptions& options,
+                const Skips& skips, Ray& child, Operations& operations) {
   const auto light = read<LightRecord>(record);
   if (++state.next_light == header.light_count) {
-    state.stage = after_lights(state, options);
+    state.stage = after_lights(state, options, skips);
   }
   const Vec3d towards = Vec3d(light.position) - state.point;
   const double distance = length(towards);
   const double cosine = distance > 0.0 ? dot(towards, state.normal) / distance : 0.0;
-  if (!(cosine > 0.0) && options.convention == Convention::haines) {
+  const bool is_lit = cosine > 0.0;
+  const Color weight = is_lit ? reflected_light(state, light, towards * (1.0 / distance), cosine) : Color{};
+  if (leaves_out(is_lit, weight, options, skips, operations)) {
     return false;
   }
   child = child_ray(state, towards, RayKind::shadow);
   const Vec3d from_start = Vec3d(light.position) - Vec3d(child.origin);
   child.direction = Vec3f(normalize(from_start));
   child.t_max = static_cast<float>(length(from_start) * (1.0 - light_gap));
-  child.weight = cosine > 0.0 ? reflected_light(state, light, towards * (1.0 / distance), cosine) : Color{};
+  child.weight = weight;
   return true;
 }
 
-bool reflect(HitState& state, Ray& child) {
-  const MaterialRecord& material = state.material;
+bool reflect(HitState& state, const Skips& skips, Ray& child) {
   child = child_ray(state, mirrored(Vec3d(state.ray.direction), state.normal), RayKind::reflected);
-  // What cannot be transmitted is reflected.
-  const float share = material.specular + (state.total_internal_reflection ? material.transmittance : 0.0F);
-  child.weight = state.ray.weight * share;
-  const bool transmits = material.transmittance > 0.0F && !state.total_internal_reflection;
-  state.stage = transmits ? Stage::refracted : Stage::finished;
+  child.weight = state.ray.weight * mirrored_share(state);
+  state.stage = after_reflection(state, skips);
   return true;
 }
 
@@ -251,22 +284,22 @@ Address record_needed(const HitState& state, const DatabaseHeader& header) {
   }
 }
 
-bool shade_step(HitState& state, const std::byte* record, const DatabaseHeader& header, const ShadeOptions& options, Ray& child,
-                Operations& operations) {
+bool shade_step(HitState& state, const std::byte* record, const DatabaseHeader& header, const ShadeOptions& options,
+                const Skips& skips, Ray& child, Operations& operations) {
   switch (state.stage) {
     case Stage::geometry:
       read_geometry(state, record);
       return false;
     case Stage::normals:
-      read_normals(state, record);
+      read_normals(state, record, operations);
       return false;
     case Stage::material:
-      read_material(state, record, header, options, operations);
+      read_material(state, record, header, options, skips, operations);
       return false;
     case Stage::light:
-      return kept(read_light(state, record, header, options, child), child, options, operations);
+      return kept(read_light(state, record, header, options, skips, child, operations), child, options, operations);
     case Stage::reflected:
-      return kept(reflect(state, child), child, options, operations);
+      return kept(reflect(state, skips, child), child, options, operations);
     case Stage::refracted:
       return kept(refract(state, child), child, options, operations);
     case Stage::finished:

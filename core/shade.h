@@ -9,6 +9,7 @@
 #include "core/ray.h"
 #include "core/record.h"
 #include "core/scene.h"
+#include "core/skips.h"
 #include "core/vec.h"
 
 namespace dmpc::core {
@@ -43,9 +44,9 @@ struct HitState {
   MaterialRecord material;
   ShadingReference shading;
   std::uint32_t next_light = 0;
-  bool curved = false;   ///< a ray from here may meet the same primitive again
-  bool leaving = false;  ///< the ray goes along the true normal: out of the body
-  bool total_internal_reflection = false;
+  bool curved = false;          ///< a ray from here may meet the same primitive again
+  bool leaving = false;         ///< the ray goes along the true normal: out of the body
+  bool has_refraction = false;  ///< Snell's law has an answer: known if this hit may have children
   Stage stage = Stage::geometry;
 };
 static_assert(std::is_trivially_copyable_v<HitState>);
@@ -58,7 +59,7 @@ Address record_needed(const HitState& state, const DatabaseHeader& header);
 
 /// One step. `record` is the record of record_needed() (nullptr if that was no_address). Returns whether `child` was set to a ray
 /// to be shot; the caller shoots it, then goes on, until state.stage is finished.
-bool shade_step(HitState& state, const std::byte* record, const DatabaseHeader& header, const ShadeOptions& options, Ray& child,
-                Operations& operations);
+bool shade_step(HitState& state, const std::byte* record, const DatabaseHeader& header, const ShadeOptions& options,
+                const Skips& skips, Ray& child, Operations& operations);
 
 }  // namespace dmpc::core

@@ -71,6 +71,12 @@ inline MetChild take_nearer(MetChildren& waiting, const Hit& best) {
   return {};
 }
 
+/// Children that wait and do not lie behind the hit.
+inline std::uint64_t count_before(const MetChildren& waiting, const Hit& hit) {
+  const auto begin = waiting.t_enter.begin();
+  return static_cast<std::uint64_t>(std::count_if(begin, begin + waiting.count, [&](float t) { return t <= hit.t; }));
+}
+
 /// Visits the children of the cursor's cell that the ray meets, from cursor.next on: `meet` finds them, `test(record, address,
 /// best)` is called for blocks. False if a record is absent. `any` hit will do: it ends the visit.
 template <Records R, class Test>
@@ -88,6 +94,7 @@ bool visit_children(const Ray& ray, const BoxRay& box, bool any, Cursor& cursor,
     if (child.record.is_block()) {
       test(record, address, cursor.best);
       if (any && cursor.best.found()) {
+        operations.skipped.any_hit += count_before(cursor.waiting, cursor.best);
         break;
       }
       child = {};
@@ -103,7 +110,7 @@ bool visit_children(const Ray& ray, const BoxRay& box, bool any, Cursor& cursor,
 
 /// trace() with kernels of one's own.
 template <Records R, class Test>
-Traced trace_blocks(const Ray& ray, Cursor& cursor, R& records, const DatabaseHeader& header, const TraversalOptions& options,
+Traced trace_blocks(const Ray& ray, Cursor& cursor, R& records, const DatabaseHeader& header, const Skips& skips,
                     Operations& operations, BrickKernel meet, const Test& test) {
   if (cursor.stage == Cursor::Stage::finished) {
     return finish(cursor);
@@ -113,7 +120,7 @@ Traced trace_blocks(const Ray& ray, Cursor& cursor, R& records, const DatabaseHe
     return finish(cursor);
   }
   const BoxRay box(ray);
-  const bool any = ray.kind == RayKind::shadow;
+  const bool any = skips.any_hit && ray.kind == RayKind::shadow;
   for (;;) {
     if (cursor.stage == Cursor::Stage::directory) {
       const std::uint64_t index = directory_index(header, cursor.cell);
@@ -123,7 +130,7 @@ Traced trace_blocks(const Ray& ray, Cursor& cursor, R& records, const DatabaseHe
         cursor.absent = address;
         return Traced::absent;
       }
-      if (!walk.read(ray, read<DirectoryEntry>(record + directory_offset(index)), cursor, options, operations)) {
+      if (!walk.read(ray, read<DirectoryEntry>(record + directory_offset(index)), cursor, skips, operations)) {
         return finish(cursor);
       }
     } else if (!visit_children(ray, box, any, cursor, records, operations, meet, test)) {
@@ -134,17 +141,18 @@ Traced trace_blocks(const Ray& ray, Cursor& cursor, R& records, const DatabaseHe
   }
 }
 
-/// Walks `ray` through the grid until its nearest hit in (0, ray.t_max) is known (for a shadow ray: any hit), no hit can exist,
-/// or a record is absent. After Traced::absent, call again with the same cursor once the record of cursor.absent is there: the
-/// answer has the same bits as without the interruption. Where `header` is a region's, a ray that leaves the region answers
-/// Traced::left, and whoever owns the cell of passage_of(cursor) goes on from arrive(), with the same bits. A ray with a NaN or
-/// an infinite component misses. Source: J. Amanatides, A. Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", 1987.
+/// Walks `ray` through the grid until its nearest hit in (0, ray.t_max) is known (for a shadow ray: any hit, unless
+/// that skip is off), no hit can exist, or a record is absent. After Traced::absent, call again with the same cursor once the
+/// record of cursor.absent is there: the answer has the same bits as without the interruption. Where `header` is a region's, a
+/// ray that leaves the region answers Traced::left, and whoever owns the cell of passage_of(cursor) goes on from arrive(), with
+/// the same bits. A ray with a NaN or an infinite component misses. Source: J. Amanatides, A. Woo, "A Fast Voxel Traversal
+/// Algorithm for Ray Tracing", 1987.
 template <Records R>
-Traced trace(const Ray& ray, Cursor& cursor, R& records, const DatabaseHeader& header, const TraversalOptions& options,
+Traced trace(const Ray& ray, Cursor& cursor, R& records, const DatabaseHeader& header, const Skips& skips,
              Operations& operations) {
   const ShearedRay sheared(ray);
   return trace_blocks(
-      ray, cursor, records, header, options, operations, meet_children,
+      ray, cursor, records, header, skips, operations, meet_children,
       [&](const std::byte* record, Address address, Hit& best) { test_block(ray, sheared, record, address, best, operations); });
 }
 

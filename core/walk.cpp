@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "core/mutation.h"
@@ -18,6 +19,11 @@ constexpr double never = std::numeric_limits<double>::infinity();
 bool is_whole(const Region& region, const Corner& size) {
   return (region.low[0] | region.low[1] | region.low[2]) == 0 && region.high[0] == size[0] && region.high[1] == size[1] &&
          region.high[2] == size[2];
+}
+
+/// Top cells from one to another, from neighbour to neighbour.
+std::int32_t top_cells_between(const Corner& from, const Corner& to) {
+  return (std::abs(to[0] - from[0]) + std::abs(to[1] - from[1]) + std::abs(to[2] - from[2])) / finest_per_top;
 }
 
 /// What is left of a local coordinate that went through the world's, in single precision.
@@ -121,6 +127,20 @@ bool Walk::enter(const Ray& ray, Cursor& cursor) const {
   }
   cursor.stage = Cursor::Stage::directory;
   return true;
+}
+
+/// Leaves the box of empty cells nearer than `radius` to the cursor's in one step.
+bool Walk::jump(const Ray& ray, std::int32_t radius, Cursor& cursor, Operations& operations) const {
+  const std::int32_t reach = radius * finest_per_top;
+  const Corner from = cursor.cell;
+  Region box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] = std::max(0, from[axis] - reach + finest_per_top);
+    box.high[axis] = std::min(grid_.high[axis], from[axis] + reach);
+  }
+  const bool goes_on = leave(ray, exit_through(planes_ahead(from, reach, grid_)), &box, cursor, operations);
+  operations.skipped.empty_space += static_cast<std::uint64_t>(std::max(top_cells_between(from, cursor.cell), 1) - 1);
+  return goes_on;
 }
 
 void Walk::leave_region(const Ray& ray, const Corner& cell, Cursor& cursor, Operations& operations) const {

@@ -17,11 +17,6 @@
 
 namespace dmpc::core {
 
-/// What a caller may switch off to see what it contributes. Every switch is exact: it does not change a bit of the result.
-struct TraversalOptions {
-  bool skip_empty_space = true;  ///< leave empty boxes of top cells in one step
-};
-
 /// What a ray and a grid determine: nothing here is carried from step to step, everything is recomputed from the ray's bits.
 ///
 /// The one formula for a plane anywhere: plane i of an axis (in finest cells) is crossed at t = i * slope + offset, in double.
@@ -43,8 +38,7 @@ class Walk {
 
   /// Takes the directory entry of the cursor's cell: then a brick is to be visited, or another entry is needed, or the walk is
   /// finished (false) or has left the region (false, and cursor.stage says so).
-  bool read(const Ray& ray, const DirectoryEntry& entry, Cursor& cursor, const TraversalOptions& options,
-            Operations& operations) const;
+  bool read(const Ray& ray, const DirectoryEntry& entry, Cursor& cursor, const Skips& skips, Operations& operations) const;
 
   /// Leaves the cursor's cell, whose children have been visited, for one whose entry is needed, unless the walk is finished or
   /// has left the region (false).
@@ -64,6 +58,7 @@ class Walk {
   Corner planes_ahead(const Corner& cell, std::int32_t reach, const Region& limits) const;
   Exit exit_through(const Corner& planes) const;
   bool leave(const Ray& ray, const Exit& exit, const Region* around, Cursor& cursor, Operations& operations) const;
+  bool jump(const Ray& ray, std::int32_t radius, Cursor& cursor, Operations& operations) const;
   bool stays(Cursor& cursor, std::int32_t face) const;
   Corner finest_cell_of(const Cursor& cursor, std::int32_t face) const;
 
@@ -105,7 +100,7 @@ inline Exit Walk::exit_through(const Corner& planes) const {
   return exit;
 }
 
-inline bool Walk::read(const Ray& ray, const DirectoryEntry& entry, Cursor& cursor, const TraversalOptions& options,
+inline bool Walk::read(const Ray& ray, const DirectoryEntry& entry, Cursor& cursor, const Skips& skips,
                        Operations& operations) const {
   if (!entry.empty()) {
     cursor.exit = exit_through(planes_ahead(cursor.cell, finest_per_top, region_));
@@ -114,17 +109,11 @@ inline bool Walk::read(const Ray& ray, const DirectoryEntry& entry, Cursor& curs
     cursor.stage = Cursor::Stage::child;
     return true;
   }
-  const std::int32_t reach = options.skip_empty_space ? std::max(entry.radius(), 1) * finest_per_top : finest_per_top;
-  const Exit exit = exit_through(planes_ahead(cursor.cell, reach, entry.radius() > 0 ? grid_ : region_));
-  if (reach == finest_per_top) {
-    return leave(ray, exit, nullptr, cursor, operations);
+  if (skips.empty_space && entry.radius() > 1) {
+    return jump(ray, entry.radius(), cursor, operations);
   }
-  Region box;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.low[axis] = std::max(0, cursor.cell[axis] - reach + finest_per_top);
-    box.high[axis] = std::min(grid_.high[axis], cursor.cell[axis] + reach);
-  }
-  return leave(ray, exit, &box, cursor, operations);
+  const Region& limits = entry.radius() > 0 ? grid_ : region_;
+  return leave(ray, exit_through(planes_ahead(cursor.cell, finest_per_top, limits)), nullptr, cursor, operations);
 }
 
 /// Goes on to the next top cell: the neighbour, or, from several cells `around` the cursor's, that which holds the ray. False if

@@ -86,7 +86,7 @@ class ChargedPicture {
     ++operations_.rays[static_cast<std::size_t>(ray.kind)];
     core::Cursor cursor;
     Watch watch{*this, ray, cursor};
-    const core::Traced traced = core::trace(ray, cursor, watch, settings_.header, {}, operations_);
+    const core::Traced traced = core::trace(ray, cursor, watch, settings_.header, settings_.skips, operations_);
     settle();
     if (traced == core::Traced::hit && ray.kind != core::RayKind::shadow) {
       const core::GridFrame& frame = settings_.header.frame;
@@ -102,7 +102,8 @@ class ChargedPicture {
       const core::Address address = core::record_needed(state, settings_.header);
       const std::byte* record = address == core::no_address ? nullptr : records_.find(address);
       core::Ray child;
-      const bool has_child = core::shade_step(state, record, settings_.header, settings_.shade, child, operations_);
+      const bool has_child =
+          core::shade_step(state, record, settings_.header, settings_.shade, settings_.skips, child, operations_);
       settle();
       if (has_child) {
         shoot(child);

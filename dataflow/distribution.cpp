@@ -30,11 +30,11 @@ double Distribution::duplication(const core::Database& database) const {
 }
 
 Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Bsp& bsp,
-                        const core::TraversalOptions& traversal, const std::stop_token& stop) {
+                        const std::stop_token& stop) {
   Distribution distribution{bsp, {}, {}};
   for (std::uint32_t node = 0; node < bsp.region_count(); ++node) {
     distribution.parts.push_back(core::extract(database, bsp.region_of(nodes::NodeId{node})));
-    if (traversal.skip_empty_space && distribution.parts.back().primitive_copies == 0) {
+    if (settings.skips.empty_regions && distribution.parts.back().primitive_copies == 0) {
       distribution.bsp.mark_empty(bsp.region_index_of(nodes::NodeId{node}));
     }
   }

@@ -7,6 +7,7 @@ NextStop next_stop(const core::Ray& ray, const core::Passage& passage, const cor
   NextStop stop{.passage = passage, .region = bsp.region_index_of(passage.cell)};
   while (stop.traced == core::Traced::left && bsp.is_empty(stop.region)) {
     stop.traced = core::pass(ray, frame, bsp.region_at(stop.region), stop.passage, operations);
+    ++operations.skipped.empty_regions;
     stop.region = bsp.region_index_of(stop.passage.cell);
   }
   return stop;

@@ -18,7 +18,7 @@ struct NextStop {
 };
 
 /// The way of a ray that enters the grid, or leaves a region, by `passage`. Same bits as if every region were asked. Thread
-/// safety: pure but for the steps that it adds to `operations`.
+/// safety: pure but for the steps and skipped regions that it adds to `operations`.
 NextStop next_stop(const core::Ray& ray, const core::Passage& passage, const core::GridFrame& frame, const Bsp& bsp,
                    core::Operations& operations);
 

@@ -31,7 +31,9 @@ std::span<std::byte> keep_part(LocalMemory& memory, std::span<const std::byte> p
   return bytes;
 }
 
-core::RenderSettings settings_for(const NodeDeal& deal) { return {deal.part.header, deal.settings.camera, deal.settings.shade}; }
+core::RenderSettings settings_for(const NodeDeal& deal) {
+  return {.header = deal.part.header, .camera = deal.settings.camera, .shade = deal.settings.shade, .skips = deal.settings.skips};
+}
 
 }  // namespace
 
@@ -70,7 +72,7 @@ NodeProgram::NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& de
       constants_(keep(node.memory(), Constants{settings_for(deal), deal.bsp})),
       part_(keep_part(node.memory(), deal.part.bytes)),
       records_(part_),
-      tracer_(records_, deal.part.header, deal.traversal),
+      tracer_(records_, deal.part.header, deal.settings.skips),
       primaries_(node.memory(), deal.primaries, deal.settings.first_samples(), plan.request.refinement.is_wanted()),
       backlog_(node.memory(), backlog_capacity(plan)),
       task_(node.memory(), node.id(), plan.request.depth_max),
@@ -275,8 +277,7 @@ void NodeProgram::go_to_next(RayMessage message) {
     return end_miss(message.ray);
   }
   if (stop.traced == core::Traced::hit) {
-    message.is_confirmed = 1;
-    return shade_at_finder(message);
+    return end_confirmed(message);
   }
   const nodes::NodeId owner = constants_->bsp.owner_of(stop.passage.cell);
   const RayMessage next = message_of(message.ray, stop.passage, nodes::NodeId{message.finder});
@@ -298,11 +299,24 @@ void NodeProgram::trace() {
   }
 }
 
+void NodeProgram::end_blocked() {
+  ++operations_.shadow_blocked;
+  ++counters_.ended;
+}
+
+/// The nearest hit of a ray is proved where nothing is.
+void NodeProgram::end_confirmed(RayMessage message) {
+  if (message.ray.kind == core::RayKind::shadow) {
+    return end_blocked();
+  }
+  message.is_confirmed = 1;
+  shade_at_finder(message);
+}
+
 /// A ray has met its nearest hit, or a shadow ray any.
 void NodeProgram::end_hit() {
   if (task_.ray().kind == core::RayKind::shadow) {
-    ++operations_.shadow_blocked;
-    ++counters_.ended;
+    end_blocked();
   } else if (task_.found_here()) {
     task_.shade_hit();
     count_claim(task_.ray().kind);

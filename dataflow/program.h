@@ -63,7 +63,6 @@ struct NodeDeal {
   std::span<const PrimaryRun> primaries;
   const core::RenderSettings& settings;  ///< the whole picture's
   const Bsp& bsp;
-  core::TraversalOptions traversal;
 };
 
 class NodeProgram final : public nodes::Program {
@@ -107,6 +106,8 @@ class NodeProgram final : public nodes::Program {
   void shoot(const core::Ray& ray);
   void go_to_next(RayMessage message);
   void end_hit();
+  void end_blocked();
+  void end_confirmed(RayMessage message);
   void shade_at_finder(const RayMessage& hit);
   void count_claim(core::RayKind kind);
   void end_miss(const core::Ray& ray);

@@ -66,7 +66,7 @@ Plan plan_for(const Distribution& distribution, const core::Database& database, 
   const PlanRequest request = request_of(distribution, settings, options);
   const MakeShares make_shares = [&](std::uint32_t node_count) {
     const Regions regions = regions_for(node_count, loads, settings, options);
-    return distribute(database, settings, regions.bsp, options.traversal, stop).shares();
+    return distribute(database, settings, regions.bsp, stop).shares();
   };
   return make_plan(request, [&] { return smallest_node_count(request, make_shares); });
 }
@@ -234,8 +234,7 @@ Prepared prepare(const core::Database& database, const core::RenderSettings& set
                  const std::stop_token& stop) {
   const ColumnLoads loads = column_loads(database, settings, options.balance, stop);
   Regions regions = regions_for(options.node_count, loads, settings, options);
-  Prepared prepared{.distribution = distribute(database, settings, regions.bsp, options.traversal, stop),
-                    .predicted = std::move(regions.predicted)};
+  Prepared prepared{.distribution = distribute(database, settings, regions.bsp, stop), .predicted = std::move(regions.predicted)};
   prepared.duplication = prepared.distribution.duplication(database);
   prepared.plan = plan_for(prepared.distribution, database, loads, settings, options, stop);
   return prepared;
@@ -248,9 +247,9 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
                 .bsp = prepared.distribution.bsp,
                 .predicted = prepared.predicted,
                 .duplication = prepared.duplication};
-  const auto runner = nodes::make_runner(
-      specifications_of(report.plan, prepared.distribution, settings, options.traversal, report.film, options.progress),
-      {options.chaos, options.machine});
+  const auto runner =
+      nodes::make_runner(specifications_of(report.plan, prepared.distribution, settings, report.film, options.progress),
+                         {options.chaos, options.machine});
   if (options.distributed) {
     options.distributed();
   }
@@ -260,13 +259,13 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
 }
 
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,
-                                                        const core::RenderSettings& settings, core::TraversalOptions traversal,
-                                                        core::Film& film, const Progress& progress) {
+                                                        const core::RenderSettings& settings, core::Film& film,
+                                                        const Progress& progress) {
   std::vector<nodes::NodeSpecification> specifications;
   for (std::uint32_t i = 0; i < plan.node_count(); ++i) {
-    const auto make_program = [&, i, traversal](nodes::Node& node) {
+    const auto make_program = [&, i](nodes::Node& node) {
       return std::make_unique<NodeProgram>(
-          node, plan, NodeDeal{distribution.parts[i], distribution.primaries[i], settings, distribution.bsp, traversal});
+          node, plan, NodeDeal{distribution.parts[i], distribution.primaries[i], settings, distribution.bsp});
     };
     specifications.push_back({plan.node_memory(i), plan.node_mailbox, make_program, plan.held_bytes});
   }

@@ -38,7 +38,6 @@ struct RunOptions {
   std::optional<nodes::TopologyKind> topology = std::nullopt;
   MakeBsp make_bsp = {};  ///< regions of one's own, in place of `balance` and `topology`
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;
-  core::TraversalOptions traversal = {};
   std::optional<nodes::Chaos> chaos = std::nullopt;  ///< disturbs the run; the film stays the same
   /// A modelled machine, in virtual time, in place of threads. Not with chaos.
   std::optional<nodes::Machine> machine = std::nullopt;
@@ -112,10 +111,10 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
 Report run_dataflow(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                     std::stop_token stop);
 
-/// What a runner needs for `plan`: the nodes in order, then the host, which writes `film`. All arguments but `traversal` outlive
+/// What a runner needs for `plan`: the nodes in order, then the host, which writes `film`. All arguments outlive
 /// the runner.
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,
-                                                        const core::RenderSettings& settings, core::TraversalOptions traversal,
-                                                        core::Film& film, const Progress& progress);
+                                                        const core::RenderSettings& settings, core::Film& film,
+                                                        const Progress& progress);
 
 }  // namespace dmpc::dataflow

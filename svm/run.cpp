@@ -71,12 +71,12 @@ constexpr std::uint32_t interrupt_kinds = 1U << number_of(Kind::page_request);
 
 /// prepare(index, records) is called for each node before its first reference.
 template <class Records, class Prepare>
-MakeProgram maker(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
-                  const Plan& plan, const Prepare& prepare) {
+MakeProgram maker(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
+                  const Prepare& prepare) {
   return [&, prepare](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
     const auto make_tracer = [&](Records& records) {
       prepare(index, records);
-      return core::GridTracer<Records>(records, settings.header, options.traversal);
+      return core::GridTracer<Records>(records, settings.header, settings.skips);
     };
     return std::make_unique<ControlProgram<Records, core::GridTracer<Records>>>(node, plan, settings, database.bytes(),
                                                                                 make_tracer);
@@ -84,16 +84,15 @@ MakeProgram maker(const core::Database& database, const core::RenderSettings& se
 }
 
 template <class Records>
-MakeProgram maker(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
-                  const Plan& plan) {
-  return maker<Records>(database, settings, options, plan, [](std::uint32_t, Records&) {});
+MakeProgram maker(const core::Database& database, const core::RenderSettings& settings, const Plan& plan) {
+  return maker<Records>(database, settings, plan, [](std::uint32_t, Records&) {});
 }
 
 Report run_recording(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                      const Plan& plan, std::stop_token stop) {
   std::vector<ReferenceLog> logs(plan.request.node_count);
   const auto record = [&logs](std::uint32_t index, RecordingPager& pager) { pager.record_into(logs[index]); };
-  Report report = run_programs(plan, maker<RecordingPager>(database, settings, options, plan, record), options, std::move(stop));
+  Report report = run_programs(plan, maker<RecordingPager>(database, settings, plan, record), options, std::move(stop));
   for (std::size_t i = 0; i < logs.size(); ++i) {
     report.nodes[i].references = std::move(logs[i]);
   }
@@ -209,15 +208,15 @@ Report run_svm(const core::Database& database, const core::RenderSettings& setti
   if (options.record_references) {
     return run_recording(database, settings, options, plan, std::move(stop));
   }
-  const MakeProgram make_program = options.count_pages ? maker<CountingPager>(database, settings, options, plan)
-                                                       : maker<Pager>(database, settings, options, plan);
+  const MakeProgram make_program =
+      options.count_pages ? maker<CountingPager>(database, settings, plan) : maker<Pager>(database, settings, plan);
   return run_programs(plan, make_program, options, std::move(stop));
 }
 
 Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                       std::stop_token stop) {
   const Plan plan = plan_of(Strategy::replicated, database, settings, options);
-  return run_programs(plan, maker<LocalCopy>(database, settings, options, plan), options, std::move(stop));
+  return run_programs(plan, maker<LocalCopy>(database, settings, plan), options, std::move(stop));
 }
 
 }  // namespace dmpc::svm

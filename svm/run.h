@@ -43,7 +43,6 @@ struct RunOptions {
   /// work_item_side = 0 and in_flight = 1: else the references would depend on the cache and the schedule.
   bool record_references = false;
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;
-  core::TraversalOptions traversal = {};
   std::optional<nodes::Chaos> chaos = std::nullopt;  ///< disturbs the run; the film stays the same
   /// A modelled machine, in virtual time, in place of threads. Not with chaos.
   std::optional<nodes::Machine> machine = std::nullopt;

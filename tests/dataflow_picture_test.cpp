@@ -23,14 +23,14 @@ namespace {
 using dataflow::Balance;
 using dataflow::RunOptions;
 
-dataflow::Report run(const Subject& subject, const RunOptions& options) {
-  return dataflow::run_dataflow(subject.database(), subject.settings(), options, {});
+dataflow::Report run(const Subject& subject, const RunOptions& options, const core::Skips& skips = {}) {
+  return dataflow::run_dataflow(subject.database(), subject.settings(skips), options, {});
 }
 
 /// Runs and holds film, rays and hits to the reference renderer's.
-dataflow::Report check(const Subject& subject, const RunOptions& options) {
+dataflow::Report check(const Subject& subject, const RunOptions& options, const core::Skips& skips = {}) {
   CAPTURE(options.node_count);
-  dataflow::Report report = run(subject, options);
+  dataflow::Report report = run(subject, options, skips);
   CHECK(outcome_of(report) == subject.outcome());
   return report;
 }
@@ -72,7 +72,7 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
     options.ray_credits = ray_credits[row[2]];
     options.queue_packets = queues[row[3]];
     options.balance = {.balance = row[4] == 0 ? Balance::subsampled : Balance::equal_size, .subsample = 4};
-    options.traversal.skip_empty_space = row[5] == 0;
+    const core::Skips skips{.empty_space = row[5] == 0, .any_hit = row[5] == 0, .empty_regions = row[5] == 0};
     if (row[6] == 1) {
       options.topology = nodes::TopologyKind::hypercube;
     }
@@ -82,7 +82,7 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
     CAPTURE(row[4]);
     CAPTURE(row[5]);
     CAPTURE(row[7]);
-    check(subjects[row[7]], options);
+    check(subjects[row[7]], options, skips);
   }
 }
 
@@ -96,12 +96,11 @@ TEST_CASE("dataflow: any nodes, batches, credits, queues, balances, skips and ax
   check_pairwise(built_in("gears-2"), {16, 16});
 }
 
-TEST_CASE("dataflow: nodes whose regions are empty stay idle where empty space is skipped, and the picture is the same") {
+TEST_CASE("dataflow: nodes whose regions are empty stay idle unless that skip is off, and the picture is the same") {
   const Subject subject(built_in("sombrero-1"), {24, 24});
   for (const bool skips : {true, false}) {
-    RunOptions options{.node_count = 24, .balance = {.balance = Balance::equal_size}};
-    options.traversal.skip_empty_space = skips;
-    const dataflow::Report report = check(subject, options);
+    const RunOptions options{.node_count = 24, .balance = {.balance = Balance::equal_size}};
+    const dataflow::Report report = check(subject, options, {.empty_regions = skips});
     std::uint64_t empty = 0, steps = 0, rays = 0;
     for (const dataflow::NodeReport& node : report.nodes) {
       const bool is_empty = node.primitive_copies == 0;
@@ -156,10 +155,8 @@ TEST_CASE("dataflow: a hit beside the region of its triangle, which its owner ca
   for (const std::uint32_t nodes : {6U, 9U, 64U}) {
     const dataflow::MakeBsp make_bsp = [&](std::uint32_t n) { return dataflow::equal_size_bsp(size, {1, 2}, n); };
     for (const Wish& credits : ray_credits) {
-      RunOptions options{.node_count = nodes, .ray_credits = credits, .make_bsp = make_bsp};
-      options.traversal.skip_empty_space = false;
-      CHECK(check(subject, options).rays().hits_sent_back == 1);
-      options.traversal.skip_empty_space = true;
+      const RunOptions options{.node_count = nodes, .ray_credits = credits, .make_bsp = make_bsp};
+      CHECK(check(subject, options, {.empty_space = false, .empty_regions = false}).rays().hits_sent_back == 1);
       CHECK(check(subject, options).rays().hits_sent_back == 1);
     }
   }

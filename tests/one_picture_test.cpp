@@ -138,11 +138,6 @@ TEST_CASE("twenty runs on 64 nodes give one picture") {
   }
 }
 
-TEST_CASE("empty space skipped or not, the picture is the same") {
-  const Subject subject(tests::built_in("balls-2"), {48, 48});
-  CHECK(outcome_of(run_svm(subject, {.node_count = 3, .traversal = {.skip_empty_space = false}})) == subject.outcome());
-}
-
 TEST_CASE("a picture of one pixel and a picture with fewer pixels than nodes are the reference's") {
   for (const int width : {1, 5}) {
     const Subject subject(tests::mirrors_and_glass(), {width, 1}, {.page_size_bytes = 512});

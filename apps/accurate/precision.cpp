@@ -19,7 +19,7 @@ using core::Vec3d;
 std::vector<Vec3d> render_row(const Subject& subject, std::uint32_t row) {
   const core::RenderSettings& settings = subject.settings;
   core::LocalRecords records(subject.database.bytes());
-  core::GridTracer tracer(records, settings.header, core::TraversalOptions{});
+  core::GridTracer tracer(records, settings.header, settings.skips);
   std::vector<core::HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
   core::PixelTask task(stack);
   core::Operations operations;

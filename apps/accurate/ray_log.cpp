@@ -182,7 +182,7 @@ ProductLogger::ProductLogger(const core::Database& database, const core::RenderS
 ProductLog ProductLogger::log_of(std::uint32_t pixel) const {
   ProductLog log;
   core::LocalRecords records(database_.bytes());
-  NotingTracer::Grid grid(records, settings_.header, core::TraversalOptions{});
+  NotingTracer::Grid grid(records, settings_.header, settings_.skips);
   NotingTracer tracer(grid, log, lights_, bodies_, settings_.header.frame);
   std::vector<core::HitState> stack(static_cast<std::size_t>(settings_.shade.depth_max));
   core::PixelTask task(stack);

@@ -17,6 +17,9 @@ constexpr double light_gap = 1e-9;
 
 Vec3d mirrored(const Vec3d& direction, const Vec3d& normal) { return direction - normal * (2 * dot(direction, normal)); }
 
+/// In single precision, as the product judges it.
+bool brings_nothing(const AccurateRay& shadow) { return core::Color(shadow.weight) == core::Color{}; }
+
 }  // namespace
 
 /// A hit that is being shaded.
@@ -131,16 +134,21 @@ void AccurateTracer::add_shadow_rays(const Touch& touch, std::vector<AccurateRay
       ray.weight = touch.ray.weight * light.intensity *
                    (material.color * (material.diffuse * cosine) + Vec3d{highlight, highlight, highlight});
     }
-    rays.push_back(ray);
+    if (options_.convention == core::Convention::paper || !brings_nothing(ray)) {
+      rays.push_back(ray);
+    }
   }
 }
 
 /// The mirrored ray and the one through glass. What cannot be transmitted is reflected.
 void AccurateTracer::add_children(const Touch& touch, std::vector<AccurateRay>& rays) const {
   const core::Material& material = touch.material;
-  AccurateRay reflected = child(touch, mirrored(touch.ray.direction, touch.normal), RayKind::reflected);
-  reflected.weight = reflected.weight * (material.specular + (touch.transmits() ? 0 : material.transmittance));
-  rays.push_back(reflected);
+  const double mirrored_share = material.specular + (touch.transmits() ? 0 : material.transmittance);
+  if (mirrored_share > 0) {
+    AccurateRay reflected = child(touch, mirrored(touch.ray.direction, touch.normal), RayKind::reflected);
+    reflected.weight = reflected.weight * mirrored_share;
+    rays.push_back(reflected);
+  }
   if (touch.transmits()) {
     const double cosine = -dot(touch.ray.direction, touch.normal), behind = std::sqrt(touch.refracted_cosine_squared());
     const Vec3d through = touch.ray.direction * touch.index + touch.normal * (touch.index * cosine - behind);

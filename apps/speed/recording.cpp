@@ -101,12 +101,12 @@ core::Ray bounce_ray(const core::Ray& primary, const core::Hit& hit, const core:
   core::HitState state = core::begin_shading(primary, hit);
   core::Operations unused;
   core::Ray bounce;
-  core::shade_step(state, records.find(core::record_needed(state, header)), header, {}, bounce, unused);
+  core::shade_step(state, records.find(core::record_needed(state, header)), header, {}, {}, bounce, unused);
   // A mirror that turns the ray into the direction drawn makes the child that starts there.
   const Vec3d normal = state.leaving ? -state.geometric_normal : state.geometric_normal;
   state.normal = core::normalize(direction_about(normal, number) - Vec3d(primary.direction));
   state.stage = core::HitState::Stage::reflected;
-  core::shade_step(state, nullptr, header, {}, bounce, unused);
+  core::shade_step(state, nullptr, header, {}, {}, bounce, unused);
   return bounce;
 }
 

@@ -22,7 +22,7 @@ inline std::vector<core::Ray> children_of(const core::Database& database, const 
     const core::Address needed = record_needed(state, database.header());
     core::Ray child;
     const std::byte* record = needed == core::no_address ? nullptr : records.find(needed);
-    if (core::shade_step(state, record, database.header(), {}, child, operations)) {
+    if (core::shade_step(state, record, database.header(), {}, {}, child, operations)) {
       children.push_back(child);
     }
   }

@@ -51,8 +51,8 @@ inline core::Hit shoot(const core::Database& database, const core::Ray& ray, boo
   core::LocalRecords records(database.bytes());
   core::Cursor cursor;
   core::Operations operations;
-  const core::TraversalOptions options{.skip_empty_space = skip_empty_space};
-  core::trace(ray, cursor, records, database.header(), options, operations);
+  const core::Skips skips{.empty_space = skip_empty_space};
+  core::trace(ray, cursor, records, database.header(), skips, operations);
   return cursor.best;
 }
 

@@ -32,7 +32,7 @@ core::Film of_product(const core::Scene& scene, int side, int samples, const cor
   const core::RenderSettings settings{database.header(), core::Camera(scene.view, database.header().frame, side, side, samples),
                                       shade};
   core::LocalRecords records(database.bytes());
-  core::GridTracer tracer(records, settings.header, core::TraversalOptions{});
+  core::GridTracer tracer(records, settings.header, core::Skips{});
   core::Operations operations;
   return core::render(tracer, settings, operations);
 }

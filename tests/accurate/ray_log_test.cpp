@@ -50,7 +50,7 @@ TEST_CASE("no two rays of a pixel have the same path, and every ray's maker hit"
 TEST_CASE("the product's log has the rays and the light of its renderer") {
   const Workbench bench(mirrors_and_glass(), 16);
   core::LocalRecords records(bench.database.bytes());
-  core::GridTracer tracer(records, bench.settings.header, core::TraversalOptions{});
+  core::GridTracer tracer(records, bench.settings.header, core::Skips{});
   core::Operations operations;
   const core::Film film = core::render(tracer, bench.settings, operations);
   std::uint64_t rays = 0;

@@ -47,7 +47,7 @@ TEST_CASE("a scene and an output are all that render needs") {
   CHECK(options.pages.replacement == svm::Replacement::lru);
   CHECK_FALSE(options.pages.in_flight);
   CHECK(options.pages.work_item_side == 3);
-  CHECK(options.computer.traversal.skip_empty_space);
+  CHECK(options.picture.skips == core::Skips{});
   CHECK(options.database.page_size_bytes == 1024);
   CHECK(options.database.record_order == core::RecordOrder::spatial);
   CHECK(options.database.axes == AxesChoice::world);
@@ -73,10 +73,27 @@ TEST_CASE("every option of the computer reaches its field") {
   CHECK(options.pages.replacement == svm::Replacement::clock);
   CHECK(options.pages.in_flight == 7);
   CHECK(options.pages.work_item_side == 0);
-  CHECK_FALSE(options.computer.traversal.skip_empty_space);
+  CHECK_FALSE(options.picture.skips.empty_space);
   CHECK(options.pages.count_pages);
   CHECK(options.stats == "s.json");
   CHECK(options.quiet);
+}
+
+TEST_CASE("skips are switched off by name, several at a time, or all") {
+  const auto skips = [](std::initializer_list<std::string> words) { return render(words).picture.skips; };
+  CHECK(skips({"--no-skip=unlit"}) == core::Skips{.unlit = false});
+  const core::Skips two{.any_hit = false, .zero_terms = false};
+  CHECK(skips({"--no-skip=any-hit,zero-terms"}) == two);
+  CHECK(skips({"--no-skip=any-hit", "--no-skip=zero-terms,any-hit"}) == two);
+  for (const core::Skip& skip : core::all_skips) {
+    CHECK_FALSE(skips({"--no-skip=all"}).*skip.is_on);
+    core::Skips one;
+    one.*skip.is_on = false;
+    CHECK(skips({std::string("--no-skip=") + skip.name}) == one);
+  }
+  for (const std::string wrong : {"unlit,everything", "unlit;any-hit", "UNLIT", ""}) {
+    CHECK_MESSAGE(says(render_complaint({"--no-skip=" + wrong}), "--no-skip"), wrong);
+  }
 }
 
 TEST_CASE("any seed makes chaos, and without one the computer is calm") {

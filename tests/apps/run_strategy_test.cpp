@@ -53,7 +53,7 @@ TEST_CASE("without skipping empty space every strategy takes more steps to the s
     RenderOptions options = small(strategy);
     options.picture.scene = "tetra-8";
     const Rendered skipping(options);
-    options.computer.traversal.skip_empty_space = false;
+    options.picture.skips.empty_space = false;
     const Rendered stepping(options);
     const Account few = account_of(*skipping.report), many = account_of(*stepping.report);
     CHECK(many.operations.cell_steps > few.operations.cell_steps);

@@ -71,7 +71,7 @@ TEST_CASE("the rays recorded are those that the render counts, by class") {
   const apps::Subject subject = small_subject();
   const Recording recording = apps::record_rays(subject.database, subject.settings, plenty);
   core::LocalRecords records(subject.database.bytes());
-  core::GridTracer tracer(records, subject.settings.header, core::TraversalOptions{});
+  core::GridTracer tracer(records, subject.settings.header, core::Skips{});
   core::Operations operations;
   core::render(tracer, subject.settings, operations);
   CHECK(recording.operations.rays == operations.rays);
@@ -102,14 +102,14 @@ TEST_CASE("bounces leave a wall on the ray's side, by the cosine, and ignore the
   const Recording recording = apps::record_rays(subject.database, subject.settings, plenty);
   const core::Ray& primary = recording.of(RayClass::primary)[24 * 8 + 12];
   core::LocalRecords records(subject.database.bytes());
-  core::GridTracer tracer(records, subject.settings.header, core::TraversalOptions{});
+  core::GridTracer tracer(records, subject.settings.header, core::Skips{});
   core::Cursor cursor;
   core::Operations operations;
   REQUIRE(tracer.trace(primary, cursor, operations) == core::Traced::hit);
   core::HitState state = core::begin_shading(primary, cursor.best);
   core::Ray unused;
-  core::shade_step(state, records.find(core::record_needed(state, subject.settings.header)), subject.settings.header, {}, unused,
-                   operations);
+  core::shade_step(state, records.find(core::record_needed(state, subject.settings.header)), subject.settings.header, {}, {},
+                   unused, operations);
   double sum = 0;
   constexpr int count = 4000;
   for (int i = 0; i < count; ++i) {

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -186,6 +187,39 @@ TEST_CASE("the strategy and the axes of the grid are told") {
   CHECK(value(json, "grid_axes") == "\"screen\"");
   CHECK(value(json, "strategy") == "\"dataflow\"");
   CHECK(value(Rendered(small(Strategy::replicated)).json(), "strategy") == "\"replicated\"");
+}
+
+TEST_CASE("what was left out is told skip by skip, with its unit, and whether it was on") {
+  RenderOptions options = small(Strategy::dataflow);
+  options.picture.skips.unlit = false;
+  const Rendered rendered(options);
+  const std::string json = rendered.json(), skips = json.substr(json.find("\"skips\""));
+  const auto of = [&](const std::string& name) { return skips.substr(skips.find("\"" + name + "\"")); };
+  CHECK(value(of("unlit"), "on") == "false");
+  CHECK(value(of("unlit"), "avoided") == "0");
+  CHECK(value(of("unlit"), "unit") == "\"shadow rays\"");
+  for (const core::Skip& skip : core::all_skips) {
+    std::string name = skip.name;
+    std::replace(name.begin(), name.end(), '-', '_');
+    CAPTURE(name);
+    CHECK(value(of(name), "exact") == "true");
+    CHECK(value(of(name), "avoided") == std::to_string(account_of(*rendered.report).operations.skipped.*skip.avoided));
+  }
+  CHECK(value(of("zero_terms"), "on") == "true");
+  CHECK(value(of("zero_terms"), "avoided") != "0");
+  CHECK(value(of("cutoff"), "on") == "false");
+  CHECK(value(of("cutoff"), "exact") == "false");
+}
+
+TEST_CASE("the records of the database are told by kind") {
+  const Rendered rendered(small());
+  const std::string json = rendered.json();
+  CHECK(value(json, "bricks") == std::to_string(rendered.database.records().bricks));
+  CHECK(value(json, "sphere_blocks") != "0");
+  CHECK(value(json, "cone_blocks") == "0");
+  CHECK(value(json, "normals") == "0");
+  CHECK(value(json, "normal_reads") == "0");
+  CHECK(value(json, "lights") == "3");
 }
 
 TEST_CASE("a hash is sixteen digits") {

@@ -188,3 +188,27 @@ TEST_CASE("a database that forgets its records and primitives keeps its figures"
   CHECK(database.references() == references);
   CHECK(database.header().primitive_count > 0);
 }
+
+TEST_CASE("bricks, blocks and normals are counted by kind") {
+  Scene scene;
+  SceneBuilder builder(scene);
+  const RecordCounts none = database_of(scene).records();
+  CHECK(none.bricks + none.blocks[0] + none.blocks[1] + none.blocks[2] + none.normals == 0);
+  builder.sphere({0, 0, 0}, 0.1);
+  builder.cone({0.2, 0, 0}, 0.1, {0.2, 0, 0.1}, 0.1);
+  builder.patch({{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}}, {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}});
+  const RecordCounts few = database_of(scene).records();
+  CHECK(few.bricks == 1);
+  CHECK(few.blocks == decltype(few.blocks){1, 1, 1});
+  CHECK(few.normals == 1);
+  for (int i = 0; i < 40; ++i) {
+    builder.polygon({{0.0, 0.0, 0.01 * i}, {0.1, 0.0, 0.01 * i}, {0.0, 0.1, 0.01 * i}});
+  }
+  const Database many = database_of(scene);
+  CHECK(many.records().blocks[0] >= 6);
+  CHECK(many.records().normals == 1);
+  Scene large = scene_of(sphere_mesh(60, 80, 0));
+  const RecordCounts counts = database_of(large).records();
+  CHECK(counts.bricks > 100);
+  CHECK(counts.blocks[0] * block_lanes >= database_of(large).references());
+}

@@ -16,7 +16,7 @@ core::Film picture_of(const core::Scene& scene, const core::GridAxes& axes) {
   options.axes = axes;
   const core::Database database = core::build_database(scene, options);
   core::LocalRecords records(database.bytes());
-  core::GridTracer tracer(records, database.header(), core::TraversalOptions{});
+  core::GridTracer tracer(records, database.header(), core::Skips{});
   core::Operations operations;
   return core::render(tracer, {database.header(), core::Camera(scene.view, database.header().frame, 48, 48, 1), {}}, operations);
 }

@@ -26,7 +26,7 @@ struct Shaded {
 };
 
 /// Shades what `ray` hits, to the end.
-Shaded shaded(const Database& database, const Ray& ray, const ShadeOptions& options = {}) {
+Shaded shaded(const Database& database, const Ray& ray, const ShadeOptions& options = {}, const Skips& skips = {}) {
   const LocalRecords records(database.bytes());
   const Hit hit = shoot(database, ray);
   REQUIRE(hit.found());
@@ -35,7 +35,7 @@ Shaded shaded(const Database& database, const Ray& ray, const ShadeOptions& opti
   while (state.stage != HitState::Stage::finished) {
     const Address needed = record_needed(state, database.header());
     Ray child;
-    if (shade_step(state, needed == no_address ? nullptr : records.find(needed), database.header(), options, child,
+    if (shade_step(state, needed == no_address ? nullptr : records.find(needed), database.header(), options, skips, child,
                    result.operations)) {
       result.children.push_back(child);
     }

@@ -121,11 +121,13 @@ TEST_CASE("a ray that enters a region with records stops there, and nothing is c
   CHECK(operations.cell_steps == 0);
 }
 
-TEST_CASE("where empty space is not skipped no region is marked") {
+TEST_CASE("where empty regions are not skipped none is marked") {
   const Hat hat(1);
   const dataflow::Bsp unmarked =
       dataflow::equal_size_bsp(core::grid_size(hat.settings.header.frame), dataflow::axes_facing(hat.settings.camera), 24);
-  const dataflow::Distribution plain = dataflow::distribute(hat.database, hat.settings, unmarked, {.skip_empty_space = false});
+  core::RenderSettings settings = hat.settings;
+  settings.skips.empty_regions = false;
+  const dataflow::Distribution plain = dataflow::distribute(hat.database, settings, unmarked);
   for (std::uint32_t region = 0; region < 24; ++region) {
     CHECK_FALSE(plain.bsp.is_empty(region));
   }

@@ -41,7 +41,7 @@ struct Stage {
   }
   std::uint64_t reference_hash(core::Operations& operations) const {
     core::LocalRecords records(database.bytes());
-    core::GridTracer tracer(records, settings.header, core::TraversalOptions{});
+    core::GridTracer tracer(records, settings.header, core::Skips{});
     return core::render(tracer, settings, operations).hash();
   }
 
@@ -55,8 +55,7 @@ struct Stage {
 struct LoneProgram {
   LoneProgram(const Stage& stage, std::uint32_t index, std::span<const dataflow::PrimaryRun> primaries = {})
       : single(stage.plan.node_memory(index), index, stage.plan.node_count() + 1),
-        program(single.node, stage.plan,
-                {stage.distribution.parts[index], primaries, stage.settings, stage.distribution.bsp, {}}) {}
+        program(single.node, stage.plan, {stage.distribution.parts[index], primaries, stage.settings, stage.distribution.bsp}) {}
 
   void receive(std::uint32_t sender, const RayMessage& message) {
     const dataflow::RayPacketHeader header{1, static_cast<std::uint16_t>(nodes::index_of(single.node.id()))};
@@ -259,7 +258,7 @@ void run_shuffled(const Stage& stage, std::uint64_t seed) {
   const std::uint64_t hash = stage.reference_hash(expected);
   core::Film film(stage.settings.camera.width(), stage.settings.camera.height());
   const dataflow::Progress progress;
-  const auto specifications = dataflow::specifications_of(stage.plan, stage.distribution, stage.settings, {}, film, progress);
+  const auto specifications = dataflow::specifications_of(stage.plan, stage.distribution, stage.settings, film, progress);
   tests::ShuffledComputer computer(specifications, seed);
   computer.run();
   CHECK(film.hash() == hash);

@@ -33,6 +33,25 @@ inline core::Scene mirrors_and_glass() {
   return scene;
 }
 
+/// The same with what other scenes hardly have: a black light, a black triangle, a pane that light cannot leave, and specks far
+/// apart.
+inline core::Scene everything() {
+  core::Scene scene = mirrors_and_glass();
+  scene.name = "everything";
+  scene.lights.push_back({{2, -4, 3}, {0, 0, 0}, true});
+  core::SceneBuilder builder(scene);
+  builder.material({.color = {0, 0, 0}, .diffuse = 1, .specular = 0});
+  builder.polygon({{-1, -2, 0.1}, {1, -2, 0.1}, {0, -1, 0.1}});
+  builder.material({.diffuse = 0.1, .specular = 0.2, .transmittance = 0.5, .refraction_index = 1.5});
+  builder.polygon({{1.5, -2, 0.5}, {1.2, -1.4, 0.5}, {1.5, -2, 1.3}});
+  builder.material({});
+  for (int i = 0; i < 100; ++i) {
+    const double angle = 2.399963 * i, radius = 0.3 * std::sqrt(i);
+    builder.sphere({radius * std::cos(angle), radius * std::sin(angle), 1.2 + 0.3 * (i % 7)}, 0.01);
+  }
+  return scene;
+}
+
 /// Nothing but a small tetrahedron fractal under 1,000 lights.
 inline core::Scene thousand_lights() {
   core::Scene scene = built_in("tetra-3");

@@ -64,13 +64,19 @@ class Subject {
                   {.cutoff = size.cutoff, .radiance_bound = 10},
                   size.refinement} {
     core::LocalRecords records(database_.bytes());
-    core::GridTracer tracer(records, settings_.header, core::TraversalOptions{});
+    core::GridTracer tracer(records, settings_.header, core::Skips{});
     core::Operations operations;
     outcome_ = outcome_of(core::render(tracer, settings_, operations), operations);
   }
 
   const core::Database& database() const { return database_; }
   const core::RenderSettings& settings() const { return settings_; }
+  /// The same picture with other work left out on the way.
+  core::RenderSettings settings(const core::Skips& skips) const {
+    core::RenderSettings settings = settings_;
+    settings.skips = skips;
+    return settings;
+  }
   /// The reference renderer's.
   const Outcome& outcome() const { return outcome_; }
 

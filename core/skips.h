@@ -1,0 +1,65 @@
+// Work that is left out where a scene does not need it: what can be switched off, and how much of it there was.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace dmpc::core {
+
+/// What is left out unless it is switched off. Every switch is exact: it changes no bit of the film. `all_skips` says what each
+/// does.
+struct Skips {
+  bool empty_space = true;
+  bool any_hit = true;
+  bool unlit = true;
+  bool zero_terms = true;
+  bool empty_regions = true;
+
+  bool operator==(const Skips&) const = default;
+};
+
+/// What was left out, in the units of `all_skips`; 0 where a skip is off.
+struct SkippedWork {
+  std::uint64_t empty_space = 0;
+  std::uint64_t any_hit = 0;
+  std::uint64_t unlit = 0;
+  std::uint64_t zero_terms = 0;
+  std::uint64_t empty_regions = 0;
+};
+
+struct Skip {
+  const char* name;  ///< as the user calls it
+  const char* what;  ///< is left out, in a few words
+  const char* unit;  ///< of the work left out
+  bool Skips::*is_on;
+  std::uint64_t SkippedWork::*avoided;
+};
+
+/// Every skip, in the order of reports.
+inline constexpr std::array all_skips{
+    // The last jump of a walk, out of the grid or beyond the light, is not counted.
+    Skip{"empty-space", "a ray leaves a box of empty cells in one step", "cell steps", &Skips::empty_space,
+         &SkippedWork::empty_space},
+    // Those whose boxes the ray enters before that hit.
+    Skip{"any-hit", "a shadow ray ends at the first hit it finds, not at the nearest",
+         "children of bricks that still waited in front of the hit", &Skips::any_hit, &SkippedWork::any_hit},
+    Skip{"unlit", "no shadow ray to a light behind the surface (--convention=paper shoots it)", "shadow rays", &Skips::unlit,
+         &SkippedWork::unlit},
+    // What those rays would have spawned is not counted.
+    Skip{"zero-terms",
+         "no ray whose light would count for nothing: off a surface that does not mirror, through one that lets "
+         "nothing pass, to a light that is black or shows nothing (--convention=paper shoots the last)",
+         "rays", &Skips::zero_terms, &SkippedWork::zero_terms},
+    Skip{"empty-regions", "rays pass by the owners of regions that hold nothing (dataflow)", "regions passed by",
+         &Skips::empty_regions, &SkippedWork::empty_regions},
+};
+
+/// Sums field by field.
+inline SkippedWork& operator+=(SkippedWork& sum, const SkippedWork& more) {
+  for (const Skip& skip : all_skips) {
+    sum.*skip.avoided += more.*skip.avoided;
+  }
+  return sum;
+}
+
+}  // namespace dmpc::core
