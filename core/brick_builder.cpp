@@ -13,42 +13,8 @@ namespace {
 constexpr std::uint32_t bound_max = 255;
 /// A million grids: kernels cannot overflow, and from where rays need more than that, a float cannot aim at the grid.
 constexpr double pad_max = 0x1p20;
-/// Bricks of more primitives than this are shared out among threads.
-constexpr std::size_t shared_count_min = 8192;
-
-/// The largest number that a brick of `level` may hold without care for balance: what is below it fits however it is cut.
-std::size_t carefree_count(int level) { return std::size_t{1} << (3 * (brick_levels_max - level)); }
-
-std::size_t count_of(std::span<const Group> groups) {
-  std::size_t count = 0;
-  for (const Group& group : groups) {
-    count += group.count();
-  }
-  return count;
-}
-
-Bounds bounds_of(std::span<const Group> groups) {
-  Bounds bounds;
-  for (const Group& group : groups) {
-    bounds.include(group.bounds);
-  }
-  return bounds;
-}
-
-/// The one to be cut next: the largest, or that which costs most; none if all fit blocks.
-std::size_t costliest(std::span<const Group> groups, bool balanced) {
-  std::size_t found = groups.size();
-  float most = -1;
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    const auto count = static_cast<float>(groups[i].count());
-    const float cost = balanced ? count : count * groups[i].bounds.area();
-    if (groups[i].count() > block_lanes && cost > most) {
-      most = cost;
-      found = i;
-    }
-  }
-  return found;
-}
+/// Three cuts a level bring this many down to blocks of 8, with two cuts to spare for the kinds.
+constexpr std::size_t primitives_max = std::size_t{1} << 24U;
 
 /// A brick without children that can hold groups within `bounds`, padded.
 Brick brick_over(const Bounds& bounds, double pad) {
@@ -79,46 +45,25 @@ void add_child(Brick& brick, const Bounds& bounds, double pad) {
 /// Drafts the bricks of one top cell.
 class BrickBuilder::Drafter {
  public:
-  Drafter(Cutter& cutter, std::span<std::uint32_t> ids, double pad, const Parallel& parallel)
-      : cutter_(cutter), ids_(ids), pad_(pad), parallel_(parallel) {}
+  Drafter(const Cutter& cutter, std::span<std::uint32_t> ids, double pad, bool balanced)
+      : cutter_(cutter), ids_(ids), pad_(pad), balanced_(balanced) {}
 
-  /// A brick for the groups, cut until there are 8 or each fits a block.
-  BrickDraft draft(int level, std::vector<Group> groups) const {
+  BrickDraft draft(const CutTree& tree, int level = 0) const {
     expect(level < brick_levels_max, "a tree of bricks is no deeper than a walk can go");
-    const std::size_t count = count_of(groups);
-    cut(groups, count > carefree_count(level));
-    BrickDraft draft{.brick = brick_over(bounds_of(groups), pad_)};
-    std::vector<Group> below;
-    for (std::size_t i = 0; i < groups.size(); ++i) {
-      add_child(draft.brick, groups[i].bounds, pad_);
-      if (groups[i].count() <= block_lanes) {
-        draft.blocks[i] = block_of(groups[i]);
+    BrickDraft draft{.brick = brick_over(tree.group().bounds, pad_)};
+    const std::vector<const CutTree*> children = balanced_ ? tree.eighths() : tree.children();
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      add_child(draft.brick, children[i]->group().bounds, pad_);
+      if (children[i]->is_block()) {
+        draft.blocks[i] = block_of(children[i]->group());
       } else {
-        below.push_back(groups[i]);
-      }
-    }
-    draft.bricks.resize(below.size());
-    const auto draft_below = [&](std::size_t i) { draft.bricks[i] = this->draft(level + 1, {below[i]}); };
-    if (count > shared_count_min) {
-      parallel_.for_each(below.size(), draft_below);
-    } else {
-      for (std::size_t i = 0; i < below.size(); ++i) {
-        draft_below(i);
+        draft.bricks.push_back(this->draft(*children[i], level + 1));
       }
     }
     return draft;
   }
 
  private:
-  void cut(std::vector<Group>& groups, bool balanced) const {
-    groups.reserve(brick_children_max);
-    for (std::size_t i = 0; groups.size() < brick_children_max && (i = costliest(groups, balanced)) < groups.size();) {
-      const auto [first, second] = cutter_.cut(groups[i], balanced);
-      groups[i] = first;
-      groups.push_back(second);
-    }
-  }
-
   BrickDraft::Block block_of(const Group& group) const {
     const auto ids = ids_.subspan(group.first, group.count());
     cutter_.copy_ids(group, ids);
@@ -126,10 +71,10 @@ class BrickBuilder::Drafter {
     return {group.first, static_cast<std::uint8_t>(group.count()), group.kind};
   }
 
-  Cutter& cutter_;
+  const Cutter& cutter_;
   std::span<std::uint32_t> ids_;
   double pad_;
-  const Parallel& parallel_;
+  bool balanced_;
 };
 
 BrickBuilder::BrickBuilder(std::span<const PrimitiveValues> primitives, double pad, float finest_cell, const Parallel& parallel)
@@ -139,14 +84,29 @@ BrickBuilder::BrickBuilder(std::span<const PrimitiveValues> primitives, double p
       parallel_(&parallel) {}
 
 BrickTree BrickBuilder::build(const Corner& corner, std::span<const std::uint32_t> ids) const {
-  if (ids.size() > carefree_count(0)) {
+  if (ids.size() > primitives_max) {
     throw InputError("more than 16,777,216 primitives lie in one place: render a smaller scene");
   }
-  Cutter cutter(ids.size());
-  std::vector<Group> groups = add_by_kind(cell_at(corner), ids, cutter);
   BrickTree tree{.top = {}, .ids = std::vector<std::uint32_t>(ids.size())};
-  tree.top = Drafter(cutter, tree.ids, pad_, *parallel_).draft(0, std::move(groups));
+  for (const bool balanced : {false, true}) {
+    Cutter cutter(ids.size());
+    const CutTree cuts = cut(add_by_kind(cell_at(corner), ids, cutter), cutter, balanced);
+    if (balanced || cuts.levels() <= brick_levels_max) {
+      tree.top = Drafter(cutter, tree.ids, pad_, balanced).draft(cuts);
+      break;
+    }
+  }
   return tree;
+}
+
+/// Blocks are of one kind, so the first cuts are between kinds.
+CutTree BrickBuilder::cut(std::span<const Group> kinds, Cutter& cutter, bool balanced) const {
+  auto tree = std::make_unique<CutTree>(cutter, kinds[0], balanced, *parallel_);
+  for (const Group& kind : kinds.subspan(1)) {
+    auto next = std::make_unique<CutTree>(cutter, kind, balanced, *parallel_);
+    tree = std::make_unique<CutTree>(std::move(tree), std::move(next));
+  }
+  return std::move(*tree);
 }
 
 Bounds BrickBuilder::cell_at(const Corner& corner) const {
@@ -158,7 +118,7 @@ Bounds BrickBuilder::cell_at(const Corner& corner) const {
   return Bounds::around(cell.padded({pad_, pad_, pad_}));
 }
 
-/// Blocks are of one kind, so the first cuts are between kinds.
+/// The groups of each kind.
 std::vector<Group> BrickBuilder::add_by_kind(const Bounds& cell, std::span<const std::uint32_t> ids, Cutter& cutter) const {
   std::vector<Group> groups;
   std::size_t first = 0;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/brick_tree.h"
+#include "core/cut_tree.h"
 #include "core/cutter.h"
 #include "core/database.h"
 #include "core/parallel.h"
@@ -30,6 +31,7 @@ class BrickBuilder {
   class Drafter;
 
   Bounds cell_at(const Corner& corner) const;
+  CutTree cut(std::span<const Group> kinds, Cutter& cutter, bool balanced) const;
   std::vector<Group> add_by_kind(const Bounds& cell, std::span<const std::uint32_t> ids, Cutter& cutter) const;
 
   std::span<const PrimitiveValues> primitives_;
