@@ -13,8 +13,22 @@ namespace {
 constexpr std::uint32_t bound_max = 255;
 /// A million grids: kernels cannot overflow, and from where rays need more than that, a float cannot aim at the grid.
 constexpr double pad_max = 0x1p20;
-/// Three cuts a level bring this many down to blocks of 8, with two cuts to spare for the kinds.
-constexpr std::size_t primitives_max = std::size_t{1} << 24U;
+/// The largest number that a brick of `level` may hold without care for balance: what is below it fits however it is cut.
+std::size_t carefree_count(int level) { return std::size_t{1} << (3 * (brick_levels_max - level)); }
+
+/// Cuts groups into equal numbers until there are 8 or each fits a block.
+void cut_evenly(std::vector<Group>& groups, Cutter& cutter) {
+  const auto smaller = [](const Group& a, const Group& b) { return a.count() < b.count(); };
+  while (groups.size() < brick_children_max) {
+    Group& largest = *std::max_element(groups.begin(), groups.end(), smaller);
+    if (largest.count() <= block_lanes) {
+      return;
+    }
+    const auto [first, second] = cutter.cut(largest, true);
+    largest = first;
+    groups.push_back(second);
+  }
+}
 
 /// A brick without children that can hold groups within `bounds`, padded.
 Brick brick_over(const Bounds& bounds, double pad) {
@@ -45,13 +59,18 @@ void add_child(Brick& brick, const Bounds& bounds, double pad) {
 /// Drafts the bricks of one top cell.
 class BrickBuilder::Drafter {
  public:
-  Drafter(const Cutter& cutter, std::span<std::uint32_t> ids, double pad, bool balanced)
-      : cutter_(cutter), ids_(ids), pad_(pad), balanced_(balanced) {}
+  Drafter(Cutter& cutter, std::span<std::uint32_t> ids, double pad, const Parallel& parallel)
+      : cutter_(cutter), ids_(ids), pad_(pad), parallel_(parallel) {}
 
-  BrickDraft draft(const CutTree& tree, int level = 0) const {
+  BrickDraft draft(const CutTree& tree, int level) const {
     expect(level < brick_levels_max, "a tree of bricks is no deeper than a walk can go");
-    BrickDraft draft{.brick = brick_over(tree.group().bounds, pad_)};
-    const std::vector<const CutTree*> children = balanced_ ? tree.eighths() : tree.children();
+    const bool too_deep = tree.levels() > brick_levels_max - level && tree.group().count() > carefree_count(level);
+    return too_deep ? draft_evenly(tree, level) : draft_over(tree.group().bounds, tree.children(), level);
+  }
+
+ private:
+  BrickDraft draft_over(const Bounds& bounds, const std::vector<const CutTree*>& children, int level) const {
+    BrickDraft draft{.brick = brick_over(bounds, pad_)};
     for (std::size_t i = 0; i < children.size(); ++i) {
       add_child(draft.brick, children[i]->group().bounds, pad_);
       if (children[i]->is_block()) {
@@ -63,7 +82,19 @@ class BrickBuilder::Drafter {
     return draft;
   }
 
- private:
+  /// With children of equal numbers, so that the levels left will do.
+  BrickDraft draft_evenly(const CutTree& tree, int level) const {
+    std::vector<Group> groups = tree.kinds();
+    cut_evenly(groups, cutter_);
+    std::vector<CutTree> parts;
+    std::vector<const CutTree*> children;
+    parts.reserve(groups.size());
+    for (const Group& group : groups) {
+      children.push_back(&parts.emplace_back(cutter_, group, parallel_));
+    }
+    return draft_over(tree.group().bounds, children, level);
+  }
+
   BrickDraft::Block block_of(const Group& group) const {
     const auto ids = ids_.subspan(group.first, group.count());
     cutter_.copy_ids(group, ids);
@@ -71,10 +102,10 @@ class BrickBuilder::Drafter {
     return {group.first, static_cast<std::uint8_t>(group.count()), group.kind};
   }
 
-  const Cutter& cutter_;
+  Cutter& cutter_;
   std::span<std::uint32_t> ids_;
   double pad_;
-  bool balanced_;
+  const Parallel& parallel_;
 };
 
 BrickBuilder::BrickBuilder(std::span<const PrimitiveValues> primitives, double pad, float finest_cell, const Parallel& parallel)
@@ -84,27 +115,21 @@ BrickBuilder::BrickBuilder(std::span<const PrimitiveValues> primitives, double p
       parallel_(&parallel) {}
 
 BrickTree BrickBuilder::build(const Corner& corner, std::span<const std::uint32_t> ids) const {
-  if (ids.size() > primitives_max) {
+  if (ids.size() > carefree_count(0)) {
     throw InputError("more than 16,777,216 primitives lie in one place: render a smaller scene");
   }
+  Cutter cutter(ids.size());
+  const CutTree cuts = cut(add_by_kind(cell_at(corner), ids, cutter), cutter);
   BrickTree tree{.top = {}, .ids = std::vector<std::uint32_t>(ids.size())};
-  for (const bool balanced : {false, true}) {
-    Cutter cutter(ids.size());
-    const CutTree cuts = cut(add_by_kind(cell_at(corner), ids, cutter), cutter, balanced);
-    if (balanced || cuts.levels() <= brick_levels_max) {
-      tree.top = Drafter(cutter, tree.ids, pad_, balanced).draft(cuts);
-      break;
-    }
-  }
+  tree.top = Drafter(cutter, tree.ids, pad_, *parallel_).draft(cuts, 0);
   return tree;
 }
 
 /// Blocks are of one kind, so the first cuts are between kinds.
-CutTree BrickBuilder::cut(std::span<const Group> kinds, Cutter& cutter, bool balanced) const {
-  auto tree = std::make_unique<CutTree>(cutter, kinds[0], balanced, *parallel_);
+CutTree BrickBuilder::cut(std::span<const Group> kinds, Cutter& cutter) const {
+  auto tree = std::make_unique<CutTree>(cutter, kinds[0], *parallel_);
   for (const Group& kind : kinds.subspan(1)) {
-    auto next = std::make_unique<CutTree>(cutter, kind, balanced, *parallel_);
-    tree = std::make_unique<CutTree>(std::move(tree), std::move(next));
+    tree = std::make_unique<CutTree>(std::move(tree), std::make_unique<CutTree>(cutter, kind, *parallel_));
   }
   return std::move(*tree);
 }

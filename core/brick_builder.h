@@ -31,7 +31,7 @@ class BrickBuilder {
   class Drafter;
 
   Bounds cell_at(const Corner& corner) const;
-  CutTree cut(std::span<const Group> kinds, Cutter& cutter, bool balanced) const;
+  CutTree cut(std::span<const Group> kinds, Cutter& cutter) const;
   std::vector<Group> add_by_kind(const Bounds& cell, std::span<const std::uint32_t> ids, Cutter& cutter) const;
 
   std::span<const PrimitiveValues> primitives_;

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "apps/stability/listing.h"
 #include "apps/stability/random.h"
@@ -27,6 +28,28 @@ Scene heap(int count) {
     builder.cone(across * -1.0, 0.1, across, 0.1);
   }
   return scene;
+}
+
+/// Triangles, or triangles and spheres in turn, each of them smaller and nearer to the origin than the one before.
+std::vector<PrimitiveValues> shrinking(int count, bool has_kinds) {
+  std::vector<PrimitiveValues> primitives;
+  float at = 1e18F;
+  for (int i = 0; i < count; ++i, at *= 0.9F) {
+    const float near = at * 0.99F;
+    primitives.push_back({PrimitiveKind::triangle, {at, at, at, near, at, at, near, near, at}});
+    if (has_kinds && i % 2 == 1) {
+      primitives.back() = {PrimitiveKind::sphere, {at, at, at, at * 0.01F}};
+    }
+  }
+  return primitives;
+}
+
+int levels_of(const BrickDraft& draft) {
+  int below = 0;
+  for (const BrickDraft& brick : draft.bricks) {
+    below = std::max(below, levels_of(brick));
+  }
+  return below + 1;
 }
 
 }  // namespace
@@ -77,4 +100,20 @@ TEST_CASE("a crowd in one place gets bricks of its own, and lists stay short") {
   const auto ids = listing.around(to_local(database.header().frame, {0.5, 0.5, 0.5}));
   CHECK(ids.size() < 2000);
   CHECK(database.references() < 4 * database.primitives().size());
+}
+
+TEST_CASE("bricks are never deeper than a walk can go, however small things get towards one side") {
+  for (const bool has_kinds : {false, true}) {
+    CAPTURE(has_kinds);
+    const auto primitives = shrinking(1000, has_kinds);
+    std::vector<std::uint32_t> ids(primitives.size());
+    std::iota(ids.begin(), ids.end(), 0U);
+    const Parallel serial(1);
+    const BrickTree tree = BrickBuilder(primitives, 0.0, 1e18F, serial).build({0, 0, 0}, ids);
+    CHECK(levels_of(tree.top) <= brick_levels_max);
+    CHECK(levels_of(tree.top) > 5);
+    auto listed = tree.ids;
+    std::sort(listed.begin(), listed.end());
+    CHECK(listed == ids);
+  }
 }
