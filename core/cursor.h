@@ -19,37 +19,40 @@ struct Passage {
   Hit best;                     ///< the nearest candidate so far, beyond t_enter
 };
 
-/// A child of a brick whose box the ray meets, and where it does.
-struct MetChild {
-  BrickChild record = BrickChild::none();
-  float t_enter = 0;
-
-  bool found() const { return record.bits != BrickChild::none().bits; }
-};
-
 /// Met children that have not been visited, the nearest last. Not initialised: that would cost as much as a step.
 struct MetChildren {
   /// Each brick takes one child's place and leaves up to 8.
   static constexpr std::size_t count_max = brick_levels_max * (brick_children_max - 1) + 1;
 
   std::uint32_t count;
+  float t_taken;  ///< where the ray enters the box of the child that was taken last
   std::array<BrickChild, count_max> record;
   std::array<float, count_max> t_enter;
 
-  /// Puts a child among those from place `first` on, which are in order and stay so.
-  void add(const MetChild& met, std::uint32_t first) {
+  /// Puts a child, whose box the ray enters at t, among those from place `first` on, which are in order and stay so.
+  void add(BrickChild child, float t, std::uint32_t first) {
     std::uint32_t place = count++;
-    for (; place > first && t_enter[place - 1] < met.t_enter; --place) {
+    for (; place > first && t_enter[place - 1] < t; --place) {
       record[place] = record[place - 1];
       t_enter[place] = t_enter[place - 1];
     }
-    record[place] = met.record;
-    t_enter[place] = met.t_enter;
+    record[place] = child;
+    t_enter[place] = t;
   }
   /// Takes the last; count > 0.
-  MetChild take() {
-    --count;
-    return {record[count], t_enter[count]};
+  BrickChild take() {
+    t_taken = t_enter[--count];
+    return record[count];
+  }
+  /// Takes the last whose box the ray enters at t_most or before; those behind it are dropped. None if there is none.
+  BrickChild take_up_to(float t_most) {
+    while (count > 0) {
+      const BrickChild child = take();
+      if (t_taken <= t_most) {
+        return child;
+      }
+    }
+    return BrickChild::none();
   }
 };
 
@@ -64,13 +67,13 @@ struct Exit {
 /// a cache of one page makes progress. Reciprocals and plane constants are pure functions of the ray and are recomputed.
 struct Cursor {
   Hit best;
-  Address absent = no_address;  ///< the record that trace() needs next, after Traced::absent
-  double t_enter = 0;           ///< where the ray enters the current cell
-  Exit exit;                    ///< where it leaves the cell or the region; known while children are visited
-  Corner cell{};                ///< lower corner of the current top cell, in finest cells
-  Corner arrival{};             ///< with Stage::left: the finest cell that is entered
-  MetChild next;                ///< what the next step reads, with Stage::child
-  std::uint8_t entry_axis = 3;  ///< through which plane the cell was entered; 3: the walk starts here
+  Address absent = no_address;           ///< the record that trace() needs next, after Traced::absent
+  double t_enter = 0;                    ///< where the ray enters the current cell
+  Exit exit;                             ///< where it leaves the cell or the region; known while children are visited
+  Corner cell{};                         ///< lower corner of the current top cell, in finest cells
+  Corner arrival{};                      ///< with Stage::left: the finest cell that is entered
+  BrickChild next = BrickChild::none();  ///< what the next step reads, with Stage::child
+  std::uint8_t entry_axis = 3;           ///< through which plane the cell was entered; 3: the walk starts here
   /// What the next step reads: the directory entry of `cell`, or `next`.
   enum class Stage : std::uint8_t { start, directory, child, left, finished } stage = Stage::start;
   MetChildren waiting;  ///< known while children are visited

@@ -21,7 +21,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4
 
-MetChild children(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order, MetChildren& waiting) {
+BrickChild children(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order, MetChildren& waiting) {
   return meet_children_scalar(ray, brick, t_low, t_high, in_order, waiting);
 }
 
@@ -49,7 +49,32 @@ HWY_INLINE Vector floats(const std::array<std::uint8_t, 8>& row) {
   return hn::ConvertTo(Tag(), hn::PromoteTo(integers, hn::LoadU(bytes, row.data())));
 }
 
-MetChild children(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order, MetChildren& waiting) {
+/// One of at least two children met; the others wait.
+HWY_INLINE BrickChild take_one(std::uint32_t met, const Brick& brick, const float* t_enter, bool in_order, MetChildren& waiting) {
+  const auto next = [&] {
+    const auto place = static_cast<std::size_t>(std::countr_zero(met));
+    met &= met - 1;
+    return place;
+  };
+  const std::size_t first = next(), second = next();
+  if (met == 0) {
+    const bool is_nearer = in_order && t_enter[first] < t_enter[second];
+    const std::size_t taken = is_nearer ? first : second, other = is_nearer ? second : first;
+    waiting.add(brick.child[other], t_enter[other], waiting.count);
+    waiting.t_taken = t_enter[taken];
+    return brick.child[taken];
+  }
+  const std::uint32_t start = waiting.count;
+  const auto add = [&](std::size_t place) { waiting.add(brick.child[place], t_enter[place], in_order ? start : waiting.count); };
+  add(first);
+  add(second);
+  while (met != 0) {
+    add(next());
+  }
+  return waiting.take();
+}
+
+BrickChild children(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order, MetChildren& waiting) {
   const Tag tag;
   Vector enter = hn::Set(tag, t_low), leave = hn::Set(tag, t_high);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -59,23 +84,18 @@ MetChild children(const BoxRay& ray, const Brick& brick, float t_low, float t_hi
     enter = hn::Max(enter, hn::MulAdd(floats(brick.bounds[ray.near_row[axis]]), slope, offset));
     leave = hn::Min(leave, hn::MulAdd(floats(brick.bounds[ray.far_row[axis]]), slope, offset));
   }
-  std::uint32_t met = bits_of(hn::Le(enter, leave)) & ((1U << brick.child_count) - 1U);
+  const std::uint32_t met = bits_of(hn::Le(enter, leave)) & ((1U << brick.child_count) - 1U);
   if (met == 0) {
-    return {};
+    return BrickChild::none();
   }
   float t_enter[brick_children_max];
   hn::StoreU(enter, tag, t_enter);
-  const auto child = [&] {
-    const auto place = static_cast<std::size_t>(std::countr_zero(met));
-    return MetChild{brick.child[place], t_enter[place]};
-  };
   if ((met & (met - 1)) == 0) {
-    return child();
+    const auto only = static_cast<std::size_t>(std::countr_zero(met));
+    waiting.t_taken = t_enter[only];
+    return brick.child[only];
   }
-  for (const std::uint32_t first = waiting.count; met != 0; met &= met - 1) {
-    waiting.add(child(), in_order ? first : waiting.count);
-  }
-  return waiting.take();
+  return take_one(met, brick, t_enter, in_order, waiting);
 }
 
 struct Vertices {
@@ -147,26 +167,19 @@ HWY_EXPORT(triangles);
 
 namespace {
 
-/// A reciprocal that is never infinite.
-float reciprocal_of(float component) {
-  return 1.0F / std::copysign(std::max(std::fabs(component), smallest_component), component);
-}
-
 std::uint32_t bit_if(bool condition, std::size_t lane) { return condition ? 1U << lane : 0U; }
 
 }  // namespace
 
-BoxRay::BoxRay(const Ray& ray)
-    : origin(ray.origin),
-      reciprocal{reciprocal_of(ray.direction.x), reciprocal_of(ray.direction.y), reciprocal_of(ray.direction.z)} {
+BoxRay::BoxRay(const Ray& ray, const Vec3d& reciprocal_direction) : origin(ray.origin), reciprocal(reciprocal_direction) {
   for (std::uint32_t axis = 0; axis < 3; ++axis) {
     near_row[axis] = reciprocal[axis] < 0.0F ? axis + 3 : axis;
     far_row[axis] = reciprocal[axis] < 0.0F ? axis : axis + 3;
   }
 }
 
-MetChild meet_children_scalar(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order,
-                              MetChildren& waiting) {
+BrickChild meet_children_scalar(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order,
+                                MetChildren& waiting) {
   const std::uint32_t first = waiting.count;
   for (std::size_t child = 0; child < brick.child_count; ++child) {
     float enter = t_low, leave = t_high;
@@ -178,10 +191,10 @@ MetChild meet_children_scalar(const BoxRay& ray, const Brick& brick, float t_low
       leave = std::min(leave, plane(ray.far_row[axis]));
     }
     if (enter <= leave) {
-      waiting.add({brick.child[child], enter}, in_order ? first : waiting.count);
+      waiting.add(brick.child[child], enter, in_order ? first : waiting.count);
     }
   }
-  return waiting.count > first ? waiting.take() : MetChild{};
+  return waiting.count > first ? waiting.take() : BrickChild::none();
 }
 
 const BrickKernel meet_children = [] {

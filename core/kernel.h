@@ -16,29 +16,26 @@
 
 namespace dmpc::core {
 
-/// A ray as boxes need it: a pure function of the ray's bits. A component of the direction below `smallest_component` counts as
-/// that, with its sign: such a ray passes the planes of a box that it lies between far behind and far ahead.
+/// A ray as boxes need it, from reciprocal_direction(): with a component next to 0 it passes the planes of a box that it lies
+/// between far behind and far ahead.
 struct BoxRay {
-  explicit BoxRay(const Ray& ray);
+  BoxRay(const Ray& ray, const Vec3d& reciprocal_direction);
 
   Vec3f origin, reciprocal;
   std::array<std::uint32_t, 3> near_row{}, far_row{};  ///< which rows of a brick's bounds the ray comes to first and last
 };
 
-/// A direction's component below this counts as 0, denormals and -0 included.
-inline constexpr float smallest_component = 1e-18F;
-
 /// Which of a brick's children have boxes that the ray meets in [t_low, t_high]: returns one of them, if any, and adds the others
-/// to those that wait. With `in_order` it is the nearest, and the nearest of the others is last, else any. t_enter is where the
-/// ray enters a box, at least t_low. Planes are off by less than 2^-22 of their distance from the origin, which the insertion pad
-/// around the boxes makes good.
-using BrickKernel = MetChild (*)(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order,
-                                 MetChildren& waiting);
+/// to those that wait. With `in_order` it is the nearest, and the nearest of the others is last, else any. A ray enters a box at
+/// t_low or later; waiting.t_taken is where it enters that of the child returned. Planes are off by less than 2^-22 of their
+/// distance from the origin, which the insertion pad around the boxes makes good.
+using BrickKernel = BrickChild (*)(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order,
+                                   MetChildren& waiting);
 /// The fastest kernel for this processor.
 extern const BrickKernel meet_children;
 /// The plain loop: the twin that every SIMD kernel must equal.
-MetChild meet_children_scalar(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order,
-                              MetChildren& waiting);
+BrickChild meet_children_scalar(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order,
+                                MetChildren& waiting);
 
 /// The triangles of a block: nine rows of `count` floats, then a row of ids, readable for overread_bytes behind.
 struct TriangleRows {

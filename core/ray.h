@@ -1,6 +1,8 @@
 // The self-contained ray: its own continuation, stack entry in svm and message in dataflow.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
@@ -30,5 +32,20 @@ struct Ray {
   std::uint16_t padding = 0;
 };
 static_assert(sizeof(Ray) == 56 && std::is_trivially_copyable_v<Ray>);
+
+/// A direction's component below this counts as 0, denormals and -0 included.
+inline constexpr float smallest_component = 1e-18F;
+
+/// One over each component of the ray's direction, never infinite: one that counts as 0 is taken for smallest_component, with its
+/// sign.
+inline Vec3d reciprocal_direction(const Ray& ray) {
+  Vec3d reciprocal;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float component = ray.direction[axis];
+    const bool counts = component >= smallest_component || component <= -smallest_component;
+    reciprocal[axis] = 1.0 / double{counts ? component : std::copysign(smallest_component, component)};
+  }
+  return reciprocal;
+}
 
 }  // namespace dmpc::core

@@ -75,6 +75,7 @@ struct BrickChild {
   static constexpr BrickChild none() { return {0xffffffffU}; }
   static constexpr BrickChild block(Address address) { return {block_flag | static_cast<std::uint32_t>(address)}; }
   static constexpr BrickChild brick(Address address) { return {static_cast<std::uint32_t>(address)}; }
+  constexpr bool found() const { return bits != none().bits; }
   constexpr bool is_block() const { return (bits & block_flag) != 0; }
   constexpr Address address() const { return Address{bits & ~block_flag}; }
 };

@@ -60,17 +60,6 @@ inline Traced pass(const Ray& ray, const GridFrame& frame, const Region& region,
   return traced;
 }
 
-/// The next child that waits and does not lie behind the best hit, if there is one.
-inline MetChild take_nearer(MetChildren& waiting, const Hit& best) {
-  while (waiting.count > 0) {
-    const MetChild child = waiting.take();
-    if (child.t_enter <= best.t) {
-      return child;
-    }
-  }
-  return {};
-}
-
 /// Children that wait and do not lie behind the hit.
 inline std::uint64_t count_before(const MetChildren& waiting, const Hit& hit) {
   const auto begin = waiting.t_enter.begin();
@@ -83,27 +72,29 @@ template <Records R, class Test>
 bool visit_children(const Ray& ray, const BoxRay& box, bool any, Cursor& cursor, R& records, Operations& operations,
                     BrickKernel meet, const Test& test) {
   const auto t_low = static_cast<float>(cursor.t_enter), t_high = std::min(static_cast<float>(cursor.exit.t), ray.t_max);
-  for (MetChild child = cursor.next; child.found();) {
+  for (BrickChild child = cursor.next; child.found();) {
     cursor.next = child;
-    const Address address = child.record.address();
+    const Address address = child.address();
     const std::byte* record = records.find(address);
     if (record == nullptr) {
       cursor.absent = address;
       return false;
     }
-    if (child.record.is_block()) {
+    if (child.is_block()) {
       test(record, address, cursor.best);
       if (any && cursor.best.found()) {
         operations.skipped.any_hit += count_before(cursor.waiting, cursor.best);
         break;
       }
-      child = {};
+      child = BrickChild::none();
     } else {
       ++operations.brick_reads;
       const auto& brick = *reinterpret_cast<const Brick*>(record);
       child = meet(box, brick, t_low, std::min(t_high, cursor.best.t), !any, cursor.waiting);
     }
-    child = child.found() ? child : take_nearer(cursor.waiting, cursor.best);
+    if (!child.found()) {
+      child = cursor.waiting.take_up_to(cursor.best.t);
+    }
   }
   return true;
 }
@@ -119,7 +110,7 @@ Traced trace_blocks(const Ray& ray, Cursor& cursor, R& records, const DatabaseHe
   if (cursor.stage == Cursor::Stage::start && !walk.enter(ray, cursor)) {
     return finish(cursor);
   }
-  const BoxRay box(ray);
+  const BoxRay box(ray, walk.reciprocal());
   const bool any = skips.any_hit && ray.kind == RayKind::shadow;
   for (;;) {
     if (cursor.stage == Cursor::Stage::directory) {

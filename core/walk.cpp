@@ -36,6 +36,7 @@ std::int32_t top_cells_between(const Corner& from, const Corner& to) {
 Walk::Walk(const Ray& ray, const GridFrame& frame, const Region& region)
     : origin_(ray.origin),
       direction_(ray.direction),
+      reciprocal_(reciprocal_direction(ray)),
       grid_{.high = grid_size(frame)},
       region_(region),
       whole_(is_whole(region, grid_.high)),
@@ -43,17 +44,15 @@ Walk::Walk(const Ray& ray, const GridFrame& frame, const Region& region)
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const float d = ray.direction[axis];
     step_[axis] = d >= smallest_component ? 1 : d <= -smallest_component ? -1 : 0;
-    double reciprocal = 1.0 / double{d};
     if constexpr (mutation == Mutation::sign_of_minus_zero) {
       step_[axis] = d >= 0.0F ? 1 : -1;
-      reciprocal = 1.0 / double{std::copysign(std::max(std::fabs(d), smallest_component), d)};
     }
     if constexpr (mutation == Mutation::world_coordinates) {
       origin_[axis] = in_world_coordinates(origin_[axis], frame.origin[axis] * frame.scale);
     }
     if (step_[axis] != 0) {
-      slope_[axis] = double{frame.finest_cell} * reciprocal;
-      offset_[axis] = -origin_[axis] * reciprocal;
+      slope_[axis] = double{frame.finest_cell} * reciprocal_[axis];
+      offset_[axis] = -origin_[axis] * reciprocal_[axis];
     } else {
       offset_[axis] = never;
     }

@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 
 #include "core/cursor.h"
-#include "core/expect.h"
 #include "core/kernel.h"
 #include "core/operations.h"
 #include "core/ray.h"
@@ -29,6 +27,9 @@ namespace dmpc::core {
 class Walk {
  public:
   Walk(const Ray& ray, const GridFrame& frame, const Region& region);
+
+  /// That of the direction, as reciprocal_direction() has it.
+  const Vec3d& reciprocal() const { return reciprocal_; }
 
   /// Puts the cursor on the first top cell; false if the ray misses the grid or is not finite.
   bool enter(const Ray& ray, Cursor& cursor) const;
@@ -62,7 +63,7 @@ class Walk {
   bool stays(Cursor& cursor, std::int32_t face) const;
   Corner finest_cell_of(const Cursor& cursor, std::int32_t face) const;
 
-  Vec3d origin_, direction_;
+  Vec3d origin_, direction_, reciprocal_;
   std::array<double, 3> slope_{}, offset_{};
   std::array<std::int32_t, 3> step_{};  ///< -1, 0 or +1
   Region grid_, region_;
@@ -104,8 +105,9 @@ inline bool Walk::read(const Ray& ray, const DirectoryEntry& entry, Cursor& curs
                        Operations& operations) const {
   if (!entry.empty()) {
     cursor.exit = exit_through(planes_ahead(cursor.cell, finest_per_top, region_));
-    cursor.next = {BrickChild::brick(entry.brick()), 0.0F};
+    cursor.next = BrickChild::brick(entry.brick());
     cursor.waiting.count = 0;
+    cursor.waiting.t_taken = 0.0F;
     cursor.stage = Cursor::Stage::child;
     return true;
   }

@@ -60,7 +60,7 @@ class ChargedPicture {
         cell.high[axis] = std::min(cell.low[axis] + core::finest_per_top, size[axis]);
       }
       const bool in_cell = cursor.stage == core::Cursor::Stage::child;
-      const double t = in_cell ? std::max(cursor.t_enter, double{cursor.next.t_enter}) : cursor.t_enter;
+      const double t = in_cell ? std::max(cursor.t_enter, double{cursor.waiting.t_taken}) : cursor.t_enter;
       picture.place_ = finest_cell_at(ray, t, cell, frame);
       return picture.records_.find(address);
     }
