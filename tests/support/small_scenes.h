@@ -33,8 +33,8 @@ inline core::Scene mirrors_and_glass() {
   return scene;
 }
 
-/// The same with what other scenes hardly have: a black light, a black triangle, a pane that light cannot leave, and specks far
-/// apart.
+/// The same with what other scenes hardly have: a black light, a black triangle, a pane that light cannot leave, and specks
+/// high above the rest.
 inline core::Scene everything() {
   core::Scene scene = mirrors_and_glass();
   scene.name = "everything";
@@ -46,8 +46,7 @@ inline core::Scene everything() {
   builder.polygon({{1.5, -2, 0.5}, {1.2, -1.4, 0.5}, {1.5, -2, 1.3}});
   builder.material({});
   for (int i = 0; i < 100; ++i) {
-    const double angle = 2.399963 * i, radius = 0.3 * std::sqrt(i);
-    builder.sphere({radius * std::cos(angle), radius * std::sin(angle), 1.2 + 0.3 * (i % 7)}, 0.01);
+    builder.sphere({2.6, 2.6, 0.08 * (i + 1)}, 0.01);
   }
   return scene;
 }
