@@ -30,7 +30,7 @@ std::uint64_t allocated_by(const dataflow::PlanRequest& bounds, std::uint32_t no
   core::Film film(16, 16);
   const dataflow::Progress progress;
   std::vector<nodes::NodeSpecification> specifications =
-      dataflow::specifications_of(plan, distribution, settings, {}, film, progress);
+      dataflow::specifications_of(plan, distribution, settings, film, progress);
   for (std::uint32_t i = 0; i < node_count; ++i) {
     specifications[i] = watched(specifications[i]);
   }
