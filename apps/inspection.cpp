@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "core/expect.h"
 #include "core/render.h"
 #include "core/sampling.h"
 
@@ -69,14 +70,17 @@ class BothTracer {
  public:
   using Grid = core::GridTracer<core::LocalRecords>;
 
-  BothTracer(Grid& grid, const EmbreeScene& scene, std::vector<TracedRay>& differences, Draw& draw)
-      : grid_(grid), scene_(scene), differences_(differences), draw_(draw) {}
+  BothTracer(Grid& grid, const EmbreeScene& scene, const core::BackgroundTiles& background, std::vector<TracedRay>& differences,
+             Draw& draw)
+      : grid_(grid), scene_(scene), background_(background), differences_(differences), draw_(draw) {}
 
   core::Traced trace(const core::Ray& ray, core::Cursor& cursor, core::Operations& operations) {
     const core::Traced result = grid_.trace(ray, cursor, operations);
     const bool shadow = ray.kind == core::RayKind::shadow;
     const core::Hit& best = cursor.best;
     const bool hit = result == core::Traced::hit;
+    core::expect(!hit || ray.kind != core::RayKind::primary || !background_.has(ray.pixel),
+                 "no primary ray hits anything where the background shows");
     const TracedRay traced{ray, {hit, shadow ? core::no_primitive : best.primitive, best.t}, ask_oracle(ray), number_++};
     if (!(traced.grid == traced.oracle)) {
       differences_.push_back(traced);
@@ -98,6 +102,7 @@ class BothTracer {
 
   Grid& grid_;
   const EmbreeScene& scene_;
+  const core::BackgroundTiles& background_;
   std::vector<TracedRay>& differences_;
   Draw& draw_;
   std::uint32_t number_ = 0;
@@ -122,12 +127,13 @@ void trace_pixels(const core::Database& database, const EmbreeScene& scene, cons
                   std::uint32_t first, std::uint32_t last, Harvest& harvest) {
   core::LocalRecords records(database.bytes());
   BothTracer::Grid grid(records, settings.header, settings.skips);
-  BothTracer tracer(grid, scene, harvest.differences, harvest.draw);
+  BothTracer tracer(grid, scene, settings.background, harvest.differences, harvest.draw);
   std::vector<core::HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
   core::PixelTask task(stack);
+  const core::RenderSettings every_ray = settings.with_every_ray_traced();
   for (std::uint32_t pixel = first; pixel < last; ++pixel) {
     tracer.start_pixel();
-    core::render_pixel(task, pixel, settings.first_samples(), tracer, settings, harvest.operations);
+    core::render_pixel(task, pixel, settings.first_samples(), tracer, every_ray, harvest.operations);
   }
 }
 
@@ -153,8 +159,9 @@ std::uint64_t count_differing(const core::Database& database, const EmbreeScene&
     std::vector<core::HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
     core::PixelTask task(stack);
     core::Operations unused;
+    const core::RenderSettings every_ray = settings.with_every_ray_traced();
     const auto sums = [&](auto& tracer, std::uint32_t pixel) {
-      return core::render_pixel(task, pixel, settings.first_samples(), tracer, settings, unused);
+      return core::render_pixel(task, pixel, settings.first_samples(), tracer, every_ray, unused);
     };
     for (std::size_t index = range.begin(); index < range.end(); ++index) {
       differing += sums(grid, pixels[index]) == sums(embree, pixels[index]) ? 0 : 1;

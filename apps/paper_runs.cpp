@@ -19,10 +19,12 @@
 namespace dmpc::apps {
 namespace {
 
-/// The article counts rays as this convention does.
+/// The article's program counts rays as this convention does, and traced all of them.
 PictureOptions picture_of(const std::string& scene, std::uint32_t resolution) {
   const auto side = static_cast<int>(resolution);
-  return {.scene = scene, .resolution = Resolution{side, side}, .convention = core::Convention::paper};
+  PictureOptions picture{.scene = scene, .resolution = Resolution{side, side}, .convention = core::Convention::paper};
+  picture.skips.background = false;
+  return picture;
 }
 
 std::uint64_t pixels_of(const PaperRun& run) { return std::uint64_t{run.resolution} * run.resolution; }

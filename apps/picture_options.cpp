@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/option_values.h"
+#include "core/background.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -117,14 +118,16 @@ void add_view_options(OptionSet options, PictureOptions& picture) {
 
 core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database) {
   const Resolution size = options.resolution.value_or(Resolution{scene.view.width, scene.view.height});
+  const core::Camera camera(scene.view, database.header().frame, size.width, size.height, options.samples);
   return {.header = database.header(),
-          .camera = core::Camera(scene.view, database.header().frame, size.width, size.height, options.samples),
+          .camera = camera,
           .shade = {.convention = options.convention,
                     .depth_max = options.depth,
                     .cutoff = options.cutoff,
                     .radiance_bound = core::radiance_bound(scene, options.depth)},
           .refinement = options.refinement,
-          .skips = options.skips};
+          .skips = options.skips,
+          .background = options.skips.background ? core::find_background(database, camera) : core::BackgroundTiles()};
 }
 
 Resolution parse_resolution(std::string_view text) {

@@ -81,9 +81,9 @@ struct RenderRecord {
 ///                  nodes of which one has sent the other a ray
 ///   chaos          seed, packets_held, quanta_sat_out, and credits that were left: request_credits, ray_credits, host_credits,
 ///                  film_credits; null when calm
-///   skips          work that was left out: empty_space, any_hit, unlit, zero_terms, empty_regions, each {on, exact: true (it
-///                  changes no bit of the picture), avoided, unit (of the work avoided)}; cutoff {on, exact: false, cutoff,
-///                  rays_cut, mean_error_bound: light that a sample lacks at most, on average}
+///   skips          work that was left out: empty_space, any_hit, unlit, zero_terms, empty_regions, background, each {on, exact:
+///                  true (it changes no bit of the picture), avoided, unit (of the work avoided)}; cutoff {on, exact: false,
+///                  cutoff, rays_cut, mean_error_bound: light that a sample lacks at most, on average}
 ///   nodes          for each node: rays, hits, operations, packets {sent, received, bytes: sent, bytes_received, refused: tried
 ///                  without credit}, pages, work, travel, load {work_ps, predicted_ps}, region
 ///                  {low, high: corners in finest cells, share of the grid's volume, part_bytes, primitive_copies,

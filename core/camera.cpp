@@ -39,4 +39,10 @@ Ray Camera::primary_ray(std::uint32_t pixel, std::uint32_t sample) const {
   return ray;
 }
 
+Vec3d Camera::on_film(const Vec3d& offset) const {
+  const double depth = dot(offset, forward_);
+  return {dot(offset, right_) / dot(right_, right_) + 0.5 * (width_ - 1) * depth,
+          dot(offset, down_) / dot(down_, down_) + 0.5 * (height_ - 1) * depth, depth};
+}
+
 }  // namespace dmpc::core

@@ -19,6 +19,12 @@ class Camera {
   Camera(const View& view, const GridFrame& frame, int width, int height, int samples);
 
   Ray primary_ray(std::uint32_t pixel, std::uint32_t sample) const;
+  /// Where an offset from the eye is seen: its column and row, whole numbers in the middles of pixels, each times z, the depth
+  /// along the direction in which the camera looks. Behind the eye the depth is negative.
+  Vec3d on_film(const Vec3d& offset) const;
+  const Vec3f& eye() const { return origin_; }
+  /// The side of a pixel on a film at distance 1.
+  double pixel_size() const { return length(right_); }
   int width() const { return width_; }
   int height() const { return height_; }
   std::uint32_t pixel_count() const { return static_cast<std::uint32_t>(width_) * static_cast<std::uint32_t>(height_); }

@@ -14,11 +14,6 @@ namespace {
 /// Nothing depends on a part's pages; the smallest wastes least at its end.
 constexpr std::size_t part_page_bytes = 512;
 
-/// Where a bound of a brick's child lies, grid-local.
-double place_of(const Brick& brick, std::size_t row, std::size_t child) {
-  return double{brick.origin[row % 3]} + brick.bounds[row][child] * double{brick.unit};
-}
-
 class Extractor {
  public:
   Extractor(const Database& database, const Region& region)

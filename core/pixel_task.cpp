@@ -11,7 +11,18 @@ void PixelTask::start(std::uint32_t pixel, const SampleRange& samples, const Ren
   sample_end_ = samples.first + samples.count;
   sums_ = {};
   stack_size_ = 0;
-  shoot(settings.camera.primary_ray(pixel, sample_), operations);
+  shows_background_ = settings.shows_background(pixel);
+  shoot_primary(settings, operations);
+}
+
+/// Where it is not traced its direction does not matter.
+void PixelTask::shoot_primary(const RenderSettings& settings, Operations& operations) {
+  if (shows_background_) {
+    shoot({.pixel = pixel_, .sample = sample_}, operations);
+    ++operations.skipped.background;
+  } else {
+    shoot(settings.camera.primary_ray(pixel_, sample_), operations);
+  }
 }
 
 void PixelTask::shoot(const Ray& ray, Operations& operations) {
@@ -53,7 +64,7 @@ bool PixelTask::next_sample(const RenderSettings& settings, Operations& operatio
   if (++sample_ == sample_end_) {
     return false;
   }
-  shoot(settings.camera.primary_ray(pixel_, sample_), operations);
+  shoot_primary(settings, operations);
   return true;
 }
 

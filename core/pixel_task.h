@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/background.h"
 #include "core/camera.h"
 #include "core/film.h"
 #include "core/operations.h"
@@ -43,7 +44,16 @@ struct RenderSettings {
   ShadeOptions shade;
   RefinementOptions refinement;
   Skips skips;
+  BackgroundTiles background;  ///< find_background() of the database and the camera, if that is known
 
+  /// Whether the pixel's primary rays are certain to miss, and need not be traced.
+  bool shows_background(std::uint32_t pixel) const { return skips.background && background.has(pixel); }
+  /// The same picture, for a tracer that is to be asked about every ray.
+  RenderSettings with_every_ray_traced() const {
+    RenderSettings settings = *this;
+    settings.skips.background = false;
+    return settings;
+  }
   SampleRange first_samples() const { return {0, static_cast<std::uint32_t>(camera.samples())}; }
 };
 
@@ -71,6 +81,7 @@ class PixelTask {
  private:
   template <Tracer T>
   TaskState shade(T& tracer, const RenderSettings& settings, Operations& operations);
+  void shoot_primary(const RenderSettings& settings, Operations& operations);
   void shoot(const Ray& ray, Operations& operations);
   void deposit(const Color& light, Operations& operations);
   void end_ray(Traced result, const RenderSettings& settings, Operations& operations);
@@ -85,6 +96,7 @@ class PixelTask {
   std::uint32_t sample_ = 0, sample_end_ = 0;
   std::uint32_t stack_size_ = 0;
   bool tracing_ = false;
+  bool shows_background_ = false;  ///< the pixel's primary rays are not traced: they miss
 };
 
 template <Tracer T>
@@ -95,7 +107,7 @@ TaskState PixelTask::run(T& tracer, const RenderSettings& settings, Operations& 
       return shaded;
     }
   }
-  const Traced result = tracer.trace(ray_, cursor_, operations);
+  const Traced result = shows_background_ ? Traced::miss : tracer.trace(ray_, cursor_, operations);
   if (result == Traced::absent) {
     absent_ = cursor_.absent;
     return TaskState::absent;

@@ -95,6 +95,10 @@ struct Brick {
   std::uint32_t child_count = 0;
   std::uint32_t padding = 0;
 };
+/// Where the bound in row `row` of a brick's child lies, grid-local.
+constexpr double place_of(const Brick& brick, std::size_t row, std::size_t child) {
+  return double{brick.origin[row % 3]} + brick.bounds[row][child] * double{brick.unit};
+}
 static_assert(sizeof(Brick) == 104 && std::is_trivially_copyable_v<Brick> && sizeof(Brick) <= record_bytes_max);
 
 // ---- Primitive blocks ----------------------------------------------------------------------------------------------------

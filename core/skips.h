@@ -14,6 +14,7 @@ struct Skips {
   bool unlit = true;
   bool zero_terms = true;
   bool empty_regions = true;
+  bool background = true;
 
   bool operator==(const Skips&) const = default;
 };
@@ -25,6 +26,7 @@ struct SkippedWork {
   std::uint64_t unlit = 0;
   std::uint64_t zero_terms = 0;
   std::uint64_t empty_regions = 0;
+  std::uint64_t background = 0;
 };
 
 struct Skip {
@@ -52,6 +54,8 @@ inline constexpr std::array all_skips{
          "rays", &Skips::zero_terms, &SkippedWork::zero_terms},
     Skip{"empty-regions", "rays pass by the owners of regions that hold nothing (dataflow)", "regions passed by",
          &Skips::empty_regions, &SkippedWork::empty_regions},
+    Skip{"background", "no primary ray is traced in parts of the picture, found beforehand, where nothing is to be seen",
+         "primary rays", &Skips::background, &SkippedWork::background},
 };
 
 /// Sums field by field.

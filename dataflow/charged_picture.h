@@ -38,9 +38,13 @@ class ChargedPicture {
   ChargedPicture(const core::Database& database, const core::RenderSettings& settings, C charge)
       : records_(database.bytes()), settings_(settings), charge_(std::move(charge)) {}
 
-  /// Traces the pixel's first sample with everything that it spawns. A primary ray that misses the grid costs nothing here: it is
-  /// in no region.
-  void render(std::uint32_t pixel) { shoot(settings_.camera.primary_ray(pixel, 0)); }
+  /// Traces the pixel's first sample with everything that it spawns. A primary ray that misses the grid or shows the background
+  /// costs nothing here: it is in no region.
+  void render(std::uint32_t pixel) {
+    if (!settings_.shows_background(pixel)) {
+      shoot(settings_.camera.primary_ray(pixel, 0));
+    }
+  }
 
   const core::Operations& operations() const { return operations_; }
 

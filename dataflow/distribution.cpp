@@ -38,7 +38,7 @@ Distribution distribute(const core::Database& database, const core::RenderSettin
       distribution.bsp.mark_empty(bsp.region_index_of(nodes::NodeId{node}));
     }
   }
-  distribution.primaries = deal_primaries(settings.camera, database.header().frame, distribution.bsp, settings.first_samples(),
+  distribution.primaries = deal_primaries(settings, distribution.bsp, settings.first_samples(),
                                           core::PixelMask(settings.camera.pixel_count(), true), stop);
   return distribution;
 }

@@ -1,6 +1,7 @@
 #include "dataflow/primaries.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/expect.h"
@@ -25,23 +26,28 @@ std::vector<std::uint32_t> sky_nodes(const Bsp& bsp) {
 /// Finds whose a primary ray is.
 class Dealer {
  public:
-  Dealer(const core::Camera& camera, const core::GridFrame& frame, const Bsp& bsp)
-      : camera_(camera), frame_(frame), bsp_(bsp), sky_nodes_(sky_nodes(bsp)) {}
+  Dealer(const core::RenderSettings& settings, const Bsp& bsp) : settings_(settings), bsp_(bsp), sky_nodes_(sky_nodes(bsp)) {}
 
   std::uint32_t node_of(std::uint32_t pixel, std::uint32_t sample) {
-    const core::Ray ray = camera_.primary_ray(pixel, sample);
-    if (const auto passage = core::first_passage(ray, frame_)) {
-      const NextStop stop = next_stop(ray, *passage, frame_, bsp_, operations_);
+    const auto region_owner = settings_.shows_background(pixel) ? std::nullopt : first_owner(pixel, sample);
+    return region_owner.value_or(sky_nodes_[std::uint64_t{pixel} * sky_nodes_.size() / settings_.camera.pixel_count()]);
+  }
+
+ private:
+  /// Of the regions on the ray's way that hold something.
+  std::optional<std::uint32_t> first_owner(std::uint32_t pixel, std::uint32_t sample) {
+    const core::GridFrame& frame = settings_.header.frame;
+    const core::Ray ray = settings_.camera.primary_ray(pixel, sample);
+    if (const auto passage = core::first_passage(ray, frame)) {
+      const NextStop stop = next_stop(ray, *passage, frame, bsp_, operations_);
       if (stop.traced == core::Traced::left) {
         return nodes::index_of(bsp_.owner_of(stop.passage.cell));
       }
     }
-    return sky_nodes_[std::uint64_t{pixel} * sky_nodes_.size() / camera_.pixel_count()];
+    return std::nullopt;
   }
 
- private:
-  const core::Camera& camera_;
-  const core::GridFrame& frame_;
+  const core::RenderSettings& settings_;
   const Bsp& bsp_;
   std::vector<std::uint32_t> sky_nodes_;
   core::Operations operations_;  // nobody's: dealing is the host's, which the model does not charge
@@ -49,12 +55,12 @@ class Dealer {
 
 }  // namespace
 
-std::vector<std::vector<PrimaryRun>> deal_primaries(const core::Camera& camera, const core::GridFrame& frame, const Bsp& bsp,
+std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& settings, const Bsp& bsp,
                                                     const core::SampleRange& samples, const core::PixelMask& pixels,
                                                     const std::stop_token& stop) {
   std::vector<std::vector<PrimaryRun>> runs(bsp.region_count());
-  Dealer dealer(camera, frame, bsp);
-  for (std::uint32_t pixel = 0; pixel < camera.pixel_count() && !stop.stop_requested(); ++pixel) {
+  Dealer dealer(settings, bsp);
+  for (std::uint32_t pixel = 0; pixel < settings.camera.pixel_count() && !stop.stop_requested(); ++pixel) {
     for (std::uint32_t i = 0; i < samples.count && pixels.has(pixel); ++i) {
       const std::uint64_t number = std::uint64_t{pixel} * samples.count + i;
       std::vector<PrimaryRun>& of_node = runs[dealer.node_of(pixel, samples.first + i)];

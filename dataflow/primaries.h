@@ -7,8 +7,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/camera.h"
-#include "core/record.h"
+#include "core/pixel_task.h"
 #include "core/refinement.h"
 #include "dataflow/bsp.h"
 #include "dataflow/packets.h"
@@ -17,10 +16,10 @@
 namespace dmpc::dataflow {
 
 /// For each node, the rays that enter the grid in its region, or reach it before any other that holds something, ascending. A ray
-/// that meets no such region only leaves the background on the film: these are spread by pixel number, an equal share of the
-/// picture a node, so that no node has all of the sky. Nodes whose region holds nothing get no ray at all.
-/// After a stop is requested it ends early, with what it has.
-std::vector<std::vector<PrimaryRun>> deal_primaries(const core::Camera& camera, const core::GridFrame& frame, const Bsp& bsp,
+/// that meets no such region, or whose pixel shows the background, only leaves that on the film: these are spread by pixel
+/// number, an equal share of the picture a node, so that no node has all of the sky. Nodes whose region holds nothing get no ray
+/// at all. After a stop is requested it ends early, with what it has.
+std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& settings, const Bsp& bsp,
                                                     const core::SampleRange& samples, const core::PixelMask& pixels,
                                                     const std::stop_token& stop = {});
 

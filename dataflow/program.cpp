@@ -32,7 +32,9 @@ std::span<std::byte> keep_part(LocalMemory& memory, std::span<const std::byte> p
 }
 
 core::RenderSettings settings_for(const NodeDeal& deal) {
-  return {.header = deal.part.header, .camera = deal.settings.camera, .shade = deal.settings.shade, .skips = deal.settings.skips};
+  core::RenderSettings settings = deal.settings;
+  settings.header = deal.part.header;
+  return settings;
 }
 
 }  // namespace
@@ -238,10 +240,21 @@ void NodeProgram::start_primary() {
   if (const std::uint32_t count = primaries_.packets_worked_off(); count > 0) {
     send_control(*node_, host_, Kind::primaries_taken, PrimariesTaken{count});
   }
-  shoot(constants_->settings.camera.primary_ray(pixel_of(number, samples), sample_of(number, samples)));
+  const std::uint32_t pixel = pixel_of(number, samples), sample = sample_of(number, samples);
+  if (constants_->settings.shows_background(pixel)) {
+    return leave_background(pixel, sample);
+  }
+  shoot(constants_->settings.camera.primary_ray(pixel, sample));
   if (task_.is_tracing()) {
     trace();
   }
+}
+
+/// What a primary ray that needs not be traced comes to.
+void NodeProgram::leave_background(std::uint32_t pixel, std::uint32_t sample) {
+  ++operations_.rays[static_cast<std::size_t>(core::RayKind::primary)];
+  ++operations_.skipped.background;
+  end_miss({.pixel = pixel, .sample = sample});
 }
 
 /// Traces the ray under way, or the next child of the hit under way.

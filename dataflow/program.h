@@ -101,6 +101,7 @@ class NodeProgram final : public nodes::Program {
   void send_waiting();
   void take_received();
   void start_primary();
+  void leave_background(std::uint32_t pixel, std::uint32_t sample);
   void go_on();
   void trace();
   void shoot(const core::Ray& ray);

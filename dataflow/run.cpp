@@ -270,7 +270,7 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
     specifications.push_back({plan.node_memory(i), plan.node_mailbox, make_program, plan.held_bytes});
   }
   const auto deal = [&](const core::SampleRange& samples, const core::PixelMask& pixels) {
-    return deal_primaries(settings.camera, settings.header.frame, distribution.bsp, samples, pixels);
+    return deal_primaries(settings, distribution.bsp, samples, pixels);
   };
   const auto make_host = [&, deal](nodes::Node& node) { return std::make_unique<HostProgram>(node, plan, film, progress, deal); };
   specifications.push_back({plan.host_memory(), plan.host_mailbox, make_host, plan.held_bytes});

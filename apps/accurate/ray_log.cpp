@@ -173,7 +173,7 @@ std::vector<std::uint32_t> bodies_of_primitives(const AccurateScene& scene, cons
 }
 
 ProductLogger::ProductLogger(const core::Database& database, const core::RenderSettings& settings, const AccurateScene& scene)
-    : database_(database), settings_(settings), bodies_(bodies_of_primitives(scene, database)) {
+    : database_(database), settings_(settings.with_every_ray_traced()), bodies_(bodies_of_primitives(scene, database)) {
   for (const AccurateLight& light : scene.lights) {
     lights_.push_back(to_local(database.header().frame, light.position));
   }

@@ -13,6 +13,8 @@
 #include "apps/oracle.h"
 #include "apps/output_file.h"
 #include "apps/plot_program.h"
+#include "apps/speed/ablation.h"
+#include "apps/speed/ablation_table.h"
 #include "apps/speed/build_part.h"
 #include "apps/speed/comparison.h"
 #include "apps/speed/emulation_part.h"
@@ -28,6 +30,17 @@
 
 namespace dmpc::apps {
 namespace {
+
+/// What has been measured so far.
+struct Results {
+  std::vector<Comparison> comparisons;
+  std::vector<Ablation> ablations;
+
+  bool has_figures() const {
+    return std::any_of(comparisons.begin(), comparisons.end(), [](const auto& one) { return one.rounds() > 0; }) ||
+           std::any_of(ablations.begin(), ablations.end(), [](const auto& one) { return one.seconds.rounds() > 0; });
+  }
+};
 
 std::string plot_name_of(SpeedPart part) { return std::string("speed_") + name_of(part); }
 std::string data_file_of(SpeedPart part) { return plot_name_of(part) + ".csv"; }
@@ -57,25 +70,27 @@ void check_files(const SpeedOptions& options) {
   check_distinct(inputs, outputs);
 }
 
-void measure_part(SpeedPart part, const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results) {
+void measure_part(SpeedPart part, const SpeedSettings& settings, const Interrupt& interrupt, Results& results) {
   switch (part) {
     case SpeedPart::kernel:
-      return measure_kernel(settings, interrupt, results);
+      return measure_kernel(settings, interrupt, results.comparisons);
     case SpeedPart::picture:
-      return measure_picture(settings, interrupt, results);
+      return measure_picture(settings, interrupt, results.comparisons);
     case SpeedPart::emulation:
-      return measure_emulation(settings, interrupt, results);
+      return measure_emulation(settings, interrupt, results.comparisons);
     case SpeedPart::build:
-      return measure_build(settings, interrupt, results);
+      return measure_build(settings, interrupt, results.comparisons);
     case SpeedPart::memory:
-      return measure_memory(settings, interrupt, results);
+      return measure_memory(settings, interrupt, results.comparisons);
     case SpeedPart::pages:
-      return measure_pages(settings, interrupt, results);
+      return measure_pages(settings, interrupt, results.comparisons);
+    case SpeedPart::ablation:
+      return measure_ablation(settings, interrupt, results.ablations);
   }
 }
 
 /// What ended it before its time, if anything did.
-std::exception_ptr measure_all(const SpeedOptions& options, const Interrupt& interrupt, std::vector<Comparison>& results) {
+std::exception_ptr measure_all(const SpeedOptions& options, const Interrupt& interrupt, Results& results) {
   try {
     for (const SpeedPart part : options.parts) {
       measure_part(part, options.settings, interrupt, results);
@@ -108,22 +123,33 @@ const char* explanation_of(SpeedPart part) {
              "triangle, against the sum of the nodes' local memories.";
     case SpeedPart::pages:
       return "pages: our databases and the distinct pages of a pixel against Table 2 of the article, with its counting of rays.";
+    case SpeedPart::ablation:
+      return "ablation: processor time of the phase render, with what a skip takes to prepare. A skip is kept if it wins 3 % "
+             "somewhere and loses 1 % nowhere: by time if all rounds say so clearly, else by counted operations and their "
+             "prices, "
+             "in which messages do not count.";
   }
   return "";
 }
 
-Table finished_table(const SpeedOptions& options, const std::vector<Comparison>& results, double load) {
-  Table table = table_of(results, std::string("Speed beside Embree ") + embree_version() +
-                                      " and of emulated computers; ratios are medians over rounds, subject over rival");
+Table table_of(const Results& results, bool is_ablation) {
+  return is_ablation ? table_of(results.ablations, "Pictures without skips; ratios are medians over rounds, without over with")
+                     : table_of(results.comparisons,
+                                std::string("Speed beside Embree ") + embree_version() +
+                                    " and of emulated computers; ratios are medians over rounds, subject over rival");
+}
+
+Table finished_table(const SpeedOptions& options, const Results& results, double load) {
+  Table table = table_of(results, options.is_ablation);
   for (const SpeedPart part : options.parts) {
     table.add_note(explanation_of(part));
   }
   for (const Target& target : speed_targets()) {
-    if (std::optional<std::string> sentence = sentence_on(target, results)) {
+    if (std::optional<std::string> sentence = sentence_on(target, results.comparisons)) {
       table.add_note(std::move(*sentence));
     }
   }
-  for (std::string& sentence : kernel_means(results)) {
+  for (std::string& sentence : kernel_means(results.comparisons)) {
     table.add_note(std::move(sentence));
   }
   table.add_note(load_note(load));
@@ -131,16 +157,31 @@ Table finished_table(const SpeedOptions& options, const std::vector<Comparison>&
 }
 
 /// Complaints about pictures go to stderr: they are an extra.
-void draw_plots(const SpeedOptions& options, const std::vector<Comparison>& results) {
+void draw_plots(const SpeedOptions& options, const Results& results) {
   std::set<std::string> complaints;
   for (const SpeedPart part : options.parts) {
-    const Table table = plotted_table(part, results);
+    const bool is_ablation = part == SpeedPart::ablation;
+    const Table table = is_ablation ? plotted_table(results.ablations) : plotted_table(part, results.comparisons);
+    const Plot plot = is_ablation ? plot_of_ablation(table, plot_name_of(part)) : plot_of(part, table, plot_name_of(part));
     write_file(*options.plots / data_file_of(part), text_of(table, TableFormat::csv));
-    const auto outcome = draw(plot_of(part, table, plot_name_of(part)), table, *options.plots, data_file_of(part));
+    const auto outcome = draw(plot, table, *options.plots, data_file_of(part));
     if (outcome && !outcome->is_drawn && complaints.insert(sentence_on(*outcome)).second) {
       std::cerr << "dmpc: " << sentence_on(*outcome) << std::endl;
     }
   }
+}
+
+/// Parts and threads are those of comparisons.
+void choose_ablation(const OptionSet& set, SpeedOptions& options) {
+  if (!options.is_ablation) {
+    return;
+  }
+  for (const char* other : {"--parts", "--threads"}) {
+    if (set.is_given(other)) {
+      throw core::UsageError(std::string("--ablation does not go with ") + other);
+    }
+  }
+  options.parts = {SpeedPart::ablation};
 }
 
 }  // namespace
@@ -155,8 +196,11 @@ void add_options(OptionSet set, SpeedOptions& options) {
       "--parts", "NAME,NAME,... [all]", [&options](const std::string& text) { options.parts = parse_speed_parts(text); },
       "What is measured: kernel (rays a second), picture (a whole render), emulation (many nodes, small caches), build "
       "(databases), memory (of the real computer), pages (against the article)");
+  set.add_flag("--ablation", options.is_ablation,
+               "Instead: what each skip (render --no-skip) is worth. Without SCENE balls-4 and tree-8, too");
+  set.check_in_the_end([set, &options] { choose_ablation(set, options); });
   set.add_flag("--quick", settings.is_quick, "Fewer rays, rounds and pixels, and no scene of a million triangles");
-  set.add_number("--repeat", settings.rounds, 1, 1000, "kernel 7, others 3", "Rounds in which everything is timed");
+  set.add_number("--repeat", settings.rounds, 1, 1000, "kernel 7, ablation 5, others 3", "Rounds in which everything is timed");
   set.add_text(
       "--threads", "N,N,... [1 and all cores]",
       [&settings](const std::string& text) { settings.thread_counts = parse_thread_counts(text); },
@@ -172,6 +216,7 @@ void add_options(OptionSet set, SpeedOptions& options) {
       "Examples:\n"
       "  dmpc bench speed --quick\n"
       "  dmpc bench speed --parts=kernel --threads=1 --plots=plots -o speed.md\n"
+      "  dmpc bench speed --ablation --plots=plots -o skips.md\n"
       "  dmpc bench speed my.nff rings-5-t1 --parts=kernel,picture --resolution=256x256 --format=csv -o speed.csv\n"
       "All figures are of one run on one machine, side by side; figures of two runs do not compare.");
 }
@@ -179,10 +224,9 @@ void add_options(OptionSet set, SpeedOptions& options) {
 int bench_speed_command(const SpeedOptions& options, Interrupt& interrupt, std::ostream& output) {
   check_files(options);
   const double load = machine_load();
-  std::vector<Comparison> results;
+  Results results;
   const std::exception_ptr failure = measure_all(options, interrupt, results);
-  const bool has_figures = std::any_of(results.begin(), results.end(), [](const auto& one) { return one.rounds() > 0; });
-  if (!failure || has_figures) {
+  if (!failure || results.has_figures()) {
     interrupt.set_consequence("the table has what was measured before");
     Table table = finished_table(options, results, load);
     if (failure) {

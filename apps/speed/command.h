@@ -15,6 +15,7 @@ namespace dmpc::apps {
 
 struct SpeedOptions {
   SpeedSettings settings;
+  bool is_ablation = false;  ///< then that is the only part
   std::set<SpeedPart> parts = all_speed_parts();
   TableFormat format = TableFormat::markdown;
   std::optional<std::filesystem::path> output;  ///< stdout if not given

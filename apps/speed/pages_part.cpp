@@ -57,6 +57,7 @@ void measure_pages(const SpeedSettings& settings, const Interrupt& interrupt, st
     progress.update(i, scenes.size());
     PictureOptions picture = settings.picture_of(SpeedPart::pages, scenes[i]);
     picture.convention = core::Convention::paper;
+    picture.skips.background = false;
     const Subject subject = build_subject(load_scene(picture), picture);
     const PaperScene& row = row_of(scenes[i]);
     const double kilobytes = static_cast<double>(subject.database.bytes().size()) / 1024;

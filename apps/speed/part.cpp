@@ -12,14 +12,16 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::array<const char*, 6> names = {"kernel", "picture", "emulation", "build", "memory", "pages"};
+constexpr std::array<const char*, 7> names = {"kernel", "picture", "emulation", "build", "memory", "pages", "ablation"};
+/// The others come before it.
+constexpr auto comparing_count = static_cast<std::ptrdiff_t>(SpeedPart::ablation);
 constexpr std::uint32_t thread_count_max = 1024;
 /// A million triangles.
 constexpr const char* big_scene = "tetra-10";
 
 SpeedPart parse_part(const std::string& word) {
-  const auto found = std::find(names.begin(), names.end(), word);
-  if (found == names.end()) {
+  const auto end = names.begin() + comparing_count, found = std::find(names.begin(), end, word);
+  if (found == end) {
     throw core::UsageError("--parts=" + word +
                            ": expected kernel, picture, emulation, build, memory, pages, with commas between");
   }
@@ -52,6 +54,8 @@ std::vector<std::string> default_scenes(SpeedPart part) {
       return {"tetra-9", big_scene};
     case SpeedPart::build:
       return {"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9", big_scene};
+    case SpeedPart::ablation:
+      return {"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9", "balls-4", "tree-8"};
     default:
       return {"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9"};
   }
@@ -65,7 +69,7 @@ const char* name_of(SpeedPart part) { return names[static_cast<std::size_t>(part
 
 std::set<SpeedPart> all_speed_parts() {
   std::set<SpeedPart> parts;
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (std::ptrdiff_t i = 0; i < comparing_count; ++i) {
     parts.insert(SpeedPart{static_cast<std::uint8_t>(i)});
   }
   return parts;
@@ -98,7 +102,7 @@ std::vector<std::string> SpeedSettings::scenes_of(SpeedPart part) const {
 }
 
 std::size_t SpeedSettings::rounds_of(SpeedPart part) const {
-  const std::size_t standard = part == SpeedPart::kernel ? 7 : 3;
+  const std::size_t standard = part == SpeedPart::kernel ? 7 : part == SpeedPart::ablation ? 5 : 3;
   return rounds.value_or(is_quick ? (standard - 1) / 2 : standard);
 }
 

@@ -14,11 +14,12 @@
 namespace dmpc::apps {
 
 /// kernel: rays a second. picture: a whole render by phases. emulation: many nodes and small caches. build: databases.
-/// memory: of the real computer. pages: databases and pages against the article's.
-enum class SpeedPart : std::uint8_t { kernel, picture, emulation, build, memory, pages };
+/// memory: of the real computer. pages: databases and pages against the article's. ablation: what skips are worth.
+enum class SpeedPart : std::uint8_t { kernel, picture, emulation, build, memory, pages, ablation };
 
 /// As the command line and the table call it.
 const char* name_of(SpeedPart part);
+/// Those that compare speeds: all but ablation, which is asked for by itself.
 std::set<SpeedPart> all_speed_parts();
 /// "kernel,build". Throws core::UsageError for anything that is none, listing those that there are.
 std::set<SpeedPart> parse_speed_parts(const std::string& text);

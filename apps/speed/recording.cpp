@@ -113,7 +113,7 @@ core::Ray bounce_ray(const core::Ray& primary, const core::Hit& hit, const core:
 Recording record_rays(const core::Database& database, const core::RenderSettings& settings, std::size_t most) {
   RecordingTracer tracer(database, most);
   Recording recording;
-  core::render(tracer, settings, recording.operations);
+  core::render(tracer, settings.with_every_ray_traced(), recording.operations);
   for (std::size_t i = 0; i < ray_class_count; ++i) {
     recording.rays[i] = tracer.sample(RayClass{static_cast<std::uint8_t>(i)}).rays();
   }

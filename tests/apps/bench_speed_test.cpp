@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/options.h"
+#include "apps/speed/ablation.h"
 #include "apps/speed/command.h"
 #include "apps/speed/emulation_part.h"
 #include "apps/speed/kernel_part.h"
@@ -148,6 +149,57 @@ TEST_CASE("an interrupted bench speed writes nothing before anything is measured
   std::ostringstream output;
   CHECK_THROWS_AS(apps::bench_speed_command(options, interrupt, output), apps::Interrupted);
   CHECK_FALSE(std::filesystem::exists(folder / "table.md"));
+}
+
+TEST_CASE("an ablation renders without each skip, without all, and with cutoffs, all in each round") {
+  SpeedOptions options = tiny({"--ablation", "balls-2"});
+  apps::Interrupt interrupt;
+  std::vector<apps::Ablation> results;
+  apps::measure_ablation(options.settings, interrupt, results);
+  CHECK(results.size() == 2 * (1 + core::all_skips.size() + 2 + 2));
+  for (const apps::Ablation& one : results) {
+    CAPTURE(one.seconds.what);
+    CHECK(one.seconds.rounds() == 2);
+    CHECK(one.work_ratio > 0.5);
+    CHECK(one.is_exact() == !one.seconds.what.starts_with("cutoff"));
+    CHECK(one.avoided.has_value() == (one.seconds.what != "all" && !one.is_control()));
+    CHECK((!one.is_control() || one.work_ratio == 1));
+    CHECK(one.noise > 0);
+  }
+  CHECK(results.front().seconds.rival_figures == results[1].seconds.rival_figures);
+}
+
+TEST_CASE("skips that a scene needs not are worth nothing there, others are") {
+  SpeedOptions options = tiny({"--ablation"});
+  apps::Interrupt interrupt;
+  std::vector<apps::Ablation> results;
+  apps::measure_ablation(options.settings, interrupt, results);
+  const auto of = [&](const std::string& skip) {
+    return *std::find_if(results.begin(), results.end(), [&](const apps::Ablation& one) { return one.seconds.what == skip; });
+  };
+  CHECK(of("all").work_ratio > 1.03);
+  CHECK(of("unlit").work_ratio > 1);
+  CHECK(*of("unlit").avoided > 0);
+  CHECK(of("background").work_ratio > 1);
+  CHECK(of("cutoff 1/255").work_ratio == 1);  // without mirrors nothing is weak
+  CHECK(*of("cutoff 1/255").error == 0);
+}
+
+TEST_CASE("bench speed --ablation writes its own table and plot") {
+  const TemporaryFolder folder;
+  const std::string table = output_of(tiny({"--ablation", "--plots=" + folder.path().string()}));
+  CHECK(says(table, "| tetra-2 | background "));
+  CHECK(says(table, "| cutoff 1/1024 | bounded "));
+  CHECK(says(table, "any-hit: "));
+  CHECK(says(table, "Load of the machine"));
+  CHECK(std::filesystem::exists(folder / "speed_ablation.csv"));
+}
+
+TEST_CASE("an ablation takes neither parts nor threads") {
+  CHECK_THROWS_AS(parse({"--ablation", "--parts=kernel"}), core::UsageError);
+  CHECK_THROWS_AS(parse({"--ablation", "--threads=1"}), core::UsageError);
+  CHECK(parse({"--ablation"}).parts == std::set{SpeedPart::ablation});
+  CHECK(parse({"--ablation"}).settings.scenes_of(SpeedPart::ablation).size() == 6);
 }
 
 TEST_CASE("bench speed refuses what makes no sense before it begins") {

@@ -123,6 +123,36 @@ TEST_CASE("rays that hit nothing bring the background, half of the samples to ea
   CHECK(operations.rays[0] == 4);
 }
 
+TEST_CASE("where the background shows no tracer is asked, and rays count and leave light as if it were") {
+  const Scene scene = hall_of_mirrors();
+  const Database database = database_of(scene);
+  RenderSettings settings = settings_of(database, scene, 3, 5);
+  settings.header.background = {0.25F, 0.5F, 0.75F};
+  BackgroundTiles::Bits bits{};
+  bits[16] = std::uint64_t{1} << 32U;  // pixel 6 of 4x4: 16 tiles a pixel
+  settings.background = BackgroundTiles(settings.camera, bits);
+  OneRecord nothing(database);
+  GridTracer<OneRecord> tracer(nothing, database.header(), {});
+  std::vector<HitState> stack(5);
+  PixelTask task(stack);
+  Operations operations;
+  task.start(6, settings.first_samples(), settings, operations);
+  for (int ray = 0; ray < 3; ++ray) {
+    CHECK(task.run(tracer, settings, operations) == TaskState::more);
+  }
+  CHECK(task.run(tracer, settings, operations) == TaskState::finished);
+  CHECK(task.sums().plane[0] == to_fixed({0.5F, 1, 1.5F}));
+  CHECK(task.sums().plane[1] == to_fixed({0.25F, 0.5F, 0.75F}));
+  CHECK(operations.rays[0] == 3);
+  CHECK(operations.skipped.background == 3);
+  CHECK(operations.cell_steps == 0);
+  task.start(5, settings.first_samples(), settings, operations);
+  CHECK(task.run(tracer, settings, operations) == TaskState::absent);
+  settings = settings.with_every_ray_traced();
+  task.start(6, settings.first_samples(), settings, operations);
+  CHECK(task.run(tracer, settings, operations) == TaskState::absent);
+}
+
 TEST_CASE("one call ends at most one ray") {
   const Scene scene = hall_of_mirrors();
   const Database database = database_of(scene);

@@ -76,7 +76,8 @@ TEST_CASE("every primary ray is dealt once, to the owner of the cell in which it
   const core::GridFrame& frame = database.header().frame;
   const core::Camera camera(scene.view, frame, 30, 20, 3);
   const dataflow::Bsp bsp = dataflow::equal_size_bsp(core::grid_size(frame), dataflow::axes_facing(camera), 5);
-  const auto runs = dataflow::deal_primaries(camera, frame, bsp, {0, 3}, core::PixelMask(camera.pixel_count(), true));
+  const core::RenderSettings settings{.header = database.header(), .camera = camera};
+  const auto runs = dataflow::deal_primaries(settings, bsp, {0, 3}, core::PixelMask(camera.pixel_count(), true));
   std::vector<int> dealt(camera.pixel_count() * 3);
   std::vector<int> sky(5);
   for (std::uint32_t node = 0; node < 5; ++node) {
@@ -95,4 +96,24 @@ TEST_CASE("every primary ray is dealt once, to the owner of the cell in which it
     CHECK(of_node > 0);
     CHECK(of_node <= static_cast<int>(dealt.size()) / 5);
   }
+}
+
+TEST_CASE("rays of pixels that show the background are shared out by pixel number, whatever they would enter") {
+  const core::Scene scene = tests::mirrors_and_glass();
+  const core::Database database = core::build_database(scene, {});
+  const core::GridFrame& frame = database.header().frame;
+  const core::Camera camera(scene.view, frame, 40, 30, 2);
+  core::BackgroundTiles::Bits bits;
+  bits.fill(~std::uint64_t{0});
+  core::RenderSettings settings{.header = database.header(), .camera = camera, .background = core::BackgroundTiles(camera, bits)};
+  const dataflow::Bsp bsp = dataflow::equal_size_bsp(core::grid_size(frame), dataflow::axes_facing(camera), 3);
+  const core::PixelMask pixels(camera.pixel_count(), true);
+  const auto runs = dataflow::deal_primaries(settings, bsp, {0, 2}, pixels);
+  for (std::uint32_t node = 0; node < 3; ++node) {
+    REQUIRE(runs[node].size() == 1);
+    CHECK(runs[node][0].first == node * 800);
+    CHECK(runs[node][0].count == 800);
+  }
+  settings.skips.background = false;
+  CHECK(dataflow::deal_primaries(settings, bsp, {0, 2}, pixels)[0].size() > 1);
 }
