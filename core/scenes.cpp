@@ -15,6 +15,8 @@ namespace {
 /// Bounds the memory of a scene: 3 GiB of patches.
 constexpr double primitives_max = 16'777'216;
 constexpr int tessellation_max = 1000;
+/// A size that no scene of so few primitives has.
+constexpr int any_size = 100'000;
 
 /// Objects of a scene by kind. In double precision: exact below 2^53, and nothing overflows before the comparison with the bound.
 struct Counts {
@@ -47,25 +49,22 @@ Counts count_tree(int n) { return {1, power(2, n + 1) - 1, power(2, n + 1) - 1};
 struct Family {
   std::string_view name;
   int size_default = 1;
-  int size_limit = 1;  ///< beyond which no size is defined
   Counts (*count)(int size) = nullptr;
   void (*make)(int size, SceneSink& sink) = nullptr;  ///< jacks: the curved form
 };
 
-constexpr int any_size = 100'000;
-
 constexpr std::array<Family, 11> families = {{
-    {"balls", 4, any_size, count_balls, scenes::make_balls},
-    {"gears", 4, any_size, count_gears, scenes::make_gears},
-    {"jacks", 1, any_size, count_jacks, [](int size, SceneSink& sink) { scenes::make_jacks(size, false, sink); }},
-    {"lattice", 12, any_size, count_lattice, scenes::make_lattice},
-    {"mount", 6, 7, count_mount, scenes::make_mount},
-    {"rings", 7, any_size, count_rings, scenes::make_rings},
-    {"shells", 5, any_size, count_shells, scenes::make_shells},
-    {"sombrero", 1, any_size, count_sombrero, scenes::make_sombrero},
-    {"teapot", 12, any_size, count_teapot, scenes::make_teapot},
-    {"tetra", 6, any_size, count_tetra, scenes::make_tetra},
-    {"tree", 11, any_size, count_tree, scenes::make_tree},
+    {"balls", 4, count_balls, scenes::make_balls},
+    {"gears", 4, count_gears, scenes::make_gears},
+    {"jacks", 1, count_jacks, [](int size, SceneSink& sink) { scenes::make_jacks(size, false, sink); }},
+    {"lattice", 12, count_lattice, scenes::make_lattice},
+    {"mount", 6, count_mount, scenes::make_mount},
+    {"rings", 7, count_rings, scenes::make_rings},
+    {"shells", 5, count_shells, scenes::make_shells},
+    {"sombrero", 1, count_sombrero, scenes::make_sombrero},
+    {"teapot", 12, count_teapot, scenes::make_teapot},
+    {"tetra", 6, count_tetra, scenes::make_tetra},
+    {"tree", 11, count_tree, scenes::make_tree},
 }};
 
 const Family* find_family(std::string_view name) {
@@ -99,7 +98,7 @@ int last_fitting(int limit, const std::function<bool(int)>& fits) {
 }
 
 int size_max(const Family& family) {
-  return last_fitting(family.size_limit, [&](int size) { return total(family, size, 0) <= primitives_max; });
+  return last_fitting(any_size, [&](int size) { return total(family, size, 0) <= primitives_max; });
 }
 
 std::string family_list() {

@@ -23,8 +23,7 @@ struct SceneName {
 
 /// Reads `family`, `family-size`, `family-tN` or `family-size-tN`; a size not given is the SPD's default (teapot 12). Nothing if
 /// the text does not begin with a family's name, or goes on with a dot or a slash (balls-4.nff), so that it is a file's name.
-/// Throws InputError with what is allowed if the rest makes no sense or the scene is too large (more than 16,777,216 primitives,
-/// mount above 7).
+/// Throws InputError with what is allowed if the rest makes no sense or the scene is too large (more than 16,777,216 primitives).
 std::optional<SceneName> find_scene_name(std::string_view text);
 
 /// The same for a text that must be a built-in name: throws InputError, listing the families, if it is none.

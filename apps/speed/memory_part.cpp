@@ -6,9 +6,9 @@
 #include "apps/load_scene.h"
 #include "apps/output_file.h"
 #include "apps/progress.h"
-#include "apps/speed/scratch_folder.h"
-#include "apps/speed/watched_process.h"
+#include "apps/scratch_folder.h"
 #include "apps/subject.h"
+#include "apps/watched_process.h"
 #include "svm/run.h"
 
 namespace dmpc::apps {

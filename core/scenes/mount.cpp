@@ -2,6 +2,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/expect.h"
+#include "core/sampling.h"
 #include "core/scenes/families.h"
 #include "core/scenes/frame.h"
 #include "core/scenes/stage.h"
@@ -9,9 +11,11 @@
 namespace dmpc::core::scenes {
 namespace {
 
+/// Of the generator of uniform numbers that seeds are for; its period, too.
+constexpr std::uint32_t modulus = 134456;
+
 /// A normally distributed number from a seed, without state (the polar method of Box, Muller and Marsaglia).
 double gauss(std::uint32_t seed) {
-  constexpr std::uint32_t modulus = 134456;
   const auto next = [](std::uint32_t i) { return static_cast<std::uint32_t>((28411 + 8121 * std::uint64_t{i}) % modulus); };
   std::uint32_t second = seed;
   while (true) {
@@ -26,6 +30,22 @@ double gauss(std::uint32_t seed) {
   }
 }
 
+/// The hash of 1987 stands for a lattice of 2^7 cells a side; beyond, points are numbered on one of 2^16.
+constexpr int first_bits = 7, finest_bits = 16;
+
+/// The seed of a grid point's displacement; (x, y) on the finest lattice. Points that a mountain of size 7 has, keep the hash of
+/// 1987 as it is, poor and repetitive, so that results compare. It has no value between them: there every point has a seed of
+/// its own, mixed from the whole of both coordinates. Seeds do not depend on the size, so each mountain has all points of the
+/// smaller ones and more between.
+std::uint32_t seed_of(std::uint32_t x, std::uint32_t y) {
+  constexpr unsigned shift = finest_bits - first_bits;
+  constexpr std::uint32_t between = (1U << shift) - 1;
+  if (((x | y) & between) == 0) {
+    return 21 + ((y >> shift) << 8U) + (x >> shift);
+  }
+  return static_cast<std::uint32_t>(mix((std::uint64_t{y} << 32U) | x) % modulus);
+}
+
 /// The corners of a square of the height field, counter-clockwise from the lower left.
 struct Corners {
   double lower_left = 0, lower_right = 0, upper_right = 0, upper_left = 0;
@@ -34,6 +54,7 @@ struct Corners {
 class Mountain {
  public:
   Mountain(int size, SceneSink& sink) : size_(size), cells_(std::uint32_t{1} << static_cast<unsigned>(size)), sink_(sink) {
+    expect(size >= 0 && size <= finest_bits, "a mountain's points lie on its finest lattice");
     constexpr double dimension = 2.2;
     const double quotient = 2 / exponential(natural_log(2) / (dimension - 1));
     roughness_ = std::sqrt(quotient * quotient - 1);
@@ -42,11 +63,10 @@ class Mountain {
   void add() { divide(cells_, 0, 0, {}); }
 
  private:
-  /// The displacement of a grid point; the hash is the one of 1987, poor and repetitive, kept so that results compare.
+  /// Of a grid point, for a step of 1.
   double displacement(std::uint32_t x, std::uint32_t y) const {
-    const auto shift = [this](int bits) { return static_cast<std::uint32_t>(bits - size_); };
-    const std::uint32_t hash = ((x << shift(23)) + (y << shift(15)) + (x << shift(7))) & 0xffffU;
-    return gauss(21 + hash);
+    const auto shift = static_cast<unsigned>(finest_bits - size_);
+    return gauss(seed_of(x << shift, y << shift));
   }
 
   Vec3d grid_point(std::uint32_t x, std::uint32_t y, double height) const {

@@ -14,7 +14,6 @@
 #include "apps/speed/emulation_part.h"
 #include "apps/speed/kernel_part.h"
 #include "apps/speed/table.h"
-#include "apps/speed/watched_process.h"
 #include "core/expect.h"
 #include "tests/support/temporary_folder.h"
 
@@ -221,19 +220,6 @@ TEST_CASE("a plot of a part has a bar for each pair, the mean over what was trac
   CHECK(std::get<double>(table.rows()[0][3]) == doctest::Approx(2));
   CHECK(plot_of(SpeedPart::kernel, table, "name").series.size() == 1);
   CHECK(plotted_table(SpeedPart::build, results).rows().empty());
-}
-
-TEST_CASE("anonymous memory is read from a process's status") {
-  CHECK(apps::anonymous_bytes_in("VmHWM:\t    9 kB\nRssAnon:\t   12 kB\nRssFile:\t 7 kB\n") == 12 * 1024);
-  CHECK(apps::anonymous_bytes_in("") == 0);
-  CHECK(apps::anonymous_bytes_in("RssAnon:") == 0);
-}
-
-TEST_CASE("a watched process that fails or cannot be started is an error") {
-  const apps::Interrupt interrupt;
-  CHECK_THROWS_AS(apps::peak_anonymous_bytes(DMPC_PROGRAM, {"no-command"}, interrupt), core::InputError);
-  CHECK_THROWS_AS(apps::peak_anonymous_bytes("/no/program", {}, interrupt), core::InputError);
-  CHECK(apps::peak_anonymous_bytes(DMPC_PROGRAM, {"machine", "ipsc2"}, interrupt) > 10'000);
 }
 
 }  // namespace dmpc::tests

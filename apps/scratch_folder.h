@@ -15,7 +15,7 @@ namespace dmpc::apps {
 class ScratchFolder {
  public:
   ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "dmpc-bench-XXXXXX").string();
+    std::string name = (std::filesystem::temp_directory_path() / "dmpc-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) {
       throw core::InputError("no temporary folder can be made as " + name);
     }

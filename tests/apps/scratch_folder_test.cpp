@@ -1,4 +1,4 @@
-#include "apps/speed/scratch_folder.h"
+#include "apps/scratch_folder.h"
 
 #include <doctest/doctest.h>
 
