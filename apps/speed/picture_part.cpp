@@ -10,7 +10,7 @@
 #include "apps/render.h"
 #include "apps/rounds.h"
 #include "apps/run_strategy.h"
-#include "apps/speed/scratch_folder.h"
+#include "apps/scratch_folder.h"
 #include "apps/stopwatch.h"
 #include "apps/subject.h"
 
