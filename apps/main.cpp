@@ -17,6 +17,7 @@
 #include "apps/options.h"
 #include "apps/output_file.h"
 #include "apps/render.h"
+#include "apps/scale/command.h"
 #include "apps/scene.h"
 #include "apps/speed/command.h"
 #include "apps/stability/command.h"
@@ -44,6 +45,7 @@ struct Execute {
   int operator()(const CompareOptions& options) const { return compare_command(options, interrupt, std::cout); }
   int operator()(const MachineOptions& options) const { return machine_command(options, std::cout); }
   int operator()(const PaperStudyOptions& options) const { return study_paper_command(options, interrupt, std::cout); }
+  int operator()(const ScaleOptions& options) const { return study_scale_command(options, interrupt, std::cout); }
   int operator()(const ErrorOptions& options) const { return bench_error_command(options, interrupt, std::cout); }
   int operator()(const SpeedOptions& options) const { return bench_speed_command(options, interrupt, std::cout); }
   int operator()(const StabilityOptions& options) const { return bench_stability_command(options, interrupt, std::cout); }

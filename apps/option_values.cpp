@@ -63,4 +63,20 @@ std::uint64_t parse_seed(std::string_view text, std::string_view option) {
   return seed;
 }
 
+std::vector<std::uint32_t> parse_numbers(std::string_view text, const std::string& option, std::uint32_t most) {
+  std::vector<std::uint32_t> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (bool is_last = false; !is_last; ++at) {
+    const auto [rest, error] = std::from_chars(at, end, numbers.emplace_back());
+    is_last = rest == end;
+    if (error != std::errc() || numbers.back() < 1 || numbers.back() > most || (!is_last && *rest != ',')) {
+      throw core::UsageError(option + "=" + std::string(text) + ": expected numbers from 1 to " + std::to_string(most) +
+                             " with commas between them, such as 4,8,16");
+    }
+    at = rest;
+  }
+  return numbers;
+}
+
 }  // namespace dmpc::apps

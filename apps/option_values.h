@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace dmpc::apps {
 
@@ -13,6 +15,9 @@ std::size_t parse_size_bytes(std::string_view text, std::string_view option);
 /// A number such as 0.004, 4e-3 or 1/255, above 0 and at most 1; with `or_zero` 0 as well. Throws core::UsageError naming
 /// `option` for anything else.
 double parse_share(std::string_view text, std::string_view option, bool or_zero = false);
+
+/// "4,8,16": whole numbers from 1 to `most`. Throws core::UsageError naming `option` for anything else.
+std::vector<std::uint32_t> parse_numbers(std::string_view text, const std::string& option, std::uint32_t most);
 
 /// A whole number from 0 to 2^64 - 1. Throws core::UsageError naming `option` for anything else.
 std::uint64_t parse_seed(std::string_view text, std::string_view option);

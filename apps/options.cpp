@@ -28,6 +28,8 @@ Command parse_command_line(std::span<const std::string> arguments) {
   add_options(study.add_command(SpeedupStudy::name, SpeedupStudy::description), speedup);
   PaperStudyOptions paper;
   add_options(study.add_command("paper", "Regenerate the tables and claims of the 1994 article"), paper);
+  ScaleOptions scale;
+  add_options(study.add_command("scale", "What larger scenes and more nodes take, and how fast that grows"), scale);
   StabilityOptions stability;
   OptionSet bench = line.add_command("bench", "Put our own arithmetic to the test and print a table");
   add_options(bench.add_command("stability", "Stress tests of numerical stability, beside Embree on the same rays"), stability);
@@ -53,6 +55,7 @@ Command parse_command_line(std::span<const std::string> arguments) {
                                                    {"study cache", cache},
                                                    {"study speedup", speedup},
                                                    {"study paper", paper},
+                                                   {"study scale", scale},
                                                    {"bench stability", stability},
                                                    {"bench precision", precision},
                                                    {"bench error", error},

@@ -12,6 +12,7 @@
 #include "apps/error/command.h"
 #include "apps/machine.h"
 #include "apps/render_options.h"
+#include "apps/scale/command.h"
 #include "apps/scene.h"
 #include "apps/speed/command.h"
 #include "apps/stability/command.h"
@@ -21,7 +22,7 @@
 namespace dmpc::apps {
 
 using Command = std::variant<HelpText, RenderOptions, SceneOptions, CheckOptions, CompareOptions, MachineOptions, StudyOptions,
-                             PaperStudyOptions, StabilityOptions, PrecisionOptions, ErrorOptions, SpeedOptions>;
+                             PaperStudyOptions, ScaleOptions, StabilityOptions, PrecisionOptions, ErrorOptions, SpeedOptions>;
 
 /// `arguments` without the program's name. Throws core::UsageError, whose message ends with a hint at the right --help, for
 /// anything wrong that can be seen without reading a file.

@@ -1,13 +1,12 @@
 #include "apps/study_options.h"
 
-#include <charconv>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "apps/machine_file.h"
 #include "apps/machines.h"
+#include "apps/option_values.h"
 #include "apps/region_options.h"
 #include "apps/run_strategy.h"
 #include "apps/table_options.h"
@@ -19,23 +18,6 @@ namespace dmpc::apps {
 namespace {
 
 constexpr std::uint32_t cache_pages_max = 0x7fffffff;
-
-/// "4,8,16". Throws core::UsageError for anything but numbers from 1 to `most`.
-std::vector<std::uint32_t> parse_numbers(std::string_view text, const std::string& option, std::uint32_t most) {
-  std::vector<std::uint32_t> numbers;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  for (bool is_last = false; !is_last; ++at) {
-    const auto [rest, error] = std::from_chars(at, end, numbers.emplace_back());
-    is_last = rest == end;
-    if (error != std::errc() || numbers.back() < 1 || numbers.back() > most || (!is_last && *rest != ',')) {
-      throw core::UsageError(option + "=" + std::string(text) + ": expected numbers from 1 to " + std::to_string(most) +
-                             " with commas between them, such as 4,8,16");
-    }
-    at = rest;
-  }
-  return numbers;
-}
 
 /// "4,8,16".
 std::string listed(const std::vector<std::uint32_t>& counts) {

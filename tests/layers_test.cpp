@@ -39,7 +39,7 @@ const std::vector<Foreign> foreign = {
     {"CLI/", {"apps/command_line.cpp"}},
     {"nlohmann/",
      {"apps/stats", "apps/machine_file.", "apps/study_table.cpp", "apps/compare.cpp", "apps/accurate/reference_file.cpp",
-      "tests/apps/"}},
+      "apps/scale/figures.cpp", "tests/apps/"}},
     {"oneapi/", {"apps/inspection.cpp", "apps/side_by_side.cpp", "apps/accurate/picture.cpp", "tests/accurate/"}},
     {"tbb/",
      {"core/parallel.cpp", "apps/inspection.cpp", "apps/side_by_side.cpp", "apps/accurate/picture.cpp", "tests/accurate/",

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/expect.h"
 #include "core/units.h"
@@ -52,6 +53,15 @@ TEST_CASE("a seed is any whole number of 64 bits") {
   for (const char* text : {"", "-1", "18446744073709551616", "storm", "1.5", "7x", " 7"}) {
     CAPTURE(std::string(text));
     CHECK_THROWS_AS(parse_seed(text, "--x"), UsageError);
+  }
+}
+
+TEST_CASE("numbers are whole, from 1 to the most that there may be, with commas between") {
+  CHECK(parse_numbers("4", "--x", 8) == std::vector<std::uint32_t>{4});
+  CHECK(parse_numbers("8,1,8", "--x", 8) == std::vector<std::uint32_t>{8, 1, 8});
+  for (const char* text : {"", ",", "0", "9", "-1", "1,", ",1", "1,,2", "1.5", "1 ,2", "99999999999"}) {
+    CAPTURE(std::string(text));
+    CHECK_THROWS_AS(parse_numbers(text, "--x", 8), UsageError);
   }
 }
 

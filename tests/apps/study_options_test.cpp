@@ -163,7 +163,7 @@ TEST_CASE("node counts that are left out are refused") {
 
 TEST_CASE("a study that is missing or does not exist is answered with those there are") {
   CHECK(complaint({"study"}).find("Try: dmpc study --help") != std::string::npos);
-  CHECK(complaint({"study", "weather", "teapot-12"}).find("expected balance, traffic, cache, speedup or paper") !=
+  CHECK(complaint({"study", "weather", "teapot-12"}).find("expected balance, traffic, cache, speedup, paper or scale") !=
         std::string::npos);
 }
 

@@ -1,0 +1,170 @@
+#include "apps/scale/command.h"
+
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/distinct_files.h"
+#include "apps/machine_load.h"
+#include "apps/option_values.h"
+#include "apps/output_file.h"
+#include "apps/plot_program.h"
+#include "apps/scale/measure.h"
+#include "apps/scale/table.h"
+#include "apps/table_options.h"
+#include "core/expect.h"
+#include "dataflow/bsp.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr const char* data_file = "scale.csv";
+
+void check_files(const ScaleOptions& options) {
+  std::vector<NamedFile> outputs;
+  if (options.output) {
+    outputs.push_back({"-o", *options.output});
+  }
+  if (options.plots) {
+    make_output_folder(*options.plots, "--plots");
+    outputs.push_back({"--plots", *options.plots / data_file});
+    for (const Plot& plot : scale_plots(options.settings)) {
+      outputs.push_back({"--plots", *options.plots / (plot.name + ".gnuplot")});
+      outputs.push_back({"--plots", *options.plots / (plot.name + ".svg")});
+    }
+  }
+  check_distinct({}, outputs);
+  if (options.output) {
+    check_output_path(*options.output, "-o");
+  }
+}
+
+/// Complaints about pictures go to stderr: they are an extra.
+void draw_plots(const Table& table, const ScaleOptions& options) {
+  write_file(*options.plots / data_file, text_of(table, TableFormat::csv));
+  std::set<std::string> complaints;
+  for (const Plot& plot : scale_plots(options.settings)) {
+    const auto outcome = draw(plot, table, *options.plots, data_file);
+    if (outcome && !outcome->is_drawn && complaints.insert(sentence_on(*outcome)).second) {
+      std::cerr << "dmpc: " << sentence_on(*outcome) << std::endl;
+    }
+  }
+}
+
+void publish(const std::vector<ScaleResult>& results, bool is_complete, double load, const ScaleOptions& options,
+             std::ostream& output) {
+  Table table = scale_table(results, options.settings);
+  if (!is_complete) {
+    table.add_note("Ended before its time: rows are missing.");
+  }
+  table.add_note(load_note(load));
+  write_to(options.output, text_of(table, options.format), output, "the table");
+  if (options.plots) {
+    draw_plots(table, options);
+  }
+}
+
+/// Throws core::InputError if no run found room.
+void check_any_fits(const std::vector<ScaleResult>& results) {
+  if (std::none_of(results.begin(), results.end(), [](const ScaleResult& result) { return result.figures.has_value(); })) {
+    throw core::InputError(results.empty() ? "there is nothing to run: part nodes has none of the methods asked for"
+                                           : results.front().misfit);
+  }
+}
+
+std::size_t parse_cache(const std::string& text) {
+  const std::size_t bytes = parse_size_bytes(text, "--cache"), page = 1024;
+  if (bytes < page || bytes / page > 0x7fffffff) {
+    throw core::UsageError("--cache=" + text + ": expected at least a page of 1KiB");
+  }
+  return bytes;
+}
+
+void add_family(const std::string& family, bool& has_families, ScaleSettings& settings) {
+  if (!has_families) {
+    settings.families.clear();
+  }
+  has_families = true;
+  settings.families.push_back(family);
+}
+
+/// What is measured.
+void add_subject(OptionSet& set, ScaleSettings& settings) {
+  set.add_arguments(
+      "FAMILY", [&settings, given = false](const std::string& text) mutable { add_family(text, given, settings); },
+      "Families of built-in scenes; without any tetra and mount");
+  set.add_text(
+      "--sizes", "N-N,N,... [from a thousand primitives to ten million]",
+      [&settings](const std::string& text) { settings.sizes = parse_scale_sizes(text); }, "Sizes of their scenes");
+  set.add_text(
+      "--parts", "NAME,NAME [sizes,nodes]", [&settings](const std::string& text) { settings.parts = parse_scale_parts(text); },
+      "What grows: the scene, the number of nodes");
+  set.add_text(
+      "--methods", "NAME,... [cache,quarter,dataflow]",
+      [&settings](const std::string& text) { settings.methods = parse_scale_methods(text); },
+      "Who renders: svm with --cache, svm with a quarter of the database in each cache (not in part nodes), dataflow");
+}
+
+/// With what.
+void add_computer(OptionSet& set, ScaleSettings& settings) {
+  constexpr std::uint32_t most = dataflow::region_count_max;
+  set.add_text(
+      "--cache", "BYTES [1MiB]", [&settings](const std::string& text) { settings.cache_bytes = parse_cache(text); },
+      "Of each node, for method cache");
+  set.add_number("--size-nodes", settings.node_count, 1, most, "8", "Nodes of part sizes");
+  set.add_text(
+      "--nodes", "N,N,... [1,2,4,8,16,32,64,128,256]",
+      [&settings](const std::string& text) { settings.node_counts = parse_numbers(text, "--nodes", most); },
+      "Nodes of part nodes, one number after the other");
+  set.add_text(
+      "--scene", "SCENE [the middle size of the first family]",
+      [&settings](const std::string& text) { settings.nodes_scene = text; }, "The built-in scene of part nodes");
+  set.add_text(
+      "--resolution", "WxH [512x512]", [&settings](const std::string& text) { settings.resolution = parse_resolution(text); },
+      "Pixels of every picture");
+  set.add_number("--repeat", settings.rounds, 1, 1000, "1", "Runs of each row, of which it has the medians");
+}
+
+}  // namespace
+
+void add_options(OptionSet set, ScaleOptions& options) {
+  add_subject(set, options.settings);
+  add_computer(set, options.settings);
+  add_format_option(set, options.format);
+  set.add_path("--plots", "FOLDER", options.plots, "Where pictures by gnuplot go, with their scripts and the table as CSV");
+  set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
+  set.set_examples(
+      "Examples:\n"
+      "  dmpc study scale --plots=plots -o scale.md      a thousand to ten million triangles: some minutes, and 6 GB of memory\n"
+      "  dmpc study scale tetra --sizes=5-10 --parts=sizes --repeat=3\n"
+      "  dmpc study scale --parts=nodes --scene=mount-8 --nodes=1,16,256 --format=csv -o nodes.csv\n"
+      "A row whose scene does not fit has no figures, and a note that says why.");
+}
+
+int study_scale_command(const ScaleOptions& options, Interrupt& interrupt, std::ostream& output) {
+  const std::vector<ScaleRun> runs = scale_runs(options.settings);
+  check_files(options);
+  const double load = machine_load();
+  std::vector<ScaleResult> results;
+  std::exception_ptr failure;
+  try {
+    measure_scale(runs, options.settings, interrupt, [&](ScaleResult result) { results.push_back(std::move(result)); });
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  if (!results.empty()) {
+    interrupt.set_consequence("the table has the rows finished before");
+    publish(results, !failure, load, options, output);
+  }
+  if (failure) {
+    std::rethrow_exception(failure);
+  }
+  check_any_fits(results);
+  return 0;
+}
+
+}  // namespace dmpc::apps

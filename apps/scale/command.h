@@ -1,0 +1,31 @@
+// The command `study scale`: what larger scenes and more nodes take, and how fast that grows.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+
+#include "apps/command_line.h"
+#include "apps/interrupt.h"
+#include "apps/scale/settings.h"
+#include "apps/study_table.h"
+
+namespace dmpc::apps {
+
+struct ScaleOptions {
+  ScaleSettings settings;
+  TableFormat format = TableFormat::markdown;
+  std::optional<std::filesystem::path> output;  ///< stdout if not given
+  std::optional<std::filesystem::path> plots;   ///< a folder for pictures by gnuplot and what they are drawn from
+};
+
+/// Declares them.
+void add_options(OptionSet set, ScaleOptions& options);
+
+/// Writes the table to the file asked for (whole or not at all), else to `output`, with the plots asked for. After a signal or an
+/// error it has the rows finished before. Returns the exit status 0. Throws core::UsageError for outputs that clash,
+/// core::InputError for scenes that there are not, for files that cannot be written, or if no run found room; core::InternalError
+/// and Interrupted as measure_scale().
+int study_scale_command(const ScaleOptions& options, Interrupt& interrupt, std::ostream& output);
+
+}  // namespace dmpc::apps

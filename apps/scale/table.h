@@ -1,0 +1,22 @@
+// What the study `scale` finds, as a table with the growth of each of its figures, and as pictures.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/plot.h"
+#include "apps/scale/measure.h"
+#include "apps/scale/settings.h"
+#include "apps/study_table.h"
+
+namespace dmpc::apps {
+
+/// A row for each result; below them, for each family and method, and for each method on more and more nodes, the exponents with
+/// which the figures grow, over all rows and, where there are more than three, over the last three; and notes that say the same
+/// in words.
+Table scale_table(const std::vector<ScaleResult>& results, const ScaleSettings& settings);
+
+/// Pictures of such a table, logarithmic on both axes.
+std::vector<Plot> scale_plots(const ScaleSettings& settings);
+
+}  // namespace dmpc::apps

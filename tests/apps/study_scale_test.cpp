@@ -1,0 +1,199 @@
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "apps/options.h"
+#include "apps/scale/command.h"
+#include "apps/scale/measure.h"
+#include "core/expect.h"
+#include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace dmpc::tests {
+
+using apps::ScaleMethod;
+using apps::ScaleOptions;
+using apps::ScalePart;
+using apps::ScaleRun;
+using Words = std::vector<std::string>;
+
+namespace {
+
+ScaleOptions parse(Words words) {
+  words.insert(words.begin(), {"study", "scale"});
+  return std::get<ScaleOptions>(apps::parse_command_line(words));
+}
+
+ScaleOptions tiny(const Words& more = {}) {
+  Words words = {"tetra", "--sizes=1-3", "--resolution=8x8", "--size-nodes=2", "--nodes=1,3"};
+  words.insert(words.end(), more.begin(), more.end());
+  ScaleOptions options = parse(words);
+  options.settings.program = DMPC_PROGRAM;
+  options.format = apps::TableFormat::csv;
+  return options;
+}
+
+std::string output_of(const ScaleOptions& options) {
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  CHECK(apps::study_scale_command(options, interrupt, output) == 0);
+  return output.str();
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++found;
+  }
+  return found;
+}
+
+bool contains(const std::string& text, const std::string& part) { return count(text, part) > 0; }
+
+bool has_word(const Words& words, const std::string& word) { return std::find(words.begin(), words.end(), word) != words.end(); }
+
+/// A program that does what a shell's script says.
+std::filesystem::path stand_in(const TemporaryFolder& folder, const std::string& script) {
+  const std::filesystem::path path = folder / "stand_in";
+  write_text(path, "#!/bin/sh\n" + script + "\n");
+  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  return path;
+}
+
+/// More nodes' rows than end by themselves.
+std::string endless() {
+  std::string list = "--nodes=1";
+  for (int more = 0; more < 5000; ++more) {
+    list += ",1";
+  }
+  return list;
+}
+
+}  // namespace
+
+TEST_CASE("the study of scale has a row for each scene, number of nodes and method, and their growth") {
+  const std::string table = output_of(tiny());
+  CHECK(count(table, "\nsizes,tetra,") == 9);
+  CHECK(count(table, "\nnodes,tetra,tetra-2,") == 4);
+  CHECK(count(table, "\ngrowth by size,tetra,tetra-1 to tetra-3,") == 3);
+  CHECK(count(table, "\ngrowth by nodes,tetra,tetra-2 on 1 to 3 nodes,") == 2);
+}
+
+TEST_CASE("the study of scale is written as text that says what it means, how busy the machine was and how all grows") {
+  const std::string text = [] {
+    ScaleOptions options = tiny({"--repeat=2", "--parts=sizes", "--methods=quarter"});
+    options.format = apps::TableFormat::markdown;
+    return output_of(options);
+  }();
+  for (const char* part : {"**Study scale: 8x8 pixels, part sizes on 2 nodes**", "the median of 2", "svm quarter",
+                           "- Growth, tetra-1 to tetra-3, svm quarter: ", "Load of the machine"}) {
+    CAPTURE(std::string(part));
+    CHECK(contains(text, part));
+  }
+}
+
+TEST_CASE("a run asks for the method's strategy, cache and counters") {
+  const ScaleOptions options = tiny({"--cache=4KiB"});
+  const auto words = [&](ScaleMethod method) {
+    return apps::render_arguments({ScalePart::sizes, {.family = "tetra", .size = 2}, method, 5}, options.settings, "s", "p");
+  };
+  CHECK(has_word(words(ScaleMethod::cache), "--cache-pages=4"));
+  CHECK(has_word(words(ScaleMethod::cache), "--nodes=5"));
+  CHECK(has_word(words(ScaleMethod::quarter), "--count-pages"));
+  CHECK(has_word(words(ScaleMethod::dataflow), "--strategy=dataflow"));
+  CHECK(has_word(words(ScaleMethod::dataflow), "--resolution=8x8"));
+  CHECK_FALSE(has_word(words(ScaleMethod::dataflow), "--count-pages"));
+}
+
+TEST_CASE("a run that finds no room is a row without figures, and if all are so that is bad input") {
+  const TemporaryFolder folder;
+  ScaleOptions options = tiny({"--methods=dataflow", "--parts=nodes"});
+  options.settings.program =
+      stand_in(folder, "case \"$*\" in *--nodes=3*) echo dmpc: no room. >&2; exit 1;; esac\nexec " DMPC_PROGRAM " \"$@\"");
+  CHECK(contains(output_of(options), "\nnodes,tetra,tetra-2,dataflow,3,16,,"));
+  options.settings.node_counts = {3};
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  CHECK_THROWS_WITH_AS(apps::study_scale_command(options, interrupt, output), "no room", core::InputError);
+  CHECK(contains(output.str(), "\nnodes,tetra,tetra-2,dataflow,3,16,,"));
+}
+
+TEST_CASE("a run that the system kills is a row without figures") {
+  const TemporaryFolder folder;
+  ScaleOptions options = tiny({"--methods=cache", "--parts=nodes"});
+  options.format = apps::TableFormat::markdown;
+  options.settings.program = stand_in(folder, "case \"$*\" in *--nodes=3*) kill -9 $$;; esac\nexec " DMPC_PROGRAM " \"$@\"");
+  CHECK(contains(output_of(options), "tetra-2, svm 1MiB on 3 nodes: no figures. It was killed"));
+}
+
+TEST_CASE("the study of scale writes its table and pictures where they are asked for") {
+  const TemporaryFolder folder;
+  const ScaleOptions options =
+      tiny({"--methods=cache", "--plots=" + (folder / "plots").string(), "-o" + (folder / "table.csv").string()});
+  CHECK(output_of(options).empty());
+  CHECK(file_text(folder / "table.csv") == file_text(folder / "plots" / "scale.csv"));
+  for (const char* name : {"scale_tetra_seconds", "scale_tetra_memory", "scale_nodes_seconds"}) {
+    CHECK(contains(file_text(folder / "plots" / (std::string(name) + ".gnuplot")), "scale.csv"));
+  }
+}
+
+TEST_CASE("outputs of the study of scale that clash or cannot be written are refused before any run") {
+  const TemporaryFolder folder;
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  const std::string plots = "--plots=" + (folder / "plots").string();
+  CHECK_THROWS_AS(apps::study_scale_command(tiny({plots, "-o" + (folder / "plots" / "scale.csv").string()}), interrupt, output),
+                  core::UsageError);
+  CHECK_THROWS_AS(apps::study_scale_command(tiny({"-o" + (folder / "no" / "a").string()}), interrupt, output), core::InputError);
+  CHECK(output.str().empty());
+}
+
+TEST_CASE("a program that fails by a fault of its own ends the study of scale") {
+  const TemporaryFolder folder;
+  ScaleOptions options = tiny();
+  options.settings.program = folder / "no program";
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  CHECK_THROWS_AS(apps::study_scale_command(options, interrupt, output), core::InputError);
+  options.settings.program =
+      stand_in(folder, "[ \"$1\" = --version ] && exec " DMPC_PROGRAM " --version\necho fault >&2\nexit 3");
+  CHECK_THROWS_WITH_AS(apps::study_scale_command(options, interrupt, output), doctest::Contains("fault"), core::InternalError);
+}
+
+TEST_CASE("options of the study of scale are taken, and wrong ones refused") {
+  const ScaleOptions options = parse({"mount", "rings", "--sizes=2", "--scene=mount-3", "--repeat=3", "--parts=nodes"});
+  CHECK(options.settings.families == Words{"mount", "rings"});
+  CHECK(options.settings.rounds == 3);
+  CHECK(parse({}).settings.families == Words{"tetra", "mount"});
+  CHECK(parse({"--cache=64KiB"}).settings.cache_bytes == 65536);
+  for (const char* word : {"--sizes=x", "--parts=all", "--methods=svm", "--cache=100", "--nodes=0", "--nodes=1025",
+                           "--size-nodes=0", "--repeat=0", "--resolution=9", "--format=xml"}) {
+    CAPTURE(std::string(word));
+    CHECK_THROWS_AS(parse({word}), core::UsageError);
+  }
+}
+
+TEST_CASE("Ctrl-C ends the study of scale with status 130 and the rows finished before") {
+  for (int milliseconds = 1000; milliseconds < 100'000; milliseconds *= 4) {
+    ChildProcess process({DMPC_PROGRAM, "study", "scale", "tetra", "--sizes=3", "--resolution=64x64", "--format=csv", endless()});
+    REQUIRE(process.blocks(SIGINT));
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    process.send(SIGINT);
+    CHECK(process.status() == 130);
+    if (contains(process.errors(), "the table has the rows finished before")) {
+      CHECK(contains(process.output(), "\nsizes,tetra,tetra-3,"));
+      return;
+    }
+  }
+  FAIL("no row was finished");
+}
+
+}  // namespace dmpc::tests
