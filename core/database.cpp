@@ -58,6 +58,7 @@ class DatabaseBuilder {
     write_tables();
     write_normals();
     write_grid(cells);
+    give_back_freed();  // trees are many small pieces
     result_.references_ = cells.references();
     result_.dropped_ = conversion_.dropped;
     result_.primitives_ = std::move(conversion_.primitives);

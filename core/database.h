@@ -62,7 +62,10 @@ class Database {
   std::vector<Place> find_places() const;
 
   /// Frees the bytes: for when the nodes have them. All figures stay.
-  void forget_records() { forget(bytes_); }
+  void forget_records() {
+    forget(bytes_);
+    give_back_freed();
+  }
   /// Frees primitives() and sources(): for when no oracle, no referee and no message will ask.
   void forget_primitives() {
     forget(primitives_);

@@ -46,14 +46,14 @@ class RecordWriter {
     static_assert((sizeof(T) & (sizeof(T) - 1)) == 0);
     return take(round_up(end_, std::max(sizeof(T), record_alignment)), count * sizeof(T));
   }
-  /// Makes all room that has been taken writable, once, so that several threads may write to different records.
+  /// Makes all room that has been taken writable, so that several threads may write to different records. Call it once, when no
+  /// more will be taken: then finish() has nothing to move.
   void make_room() {
-    if (bytes_.size() < end_) {
-      bytes_.resize(end_);
-    }
+    bytes_.reserve(finished_bytes());
+    cover();
   }
   void write(Address address, std::size_t offset, std::span<const std::byte> bytes) {
-    make_room();
+    cover();
     std::copy(bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(byte_offset(address) + offset));
   }
   template <class T>
@@ -67,11 +67,19 @@ class RecordWriter {
   std::size_t front_bytes() const { return front_bytes_; }
   /// The pages, the last one filled up, with overread_bytes behind.
   std::vector<std::byte> finish() && {
-    bytes_.resize(std::max(page_size_, round_up(end_, page_size_)) + overread_bytes);
+    bytes_.resize(finished_bytes());
     return std::move(bytes_);
   }
 
  private:
+  std::size_t finished_bytes() const { return std::max(page_size_, round_up(end_, page_size_)) + overread_bytes; }
+
+  /// Makes what has been taken so far writable; capacity grows by factors.
+  void cover() {
+    if (bytes_.size() < end_) {
+      bytes_.resize(end_);
+    }
+  }
   Address take(std::size_t offset, std::size_t bytes) {
     if (offset + bytes > bytes_max) {
       throw InputError("the scene's database would exceed 16 GiB: render a smaller scene");

@@ -37,6 +37,7 @@ struct Distribution {
     for (core::DatabasePart& part : parts) {
       core::forget(part.bytes);
     }
+    core::give_back_freed();
   }
 };
 

@@ -57,6 +57,17 @@ TEST_CASE("what is written is found again, the rest is zero") {
   CHECK(bytes[byte_offset(address) + 12] == std::byte{0});
 }
 
+TEST_CASE("with all room made at once the pages take no more than their bytes, and nothing is moved in the end") {
+  RecordWriter writer(512);
+  writer.write(writer.allocate(16), 0, std::uint32_t{1});
+  for (int record = 0; record < 1000; ++record) {
+    writer.allocate(100);
+  }
+  writer.make_room();
+  const auto bytes = std::move(writer).finish();
+  CHECK(bytes.capacity() == bytes.size());
+}
+
 TEST_CASE("nothing written is one empty page") { CHECK(RecordWriter(1024).finish().size() == 1024 + overread_bytes); }
 
 TEST_CASE("more than 16 GiB are refused as bad input") {
