@@ -6,6 +6,16 @@
 #include <fstream>
 #include <string>
 
+TEST_CASE("what is forgotten takes no room") {
+  std::vector<int> items(1000, 7);
+  dmpc::core::forget(items);
+  CHECK(items.empty());
+  CHECK(items.capacity() == 0);
+  dmpc::core::forget(items);
+  CHECK(items.capacity() == 0);
+}
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 namespace {
 
 /// Pages of memory that the process has.
@@ -18,16 +28,6 @@ std::size_t resident_pages() {
 
 }  // namespace
 
-TEST_CASE("what is forgotten takes no room") {
-  std::vector<int> items(1000, 7);
-  dmpc::core::forget(items);
-  CHECK(items.empty());
-  CHECK(items.capacity() == 0);
-  dmpc::core::forget(items);
-  CHECK(items.capacity() == 0);
-}
-
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST_CASE("small pieces that were freed between others go back, and the others stay") {
   std::vector<std::vector<char>> pieces, kept;
   for (char i = 0; i < 100; ++i) {
