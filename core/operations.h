@@ -30,6 +30,8 @@ struct Operations {
 
   /// Rays shot, of all kinds.
   std::uint64_t ray_count() const { return std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}); }
+  /// Those of them that were not known to meet only the background.
+  std::uint64_t traced_ray_count() const { return ray_count() - skipped.background; }
 };
 
 /// Sums field by field.

@@ -14,7 +14,7 @@ const WorkPrices measured_prices{.ray_ps = 55'000,
                                  .shading_ps = 167'000};
 
 std::uint64_t work_of(const core::Operations& operations, const WorkPrices& prices) {
-  std::uint64_t sum = operations.ray_count() * prices.ray_ps;
+  std::uint64_t sum = operations.traced_ray_count() * prices.ray_ps;
   for (std::size_t kind = 0; kind < core::primitive_kind_count; ++kind) {
     sum += operations.primitive_tests[kind] * prices.primitive_test_ps[kind];
   }

@@ -9,7 +9,7 @@ namespace dmpc::nodes {
 /// Rays, walk, tests and shading. Look-ups, pages and packing are the strategies' to add.
 inline Charges charges_of(const core::Operations& operations) {
   Charges charges;
-  charges[Charge::ray_setup] = operations.ray_count();
+  charges[Charge::ray_setup] = operations.traced_ray_count();
   charges[Charge::cell_step] = operations.cell_steps;
   charges[Charge::brick_read] = operations.brick_reads;
   charges[Charge::triangle_test] = operations.primitive_tests[0];

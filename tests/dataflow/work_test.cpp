@@ -17,6 +17,13 @@ TEST_CASE("work is each operation at its price") {
   CHECK(dataflow::work_of(operations, prices) == 10'000'000 + 500'000 + 60'000 + 7'000 + 800 + 90 + 10);
 }
 
+TEST_CASE("a ray that is known to meet only the background is no work") {
+  core::Operations operations;
+  operations.rays = {5, 0, 0, 0};
+  operations.skipped.background = 3;
+  CHECK(dataflow::work_of(operations, {.ray_ps = 7}) == 2 * 7);
+}
+
 TEST_CASE("every kind of work has a price") {
   const dataflow::WorkPrices& prices = dataflow::measured_prices;
   CHECK(prices.ray_ps > 0);
