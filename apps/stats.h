@@ -39,14 +39,12 @@ struct RenderRecord {
 ///                  square of the linear channels)
 ///   rays           rays shot
 ///   hits           primary, secondary, shadow_blocked, total_internal_reflections
-///   operations     cell_steps, brick_reads, triangle_tests, sphere_tests, cone_tests, shadings, normal_reads (vertex normals of
-///   smooth
-///                  triangles), deposits_saturated
+///   operations     cell_steps, brick_reads, triangle_tests, sphere_tests, cone_tests, shadings, normal_reads (vertex
+///                  normals of smooth triangles), deposits_saturated
 ///   seconds        load, build, prepare (plan; for dataflow balance and deal), render, write (wall clock), user, system,
 ///                  render_user, render_system
-///   run_hash       of all events in virtual time (with the packets' targets, kinds and bytes), the machine's digest and the
-///   film,
-///                  16 hexadecimal digits: equal runs, equal hashes, on any computer and in every build type
+///   run_hash       of all events in virtual time (with the packets' targets, kinds and bytes), the machine's digest and
+///                  the film, 16 hexadecimal digits: equal runs, equal hashes, on any computer and in every build type
 ///   machine_digest of the machine's figures, switches and topology, but not its name
 ///   virtual_seconds   total (from the start to the last event), and summed over the nodes: computing, sending, receiving, stolen
 ///                  (by interrupts, from what there was to do), lent (to interrupts while there was nothing), waiting (by the

@@ -7,6 +7,7 @@
 
 #include "core/background.h"
 #include "dataflow/run.h"
+#include "nodes/operation_charges.h"
 #include "svm/run.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"
@@ -81,7 +82,11 @@ TEST_CASE("refined pictures keep their bits where background is not traced") {
   check_strategies(subject, 3);
 }
 
-TEST_CASE("in virtual time a ray of the background is charged as one that starts and makes no step") {
+TEST_CASE("in virtual time a ray of the background is charged no setup and no step") {
+  core::Operations operations;
+  operations.rays = {5, 0, 0, 0};
+  operations.skipped.background = 3;
+  CHECK(nodes::charges_of(operations)[nodes::Charge::ray_setup] == 2);
   const Subject subject(built_in("tetra-3"), {48, 40});
   const core::RenderSettings skipping = knowing_background(subject), tracing = without_skip(skipping);
   nodes::Machine machine{.name = "slow steps"};

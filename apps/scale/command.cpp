@@ -98,7 +98,7 @@ void add_subject(OptionSet& set, ScaleSettings& settings) {
       "FAMILY", [&settings, given = false](const std::string& text) mutable { add_family(text, given, settings); },
       "Families of built-in scenes; without any tetra and mount");
   set.add_text(
-      "--sizes", "N-N,N,... [from a thousand primitives to ten million]",
+      "--sizes", "N-N,N,... [from a thousand primitives to 17 million]",
       [&settings](const std::string& text) { settings.sizes = parse_scale_sizes(text); }, "Sizes of their scenes");
   set.add_text(
       "--parts", "NAME,NAME [sizes,nodes]", [&settings](const std::string& text) { settings.parts = parse_scale_parts(text); },
@@ -139,7 +139,7 @@ void add_options(OptionSet set, ScaleOptions& options) {
   set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
   set.set_examples(
       "Examples:\n"
-      "  dmpc study scale --plots=plots -o scale.md      a thousand to ten million triangles: some minutes, and 6 GB of memory\n"
+      "  dmpc study scale --plots=plots -o scale.md      a thousand to 17 million triangles: some minutes, and 6 GB of memory\n"
       "  dmpc study scale tetra --sizes=5-10 --parts=sizes --repeat=3\n"
       "  dmpc study scale --parts=nodes --scene=mount-8 --nodes=1,16,256 --format=csv -o nodes.csv\n"
       "A row whose scene does not fit has no figures, and a note that says why.");

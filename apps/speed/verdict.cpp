@@ -18,7 +18,7 @@ struct Summary {
   std::string best_scene, worst_scene;
   double best = 0, worst = 1e9;  ///< ratios
   double error = 0;
-  bool is_exact = true, is_avoiding = false;
+  bool is_exact = true;
 
   void add(const Ablation& ablation) {
     const double ratio = verdict_on(ablation).ratio;

@@ -1,6 +1,7 @@
 // Whether a skip is worth keeping.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>

@@ -33,7 +33,7 @@ std::vector<std::string> texts_of(const ScaleSettings& settings) {
 
 }  // namespace
 
-TEST_CASE("without options the scenes go from a thousand triangles to ten million") {
+TEST_CASE("without options the scenes go from a thousand triangles to 17 million") {
   CHECK(apps::standard_sizes("tetra") == Sizes{5, 6, 7, 8, 9, 10, 11, 12});
   CHECK(apps::standard_sizes("mount") == Sizes{5, 6, 7, 8, 9, 10, 11});
   CHECK(ScaleSettings().scene_of_nodes().text() == "tetra-9");
