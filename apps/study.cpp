@@ -4,7 +4,6 @@
 #include <iostream>
 #include <optional>
 #include <ostream>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,7 +13,7 @@
 #include "apps/load_scene.h"
 #include "apps/machines.h"
 #include "apps/output_file.h"
-#include "apps/plot_program.h"
+#include "apps/plot_folder.h"
 #include "apps/progress.h"
 #include "apps/stats.h"
 #include "apps/study_runs.h"
@@ -90,26 +89,12 @@ std::string film_note(const StudyRuns& runs) {
   return "Film of every run, " + std::to_string(runs.count()) + " in all: " + hash_text(*runs.film_hash()) + ".";
 }
 
-/// Complaints about pictures go to stderr: they are an extra.
-void draw_plots(const std::string& study, const Table& table, const std::vector<Plot>& plots,
-                const std::filesystem::path& folder) {
-  const std::string data_file = data_file_of(study);
-  write_file(folder / data_file, text_of(table, TableFormat::csv));
-  std::set<std::string> complaints;
-  for (const Plot& plot : plots) {
-    const auto outcome = draw(plot, table, folder, data_file);
-    if (outcome && !outcome->is_drawn && complaints.insert(sentence_on(*outcome)).second) {
-      std::cerr << "dmpc: " << sentence_on(*outcome) << std::endl;
-    }
-  }
-}
-
 template <class OneStudy>
 void write(const OneStudy& study, Table& table, const StudyRuns& runs, const StudyOptions& options, std::ostream& output) {
   table.add_note(film_note(runs));
   write_to(options.output, text_of(table, options.format), output, "the table");
   if (options.plots) {
-    draw_plots(OneStudy::name, table, study.plots(), *options.plots);
+    PlotFolder(*options.plots, std::cerr).add(table, data_file_of(OneStudy::name), study.plots());
   }
 }
 

@@ -15,7 +15,7 @@
 #include "apps/load_scene.h"
 #include "apps/machine_load.h"
 #include "apps/output_file.h"
-#include "apps/plot_program.h"
+#include "apps/plot_folder.h"
 #include "apps/table_options.h"
 #include "core/expect.h"
 #include "svm/plan.h"
@@ -125,19 +125,10 @@ Table finished_table(const ErrorOptions& options, std::span<const SceneResult> r
   return table;
 }
 
-/// Complaints about pictures go to stderr: they are an extra.
 void draw_plots(const ErrorOptions& options, std::span<const SceneResult> results) {
-  std::set<std::string> complaints;
+  PlotFolder plots(*options.plots, std::cerr);
   for (const SceneResult& result : results) {
-    const Table table = plotted_table(result);
-    const std::string data_file = data_file_of(result.scene);
-    write_file(*options.plots / data_file, text_of(table, TableFormat::csv));
-    for (const Plot& plot : plots_of(result, plot_name_of(result.scene))) {
-      const auto outcome = draw(plot, table, *options.plots, data_file);
-      if (outcome && !outcome->is_drawn && complaints.insert(sentence_on(*outcome)).second) {
-        std::cerr << "dmpc: " << sentence_on(*outcome) << std::endl;
-      }
-    }
+    plots.add(plotted_table(result), data_file_of(result.scene), plots_of(result, plot_name_of(result.scene)));
   }
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,7 +11,7 @@
 #include "apps/machine_load.h"
 #include "apps/option_values.h"
 #include "apps/output_file.h"
-#include "apps/plot_program.h"
+#include "apps/plot_folder.h"
 #include "apps/scale/measure.h"
 #include "apps/scale/table.h"
 #include "apps/table_options.h"
@@ -43,18 +42,6 @@ void check_files(const ScaleOptions& options) {
   }
 }
 
-/// Complaints about pictures go to stderr: they are an extra.
-void draw_plots(const Table& table, const ScaleOptions& options) {
-  write_file(*options.plots / data_file, text_of(table, TableFormat::csv));
-  std::set<std::string> complaints;
-  for (const Plot& plot : scale_plots(options.settings)) {
-    const auto outcome = draw(plot, table, *options.plots, data_file);
-    if (outcome && !outcome->is_drawn && complaints.insert(sentence_on(*outcome)).second) {
-      std::cerr << "dmpc: " << sentence_on(*outcome) << std::endl;
-    }
-  }
-}
-
 void publish(const std::vector<ScaleResult>& results, bool is_complete, double load, const ScaleOptions& options,
              std::ostream& output) {
   Table table = scale_table(results, options.settings);
@@ -64,7 +51,7 @@ void publish(const std::vector<ScaleResult>& results, bool is_complete, double l
   table.add_note(load_note(load));
   write_to(options.output, text_of(table, options.format), output, "the table");
   if (options.plots) {
-    draw_plots(table, options);
+    PlotFolder(*options.plots, std::cerr).add(table, data_file, scale_plots(options.settings));
   }
 }
 
@@ -77,8 +64,8 @@ void check_any_fits(const std::vector<ScaleResult>& results) {
 }
 
 std::size_t parse_cache(const std::string& text) {
-  const std::size_t bytes = parse_size_bytes(text, "--cache"), page = 1024;
-  if (bytes < page || bytes / page > 0x7fffffff) {
+  const std::size_t bytes = parse_size_bytes(text, "--cache");
+  if (bytes < ScaleSettings::page_bytes || bytes / ScaleSettings::page_bytes > 0x7fffffff) {
     throw core::UsageError("--cache=" + text + ": expected at least a page of 1KiB");
   }
   return bytes;

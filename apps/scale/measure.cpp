@@ -18,7 +18,6 @@ namespace dmpc::apps {
 namespace {
 
 constexpr int input_status = 1;
-constexpr std::size_t page_bytes = 1024;
 
 std::string text_of_file(const std::filesystem::path& path) {
   std::ostringstream text;
@@ -121,7 +120,7 @@ std::vector<std::string> render_arguments(const ScaleRun& run, const ScaleSettin
   }
   words.emplace_back("--count-pages");
   if (run.method == ScaleMethod::cache) {
-    words.push_back("--cache-pages=" + std::to_string(settings.cache_bytes / page_bytes));
+    words.push_back("--cache-pages=" + std::to_string(settings.cache_bytes / ScaleSettings::page_bytes));
   }
   return words;
 }

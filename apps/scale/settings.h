@@ -24,6 +24,8 @@ const char* name_of(ScalePart part);
 enum class ScaleMethod : std::uint8_t { cache, quarter, dataflow };
 
 struct ScaleSettings {
+  static constexpr std::size_t page_bytes = 1024;  ///< of all runs
+
   ScaleSettings();
 
   std::vector<std::string> families = {"tetra", "mount"};  ///< of built-in scenes

@@ -12,7 +12,7 @@
 #include "apps/machine_load.h"
 #include "apps/oracle.h"
 #include "apps/output_file.h"
-#include "apps/plot_program.h"
+#include "apps/plot_folder.h"
 #include "apps/speed/ablation.h"
 #include "apps/speed/ablation_table.h"
 #include "apps/speed/build_part.h"
@@ -156,18 +156,13 @@ Table finished_table(const SpeedOptions& options, const Results& results, double
   return table;
 }
 
-/// Complaints about pictures go to stderr: they are an extra.
 void draw_plots(const SpeedOptions& options, const Results& results) {
-  std::set<std::string> complaints;
+  PlotFolder plots(*options.plots, std::cerr);
   for (const SpeedPart part : options.parts) {
     const bool is_ablation = part == SpeedPart::ablation;
     const Table table = is_ablation ? plotted_table(results.ablations) : plotted_table(part, results.comparisons);
     const Plot plot = is_ablation ? plot_of_ablation(table, plot_name_of(part)) : plot_of(part, table, plot_name_of(part));
-    write_file(*options.plots / data_file_of(part), text_of(table, TableFormat::csv));
-    const auto outcome = draw(plot, table, *options.plots, data_file_of(part));
-    if (outcome && !outcome->is_drawn && complaints.insert(sentence_on(*outcome)).second) {
-      std::cerr << "dmpc: " << sentence_on(*outcome) << std::endl;
-    }
+    plots.add(table, data_file_of(part), {&plot, 1});
   }
 }
 

@@ -11,6 +11,7 @@
 #include "apps/paper_sensitivity.h"
 #include "apps/paper_tables.h"
 #include "tests/support/paper_results.h"
+#include "tests/support/text.h"
 
 namespace dmpc::tests {
 
@@ -22,14 +23,6 @@ const Plot& plot_named(const std::vector<PaperPlot>& plots, const std::string& n
   const auto found = std::find_if(plots.begin(), plots.end(), [&](const PaperPlot& plot) { return plot.plot.name == name; });
   REQUIRE(found != plots.end());
   return found->plot;
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-    ++found;
-  }
-  return found;
 }
 
 /// Whole, of results that are all alike.

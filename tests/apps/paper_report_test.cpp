@@ -9,6 +9,7 @@
 #include "apps/paper_tables.h"
 #include "tests/support/paper_results.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace dmpc::tests {
 
@@ -21,8 +22,6 @@ PaperReport report_of(std::uint32_t resolution) {
   const PaperResults results = as_printed(catalogue);
   return {.tables = {{"table_3", table_3(catalogue, results)}, {"losses", losses(catalogue, results)}}, .resolution = resolution};
 }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// Programs are looked for in `folder` alone.
 class OnlyPath {

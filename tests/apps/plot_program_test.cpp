@@ -7,6 +7,7 @@
 
 #include "core/expect.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace dmpc::tests {
 
@@ -55,8 +56,6 @@ class Drawing {
   TemporaryFolder folder_;
   Table table_ = small_table();
 };
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/expect.h"
+#include "tests/support/text.h"
 
 namespace dmpc::tests {
 
@@ -42,8 +43,6 @@ Plot bars(bool is_stacked) {
 }
 
 std::string script(const Plot& plot, const Table& table = small_table()) { return script_of(plot, table, "t.csv").value_or(""); }
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 }  // namespace
 
 TEST_CASE("a script names its files, its axes and their scales") {

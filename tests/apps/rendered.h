@@ -14,8 +14,11 @@
 #include "apps/run_strategy.h"
 #include "apps/stats.h"
 #include "apps/subject.h"
+#include "tests/support/text.h"
 
 namespace dmpc::apps {
+
+using tests::contains;
 
 /// One small render and what is said about it.
 struct Rendered {
@@ -53,8 +56,6 @@ inline RenderOptions on_machine(RenderOptions options, const nodes::Machine& mac
 inline RenderOptions modelled(Strategy strategy = Strategy::svm, std::string_view machine = "ipsc2") {
   return on_machine(small(strategy), find_machine_preset(machine)->machine);
 }
-
-inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// What stands behind the first `"key": `, up to the line's end.
 inline std::string value(const std::string& json, const std::string& key) {

@@ -13,12 +13,11 @@
 #include "core/expect.h"
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace dmpc::tests {
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// `dmpc study paper` of minutes, interrupted while its runs go on: after as long as this computer takes to build the scenes.
 ChildProcess& interrupted_study(std::optional<ChildProcess>& process, const std::string& folder) {

@@ -16,6 +16,7 @@
 #include "core/expect.h"
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace dmpc::tests {
 
@@ -47,16 +48,6 @@ std::string output_of(const ScaleOptions& options) {
   CHECK(apps::study_scale_command(options, interrupt, output) == 0);
   return output.str();
 }
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-    ++found;
-  }
-  return found;
-}
-
-bool contains(const std::string& text, const std::string& part) { return count(text, part) > 0; }
 
 bool has_word(const Words& words, const std::string& word) { return std::find(words.begin(), words.end(), word) != words.end(); }
 

@@ -15,6 +15,7 @@
 #include "core/expect.h"
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace dmpc::tests {
 
@@ -34,16 +35,6 @@ std::string output_of(const StudyOptions& options) {
   CHECK(apps::study_command(options, interrupt, output) == 0);
   return output.str();
 }
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-    ++found;
-  }
-  return found;
-}
-
-bool contains(const std::string& text, const std::string& part) { return count(text, part) > 0; }
 
 /// A list of ever the same number, so long that no study ends by itself.
 std::string endless(const std::string& option, const std::string& number) {

@@ -1,0 +1,18 @@
+#include "apps/plot_folder.h"
+
+#include "apps/output_file.h"
+#include "apps/plot_program.h"
+
+namespace dmpc::apps {
+
+void PlotFolder::add(const Table& table, const std::string& data_file, std::span<const Plot> plots) {
+  write_file(folder_ / data_file, text_of(table, TableFormat::csv));
+  for (const Plot& plot : plots) {
+    const auto outcome = draw(plot, table, folder_, data_file);
+    if (outcome && !outcome->is_drawn && told_.insert(sentence_on(*outcome)).second) {
+      complaints_ << "dmpc: " << sentence_on(*outcome) << std::endl;
+    }
+  }
+}
+
+}  // namespace dmpc::apps
