@@ -50,7 +50,7 @@ T read(const std::byte* from) {
 /// Space is measured in cells, whose number follows that of the primitives; the lattice on which regions are cut is finer, and
 /// the cells of the directory, which a ray walks, are coarser.
 inline constexpr int finest_per_cell = 64;
-inline constexpr int cells_per_top = 4;
+inline constexpr int cells_per_top = 8;
 /// Cells of the finest lattice along the edge of a top cell.
 inline constexpr int finest_per_top = cells_per_top * finest_per_cell;
 
