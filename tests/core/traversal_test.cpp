@@ -144,7 +144,8 @@ TEST_CASE("a hit exactly in the plane in which a ray leaves its region belongs t
   int exact = 0;
   for (const bool upwards : {false, true}) {
     for (std::int32_t i = 0; i < 400; ++i) {
-      const Ray ray = ray_from({coordinate(upwards ? 128 : 512), coordinate(132 + i % 20 * 12), coordinate(132 + i / 20 * 12)},
+      const auto beside = [](std::int32_t step) { return coordinate(BorderScene::planes[0] + 8 + step * 24); };
+      const Ray ray = ray_from({coordinate(upwards ? BorderScene::planes[0] : BorderScene::size), beside(i % 20), beside(i / 20)},
                                {upwards ? 1.0F : -1.0F, 0, 0});
       const Hit whole = shoot(border_database(), ray);
       if (double{ray.origin.x} + (upwards ? 1.0 : -1.0) * double{whole.t} != double{coordinate(middle)}) {
@@ -171,8 +172,8 @@ TEST_CASE("a ray through the edge where four regions meet crosses the planes in 
       CAPTURE(first);
       CAPTURE(second);
       CAPTURE(upwards);
-      Vec3f origin{coordinate(64), coordinate(64), coordinate(64)}, direction;
-      origin[first] = origin[second] = coordinate(upwards ? 68 : 444);
+      Vec3f origin{coordinate(middle / 4), coordinate(middle / 4), coordinate(middle / 4)}, direction;
+      origin[first] = origin[second] = coordinate(upwards ? middle - 376 : middle + 376);
       direction[first] = direction[second] = upwards ? 0.7071068F : -0.7071068F;
       const Ray ray = ray_from(origin, direction);
       const Stretch before = first_stretch(ray, quarter(first, !upwards, second, !upwards));

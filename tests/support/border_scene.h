@@ -20,7 +20,7 @@ class BorderScene {
   }
 
   const core::Scene& scene() const { return scene_; }
-  static core::BuildOptions options() { return {.cells_per_primitive = 384}; }
+  static core::BuildOptions options() { return {.cells_per_primitive = 448}; }
   /// In finest cells, along each axis.
   static constexpr std::int32_t size = 2 * core::finest_per_top;
   /// The planes with triangles; the camera sits where the first of x meets the first of z, and looks along y.
