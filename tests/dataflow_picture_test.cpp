@@ -97,7 +97,8 @@ TEST_CASE("dataflow: any nodes, batches, credits, queues, balances, skips and ax
 }
 
 TEST_CASE("dataflow: nodes whose regions are empty stay idle unless that skip is off, and the picture is the same") {
-  const Subject subject(built_in("sombrero-1"), {24, 24});
+  const core::Scene hat = built_in("sombrero-1");
+  const Subject subject(hat, {24, 24}, apps::several_top_cells(hat));
   for (const bool skips : {true, false}) {
     const RunOptions options{.node_count = 24, .balance = {.balance = Balance::equal_size}};
     const dataflow::Report report = check(subject, options, {.empty_regions = skips});

@@ -9,6 +9,7 @@
 #include <map>
 #include <string>
 
+#include "apps/stability/cells.h"
 #include "dataflow/run.h"
 #include "svm/run.h"
 #include "tests/support/pairwise.h"
@@ -34,8 +35,10 @@ using tests::Subject;
 class Subjects {
  public:
   Subjects(const core::Scene& scene, const Subject::Size& size) {
+    core::BuildOptions options = apps::several_top_cells(scene);
     for (const std::size_t page_size : page_sizes) {
-      subjects_.try_emplace(page_size, scene, size, core::BuildOptions{.page_size_bytes = page_size});
+      options.page_size_bytes = page_size;
+      subjects_.try_emplace(page_size, scene, size, options);
       CHECK(subjects_.at(page_size).outcome() == subjects_.begin()->second.outcome());
     }
   }

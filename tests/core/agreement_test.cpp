@@ -128,7 +128,9 @@ TEST_CASE("pages of every size hold the same hits") {
   const Database expected = database_of(scene);
   for (std::size_t page_size = 512; page_size <= 65536; page_size *= 2) {
     CAPTURE(page_size);
-    const Database database = build_database(scene, {.page_size_bytes = page_size});
+    BuildOptions options = several_top_cells(scene);
+    options.page_size_bytes = page_size;
+    const Database database = build_database(scene, options);
     Random random(7);
     std::size_t differences = 0;
     for (std::size_t i = 0; i < scaled(5000); ++i) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/stability/cells.h"
 #include "core/sampling.h"
 #include "core/traversal.h"
 #include "tests/support/scaled.h"
@@ -98,7 +99,7 @@ TEST_CASE("no ray of an empty tile meets anything, wherever a scene is looked at
                            "sombrero-1", "teapot-4", "tetra-4", "tree-5"}) {
     CAPTURE(std::string(name));
     const Scene scene = built_in(name);
-    Database database = build_database(scene, {});
+    Database database = build_database(scene, dmpc::apps::several_top_cells(scene));
     const double extent = 0.5 / database.header().frame.scale;
     for (std::uint64_t number = 0; number < scaled(48); ++number) {
       CAPTURE(number);

@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "apps/stability/cells.h"
 #include "core/camera.h"
 #include "core/traversal.h"
 #include "tests/support/border_scene.h"
@@ -112,7 +113,7 @@ bool check_same_answer(const core::Database& database, const Parts& parts, const
 void check_same_answers(const core::Scene& scene, std::size_t region_count, std::uint32_t seed) {
   CAPTURE(seed);
   std::mt19937 random(seed);
-  const core::Database database = core::build_database(scene, {});
+  const core::Database database = core::build_database(scene, apps::several_top_cells(scene));
   const Parts parts(database, random_regions(core::grid_size(database.header().frame), region_count, random));
   const core::Camera camera(scene.view, database.header().frame, 40, 40, 1);
   int travellers = 0;
@@ -131,12 +132,13 @@ void check_same_answers(const core::Scene& scene, std::size_t region_count, std:
   CHECK((travellers > 1000) == (region_count > 1));
 }
 
-/// From a corner of cells, straight along an axis, or diagonally: in planes between cells, along their edges, through corners.
+/// In the border scene, from a corner of cells, straight along an axis, or diagonally: in planes between cells, along their
+/// edges, through corners.
 core::Ray ray_along_borders(float finest_cell, std::mt19937& random) {
   core::Ray ray;
   ray.kind = core::RayKind::reflected;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    ray.origin[axis] = static_cast<float>(random() % 9 * 64) * finest_cell;
+    ray.origin[axis] = static_cast<float>(random() % 9) * static_cast<float>(tests::BorderScene::size / 8) * finest_cell;
     ray.direction[axis] = static_cast<float>(random() % 3) - 1.0F;
   }
   return ray;
@@ -158,7 +160,7 @@ TEST_CASE("rays in border planes, along edges and through corners find in parts 
   const core::GridFrame& frame = database.header().frame;
   std::mt19937 random(8);
   for (const std::size_t region_count : {2U, 8U, 30U}) {
-    const Parts parts(database, random_regions(core::grid_size(frame), region_count, random, 32));
+    const Parts parts(database, random_regions(core::grid_size(frame), region_count, random, tests::BorderScene::size / 16));
     int travellers = 0;
     for (int i = 0; i < 8000; ++i) {
       CAPTURE(i);

@@ -7,6 +7,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "apps/stability/cells.h"
 #include "core/render.h"
 #include "dataflow/charged_picture.h"
 #include "dataflow/work.h"
@@ -28,7 +29,7 @@ struct Stage {
   core::RenderSettings settings;
 
   explicit Stage(const core::Scene& scene, int width = 64, int height = 64)
-      : database(core::build_database(scene, {})),
+      : database(core::build_database(scene, apps::several_top_cells(scene))),
         settings{database.header(), core::Camera(scene.view, database.header().frame, width, height, 1), {}} {}
 
   ColumnLattice lattice() const {

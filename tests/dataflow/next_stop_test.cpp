@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "apps/stability/cells.h"
 #include "apps/stability/random.h"
 #include "core/database.h"
 #include "core/traversal.h"
@@ -21,7 +22,7 @@ namespace {
 struct Hat {
   explicit Hat(std::uint32_t region_count)
       : scene(tests::built_in("sombrero-1")),
-        database(core::build_database(scene, {})),
+        database(core::build_database(scene, apps::several_top_cells(scene))),
         settings{database.header(), core::Camera(scene.view, database.header().frame, 24, 24, 1), {}},
         distribution(dataflow::distribute(database, settings,
                                           dataflow::equal_size_bsp(core::grid_size(settings.header.frame),

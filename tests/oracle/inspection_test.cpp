@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "apps/stability/cells.h"
 #include "core/records.h"
 #include "core/render.h"
 #include "core/scenes.h"
@@ -15,7 +16,7 @@ namespace {
 struct Looked {
   explicit Looked(const std::string& name, int side)
       : scene(core::built_in_scene(core::parse_scene_name(name))),
-        database(core::build_database(scene, {})),
+        database(core::build_database(scene, apps::several_top_cells(scene))),
         settings{database.header(), core::Camera(scene.view, database.header().frame, side, side, 1), {}} {}
 
   apps::Inspection inspect(const apps::InspectionOptions& options = {}) const {

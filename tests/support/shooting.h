@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "apps/stability/cells.h"
 #include "apps/stability/rays.h"
 #include "core/database.h"
 #include "core/frame.h"
@@ -17,8 +18,10 @@
 
 namespace dmpc::tests {
 
-/// Builds with a page size that is neither the least nor the greatest.
-inline core::Database database_of(const core::Scene& scene) { return core::build_database(scene, {}); }
+/// Builds with a page size that is neither the least nor the greatest, and with several top cells.
+inline core::Database database_of(const core::Scene& scene) {
+  return core::build_database(scene, apps::several_top_cells(scene));
+}
 
 /// Every primitive by the scalar routines, in order.
 inline core::Hit brute_force(const core::Database& database, const core::Ray& ray) {

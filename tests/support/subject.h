@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <ostream>
 
+#include "apps/stability/cells.h"
 #include "core/database.h"
 #include "core/frame.h"
 #include "core/operations.h"
@@ -88,9 +89,9 @@ class Subject {
 
 /// The subjects of one scene along the world's axes and along the screen's: two grids, two films.
 inline std::array<Subject, 2> along_both_axes(const core::Scene& scene, const Subject::Size& size) {
-  core::BuildOptions screen;
+  core::BuildOptions world = apps::several_top_cells(scene), screen = world;
   screen.axes = core::screen_axes(scene.view);
-  return {Subject(scene, size), Subject(scene, size, screen)};
+  return {Subject(scene, size, world), Subject(scene, size, screen)};
 }
 
 }  // namespace dmpc::tests
