@@ -55,14 +55,20 @@ inline core::Scene crowded_scene() {
   return scene;
 }
 
+/// As many cells as cut crowded_scene() into 2x2x2 top cells.
+inline constexpr core::BuildOptions crowded_options{.cells_per_primitive = 4};
+
 /// A coordinate on a plane of the lattice, often one between cells or top cells, on the bound or on a face of crowded_scene(), or
 /// anywhere.
 inline double awkward(const core::Database& database, std::size_t axis, Random& random) {
   const core::GridFrame& frame = database.header().frame;
   const int cells = frame.resolution[axis] * core::finest_per_cell;
   switch (random.below(4)) {
-    case 0:
-      return double{frame.finest_cell} * (random.below(static_cast<std::size_t>(cells)) & -(1U << 2 * random.below(5)));
+    case 0: {
+      constexpr std::array<std::size_t, 5> spans{1, 4, 16, core::finest_per_cell, core::finest_per_top};
+      const std::size_t plane = random.below(static_cast<std::size_t>(cells)), span = spans[random.below(spans.size())];
+      return double{frame.finest_cell} * static_cast<double>(plane - plane % span);
+    }
     case 1:
       return to_local(frame, random.bits() % 2 == 0 ? core::Vec3d{-1, -1, -1} : core::Vec3d{1, 1, 1})[axis];
     case 2:

@@ -19,7 +19,7 @@ core::Vec3f any_direction(Random& random) {
 }
 
 ShootRays axis_rays(double extents_back) {
-  const auto subject = std::make_shared<const StabilitySubject>(seen_from(crowded_scene(), extents_back));
+  const auto subject = std::make_shared<const StabilitySubject>(seen_from(crowded_scene(), extents_back), crowded_options);
   return [subject, extents_back](Random& random, std::uint64_t, std::uint64_t count) {
     KernelCounts counts{};
     for (std::uint64_t i = 0; i < count; ++i) {

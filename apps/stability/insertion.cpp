@@ -18,6 +18,8 @@ using core::Scene;
 using core::Vec3d;
 
 constexpr int primitive_count = 300;
+/// So many that 300 primitives have several top cells.
+constexpr double cells_per_primitive = 4;
 /// How far a sample point is off, and a little: without a pad a point may belong to the neighbour.
 constexpr double sample_error = 1e-12;
 
@@ -77,7 +79,8 @@ bool listed_beside(const Listing& listing, const Vec3d& at, std::uint32_t id) {
 }
 
 ShootRays sample_points(const Scene& scene, bool padded) {
-  const auto database = std::make_shared<const core::Database>(core::build_database(scene, {.pad_share = padded ? 1.0 : 0.0}));
+  const core::BuildOptions options{.cells_per_primitive = cells_per_primitive, .pad_share = padded ? 1.0 : 0.0};
+  const auto database = std::make_shared<const core::Database>(core::build_database(scene, options));
   return [database, padded](Random& random, std::uint64_t first, std::uint64_t count) {
     const Listing listing(*database);
     KernelCounts counts{};
