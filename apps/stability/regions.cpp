@@ -24,8 +24,9 @@ using core::Region;
 using core::Traced;
 using core::Vec3d;
 
-/// A cell in four, in finest cells.
-constexpr std::int32_t slice = core::finest_per_cell / 4;
+/// A top cell in sixteen, in finest cells.
+constexpr std::int32_t slice = core::finest_per_top / 16;
+constexpr std::size_t slices_per_cell = core::finest_per_cell / slice;
 
 /// Cuts the grid into `count` boxes at random planes between slices.
 std::vector<Region> random_regions(const Corner& size, std::size_t count, Random& random) {
@@ -53,7 +54,8 @@ core::Scene walls_in_planes(const core::GridFrame& frame) {
   core::SceneBuilder builder(scene);
   for (int wall = 0; wall < 60; ++wall) {
     const std::size_t axis = random.below(3), u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const auto plane = slice * static_cast<std::int32_t>(random.below(4 * static_cast<std::size_t>(frame.resolution[axis])));
+    const auto plane =
+        slice * static_cast<std::int32_t>(random.below(slices_per_cell * static_cast<std::size_t>(frame.resolution[axis])));
     Vec3d corner{random.between(-1, 1), random.between(-1, 1), random.between(0, 0.3)};
     corner[axis] = frame.origin[axis] + plane * double{frame.finest_cell} / frame.scale;
     const auto at = [&](double along_u, double along_v) {
@@ -67,8 +69,8 @@ core::Scene walls_in_planes(const core::GridFrame& frame) {
   return scene;
 }
 
-/// The grid's resolution must not depend on the walls, so it does not depend on their number, either.
-core::BuildOptions options_for(std::size_t region_count) { return {.cells_per_primitive = region_count > 8 ? 0.5 : 0.125}; }
+/// Several top cells. The grid's resolution must not depend on the walls, so it does not depend on their number, either.
+core::BuildOptions options_for(std::size_t region_count) { return {.cells_per_primitive = region_count > 8 ? 4.0 : 1.0}; }
 
 core::Scene scene_with_walls(const core::BuildOptions& options) {
   // Twice: the first grid's planes say where walls are to stand, and as many walls anywhere give the grid that they will have.

@@ -3,6 +3,7 @@
 
 #include "apps/oracle.h"
 #include "apps/referee.h"
+#include "apps/stability/cells.h"
 #include "core/database.h"
 #include "core/scene.h"
 
@@ -10,7 +11,8 @@ namespace dmpc::apps {
 
 /// Immutable once made, so any thread may trace in it.
 struct StabilitySubject {
-  explicit StabilitySubject(const core::Scene& scene, const core::BuildOptions& options = {})
+  explicit StabilitySubject(const core::Scene& scene) : StabilitySubject(scene, several_top_cells(scene)) {}
+  StabilitySubject(const core::Scene& scene, const core::BuildOptions& options)
       : database(core::build_database(scene, options)) {}
 
   core::Database database;
