@@ -140,7 +140,7 @@ TEST_CASE("one node alone asks nobody for one triangle, nor for anything else") 
 TEST_CASE("what one triangle does not need other scenes do") {
   const Subject subject(
       too_much(), {.width = 24, .height = 20, .samples = 2, .refinement = {.error = 0.02, .samples_max = 8}, .cutoff = 0.001},
-      {.page_size_bytes = 512, .cells_per_primitive = 512});
+      {.page_size_bytes = 512, .cells_per_primitive = 4096});
   check_used(features_of(subject.database()));
   const svm::Report svm = run_svm(subject, {.node_count = 5, .cache_pages = 2});
   check_used(features_of(svm));

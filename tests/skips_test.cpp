@@ -43,7 +43,7 @@ std::vector<Skips> switched_off() {
 
 /// Many top cells, most of them empty, so that every skip acts.
 Subject subject_of(const core::Scene& scene, const Subject::Size& size = {16, 12}) {
-  return Subject(scene, size, {.page_size_bytes = 512, .cells_per_primitive = 512});
+  return Subject(scene, size, {.page_size_bytes = 512, .cells_per_primitive = 4096});
 }
 
 Operations reference(const Subject& subject, const core::RenderSettings& settings) {

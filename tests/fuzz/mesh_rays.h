@@ -89,7 +89,8 @@ class MeshRays {
   double on_plane(std::size_t axis) {
     const core::GridFrame& frame = database_.header().frame;
     const int cells = frame.resolution[axis] * core::finest_per_cell;
-    const int span = 1 << 2 * bytes_.below(5);
+    constexpr std::array<int, 5> spans{1, 4, 16, core::finest_per_cell, core::finest_per_top};
+    const int span = spans[bytes_.below(spans.size())];
     return double{frame.finest_cell} * (bytes_.word() % cells & -span);
   }
 
