@@ -75,23 +75,22 @@ double error_between(const core::Film& film, const core::Film& other) {
 /// The renders of one scene.
 class AblationBench {
  public:
-  AblationBench(const std::string& scene, const SpeedSettings& settings, const Interrupt& interrupt,
-                std::vector<Ablation>& results)
-      : scene_(scene), interrupt_(interrupt), results_(results), subject_(subject_of(scene, settings)) {
+  AblationBench(const std::string& scene, const SpeedSettings& settings, const Interrupt& interrupt)
+      : scene_(scene), interrupt_(interrupt), subject_(subject_of(scene, settings)) {
     by_pages_ = add_variant({});
     by_rays_ = add_variant({.strategy = Strategy::dataflow});
-    add_row("all", nullptr, add_variant({.skips = all_off()}), by_pages_);
+    rows_.push_back({"all", nullptr, add_variant({.skips = all_off()}), by_pages_});
     for (const Skip& skip : core::all_skips) {
       const Strategy strategy = is_of_rays(skip) ? Strategy::dataflow : Strategy::svm;
-      add_row(skip.name, &skip, add_variant({.strategy = strategy, .skips = without(skip)}),
-              is_of_rays(skip) ? by_rays_ : by_pages_);
+      rows_.push_back({skip.name, &skip, add_variant({.strategy = strategy, .skips = without(skip)}),
+                       is_of_rays(skip) ? by_rays_ : by_pages_});
     }
     for (const Cutoff& cutoff : cutoffs) {
-      add_row(cutoff.name, nullptr, by_pages_, add_variant({.cutoff = cutoff.value}));
+      rows_.push_back({cutoff.name, nullptr, by_pages_, add_variant({.cutoff = cutoff.value})});
     }
     for (const std::size_t again : {by_pages_, by_rays_}) {
       controls_.push_back(rows_.size());
-      add_row("none", nullptr, add_variant(Variant(renders_[again].variant)), again);
+      rows_.push_back({"none", nullptr, add_variant(Variant(renders_[again].variant)), again});
       render(renders_[again].variant);  // the first render in a process takes longer
     }
   }
@@ -103,22 +102,13 @@ class AblationBench {
     note(renders_[index], account_of(report), seconds);
   }
 
-  /// Once all variants have been rendered: what does not depend on time.
-  void note_counts() {
+  /// After a round, in which all variants have been rendered.
+  std::vector<Ablation> results() const {
+    std::vector<Ablation> results;
     for (const Row& row : rows_) {
-      const Render &without = renders_[row.without], &with = renders_[row.with];
-      Ablation& result = results_[row.result];
-      result.work_ratio = work_of(without) / work_of(with);
-      result.noise = noise_of(result.seconds.detail);
-      if (row.skip != nullptr) {
-        result.avoided = with.operations.skipped.*row.skip->avoided;
-        result.unit = row.skip->unit;
-      } else if (with.variant.cutoff > 0) {
-        result.avoided = with.operations.rays_cut;
-        result.unit = "rays";
-        result.error = error_between(*with.film, *without.film);
-      }
+      results.push_back(result_of(row));
     }
+    return results;
   }
 
  private:
@@ -126,11 +116,13 @@ class AblationBench {
     Variant variant;
     core::Operations operations = {};
     std::optional<core::Film> film = std::nullopt;
+    std::vector<double> seconds = {};  ///< of processors, by round
   };
-  /// Two renders and what comes of them, by their places.
+  /// Two renders, by their places, and what they show.
   struct Row {
+    const char* name;
     const Skip* skip;  ///< none for all, and for cutoffs
-    std::size_t without, with, result;
+    std::size_t without, with;
   };
 
   /// Seconds of processors, and what came out.
@@ -151,12 +143,43 @@ class AblationBench {
     return {to_prepare + seconds, std::move(report)};
   }
 
-  double noise_of(const std::string& strategy) const {
+  Ablation result_of(const Row& row) const {
+    const Render &without = renders_[row.without], &with = renders_[row.with];
+    Ablation result{.seconds = seconds_of(row),
+                    .work_ratio = work_of(without) / work_of(with),
+                    .noise = noise_of(with.variant.strategy)};
+    if (row.skip != nullptr) {
+      result.avoided = with.operations.skipped.*row.skip->avoided;
+      result.unit = row.skip->unit;
+    } else if (with.variant.cutoff > 0) {
+      result.avoided = with.operations.rays_cut;
+      result.unit = "rays";
+      result.error = error_between(*with.film, *without.film);
+    }
+    return result;
+  }
+
+  Comparison seconds_of(const Row& row) const {
+    const bool is_of_rays = renders_[row.with].variant.strategy == Strategy::dataflow;
+    return {.part = SpeedPart::ablation,
+            .scene = scene_,
+            .what = row.name,
+            .detail = is_of_rays ? "dataflow" : "svm",
+            .threads = is_of_rays ? ray_nodes : page_nodes,
+            .subject = "without it",
+            .rival = "with it",
+            .unit = "s",
+            .subject_figures = renders_[row.without].seconds,
+            .rival_figures = renders_[row.with].seconds};
+  }
+
+  double noise_of(Strategy strategy) const {
     double noise = 0;
     for (const std::size_t control : controls_) {
-      const Comparison& seconds = results_[rows_[control].result].seconds;
-      const RatioSpread ratio = ratio_of(seconds);
-      noise = seconds.detail == strategy ? std::max(ratio.most - 1, 1 - ratio.least) : noise;
+      if (renders_[rows_[control].with].variant.strategy == strategy) {
+        const RatioSpread ratio = ratio_of(seconds_of(rows_[control]));
+        noise = std::max(ratio.most - 1, 1 - ratio.least);
+      }
     }
     return noise;
   }
@@ -173,39 +196,16 @@ class AblationBench {
     return renders_.size() - 1;
   }
 
-  void add_row(const std::string& name, const Skip* skip, std::size_t without, std::size_t with) {
-    const bool is_of_rays = renders_[with].variant.strategy == Strategy::dataflow;
-    rows_.push_back({skip, without, with, results_.size()});
-    results_.push_back({.seconds = {.part = SpeedPart::ablation,
-                                    .scene = scene_,
-                                    .what = name,
-                                    .detail = is_of_rays ? "dataflow" : "svm",
-                                    .threads = is_of_rays ? ray_nodes : page_nodes,
-                                    .subject = "without it",
-                                    .rival = "with it",
-                                    .unit = "s"}});
-  }
-
   void note(Render& render, const Account& account, double seconds) {
     render.operations = account.operations;
     render.film = account.film;
+    render.seconds.push_back(seconds);
     core::expect(render.variant.cutoff > 0 || account.film.hash() == renders_[by_pages_].film->hash(),
                  "an exact skip changes no film");
-    const auto index = static_cast<std::size_t>(&render - renders_.data());
-    for (const Row& row : rows_) {
-      Comparison& comparison = results_[row.result].seconds;
-      if (row.without == index) {
-        comparison.subject_figures.push_back(seconds);
-      }
-      if (row.with == index) {
-        comparison.rival_figures.push_back(seconds);
-      }
-    }
   }
 
   std::string scene_;
   const Interrupt& interrupt_;
-  std::vector<Ablation>& results_;
   Subject subject_;
   std::vector<Render> renders_;
   std::vector<Row> rows_;
@@ -219,13 +219,15 @@ void measure_ablation(const SpeedSettings& settings, const Interrupt& interrupt,
   const std::size_t rounds = settings.rounds_of(SpeedPart::ablation);
   for (const std::string& scene : settings.scenes_of(SpeedPart::ablation)) {
     Progress progress(std::cerr, stderr_is_terminal(), scene + " without skips:", "renders");
-    AblationBench bench(scene, settings, interrupt, results);
-    const std::size_t count = bench.variant_count();
+    AblationBench bench(scene, settings, interrupt);
+    const std::size_t count = bench.variant_count(), first = results.size();
     round_by_round(rounds, count, [&](std::size_t round, std::size_t index) {
       progress.update(round * count + index, rounds * count);
       bench.render(index);
       if (index + 1 == count) {
-        bench.note_counts();
+        const std::vector<Ablation> rows = bench.results();
+        results.resize(first);
+        results.insert(results.end(), rows.begin(), rows.end());
       }
     });
   }

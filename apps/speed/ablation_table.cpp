@@ -54,9 +54,7 @@ std::vector<Cell> row_of(const Ablation& ablation) {
 Table table_of(std::span<const Ablation> ablations, const std::string& title) {
   Table table(title, columns());
   for (const Ablation& ablation : ablations) {
-    if (ablation.seconds.rounds() > 0) {
-      table.add_row(row_of(ablation));
-    }
+    table.add_row(row_of(ablation));
   }
   for (std::string& sentence : verdicts_on(ablations)) {
     table.add_note(std::move(sentence));
@@ -67,7 +65,7 @@ Table table_of(std::span<const Ablation> ablations, const std::string& title) {
 Table plotted_table(std::span<const Ablation> ablations) {
   Table table("ablation", {{"scene"}, {"skip"}, {"time"}, {"work"}});
   for (const Ablation& ablation : ablations) {
-    if (ablation.seconds.rounds() > 0 && !ablation.is_control()) {
+    if (!ablation.is_control()) {
       table.add_row({ablation.seconds.scene, ablation.seconds.what, ratio_of(ablation.seconds).median, ablation.work_ratio});
     }
   }

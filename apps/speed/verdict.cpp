@@ -68,7 +68,7 @@ std::string text_of(const Verdict& verdict) {
 std::vector<std::string> verdicts_on(std::span<const Ablation> ablations) {
   std::vector<Summary> summaries;
   for (const Ablation& ablation : ablations) {
-    if (ablation.seconds.rounds() == 0 || !ablation.avoided) {
+    if (!ablation.avoided) {
       continue;
     }
     const auto is_same = [&](const Summary& summary) { return summary.name == ablation.seconds.what; };

@@ -2,10 +2,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "apps/options.h"
@@ -166,6 +168,26 @@ TEST_CASE("an ablation renders without each skip, without all, and with cutoffs,
     CHECK(one.noise > 0);
   }
   CHECK(results.front().seconds.rival_figures == results[1].seconds.rival_figures);
+}
+
+TEST_CASE("an interrupted ablation has rows of whole rounds only") {
+  SpeedOptions options = tiny({"--ablation"});
+  options.settings.rounds = 1000;
+  std::vector<apps::Ablation> results;
+  for (int milliseconds = 5; results.empty(); milliseconds *= 2) {
+    apps::Interrupt interrupt;
+    const std::jthread killer([=] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+      ::kill(::getpid(), SIGINT);
+    });
+    CHECK_THROWS_AS(apps::measure_ablation(options.settings, interrupt, results), apps::Interrupted);
+    for (const apps::Ablation& one : results) {
+      CHECK(one.seconds.subject_figures.size() == results.front().seconds.rounds());
+      CHECK(one.seconds.rival_figures.size() == results.front().seconds.rounds());
+      CHECK(one.avoided.has_value() == (one.seconds.what != "all" && !one.is_control()));
+    }
+  }
+  CHECK(results.front().work_ratio > 1);
 }
 
 TEST_CASE("skips that a scene needs not are worth nothing there, others are") {
