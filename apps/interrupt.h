@@ -7,11 +7,12 @@
 #include <stop_token>
 #include <thread>
 
+#include "apps/exit_status.h"
+
 namespace dmpc::apps {
 
 /// Thrown by a command that was stopped by a signal, after it has cleaned up. Exit status 130.
 struct Interrupted {};
-inline constexpr int interrupted_status = 130;
 
 /// While it lives, SIGINT and SIGTERM are blocked in the thread that made it and in all threads that this one starts afterwards;
 /// a thread of its own waits for them. So nothing of ours ever runs inside a signal handler. The first signal requests a stop,

@@ -1,5 +1,5 @@
 // The program: reads the command line, calls one command, and turns what went wrong into an exit status.
-//   0 done    1 bad input    2 wrong usage    3 an internal check failed    130 interrupted
+//   0 done    1 bad input    2 wrong usage    3 an internal check failed    4 no room    130 interrupted
 
 #include <exception>
 #include <iostream>
@@ -12,6 +12,7 @@
 #include "apps/check.h"
 #include "apps/compare.h"
 #include "apps/error/command.h"
+#include "apps/exit_status.h"
 #include "apps/interrupt.h"
 #include "apps/machine.h"
 #include "apps/options.h"
@@ -27,8 +28,6 @@
 namespace dmpc::apps {
 
 namespace {
-
-constexpr int input_status = 1, usage_status = 2, internal_status = 3;
 
 /// One overload a command.
 struct Execute {
@@ -65,12 +64,14 @@ int run(const std::vector<std::string>& arguments) {
     return std::visit(Execute{interrupt}, command);
   } catch (const Interrupted&) {
     return complain(std::string("interrupted, ") + interrupt.consequence(), interrupted_status);
+  } catch (const core::RoomError& error) {
+    return complain(error.what(), no_room_status);
   } catch (const core::InputError& error) {
     return complain(error.what(), input_status);
   } catch (const core::UsageError& error) {
     return complain(error.what(), usage_status);
   } catch (const std::bad_alloc&) {
-    return complain("this computer has not enough memory for that: try a smaller scene or --resolution", input_status);
+    return complain("this computer has not enough memory for that: try a smaller scene or --resolution", no_room_status);
   } catch (const std::exception& error) {
     return complain(std::string("this is a bug in dmpc, please report it: ") + error.what(), internal_status);
   }

@@ -49,6 +49,9 @@ std::size_t parse_size_bytes(std::string_view text, std::string_view option) {
     if (error == std::errc() && name == unit && count <= bytes_max >> shift) {
       return static_cast<std::size_t>(count << shift);
     }
+    if (error != std::errc::invalid_argument && name == unit) {
+      refuse(text, option, "at most 1024GiB");
+    }
   }
   refuse(text, option, "a size such as 4096B, 300KiB, 4MiB or 1GiB");
 }

@@ -65,7 +65,7 @@ struct RenderRecord {
 ///   packets        sent, received, bytes, overflow (by way of the host), and by_kind: packets and bytes
 ///   pages          references, hits, home_hits, cache_hits, misses, faults, evictions, served, distinct, distinct_per_pixel
 ///   work           pixels (over all passes), items_asked, items_taken, items_given
-///   travel         of dataflow: rays_in and rays_out (rays), messages_per_ray (hops: rays sent over rays shot), packets (of
+///   travel         of dataflow: rays_in and rays_out (rays), messages_per_ray (moves: rays sent over rays shot), packets (of
 ///                  rays), packets_flushed (sent before they were full), packets_queued (sent after a wait for credit), mean_fill
 ///                  (rays in a packet over those in a full one), bytes (headers included; in total those that the host forwards,
 ///                  too), overflow {rays, packets, share of the rays sent}, hits_sent_back (to the node that found them),

@@ -101,7 +101,7 @@ struct AddOwn {
         "  dmpc study speedup rings-4-t1 --node-memory=1MiB --replacement=clock --in-flight=4 --format=csv -o rings.csv\n"
         "  dmpc study speedup teapot-12 --strategy=dataflow --machine=hdr --nodes=1,16,256,1024\n"
         "A number of nodes whose memory cannot hold the scene has a row without figures, and a note that says what would do.\n"
-        "If none can, the exit status is 1.");
+        "If none can, the exit status is 4.");
   }
 };
 

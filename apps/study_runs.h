@@ -37,8 +37,8 @@ struct StudyOutcome {
 };
 
 /// The scene fits none of the computers that were to render it: the message is the first one's misfit.
-struct NothingFits : core::InputError {
-  using core::InputError::InputError;
+struct NothingFits : core::RoomError {
+  using core::RoomError::RoomError;
 };
 
 /// Not thread-safe. What it is made from outlives it.

@@ -138,7 +138,9 @@ WatchedProcess watch_process(const std::filesystem::path& program, const std::ve
   std::optional<int> status;
   while (!(status = process.status())) {
     interrupt.check();
-    watched.peak_anonymous_bytes = std::max(watched.peak_anonymous_bytes, process.anonymous_bytes());
+    if (const std::size_t bytes = process.anonymous_bytes(); bytes > watched.peak_anonymous_bytes.value_or(0)) {
+      watched.peak_anonymous_bytes = bytes;
+    }
     ::usleep(pause_microseconds);
   }
   watched.status = *status;
@@ -153,10 +155,10 @@ std::size_t peak_anonymous_bytes(const std::filesystem::path& program, const std
     throw core::InputError(program.string() + " was to be watched and ended with status " + std::to_string(watched.status) +
                            (watched.complaint.empty() ? "" : ", saying: " + watched.complaint));
   }
-  if (watched.peak_anonymous_bytes == 0) {
+  if (!watched.peak_anonymous_bytes) {
     throw core::InputError("the memory of " + program.string() + " could not be seen in /proc");
   }
-  return watched.peak_anonymous_bytes;
+  return *watched.peak_anonymous_bytes;
 }
 
 }  // namespace dmpc::apps

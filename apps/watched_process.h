@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,9 +14,10 @@ namespace dmpc::apps {
 
 /// What became of it.
 struct WatchedProcess {
-  int status = 0;                        ///< its exit status; below 0: the signal that ended it
-  std::size_t peak_anonymous_bytes = 0;  ///< the most anonymous memory (RssAnon of Linux) that it was seen to have
-  std::string complaint;                 ///< what it wrote to stderr
+  int status = 0;  ///< its exit status; below 0: the signal that ended it
+  /// The most anonymous memory (RssAnon of Linux) that it was seen to have; nothing if it ended before it was seen with any.
+  std::optional<std::size_t> peak_anonymous_bytes;
+  std::string complaint;  ///< what it wrote to stderr
 };
 
 /// Runs `program` with `arguments`, with nothing to read, to its end, and looks at its memory each millisecond. It does not get

@@ -116,7 +116,7 @@ BrickBuilder::BrickBuilder(std::span<const PrimitiveValues> primitives, double p
 
 BrickTree BrickBuilder::build(const Corner& corner, std::span<const std::uint32_t> ids) const {
   if (ids.size() > carefree_count(0)) {
-    throw InputError("more than 16,777,216 primitives lie in one place: render a smaller scene");
+    throw RoomError("more than 16,777,216 primitives lie in one place: render a smaller scene");
   }
   Cutter cutter(ids.size());
   const CutTree cuts = cut(add_by_kind(cell_at(corner), ids, cutter), cutter);

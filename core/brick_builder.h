@@ -24,7 +24,7 @@ class BrickBuilder {
   BrickBuilder(std::span<const PrimitiveValues> primitives, double pad, float finest_cell, const Parallel& parallel);
 
   /// The bricks of the top cell at `corner`; `ids`, at least one and ascending, are the primitives that touch it. Throws
-  /// InputError for more than 8^8.
+  /// RoomError for more than 8^8.
   BrickTree build(const Corner& corner, std::span<const std::uint32_t> ids) const;
 
  private:

@@ -93,7 +93,7 @@ class Database {
   double pad_ = 0;
 };
 
-/// Throws InputError if the database would exceed 16 GiB.
+/// Throws RoomError if the database would exceed 16 GiB.
 Database build_database(const Scene& scene, const BuildOptions& options);
 /// The same, and frees the scene's objects on the way: they never lie in memory beside the records. View, lights, materials and
 /// background stay.

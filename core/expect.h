@@ -17,6 +17,11 @@ struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Input that would do if there were more room: on this computer, in the nodes' memory, or in a database. Exit status 4.
+struct RoomError : InputError {
+  using InputError::InputError;
+};
+
 /// Wrong use of the command line (options that do not go together). Exit status 2.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;

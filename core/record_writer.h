@@ -82,7 +82,7 @@ class RecordWriter {
   }
   Address take(std::size_t offset, std::size_t bytes) {
     if (offset + bytes > bytes_max) {
-      throw InputError("the scene's database would exceed 16 GiB: render a smaller scene");
+      throw RoomError("the scene's database would exceed 16 GiB: render a smaller scene");
     }
     end_ = std::max(end_, offset + bytes);
     return Address{static_cast<std::uint32_t>(offset / record_alignment)};

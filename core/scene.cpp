@@ -14,7 +14,7 @@ constexpr std::size_t pool_max = std::numeric_limits<std::uint32_t>::max();
 
 std::uint32_t pool_index(std::size_t index) {
   if (index >= pool_max) {
-    throw InputError("the scene is too large: more than 4294967294 vertices, normals or objects; divide it");
+    throw RoomError("the scene is too large: more than 4294967294 vertices, normals or objects; divide it");
   }
   return static_cast<std::uint32_t>(index);
 }

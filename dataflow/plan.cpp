@@ -160,7 +160,7 @@ Plan fitting_plan(const PlanRequest& request, std::size_t memory_bytes) {
                          " of them for its part of the scene; the smallest that works is --node-memory=" +
                          size_text(smallest.node_memory_max_bytes());
   const std::optional<std::uint32_t> other = other_node_count ? other_node_count() : std::nullopt;
-  throw core::InputError(other ? sentence + ", or with this memory --nodes=" + std::to_string(*other) : sentence);
+  throw core::RoomError(other ? sentence + ", or with this memory --nodes=" + std::to_string(*other) : sentence);
 }
 
 void note_reductions(Plan& plan) {

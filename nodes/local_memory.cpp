@@ -71,8 +71,8 @@ LocalMemory::Block LocalMemory::reserve(std::size_t bytes) {
     ASAN_POISON_MEMORY_REGION(block.get(), bytes);
     return block;
   } catch (const std::bad_alloc&) {
-    throw core::InputError("this computer has no " + std::to_string(bytes) +
-                           " bytes for a node's local memory: ask for fewer nodes or less memory a node");
+    throw core::RoomError("this computer has no " + std::to_string(bytes) +
+                          " bytes for a node's local memory: ask for fewer nodes or less memory a node");
   }
 }
 

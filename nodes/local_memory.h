@@ -49,7 +49,7 @@ class LocalMemory {
   static constexpr std::size_t alignment = 64;
 
   /// Reserves plan.total() bytes at once, but for the `reserve` category: that is the thread's stack, which the runner makes; it
-  /// counts as used from the start. The real computer sets bytes aside when they are first written. Throws core::InputError if it
+  /// counts as used from the start. The real computer sets bytes aside when they are first written. Throws core::RoomError if it
   /// has not so much, as far as it knows by then.
   explicit LocalMemory(const MemoryPlan& plan);
 

@@ -211,7 +211,7 @@ std::optional<std::uint32_t> smallest_node_count(PlanRequest request) {
   } else {
     sentence += "; no number of nodes up to " + std::to_string(node_count_max) + " works with this memory";
   }
-  throw core::InputError(sentence);
+  throw core::RoomError(sentence);
 }
 
 /// With an item's pixels in a word where they are masked.

@@ -77,7 +77,7 @@ struct Plan {
   std::uint32_t pages_at(std::uint32_t node) const;
 };
 
-/// Throws core::UsageError for a value out of range or a wrong combination, and core::InputError if the memory is too small;
+/// Throws core::UsageError for a value out of range or a wrong combination, and core::RoomError if the memory is too small;
 /// the latter names the smallest node memory that works for this node count and, if there is one up to node_count_max, the
 /// smallest node count that works with this memory.
 Plan make_plan(const PlanRequest& request);

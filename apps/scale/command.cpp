@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,18 +56,20 @@ void publish(const std::vector<ScaleResult>& results, bool is_complete, double l
   }
 }
 
-/// Throws core::InputError if no run found room.
+/// Throws core::RoomError if no run found room, core::InputError if there was none.
 void check_any_fits(const std::vector<ScaleResult>& results) {
   if (std::none_of(results.begin(), results.end(), [](const ScaleResult& result) { return result.figures.has_value(); })) {
-    throw core::InputError(results.empty() ? "there is nothing to run: part nodes has none of the methods asked for"
-                                           : results.front().misfit);
+    if (results.empty()) {
+      throw core::InputError("there is nothing to run: part nodes has none of the methods asked for");
+    }
+    throw core::RoomError(results.front().misfit);
   }
 }
 
 std::size_t parse_cache(const std::string& text) {
   const std::size_t bytes = parse_size_bytes(text, "--cache");
-  if (bytes < ScaleSettings::page_bytes || bytes / ScaleSettings::page_bytes > 0x7fffffff) {
-    throw core::UsageError("--cache=" + text + ": expected at least a page of 1KiB");
+  if (bytes == 0 || bytes % ScaleSettings::page_bytes != 0) {
+    throw core::UsageError("--cache=" + text + ": this is not a number of whole pages; expected a multiple of 1KiB");
   }
   return bytes;
 }
@@ -76,7 +79,17 @@ void add_family(const std::string& family, bool& has_families, ScaleSettings& se
     settings.families.clear();
   }
   has_families = true;
+  if (std::find(settings.families.begin(), settings.families.end(), family) != settings.families.end()) {
+    throw core::UsageError("FAMILY " + family + ": it is there twice");
+  }
   settings.families.push_back(family);
+}
+
+/// In order, without repetition.
+std::vector<std::uint32_t> parse_node_counts(const std::string& text) {
+  const std::vector<std::uint32_t> counts = parse_numbers(text, "--nodes", dataflow::region_count_max);
+  const std::set<std::uint32_t> sorted(counts.begin(), counts.end());
+  return {sorted.begin(), sorted.end()};
 }
 
 /// What is measured.
@@ -86,7 +99,8 @@ void add_subject(OptionSet& set, ScaleSettings& settings) {
       "Families of built-in scenes; without any tetra and mount");
   set.add_text(
       "--sizes", "N-N,N,... [from a thousand primitives to 17 million]",
-      [&settings](const std::string& text) { settings.sizes = parse_scale_sizes(text); }, "Sizes of their scenes");
+      [&settings](const std::string& text) { settings.sizes = parse_scale_sizes(text); },
+      "Sizes of their scenes, from small to large, each once");
   set.add_text(
       "--parts", "NAME,NAME [sizes,nodes]", [&settings](const std::string& text) { settings.parts = parse_scale_parts(text); },
       "What grows: the scene, the number of nodes");
@@ -98,15 +112,14 @@ void add_subject(OptionSet& set, ScaleSettings& settings) {
 
 /// With what.
 void add_computer(OptionSet& set, ScaleSettings& settings) {
-  constexpr std::uint32_t most = dataflow::region_count_max;
   set.add_text(
       "--cache", "BYTES [1MiB]", [&settings](const std::string& text) { settings.cache_bytes = parse_cache(text); },
       "Of each node, for method cache");
-  set.add_number("--size-nodes", settings.node_count, 1, most, "8", "Nodes of part sizes");
+  set.add_number("--size-nodes", settings.node_count, 1, dataflow::region_count_max, "8", "Nodes of part sizes");
   set.add_text(
       "--nodes", "N,N,... [1,2,4,8,16,32,64,128,256]",
-      [&settings](const std::string& text) { settings.node_counts = parse_numbers(text, "--nodes", most); },
-      "Nodes of part nodes, one number after the other");
+      [&settings](const std::string& text) { settings.node_counts = parse_node_counts(text); },
+      "Nodes of part nodes, from few to many, each number once");
   set.add_text(
       "--scene", "SCENE [the middle size of the first family]",
       [&settings](const std::string& text) { settings.nodes_scene = text; }, "The built-in scene of part nodes");

@@ -50,7 +50,7 @@ void read_counts(const Json& json, ScaleFigures& figures) {
   figures[ScaleFigure::local_memory] = local_memories(json) / bytes_per_megabyte;
   figures[ScaleFigure::faults] = over(number_if_any(json, "/pages/faults"), rays);
   figures[ScaleFigure::packets] = over(number_at(json, "/packets/sent"), rays);
-  figures[ScaleFigure::hops] = number_if_any(json, "/travel/messages_per_ray");
+  figures[ScaleFigure::moves] = number_if_any(json, "/travel/messages_per_ray");
   figures[ScaleFigure::pages] = number_if_any(json, "/pages/distinct_per_pixel");
 }
 
@@ -68,7 +68,7 @@ const Column& column_of(ScaleFigure figure) {
                                                                   {"local memory", "MB", 2},
                                                                   {"faults a ray", "", 4},
                                                                   {"packets a ray", "", 4},
-                                                                  {"hops a ray", "", 3},
+                                                                  {"moves a ray", "", 3},
                                                                   {"pages a pixel", "", 2}}};
   return columns[static_cast<std::size_t>(figure)];
 }
@@ -81,13 +81,15 @@ std::vector<ScaleFigure> all_scale_figures() {
   return figures;
 }
 
-ScaleFigures scale_figures_of(const std::string& stats, std::size_t memory_bytes) {
+ScaleFigures scale_figures_of(const std::string& stats, std::optional<std::size_t> memory_bytes) {
   try {
     const Json json = Json::parse(stats);
     ScaleFigures figures;
     read_times(json, figures);
     read_counts(json, figures);
-    figures[ScaleFigure::memory] = static_cast<double>(memory_bytes) / bytes_per_megabyte;
+    if (memory_bytes) {
+      figures[ScaleFigure::memory] = static_cast<double>(*memory_bytes) / bytes_per_megabyte;
+    }
     figures.primitives = json.at("database").at("primitives").get<std::uint64_t>();
     figures.film_hash = json.at("film_hash").get<std::string>();
     return figures;

@@ -14,7 +14,7 @@ namespace dmpc::apps {
 
 /// Seconds of wall clock by phase, as `render --stats` has them, and of all; `processor` those of all threads together in the
 /// phase render. Bytes as megabytes. Memory: the process's anonymous memory at its peak, above that of a dmpc that does nothing;
-/// local memory: all nodes' together.
+/// local memory: all nodes' together. Moves: how often a ray of dataflow goes on to another node.
 enum class ScaleFigure : std::uint8_t {
   load,
   build,
@@ -27,7 +27,7 @@ enum class ScaleFigure : std::uint8_t {
   local_memory,
   faults,
   packets,
-  hops,
+  moves,
   pages,
 };
 inline constexpr std::size_t scale_figure_count = 13;
@@ -51,8 +51,8 @@ class ScaleFigures {
 /// Each by number.
 std::vector<ScaleFigure> all_scale_figures();
 
-/// From what `render --stats` writes, and the memory. Throws core::InternalError for a text that is no such JSON.
-ScaleFigures scale_figures_of(const std::string& stats, std::size_t memory_bytes);
+/// From what `render --stats` writes, and the memory if it is known. Throws core::InternalError for a text that is no such JSON.
+ScaleFigures scale_figures_of(const std::string& stats, std::optional<std::size_t> memory_bytes);
 
 /// Median by median of runs that give one film, which is asserted. Requires one at least.
 ScaleFigures median_figures(const std::vector<ScaleFigures>& rounds);

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "apps/exit_status.h"
 #include "apps/figures.h"
 #include "apps/progress.h"
 #include "apps/scratch_folder.h"
@@ -16,8 +17,6 @@
 
 namespace dmpc::apps {
 namespace {
-
-constexpr int input_status = 1;
 
 std::string text_of_file(const std::filesystem::path& path) {
   std::ostringstream text;
@@ -35,7 +34,8 @@ std::string sentence_of(std::string complaint) {
   return complaint.empty() ? "It did not say why" : complaint;
 }
 
-/// Nothing if it did what it should. A computer out of memory ends a process by the signal that cannot be caught.
+/// Nothing if it did what it should; throws if it went wrong otherwise than by a lack of room. A computer out of memory ends a
+/// process by the signal that cannot be caught.
 std::optional<std::string> misfit_of(const WatchedProcess& process) {
   if (process.status == 0) {
     return std::nullopt;
@@ -43,19 +43,35 @@ std::optional<std::string> misfit_of(const WatchedProcess& process) {
   if (process.status == -SIGKILL) {
     return "It was killed, as a computer without memory to spare does";
   }
-  if (process.status != input_status) {
-    throw core::InternalError("a render ended with status " + std::to_string(process.status) + ": " +
-                              sentence_of(process.complaint));
+  if (process.status == no_room_status) {
+    return sentence_of(process.complaint);
   }
-  return sentence_of(process.complaint);
+  if (process.status == input_status) {
+    throw core::InputError(sentence_of(process.complaint));
+  }
+  throw core::InternalError("a render ended with status " + std::to_string(process.status) + ": " +
+                            sentence_of(process.complaint));
+}
+
+/// The anonymous memory of a dmpc that does nothing; that ends so soon that it is watched several times, and may not be seen.
+std::optional<std::size_t> idle_bytes(const ScaleSettings& settings, const Interrupt& interrupt) {
+  constexpr int times = 5;
+  std::optional<std::size_t> most;
+  for (int i = 0; i < times; ++i) {
+    const WatchedProcess idle = watch_process(settings.program, {"--version"}, interrupt);
+    if (idle.status != 0) {
+      throw core::InputError(settings.program.string() + " --version ended with status " + std::to_string(idle.status) + ": " +
+                             sentence_of(idle.complaint));
+    }
+    most = std::max(most, idle.peak_anonymous_bytes);
+  }
+  return most;
 }
 
 class ScaleBench {
  public:
   ScaleBench(const ScaleSettings& settings, const Interrupt& interrupt)
-      : settings_(settings),
-        interrupt_(interrupt),
-        idle_bytes_(peak_anonymous_bytes(settings.program, {"--version"}, interrupt)) {}
+      : settings_(settings), interrupt_(interrupt), idle_bytes_(idle_bytes(settings, interrupt)) {}
 
   ScaleResult measure(const ScaleRun& run) {
     ScaleResult result{.run = run, .figures = {}, .misfit = {}};
@@ -66,8 +82,7 @@ class ScaleBench {
       if (const auto misfit = misfit_of(process)) {
         result.misfit = *misfit;
       } else {
-        rounds.push_back(scale_figures_of(text_of_file(folder_ / stats_name),
-                                          process.peak_anonymous_bytes - std::min(process.peak_anonymous_bytes, idle_bytes_)));
+        rounds.push_back(scale_figures_of(text_of_file(folder_ / stats_name), above_idle(process.peak_anonymous_bytes)));
       }
     }
     if (result.misfit.empty()) {
@@ -85,6 +100,11 @@ class ScaleBench {
     return watch_process(settings_.program, render_arguments(run, settings_, stats, picture), interrupt_);
   }
 
+  /// Nothing unless both were seen.
+  std::optional<std::size_t> above_idle(std::optional<std::size_t> bytes) const {
+    return bytes && idle_bytes_ ? std::optional(*bytes - std::min(*bytes, *idle_bytes_)) : std::nullopt;
+  }
+
   void check_film(const ScaleRun& run, const ScaleFigures& figures) {
     const auto film = films_.emplace(run.scene.text(), figures.film_hash).first;
     core::expect(film->second == figures.film_hash, "every run of a scene gives the same film");
@@ -92,7 +112,7 @@ class ScaleBench {
 
   const ScaleSettings& settings_;
   const Interrupt& interrupt_;
-  std::size_t idle_bytes_;  ///< of the libraries, before anything is done
+  std::optional<std::size_t> idle_bytes_;  ///< of the libraries, before anything is done
   ScratchFolder folder_;
   std::map<std::string, std::string> films_;  ///< by scene
 };

@@ -25,7 +25,8 @@ std::vector<std::string> render_arguments(const ScaleRun& run, const ScaleSettin
 
 /// Carries the runs out one after the other, each settings.rounds times, and tells `take` of each; progress goes to stderr if
 /// that is a terminal. A run that this computer or the nodes' memory has no room for is a misfit. Throws Interrupted after a
-/// signal, core::InputError if the program cannot be run, core::InternalError if it fails by a fault of its own or two runs of a
+/// signal, core::InputError if the program cannot be run or refuses its input for another reason than a lack of room,
+/// core::InternalError if it fails by a fault of its own or two runs of a
 /// scene give different films: `take` has then been told of all runs before.
 void measure_scale(const std::vector<ScaleRun>& runs, const ScaleSettings& settings, const Interrupt& interrupt,
                    const std::function<void(ScaleResult)>& take);

@@ -172,9 +172,10 @@ void add_explanations(const ScaleSettings& settings, Table& table) {
       "together in that phase.");
   table.add_note(
       "MB are 10^6 bytes. Memory: the most anonymous memory that the process ever had, looked at each millisecond, above that of "
-      "a dmpc that does nothing. Local memory: of all nodes, with the counters of pages a pixel.");
+      "a dmpc that does nothing; no figure if one of them ended before it was looked at. Local memory: of all nodes, with the "
+      "counters of pages a pixel.");
   table.add_note(
-      "Hops: how often a ray of dataflow moves on to another node. Pages a pixel: different ones, home pages included.");
+      "Moves: how often a ray of dataflow moves on to another node. Pages a pixel: different ones, home pages included.");
   table.add_note(
       "Growth: y grows as x^exponent, x being primitives or nodes; the slope of log y over log x by least squares, over rows in "
       "which y is above 0.");
@@ -222,7 +223,7 @@ void add_plots(const Pictures& pictures, std::vector<Plot>& plots) {
   using enum ScaleFigure;
   plots.push_back(pictures.plot("seconds", "Seconds", powers_of_10("s"), {load, build}, {render}));
   plots.push_back(pictures.plot("memory", "Memory", powers_of_10("MB"), {database}, {memory, local_memory}));
-  plots.push_back(pictures.plot("traffic", "Traffic", powers_of_10("a ray"), {}, {faults, hops}));
+  plots.push_back(pictures.plot("traffic", "Traffic", powers_of_10("a ray"), {}, {faults, moves}));
 }
 
 }  // namespace

@@ -47,6 +47,13 @@ TEST_CASE("a size is a whole number with a binary unit") {
   }
 }
 
+TEST_CASE("a size beyond the most is refused by saying what that is") {
+  for (const char* text : {"1025GiB", "99999999999999999999", "18446744073709551615GiB"}) {
+    CHECK_THROWS_WITH_AS(parse_size_bytes(text, "--x"), doctest::Contains("expected at most 1024GiB"), UsageError);
+  }
+  CHECK_THROWS_WITH_AS(parse_size_bytes("99999999999999999999MB", "--x"), doctest::Contains("a size such as"), UsageError);
+}
+
 TEST_CASE("a seed is any whole number of 64 bits") {
   CHECK(parse_seed("0", "--x") == 0);
   CHECK(parse_seed("18446744073709551615", "--x") == ~std::uint64_t{0});

@@ -222,22 +222,22 @@ TEST_CASE("bad input ends with status 1, a reason, and nothing written") {
   CHECK(folder.entry_count() == before);
 }
 
-TEST_CASE("too little memory ends with status 1 before rendering and names what works") {
+TEST_CASE("too little memory ends with status 4 before rendering and names what works") {
   const TemporaryFolder folder;
   const Result result = run({"render", "tetra-5", "--node-memory=1KiB", "-o", folder / "a.png"});
-  CHECK(result.status == 1);
+  CHECK(result.status == 4);
   CHECK(contains(result.errors, "the smallest that works is --node-memory="));
   CHECK(folder.entry_count() == 0);
 }
 
-TEST_CASE("a scene that does not fit the nodes of dataflow ends with status 1 and says what would do, which is true") {
+TEST_CASE("a scene that does not fit the nodes of dataflow ends with status 4 and says what would do, which is true") {
   const TemporaryFolder folder;
   const auto render = [&](const std::string& nodes, const std::string& memory) {
     return run({"render", "tetra-6", "--strategy=dataflow", "--resolution=32x32", "--nodes=" + nodes, "--node-memory=" + memory,
                 "-o", folder / "a.png"});
   };
   const Result result = render("2", "400KiB");
-  CHECK(result.status == 1);
+  CHECK(result.status == 4);
   CHECK(contains(result.errors, "--node-memory=400KiB is too small for --nodes=2: node "));
   CHECK(contains(result.errors, " needs at least "));
   CHECK(folder.entry_count() == 0);

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <optional>
 #include <string>
 
 #include "core/expect.h"
@@ -41,9 +42,21 @@ TEST_CASE("figures of a run are read from its statistics") {
   CHECK(figures[ScaleFigure::faults] == 0.2);
   CHECK(figures[ScaleFigure::packets] == 0.5);
   CHECK(figures[ScaleFigure::pages] == 2.5);
-  CHECK_FALSE(figures[ScaleFigure::hops]);
+  CHECK_FALSE(figures[ScaleFigure::moves]);
   CHECK(figures.primitives == 77);
   CHECK(figures.film_hash == "0123456789abcdef");
+}
+
+TEST_CASE("memory that was not seen is no figure") {
+  CHECK_FALSE(apps::scale_figures_of(statistics, std::nullopt)[ScaleFigure::memory]);
+}
+
+TEST_CASE("moves are rays that dataflow sent to another node, not links that they passed") {
+  const std::string travel = "\"travel\": {\"messages_per_ray\": 0.75}";
+  std::string of_dataflow = statistics;
+  of_dataflow.replace(of_dataflow.find("\"travel\": null"), 14, travel);
+  CHECK(apps::scale_figures_of(of_dataflow, 0)[ScaleFigure::moves] == 0.75);
+  CHECK(column_of(ScaleFigure::moves).name == "moves a ray");
 }
 
 TEST_CASE("statistics that cannot be read are a fault of our own") {

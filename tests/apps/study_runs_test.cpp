@@ -131,7 +131,7 @@ TEST_CASE("memory that the real computer does not have is no misfit but an error
                         "ulimit -v 3000000; exec \"$0\" study speedup balls-1 --strategy=dataflow --nodes=1,64 "
                         "--ray-queue=16384 --ray-batch=600 --resolution=8x8",
                         DMPC_PROGRAM});
-  CHECK(process.status() == 1);
+  CHECK(process.status() == 4);
   CHECK(process.errors().find("dmpc: this computer has no ") == 0);
   CHECK(process.output().find("does not fit") == std::string::npos);
 }

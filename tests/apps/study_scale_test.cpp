@@ -62,8 +62,8 @@ std::filesystem::path stand_in(const TemporaryFolder& folder, const std::string&
 /// More nodes' rows than end by themselves.
 std::string endless() {
   std::string list = "--nodes=1";
-  for (int more = 0; more < 5000; ++more) {
-    list += ",1";
+  for (int more = 2; more <= 1024; ++more) {
+    list += "," + std::to_string(more);
   }
   return list;
 }
@@ -104,17 +104,29 @@ TEST_CASE("a run asks for the method's strategy, cache and counters") {
   CHECK_FALSE(has_word(words(ScaleMethod::dataflow), "--count-pages"));
 }
 
-TEST_CASE("a run that finds no room is a row without figures, and if all are so that is bad input") {
+TEST_CASE("a run that finds no room is a row without figures, and if all are so there is no room for the study") {
   const TemporaryFolder folder;
   ScaleOptions options = tiny({"--methods=dataflow", "--parts=nodes"});
   options.settings.program =
-      stand_in(folder, "case \"$*\" in *--nodes=3*) echo dmpc: no room. >&2; exit 1;; esac\nexec " DMPC_PROGRAM " \"$@\"");
+      stand_in(folder, "case \"$*\" in *--nodes=3*) echo dmpc: no room. >&2; exit 4;; esac\nexec " DMPC_PROGRAM " \"$@\"");
   CHECK(contains(output_of(options), "\nnodes,tetra,tetra-2,dataflow,3,16,,"));
   options.settings.node_counts = {3};
   apps::Interrupt interrupt;
   std::ostringstream output;
-  CHECK_THROWS_WITH_AS(apps::study_scale_command(options, interrupt, output), "no room", core::InputError);
+  CHECK_THROWS_WITH_AS(apps::study_scale_command(options, interrupt, output), "no room", core::RoomError);
   CHECK(contains(output.str(), "\nnodes,tetra,tetra-2,dataflow,3,16,,"));
+}
+
+TEST_CASE("a run that is refused for another reason than room ends the study of scale, with the rows before") {
+  const TemporaryFolder folder;
+  ScaleOptions options = tiny({"--methods=dataflow", "--parts=nodes"});
+  options.settings.program =
+      stand_in(folder, "case \"$*\" in *--nodes=3*) echo dmpc: bad. >&2; exit 1;; esac\nexec " DMPC_PROGRAM " \"$@\"");
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  CHECK_THROWS_WITH_AS(apps::study_scale_command(options, interrupt, output), "bad", core::InputError);
+  CHECK(contains(output.str(), "\nnodes,tetra,tetra-2,dataflow,1,16,"));
+  CHECK_FALSE(contains(output.str(), "\nnodes,tetra,tetra-2,dataflow,3,16,"));
 }
 
 TEST_CASE("a run that the system kills is a row without figures") {
@@ -165,11 +177,18 @@ TEST_CASE("options of the study of scale are taken, and wrong ones refused") {
   CHECK(options.settings.rounds == 3);
   CHECK(parse({}).settings.families == Words{"tetra", "mount"});
   CHECK(parse({"--cache=64KiB"}).settings.cache_bytes == 65536);
+  CHECK(parse({"--nodes=8,1,3,8,1"}).settings.node_counts == std::vector<std::uint32_t>{1, 3, 8});
   for (const char* word : {"--sizes=x", "--parts=all", "--methods=svm", "--cache=100", "--nodes=0", "--nodes=1025",
-                           "--size-nodes=0", "--repeat=0", "--resolution=9", "--format=xml"}) {
+                           "--size-nodes=0", "--repeat=0", "--resolution=9", "--format=xml", "--cache=0", "--cache=1025GiB"}) {
     CAPTURE(std::string(word));
     CHECK_THROWS_AS(parse({word}), core::UsageError);
   }
+}
+
+TEST_CASE("the study of scale says what is wrong with a family, and with a cache") {
+  CHECK_THROWS_WITH_AS(parse({"mount", "tetra", "mount"}), "FAMILY mount: it is there twice", core::UsageError);
+  CHECK_THROWS_WITH_AS(parse({"--cache=1500"}), doctest::Contains("multiple of 1KiB"), core::UsageError);
+  CHECK_THROWS_WITH_AS(parse({"--cache=9000GiB"}), doctest::Contains("at most 1024GiB"), core::UsageError);
 }
 
 TEST_CASE("Ctrl-C ends the study of scale with status 130 and the rows finished before") {
