@@ -85,6 +85,9 @@ class BrickBuilder::Drafter {
   /// With children of equal numbers, so that the levels left will do.
   BrickDraft draft_evenly(const CutTree& tree, int level) const {
     std::vector<Group> groups = tree.kinds();
+    for (const Group& group : groups) {
+      cutter_.sort_again(group);  // the tree was cut out of it
+    }
     cut_evenly(groups, cutter_);
     std::vector<CutTree> parts;
     std::vector<const CutTree*> children;

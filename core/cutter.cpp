@@ -131,6 +131,14 @@ void Cutter::copy_ids(const Group& group, std::span<std::uint32_t> ids) const {
   }
 }
 
+void Cutter::sort_again(const Group& group) {
+  for (std::size_t axis = 0; axis < 3 && group.is_sorted; ++axis) {
+    const auto order = std::span(orders_[axis]).subspan(group.first, group.count());
+    const auto along = [&](std::uint8_t item) { return std::pair(bounds_[group.base + item].middle(axis), item); };
+    std::sort(order.begin(), order.end(), [&](std::uint8_t a, std::uint8_t b) { return along(a) < along(b); });
+  }
+}
+
 /// The item at a place of a group: in its order along the axis, if it is sorted.
 std::uint32_t Cutter::item_at(const Group& group, std::size_t axis, std::uint32_t place) const {
   return group.is_sorted ? group.base + orders_[axis][place] : place;

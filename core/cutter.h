@@ -40,6 +40,9 @@ class Cutter {
   /// Two groups, none of them empty, of a group of at least two. `balanced`: of equal numbers, whatever a ray pays for it.
   std::pair<Group, Group> cut(Group whole, bool balanced);
 
+  /// Undoes what cuts did to the order of a sorted group, so that it can be cut anew; nothing of another one.
+  void sort_again(const Group& group);
+
   /// The primitives of a group, in no order that means anything.
   void copy_ids(const Group& group, std::span<std::uint32_t> ids) const;
 

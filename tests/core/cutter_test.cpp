@@ -119,6 +119,21 @@ TEST_CASE("cutting up neither loses nor doubles a primitive") {
   }
 }
 
+TEST_CASE("a part that was cut up is cut as it was before, once it is sorted again") {
+  dmpc::apps::Random random(2);
+  Cutter cutter(60);
+  for (std::uint32_t id = 0; id < 60; ++id) {
+    Box box;
+    box.include(random.in_box(-1, 1));
+    cutter.add(id, Bounds::around(box.padded({0.1, 0.1, 0.1})));
+  }
+  const Group part = cutter.cut(cutter.group(PrimitiveKind::sphere, 0, 60), true).second;
+  const auto expected = ids_of(cutter, cutter.cut(part, true).first);
+  cut_up(cutter, part, false);
+  cutter.sort_again(part);
+  CHECK(ids_of(cutter, cutter.cut(part, true).first) == expected);
+}
+
 TEST_CASE("primitives in one place are cut all the same") {
   Cutter cutter = in_a_row(std::vector<double>(500, 0.0));
   CHECK(are_all(cut_up(cutter, cutter.group(PrimitiveKind::sphere, 0, 500), false), 500));
