@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "core/expect.h"
@@ -13,8 +14,16 @@ namespace {
 constexpr std::uint32_t bound_max = 255;
 /// A million grids: kernels cannot overflow, and from where rays need more than that, a float cannot aim at the grid.
 constexpr double pad_max = 0x1p20;
-/// The largest number that a brick of `level` may hold without care for balance: what is below it fits however it is cut.
-std::size_t carefree_count(int level) { return std::size_t{1} << (3 * (brick_levels_max - level)); }
+
+/// The most of one kind that the uppermost of `levels` of bricks may divide as it likes: even if one child gets nearly all of
+/// them, the levels below hold them, cut evenly. That is 8 in each child of each brick.
+std::size_t carefree_count(int levels) { return std::size_t{1} << (3 * levels); }
+
+/// A part of two kinds is cut evenly into 7 groups of one and 1 of the other at worst, the largest of them a quarter of all, not
+/// an eighth.
+std::size_t carefree_count(const CutTree& tree, int levels) {
+  return tree.kinds().size() == 1 ? carefree_count(levels) : carefree_count(levels) / 2;
+}
 
 /// Cuts groups into equal numbers until there are 8 or each fits a block.
 void cut_evenly(std::vector<Group>& groups, Cutter& cutter) {
@@ -62,28 +71,29 @@ class BrickBuilder::Drafter {
   Drafter(Cutter& cutter, std::span<std::uint32_t> ids, double pad, const Parallel& parallel)
       : cutter_(cutter), ids_(ids), pad_(pad), parallel_(parallel) {}
 
-  BrickDraft draft(const CutTree& tree, int level) const {
-    expect(level < brick_levels_max, "a tree of bricks is no deeper than a walk can go");
-    const bool too_deep = tree.levels() > brick_levels_max - level && tree.group().count() > carefree_count(level);
-    return too_deep ? draft_evenly(tree, level) : draft_over(tree.group().bounds, tree.children(), level);
+  /// `levels`: so many are left.
+  BrickDraft draft(const CutTree& tree, int levels) const {
+    expect(levels > 0, "a tree of bricks is no deeper than a walk can go");
+    const bool too_deep = tree.levels() > levels && tree.group().count() > carefree_count(tree, levels);
+    return too_deep ? draft_evenly(tree, levels) : draft_over(tree.group().bounds, tree.children(), levels);
   }
 
  private:
-  BrickDraft draft_over(const Bounds& bounds, const std::vector<const CutTree*>& children, int level) const {
+  BrickDraft draft_over(const Bounds& bounds, const std::vector<const CutTree*>& children, int levels) const {
     BrickDraft draft{.brick = brick_over(bounds, pad_)};
     for (std::size_t i = 0; i < children.size(); ++i) {
       add_child(draft.brick, children[i]->group().bounds, pad_);
       if (children[i]->is_block()) {
         draft.blocks[i] = block_of(children[i]->group());
       } else {
-        draft.bricks.push_back(this->draft(*children[i], level + 1));
+        draft.bricks.push_back(this->draft(*children[i], levels - 1));
       }
     }
     return draft;
   }
 
   /// With children of equal numbers, so that the levels left will do.
-  BrickDraft draft_evenly(const CutTree& tree, int level) const {
+  BrickDraft draft_evenly(const CutTree& tree, int levels) const {
     std::vector<Group> groups = tree.kinds();
     for (const Group& group : groups) {
       cutter_.sort_again(group);  // the tree was cut out of it
@@ -95,7 +105,7 @@ class BrickBuilder::Drafter {
     for (const Group& group : groups) {
       children.push_back(&parts.emplace_back(cutter_, group, parallel_));
     }
-    return draft_over(tree.group().bounds, children, level);
+    return draft_over(tree.group().bounds, children, levels);
   }
 
   BrickDraft::Block block_of(const Group& group) const {
@@ -111,20 +121,23 @@ class BrickBuilder::Drafter {
   const Parallel& parallel_;
 };
 
-BrickBuilder::BrickBuilder(std::span<const PrimitiveValues> primitives, double pad, float finest_cell, const Parallel& parallel)
+BrickBuilder::BrickBuilder(std::span<const PrimitiveValues> primitives, double pad, float finest_cell, const Parallel& parallel,
+                           int levels_max)
     : primitives_(primitives),
       pad_(std::min(pad, pad_max)),
       top_edge_(double{finest_cell} * finest_per_top),
-      parallel_(&parallel) {}
+      parallel_(&parallel),
+      levels_max_(levels_max) {}
 
 BrickTree BrickBuilder::build(const Corner& corner, std::span<const std::uint32_t> ids) const {
-  if (ids.size() > carefree_count(0)) {
-    throw RoomError("more than 16,777,216 primitives lie in one place: render a smaller scene");
+  if (const std::size_t most = carefree_count(levels_max_); ids.size() > most) {
+    throw RoomError(std::to_string(ids.size()) + " primitives lie in one place, at most " + std::to_string(most) +
+                    " may: spread them out, or render a smaller scene");
   }
   Cutter cutter(ids.size());
   const CutTree cuts = cut(add_by_kind(cell_at(corner), ids, cutter), cutter);
   BrickTree tree{.top = {}, .ids = std::vector<std::uint32_t>(ids.size())};
-  tree.top = Drafter(cutter, tree.ids, pad_, *parallel_).draft(cuts, 0);
+  tree.top = Drafter(cutter, tree.ids, pad_, *parallel_).draft(cuts, levels_max_);
   return tree;
 }
 

@@ -15,16 +15,17 @@
 
 namespace dmpc::core {
 
-/// A tree of at most brick_levels_max bricks, by the surface area heuristic: a ray meets a box in proportion to its surface
+/// Trees of bricks of at most so many levels, by the surface area heuristic: a ray meets a box in proportion to its surface
 /// (J. D. MacDonald, K. S. Booth, "Heuristics for Ray Tracing Using Space Subdivision", 1990). Thread safety: several top cells
 /// may be built at the same time.
 class BrickBuilder {
  public:
-  /// The primitives and `parallel`, which builds large cells, outlive the builder.
-  BrickBuilder(std::span<const PrimitiveValues> primitives, double pad, float finest_cell, const Parallel& parallel);
+  /// The primitives and `parallel`, which builds large cells, outlive the builder. `levels_max`: 2 to brick_levels_max.
+  BrickBuilder(std::span<const PrimitiveValues> primitives, double pad, float finest_cell, const Parallel& parallel,
+               int levels_max = brick_levels_max);
 
   /// The bricks of the top cell at `corner`; `ids`, at least one and ascending, are the primitives that touch it. Throws
-  /// RoomError for more than 8^8.
+  /// RoomError for more than 8^levels_max.
   BrickTree build(const Corner& corner, std::span<const std::uint32_t> ids) const;
 
  private:
@@ -38,6 +39,7 @@ class BrickBuilder {
   double pad_;
   double top_edge_;
   const Parallel* parallel_;
+  int levels_max_;
 };
 
 }  // namespace dmpc::core

@@ -7,6 +7,7 @@
 
 #include "apps/stability/listing.h"
 #include "apps/stability/random.h"
+#include "core/expect.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
@@ -42,6 +43,33 @@ std::vector<PrimitiveValues> shrinking(int count, bool has_kinds) {
     }
   }
   return primitives;
+}
+
+/// Shrinking triangles, a sphere among them, and cones all over the place.
+std::vector<PrimitiveValues> of_three_kinds(int triangles, int cones) {
+  std::vector<PrimitiveValues> primitives = shrinking(triangles, false);
+  primitives.push_back({PrimitiveKind::sphere, {1e9F, 1e9F, 1e9F, 1e8F}});
+  Random random(4);
+  const auto somewhere = [&] { return static_cast<float>(random.in_box(0, 1e18).x); };
+  for (int i = 0; i < cones; ++i) {
+    const float x = somewhere(), y = somewhere(), z = somewhere();
+    primitives.push_back({PrimitiveKind::cone, {x, y, z, 1e15F, x, y, z + 1e16F, 1e15F}});
+  }
+  return primitives;
+}
+
+BrickTree tree_of(const std::vector<PrimitiveValues>& primitives, int levels_max = brick_levels_max) {
+  std::vector<std::uint32_t> ids(primitives.size());
+  std::iota(ids.begin(), ids.end(), 0U);
+  const Parallel serial(1);
+  return BrickBuilder(primitives, 0.0, 1e18F, serial, levels_max).build({0, 0, 0}, ids);
+}
+
+bool are_all(std::vector<std::uint32_t> ids, std::size_t count) {
+  std::sort(ids.begin(), ids.end());
+  std::vector<std::uint32_t> all(count);
+  std::iota(all.begin(), all.end(), 0U);
+  return ids == all;
 }
 
 int levels_of(const BrickDraft& draft) {
@@ -105,15 +133,25 @@ TEST_CASE("a crowd in one place gets bricks of its own, and lists stay short") {
 TEST_CASE("bricks are never deeper than a walk can go, however small things get towards one side") {
   for (const bool has_kinds : {false, true}) {
     CAPTURE(has_kinds);
-    const auto primitives = shrinking(1000, has_kinds);
-    std::vector<std::uint32_t> ids(primitives.size());
-    std::iota(ids.begin(), ids.end(), 0U);
-    const Parallel serial(1);
-    const BrickTree tree = BrickBuilder(primitives, 0.0, 1e18F, serial).build({0, 0, 0}, ids);
+    const BrickTree tree = tree_of(shrinking(1000, has_kinds));
     CHECK(levels_of(tree.top) <= brick_levels_max);
     CHECK(levels_of(tree.top) > 5);
-    auto listed = tree.ids;
-    std::sort(listed.begin(), listed.end());
-    CHECK(listed == ids);
+    CHECK(are_all(tree.ids, 1000));
   }
+}
+
+TEST_CASE("as many primitives as bricks hold find their place, of one kind or of three") {
+  for (const int triangles : {511, 500, 480, 420, 360, 300, 200}) {
+    CAPTURE(triangles);
+    const BrickTree tree = tree_of(of_three_kinds(triangles, 511 - triangles), 3);
+    CHECK(levels_of(tree.top) <= 3);
+    CHECK(are_all(tree.ids, 512));
+  }
+  CHECK(levels_of(tree_of(shrinking(512, false), 3).top) <= 3);
+}
+
+TEST_CASE("more primitives in one place than bricks hold have no room, and the message says how many have") {
+  CHECK_THROWS_WITH_AS(tree_of(shrinking(513, false), 3), doctest::Contains("513 primitives lie in one place, at most 512 may"),
+                       RoomError);
+  CHECK_THROWS_AS(tree_of(of_three_kinds(500, 12), 3), RoomError);
 }
