@@ -15,7 +15,7 @@ constexpr int few_tiles_of_brick = 6, few_tiles_of_block = 16;
 
 std::uint32_t count_of(std::uint64_t bits) { return static_cast<std::uint32_t>(std::popcount(bits)); }
 
-int tile_count(const TileShadow& shadow) { return std::popcount(shadow.rows) * std::popcount(shadow.columns); }
+int tile_count(const TileFootprint& footprint) { return std::popcount(footprint.rows) * std::popcount(footprint.columns); }
 
 Box box_of(const Brick& brick, std::size_t child) {
   Box box;
@@ -47,12 +47,12 @@ PrimitiveValues primitive_in(const std::byte* record, std::size_t lane) {
 /// Takes bits away from tiles on which boxes fall.
 class Finder {
  public:
-  Finder(const Database& database, const ShadowCaster& caster)
+  Finder(const Database& database, const BoxProjector& projector)
       : header_(database.header()),
         records_(database.bytes()),
-        caster_(caster),
+        projector_(projector),
         pad_{database.pad(), database.pad(), database.pad()} {
-    const TileShadow all = caster.all();
+    const TileFootprint all = projector.all();
     for (std::uint32_t row = 0; row < tiles_per_side; ++row) {
       bits_[row] = (all.rows >> row & 1U) != 0 ? all.columns : 0;
     }
@@ -75,7 +75,7 @@ class Finder {
   void look_into_cell(const Corner& corner) {
     const std::uint64_t index = directory_index(header_, corner);
     const auto entry = read<DirectoryEntry>(records_.find(directory_address(header_, index)) + directory_offset(index));
-    if (!entry.empty() && falls_on_any(caster_.shadow_of(box_of_cell(corner, header_.frame)))) {
+    if (!entry.empty() && falls_on_any(projector_.footprint_of(box_of_cell(corner, header_.frame)))) {
       look_into_brick(entry.brick());
     }
   }
@@ -84,47 +84,47 @@ class Finder {
   void look_into_brick(Address address) {
     const auto brick = read<Brick>(records_.find(address));
     for (std::size_t child = 0; child < brick.child_count && left_ > 0; ++child) {
-      const TileShadow shadow = caster_.shadow_of(box_of(brick, child));
+      const TileFootprint footprint = projector_.footprint_of(box_of(brick, child));
       const bool is_block = brick.child[child].is_block();
-      if (tile_count(shadow) <= (is_block ? few_tiles_of_block : few_tiles_of_brick)) {
-        take_away(shadow);
-      } else if (falls_on_any(shadow)) {
+      if (tile_count(footprint) <= (is_block ? few_tiles_of_block : few_tiles_of_brick)) {
+        take_away(footprint);
+      } else if (falls_on_any(footprint)) {
         const Address below = brick.child[child].address();
-        is_block ? look_into_block(below, shadow) : look_into_brick(below);
+        is_block ? look_into_block(below, footprint) : look_into_brick(below);
       }
     }
   }
 
   /// Primitives of a block may lie far from each other.
-  void look_into_block(Address address, const TileShadow& of_block) {
+  void look_into_block(Address address, const TileFootprint& of_block) {
     const std::byte* const record = records_.find(address);
     for (std::size_t lane = 0; lane < read<BlockHeader>(record).count; ++lane) {
       const Box box = bounds_of(primitive_in(record, lane)).padded(pad_);
-      const TileShadow shadow = caster_.shadow_of(box);
-      take_away({shadow.columns & of_block.columns, shadow.rows & of_block.rows});
+      const TileFootprint footprint = projector_.footprint_of(box);
+      take_away({footprint.columns & of_block.columns, footprint.rows & of_block.rows});
     }
   }
 
-  bool falls_on_any(const TileShadow& shadow) const {
-    for (std::uint64_t rows = shadow.rows; rows != 0; rows &= rows - 1) {
-      if ((bits_[static_cast<std::size_t>(std::countr_zero(rows))] & shadow.columns) != 0) {
+  bool falls_on_any(const TileFootprint& footprint) const {
+    for (std::uint64_t rows = footprint.rows; rows != 0; rows &= rows - 1) {
+      if ((bits_[static_cast<std::size_t>(std::countr_zero(rows))] & footprint.columns) != 0) {
         return true;
       }
     }
     return false;
   }
 
-  void take_away(const TileShadow& shadow) {
-    for (std::uint64_t rows = shadow.rows; rows != 0; rows &= rows - 1) {
+  void take_away(const TileFootprint& footprint) {
+    for (std::uint64_t rows = footprint.rows; rows != 0; rows &= rows - 1) {
       std::uint64_t& row = bits_[static_cast<std::size_t>(std::countr_zero(rows))];
-      left_ -= count_of(row & shadow.columns);
-      row &= ~shadow.columns;
+      left_ -= count_of(row & footprint.columns);
+      row &= ~footprint.columns;
     }
   }
 
   const DatabaseHeader& header_;
   LocalRecords records_;
-  const ShadowCaster& caster_;
+  const BoxProjector& projector_;
   Vec3d pad_;  ///< within which a hit may lie beside its primitive
   BackgroundTiles::Bits bits_{};
   std::uint32_t left_ = 0;  ///< bits
@@ -143,8 +143,8 @@ BackgroundTiles::BackgroundTiles(const Camera& camera, const Bits& bits)
 }
 
 BackgroundTiles find_background(const Database& database, const Camera& camera) {
-  const ShadowCaster caster(camera);
-  return caster.is_certain() ? BackgroundTiles(camera, Finder(database, caster).find()) : BackgroundTiles();
+  const BoxProjector projector(camera);
+  return projector.is_certain() ? BackgroundTiles(camera, Finder(database, projector).find()) : BackgroundTiles();
 }
 
 }  // namespace dmpc::core

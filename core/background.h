@@ -6,7 +6,7 @@
 
 #include "core/camera.h"
 #include "core/database.h"
-#include "core/tile_shadow.h"
+#include "core/tile_footprint.h"
 
 namespace dmpc::core {
 
@@ -35,7 +35,7 @@ class BackgroundTiles {
   Bits bits_{};
 };
 
-/// Casts the boxes of the database's bricks, and those of primitives in blocks, onto the camera's film, from the top down, as
+/// Projects the boxes of the database's bricks, and those of primitives in blocks, onto the camera's film, from the top down, as
 /// long as they may fall on a tile on which none has fallen. Reads database.bytes(). Takes less than a millisecond for a million
 /// primitives. Thread safety: pure.
 BackgroundTiles find_background(const Database& database, const Camera& camera);

@@ -21,23 +21,23 @@ struct TiledSide {
 };
 
 /// The tiles in which columns and rows of tiles cross, a bit each.
-struct TileShadow {
+struct TileFootprint {
   std::uint64_t columns = 0, rows = 0;
 };
 
-/// Casts boxes onto the film of a camera. Immutable, thread-safe.
-class ShadowCaster {
+/// Projects boxes onto the film of a camera. Immutable, thread-safe.
+class BoxProjector {
  public:
-  explicit ShadowCaster(const Camera& camera);
+  explicit BoxProjector(const Camera& camera);
 
   /// False if nothing can be said of this camera: its angle is next to 0 or 180 degrees, or a number of its is not finite. Then
   /// nothing else may be asked.
   bool is_certain() const { return is_certain_; }
   /// Every tile that has a pixel.
-  TileShadow all() const { return {across_.tiles(), down_.tiles()}; }
+  TileFootprint all() const { return {across_.tiles(), down_.tiles()}; }
   /// Has every tile through whose pixels a primary ray may come to the box (grid-local), wherever in a pixel its sample lies. The
-  /// box is widened on every side by half a pixel, by what rounding may turn a ray (tile_shadow.cpp), and by one pixel more.
-  TileShadow shadow_of(const Box& box) const;
+  /// box is widened on every side by half a pixel, by what rounding may turn a ray (tile_footprint.cpp), and by one pixel more.
+  TileFootprint footprint_of(const Box& box) const;
 
  private:
   /// What of a box lies ahead of the eye, by its corners on the film (Camera::on_film).
@@ -56,13 +56,13 @@ class ShadowCaster {
     /// Those that have a pixel.
     std::uint64_t tiles() const { return tiles_; }
     /// `axis`: 0 for columns, 1 for rows. The outline has a corner.
-    std::uint64_t shadow_of(const Outline& outline, std::size_t axis) const {
-      return outline.is_cut ? shadow_of_cut(outline, axis) : shadow_of_whole(outline, axis);
+    std::uint64_t footprint_of(const Outline& outline, std::size_t axis) const {
+      return outline.is_cut ? footprint_of_cut(outline, axis) : footprint_of_whole(outline, axis);
     }
 
    private:
-    std::uint64_t shadow_of_whole(const Outline& outline, std::size_t axis) const;
-    std::uint64_t shadow_of_cut(const Outline& outline, std::size_t axis) const;
+    std::uint64_t footprint_of_whole(const Outline& outline, std::size_t axis) const;
+    std::uint64_t footprint_of_cut(const Outline& outline, std::size_t axis) const;
 
     int pixels_;
     double margin_pixels_;

@@ -1,4 +1,4 @@
-#include "core/tile_shadow.h"
+#include "core/tile_footprint.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +40,7 @@ constexpr std::uint64_t bits_between(std::uint32_t first, std::uint32_t last) {
 
 }  // namespace
 
-ShadowCaster::Side::Side(int pixels, double margin_pixels)
+BoxProjector::Side::Side(int pixels, double margin_pixels)
     : pixels_(pixels), margin_pixels_(margin_pixels), tiled_(TiledSide::of(pixels)) {
   for (int pixel = 0; pixel < pixels; ++pixel) {
     const std::uint32_t tile = tiled_.tile_of(static_cast<std::uint32_t>(pixel));
@@ -51,7 +51,7 @@ ShadowCaster::Side::Side(int pixels, double margin_pixels)
 }
 
 /// It is seen between its outermost corners.
-std::uint64_t ShadowCaster::Side::shadow_of_whole(const Outline& outline, std::size_t axis) const {
+std::uint64_t BoxProjector::Side::footprint_of_whole(const Outline& outline, std::size_t axis) const {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t i = 0; i < outline.count; ++i) {
     const double at = outline.corners[i][axis] / outline.corners[i].z;
@@ -66,8 +66,8 @@ std::uint64_t ShadowCaster::Side::shadow_of_whole(const Outline& outline, std::s
 
 /// Corners at the depth 0 are seen nowhere: a tile sees nothing if all corners lie beyond the plane through the eye and one of
 /// its edges.
-std::uint64_t ShadowCaster::Side::shadow_of_cut(const Outline& outline, std::size_t axis) const {
-  std::uint64_t shadow = 0;
+std::uint64_t BoxProjector::Side::footprint_of_cut(const Outline& outline, std::size_t axis) const {
+  std::uint64_t footprint = 0;
   for (std::uint32_t tile = 0; tile < tiles_per_side; ++tile) {
     bool is_before = true, is_behind = true;
     for (std::size_t i = 0; i < outline.count; ++i) {
@@ -75,19 +75,19 @@ std::uint64_t ShadowCaster::Side::shadow_of_cut(const Outline& outline, std::siz
       is_before = is_before && corner[axis] < first_[tile] * corner.z;
       is_behind = is_behind && corner[axis] > last_[tile] * corner.z;
     }
-    shadow |= std::uint64_t{!is_before && !is_behind} << tile;
+    footprint |= std::uint64_t{!is_before && !is_behind} << tile;
   }
-  return shadow & tiles_;
+  return footprint & tiles_;
 }
 
-ShadowCaster::ShadowCaster(const Camera& camera)
+BoxProjector::BoxProjector(const Camera& camera)
     : eye_(camera.eye()),
       axes_{camera.on_film({1, 0, 0}), camera.on_film({0, 1, 0}), camera.on_film({0, 0, 1})},
       across_(camera.width(), margin_pixels_of(camera)),
       down_(camera.height(), margin_pixels_of(camera)),
       is_certain_(film_radius(camera) <= film_radius_max && is_finite(eye_) && is_finite(axes_[0] + axes_[1] + axes_[2])) {}
 
-ShadowCaster::Outline ShadowCaster::outline_of(const Box& box) const {
+BoxProjector::Outline BoxProjector::outline_of(const Box& box) const {
   const Vec3d low = box.low - eye_, high = box.high - eye_;
   std::array<Vec3d, 8> corners;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -111,9 +111,9 @@ ShadowCaster::Outline ShadowCaster::outline_of(const Box& box) const {
   return outline;
 }
 
-TileShadow ShadowCaster::shadow_of(const Box& box) const {
+TileFootprint BoxProjector::footprint_of(const Box& box) const {
   const Outline outline = outline_of(box);
-  return outline.count == 0 ? TileShadow{} : TileShadow{across_.shadow_of(outline, 0), down_.shadow_of(outline, 1)};
+  return outline.count == 0 ? TileFootprint{} : TileFootprint{across_.footprint_of(outline, 0), down_.footprint_of(outline, 1)};
 }
 
 }  // namespace dmpc::core
