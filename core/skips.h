@@ -58,6 +58,22 @@ inline constexpr std::array all_skips{
          "primary rays", &Skips::background, &SkippedWork::background},
 };
 
+/// All on but this one.
+constexpr Skips without(const Skip& skip) {
+  Skips skips;
+  skips.*skip.is_on = false;
+  return skips;
+}
+
+/// All off.
+constexpr Skips no_skips() {
+  Skips skips;
+  for (const Skip& skip : all_skips) {
+    skips.*skip.is_on = false;
+  }
+  return skips;
+}
+
 /// Sums field by field.
 inline SkippedWork& operator+=(SkippedWork& sum, const SkippedWork& more) {
   for (const Skip& skip : all_skips) {

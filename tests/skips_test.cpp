@@ -23,20 +23,11 @@ using core::RayKind;
 using core::Skip;
 using core::Skips;
 
-constexpr Skips none{
-    .empty_space = false, .any_hit = false, .unlit = false, .zero_terms = false, .empty_regions = false, .background = false};
-
-Skips without(const Skip& skip) {
-  Skips skips;
-  skips.*skip.is_on = false;
-  return skips;
-}
-
 /// All but one, for each, and none at all.
 std::vector<Skips> switched_off() {
-  std::vector<Skips> all{none};
+  std::vector<Skips> all{core::no_skips()};
   for (const Skip& skip : core::all_skips) {
-    all.push_back(without(skip));
+    all.push_back(core::without(skip));
   }
   return all;
 }
@@ -109,7 +100,7 @@ TEST_CASE("skips: each counts what it leaves out, and nothing when it is off") {
     CAPTURE(std::string(skip.name));
     // Nothing was found out about the background of this subject (background_test.cpp).
     CHECK((on.*skip.avoided > 0) == (skip.is_on != &Skips::background));
-    CHECK(run_dataflow(subject, many_regions(), without(skip)).operations().skipped.*skip.avoided == 0);
+    CHECK(run_dataflow(subject, many_regions(), core::without(skip)).operations().skipped.*skip.avoided == 0);
   }
 }
 
@@ -178,7 +169,7 @@ TEST_CASE("skips: zero terms that are shot go on to the depth allowed and leave 
   REQUIRE(few.total_internal_reflections > 0);
   CHECK(many.total_internal_reflections >= few.total_internal_reflections);
   CHECK(many.ray_count() > few.ray_count() + few.skipped.zero_terms);
-  CHECK(run_svm(subject, {.node_count = 1}, none).operations().deposits_saturated == 0);
+  CHECK(run_svm(subject, {.node_count = 1}, core::no_skips()).operations().deposits_saturated == 0);
 }
 
 TEST_CASE("skips: the paper's convention shoots shadow rays that bring nothing, whatever is skipped") {
@@ -196,18 +187,6 @@ TEST_CASE("skips: passing empty regions by saves messages") {
   const dataflow::Report off = run_dataflow(subject, many_regions(), {.empty_regions = false});
   CHECK(messages_of(off) > messages_of(on));
   CHECK(messages_of(off) <= messages_of(on) + on.operations().skipped.empty_regions + off.rays().hits_sent_back);
-}
-
-TEST_CASE("skips: every one has a name and a unit of its own place in the table") {
-  for (std::size_t i = 0; i < core::all_skips.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      CHECK(std::string(core::all_skips[i].name) != core::all_skips[j].name);
-      CHECK(core::all_skips[i].is_on != core::all_skips[j].is_on);
-      CHECK(core::all_skips[i].avoided != core::all_skips[j].avoided);
-    }
-  }
-  CHECK(core::all_skips.size() == sizeof(Skips));
-  CHECK(core::all_skips.size() * sizeof(std::uint64_t) == sizeof(core::SkippedWork));
 }
 
 }  // namespace dmpc::tests

@@ -41,20 +41,6 @@ struct Variant {
 
 bool is_of_rays(const Skip& skip) { return skip.is_on == &Skips::empty_regions; }
 
-Skips all_off() {
-  Skips skips;
-  for (const Skip& skip : core::all_skips) {
-    skips.*skip.is_on = false;
-  }
-  return skips;
-}
-
-Skips without(const Skip& skip) {
-  Skips skips;
-  skips.*skip.is_on = false;
-  return skips;
-}
-
 StrategyOptions strategy_of(const Variant& variant) {
   StrategyOptions options;
   options.strategy = variant.strategy;
@@ -79,7 +65,7 @@ class AblationBench {
       : scene_(scene), interrupt_(interrupt), subject_(subject_of(scene, settings)) {
     by_pages_ = add_variant({});
     by_rays_ = add_variant({.strategy = Strategy::dataflow});
-    rows_.push_back({"all", nullptr, add_variant({.skips = all_off()}), by_pages_});
+    rows_.push_back({"all", nullptr, add_variant({.skips = core::no_skips()}), by_pages_});
     for (const Skip& skip : core::all_skips) {
       const Strategy strategy = is_of_rays(skip) ? Strategy::dataflow : Strategy::svm;
       rows_.push_back({skip.name, &skip, add_variant({.strategy = strategy, .skips = without(skip)}),
@@ -145,9 +131,8 @@ class AblationBench {
 
   Ablation result_of(const Row& row) const {
     const Render &without = renders_[row.without], &with = renders_[row.with];
-    Ablation result{.seconds = seconds_of(row),
-                    .work_ratio = work_of(without) / work_of(with),
-                    .noise = noise_of(with.variant.strategy)};
+    Ablation result{
+        .seconds = seconds_of(row), .work_ratio = work_of(without) / work_of(with), .noise = noise_of(with.variant.strategy)};
     if (row.skip != nullptr) {
       result.avoided = with.operations.skipped.*row.skip->avoided;
       result.unit = row.skip->unit;
