@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "core/background.h"
 #include "dataflow/run.h"
 #include "nodes/operation_charges.h"
 #include "svm/run.h"
@@ -15,16 +14,7 @@
 namespace dmpc::tests {
 namespace {
 
-core::RenderSettings knowing_background(const Subject& subject) {
-  core::RenderSettings settings = subject.settings();
-  settings.background = core::find_background(subject.database(), settings.camera);
-  return settings;
-}
-
-core::RenderSettings without_skip(core::RenderSettings settings) {
-  settings.skips.background = false;
-  return settings;
-}
+core::RenderSettings without_skip(const Subject& subject) { return subject.settings({.background = false}); }
 
 /// Rays through a picture's empty tiles, in its first pass.
 std::uint64_t background_rays(const core::RenderSettings& settings) {
@@ -50,7 +40,7 @@ void check_skip(const Report& skipping, const Report& tracing, const Subject& su
 /// By every strategy.
 void check_strategies(const Subject& subject, std::uint32_t nodes) {
   CAPTURE(nodes);
-  const core::RenderSettings skipping = knowing_background(subject), tracing = without_skip(skipping);
+  const core::RenderSettings skipping = subject.settings(), tracing = without_skip(subject);
   const std::uint64_t rays = background_rays(skipping);
   REQUIRE(rays > 100);
   CHECK(background_rays(tracing) == 0);
@@ -70,14 +60,15 @@ void check_strategies(const Subject& subject, std::uint32_t nodes) {
 TEST_CASE("films keep their bits by every strategy where background is not traced") {
   for (const char* name : {"tetra-3", "teapot-2", "mount-3", "tree-4"}) {
     CAPTURE(std::string(name));
-    const Subject subject(built_in(name), {48, 40, 2});
+    const Subject subject(built_in(name), {.width = 48, .height = 40, .samples = 2, .knows_background = true});
     check_strategies(subject, 1);
     check_strategies(subject, 5);
   }
 }
 
 TEST_CASE("refined pictures keep their bits where background is not traced") {
-  const Subject subject(built_in("tetra-3"), {.width = 48, .height = 40, .samples = 2, .refinement = {.error = 0.01}});
+  const Subject subject(built_in("tetra-3"),
+                        {.width = 48, .height = 40, .samples = 2, .refinement = {.error = 0.01}, .knows_background = true});
   REQUIRE(subject.outcome().rays[0] > 3 * 48 * 40);
   check_strategies(subject, 3);
 }
@@ -87,8 +78,8 @@ TEST_CASE("in virtual time a ray of the background is charged no setup and no st
   operations.rays = {5, 0, 0, 0};
   operations.skipped.background = 3;
   CHECK(nodes::charges_of(operations)[nodes::Charge::ray_setup] == 2);
-  const Subject subject(built_in("tetra-3"), {48, 40});
-  const core::RenderSettings skipping = knowing_background(subject), tracing = without_skip(skipping);
+  const Subject subject(built_in("tetra-3"), {.width = 48, .height = 40, .knows_background = true});
+  const core::RenderSettings skipping = subject.settings(), tracing = without_skip(subject);
   nodes::Machine machine{.name = "slow steps"};
   std::fill(machine.cost_ps.begin(), machine.cost_ps.end(), 1'000'000);
   const svm::RunOptions options{.node_count = 4, .in_flight = 1, .machine = machine};
@@ -104,8 +95,8 @@ TEST_CASE("in virtual time a ray of the background is charged no setup and no st
 TEST_CASE("a picture of nothing but background needs no page and sends no ray") {
   core::Scene scene = built_in("tetra-3");
   scene.view.at = scene.view.from * 2.0 - scene.view.at;
-  const Subject subject(scene, {32, 32});
-  const core::RenderSettings settings = knowing_background(subject);
+  const Subject subject(scene, {.width = 32, .height = 32, .knows_background = true});
+  const core::RenderSettings settings = subject.settings();
   const svm::Report pages = svm::run_svm(subject.database(), settings, {.node_count = 3, .cache_pages = 1}, {});
   CHECK(outcome_of(pages) == subject.outcome());
   CHECK(pages.pages().references == 0);
@@ -118,8 +109,8 @@ TEST_CASE("a picture of nothing but background needs no page and sends no ray") 
 TEST_CASE("nodes of dataflow share out the rays of the background evenly") {
   core::Scene scene = built_in("tetra-3");
   scene.view.at = scene.view.from * 2.0 - scene.view.at;
-  const Subject subject(scene, {32, 32});
-  const dataflow::Report report = dataflow::run_dataflow(subject.database(), knowing_background(subject), {.node_count = 4}, {});
+  const Subject subject(scene, {.width = 32, .height = 32, .knows_background = true});
+  const dataflow::Report report = dataflow::run_dataflow(subject.database(), subject.settings(), {.node_count = 4}, {});
   for (const dataflow::NodeReport& node : report.nodes) {
     CHECK(node.program.operations.skipped.background == 32 * 32 / 4);
   }

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "apps/stability/cells.h"
+#include "core/background.h"
 #include "core/database.h"
 #include "core/frame.h"
 #include "core/operations.h"
@@ -56,6 +57,7 @@ class Subject {
     int width = 1, height = 1, samples = 1;
     core::RefinementOptions refinement = {};
     double cutoff = 0;
+    bool knows_background = false;  ///< all but the reference renderer may leave it out
   };
 
   Subject(const core::Scene& scene, const Size& size, const core::BuildOptions& options = {})
@@ -68,6 +70,9 @@ class Subject {
     core::GridTracer tracer(records, settings_.header, core::Skips{});
     core::Operations operations;
     outcome_ = outcome_of(core::render(tracer, settings_, operations), operations);
+    if (size.knows_background) {
+      settings_.background = core::find_background(database_, settings_.camera);
+    }
   }
 
   const core::Database& database() const { return database_; }
