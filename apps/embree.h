@@ -1,9 +1,11 @@
 // The only file that includes Embree: its geometries, and one ray asked of its version 3 or 4.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "core/database.h"
 #include "core/ray.h"
@@ -52,15 +54,64 @@ inline RTCRay ray_of(const core::Ray& ray) {
   return result;
 }
 
-/// A mesh, not yet committed, of the triangles `ids` of `primitives`, in their order and without shared vertices; the caller
-/// releases it.
-RTCGeometry triangle_mesh(RTCDevice device, std::span<const core::PrimitiveValues> primitives,
-                          std::span<const std::uint32_t> ids);
+/// A scene's primitives as Embree gets them. They outlive it.
+struct Shapes {
+  std::span<const core::PrimitiveValues> primitives;
+  std::vector<std::uint32_t> triangles, curved;  ///< Embree's index -> primitive id
 
-/// `box`: lower x y z, upper x y z.
-inline void set_bounds(RTCBounds& bounds, const std::array<float, 6>& box) {
-  bounds.lower_x = box[0], bounds.lower_y = box[1], bounds.lower_z = box[2];
-  bounds.upper_x = box[3], bounds.upper_y = box[4], bounds.upper_z = box[5];
+  explicit Shapes(std::span<const core::PrimitiveValues> primitives);
+};
+
+/// A mesh, not yet committed, of the triangles, in their order and without shared vertices.
+RTCGeometry triangle_mesh(RTCDevice device, const Shapes& shapes);
+
+/// Who asks for a curved primitive, `id`: a ray, as Embree keeps it, in a query.
+struct CurvedQuery {
+  const Shapes& shapes;
+  std::uint32_t id;
+  RTCRayN* ray;
+  unsigned ray_count;  ///< side by side in `ray`; the first is meant
+  Context* context;
+};
+/// Where the ray meets the primitive; nothing if nowhere, or if the query does not want it.
+using CurvedDistance = std::optional<float>(const CurvedQuery&);
+
+/// User geometry, not yet committed, of the spheres and cones, which `distance` finds. The shapes outlive it.
+RTCGeometry curved_geometry(RTCDevice device, const Shapes& shapes, RTCIntersectFunctionN intersect,
+                            RTCOccludedFunctionN occlude);
+template <CurvedDistance distance>
+RTCGeometry curved_geometry(RTCDevice device, const Shapes& shapes);
+
+/// Commits a geometry, and hands it over to the scene.
+void attach(RTCScene scene, RTCGeometry geometry, RTCBuildQuality quality);
+
+template <CurvedDistance distance>
+void intersect_curved(const RTCIntersectFunctionNArguments* arguments) {
+  RTCRayN* const ray = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
+  const Shapes& shapes = *static_cast<const Shapes*>(arguments->geometryUserPtr);
+  if (arguments->valid[0] == 0) {
+    return;
+  }
+  if (const auto t = distance({shapes, shapes.curved[arguments->primID], ray, arguments->N, arguments->context})) {
+    RTCRayN_tfar(ray, arguments->N, 0) = *t;
+    RTCHitN* const hit = RTCRayHitN_HitN(arguments->rayhit, arguments->N);
+    RTCHitN_primID(hit, arguments->N, 0) = arguments->primID;
+    RTCHitN_geomID(hit, arguments->N, 0) = arguments->geomID;
+  }
+}
+
+template <CurvedDistance distance>
+void occlude_curved(const RTCOccludedFunctionNArguments* arguments) {
+  const Shapes& shapes = *static_cast<const Shapes*>(arguments->geometryUserPtr);
+  if (arguments->valid[0] != 0 &&
+      distance({shapes, shapes.curved[arguments->primID], arguments->ray, arguments->N, arguments->context})) {
+    RTCRayN_tfar(arguments->ray, arguments->N, 0) = -std::numeric_limits<float>::infinity();
+  }
+}
+
+template <CurvedDistance distance>
+RTCGeometry curved_geometry(RTCDevice device, const Shapes& shapes) {
+  return curved_geometry(device, shapes, intersect_curved<distance>, occlude_curved<distance>);
 }
 
 }  // namespace dmpc::apps::embree

@@ -1,9 +1,7 @@
 #include "apps/oracle.h"
 
 #include <cstring>
-#include <limits>
 #include <optional>
-#include <vector>
 
 #include "apps/curved.h"
 #include "apps/embree.h"
@@ -46,39 +44,28 @@ void filter_triangle(const RTCFilterFunctionNArguments* arguments) {
   }
 }
 
+/// In double precision, if it is the query's best so far.
+std::optional<float> improving_distance(const embree::CurvedQuery& asked) {
+  Query& query = query_of(asked.context);
+  const std::optional<double> t = nearest_on_curved(asked.shapes.primitives[asked.id], *query.ray);
+  return t && improves(query, static_cast<float>(*t), asked.id) ? std::optional(query.best.t) : std::nullopt;
+}
+
 }  // namespace
 
 struct EmbreeScene::Parts {
   RTCDevice device = rtcNewDevice(nullptr);
   RTCScene scene = nullptr;
-  std::span<const core::PrimitiveValues> primitives;
-  std::vector<std::uint32_t> triangles, curved;  ///< Embree's index -> primitive id
+  embree::Shapes shapes;
 
+  explicit Parts(std::span<const core::PrimitiveValues> primitives) : shapes(primitives) {}
   ~Parts() {
     if (scene != nullptr) {
       rtcReleaseScene(scene);
     }
     rtcReleaseDevice(device);
   }
-  void attach(RTCGeometry geometry) const {
-    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-  }
-  void add_triangles();
-  void add_curved();
-
-  /// Tests one curved primitive, by Embree's index; returns whether it is the query's best so far.
-  bool test_curved(unsigned index, Query& query) const {
-    const std::uint32_t id = curved[index];
-    const std::optional<double> t = nearest_on_curved(primitives[id], *query.ray);
-    return t && improves(query, static_cast<float>(*t), id);
-  }
-  static const Parts& of(const void* user_data) { return *static_cast<const Parts*>(user_data); }
-  static void bounds_callback(const RTCBoundsFunctionArguments* arguments);
-  static void intersect_callback(const RTCIntersectFunctionNArguments* arguments);
-  static void occluded_callback(const RTCOccludedFunctionNArguments* arguments);
+  RTCGeometry triangles();
 };
 
 namespace {
@@ -94,63 +81,28 @@ bool can_hit(const core::Ray& ray) { return is_finite(ray.origin) && is_finite(r
 
 }  // namespace
 
-void EmbreeScene::Parts::bounds_callback(const RTCBoundsFunctionArguments* arguments) {
-  const Parts& parts = of(arguments->geometryUserPtr);
-  embree::set_bounds(*arguments->bounds_o, bounds_of_curved(parts.primitives[parts.curved[arguments->primID]]));
-}
-
-void EmbreeScene::Parts::intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
-  Query& query = query_of(arguments->context);
-  if (arguments->valid[0] == 0 || !of(arguments->geometryUserPtr).test_curved(arguments->primID, query)) {
-    return;
-  }
-  RTCRayN_tfar(RTCRayHitN_RayN(arguments->rayhit, arguments->N), arguments->N, 0) = query.best.t;
-  RTCHitN* hit = RTCRayHitN_HitN(arguments->rayhit, arguments->N);
-  RTCHitN_primID(hit, arguments->N, 0) = arguments->primID;
-  RTCHitN_geomID(hit, arguments->N, 0) = arguments->geomID;
-}
-
-void EmbreeScene::Parts::occluded_callback(const RTCOccludedFunctionNArguments* arguments) {
-  Query& query = query_of(arguments->context);
-  if (arguments->valid[0] != 0 && of(arguments->geometryUserPtr).test_curved(arguments->primID, query)) {
-    RTCRayN_tfar(arguments->ray, arguments->N, 0) = -std::numeric_limits<float>::infinity();
-  }
-}
-
-void EmbreeScene::Parts::add_triangles() {
-  RTCGeometry geometry = embree::triangle_mesh(device, primitives, triangles);
-  rtcSetGeometryUserData(geometry, triangles.data());
+RTCGeometry EmbreeScene::Parts::triangles() {
+  RTCGeometry geometry = embree::triangle_mesh(device, shapes);
+  rtcSetGeometryUserData(geometry, shapes.triangles.data());
   rtcSetGeometryIntersectFilterFunction(geometry, filter_triangle);
   rtcSetGeometryOccludedFilterFunction(geometry, filter_triangle);
-  attach(geometry);
+  return geometry;
 }
 
-void EmbreeScene::Parts::add_curved() {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(curved.size()));
-  rtcSetGeometryUserData(geometry, this);
-  rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, intersect_callback);
-  rtcSetGeometryOccludedFunction(geometry, occluded_callback);
-  attach(geometry);
-}
-
-EmbreeScene::EmbreeScene(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode) : parts_(std::make_unique<Parts>()) {
+EmbreeScene::EmbreeScene(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode)
+    : parts_(std::make_unique<Parts>(primitives)) {
   core::expect(parts_->device != nullptr, "Embree opens its device");
-  parts_->primitives = primitives;
-  for (std::uint32_t id = 0; id < primitives.size(); ++id) {
-    (primitives[id].kind == core::PrimitiveKind::triangle ? parts_->triangles : parts_->curved).push_back(id);
+  const embree::Shapes& shapes = parts_->shapes;
+  RTCScene scene = parts_->scene = rtcNewScene(parts_->device);
+  rtcSetSceneFlags(scene, mode == EmbreeMode::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+  if (!shapes.triangles.empty()) {
+    embree::attach(scene, parts_->triangles(), RTC_BUILD_QUALITY_HIGH);
   }
-  parts_->scene = rtcNewScene(parts_->device);
-  rtcSetSceneFlags(parts_->scene, mode == EmbreeMode::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
-  rtcSetSceneBuildQuality(parts_->scene, RTC_BUILD_QUALITY_HIGH);
-  if (!parts_->triangles.empty()) {
-    parts_->add_triangles();
+  if (!shapes.curved.empty()) {
+    embree::attach(scene, embree::curved_geometry<improving_distance>(parts_->device, shapes), RTC_BUILD_QUALITY_HIGH);
   }
-  if (!parts_->curved.empty()) {
-    parts_->add_curved();
-  }
-  rtcCommitScene(parts_->scene);
+  rtcCommitScene(scene);
   core::expect(rtcGetDeviceError(parts_->device) == RTC_ERROR_NONE, "Embree builds the scene without an error");
 }
 

@@ -1,9 +1,7 @@
 #include "apps/speed/rival.h"
 
-#include <limits>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "apps/curved.h"
 #include "apps/embree.h"
@@ -11,9 +9,26 @@
 
 namespace dmpc::apps {
 
+namespace {
+
+/// Within the ray, whose components Embree keeps one by one.
+std::optional<float> distance(const embree::CurvedQuery& query) {
+  RTCRayN* const ray = query.ray;
+  const unsigned count = query.ray_count;
+  core::Ray asked;
+  asked.origin = {RTCRayN_org_x(ray, count, 0), RTCRayN_org_y(ray, count, 0), RTCRayN_org_z(ray, count, 0)};
+  asked.direction = {RTCRayN_dir_x(ray, count, 0), RTCRayN_dir_y(ray, count, 0), RTCRayN_dir_z(ray, count, 0)};
+  asked.t_max = RTCRayN_tfar(ray, count, 0);
+  const std::optional<double> t = nearest_on_curved(query.shapes.primitives[query.id], asked);
+  return t ? std::optional(static_cast<float>(*t)) : std::nullopt;
+}
+
+}  // namespace
+
 struct EmbreeRival::Parts {
-  explicit Parts(std::uint32_t thread_count)
-      : device(rtcNewDevice(thread_count == 0 ? nullptr : ("threads=" + std::to_string(thread_count)).c_str())) {
+  Parts(std::span<const core::PrimitiveValues> primitives, std::uint32_t thread_count)
+      : device(rtcNewDevice(thread_count == 0 ? nullptr : ("threads=" + std::to_string(thread_count)).c_str())),
+        shapes(primitives) {
     core::expect(device != nullptr, "Embree opens its device");
     scene = rtcNewScene(device);
   }
@@ -24,91 +39,23 @@ struct EmbreeRival::Parts {
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
 
-  void sort(std::span<const core::PrimitiveValues> given);
   void build(EmbreeMode mode, EmbreeQuality quality);
-  void attach(RTCGeometry geometry, RTCBuildQuality quality) const;
-  RTCGeometry curved_geometry();
-
-  /// The t of a curved primitive, by Embree's index, within the ray, whose components Embree keeps one by one.
-  std::optional<float> distance(unsigned index, RTCRayN* ray, unsigned count) const;
-  static const Parts& of(const void* user_data) { return *static_cast<const Parts*>(user_data); }
-  static void bounds_callback(const RTCBoundsFunctionArguments* arguments);
-  static void intersect_callback(const RTCIntersectFunctionNArguments* arguments);
-  static void occluded_callback(const RTCOccludedFunctionNArguments* arguments);
 
   RTCDevice device;
   RTCScene scene = nullptr;
-  std::span<const core::PrimitiveValues> primitives;
-  std::vector<std::uint32_t> triangles, curved;  ///< Embree's index -> primitive id
+  embree::Shapes shapes;
   Times build_times;
 };
-
-void EmbreeRival::Parts::sort(std::span<const core::PrimitiveValues> given) {
-  primitives = given;
-  for (std::uint32_t id = 0; id < given.size(); ++id) {
-    (given[id].kind == core::PrimitiveKind::triangle ? triangles : curved).push_back(id);
-  }
-}
-
-std::optional<float> EmbreeRival::Parts::distance(unsigned index, RTCRayN* ray, unsigned count) const {
-  core::Ray asked;
-  asked.origin = {RTCRayN_org_x(ray, count, 0), RTCRayN_org_y(ray, count, 0), RTCRayN_org_z(ray, count, 0)};
-  asked.direction = {RTCRayN_dir_x(ray, count, 0), RTCRayN_dir_y(ray, count, 0), RTCRayN_dir_z(ray, count, 0)};
-  asked.t_max = RTCRayN_tfar(ray, count, 0);
-  const std::optional<double> t = nearest_on_curved(primitives[curved[index]], asked);
-  return t ? std::optional(static_cast<float>(*t)) : std::nullopt;
-}
-
-void EmbreeRival::Parts::bounds_callback(const RTCBoundsFunctionArguments* arguments) {
-  const Parts& parts = of(arguments->geometryUserPtr);
-  embree::set_bounds(*arguments->bounds_o, bounds_of_curved(parts.primitives[parts.curved[arguments->primID]]));
-}
-
-void EmbreeRival::Parts::intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
-  RTCRayN* const ray = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
-  const Parts& parts = of(arguments->geometryUserPtr);
-  const auto t = arguments->valid[0] != 0 ? parts.distance(arguments->primID, ray, arguments->N) : std::nullopt;
-  if (t) {
-    RTCRayN_tfar(ray, arguments->N, 0) = *t;
-    RTCHitN* const hit = RTCRayHitN_HitN(arguments->rayhit, arguments->N);
-    RTCHitN_primID(hit, arguments->N, 0) = arguments->primID;
-    RTCHitN_geomID(hit, arguments->N, 0) = arguments->geomID;
-  }
-}
-
-void EmbreeRival::Parts::occluded_callback(const RTCOccludedFunctionNArguments* arguments) {
-  const Parts& parts = of(arguments->geometryUserPtr);
-  if (arguments->valid[0] != 0 && parts.distance(arguments->primID, arguments->ray, arguments->N)) {
-    RTCRayN_tfar(arguments->ray, arguments->N, 0) = -std::numeric_limits<float>::infinity();
-  }
-}
-
-RTCGeometry EmbreeRival::Parts::curved_geometry() {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(curved.size()));
-  rtcSetGeometryUserData(geometry, this);
-  rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, intersect_callback);
-  rtcSetGeometryOccludedFunction(geometry, occluded_callback);
-  return geometry;
-}
-
-void EmbreeRival::Parts::attach(RTCGeometry geometry, RTCBuildQuality quality) const {
-  rtcSetGeometryBuildQuality(geometry, quality);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
-}
 
 void EmbreeRival::Parts::build(EmbreeMode mode, EmbreeQuality quality) {
   const RTCBuildQuality effort = quality == EmbreeQuality::high ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
   rtcSetSceneFlags(scene, mode == EmbreeMode::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
   rtcSetSceneBuildQuality(scene, effort);
-  if (!triangles.empty()) {
-    attach(embree::triangle_mesh(device, primitives, triangles), effort);
+  if (!shapes.triangles.empty()) {
+    embree::attach(scene, embree::triangle_mesh(device, shapes), effort);
   }
-  if (!curved.empty()) {
-    attach(curved_geometry(), effort);
+  if (!shapes.curved.empty()) {
+    embree::attach(scene, embree::curved_geometry<distance>(device, shapes), effort);
   }
   DoubleStopwatch stopwatch;
   rtcCommitScene(scene);
@@ -118,8 +65,7 @@ void EmbreeRival::Parts::build(EmbreeMode mode, EmbreeQuality quality) {
 
 EmbreeRival::EmbreeRival(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode, EmbreeQuality quality,
                          std::uint32_t thread_count)
-    : parts_(std::make_unique<Parts>(thread_count)) {
-  parts_->sort(primitives);
+    : parts_(std::make_unique<Parts>(primitives, thread_count)) {
   parts_->build(mode, quality);
 }
 
