@@ -1,8 +1,10 @@
 #include "apps/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <sstream>
 
+#include "apps/words.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -114,10 +116,16 @@ void OptionSet::add_flag(const std::string& name, bool& flag, const std::string&
 
 void OptionSet::add_words(const std::string& name, const std::vector<std::string>& words, const TakeText& take,
                           const std::string& description) {
-  app_->add_option_function<std::vector<std::string>>(name, one_by_one(take), description)
+  const auto take_list = [name, words, take](const std::string& text) {
+    for (const std::string& word : words_between_commas(text, name)) {
+      if (std::find(words.begin(), words.end(), word) == words.end()) {
+        throw core::UsageError(name + "=" + word + ": expected " + joined(words) + ", with commas between");
+      }
+      take(word);
+    }
+  };
+  app_->add_option_function<std::vector<std::string>>(name, one_by_one(take_list), description)
       ->allow_extra_args(false)
-      ->delimiter(',')
-      ->check(CLI::IsMember(words))
       ->type_name("")
       ->option_text(joined(words));
 }

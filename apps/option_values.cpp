@@ -2,9 +2,11 @@
 
 #include <charconv>
 #include <limits>
+#include <set>
 #include <string>
 #include <utility>
 
+#include "apps/words.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -68,18 +70,21 @@ std::uint64_t parse_seed(std::string_view text, std::string_view option) {
 
 std::vector<std::uint32_t> parse_numbers(std::string_view text, const std::string& option, std::uint32_t most) {
   std::vector<std::uint32_t> numbers;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  for (bool is_last = false; !is_last; ++at) {
-    const auto [rest, error] = std::from_chars(at, end, numbers.emplace_back());
-    is_last = rest == end;
-    if (error != std::errc() || numbers.back() < 1 || numbers.back() > most || (!is_last && *rest != ',')) {
+  for (const std::string& word : words_between_commas(std::string(text), option)) {
+    const char* const end = word.data() + word.size();
+    const auto [rest, error] = std::from_chars(word.data(), end, numbers.emplace_back());
+    if (error != std::errc() || rest != end || numbers.back() < 1 || numbers.back() > most) {
       throw core::UsageError(option + "=" + std::string(text) + ": expected numbers from 1 to " + std::to_string(most) +
                              " with commas between them, such as 4,8,16");
     }
-    at = rest;
   }
   return numbers;
+}
+
+std::vector<std::uint32_t> parse_different_numbers(std::string_view text, const std::string& option, std::uint32_t most) {
+  const std::vector<std::uint32_t> numbers = parse_numbers(text, option, most);
+  const std::set<std::uint32_t> different(numbers.begin(), numbers.end());
+  return {different.begin(), different.end()};
 }
 
 }  // namespace dmpc::apps

@@ -19,6 +19,9 @@ double parse_share(std::string_view text, std::string_view option, bool or_zero 
 /// "4,8,16": whole numbers from 1 to `most`. Throws core::UsageError naming `option` for anything else.
 std::vector<std::uint32_t> parse_numbers(std::string_view text, const std::string& option, std::uint32_t most);
 
+/// The same from small to large, each once.
+std::vector<std::uint32_t> parse_different_numbers(std::string_view text, const std::string& option, std::uint32_t most);
+
 /// A whole number from 0 to 2^64 - 1. Throws core::UsageError naming `option` for anything else.
 std::uint64_t parse_seed(std::string_view text, std::string_view option);
 

@@ -5,13 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "core/expect.h"
+
 namespace dmpc::apps {
 
-/// The words between commas: one at least, perhaps empty.
-inline std::vector<std::string> words_between_commas(const std::string& text) {
+/// The words between commas, one at least. Throws core::UsageError naming `option` if one is empty.
+inline std::vector<std::string> words_between_commas(const std::string& text, const std::string& option) {
   std::vector<std::string> words;
   std::istringstream stream(text + ",");
   for (std::string word; std::getline(stream, word, ',');) {
+    if (word.empty()) {
+      throw core::UsageError(option + "=" + text + ": a word is missing; expected words with commas between");
+    }
     words.push_back(word);
   }
   return words;

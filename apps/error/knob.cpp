@@ -41,7 +41,7 @@ const char* name_of(Knob knob) { return names[static_cast<std::size_t>(knob)]; }
 
 std::set<Knob> parse_knobs(const std::string& text) {
   std::set<Knob> knobs;
-  for (const std::string& word : words_between_commas(text)) {
+  for (const std::string& word : words_between_commas(text, "--knobs")) {
     knobs.insert(knob_of(word, text));
   }
   add_pairs(knobs);

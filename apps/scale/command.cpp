@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -85,13 +84,6 @@ void add_family(const std::string& family, bool& has_families, ScaleSettings& se
   settings.families.push_back(family);
 }
 
-/// In order, without repetition.
-std::vector<std::uint32_t> parse_node_counts(const std::string& text) {
-  const std::vector<std::uint32_t> counts = parse_numbers(text, "--nodes", dataflow::region_count_max);
-  const std::set<std::uint32_t> sorted(counts.begin(), counts.end());
-  return {sorted.begin(), sorted.end()};
-}
-
 /// What is measured.
 void add_subject(OptionSet& set, ScaleSettings& settings) {
   set.add_arguments(
@@ -112,13 +104,14 @@ void add_subject(OptionSet& set, ScaleSettings& settings) {
 
 /// With what.
 void add_computer(OptionSet& set, ScaleSettings& settings) {
+  constexpr std::uint32_t most = dataflow::region_count_max;
   set.add_text(
       "--cache", "BYTES [1MiB]", [&settings](const std::string& text) { settings.cache_bytes = parse_cache(text); },
       "Of each node, for method cache");
-  set.add_number("--size-nodes", settings.node_count, 1, dataflow::region_count_max, "8", "Nodes of part sizes");
+  set.add_number("--size-nodes", settings.node_count, 1, most, "8", "Nodes of part sizes");
   set.add_text(
       "--nodes", "N,N,... [1,2,4,8,16,32,64,128,256]",
-      [&settings](const std::string& text) { settings.node_counts = parse_node_counts(text); },
+      [&settings](const std::string& text) { settings.node_counts = parse_different_numbers(text, "--nodes", most); },
       "Nodes of part nodes, from few to many, each number once");
   set.add_text(
       "--scene", "SCENE [the middle size of the first family]",

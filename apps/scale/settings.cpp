@@ -148,7 +148,7 @@ std::vector<int> standard_sizes(const std::string& family) {
 
 std::vector<int> parse_scale_sizes(const std::string& text) {
   std::set<int> sizes;
-  for (const std::string& word : words_between_commas(text)) {
+  for (const std::string& word : words_between_commas(text, "--sizes")) {
     const auto [first, last] = parse_range(word, text);
     for (int size = first; size <= last; ++size) {
       sizes.insert(size);
@@ -159,7 +159,7 @@ std::vector<int> parse_scale_sizes(const std::string& text) {
 
 std::set<ScalePart> parse_scale_parts(const std::string& text) {
   std::set<ScalePart> parts;
-  for (const std::string& word : words_between_commas(text)) {
+  for (const std::string& word : words_between_commas(text, "--parts")) {
     parts.insert(ScalePart{static_cast<std::uint8_t>(index_of(word, part_names, "--parts"))});
   }
   return parts;
@@ -167,7 +167,7 @@ std::set<ScalePart> parse_scale_parts(const std::string& text) {
 
 std::vector<ScaleMethod> parse_scale_methods(const std::string& text) {
   std::vector<ScaleMethod> methods;
-  for (const std::string& word : words_between_commas(text)) {
+  for (const std::string& word : words_between_commas(text, "--methods")) {
     const ScaleMethod method{static_cast<std::uint8_t>(index_of(word, method_names, "--methods"))};
     if (std::find(methods.begin(), methods.end(), method) != methods.end()) {
       throw core::UsageError("--methods=" + text + ": " + word + " is there twice");

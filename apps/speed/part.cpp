@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include "apps/machine_load.h"
+#include "apps/option_values.h"
 #include "apps/paper_data.h"
 #include "apps/words.h"
 #include "core/expect.h"
@@ -26,16 +26,6 @@ SpeedPart parse_part(const std::string& word) {
                            ": expected kernel, picture, emulation, build, memory, pages, with commas between");
   }
   return SpeedPart{static_cast<std::uint8_t>(found - names.begin())};
-}
-
-std::uint32_t parse_thread_count(const std::string& word) {
-  std::uint32_t count = 0;
-  const char* const end = word.data() + word.size();
-  const auto [rest, error] = std::from_chars(word.data(), end, count);
-  if (error != std::errc() || rest != end || count < 1 || count > thread_count_max) {
-    throw core::UsageError("--threads=" + word + ": expected numbers from 1 to 1024, with commas between");
-  }
-  return count;
 }
 
 std::vector<std::string> article_scenes() {
@@ -77,7 +67,7 @@ std::set<SpeedPart> all_speed_parts() {
 
 std::set<SpeedPart> parse_speed_parts(const std::string& text) {
   std::set<SpeedPart> parts;
-  for (const std::string& word : words_between_commas(text)) {
+  for (const std::string& word : words_between_commas(text, "--parts")) {
     parts.insert(parse_part(word));
   }
   return parts;
@@ -115,11 +105,7 @@ PictureOptions SpeedSettings::picture_of(SpeedPart part, const std::string& scen
 }
 
 std::vector<std::uint32_t> parse_thread_counts(const std::string& text) {
-  std::set<std::uint32_t> counts;
-  for (const std::string& word : words_between_commas(text)) {
-    counts.insert(parse_thread_count(word));
-  }
-  return {counts.begin(), counts.end()};
+  return parse_different_numbers(text, "--threads", thread_count_max);
 }
 
 }  // namespace dmpc::apps

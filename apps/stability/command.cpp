@@ -4,7 +4,6 @@
 #include <iostream>
 #include <limits>
 #include <memory>
-#include <sstream>
 
 #include "apps/distinct_files.h"
 #include "apps/output_file.h"
@@ -13,6 +12,7 @@
 #include "apps/stability/state.h"
 #include "apps/stability/table.h"
 #include "apps/table_options.h"
+#include "apps/words.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -22,15 +22,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int failed_status = 1;
 constexpr std::chrono::minutes save_interval{1};
-
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> words;
-  std::istringstream stream(text);
-  for (std::string word; std::getline(stream, word, ',');) {
-    words.push_back(word);
-  }
-  return words;
-}
 
 /// What a state must share with the run that goes on from it.
 std::string identity_of(const StabilityOptions& options) {
@@ -110,7 +101,8 @@ void add_options(OptionSet set, StabilityOptions& options) {
   set.add_flag("--long", options.is_long,
                "10^9 rays from inside a closed mesh, 10^8 at its vertices and at its edges, 10^6 to 10^8 of others: hours");
   set.add_text(
-      "--tests", "R1,R2,... [all]", [&options](const std::string& text) { options.tests = split(text); },
+      "--tests", "R1,R2,... [all]",
+      [&options](const std::string& text) { options.tests = words_between_commas(text, "--tests"); },
       "Only these: R1 to R12, R14, quadrics");
   set.add_number("--seed", options.seed, 0, std::numeric_limits<std::int64_t>::max(), "1", "Other rays, as good as these");
   set.add_path("--resume", "FILE", options.resume, "Keep the run's state in FILE, and go on from there if it exists");

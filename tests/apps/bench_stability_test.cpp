@@ -67,6 +67,7 @@ TEST_CASE("the amounts of rays of bench stability exclude each other") {
 TEST_CASE("bench stability refuses a test that is none") {
   CHECK(parse({"--tests=R1,quadrics"}).tests == std::vector<std::string>{"R1", "quadrics"});
   CHECK_THROWS_AS(parse({"--tests=R13"}), core::UsageError);
+  CHECK_THROWS_WITH_AS(parse({"--tests=R1,"}), doctest::Contains("--tests=R1,: a word is missing"), core::UsageError);
 }
 
 }  // namespace dmpc::tests

@@ -66,6 +66,7 @@ TEST_CASE("a seed is any whole number of 64 bits") {
 TEST_CASE("numbers are whole, from 1 to the most that there may be, with commas between") {
   CHECK(parse_numbers("4", "--x", 8) == std::vector<std::uint32_t>{4});
   CHECK(parse_numbers("8,1,8", "--x", 8) == std::vector<std::uint32_t>{8, 1, 8});
+  CHECK(parse_different_numbers("8,1,3,8", "--x", 8) == std::vector<std::uint32_t>{1, 3, 8});
   for (const char* text : {"", ",", "0", "9", "-1", "1,", ",1", "1,,2", "1.5", "1 ,2", "99999999999"}) {
     CAPTURE(std::string(text));
     CHECK_THROWS_AS(parse_numbers(text, "--x", 8), UsageError);

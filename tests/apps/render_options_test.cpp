@@ -89,7 +89,7 @@ TEST_CASE("skips are switched off by name, several at a time, or all") {
   for (const core::Skip& skip : core::all_skips) {
     CHECK(skips({std::string("--no-skip=") + skip.name}) == core::without(skip));
   }
-  for (const std::string wrong : {"unlit,everything", "unlit;any-hit", "UNLIT", ""}) {
+  for (const std::string wrong : {"unlit,everything", "unlit;any-hit", "UNLIT", "", "unlit,"}) {
     CHECK_MESSAGE(says(render_complaint({"--no-skip=" + wrong}), "--no-skip"), wrong);
   }
 }
