@@ -32,9 +32,8 @@ Scene heap(int count) {
 }
 
 /// Triangles, or triangles and spheres in turn, each of them smaller and nearer to the origin than the one before.
-std::vector<PrimitiveValues> shrinking(int count, bool has_kinds) {
+std::vector<PrimitiveValues> shrinking(int count, bool has_kinds, float at = 1e18F) {
   std::vector<PrimitiveValues> primitives;
-  float at = 1e18F;
   for (int i = 0; i < count; ++i, at *= 0.9F) {
     const float near = at * 0.99F;
     primitives.push_back({PrimitiveKind::triangle, {at, at, at, near, at, at, near, near, at}});
@@ -45,9 +44,9 @@ std::vector<PrimitiveValues> shrinking(int count, bool has_kinds) {
   return primitives;
 }
 
-/// Shrinking triangles, a sphere among them, and cones all over the place.
+/// Shrinking triangles, a sphere among them, and cones far around, so that a brick has few children to spare for the others.
 std::vector<PrimitiveValues> of_three_kinds(int triangles, int cones) {
-  std::vector<PrimitiveValues> primitives = shrinking(triangles, false);
+  std::vector<PrimitiveValues> primitives = shrinking(triangles, false, 1e9F);
   primitives.push_back({PrimitiveKind::sphere, {1e9F, 1e9F, 1e9F, 1e8F}});
   Random random(4);
   const auto somewhere = [&] { return static_cast<float>(random.in_box(0, 1e18).x); };
