@@ -243,7 +243,7 @@ TEST_CASE("a scene that does not fit the nodes of dataflow ends with status 4 an
   CHECK(folder.entry_count() == 0);
   const std::string memory = word_after(result.errors, "the smallest that works is --node-memory=");
   CHECK(render("2", memory).status == 0);
-  CHECK(render("2", std::to_string(std::stoul(memory) - 1)).status == 1);
+  CHECK(render("2", std::to_string(std::stoul(memory) - 1)).status == 4);
   CHECK(render(word_after(result.errors, "or with this memory --nodes="), "400KiB").status == 0);
 }
 
