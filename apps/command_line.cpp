@@ -104,6 +104,14 @@ void OptionSet::add_text(const std::string& name, const std::string& shown, cons
   app_->add_option_function<std::string>(name, take, description)->option_text(shown);
 }
 
+void OptionSet::add_texts(const std::string& name, const std::string& shown, const TakeText& take,
+                          const std::string& description) {
+  app_->add_option_function<std::vector<std::string>>(name, one_by_one(take), description)
+      ->allow_extra_args(false)
+      ->type_name("")
+      ->option_text(shown);
+}
+
 void OptionSet::add_path(const std::string& name, const std::string& shown, std::optional<std::filesystem::path>& path,
                          const std::string& description) {
   add_text(

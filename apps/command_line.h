@@ -45,6 +45,8 @@ class OptionSet {
   void add_required(const std::string& name, const std::string& shown, const TakeText& take, const std::string& description);
   /// An option with a text; `shown` is what the help says of its value.
   void add_text(const std::string& name, const std::string& shown, const TakeText& take, const std::string& description);
+  /// The same for an option that may be given several times; `take` is called with one text after the other.
+  void add_texts(const std::string& name, const std::string& shown, const TakeText& take, const std::string& description);
   void add_path(const std::string& name, const std::string& shown, std::optional<std::filesystem::path>& path,
                 const std::string& description);
   void add_flag(const std::string& name, bool& flag, const std::string& description);

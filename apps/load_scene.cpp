@@ -1,15 +1,49 @@
 #include "apps/load_scene.h"
 
 #include <filesystem>
+#include <iostream>
 #include <limits>
+#include <set>
 #include <system_error>
 
+#include "apps/mesh/reader.h"
 #include "apps/nff_reader.h"
+#include "apps/progress.h"
+#include "core/expect.h"
 #include "core/scenes.h"
 
 namespace dmpc::apps {
+namespace {
 
-core::Scene load_scene(const std::string& scene, std::int64_t pixels_max) {
+/// Benchmarks load a scene again and again; one saying is enough.
+void say_once(const std::vector<std::string>& notes) {
+  static std::set<std::string> said;
+  for (const std::string& note : notes) {
+    if (said.insert(note).second) {
+      std::cerr << "dmpc: " << note << '\n';
+    }
+  }
+}
+
+core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadNotes notes) {
+  const bool says = notes == LoadNotes::said;
+  MeshFile file = read_mesh_file(path, options, says && stderr_is_terminal());
+  if (says) {
+    say_once(file.notes);
+  }
+  return std::move(file.scene);
+}
+
+core::Scene load_nff(const std::string& path, std::int64_t pixels_max) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (!ending.empty() && ending != ".nff" && ending != ".NFF") {
+    throw core::InputError(path + ": files that end in " + ending + " are not read; expected .nff or one of " +
+                           known_mesh_formats());
+  }
+  return read_nff_file(path, pixels_max);
+}
+
+core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int64_t pixels_max, LoadNotes notes) {
   if (const auto name = core::find_scene_name(scene)) {
     return core::built_in_scene(*name);
   }
@@ -18,7 +52,21 @@ core::Scene load_scene(const std::string& scene, std::int64_t pixels_max) {
   if (looks_like_name && !std::filesystem::exists(scene, error)) {
     return core::built_in_scene(core::parse_scene_name(scene));  // throws, listing what there is
   }
-  return read_nff_file(scene, pixels_max);
+  return is_mesh_path(scene) ? load_mesh(scene, mesh, notes) : load_nff(scene, pixels_max);
+}
+
+void check_mesh_options(const std::string& scene, const MeshOptions& options) {
+  const bool is_mesh = !core::find_scene_name(scene) && is_mesh_path(scene);
+  if (!is_mesh && (options.scale || options.up || options.smooth_degrees)) {
+    throw core::UsageError("--scale, --up and --smooth go with mesh files (" + known_mesh_formats() + "), and " + scene +
+                           " is none");
+  }
+}
+
+}  // namespace
+
+core::Scene load_scene(const std::string& scene, std::int64_t pixels_max) {
+  return load_any(scene, {}, pixels_max, LoadNotes::said);
 }
 
 void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs) {
@@ -27,8 +75,12 @@ void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs) {
   }
 }
 
-core::Scene load_scene(const PictureOptions& picture) {
-  return load_scene(picture.scene, picture.resolution ? std::numeric_limits<std::int64_t>::max() : picture_pixels_max);
+core::Scene load_scene(const PictureOptions& picture, LoadNotes notes) {
+  check_mesh_options(picture.scene, picture.staging.mesh);
+  core::Scene scene = load_any(picture.scene, picture.staging.mesh,
+                               picture.resolution ? std::numeric_limits<std::int64_t>::max() : picture_pixels_max, notes);
+  apply(picture.staging, scene);
+  return scene;
 }
 
 }  // namespace dmpc::apps

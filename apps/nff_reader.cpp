@@ -73,12 +73,6 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 constexpr std::array<std::string_view, 6> view_parts = {"from", "at", "up", "angle", "hither", "resolution"};
 
-/// `a` with its largest component brought to 1, so that no product of it overflows or vanishes; zero stays.
-Vec3d to_unit_size(const Vec3d& a) {
-  const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
-  return largest > 0 ? Vec3d{a.x / largest, a.y / largest, a.z / largest} : a;
-}
-
 Vec3d NffReader::vector(const char* entity, const char* what) {
   const double x = tokens_.number(entity, what);
   const double y = tokens_.number(entity, what);
@@ -196,18 +190,17 @@ void NffReader::check_view_point(const Vec3d& point, const char* name) {
 }
 
 void NffReader::check_view(const core::View& view) {
-  if (!(view.angle_degrees > 0 && view.angle_degrees < 180)) {
+  const std::optional<ViewFault> fault = fault_of(view);
+  if (fault == ViewFault::angle) {
     tokens_.fail("found " + number_text(view.angle_degrees) +
                  " as the angle of v (view), expected degrees between 0 and 180, both excluded; correct it");
   }
   check_view_point(view.from, "from");
   check_view_point(view.at, "at");
-  if (view.from == view.at) {
+  if (fault == ViewFault::direction) {
     tokens_.fail("found from and at of v (view) at the same point, expected two points; move one");
   }
-  const Vec3d direction = to_unit_size(view.at - view.from);
-  const Vec3d up = to_unit_size(view.up);
-  if (!(core::length(core::cross(direction, up)) > 1e-9)) {
+  if (fault == ViewFault::up) {
     tokens_.fail("found up of v (view) zero or parallel to the line from 'from' to 'at', expected another direction; change up");
   }
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/picture_options.h"
+#include "apps/view_faults.h"
 #include "core/scene.h"
 
 namespace dmpc::apps {
@@ -13,8 +14,6 @@ namespace dmpc::apps {
 inline constexpr int polygon_vertices_max = 65'535;
 /// Pixels along a side.
 inline constexpr int resolution_max = 65'535;
-/// Of the view's points: farther out, squares of distances leave the range of floats.
-inline constexpr double view_coordinate_max = 1e30;
 
 /// Reads all entities (v b l f c s p pp) as a stream of blank-separated tokens with `#` comments, number for number as the file
 /// says them. Objects before the first `f` get core::Material{}; surplus numbers at the end of an `l` or `f` line are ignored; no

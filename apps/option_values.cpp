@@ -1,6 +1,7 @@
 #include "apps/option_values.h"
 
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <string>
@@ -17,20 +18,20 @@ namespace {
   throw core::UsageError(std::string(option) + "=" + std::string(text) + ": expected " + expected);
 }
 
-/// A finite number that fills the whole text, or NaN.
-double number_in(std::string_view text) {
+}  // namespace
+
+double finite_number(std::string_view text) {
   double number = 0;
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, number);
-  return error == std::errc() && rest == end ? number : std::numeric_limits<double>::quiet_NaN();
+  const bool is_one = error == std::errc() && rest == end && std::isfinite(number);
+  return is_one ? number : std::numeric_limits<double>::quiet_NaN();
 }
-
-}  // namespace
 
 double parse_share(std::string_view text, std::string_view option, bool or_zero) {
   const std::size_t slash = text.find('/');
-  const double divisor = slash == std::string_view::npos ? 1 : number_in(text.substr(slash + 1));
-  const double share = number_in(text.substr(0, slash)) / divisor;
+  const double divisor = slash == std::string_view::npos ? 1 : finite_number(text.substr(slash + 1));
+  const double share = finite_number(text.substr(0, slash)) / divisor;
   if (share > 0 && share <= 1 && divisor >= 1) {
     return share;
   }

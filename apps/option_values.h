@@ -16,6 +16,9 @@ std::size_t parse_size_bytes(std::string_view text, std::string_view option);
 /// `option` for anything else.
 double parse_share(std::string_view text, std::string_view option, bool or_zero = false);
 
+/// A finite number that fills the whole text, or NaN.
+double finite_number(std::string_view text);
+
 /// "4,8,16": whole numbers from 1 to `most`. Throws core::UsageError naming `option` for anything else.
 std::vector<std::uint32_t> parse_numbers(std::string_view text, const std::string& option, std::uint32_t most);
 

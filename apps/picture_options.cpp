@@ -69,7 +69,8 @@ QualityChoice choice_of(Quality quality) {
 void add_options(OptionSet options, PictureOptions& picture) {
   options.add_argument(
       "SCENE", [&picture](const std::string& text) { picture.scene = text; },
-      "An NFF file, or a built-in scene such as teapot-12, rings-4-t1, tetra-9");
+      "An NFF file, a mesh file (obj, ply, stl, gltf, glb, ...), or a built-in scene such as teapot-12, rings-4-t1, tetra-9");
+  add_options(options, picture.staging);
   add_view_options(options, picture);
   options.add_text(
       "--samples", "1..32768|auto [1]", [&picture](const std::string& text) { take_samples(picture, text); },

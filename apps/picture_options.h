@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "apps/command_line.h"
+#include "apps/staging.h"
 #include "core/database.h"
 #include "core/pixel_task.h"
 #include "core/scene.h"
@@ -40,7 +41,7 @@ struct QualityChoice {
 QualityChoice choice_of(Quality quality);
 
 struct PictureOptions {
-  std::string scene;                     ///< an NFF file or a built-in name
+  std::string scene;                     ///< an NFF file, a mesh file or a built-in name
   std::optional<Resolution> resolution;  ///< the view's own if not given
   int samples = 1;                       ///< per pixel, 1 to 32768 (core/film.h says why); if refined, in the first pass
   bool is_refined = false;               ///< --samples=auto
@@ -50,6 +51,7 @@ struct PictureOptions {
   double cutoff = 0;               ///< core::ShadeOptions::cutoff
   std::optional<Quality> quality;  ///< --quality, already in the fields above
   core::Skips skips;               ///< what is left out on the way to it
+  Staging staging;                 ///< how the scene is seen and lit, if not as it says itself
 };
 
 /// Declares them.

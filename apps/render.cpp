@@ -57,7 +57,7 @@ void check_outputs(const RenderOptions& options) {
 Subject load(const RenderOptions& options, Interrupt& interrupt, Seconds& seconds) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   Stopwatch stopwatch;
-  core::Scene scene = load_scene(options.picture);
+  core::Scene scene = load_scene(options.picture, options.quiet ? LoadNotes::silent : LoadNotes::said);
   seconds.load = stopwatch.lap();
   Subject subject = build_subject(std::move(scene), options.picture, options.database);
   if (options.tracer != TracerChoice::embree) {

@@ -36,6 +36,7 @@ struct Foreign {
 const std::vector<Foreign> foreign = {
     {"embree", {"apps/embree.h"}},
     {"OpenImageIO/", {"apps/image_file.cpp"}},
+    {"assimp/", {"apps/mesh/"}},
     {"CLI/", {"apps/command_line.cpp"}},
     {"nlohmann/",
      {"apps/stats", "apps/machine_file.", "apps/study_table.cpp", "apps/compare.cpp", "apps/accurate/reference_file.cpp",
@@ -168,6 +169,7 @@ TEST_CASE("a foreign header outside its file is found") {
   CHECK(violations_in("apps/check.cpp", "#include <embree3/rtcore.h>").size() == 1);
   CHECK(violations_in("apps/render.cpp", "#include <OpenImageIO/imageio.h>").size() == 1);
   CHECK(violations_in("apps/options.h", "#include <CLI/CLI.hpp>").size() == 1);
+  CHECK(violations_in("apps/load_scene.cpp", "#include <assimp/scene.h>").size() == 1);
   CHECK(violations_in("apps/main.cpp", "#include \"nlohmann/json.hpp\"").size() == 1);
   CHECK(violations_in("core/database.cpp", "#include <tbb/parallel_for.h>").size() == 1);
   CHECK(violations_in("core/walk.h", "#include <hwy/highway.h>").size() == 1);

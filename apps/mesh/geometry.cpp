@@ -1,0 +1,147 @@
+#include "apps/mesh/geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "apps/figures.h"
+#include "apps/nff_reader.h"
+#include "core/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+using core::Vec3d;
+
+constexpr double coordinate_max = 1e30;
+
+bool is_usable(const Vec3d& v) {
+  return std::abs(v.x) < coordinate_max && std::abs(v.y) < coordinate_max && std::abs(v.z) < coordinate_max;
+}
+
+bool all_equal(const std::vector<Vec3d>& list) {
+  return std::all_of(list.begin(), list.end(), [&list](const Vec3d& v) { return v == list.front(); });
+}
+
+bool spans_an_area(const std::vector<Vec3d>& corners) {
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    if (!(cross(corners[i - 1] - corners[0], corners[i] - corners[0]) == Vec3d{})) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+GeometrySize& GeometrySize::operator+=(const GeometrySize& other) {
+  triangles += other.triangles;
+  faces += other.faces;
+  corners += other.corners;
+  return *this;
+}
+
+GeometrySize size_of(const aiMesh& mesh) {
+  GeometrySize size;
+  for (std::size_t i = 0; i < mesh.mNumFaces; ++i) {
+    const std::uint64_t corners = mesh.mFaces[i].mNumIndices;
+    size += corners < 3 ? GeometrySize{} : GeometrySize{corners - 2, 1, corners};
+  }
+  return size;
+}
+
+void check_size(const GeometrySize& size) {
+  constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max() - std::uint64_t{1};
+  if (size.corners > most) {
+    throw core::InputError("with every instance the scene has " + grouped(size.triangles) + " triangles with " +
+                           grouped(size.corners) + " corners; there can be " + grouped(most) + " corners at most: divide it");
+  }
+}
+
+std::string name_of(const aiMesh& mesh, std::size_t index) {
+  const std::string number = "mesh " + std::to_string(index);
+  return mesh.mName.length > 0 ? number + " '" + mesh.mName.C_Str() + "'" : number;
+}
+
+void GeometryWriter::add(const aiMesh& mesh, std::size_t index, const Transform& world) {
+  read_vertices(mesh, index, world);
+  read_faces(mesh, index, world.determinant() < 0);
+  read_normals(mesh, world);
+  if (mesh.mMaterialIndex >= materials_.size()) {
+    throw core::InputError(name_of(mesh, index) + " has material " + std::to_string(mesh.mMaterialIndex) +
+                           ", and there are but " + std::to_string(materials_.size()));
+  }
+  sink_.material(materials_[mesh.mMaterialIndex]);
+  std::size_t first = 0;
+  for (const std::uint32_t end : faces_.ends) {
+    add_face(first, end);
+    first = end;
+  }
+}
+
+void GeometryWriter::read_vertices(const aiMesh& mesh, std::size_t index, const Transform& world) {
+  vertices_.resize(mesh.mNumVertices);
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    vertices_[i] = world.point(to_vec(mesh.mVertices[i]));
+    if (!is_usable(vertices_[i])) {
+      throw core::InputError(name_of(mesh, index) + ": vertex " + std::to_string(i) +
+                             " has a coordinate that is not a number, infinite or beyond 1e30; correct the file");
+    }
+  }
+}
+
+void GeometryWriter::read_faces(const aiMesh& mesh, std::size_t index, bool is_mirrored) {
+  faces_.corners.clear();
+  faces_.ends.clear();
+  for (std::size_t i = 0; i < mesh.mNumFaces; ++i) {
+    const aiFace& face = mesh.mFaces[i];
+    if (face.mNumIndices < 3) {
+      continue;
+    }
+    const bool is_known = std::all_of(face.mIndices, face.mIndices + face.mNumIndices,
+                                      [&mesh](unsigned vertex) { return vertex < mesh.mNumVertices; });
+    if (!is_known || face.mNumIndices > polygon_vertices_max) {
+      throw core::InputError(name_of(mesh, index) + ": face " + std::to_string(i) +
+                             (is_known ? " has too many corners, more than 65535"
+                                       : " has a vertex that does not exist: the mesh has " + std::to_string(mesh.mNumVertices)) +
+                             "; correct the file");
+    }
+    faces_.corners.insert(faces_.corners.end(), face.mIndices, face.mIndices + face.mNumIndices);
+    if (is_mirrored) {
+      std::reverse(faces_.corners.end() - face.mNumIndices, faces_.corners.end());
+    }
+    faces_.ends.push_back(static_cast<std::uint32_t>(faces_.corners.size()));
+  }
+}
+
+void GeometryWriter::read_normals(const aiMesh& mesh, const Transform& world) {
+  normals_.clear();
+  if (smooth_degrees_) {
+    normals_ = smooth_normals(vertices_, faces_, *smooth_degrees_);
+  } else if (mesh.HasNormals()) {
+    const Transform of_normals = world.of_normals();
+    normals_.reserve(faces_.corners.size());
+    for (const std::uint32_t vertex : faces_.corners) {
+      normals_.push_back(of_normals.direction(to_vec(mesh.mNormals[vertex])));
+    }
+  }
+}
+
+void GeometryWriter::add_face(std::size_t first, std::size_t end) {
+  face_vertices_.clear();
+  for (std::size_t i = first; i < end; ++i) {
+    face_vertices_.push_back(vertices_[faces_.corners[i]]);
+  }
+  has_area_ = has_area_ || spans_an_area(face_vertices_);
+  if (!normals_.empty()) {
+    face_normals_.assign(normals_.begin() + static_cast<std::ptrdiff_t>(first),
+                         normals_.begin() + static_cast<std::ptrdiff_t>(end));
+  }
+  if (normals_.empty() || all_equal(face_normals_)) {
+    sink_.polygon(face_vertices_);
+  } else {
+    sink_.patch(face_vertices_, face_normals_);
+  }
+}
+
+}  // namespace dmpc::apps

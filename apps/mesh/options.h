@@ -1,0 +1,15 @@
+// What the command line says about a mesh file beside its path.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+namespace dmpc::apps {
+
+struct MeshOptions {
+  std::optional<double> scale;           ///< all coordinates are multiplied by it; above 0; 1 if not given
+  std::optional<std::size_t> up;         ///< the axis that points up where the file has no camera: 0 x, 1 y, 2 z; y if not given
+  std::optional<double> smooth_degrees;  ///< vertex normals are reckoned anew, over edges up to this angle; 0 to 180
+};
+
+}  // namespace dmpc::apps

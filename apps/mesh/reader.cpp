@@ -1,0 +1,138 @@
+#include "apps/mesh/reader.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <system_error>
+
+#include "apps/figures.h"
+#include "apps/mesh/features.h"
+#include "apps/mesh/geometry.h"
+#include "apps/mesh/import.h"
+#include "apps/mesh/lights.h"
+#include "apps/mesh/material.h"
+#include "apps/mesh/placement.h"
+#include "apps/whole_view.h"
+#include "core/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+using Placements = std::vector<Placement>;
+
+void check_readable(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    throw core::InputError("is a folder, expected a mesh file");
+  }
+  if (!std::ifstream(path, std::ios::binary)) {
+    throw core::InputError(std::string("cannot be opened: ") + std::strerror(errno));
+  }
+}
+
+std::vector<core::Material> materials_of(const aiScene& file) {
+  std::vector<core::Material> materials;
+  for (std::size_t i = 0; i < file.mNumMaterials; ++i) {
+    materials.push_back(material_of(*file.mMaterials[i]));
+  }
+  return materials;
+}
+
+/// What all placements become; says what instancing costs.
+GeometrySize measure(const aiScene& file, const Placements& placements, std::vector<std::string>& notes) {
+  std::vector<GeometrySize> sizes(file.mNumMeshes);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    sizes[i] = size_of(*file.mMeshes[i]);
+  }
+  std::set<std::size_t> placed;
+  GeometrySize once, all;
+  for (const Placement& placement : placements) {
+    all += sizes[placement.mesh];
+    once += placed.insert(placement.mesh).second ? sizes[placement.mesh] : GeometrySize{};
+  }
+  if (placed.size() < placements.size()) {
+    notes.push_back(grouped(placed.size()) + (placed.size() == 1 ? " mesh stands in " : " meshes stand in ") +
+                    grouped(placements.size()) + " places: " + grouped(once.triangles) + " triangles become " +
+                    grouped(all.triangles));
+  }
+  return all;
+}
+
+void reserve(core::Scene& scene, const GeometrySize& size) {
+  scene.objects.reserve(size.faces);
+  scene.vertices.reserve(size.corners);
+}
+
+void add_geometry(core::Scene& scene, const aiScene& file, const Placements& placements, const MeshOptions& options) {
+  core::SceneBuilder builder(scene);
+  const std::vector<core::Material> materials = materials_of(file);
+  GeometryWriter writer(builder, materials, options.smooth_degrees);
+  for (const Placement& placement : placements) {
+    const aiMesh& mesh = *file.mMeshes[placement.mesh];
+    if (size_of(mesh).faces > 0) {
+      writer.add(mesh, placement.mesh, placement.world);
+    }
+  }
+  if (!writer.has_area()) {
+    throw core::InputError("there is no triangle in it that has an area; expected a mesh of triangles or polygons");
+  }
+}
+
+void add_surroundings(core::Scene& scene, const aiScene& file, const MeshOptions& options, std::vector<std::string>& notes) {
+  const double scale = options.scale.value_or(1);
+  const Bounds bounds = bounds_of_vertices(scene);
+  scene.background = plain_background;
+  scene.view = camera_of(file, scale, notes).value_or(whole_view(bounds, options.up.value_or(1)));
+  scene.lights = lights_of(file, bounds, scale, notes);
+  if (scene.lights.empty()) {
+    scene.lights = plain_lights(bounds, scene.view);
+  }
+}
+
+MeshFile read(const std::string& path, const MeshOptions& options, bool shows_progress) {
+  check_readable(path);
+  const ImportedFile file = import_file(path, shows_progress);
+  MeshFile result{.scene = {.name = path}, .notes = {}};
+  for (const std::string& missing : file.missing) {
+    result.notes.push_back(missing + " is missing or cannot be opened, and " + path + " refers to it");
+  }
+  const Placements placements = find_placements(*file.scene, options.scale.value_or(1));
+  const GeometrySize size = measure(*file.scene, placements, result.notes);
+  check_size(size);
+  reserve(result.scene, size);
+  add_geometry(result.scene, *file.scene, placements, options);
+  note_features(*file.scene, placements, result.notes);
+  add_surroundings(result.scene, *file.scene, options, result.notes);
+  return result;
+}
+
+}  // namespace
+
+bool is_mesh_path(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  const auto& known = mesh_extensions();
+  return !extension.empty() && std::find(known.begin(), known.end(), extension.substr(1)) != known.end();
+}
+
+std::string known_mesh_formats() {
+  std::string text;
+  for (const std::string& extension : mesh_extensions()) {
+    text += (text.empty() ? "" : ", ") + extension;
+  }
+  return text;
+}
+
+MeshFile read_mesh_file(const std::string& path, const MeshOptions& options, bool shows_progress) {
+  try {
+    return read(path, options, shows_progress);
+  } catch (const core::InputError& error) {
+    throw core::InputError(path + ": " + error.what());
+  }
+}
+
+}  // namespace dmpc::apps

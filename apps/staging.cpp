@@ -1,0 +1,139 @@
+#include "apps/staging.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/option_values.h"
+#include "apps/view_faults.h"
+#include "apps/words.h"
+#include "core/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+using core::Vec3d;
+
+constexpr const char* camera_form = "FROM/AT[/UP[/DEGREES]] with points such as 1,2,3";
+constexpr const char* light_form = "X,Y,Z[/R,G,B] with finite numbers, none of the colour below 0";
+constexpr const char* number_form = "a number above 0, at most 1e30";
+
+[[noreturn]] void refuse(const std::string& option, const std::string& text, const std::string& expected) {
+  throw core::UsageError(option + "=" + text + ": expected " + expected);
+}
+
+std::optional<Vec3d> parse_vector(const std::string& text) {
+  const std::vector<std::string> words = words_between(text, ',');
+  if (words.size() != 3) {
+    return std::nullopt;
+  }
+  const Vec3d vector{finite_number(words[0]), finite_number(words[1]), finite_number(words[2])};
+  return is_finite(vector) ? std::optional(vector) : std::nullopt;
+}
+
+/// With an up that goes with every direction if none is given.
+core::View view_of(const CameraChoice& camera) {
+  const Vec3d direction = camera.at - camera.from;
+  const bool is_upright = std::abs(direction.y) >= std::max(std::abs(direction.x), std::abs(direction.z));
+  return {.from = camera.from,
+          .at = camera.at,
+          .up = camera.up.value_or(is_upright ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0}),
+          .angle_degrees = camera.degrees.value_or(45)};
+}
+
+const char* expected_instead(ViewFault fault) {
+  switch (fault) {
+    case ViewFault::angle:
+      return "an angle between 0 and 180 degrees, both excluded";
+    case ViewFault::far_from:
+    case ViewFault::far_at:
+      return "coordinates from -1e30 to 1e30";
+    case ViewFault::direction:
+      return "FROM and AT at different points";
+    case ViewFault::up:
+      return "an UP that is not zero and not parallel to the line from FROM to AT";
+  }
+  return "";
+}
+
+double parse_scale(const std::string& text) {
+  const double scale = finite_number(text);
+  return scale > 0 && scale <= view_coordinate_max ? scale : (refuse("--scale", text, number_form), 0);
+}
+
+double parse_smooth(const std::string& text) {
+  const double degrees = finite_number(text);
+  return degrees >= 0 && degrees <= 180 ? degrees : (refuse("--smooth", text, "degrees from 0 to 180"), 0);
+}
+
+}  // namespace
+
+CameraChoice parse_camera(const std::string& text) {
+  const std::vector<std::string> parts = words_between(text, '/');
+  const auto vector = [&](std::size_t i) {
+    const auto read = i < parts.size() ? parse_vector(parts[i]) : std::nullopt;
+    return read ? *read : (refuse("--camera", text, camera_form), Vec3d{});
+  };
+  if (parts.size() > 4) {
+    refuse("--camera", text, camera_form);
+  }
+  CameraChoice camera{.from = vector(0), .at = vector(1)};
+  if (parts.size() > 2) {
+    camera.up = vector(2);
+  }
+  if (parts.size() > 3) {
+    camera.degrees = finite_number(parts[3]);
+  }
+  if (const auto fault = fault_of(view_of(camera))) {
+    refuse("--camera", text, expected_instead(*fault));
+  }
+  return camera;
+}
+
+core::PointLight parse_light(const std::string& text) {
+  const std::vector<std::string> parts = words_between(text, '/');
+  const auto position = parse_vector(parts[0]);
+  const auto color = parse_vector(parts.back());
+  if (parts.size() > 2 || !position || !color || (parts.size() == 2 && std::min({color->x, color->y, color->z}) < 0)) {
+    refuse("--light", text, light_form);
+  }
+  return parts.size() == 2 ? core::PointLight{*position, *color, true} : core::PointLight{.position = *position};
+}
+
+void add_options(OptionSet options, Staging& staging) {
+  options.add_text(
+      "--camera", "FROM/AT[/UP[/DEGREES]] [the scene's]",
+      [&staging](const std::string& text) { staging.camera = parse_camera(text); },
+      "From where and at what to look, such as 1,2,3/0,0,0/0,1,0/45");
+  options.add_texts(
+      "--light", "X,Y,Z[/R,G,B] [the scene's]",
+      [&staging](const std::string& text) { staging.lights.push_back(parse_light(text)); },
+      "A point light in place of the scene's; give it again for more. Without a colour it is as bright as NFF's");
+  options.add_text(
+      "--scale", "S [1]", [&staging](const std::string& text) { staging.mesh.scale = parse_scale(text); },
+      "Mesh files: multiply all coordinates by S");
+  options.add_words(
+      "--up", {"x", "y", "z"},
+      [&staging](const std::string& text) { staging.mesh.up = static_cast<std::size_t>(text.front() - 'x'); },
+      "Mesh files: the axis that points up, for the view where the file has none; y if not given");
+  options.add_text(
+      "--smooth", "DEGREES [the file's normals]",
+      [&staging](const std::string& text) { staging.mesh.smooth_degrees = parse_smooth(text); },
+      "Mesh files: reckon vertex normals anew, smooth over edges up to this angle");
+}
+
+void apply(const Staging& staging, core::Scene& scene) {
+  if (staging.camera) {
+    scene.view.from = staging.camera->from;
+    scene.view.at = staging.camera->at;
+    scene.view.up = staging.camera->up.value_or(scene.view.up);
+    scene.view.angle_degrees = staging.camera->degrees.value_or(scene.view.angle_degrees);
+    if (fault_of(scene.view)) {
+      throw core::UsageError("--camera: the scene's own up is parallel to the line from FROM to AT: give UP, too");
+    }
+  }
+  if (!staging.lights.empty()) {
+    scene.lights = staging.lights;
+  }
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,38 @@
+// How a scene is placed, seen and lit, where the command line has its own idea.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/command_line.h"
+#include "apps/mesh/options.h"
+#include "core/scene.h"
+
+namespace dmpc::apps {
+
+/// What --camera says; what it leaves open stays the scene's.
+struct CameraChoice {
+  core::Vec3d from, at;
+  std::optional<core::Vec3d> up;
+  std::optional<double> degrees;
+};
+
+struct Staging {
+  std::optional<CameraChoice> camera;
+  std::vector<core::PointLight> lights;  ///< in place of the scene's, unless there are none
+  MeshOptions mesh;                      ///< for mesh files alone
+};
+
+/// Declares --camera, --light, --scale, --up and --smooth.
+void add_options(OptionSet options, Staging& staging);
+
+/// "FROM/AT[/UP[/DEGREES]]", "1,2,3/0,0,0/0,1,0/45". Throws core::UsageError for anything else, or for a view that shows nothing.
+CameraChoice parse_camera(const std::string& text);
+/// "X,Y,Z[/R,G,B]". Throws core::UsageError for anything else, or for a colour below 0.
+core::PointLight parse_light(const std::string& text);
+
+/// Gives the scene the camera and the lights. Throws core::UsageError if the scene's own up does not go with the camera.
+void apply(const Staging& staging, core::Scene& scene);
+
+}  // namespace dmpc::apps
