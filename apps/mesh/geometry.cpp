@@ -53,8 +53,8 @@ GeometrySize size_of(const aiMesh& mesh) {
 void check_size(const GeometrySize& size) {
   constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max() - std::uint64_t{1};
   if (size.corners > most) {
-    throw core::InputError("with every instance the scene has " + grouped(size.triangles) + " triangles with " +
-                           grouped(size.corners) + " corners; there can be " + grouped(most) + " corners at most: divide it");
+    throw core::RoomError("with every instance the scene has " + grouped(size.triangles) + " triangles with " +
+                          grouped(size.corners) + " corners; there can be " + grouped(most) + " corners at most: divide it");
   }
 }
 

@@ -22,7 +22,7 @@ struct GeometrySize {
   GeometrySize& operator+=(const GeometrySize& other);
 };
 GeometrySize size_of(const aiMesh& mesh);
-/// Throws core::InputError if the indices of a scene do not reach so far.
+/// Throws core::RoomError if the indices of a scene do not reach so far.
 void check_size(const GeometrySize& size);
 
 /// "mesh 3 'wheel'", for messages.

@@ -130,6 +130,8 @@ std::string known_mesh_formats() {
 MeshFile read_mesh_file(const std::string& path, const MeshOptions& options, bool shows_progress) {
   try {
     return read(path, options, shows_progress);
+  } catch (const core::RoomError& error) {
+    throw core::RoomError(path + ": " + error.what());
   } catch (const core::InputError& error) {
     throw core::InputError(path + ": " + error.what());
   }
