@@ -103,7 +103,7 @@ Precision measure(const PrecisionOptions& options, const std::string& name, Inte
 void add_options(OptionSet set, PrecisionOptions& options) {
   set.add_arguments(
       "SCENE", [&options](const std::string& text) { options.scenes.push_back(text); },
-      "NFF files or built-in scenes; all families if none is given");
+      "NFF files, mesh files or built-in scenes; all families if none is given");
   set.add_text(
       "--resolution", "WxH [256x256]", [&options](const std::string& text) { options.resolution = parse_resolution(text); },
       "Pixels of the pictures");

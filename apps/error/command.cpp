@@ -163,7 +163,7 @@ void add_options(OptionSet set, ErrorOptions& options) {
   MeasureOptions& measure = options.measure;
   set.add_arguments(
       "SCENE", [&options](const std::string& text) { options.scenes.push_back(text); },
-      "NFF files, or built-in scenes such as teapot-12, rings-3, tetra-6");
+      "NFF or mesh files, or built-in scenes such as teapot-12, rings-3, tetra-6");
   set.add_text(
       "--knobs", "NAME,NAME,... [all]",
       [&](const std::string& text) {

@@ -64,8 +64,11 @@ std::string name_of(const aiMesh& mesh, std::size_t index) {
 }
 
 void GeometryWriter::add(const aiMesh& mesh, std::size_t index, const Transform& world) {
-  read_vertices(mesh, index, world);
   read_faces(mesh, index, world.determinant() < 0);
+  if (faces_.ends.empty()) {
+    return;  // points and lines alone
+  }
+  read_vertices(mesh, index, world);
   read_normals(mesh, world);
   if (mesh.mMaterialIndex >= materials_.size()) {
     throw core::InputError(name_of(mesh, index) + " has material " + std::to_string(mesh.mMaterialIndex) +

@@ -10,7 +10,7 @@
 namespace dmpc::apps {
 
 struct ImportedFile {
-  std::unique_ptr<const aiScene> scene;
+  std::unique_ptr<aiScene> scene;
   std::vector<std::string> missing;  ///< files that it refers to and that could not be opened, in order, each once
 };
 

@@ -148,7 +148,7 @@ std::optional<core::View> camera_of(const aiScene& scene, double scale, std::vec
       return view;
     }
   }
-  notes.push_back("the file's camera is not taken, since it has no perspective or no direction; the whole scene is in view");
+  notes.push_back("the file's camera is not taken, since it has no perspective or no direction");
   return std::nullopt;
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sstream>
 #include <system_error>
 
 #include "apps/figures.h"
@@ -18,6 +19,7 @@
 #include "apps/mesh/placement.h"
 #include "apps/whole_view.h"
 #include "core/expect.h"
+#include "core/forget.h"
 
 namespace dmpc::apps {
 namespace {
@@ -67,14 +69,31 @@ void reserve(core::Scene& scene, const GeometrySize& size) {
   scene.vertices.reserve(size.corners);
 }
 
-void add_geometry(core::Scene& scene, const aiScene& file, const Placements& placements, const MeshOptions& options) {
+/// In how many places each mesh stands.
+std::vector<std::size_t> count_uses(const aiScene& file, const Placements& placements) {
+  std::vector<std::size_t> uses(file.mNumMeshes);
+  for (const Placement& placement : placements) {
+    ++uses[placement.mesh];
+  }
+  return uses;
+}
+
+/// Frees a mesh that nobody needs any more, long before the file's others.
+void forget(aiScene& file, std::size_t mesh) {
+  delete file.mMeshes[mesh];
+  file.mMeshes[mesh] = nullptr;
+}
+
+/// Each mesh is freed after its last place.
+void add_geometry(core::Scene& scene, aiScene& file, const Placements& placements, const MeshOptions& options) {
   core::SceneBuilder builder(scene);
   const std::vector<core::Material> materials = materials_of(file);
   GeometryWriter writer(builder, materials, options.smooth_degrees);
+  std::vector<std::size_t> uses = count_uses(file, placements);
   for (const Placement& placement : placements) {
-    const aiMesh& mesh = *file.mMeshes[placement.mesh];
-    if (size_of(mesh).faces > 0) {
-      writer.add(mesh, placement.mesh, placement.world);
+    writer.add(*file.mMeshes[placement.mesh], placement.mesh, placement.world);
+    if (--uses[placement.mesh] == 0) {
+      forget(file, placement.mesh);
     }
   }
   if (!writer.has_area()) {
@@ -82,11 +101,25 @@ void add_geometry(core::Scene& scene, const aiScene& file, const Placements& pla
   }
 }
 
+std::string text_of(const core::Vec3d& point) {
+  std::ostringstream text;
+  text << point.x << ',' << point.y << ',' << point.z;
+  return text.str();
+}
+
+/// The whole in view; says how, as a start for a camera of one's own.
+core::View plain_view(const Bounds& bounds, const MeshOptions& options, std::vector<std::string>& notes) {
+  const core::View view = whole_view(bounds, options.up.value_or(1));
+  notes.push_back("the whole is in view, as by --camera=" + text_of(view.from) + "/" + text_of(view.at) + "/" + text_of(view.up));
+  return view;
+}
+
 void add_surroundings(core::Scene& scene, const aiScene& file, const MeshOptions& options, std::vector<std::string>& notes) {
   const double scale = options.scale.value_or(1);
   const Bounds bounds = bounds_of_vertices(scene);
   scene.background = plain_background;
-  scene.view = camera_of(file, scale, notes).value_or(whole_view(bounds, options.up.value_or(1)));
+  const auto camera = camera_of(file, scale, notes);
+  scene.view = camera ? *camera : plain_view(bounds, options, notes);
   scene.lights = lights_of(file, bounds, scale, notes);
   if (scene.lights.empty()) {
     scene.lights = plain_lights(bounds, scene.view);
@@ -104,8 +137,8 @@ MeshFile read(const std::string& path, const MeshOptions& options, bool shows_pr
   const GeometrySize size = measure(*file.scene, placements, result.notes);
   check_size(size);
   reserve(result.scene, size);
-  add_geometry(result.scene, *file.scene, placements, options);
   note_features(*file.scene, placements, result.notes);
+  add_geometry(result.scene, *file.scene, placements, options);
   add_surroundings(result.scene, *file.scene, options, result.notes);
   return result;
 }
@@ -129,7 +162,9 @@ std::string known_mesh_formats() {
 
 MeshFile read_mesh_file(const std::string& path, const MeshOptions& options, bool shows_progress) {
   try {
-    return read(path, options, shows_progress);
+    MeshFile file = read(path, options, shows_progress);
+    core::give_back_freed();  // Assimp's faces are many small pieces
+    return file;
   } catch (const core::RoomError& error) {
     throw core::RoomError(path + ": " + error.what());
   } catch (const core::InputError& error) {

@@ -185,7 +185,8 @@ void add_options(OptionSet set, SpeedOptions& options) {
   SpeedSettings& settings = options.settings;
   set.add_arguments(
       "SCENE", [&settings](const std::string& text) { settings.scenes.push_back(text); },
-      "NFF files, or built-in scenes such as teapot-12, rings-3, tetra-6; without any teapot-12, mount-6-t6, rings-4-t1 and "
+      "NFF or mesh files, or built-in scenes such as teapot-12, rings-3, tetra-6; without any teapot-12, mount-6-t6, rings-4-t1 "
+      "and "
       "tetra-9, with tetra-10 for build and memory, and for pages those of the 1994 article");
   set.add_text(
       "--parts", "NAME,NAME,... [all]", [&options](const std::string& text) { options.parts = parse_speed_parts(text); },

@@ -3,9 +3,12 @@
 #include <doctest/doctest.h>
 
 #include <string>
+#include <vector>
 
 #include "core/expect.h"
+#include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace dmpc::apps {
 
@@ -35,6 +38,44 @@ TEST_CASE("what is neither is refused: a bare word as a name, anything else as a
   CHECK(complaint("./nonsense").find("./nonsense") == 0);
   CHECK(complaint(".").find("folder") != std::string::npos);
   CHECK_FALSE(complaint("").empty());
+}
+
+TEST_CASE("an unknown ending is refused with those that are known, no ending is NFF's") {
+  const tests::TemporaryFolder folder;
+  const std::string text = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 30\nhither 1\nresolution 8 8\ns 0 0 0 1\n";
+  for (const char* name : {"plain", "a.nff", "a.NFF", "a.xyz"}) {
+    tests::write_text(folder / name, text);
+  }
+  CHECK(load_scene((folder / "plain").string()).spheres.size() == 1);
+  CHECK(load_scene((folder / "a.NFF").string()).spheres.size() == 1);
+  CHECK(tests::contains(complaint(folder / "a.xyz"), "expected .nff or one of obj, ply, stl"));
+}
+
+TEST_CASE("a mesh file is a scene, seen and lit as the options say") {
+  const tests::TemporaryFolder folder;
+  tests::write_text(folder / "a.obj", tests::triangle_obj);
+  PictureOptions picture{.scene = folder / "a.obj"};
+  picture.staging = {.camera = parse_camera("0,0,9/0,0,0"), .lights = {parse_light("1,2,3")}, .mesh = {.scale = 2}};
+  const core::Scene scene = load_scene(picture, LoadNotes::silent);
+  CHECK(scene.vertices[1] == core::Vec3d{4, 0, 0});
+  CHECK(scene.view.from == core::Vec3d{0, 0, 9});
+  CHECK(scene.lights.size() == 1);
+}
+
+TEST_CASE("the options of mesh files go with no other scene") {
+  const std::vector<MeshOptions> all = {{.scale = 1}, {.up = 1}, {.smooth_degrees = 60}};
+  for (const MeshOptions& mesh : all) {
+    PictureOptions picture{.scene = "tetra-1"};
+    picture.staging.mesh = mesh;
+    CHECK_THROWS_WITH_AS(load_scene(picture), doctest::Contains("go with mesh files"), core::UsageError);
+  }
+}
+
+TEST_CASE("a camera and lights go with built-in scenes, too") {
+  PictureOptions picture{.scene = "tetra-1"};
+  picture.staging = {.camera = parse_camera("0,0,9/0,0,0"), .lights = {parse_light("1,2,3")}};
+  CHECK(load_scene(picture).view.from == core::Vec3d{0, 0, 9});
+  CHECK(load_scene(picture).lights.size() == 1);
 }
 
 TEST_CASE("a scene's own resolution is bounded, unless another is asked for") {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/staging.h"
 #include "core/expect.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
@@ -59,7 +60,8 @@ TEST_CASE("a triangle is the same in every format") {
     REQUIRE(file.scene.objects.size() == 1);
     CHECK(file.scene.objects[0].kind == ObjectKind::polygon);
     CHECK(file.scene.vertices == triangle);
-    CHECK(file.notes.empty());
+    CHECK(file.notes.size() == 1);
+    CHECK(notes(file, "the whole is in view, as by --camera="));
   }
 }
 
@@ -147,6 +149,23 @@ TEST_CASE("without a camera the whole scene is in view, with the axis up that wa
       CHECK(cosine >= std::cos(22.5 * 3.14159265358979 / 180));
     }
   }
+}
+
+TEST_CASE("the camera that is said for the whole gives the same view again") {
+  const MeshFile file = read("a.obj", "v 10 20 30\nv 14 20 30\nv 12 23 30\nf 1 2 3\n", {.up = 2});
+  const CameraChoice camera = parse_camera(file.notes.at(0).substr(file.notes[0].find('=') + 1));
+  CHECK(length(camera.from - file.scene.view.from) < 1e-3);
+  CHECK(length(camera.at - file.scene.view.at) < 1e-3);
+  CHECK(camera.up == file.scene.view.up);
+}
+
+TEST_CASE("--smooth replaces the file's normals") {
+  const std::string roof = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 -1\nf 1 2 3\nf 1 3 4\n";
+  CHECK(read("a.obj", roof).scene.objects[0].kind == ObjectKind::polygon);
+  CHECK(read("a.obj", roof, {.smooth_degrees = 60}).scene.objects[0].kind == ObjectKind::polygon);
+  CHECK(read("a.obj", roof, {.smooth_degrees = 120}).scene.objects[0].kind == ObjectKind::patch);
+  const Gltf bent{.normals = {0, 0, 1, 0, 1, 0, 0, 0, 1}};
+  CHECK(read(bent, {.smooth_degrees = 60}).scene.objects[0].kind == ObjectKind::polygon);
 }
 
 TEST_CASE("without lights there is a key light and a fill in the eye") {
