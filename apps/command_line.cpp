@@ -191,4 +191,8 @@ std::variant<HelpText, std::string> CommandLine::parse(std::span<const std::stri
   }
 }
 
+void CommandLine::suggest(const std::string& name, const Suggestion& suggestion) { suggestions_[name] = suggestion; }
+
+CommandDescription CommandLine::describe() const { return dmpc::apps::describe(*app_, suggestions_); }
+
 }  // namespace dmpc::apps

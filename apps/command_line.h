@@ -1,4 +1,4 @@
-// Commands and their options: declared, parsed and explained. Its .cpp is the only one that names CLI11.
+// Commands and their options: declared, parsed and explained. CLI11 is named here and in command_description.cpp only.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,8 @@
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "apps/command_description.h"
 
 namespace CLI {
 class App;
@@ -106,8 +108,14 @@ class CommandLine {
   /// the right --help.
   std::variant<HelpText, std::string> parse(std::span<const std::string> arguments);
 
+  /// What a value is that help calls `name`, up to its first dot: "FILE" for "FILE.nff [stdout]" and "SIZE|FILE".
+  void suggest(const std::string& name, const Suggestion& suggestion);
+  /// Everything declared so far.
+  CommandDescription describe() const;
+
  private:
   std::unique_ptr<CLI::App> app_;
+  Suggestions suggestions_;
 };
 
 template <class T, class Field>

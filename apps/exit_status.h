@@ -1,9 +1,24 @@
-// What the program ends with; 0 is for a job done.
+// What the program ends with.
 #pragma once
 
 namespace dmpc::apps {
 
 /// Bad input, wrong usage, an error of dmpc's own, no room on this computer or in the nodes' memory, and a signal.
 inline constexpr int input_status = 1, usage_status = 2, internal_status = 3, no_room_status = 4, interrupted_status = 130;
+
+struct ExitStatus {
+  int status;
+  const char* meaning;
+};
+
+/// All of them.
+inline constexpr ExitStatus exit_statuses[] = {
+    {0, "The job is done."},
+    {input_status, "Bad input: the message says what, where, and what would do."},
+    {usage_status, "Wrong usage: the message ends with the right --help."},
+    {internal_status, "An error of dmpc's own, or a difference that check cannot explain."},
+    {no_room_status, "There is no room for the input, on this computer or in the nodes' memory."},
+    {interrupted_status, "Interrupted by a signal: the message says what became of the output."},
+};
 
 }  // namespace dmpc::apps

@@ -9,7 +9,7 @@ namespace dmpc::apps {
 
 void add_options(OptionSet options, MachineOptions& machine) {
   options.add_argument(
-      "NAME", [&machine](const std::string& text) { machine.machine = text; },
+      "MACHINE", [&machine](const std::string& text) { machine.machine = text; },
       "One of " + machine_preset_names() + "; or a machine file, which is checked");
   options.set_examples(
       "Examples:\n"

@@ -28,4 +28,7 @@ using Command = std::variant<HelpText, RenderOptions, SceneOptions, CheckOptions
 /// anything wrong that can be seen without reading a file.
 Command parse_command_line(std::span<const std::string> arguments);
 
+/// All commands with all options, as parse_command_line() takes them.
+CommandDescription describe_command_line();
+
 }  // namespace dmpc::apps

@@ -31,7 +31,7 @@ void write_output(const core::SceneName& name, Interrupt& interrupt, std::ostrea
 
 void add_options(OptionSet options, SceneOptions& scene) {
   options.add_argument(
-      "NAME", [&scene](const std::string& text) { scene.name = text; },
+      "SCENE", [&scene](const std::string& text) { scene.name = text; },
       "FAMILY, FAMILY-SIZE, or FAMILY-SIZE-tN for curved surfaces as triangles");
   options.add_path("-o,--output", "FILE.nff [stdout]", scene.output, "Where it goes");
   options.set_examples("Families:\n" + core::describe_scene_families() +

@@ -97,7 +97,7 @@ void add_memory_option(OptionSet options, std::optional<std::size_t>& node_memor
 
 void add_machine_options(OptionSet options, ComputerOptions& computer, const std::string& when) {
   options.add_text(
-      "--machine", "NAME|FILE.json [ipsc2]", [&computer](const std::string& name) { computer.machine_name = name; },
+      "--machine", "MACHINE|FILE.json [ipsc2]", [&computer](const std::string& name) { computer.machine_name = name; },
       "The machine that is modelled" + when + ": " + machine_preset_names() + " or a file such as dmpc machine prints");
   options.add_flag("--no-contention", computer.no_contention, "A link carries any number of messages at once" + when);
   options.add_flag("--memory-port", computer.memory_port,

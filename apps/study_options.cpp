@@ -73,7 +73,7 @@ struct AddOwn {
         [&study](const std::string& text) { study.cache_pages = parse_numbers(text, "--cache-pages", cache_pages_max); },
         "Sizes of the caches in pages");
     set.add_text(
-        "--machine", "NAME|FILE.json",
+        "--machine", "MACHINE|FILE.json",
         [&study, &file = machine_name](const std::string& text) {
           study.machine = load_machine(text).machine;
           file = text;

@@ -208,6 +208,14 @@ SceneName parse_scene_name(std::string_view text) {
   fail_on_family(text);
 }
 
+std::vector<SceneName> default_scenes() {
+  std::vector<SceneName> names;
+  for (const Family& family : families) {
+    names.push_back({.family = std::string(family.name), .size = family.size_default});
+  }
+  return names;
+}
+
 std::string describe_scene_families() {
   std::string text;
   for (const Family& family : families) {

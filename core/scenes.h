@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/scene.h"
 
@@ -31,6 +32,9 @@ SceneName parse_scene_name(std::string_view text);
 
 /// Throws InputError unless the family exists, and size and tessellation lie in its ranges.
 void check_scene_name(const SceneName& name);
+
+/// One scene of each family, of its default size, in alphabetical order.
+std::vector<SceneName> default_scenes();
 
 /// The families in alphabetical order with their default sizes and ranges, a line each, for help texts.
 std::string describe_scene_families();

@@ -37,7 +37,7 @@ const std::vector<Foreign> foreign = {
     {"embree", {"apps/embree.h"}},
     {"OpenImageIO/", {"apps/image_file.cpp"}},
     {"assimp/", {"apps/mesh/"}},
-    {"CLI/", {"apps/command_line.cpp"}},
+    {"CLI/", {"apps/command_line.cpp", "apps/command_description.cpp"}},
     {"nlohmann/",
      {"apps/stats", "apps/machine_file.", "apps/study_table.cpp", "apps/compare.cpp", "apps/accurate/reference_file.cpp",
       "apps/scale/figures.cpp", "tests/apps/"}},

@@ -67,7 +67,7 @@ TEST_CASE("wrong usage ends with a hint at the command's help") {
   CHECK(says(complaint({"render", "teapot-12"}), "Try: dmpc render --help"));
   CHECK(says(complaint({"render", "-o", "a.png"}), "SCENE"));
   CHECK(says(complaint({"compare", "a.exr"}), "Try: dmpc compare --help"));
-  CHECK(says(complaint({"scene"}), "NAME"));
+  CHECK(says(complaint({"scene"}), "SCENE"));
 }
 
 }  // namespace dmpc::apps

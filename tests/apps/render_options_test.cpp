@@ -329,7 +329,7 @@ TEST_CASE("the help of render names every option and its default") {
                                  "--topology",
                                  "--runner",
                                  "threads|virtual [threads]",
-                                 "NAME|FILE.json [ipsc2]",
+                                 "MACHINE|FILE.json [ipsc2]",
                                  "ipsc2, ipsc860, paragon, cm5, cs2, gigabit, hdr",
                                  "--no-contention",
                                  "--memory-port",

@@ -1,0 +1,51 @@
+// Writes the manual page and the completion scripts, when the program is built: dmpc_manual FOLDER.
+
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <string>
+
+#include "apps/manual/completion.h"
+#include "apps/manual/man_page.h"
+#include "apps/options.h"
+#include "core/expect.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+void write(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream stream(path, std::ios::binary);
+  stream << text << std::flush;
+  if (!stream) {
+    throw core::InputError(path.string() + " cannot be written");
+  }
+}
+
+void write_manual(const std::filesystem::path& folder) {
+  const CommandDescription program = describe_command_line();
+  std::filesystem::create_directories(folder);
+  write(folder / "dmpc.1", man_page(program, "dmpc " DMPC_VERSION));
+  write(folder / "dmpc.bash", bash_completion(program));
+  write(folder / "_dmpc", zsh_completion(program));
+  write(folder / "dmpc.fish", fish_completion(program));
+}
+
+}  // namespace
+
+}  // namespace dmpc::apps
+
+int main(int count, char** values) {
+  if (count != 2) {
+    std::cerr << "usage: dmpc_manual FOLDER" << std::endl;
+    return 2;
+  }
+  try {
+    dmpc::apps::write_manual(values[1]);
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "dmpc_manual: " << error.what() << std::endl;
+    return 1;
+  }
+}
