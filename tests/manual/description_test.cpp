@@ -1,0 +1,66 @@
+#include "apps/command_description.h"
+
+#include <doctest/doctest.h>
+
+#include "apps/options.h"
+#include "tests/manual/painter.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+CommandDescription paint() { return tests::Painter().line.describe().commands.front(); }
+
+}  // namespace
+
+TEST_CASE("a description has commands, arguments and options in the order of their declaration") {
+  const CommandDescription program = tests::Painter().line.describe();
+  REQUIRE(program.commands.size() == 2);
+  CHECK(program.commands[0].name == "paint");
+  CHECK(program.commands[0].text == "Paints a \"picture\"");
+  CHECK(program.commands[1].commands[1].name == "water");
+  REQUIRE(program.commands[0].arguments.size() == 1);
+  CHECK(program.commands[0].arguments[0].is_required);
+  REQUIRE(program.commands[0].options.size() == 5);
+  CHECK(program.commands[0].options[0].names == Words{"-h", "--help"});
+  CHECK(program.commands[0].options[3].names == Words{"-c", "--coats"});
+  CHECK(program.commands[0].options[3].value == "1..5 [2]");
+  CHECK(program.commands[0].options[4].value.empty());
+}
+
+TEST_CASE("what stands for a value is suggested as it stands, and by the meaning of its name") {
+  const CommandDescription command = paint();
+  CHECK(command.arguments[0].suggestion.words == Words{"house", "horse"});
+  CHECK(command.arguments[0].suggestion.files);
+  CHECK(command.options[1].suggestion.words == Words{"red", "green", "dusk"});
+  CHECK_FALSE(command.options[1].suggestion.files);
+}
+
+TEST_CASE("nothing is suggested for a number") {
+  CHECK(paint().options[3].suggestion.words.empty());
+  CHECK_FALSE(paint().options[3].suggestion.files);
+}
+
+TEST_CASE("words with commas between are a list, a choice is none") {
+  CHECK(paint().options[2].is_list);
+  CHECK_FALSE(paint().options[1].is_list);
+}
+
+TEST_CASE("the program's description has built-in scenes, machines, files and folders") {
+  const CommandDescription program = describe_command_line();
+  const CommandDescription& render = program.commands.front();
+  const Words scenes = render.arguments.front().suggestion.words;
+  CHECK(std::count(scenes.begin(), scenes.end(), "teapot-12") == 1);
+  CHECK(render.arguments.front().suggestion.files);
+  for (const OptionDescription& option : render.options) {
+    CHECK_FALSE(option.text.empty());
+    if (option.names.back() == "--machine") {
+      CHECK(option.suggestion.words.front() == "ipsc2");
+      CHECK(option.suggestion.files);
+    }
+  }
+}
+
+}  // namespace dmpc::apps
