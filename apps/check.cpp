@@ -184,6 +184,7 @@ void add_options(OptionSet options, CheckOptions& check) {
   options.add_number("--list", check.list, 0, 1000000, "10", "Differences to print in full");
   options.add_number("--brute-force", check.brute_force, 0, std::int64_t{1} << 40U, "0",
                      "Rays that are tested against every primitive in double precision, too");
+  options.add_quiet(check.quiet);
   options.set_examples(
       "Examples:\n"
       "  dmpc check teapot-12\n"
@@ -194,7 +195,7 @@ void add_options(OptionSet options, CheckOptions& check) {
 int check_command(const CheckOptions& options, Interrupt& interrupt) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   core::Scene scene = load_scene(options.picture);
-  const auto [database, settings] = build_subject(std::move(scene), options.picture);
+  const auto [database, settings] = build_subject(std::move(scene), options.picture, {}, true);
   const Inspection inspection = inspect_shown(options, database, settings);
   interrupt.set_consequence("the report is incomplete");
   const std::uint64_t unexplained = print_report(options, database, settings.camera, inspection);

@@ -13,6 +13,7 @@ struct CheckOptions {
   PictureOptions picture;
   std::uint32_t list = 10;        ///< differences to print in full, at most
   std::uint64_t brute_force = 0;  ///< rays of the render that go to the referee too, whether they differ or not
+  bool quiet = false;             ///< no progress
 };
 
 /// Declares them.

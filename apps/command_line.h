@@ -52,6 +52,8 @@ class OptionSet {
   void add_path(const std::string& name, const std::string& shown, std::optional<std::filesystem::path>& path,
                 const std::string& description);
   void add_flag(const std::string& name, bool& flag, const std::string& description);
+  /// --quiet, of a command that says nothing but its progress unasked.
+  void add_quiet(bool& quiet);
   /// An option that takes one of `words`, or several with commas between, and may be given several times.
   void add_words(const std::string& name, const std::vector<std::string>& words, const TakeText& take,
                  const std::string& description);

@@ -34,13 +34,14 @@ core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadN
   return std::move(file.scene);
 }
 
-core::Scene load_nff(const std::string& path, std::int64_t pixels_max) {
+core::Scene load_nff(const std::string& path, std::int64_t pixels_max, LoadNotes notes) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (!ending.empty() && ending != ".nff" && ending != ".NFF") {
     throw core::InputError(path + ": files that end in " + ending + " are not read; expected .nff or one of " +
                            known_mesh_formats());
   }
-  return read_nff_file(path, pixels_max);
+  Progress progress(std::cerr, notes == LoadNotes::said && stderr_is_terminal(), "Reading " + path + ":", "bytes");
+  return read_nff_file(path, pixels_max, [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); });
 }
 
 core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int64_t pixels_max, LoadNotes notes) {
@@ -52,7 +53,7 @@ core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int
   if (looks_like_name && !std::filesystem::exists(scene, error)) {
     return core::built_in_scene(core::parse_scene_name(scene));  // throws, listing what there is
   }
-  return is_mesh_path(scene) ? load_mesh(scene, mesh, notes) : load_nff(scene, pixels_max);
+  return is_mesh_path(scene) ? load_mesh(scene, mesh, notes) : load_nff(scene, pixels_max, notes);
 }
 
 void check_mesh_options(const std::string& scene, const MeshOptions& options) {

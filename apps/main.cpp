@@ -17,6 +17,7 @@
 #include "apps/machine.h"
 #include "apps/options.h"
 #include "apps/output_file.h"
+#include "apps/progress.h"
 #include "apps/render.h"
 #include "apps/scale/command.h"
 #include "apps/scene.h"
@@ -52,6 +53,15 @@ struct Execute {
   int operator()(const StudyOptions& options) const { return study_command(options, interrupt, std::cout); }
 };
 
+/// Commands that show progress have a field `quiet`.
+constexpr auto obey_quiet = [](const auto& options) {
+  if constexpr (requires { options.quiet; }) {
+    if (options.quiet) {
+      silence_progress();
+    }
+  }
+};
+
 int complain(const std::string& message, int status) {
   std::cerr << "dmpc: " << message << std::endl;
   return status;
@@ -61,6 +71,7 @@ int run(const std::vector<std::string>& arguments) {
   Interrupt interrupt;
   try {
     const Command command = parse_command_line(arguments);
+    std::visit(obey_quiet, command);
     return std::visit(Execute{interrupt}, command);
   } catch (const Interrupted&) {
     return complain(std::string("interrupted, ") + interrupt.consequence(), interrupted_status);

@@ -20,6 +20,8 @@ namespace {
 
 using core::Vec3d;
 
+constexpr std::uint64_t entities_a_step = 1024;
+
 class NffReader {
  public:
   NffReader(std::istream& input, const std::string& name, std::int64_t pixels_max, core::Scene& scene)
@@ -29,12 +31,16 @@ class NffReader {
     scene.background = {};
   }
 
-  void read() {
+  /// Calls `progress` now and then with the bytes read, if it is given.
+  void read(const std::function<void(std::uint64_t)>& progress) {
     if (tokens_.peek().empty()) {
       tokens_.fail_at_next("the file is empty; expected an NFF scene with at least a view ('v')");
     }
-    while (!tokens_.peek().empty()) {
+    for (std::uint64_t count = 1; !tokens_.peek().empty(); ++count) {
       read_entity();
+      if (progress && count % entities_a_step == 0) {
+        progress(tokens_.bytes_read());
+      }
     }
     if (view_line_ == 0) {
       tokens_.fail_at_next("the file ends without a view; add 'v' with from, at, up, angle, hither and resolution");
@@ -295,11 +301,12 @@ void NffReader::read_patch() {
 
 core::Scene read_nff(std::istream& input, const std::string& name, std::int64_t pixels_max) {
   core::Scene scene;
-  NffReader(input, name, pixels_max, scene).read();
+  NffReader(input, name, pixels_max, scene).read({});
   return scene;
 }
 
-core::Scene read_nff_file(const std::string& path, std::int64_t pixels_max) {
+core::Scene read_nff_file(const std::string& path, std::int64_t pixels_max,
+                          const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     throw core::InputError(path + ": is a folder, expected an NFF file");
@@ -308,7 +315,14 @@ core::Scene read_nff_file(const std::string& path, std::int64_t pixels_max) {
   if (!input) {
     throw core::InputError(path + ": cannot be opened: " + std::strerror(errno) + "; expected an NFF file");
   }
-  return read_nff(input, path, pixels_max);
+  const std::uintmax_t size = std::filesystem::is_regular_file(path, error) ? std::filesystem::file_size(path, error) : 0;
+  core::Scene scene;
+  NffReader(input, path, pixels_max, scene).read([&progress, size](std::uint64_t bytes) {
+    if (progress && bytes <= size) {
+      progress(bytes, size);
+    }
+  });
+  return scene;
 }
 
 }  // namespace dmpc::apps

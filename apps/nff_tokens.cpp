@@ -57,6 +57,7 @@ bool NffTokens::read_line() {
     return false;
   }
   ++line_;
+  bytes_read_ += text_.size() + 1;
   position_ = 0;
   return true;
 }

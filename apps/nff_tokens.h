@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <iosfwd>
 #include <string>
 #include <string_view>
@@ -35,6 +36,8 @@ class NffTokens {
   std::string found();
   /// The line of the token taken last.
   std::size_t line() const { return taken_line_; }
+  /// Bytes of the stream up to the end of the line that is cut up now; one more if the stream's last line has no end.
+  std::uint64_t bytes_read() const { return bytes_read_; }
 
  private:
   bool read_line();
@@ -46,6 +49,7 @@ class NffTokens {
   std::size_t position_ = 0;    ///< in text_, behind token_
   std::size_t line_ = 0;        ///< of text_, from 1
   std::size_t taken_line_ = 0;  ///< of the token taken last
+  std::uint64_t bytes_read_ = 0;
 };
 
 /// A token as a message shows it: in quotes, short, printable.

@@ -14,6 +14,8 @@ namespace dmpc::apps {
 namespace {
 
 constexpr std::uint64_t bar_width = 30;
+bool is_silenced = false;
+
 constexpr const char* back_and_clear = "\r\x1b[K";
 
 std::string bar(std::uint64_t done, std::uint64_t total) {
@@ -43,16 +45,25 @@ std::string progress_line(std::uint64_t done, std::uint64_t total, double second
   text << std::setw(3) << 100 * done / total << " % [" << bar(done, total) << "]";
   if (done > 0 && seconds > 0) {
     const double rate = static_cast<double>(done) / seconds;
-    text << ' ' << std::fixed << std::setprecision(0) << std::setw(8) << rate << ' ' << unit << "/s, "
-         << clock_text(static_cast<double>(total - done) / rate) << " left";
+    text << ' ' << std::fixed << std::setprecision(0) << std::setw(8) << rate << ' ' << unit << "/s";
+    if (seconds >= 10 || (seconds >= 1 && done >= total / 100)) {
+      text << ", " << clock_text(static_cast<double>(total - done) / rate) << " left";
+    }
   }
   return text.str();
 }
 
+void silence_progress() { is_silenced = true; }
+
 bool stderr_is_terminal() { return ::isatty(STDERR_FILENO) == 1; }
 
 Progress::Progress(std::ostream& output, bool shown, std::string label, std::string unit)
-    : output_(output), shown_(shown), label_(std::move(label)), unit_(std::move(unit)), start_(Clock::now()), next_(start_) {
+    : output_(output),
+      shown_(shown && !is_silenced),
+      label_(std::move(label)),
+      unit_(std::move(unit)),
+      start_(Clock::now()),
+      next_(start_) {
   if (shown_ && !label_.empty()) {
     output_ << back_and_clear << label_ << std::flush;
   }

@@ -9,11 +9,15 @@
 namespace dmpc::apps {
 
 /// " 42 % [========>           ]  123456 pixels/s, 0:07 left", without a line end; `unit` is what is counted. `done` <= `total`,
-/// `total` > 0, `seconds` >= 0 since the start. What cannot be known yet is left out.
+/// `total` > 0, `seconds` >= 0 since the start. What cannot be known yet is left out: a time left is said from a second on, once
+/// a hundredth is done or ten seconds have passed.
 std::string progress_line(std::uint64_t done, std::uint64_t total, double seconds, const std::string& unit = "pixels");
 
 /// Whether stderr is a terminal.
 bool stderr_is_terminal();
+
+/// From now on no Progress is shown, in the whole process: for --quiet, before anything is done.
+void silence_progress();
 
 /// Rewrites its line at most ten times a second and takes it away in the end. Not thread-safe: one thread at a time.
 class Progress {

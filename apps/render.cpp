@@ -59,7 +59,7 @@ Subject load(const RenderOptions& options, Interrupt& interrupt, Seconds& second
   Stopwatch stopwatch;
   core::Scene scene = load_scene(options.picture, options.quiet ? LoadNotes::silent : LoadNotes::said);
   seconds.load = stopwatch.lap();
-  Subject subject = build_subject(std::move(scene), options.picture, options.database);
+  Subject subject = build_subject(std::move(scene), options.picture, options.database, true);
   if (options.tracer != TracerChoice::embree) {
     subject.database.forget_primitives();
   }

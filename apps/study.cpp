@@ -62,7 +62,7 @@ void check_output(const StudyOptions& options) {
 /// A signal ends the process here and now.
 Subject load(const StudyOptions& options, Interrupt& interrupt) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
-  return build_subject(load_scene(options.picture), options.picture, options.database);
+  return build_subject(load_scene(options.picture), options.picture, options.database, true);
 }
 
 std::string samples_text(const PictureOptions& picture) {

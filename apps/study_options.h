@@ -29,6 +29,7 @@ struct StudyOptions {
   std::optional<std::filesystem::path> output;  ///< stdout if not given
   std::optional<std::filesystem::path> plots;   ///< a folder for pictures and what they are drawn from
   std::string machine_name;                     ///< as given on the command line, if it was
+  bool quiet = false;                           ///< no progress
 };
 
 /// Declares those that all studies share, and those of the study that `options` holds now.

@@ -78,6 +78,7 @@ void add_options(OptionSet options, PaperStudyOptions& paper) {
                    "Also change each figure of the machine by a fifth, and show what it does: some minutes more");
   options.add_path("-o,--output", "FOLDER", paper.output,
                    "Where report.md goes, with each table as CSV and JSON and pictures by gnuplot");
+  options.add_quiet(paper.quiet);
   options.set_examples(
       "Examples:\n"
       "  dmpc study paper -o paper              the article's pictures: some minutes\n"

@@ -19,6 +19,7 @@ struct PaperStudyOptions {
   std::uint32_t resolution = paper_resolution;
   bool has_sensitivity = false;                 ///< also change each figure of the machine and see what that does
   std::optional<std::filesystem::path> output;  ///< a folder for the report, its tables and plots; without it the report alone
+  bool quiet = false;                           ///< no progress
 };
 
 /// Declares them.

@@ -149,7 +149,15 @@ class DatabaseBuilder {
   void write_grid(const TopCells& cells) {
     const BrickBuilder builder(conversion_.primitives, result_.pad_, header().frame.finest_cell, parallel_);
     std::vector<BrickTree> trees(cells.size());
-    parallel_.for_each(trees.size(), [&](std::size_t i) { trees[i] = builder.build(cells.corner(i), cells.ids(i)); });
+    std::uint64_t sorted = 0;
+    parallel_.for_each(
+        trees.size(), [&](std::size_t i) { trees[i] = builder.build(cells.corner(i), cells.ids(i)); },
+        [&](std::size_t i) {
+          sorted += cells.ids(i).size();
+          if (options_.progress) {
+            options_.progress(sorted, cells.references());
+          }
+        });
     std::vector<DirectoryEntry> directory(directory_entry_count(header().directory_size));
     for (std::size_t i = 0; i < trees.size(); ++i) {
       const std::uint64_t entry = directory_index(header().directory_size, cells.corner(i));

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -20,7 +21,10 @@ struct BuildOptions {
   RecordOrder record_order = RecordOrder::spatial;
   GridAxes axes = world_axes;  ///< the grid's directions: another grid, so other bits, but the same picture to rounding
   std::uint32_t threads = 0;   ///< that build; 0: one for each core. The bytes are the same
-  double pad_share = 1;        ///< of insertion_pad(); less than 1 only to test what the pad would hide
+  /// Called now and then, by one thread at a time, with the references that are sorted into trees and how many there are: the
+  /// longest part of a build. May be empty.
+  std::function<void(std::uint64_t, std::uint64_t)> progress = {};
+  double pad_share = 1;  ///< of insertion_pad(); less than 1 only to test what the pad would hide
 };
 
 /// Where a primitive came from, for messages, for the oracle and for counting; host only.

@@ -1,5 +1,7 @@
 #include "core/parallel.h"
 
+#include <mutex>
+
 #ifndef DMPC_SERIAL_BUILD
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -43,6 +45,16 @@ void Parallel::for_each(std::size_t count, const std::function<void(std::size_t)
   for (std::size_t i = 0; i < count; ++i) {
     part(i);
   }
+}
+
+void Parallel::for_each(std::size_t count, const std::function<void(std::size_t)>& part,
+                        const std::function<void(std::size_t)>& ended) const {
+  std::mutex one_at_a_time;
+  for_each(count, [&](std::size_t i) {
+    part(i);
+    const std::lock_guard lock(one_at_a_time);
+    ended(i);
+  });
 }
 
 }  // namespace dmpc::core

@@ -54,7 +54,7 @@ const std::vector<Foreign> foreign = {
     // that share their progress.
     {"thread", {"nodes/", "tests/", "apps/interrupt.", "apps/speed/crew."}},
     {"atomic", {"nodes/", "tests/", "apps/interrupt."}},
-    {"mutex", {"nodes/", "tests/", "apps/study_runs.cpp"}},
+    {"mutex", {"nodes/", "tests/", "apps/study_runs.cpp", "core/parallel.cpp"}},
     {"shared_mutex", {"nodes/", "tests/"}},
     {"condition_variable", {"nodes/", "tests/"}},
     {"future", {"nodes/", "tests/"}},

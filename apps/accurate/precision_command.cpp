@@ -110,6 +110,7 @@ void add_options(OptionSet set, PrecisionOptions& options) {
   set.add_number("--depth", options.depth, 1, 255, "5", "Longest chain of reflections and refractions");
   add_format_option(set, options.format);
   set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
+  set.add_quiet(options.quiet);
   set.set_examples(
       "Examples:\n"
       "  dmpc bench precision\n"

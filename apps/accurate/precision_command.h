@@ -20,6 +20,7 @@ struct PrecisionOptions {
   int depth = 5;
   TableFormat format = TableFormat::markdown;
   std::optional<std::filesystem::path> output;  ///< stdout if not given
+  bool quiet = false;                           ///< no progress
 };
 
 /// Declares them.

@@ -193,6 +193,7 @@ void add_options(OptionSet set, ErrorOptions& options) {
                "Where pictures of every point's error go, " + fixed(static_cast<double>(picture_scale), 0) + " times as bright");
   add_format_option(set, options.format);
   set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
+  set.add_quiet(options.quiet);
   set.set_examples(
       "Examples:\n"
       "  dmpc bench error teapot-12 --quick --resolution=256x256\n"

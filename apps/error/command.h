@@ -23,6 +23,7 @@ struct ErrorOptions {
   std::optional<std::filesystem::path> output;  ///< stdout if not given
   std::optional<std::filesystem::path> plots;   ///< a folder for pictures by gnuplot and what they are drawn from
   bool has_tessellation = false;                ///< asked for by name: a scene that has none is refused
+  bool quiet = false;                           ///< no progress
 };
 
 /// Declares them.

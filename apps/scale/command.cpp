@@ -130,6 +130,7 @@ void add_options(OptionSet set, ScaleOptions& options) {
   add_format_option(set, options.format);
   set.add_path("--plots", "FOLDER", options.plots, "Where pictures by gnuplot go, with their scripts and the table as CSV");
   set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
+  set.add_quiet(options.quiet);
   set.set_examples(
       "Examples:\n"
       "  dmpc study scale --plots=plots -o scale.md      a thousand to 17 million triangles: some minutes, and 6 GB of memory\n"

@@ -208,6 +208,7 @@ void add_options(OptionSet set, SpeedOptions& options) {
                "Where pictures by gnuplot go, with their scripts and what they are drawn from");
   add_format_option(set, options.format);
   set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
+  set.add_quiet(options.quiet);
   set.set_examples(
       "Examples:\n"
       "  dmpc bench speed --quick\n"

@@ -20,6 +20,7 @@ struct SpeedOptions {
   TableFormat format = TableFormat::markdown;
   std::optional<std::filesystem::path> output;  ///< stdout if not given
   std::optional<std::filesystem::path> plots;   ///< a folder for pictures by gnuplot and what they are drawn from
+  bool quiet = false;                           ///< no progress
 };
 
 /// Declares them.

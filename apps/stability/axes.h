@@ -56,7 +56,7 @@ inline core::Scene crowded_scene() {
 }
 
 /// As many cells as cut crowded_scene() into 2x2x2 top cells.
-inline constexpr core::BuildOptions crowded_options{.cells_per_primitive = 4};
+inline const core::BuildOptions crowded_options{.cells_per_primitive = 4};
 
 /// A coordinate on a plane of the lattice, often one between cells or top cells, on the bound or on a face of crowded_scene(), or
 /// anywhere.

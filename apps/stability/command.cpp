@@ -108,6 +108,7 @@ void add_options(OptionSet set, StabilityOptions& options) {
   set.add_path("--resume", "FILE", options.resume, "Keep the run's state in FILE, and go on from there if it exists");
   add_format_option(set, options.format);
   set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
+  set.add_quiet(options.quiet);
   set.set_examples(
       "Examples:\n"
       "  dmpc bench stability --quick\n"

@@ -24,6 +24,7 @@ struct StabilityOptions {
   TableFormat format = TableFormat::markdown;
   std::optional<std::filesystem::path> output;  ///< stdout if not given
   std::optional<std::filesystem::path> resume;  ///< where the run's state is kept, and gone on from
+  bool quiet = false;                           ///< no progress
 };
 
 /// Declares them.

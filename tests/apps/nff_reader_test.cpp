@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "core/expect.h"
 
@@ -262,4 +263,23 @@ TEST_CASE("a file is read, and a path that is a folder or leads nowhere is refus
   std::filesystem::remove(path);
   CHECK_THROWS_WITH_AS(apps::read_nff_file(path.string()), doctest::Contains("cannot be opened: No such file"), core::InputError);
   CHECK_THROWS_WITH_AS(apps::read_nff_file("/"), doctest::Contains("/: is a folder"), core::InputError);
+}
+
+TEST_CASE("progress counts the bytes of a file, up to what it has") {
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / "dmpc_nff_reader_progress_test.nff";
+  std::ofstream(path) << view;
+  for (int i = 0; i < 3000; ++i) {
+    std::ofstream(path, std::ios::app) << "s 0 0 0 1\n";
+  }
+  const std::uint64_t size = std::filesystem::file_size(path);
+  std::vector<std::uint64_t> steps;
+  apps::read_nff_file(path.string(), apps::picture_pixels_max, [&](std::uint64_t done, std::uint64_t total) {
+    CHECK(done <= total);
+    CHECK(total == size);
+    steps.push_back(done);
+  });
+  std::filesystem::remove(path);
+  REQUIRE(steps.size() >= 2);
+  CHECK(steps[0] < steps[1]);
+  CHECK(steps[0] > size / 4);
 }

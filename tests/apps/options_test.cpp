@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <initializer_list>
 #include <string>
 #include <vector>
@@ -68,6 +69,18 @@ TEST_CASE("wrong usage ends with a hint at the command's help") {
   CHECK(says(complaint({"render", "-o", "a.png"}), "SCENE"));
   CHECK(says(complaint({"compare", "a.exr"}), "Try: dmpc compare --help"));
   CHECK(says(complaint({"scene"}), "SCENE"));
+}
+
+TEST_CASE("every command that shows progress can be told not to") {
+  for (const CommandDescription& command : describe_command_line().commands) {
+    for (const CommandDescription& inner : command.commands) {
+      CHECK_MESSAGE(std::any_of(inner.options.begin(), inner.options.end(),
+                                [](const OptionDescription& option) { return option.names.back() == "--quiet"; }),
+                    inner.name);
+    }
+  }
+  CHECK(std::get<CheckOptions>(parse_command_line(std::vector<std::string>{"check", "tetra-3", "--quiet"})).quiet);
+  CHECK_FALSE(std::get<CheckOptions>(parse_command_line(std::vector<std::string>{"check", "tetra-3"})).quiet);
 }
 
 }  // namespace dmpc::apps

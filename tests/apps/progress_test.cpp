@@ -17,8 +17,15 @@ TEST_CASE("a progress line says percent, speed and the time left") {
   CHECK(progress_line(1000, 1000, 1) == "100 % [==============================]     1000 pixels/s, 0:00 left");
 }
 
+TEST_CASE("a progress line does not say a time left that it cannot know yet") {
+  CHECK(progress_line(500, 1000, 0.5) == " 50 % [===============>              ]     1000 pixels/s");
+  CHECK(progress_line(9, 1000, 9).find("left") == std::string::npos);
+  CHECK(progress_line(9, 1000, 10).find("left") != std::string::npos);
+  CHECK(progress_line(10, 1000, 1).find("left") != std::string::npos);
+}
+
 TEST_CASE("a long time left is said in hours") {
-  CHECK(progress_line(1, 3724, 1).find("1:02:03 left") != std::string::npos);
+  CHECK(progress_line(10, 37240, 10).find("10:20:30 left") != std::string::npos);
   CHECK(progress_line(1, std::uint64_t{1} << 40U, 1e9).find(" left") != std::string::npos);
 }
 

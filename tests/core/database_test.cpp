@@ -212,3 +212,18 @@ TEST_CASE("bricks, blocks and normals are counted by kind") {
   CHECK(counts.bricks > 100);
   CHECK(counts.blocks[0] * block_lanes >= database_of(large).references());
 }
+
+TEST_CASE("the progress of a build ends with all its references, and changes nothing") {
+  const Scene scene = scene_of(sphere_mesh(60, 80, 0));
+  std::uint64_t last = 0, total = 0;
+  const auto note = [&](std::uint64_t done, std::uint64_t all) {
+    CHECK(done > last);
+    last = done;
+    total = all;
+  };
+  const Database told = build_database(scene, {.threads = 1, .progress = note});
+  CHECK(last == total);
+  CHECK(total == told.references());
+  const Database plain = build_database(scene, {});
+  CHECK(std::equal(told.bytes().begin(), told.bytes().end(), plain.bytes().begin(), plain.bytes().end()));
+}

@@ -28,6 +28,22 @@ TEST_CASE("a part may share out parts of its own") {
   }
 }
 
+TEST_CASE("the end of every part is told once, never two ends at a time") {
+  for (const std::uint32_t threads : {1U, 2U, 8U}) {
+    const Parallel parallel(threads);
+    std::vector<int> done(1000);
+    std::size_t ended = 0, untimely = 0;
+    parallel.for_each(
+        done.size(), [&](std::size_t i) { ++done[i]; },
+        [&](std::size_t i) {
+          ++ended;
+          untimely += done[i] == 1 ? 0 : 1;
+        });
+    CHECK(ended == done.size());
+    CHECK(untimely == 0);
+  }
+}
+
 TEST_CASE("what a part throws arrives") {
   for (const std::uint32_t threads : {1U, 2U}) {
     const Parallel parallel(threads);

@@ -16,7 +16,10 @@ TEST_CASE("roff takes nothing of a text for an order, an escape or a quotation m
   CHECK(roff("'br \"a\"") == "\\(aqbr \\(dqa\\(dq");
 }
 
-TEST_CASE("what is copied from a page can be typed") { CHECK(roff("--a=`b`~^") == "\\-\\-a=\\(gab\\(ga\\(ti\\(ha"); }
+TEST_CASE("what is copied from a page can be typed") {
+  CHECK(roff("--a=`b`") == "\\-\\-a=\\(gab\\(ga");
+  CHECK(roff("~^") == "\\(ti\\(ha");
+}
 
 TEST_CASE("a paragraph that begins a section has no order of its own") {
   ManualPage page("T", "t 1");
