@@ -76,15 +76,30 @@ bool write_pixels(OIIO::ImageOutput& output, const fs::path& path, const Image& 
                             : output.write_image(OIIO::TypeDesc::UINT8, srgb_bytes(image).data());
 }
 
-/// Writes `image` to `file` in the format that `path` asks for.
-void write_to(const fs::path& file, const fs::path& path, const Image& image) {
+OIIO::ImageSpec specification(const Channel& channel) {
+  OIIO::ImageSpec spec(channel.width, channel.height, 1, OIIO::TypeDesc::FLOAT);
+  spec.channelnames = {channel.name};
+  spec.attribute("Software", "dmpc");
+  spec.attribute("compression", "zip");
+  for (const auto& [name, text] : channel.remarks) {
+    spec.attribute(name, text);
+  }
+  return spec;
+}
+
+/// Writes to `file` in the format that `path` asks for; write_all(output) returns whether its writing succeeded.
+template <class WriteAll>
+void write_to(const fs::path& file, const fs::path& path, const OIIO::ImageSpec& spec, const WriteAll& write_all) {
   const std::unique_ptr<OIIO::ImageOutput> output = create_output(path);
-  const bool written =
-      output->open(file.string(), specification(path, image)) && write_pixels(*output, path, image) && output->close();
+  const bool written = output->open(file.string(), spec) && write_all(*output) && output->close();
   std::error_code error;
   if (!written || !fs::exists(file, error)) {
     throw core::InputError(path.string() + ": cannot be written: " + output->geterror());
   }
+}
+
+void write_to(const fs::path& file, const fs::path& path, const Image& image) {
+  write_to(file, path, specification(path, image), [&](OIIO::ImageOutput& output) { return write_pixels(output, path, image); });
 }
 
 std::vector<float> read_channels(OIIO::ImageInput& input, const fs::path& path, int count) {
@@ -135,6 +150,13 @@ void write_image(const fs::path& path, const Image& image) {
 void write_image(const fs::path& path, const Image& image, const OutputFile& file) {
   core::expect(image.width > 0 && image.height > 0, "a picture to be written has at least one pixel");
   write_to(file.temporary(), path, image);
+}
+
+void write_channel(const fs::path& path, const Channel& channel, const OutputFile& file) {
+  core::expect(channel.values.size() == static_cast<std::size_t>(channel.width) * static_cast<std::size_t>(channel.height),
+               "a channel has a number for each pixel");
+  write_to(file.temporary(), path, specification(channel),
+           [&](OIIO::ImageOutput& output) { return output.write_image(OIIO::TypeDesc::FLOAT, channel.values.data()); });
 }
 
 Image read_image(const fs::path& path) {

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "apps/output_file.h"
@@ -24,6 +26,14 @@ struct Image {
   std::vector<float> rgb;
 };
 
+/// One number a pixel, row by row from the top left, with what a reader should know of them.
+struct Channel {
+  int width = 0, height = 0;
+  std::string name;
+  std::vector<float> values;
+  std::vector<std::pair<std::string, std::string>> remarks;  ///< names and texts, kept with the picture where the format can
+};
+
 /// Throws core::InputError unless a picture can be written at `path`: the extension is one that OpenImageIO writes, `path` is no
 /// pipe or device, the folder is there, and a picture of one pixel can be written in it (it is removed again). `option` names the
 /// option that gave it, for the message.
@@ -35,6 +45,9 @@ void write_image(const std::filesystem::path& path, const Image& image);
 
 /// The same up to the commit, which is left to the caller: `file` is what becomes `path`.
 void write_image(const std::filesystem::path& path, const Image& image, const OutputFile& file);
+
+/// Writes the channel alone, as 32-bit floats, up to the commit. Requires a path that ends in .exr, and a number for each pixel.
+void write_channel(const std::filesystem::path& path, const Channel& channel, const OutputFile& file);
 
 /// Reads the first three channels (one channel is taken thrice). Floats are taken as linear radiance; integers as sRGB and made
 /// linear. Throws core::InputError if there is no such picture.

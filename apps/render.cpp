@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "apps/distinct_files.h"
+#include "apps/heat_files.h"
 #include "apps/load_scene.h"
 #include "apps/machines.h"
 #include "apps/output_file.h"
@@ -46,10 +47,16 @@ void check_outputs(const RenderOptions& options) {
   if (options.stats) {
     outputs.push_back({"--stats", *options.stats});
   }
+  for (const HeatRequest& request : options.heat_maps) {
+    outputs.push_back({"--heatmap", request.path});
+  }
   check_distinct(inputs, outputs);
   check_image_path(options.image, "-o");
   if (options.stats) {
     check_output_path(*options.stats, "--stats");
+  }
+  for (const HeatRequest& request : options.heat_maps) {
+    check_image_path(request.path, "--heatmap");
   }
 }
 
@@ -67,12 +74,21 @@ Subject load(const RenderOptions& options, Interrupt& interrupt, Seconds& second
   return subject;
 }
 
+/// Where the nodes' meters write; nothing if nobody wants to know.
+std::optional<nodes::HeatMap> make_heat_map(const RenderOptions& options, const core::Camera& camera) {
+  if (options.heat_maps.empty()) {
+    return std::nullopt;
+  }
+  return nodes::HeatMap(static_cast<std::uint32_t>(camera.width() * camera.height()), kinds_of(options.heat_maps));
+}
+
 /// Plans, and says what the user should know before waiting for the picture; a signal ends the process here and now.
 /// The host's copy of the database is freed as soon as the nodes have theirs.
-ReadyRun prepare(const RenderOptions& options, Subject& subject, Interrupt& interrupt, Seconds& seconds) {
+ReadyRun prepare(const RenderOptions& options, Subject& subject, nodes::HeatMap* heat, Interrupt& interrupt, Seconds& seconds) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   Stopwatch stopwatch;
-  ReadyRun run = make_ready(options, subject.database, subject.settings, {}, [&subject] { subject.database.forget_records(); });
+  ReadyRun run = make_ready(
+      options, subject.database, subject.settings, {}, [&subject] { subject.database.forget_records(); }, heat);
   seconds.prepare = stopwatch.lap();
   for (const std::string& note : run.notes) {
     if (!options.quiet) {
@@ -99,6 +115,7 @@ Report run_timed(const RenderOptions& options, const ReadyRun& run, const Interr
 
 /// Writes all files before any gets its name, so that a failure leaves none of them.
 void write_files(const RenderRecord& record, OutputFile& picture, const std::string& counters, Interrupt& interrupt) {
+  HeatFiles heat_maps(record);
   std::optional<OutputFile> stats;
   if (!counters.empty()) {
     stats.emplace(*record.options.stats);
@@ -106,6 +123,7 @@ void write_files(const RenderRecord& record, OutputFile& picture, const std::str
   }
   interrupt.set_consequence("perhaps not all outputs were written");
   picture.commit();
+  heat_maps.commit();
   if (stats) {
     stats->commit();
   }
@@ -120,19 +138,18 @@ void print_closing(const RenderRecord& record, const std::string& counters, std:
   finish_output(output, "the picture was written, but what follows it");
 }
 
-void write_outputs(const RenderOptions& options, const core::Database& database, const Report& report, Seconds seconds,
-                   Interrupt& interrupt, std::ostream& output) {
+void write_outputs(RenderRecord record, Interrupt& interrupt, std::ostream& output) {
   std::signal(SIGPIPE, SIG_IGN);  // a pipe that nobody reads is an error to report, and no reason to leave temporary files
   interrupt.set_consequence("the picture was not written");
   const Interrupt::EndAtOnce end_at_once(interrupt);
   Stopwatch stopwatch;
+  const RenderOptions& options = record.options;
   OutputFile picture(options.image);
-  write_image(options.image, image_of(account_of(report).film), picture);
-  seconds.write = stopwatch.lap();
+  write_image(options.image, image_of(account_of(record.report).film), picture);
+  record.seconds.write = stopwatch.lap();
   const ProcessorTime all = processor_time();
-  seconds.user = all.user;
-  seconds.system = all.system;
-  const RenderRecord record{options, database, report, seconds};
+  record.seconds.user = all.user;
+  record.seconds.system = all.system;
   const std::string counters = options.stats ? stats_json(record) : "";
   const bool to_standard_output = options.stats && is_standard_output(*options.stats);
   write_files(record, picture, to_standard_output ? "" : counters, interrupt);
@@ -159,9 +176,10 @@ int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostrea
   choose_machine(options);
   Seconds seconds;
   Subject subject = load(options, interrupt, seconds);
-  const ReadyRun run = prepare(options, subject, interrupt, seconds);
+  std::optional<nodes::HeatMap> heat = make_heat_map(options, subject.settings.camera);
+  const ReadyRun run = prepare(options, subject, heat ? &*heat : nullptr, interrupt, seconds);
   const Report report = run_timed(options, run, interrupt, seconds);
-  write_outputs(options, subject.database, report, seconds, interrupt, output);
+  write_outputs({options, subject.database, report, seconds, heat ? &*heat : nullptr}, interrupt, output);
   return 0;
 }
 

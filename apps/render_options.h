@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "apps/command_line.h"
 #include "apps/database_options.h"
+#include "apps/heat_options.h"
 #include "apps/picture_options.h"
 #include "apps/strategy_options.h"
 
@@ -17,6 +19,7 @@ struct RenderOptions : StrategyOptions {
   DatabaseOptions database;
   std::filesystem::path image;                 ///< where the picture goes
   std::optional<std::filesystem::path> stats;  ///< where the counters go, as JSON
+  std::vector<HeatRequest> heat_maps;          ///< what else is to be shown of each pixel
   bool quiet = false;                          ///< no progress and no closing lines
 };
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <variant>
 
+#include "apps/heat_field.h"
 #include "apps/machine_file.h"
 #include "apps/stats_strategy.h"
 #include "apps/stats_virtual.h"
@@ -226,6 +227,22 @@ Json seconds_json(const Seconds& seconds) {
           {"render_system", seconds.render_system}};
 }
 
+Json heat_maps_json(const RenderRecord& record) {
+  Json result;
+  for (const HeatRequest& request : record.options.heat_maps) {
+    const HeatField field = heat_field(request.kind, record);
+    result.push_back({{"kind", nodes::name_of(field.kind)},
+                      {"file", request.path.string()},
+                      {"unit", field.unit},
+                      {"clock", field.clock.empty() ? Json() : Json(field.clock)},
+                      {"repeatable", field.is_repeatable},
+                      {"least", field.least()},
+                      {"largest", field.largest()},
+                      {"sum", field.sum()}});
+  }
+  return result;
+}
+
 Json database_json(const core::Database& database) {
   const core::RecordCounts& records = database.records();
   const auto block_count = [&](core::PrimitiveKind kind) { return records.blocks[static_cast<std::size_t>(kind)]; };
@@ -284,6 +301,7 @@ std::string stats_json(const RenderRecord& record) {
   all.update(filled({"pages", "work", "travel", "load", "regions", "mapping", "pairs"}, special.all));
   all["chaos"] = chaos_json(account, special.chaos);
   all["skips"] = skips_json(record.options, account);
+  all["heat_maps"] = heat_maps_json(record);
   all["nodes"] = nodes_json(account, special, timed);
   all["host"] = host_json(account, special.host, timed.host);
   return all.dump(2) + "\n";

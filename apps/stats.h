@@ -7,6 +7,7 @@
 #include "apps/render_options.h"
 #include "apps/report.h"
 #include "core/database.h"
+#include "nodes/heat_map.h"
 
 namespace dmpc::apps {
 
@@ -23,6 +24,7 @@ struct RenderRecord {
   const core::Database& database;
   const Report& report;
   Seconds seconds;
+  const nodes::HeatMap* heat = nullptr;  ///< what options.heat_maps ask for
 };
 
 /// One JSON object, indented, with a line end. The keys are an interface; what does not apply is null, and no number is NaN or
@@ -82,6 +84,9 @@ struct RenderRecord {
 ///   skips          work that was left out: empty_space, any_hit, unlit, zero_terms, empty_regions, background, each {on, exact:
 ///                  true (it changes no bit of the picture), avoided, unit (of the work avoided)}; cutoff {on, exact: false,
 ///                  cutoff, rays_cut, mean_error_bound: light that a sample lacks at most, on average}
+///   heat_maps      for each file: kind, file, unit, clock ("processor time" or "virtual time", of time only), repeatable
+///   (another
+///                  run gives the same bits), least, largest, sum (over pixels); null without any
 ///   nodes          for each node: rays, hits, operations, packets {sent, received, bytes: sent, bytes_received, refused: tried
 ///                  without credit}, pages, work, travel, load {work_ps, predicted_ps}, region
 ///                  {low, high: corners in finest cells, share of the grid's volume, part_bytes, primitive_copies,

@@ -77,6 +77,8 @@ class PixelTask {
   Address absent() const { return absent_; }
   std::uint32_t pixel() const { return pixel_; }
   const PixelSums& sums() const { return sums_; }
+  /// Under way, or the one that ended last.
+  const Ray& ray() const { return ray_; }
 
  private:
   template <Tracer T>

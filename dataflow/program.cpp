@@ -175,6 +175,10 @@ NodeState NodeProgram::state() const {
 
 bool NodeProgram::work() {
   perform(next_task(state()));
+  return rest_or_more();
+}
+
+bool NodeProgram::rest_or_more() {
   const Task next = next_task(state());
   if (next == Task::rest) {
     rest();
@@ -226,6 +230,8 @@ void NodeProgram::take_received() {
   std::uint32_t sender = 0;
   const RayMessage message = backlog_.take(sender);
   give_back(sender, false);
+  newest_.pixel = message.ray.pixel;
+  newest_.depth = message.ray.depth;
   if (message.is_confirmed != 0) {
     shade_at_finder(message);
   } else {
@@ -241,6 +247,7 @@ void NodeProgram::start_primary() {
     send_control(*node_, host_, Kind::primaries_taken, PrimariesTaken{count});
   }
   const std::uint32_t pixel = pixel_of(number, samples), sample = sample_of(number, samples);
+  newest_ = {.pixel = pixel, .sample = sample};
   if (constants_->settings.shows_background(pixel)) {
     return leave_background(pixel, sample);
   }
@@ -274,6 +281,7 @@ void NodeProgram::go_on() {
 /// A fresh ray starts here, leaves at once, or meets nothing.
 void NodeProgram::shoot(const core::Ray& ray) {
   ++operations_.rays[static_cast<std::size_t>(ray.kind)];
+  newest_.depth = ray.depth;
   const auto passage = core::first_passage(ray, constants_->settings.header.frame);
   if (passage) {
     go_to_next(message_of(ray, *passage, node_->id()));

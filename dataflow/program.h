@@ -65,7 +65,7 @@ struct NodeDeal {
   const Bsp& bsp;
 };
 
-class NodeProgram final : public nodes::Program {
+class NodeProgram : public nodes::Program {
  public:
   /// Takes all its memory and credits from `node`.
   NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& deal);
@@ -81,6 +81,21 @@ class NodeProgram final : public nodes::Program {
   /// Call it only while the program is not running.
   ProgramReport report() const;
 
+ protected:
+  /// Of the ray that was started, taken up or made last; `sample`: that of the primary ray started last.
+  struct Newest {
+    std::uint32_t pixel = 0, sample = 0, depth = 1;
+  };
+
+  // A quantum is perform(next_task(state())), then, in the end, rest_or_more().
+  NodeState state() const;
+  void perform(Task task);
+  /// What work() returns.
+  bool rest_or_more();
+  const core::Operations& operations() const { return operations_; }
+  /// Of the quantum under way or just over, if it was one that works on a ray.
+  const Newest& newest() const { return newest_; }
+
  private:
   /// What never changes, in local memory.
   struct Constants {
@@ -90,13 +105,11 @@ class NodeProgram final : public nodes::Program {
 
   static RayQueue::Capacity backlog_capacity(const Plan& plan);
   static Gather::Capacity gather_capacity(const Plan& plan);
-  NodeState state() const;
 
   void wake();
   void receive_primaries(const DealtPrimaries& dealt);
   void receive_rays(const nodes::Packet& packet);
   void take_credits(nodes::NodeId receiver, std::uint32_t count);
-  void perform(Task task);
   void announce();
   void send_waiting();
   void take_received();
@@ -134,6 +147,7 @@ class NodeProgram final : public nodes::Program {
   Termination termination_ = Termination::member();
   core::Operations operations_;
   RayCounters counters_;
+  Newest newest_;
   bool finishing_ = false;  ///< the host has proved that no ray of the pass is left
   bool done_ = false;
   bool stopped_ = false;

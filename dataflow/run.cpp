@@ -5,6 +5,7 @@
 
 #include "core/expect.h"
 #include "dataflow/mapping.h"
+#include "dataflow/metered_program.h"
 #include "dataflow/packets.h"
 #include "dataflow/work.h"
 
@@ -85,6 +86,15 @@ NodeReport report_of(nodes::Node& node, const nodes::Program& program, const Dis
     report.primary_rays += run.count;
   }
   return report;
+}
+
+std::unique_ptr<nodes::Program> make_program_of(nodes::Node& node, const Plan& plan, const NodeDeal& deal,
+                                                const RunOptions& options) {
+  if (options.heat == nullptr) {
+    return std::make_unique<NodeProgram>(node, plan, deal);
+  }
+  const nodes::HeatMeter meter(*options.heat, node.id(), options.machine ? &*options.machine : nullptr);
+  return std::make_unique<MeteredProgram>(node, plan, deal, meter);
 }
 
 void add(TrafficByKind& sum, const TrafficByKind& more) {
@@ -247,9 +257,10 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
                 .bsp = prepared.distribution.bsp,
                 .predicted = prepared.predicted,
                 .duplication = prepared.duplication};
-  const auto runner =
-      nodes::make_runner(specifications_of(report.plan, prepared.distribution, settings, report.film, options.progress),
-                         {options.chaos, options.machine});
+  core::expect(options.heat == nullptr || options.heat->pixel_count() == report.film.pixels().size(),
+               "a heat map is of the picture's size");
+  const auto runner = nodes::make_runner(specifications_of(report.plan, prepared.distribution, settings, report.film, options),
+                                         {options.chaos, options.machine});
   if (options.distributed) {
     options.distributed();
   }
@@ -260,19 +271,20 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
 
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,
                                                         const core::RenderSettings& settings, core::Film& film,
-                                                        const Progress& progress) {
+                                                        const RunOptions& options) {
   std::vector<nodes::NodeSpecification> specifications;
   for (std::uint32_t i = 0; i < plan.node_count(); ++i) {
     const auto make_program = [&, i](nodes::Node& node) {
-      return std::make_unique<NodeProgram>(
-          node, plan, NodeDeal{distribution.parts[i], distribution.primaries[i], settings, distribution.bsp});
+      return make_program_of(node, plan, {distribution.parts[i], distribution.primaries[i], settings, distribution.bsp}, options);
     };
     specifications.push_back({plan.node_memory(i), plan.node_mailbox, make_program, plan.held_bytes});
   }
   const auto deal = [&](const core::SampleRange& samples, const core::PixelMask& pixels) {
     return deal_primaries(settings, distribution.bsp, samples, pixels);
   };
-  const auto make_host = [&, deal](nodes::Node& node) { return std::make_unique<HostProgram>(node, plan, film, progress, deal); };
+  const auto make_host = [&, deal](nodes::Node& node) {
+    return std::make_unique<HostProgram>(node, plan, film, options.progress, deal);
+  };
   specifications.push_back({plan.host_memory(), plan.host_mailbox, make_host, plan.held_bytes});
   return specifications;
 }

@@ -20,6 +20,7 @@
 #include "dataflow/program.h"
 #include "nodes/chaos.h"
 #include "nodes/counters.h"
+#include "nodes/heat_map.h"
 #include "nodes/machine.h"
 #include "nodes/runner.h"
 #include "nodes/topology.h"
@@ -42,6 +43,9 @@ struct RunOptions {
   /// A modelled machine, in virtual time, in place of threads. Not with chaos.
   std::optional<nodes::Machine> machine = std::nullopt;
   Progress progress = {};  ///< called by the host's thread
+  /// What each pixel takes is added to it, of the kinds that it records but `samples`. Rays look up no pages: those kinds stay
+  /// zero. Of the size of the picture; outlives the run.
+  nodes::HeatMap* heat = nullptr;
   /// Called on the calling thread when the nodes hold their parts of the database, which are not read again, before any node
   /// starts.
   std::function<void()> distributed = {};
@@ -112,9 +116,9 @@ Report run_dataflow(const core::Database& database, const core::RenderSettings& 
                     std::stop_token stop);
 
 /// What a runner needs for `plan`: the nodes in order, then the host, which writes `film`. All arguments outlive
-/// the runner.
+/// the runner. Of `options` it reads what a heat map asks for.
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,
                                                         const core::RenderSettings& settings, core::Film& film,
-                                                        const Progress& progress);
+                                                        const RunOptions& options);
 
 }  // namespace dmpc::dataflow

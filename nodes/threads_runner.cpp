@@ -1,7 +1,6 @@
 #include "nodes/threads_runner.h"
 
 #include <sched.h>
-#include <time.h>
 
 #include <atomic>
 #include <exception>
@@ -13,6 +12,7 @@
 #include "core/expect.h"
 #include "nodes/atomics.h"
 #include "nodes/awake_count.h"
+#include "nodes/clock.h"
 #include "nodes/held_packets.h"
 #include "nodes/processors.h"
 #include "nodes/thread.h"
@@ -31,12 +31,6 @@ constexpr std::uint32_t quanta_per_yield = 16;
 
 /// How the run ends. The first to say so decides.
 enum class Ending : std::uint8_t { none, finished, stalled, failed, interrupted };
-
-std::uint64_t nanoseconds(clockid_t clock) {
-  timespec now{};
-  clock_gettime(clock, &now);
-  return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000U + static_cast<std::uint64_t>(now.tv_nsec);
-}
 
 /// A place for the packets that chaos holds back at this node, if it does.
 std::optional<HeldPackets> held_packets_of(const std::optional<Chaos>& chaos, const NodeSpecification& specification, NodeId id,

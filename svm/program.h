@@ -18,6 +18,7 @@
 
 #include "core/expect.h"
 #include "core/pixel_task.h"
+#include "nodes/heat_meter.h"
 #include "nodes/node.h"
 #include "nodes/operation_charges.h"
 #include "svm/faults.h"
@@ -30,14 +31,15 @@
 
 namespace dmpc::svm {
 
-/// `Records` is Pager, CountingPager or LocalCopy; `Tracer` reads them; `Task` is core::PixelTask, or a test's.
-template <class Records, class Tracer, class Task = core::PixelTask>
+/// `Records` is Pager, CountingPager or LocalCopy; `Tracer` reads them; `Task` is core::PixelTask, or a test's. `Meter` is
+/// nodes::HeatMeter where somebody wants to know what each pixel takes.
+template <class Records, class Tracer, class Task = core::PixelTask, class Meter = nodes::NoMeter>
 class ControlProgram final : public NodeProgram {
  public:
   /// Takes all its memory from `node`. `database` is read here and never again. make_tracer(Records&) returns the tracer.
   template <class MakeTracer>
   ControlProgram(nodes::Node& node, const Plan& plan, const core::RenderSettings& settings, std::span<const std::byte> database,
-                 const MakeTracer& make_tracer)
+                 const MakeTracer& make_tracer, const Meter& meter = {})
       : settings_(*std::construct_at(
             reinterpret_cast<core::RenderSettings*>(
                 node.memory().template allocate<std::byte>(nodes::Category::constants, sizeof(settings)).data()),
@@ -49,7 +51,8 @@ class ControlProgram final : public NodeProgram {
         slots_(node.memory(), plan.in_flight, static_cast<std::uint32_t>(plan.request.depth_max)),
         work_(node, plan),
         film_(node, plan),
-        samples_(settings.first_samples()) {
+        samples_(settings.first_samples()),
+        meter_(meter) {
     node.grant(host_, control_channel, 1);  // for Done
   }
 
@@ -80,6 +83,7 @@ class ControlProgram final : public NodeProgram {
   }
 
   bool work() override {
+    begin_metering();
     if (!slots_.has_runnable() && can_start()) {
       start();
     }
@@ -139,8 +143,12 @@ class ControlProgram final : public NodeProgram {
     if constexpr (counts_pages) {
       records_.select(slot);
     }
-    Task& task = slots_.task(slot);
-    switch (task.run(tracer_, settings_, operations_)) {
+    go_on(slot);
+    end_metering(slots_.task(slot));
+  }
+
+  void go_on(std::uint32_t slot) {
+    switch (slots_.task(slot).run(tracer_, settings_, operations_)) {
       case core::TaskState::more:
         ++rays_ended_;
         return slots_.make_runnable(slot);
@@ -149,6 +157,25 @@ class ControlProgram final : public NodeProgram {
       case core::TaskState::absent:
         return park(slot);
     }
+  }
+
+  /// What the node counts from here to end_metering() is one pixel's.
+  void begin_metering() {
+    if constexpr (Meter::is_on) {
+      meter_.begin(heat_totals());
+    }
+  }
+
+  void end_metering(const Task& task) {
+    if constexpr (Meter::is_on) {
+      meter_.end(task.pixel(), task.ray().depth, heat_totals());
+      meter_.claim(task.pixel());  // of several passes the last one's node stays
+    }
+  }
+
+  nodes::HeatTotals heat_totals() const {
+    const PageCounters pages = records_.counters();
+    return {operations_.ray_count(), pages.references, pages.faults, pages.distinct_pages, charges()};
   }
 
   void finish(std::uint32_t slot) {
@@ -174,9 +201,10 @@ class ControlProgram final : public NodeProgram {
   }
 
   /// Every pixel that waits for the page runs before anything else can evict it: until its ray ends or it needs another
-  /// absent page.
+  /// absent page. The first of them, whose fault it was, is charged for the page.
   void resume(const nodes::Packet& packet) {
     if constexpr (Records::pages_travel) {
+      begin_metering();
       std::uint32_t slot = records_.install(packet);
       while (slot != no_slot) {
         const std::uint32_t next = records_.next_waiting(slot);
@@ -246,6 +274,7 @@ class ControlProgram final : public NodeProgram {
   std::uint64_t rays_ended_ = 0;
   bool done_ = false;
   bool stopped_ = false;
+  [[no_unique_address]] Meter meter_;
 };
 
 }  // namespace dmpc::svm

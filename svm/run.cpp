@@ -6,11 +6,16 @@
 #include "core/expect.h"
 #include "svm/counting_pager.h"
 #include "svm/host.h"
+#include "svm/metered_programs.h"
 #include "svm/pager.h"
 #include "svm/recording_pager.h"
 
 namespace dmpc::svm {
 namespace {
+
+bool counts_pages(const RunOptions& options) {
+  return options.count_pages || (options.heat != nullptr && options.heat->has(nodes::HeatKind::pages));
+}
 
 PlanRequest request_of(Strategy strategy, const core::Database& database, const core::RenderSettings& settings,
                        const RunOptions& options) {
@@ -28,7 +33,7 @@ PlanRequest request_of(Strategy strategy, const core::Database& database, const 
           .height = static_cast<std::uint32_t>(settings.camera.height()),
           .first_samples = settings.first_samples().count,
           .refinement = settings.refinement,
-          .count_pages = options.count_pages,
+          .count_pages = counts_pages(options),
           .record_references = options.record_references,
           .stack_reserve_bytes = options.stack_reserve_bytes,
           .chaos = options.chaos};
@@ -90,6 +95,7 @@ MakeProgram maker(const core::Database& database, const core::RenderSettings& se
 
 Report run_recording(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                      const Plan& plan, std::stop_token stop) {
+  core::expect(options.heat == nullptr, "references are recorded, or heat is, not both");
   std::vector<ReferenceLog> logs(plan.request.node_count);
   const auto record = [&logs](std::uint32_t index, RecordingPager& pager) { pager.record_into(logs[index]); };
   Report report = run_programs(plan, maker<RecordingPager>(database, settings, plan, record), options, std::move(stop));
@@ -181,6 +187,8 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
                 .plan = plan,
                 .nodes = {},
                 .host = {}};
+  core::expect(options.heat == nullptr || options.heat->pixel_count() == report.film.pixels().size(),
+               "a heat map is of the picture's size");
   const auto runner = nodes::make_runner(specifications_of(plan, make_program, report.film, options.progress),
                                          {plan.request.chaos, options.machine});
   if (options.distributed) {
@@ -208,15 +216,18 @@ Report run_svm(const core::Database& database, const core::RenderSettings& setti
   if (options.record_references) {
     return run_recording(database, settings, options, plan, std::move(stop));
   }
-  const MakeProgram make_program =
-      options.count_pages ? maker<CountingPager>(database, settings, plan) : maker<Pager>(database, settings, plan);
+  const MakeProgram make_program = options.heat != nullptr    ? metered_programs(database, settings, plan, options)
+                                   : plan.request.count_pages ? maker<CountingPager>(database, settings, plan)
+                                                              : maker<Pager>(database, settings, plan);
   return run_programs(plan, make_program, options, std::move(stop));
 }
 
 Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                       std::stop_token stop) {
   const Plan plan = plan_of(Strategy::replicated, database, settings, options);
-  return run_programs(plan, maker<LocalCopy>(database, settings, plan), options, std::move(stop));
+  const MakeProgram make_program =
+      options.heat != nullptr ? metered_programs(database, settings, plan, options) : maker<LocalCopy>(database, settings, plan);
+  return run_programs(plan, make_program, options, std::move(stop));
 }
 
 }  // namespace dmpc::svm

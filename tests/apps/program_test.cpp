@@ -81,6 +81,25 @@ TEST_CASE("render writes a picture and counters, and says what it did") {
   CHECK(folder.entry_count() == 2);
 }
 
+TEST_CASE("heat maps stand beside the picture, or nothing does") {
+  const TemporaryFolder folder;
+  const std::string image = folder / "a.exr", heat = folder / "rays.png",
+                    faults = "--heatmap=faults:" + (folder / "f.exr").string();
+  const auto render = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"render", "tetra-3", "--resolution=16x16", "--nodes=3", "-o", image};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  };
+  CHECK(render({"--heatmap=rays:" + image}).status == 2);
+  CHECK(render({faults, faults}).status == 2);
+  CHECK(render({faults, "--strategy=dataflow"}).status == 2);
+  CHECK(render({"--heatmap=rays:" + (folder / "none" / "a.png").string()}).status == 1);
+  CHECK(folder.entry_count() == 0);
+  CHECK(render({"--heatmap=rays:" + heat, faults}).status == 0);
+  CHECK(folder.entry_count() == 3);
+  CHECK(apps::read_image(folder / "f.exr").width == 16);
+}
+
 TEST_CASE("a quiet render says nothing") {
   const TemporaryFolder folder;
   const Result result = run({"render", "tetra-1", "--resolution=4x4", "--quiet", "-o", folder / "a.png"});
@@ -368,7 +387,8 @@ TEST_CASE("Ctrl-C and SIGTERM end a render with status 130 and leave an older pi
   const TemporaryFolder folder;
   write_text(folder / "a.png", "older");
   for (const int signal : {SIGINT, SIGTERM}) {
-    ChildProcess process(dmpc({"render", "balls-3", "--resolution=1024x1024", "--samples=32768", "-o", folder / "a.png"}));
+    ChildProcess process(dmpc({"render", "balls-3", "--resolution=1024x1024", "--samples=32768",
+                               "--heatmap=time:" + (folder / "t.png").string(), "-o", folder / "a.png"}));
     REQUIRE(process.blocks(signal));
     std::this_thread::sleep_for(std::chrono::milliseconds(300));  // so that it mostly renders already
     process.send(signal);

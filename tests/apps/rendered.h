@@ -25,17 +25,24 @@ struct Rendered {
   explicit Rendered(RenderOptions given, std::stop_token stop = {}) : options(std::move(given)) {
     Subject subject = build_subject(load_scene(options.picture), options.picture, options.database);
     database = std::move(subject.database);
-    const ReadyRun run = make_ready(options, database, subject.settings);
+    if (!options.heat_maps.empty()) {
+      const core::Camera& camera = subject.settings.camera;
+      heat.emplace(static_cast<std::uint32_t>(camera.width() * camera.height()), kinds_of(options.heat_maps));
+    }
+    const ReadyRun run = make_ready(options, database, subject.settings, {}, {}, heat ? &*heat : nullptr);
     notes = run.notes;
     report = run.start({}, std::move(stop));
   }
-  RenderRecord record() const { return {options, database, *report, {.load = 0.5, .prepare = 0.25, .render = 2, .user = 1}}; }
+  RenderRecord record() const {
+    return {options, database, *report, {.load = 0.5, .prepare = 0.25, .render = 2, .user = 1}, heat ? &*heat : nullptr};
+  }
   std::string json() const { return stats_json(record()); }
 
   RenderOptions options;
   core::Database database;
   std::vector<std::string> notes;
   std::optional<Report> report;
+  std::optional<nodes::HeatMap> heat;  ///< if options.heat_maps ask for one
 };
 
 inline RenderOptions small(Strategy strategy = Strategy::svm) {

@@ -16,35 +16,12 @@ namespace dmpc::apps {
 
 TEST_CASE("the keys of the counters are an interface") {
   const std::string json = Rendered(small()).json();
-  CHECK(keys(json, 1) == std::vector<std::string>{"program",
-                                                  "options",
-                                                  "runner",
-                                                  "machine",
-                                                  "film_hash",
-                                                  "sampling",
-                                                  "rays",
-                                                  "hits",
-                                                  "operations",
-                                                  "seconds",
-                                                  "run_hash",
-                                                  "machine_digest",
-                                                  "virtual_seconds",
-                                                  "time_percent",
-                                                  "events",
-                                                  "links",
-                                                  "database",
-                                                  "packets",
-                                                  "pages",
-                                                  "work",
-                                                  "travel",
-                                                  "load",
-                                                  "regions",
-                                                  "mapping",
-                                                  "pairs",
-                                                  "chaos",
-                                                  "skips",
-                                                  "nodes",
-                                                  "host"});
+  CHECK(keys(json, 1) ==
+        std::vector<std::string>{
+            "program",    "options", "runner",   "machine",        "film_hash",       "sampling",     "rays",    "hits",
+            "operations", "seconds", "run_hash", "machine_digest", "virtual_seconds", "time_percent", "events",  "links",
+            "database",   "packets", "pages",    "work",           "travel",          "load",         "regions", "mapping",
+            "pairs",      "chaos",   "skips",    "heat_maps",      "nodes",           "host"});
   for (const std::string key : {"samples_per_pixel",
                                 "passes",
                                 "estimated_error",

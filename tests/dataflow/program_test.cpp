@@ -257,8 +257,8 @@ void run_shuffled(const Stage& stage, std::uint64_t seed) {
   core::Operations expected;
   const std::uint64_t hash = stage.reference_hash(expected);
   core::Film film(stage.settings.camera.width(), stage.settings.camera.height());
-  const dataflow::Progress progress;
-  const auto specifications = dataflow::specifications_of(stage.plan, stage.distribution, stage.settings, film, progress);
+  const dataflow::RunOptions options;
+  const auto specifications = dataflow::specifications_of(stage.plan, stage.distribution, stage.settings, film, options);
   tests::ShuffledComputer computer(specifications, seed);
   computer.run();
   CHECK(film.hash() == hash);

@@ -28,9 +28,8 @@ std::uint64_t allocated_by(const dataflow::PlanRequest& bounds, std::uint32_t no
   request.first_samples = 2;
   const dataflow::Plan plan = dataflow::make_plan(request);
   core::Film film(16, 16);
-  const dataflow::Progress progress;
-  std::vector<nodes::NodeSpecification> specifications =
-      dataflow::specifications_of(plan, distribution, settings, film, progress);
+  const dataflow::RunOptions options;
+  std::vector<nodes::NodeSpecification> specifications = dataflow::specifications_of(plan, distribution, settings, film, options);
   for (std::uint32_t i = 0; i < node_count; ++i) {
     specifications[i] = watched(specifications[i]);
   }

@@ -1,0 +1,61 @@
+#include "apps/heat_files.h"
+
+#include <string>
+
+#include "apps/figures.h"
+#include "apps/heat_field.h"
+#include "apps/heat_options.h"
+#include "apps/heat_picture.h"
+#include "apps/image_file.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+/// The computer that made the map, in words.
+std::string computer_text(const RenderRecord& record) {
+  const RenderOptions& options = record.options;
+  const std::string on_machine = options.computer.machine ? " of " + options.computer.machine->name : "";
+  return std::string(name_of(options.strategy)) + ", " + counted(options.computer.node_count, "node") + on_machine;
+}
+
+Channel channel_of(const HeatField& field, const RenderRecord& record) {
+  Channel channel{.width = field.width, .height = field.height, .name = std::string(nodes::name_of(field.kind))};
+  channel.values.assign(field.values.begin(), field.values.end());
+  channel.remarks = {{"dmpc:meaning", field.meaning},
+                     {"dmpc:unit", field.unit},
+                     {"dmpc:scene", record.options.picture.scene},
+                     {"dmpc:strategy", name_of(record.options.strategy)},
+                     {"dmpc:nodes", std::to_string(record.options.computer.node_count)},
+                     {"dmpc:runner", name_of(record.options.computer.runner)},
+                     {"dmpc:repeatable", field.is_repeatable ? "yes" : "no"}};
+  if (!field.clock.empty()) {
+    channel.remarks.push_back({"dmpc:clock", field.clock});
+  }
+  return channel;
+}
+
+void write(const HeatRequest& request, const RenderRecord& record, const OutputFile& file) {
+  const HeatField field = heat_field(request.kind, record);
+  if (holds_numbers(request)) {
+    write_channel(request.path, channel_of(field, record), file);
+  } else {
+    write_image(request.path, heat_picture(field, record.options.picture.scene + ", " + computer_text(record)), file);
+  }
+}
+
+}  // namespace
+
+HeatFiles::HeatFiles(const RenderRecord& record) {
+  for (const HeatRequest& request : record.options.heat_maps) {
+    write(request, record, files_.emplace_back(request.path));
+  }
+}
+
+void HeatFiles::commit() {
+  for (OutputFile& file : files_) {
+    file.commit();
+  }
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,28 @@
+// Which number of a heat map gets which place on the colour map.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dmpc::apps {
+
+/// Linear from the least number to the largest, or logarithmic from the least above 0 to the largest.
+struct HeatScale {
+  bool is_logarithmic = false;
+  double least = 0, largest = 0;
+
+  /// 0 for the least, 1 for the largest, clamped; 0 where they are equal.
+  double position(double value) const;
+  /// Round numbers within the scale, ascending: 1, 2 or 5 times powers of ten, or their multiples; few enough for a legend.
+  std::vector<double> ticks() const;
+};
+
+/// Logarithmic where a linear scale would show little: where half of the numbers above 0 lie below a sixteenth of the largest.
+/// Requires finite numbers >= 0, and at least one.
+HeatScale scale_for(std::span<const double> values);
+
+/// With four significant digits at most: "12", "0.035", "1.5e+06".
+std::string legend_number(double value);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,36 @@
+#include "svm/metered_programs.h"
+
+#include "core/expect.h"
+#include "svm/counting_pager.h"
+#include "svm/local_copy.h"
+#include "svm/pager.h"
+
+namespace dmpc::svm {
+namespace {
+
+template <class Records>
+MakeProgram maker(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
+                  const RunOptions& options) {
+  return [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
+    const auto make_tracer = [&](Records& records) {
+      return core::GridTracer<Records>(records, settings.header, settings.skips);
+    };
+    const nodes::HeatMeter meter(*options.heat, nodes::NodeId{index}, options.machine ? &*options.machine : nullptr);
+    using Metered = ControlProgram<Records, core::GridTracer<Records>, core::PixelTask, nodes::HeatMeter>;
+    return std::make_unique<Metered>(node, plan, settings, database.bytes(), make_tracer, meter);
+  };
+}
+
+}  // namespace
+
+MakeProgram metered_programs(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
+                             const RunOptions& options) {
+  core::expect(options.heat != nullptr, "a meter has a heat map");
+  if (plan.request.strategy == Strategy::replicated) {
+    return maker<LocalCopy>(database, settings, plan, options);
+  }
+  return plan.request.count_pages ? maker<CountingPager>(database, settings, plan, options)
+                                  : maker<Pager>(database, settings, plan, options);
+}
+
+}  // namespace dmpc::svm

@@ -1,0 +1,85 @@
+#include "apps/heat_options.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "apps/options.h"
+#include "core/expect.h"
+#include "tests/support/text.h"
+
+namespace dmpc::apps {
+
+using nodes::HeatKind;
+using tests::contains;
+
+namespace {
+
+RenderOptions render(const std::vector<std::string>& more) {
+  std::vector<std::string> arguments = {"render", "teapot-12", "-o", "a.png"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return std::get<RenderOptions>(parse_command_line(arguments));
+}
+
+std::string complaint(const std::vector<std::string>& more) {
+  try {
+    render(more);
+  } catch (const core::UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("heat maps may be asked for several times, of every kind") {
+  CHECK(render({}).heat_maps.empty());
+  std::vector<std::string> arguments;
+  for (const std::string_view kind : nodes::heat_kind_names) {
+    arguments.push_back("--heatmap=" + std::string(kind) + ":" + std::string(kind) + ".png");
+  }
+  arguments.push_back("--heatmap=rays:C:a b.exr");
+  const std::vector<HeatRequest> requests = render(arguments).heat_maps;
+  REQUIRE(requests.size() == 9);
+  CHECK(requests[0].kind == HeatKind::faults);
+  CHECK(requests[7].kind == HeatKind::samples);
+  CHECK(requests[7].path == "samples.png");
+  CHECK_FALSE(holds_numbers(requests[7]));
+  CHECK(requests[8].path == "C:a b.exr");
+  CHECK(holds_numbers(requests[8]));
+  CHECK(kinds_of(requests).size() == 9);
+}
+
+TEST_CASE("a heat map needs a kind, a colon and a file of one of two formats") {
+  for (const std::string wrong :
+       {"rays", "heat:a.png", "RAYS:a.png", ":a.png", "rays:", "rays:a", "rays:a.jpg", "rays:a.tif", ""}) {
+    CHECK_MESSAGE(contains(complaint({"--heatmap=" + wrong}), "--heatmap"), wrong);
+  }
+  CHECK(contains(complaint({"--heatmap=colour:a.png"}), "faults|references|pages|rays|time|node|depth|samples"));
+}
+
+TEST_CASE("there may be 32 heat maps and no more") {
+  std::vector<std::string> arguments;
+  for (std::size_t i = 0; i < heat_requests_max; ++i) {
+    arguments.push_back("--heatmap=rays:" + std::to_string(i) + ".png");
+  }
+  CHECK(render(arguments).heat_maps.size() == 32);
+  arguments.push_back("--heatmap=rays:last.png");
+  CHECK(contains(complaint(arguments), "given 33 times"));
+}
+
+TEST_CASE("strategies without page look-ups refuse the kinds of pages, and say why") {
+  for (const std::string kind : {"faults", "references", "pages"}) {
+    const std::string option = "--heatmap=" + kind + ":a.png";
+    CHECK(contains(complaint({option, "--strategy=dataflow"}), "rays travel"));
+    CHECK(contains(complaint({"--strategy=replicated", option}), "every node holds the whole scene"));
+    CHECK(complaint({option}).empty());
+  }
+  for (const std::string kind : {"rays", "time", "node", "depth", "samples"}) {
+    CHECK(complaint({"--heatmap=" + kind + ":a.png", "--strategy=dataflow"}).empty());
+    CHECK(complaint({"--heatmap=" + kind + ":a.png", "--strategy=replicated"}).empty());
+  }
+}
+
+}  // namespace dmpc::apps
