@@ -8,8 +8,8 @@
 #include <memory>
 #include <string>
 
-#include "apps/srgb.h"
 #include "core/expect.h"
+#include "core/srgb.h"
 
 namespace dmpc::apps {
 
@@ -67,7 +67,7 @@ OIIO::ImageSpec specification(const fs::path& path, const Image& image) {
 
 std::vector<std::uint8_t> srgb_bytes(const Image& image) {
   std::vector<std::uint8_t> bytes(image.rgb.size());
-  std::transform(image.rgb.begin(), image.rgb.end(), bytes.begin(), srgb_byte);
+  std::transform(image.rgb.begin(), image.rgb.end(), bytes.begin(), core::srgb_byte);
   return bytes;
 }
 
@@ -114,7 +114,7 @@ std::vector<float> read_channels(OIIO::ImageInput& input, const fs::path& path, 
 
 void make_linear(std::vector<float>& values) {
   for (float& value : values) {
-    value = static_cast<float>(linear_from_srgb(static_cast<double>(value)));
+    value = static_cast<float>(core::linear_from_srgb(static_cast<double>(value)));
   }
 }
 

@@ -197,6 +197,7 @@ std::array<std::uint64_t, nodes::charge_count> operation_costs_ps(std::uint64_t 
   set(Charge::sphere_test, measured.primitive_test_ps[1]);
   set(Charge::cone_test, measured.primitive_test_ps[2]);
   set(Charge::shading, measured.shading_ps);
+  set(Charge::tile_read, measured.tile_read_ps);
   set(Charge::home_lookup, 0);  // the measured prices hold it
   // The search of the cache: fitted to Mountain on two nodes in Table 3 of the 1994 paper.
   set(Charge::cached_lookup, 3'160);

@@ -125,7 +125,8 @@ core::RenderSettings render_settings(const PictureOptions& options, const core::
           .shade = {.convention = options.convention,
                     .depth_max = options.depth,
                     .cutoff = options.cutoff,
-                    .radiance_bound = core::radiance_bound(scene, options.depth)},
+                    .radiance_bound = core::radiance_bound(scene, options.depth),
+                    .pixel_angle = database.records().textured > 0 ? camera.pixel_size() : 0},
           .refinement = options.refinement,
           .skips = options.skips,
           .background = options.skips.background ? core::find_background(database, camera) : core::BackgroundTiles()};

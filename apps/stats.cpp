@@ -54,6 +54,8 @@ Json operations_json(const core::Operations& operations) {
           {"cone_tests", test_count(operations, core::PrimitiveKind::cone)},
           {"shadings", operations.shadings},
           {"normal_reads", operations.normal_reads},
+          {"texture_lookups", operations.texture_lookups},
+          {"tile_reads", operations.tile_reads},
           {"deposits_saturated", operations.deposits_saturated}};
 }
 
@@ -257,6 +259,8 @@ Json database_json(const core::Database& database) {
           {"sphere_blocks", block_count(core::PrimitiveKind::sphere)},
           {"cone_blocks", block_count(core::PrimitiveKind::cone)},
           {"normals", records.normals},
+          {"textured", records.textured},
+          {"texture_tiles", records.texture_tiles},
           {"materials", database.header().material_count},
           {"lights", database.header().light_count}};
 }

@@ -42,7 +42,8 @@ struct RenderRecord {
 ///   rays           rays shot
 ///   hits           primary, secondary, shadow_blocked, total_internal_reflections
 ///   operations     cell_steps, brick_reads, triangle_tests, sphere_tests, cone_tests, shadings, normal_reads (vertex
-///                  normals of smooth triangles), deposits_saturated
+///                  normals of smooth triangles), texture_lookups (hits on textured triangles), tile_reads (of their textures'
+///                  tiles), deposits_saturated
 ///   seconds        load, build, prepare (plan; for dataflow balance and deal), render, write (wall clock), user, system,
 ///                  render_user, render_system
 ///   run_hash       of all events in virtual time (with the packets' targets, kinds and bytes), the machine's digest and
@@ -63,7 +64,8 @@ struct RenderRecord {
 ///                  became free last. The ends are "node 3", "host", "switch 0", "place 9" (a router without a node) and, of
 ///                  memory ports, "memory 3"
 ///   database       bytes, pages, page_size, primitives, references, dropped; records by kind: bricks, triangle_blocks,
-///                  sphere_blocks, cone_blocks, normals (of smooth triangles), materials, lights
+///                  sphere_blocks, cone_blocks, normals (of smooth triangles), textured (triangles), texture_tiles, materials,
+///                  lights
 ///   packets        sent, received, bytes, overflow (by way of the host), and by_kind: packets and bytes
 ///   pages          references, hits, home_hits, cache_hits, misses, faults, evictions, served, distinct, distinct_per_pixel
 ///   work           pixels (over all passes), items_asked, items_taken, items_given

@@ -40,6 +40,27 @@ bool degenerate_triangle(const PrimitiveValues& triangle) {
   return a == b || b == c || c == a || !(dot(area, area) > 0);
 }
 
+double area_of(const PrimitiveValues& triangle) {
+  const Vec3d a = get(triangle, 0), area = cross(get(triangle, 3) - a, get(triangle, 6) - a);
+  return 0.5 * length(area);
+}
+
+using Place = std::array<float, 2>;
+
+double area_of(const std::array<Place, 3>& places) {
+  const auto step = [&](std::size_t corner, std::size_t side) { return double{places[corner][side]} - double{places[0][side]}; };
+  return 0.5 * std::fabs(step(1, 0) * step(2, 1) - step(2, 0) * step(1, 1));
+}
+
+/// A place that is no number counts as the texture's corner; one that is too far away to be told from its neighbours, too.
+Place usable_place(Place place) {
+  constexpr float place_max = 0x1p20F;
+  for (float& coordinate : place) {
+    coordinate = std::fabs(coordinate) < place_max ? coordinate : 0.0F;
+  }
+  return place;
+}
+
 bool degenerate_cone(const PrimitiveValues& cone) {
   return get(cone, 0) == get(cone, 4) || (cone.value[3] == 0.0F && cone.value[7] == 0.0F);
 }
@@ -64,6 +85,7 @@ class Converter {
     switch (object.kind) {
       case ObjectKind::polygon:
       case ObjectKind::patch:
+      case ObjectKind::textured:
         return add_polygon(index, object);
       case ObjectKind::sphere:
         return add_sphere(index, object, scene_.spheres[object.first]);
@@ -108,15 +130,33 @@ class Converter {
     if (object.kind == ObjectKind::patch && !degenerate) {
       add_normals(object, corners);
     }
+    if (object.kind == ObjectKind::textured && !degenerate) {
+      add_texture(object, corners, triangle);
+    }
     add(triangle, index, degenerate, object.material);
   }
 
   void add_normals(const Object& object, const std::array<std::uint32_t, 3>& corners) {
-    PatchNormals normals{.normal = {}, .material = object.material};
+    PatchNormals normals{.normal = {}, .material_bits = object.material};
     for (std::size_t i = 0; i < 3; ++i) {
       normals.normal[i] = unit_normal(turned(frame_.axes, scene_.normals[object.first_normal + corners[i]]));
     }
     result_.smooth.push_back({static_cast<std::uint32_t>(result_.primitives.size()), normals});
+  }
+
+  void add_texture(const Object& object, const std::array<std::uint32_t, 3>& corners, const PrimitiveValues& triangle) {
+    const std::uint32_t index = scene_.materials[object.material].texture;
+    TexturedNormals textured;
+    textured.normals.material_bits = object.material | PatchNormals::textured_flag;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const TexturedCorner& corner = scene_.corners[object.first_normal + corners[i]];
+      textured.normals.normal[i] = unit_normal(turned(frame_.axes, corner.normal));
+      textured.place[i] = usable_place(corner.place);
+    }
+    const TextureLevel& finest = scene_.textures[index].levels.front();
+    const double texels = area_of(textured.place) * finest.width * finest.height, area = area_of(triangle);
+    textured.texels_per_unit = static_cast<float>(std::sqrt(texels / area));
+    result_.textured.push_back({static_cast<std::uint32_t>(result_.primitives.size()), index, textured});
   }
 
   void add_sphere(std::uint32_t index, const Object& object, const Sphere& sphere) {
@@ -184,6 +224,9 @@ void append(Conversion& all, const Conversion& more) {
   for (const Conversion::Smooth& smooth : more.smooth) {
     all.smooth.push_back({before + smooth.primitive, smooth.normals});
   }
+  for (const Conversion::Textured& textured : more.textured) {
+    all.textured.push_back({before + textured.primitive, textured.texture, textured.normals});
+  }
   all.dropped += more.dropped;
 }
 
@@ -193,6 +236,7 @@ void clear(Conversion& conversion) {
   conversion.sources.clear();
   conversion.shading.clear();
   conversion.smooth.clear();
+  conversion.textured.clear();
   conversion.dropped = 0;
 }
 

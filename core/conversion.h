@@ -19,10 +19,17 @@ struct Conversion {
     std::uint32_t primitive;
     PatchNormals normals;
   };
+  /// A textured triangle, likewise; its reference to the texture is still to come.
+  struct Textured {
+    std::uint32_t primitive;
+    std::uint32_t texture;  ///< index into Scene::textures
+    TexturedNormals normals;
+  };
   std::vector<PrimitiveValues> primitives;
   std::vector<PrimitiveSource> sources;
   std::vector<ShadingReference> shading;  ///< that of flat ones
   std::vector<Smooth> smooth;
+  std::vector<Textured> textured;
   std::uint32_t dropped = 0;  ///< degenerate: zero area or length, radius 0, not finite
 };
 

@@ -15,6 +15,8 @@
 #include "core/parallel.h"
 #include "core/record_writer.h"
 #include "core/records.h"
+#include "core/texture_layout.h"
+#include "core/texture_records.h"
 #include "core/top_cells.h"
 
 namespace dmpc::core {
@@ -26,6 +28,15 @@ void forget_objects(Scene& scene) {
   forget(scene.normals);
   forget(scene.spheres);
   forget(scene.cones);
+  forget(scene.corners);
+}
+
+void forget_texels(Scene& scene) {
+  for (Texture& texture : scene.textures) {
+    for (TextureLevel& level : texture.levels) {
+      forget(level.texels);
+    }
+  }
 }
 
 }  // namespace
@@ -56,6 +67,7 @@ class DatabaseBuilder {
     header().primitive_count = static_cast<std::uint32_t>(conversion_.primitives.size());
     const TopCells cells = sort_into_top_cells();
     write_tables();
+    write_textures();
     write_normals();
     write_grid(cells);
     give_back_freed();  // trees are many small pieces
@@ -133,6 +145,20 @@ class DatabaseBuilder {
                                    static_cast<float>(from.shine), static_cast<float>(from.transmittance),
                                    static_cast<float>(from.refraction_index)});
     }
+    for (const Texture& texture : scene_.textures) {
+      const std::size_t entries = tile_entry_count(reference_to(texture, no_address));
+      textures_.push_back(reference_to(texture, writer_.allocate_array<Address>(entries)));
+    }
+  }
+
+  void write_textures() {
+    for (std::size_t i = 0; i < textures_.size(); ++i) {
+      write_tiles(scene_.textures[i], textures_[i], writer_);
+      result_.records_.texture_tiles += tile_count(textures_[i]);
+    }
+    if (expendable_ != nullptr) {
+      forget_texels(*expendable_);
+    }
   }
 
   void write_normals() {
@@ -143,6 +169,14 @@ class DatabaseBuilder {
       conversion_.shading[smooth.primitive] = ShadingReference::smooth(address);
     }
     forget(conversion_.smooth);
+    result_.records_.textured = conversion_.textured.size();
+    for (Conversion::Textured& textured : conversion_.textured) {
+      const Address address = writer_.allocate(sizeof(TexturedNormals));
+      textured.normals.texture = textures_[textured.texture];
+      writer_.write(address, 0, textured.normals);
+      conversion_.shading[textured.primitive] = ShadingReference::smooth(address);
+    }
+    forget(conversion_.textured);
   }
 
   /// Cells are built at the same time, then take their room in order, and are written at the same time.
@@ -179,6 +213,7 @@ class DatabaseBuilder {
   Database result_;
   double view_distance_ = 0;  ///< from the scene's middle, in extents
   Conversion conversion_;
+  std::vector<TextureReference> textures_;  ///< of the scene's, in order
 };
 
 namespace {
@@ -228,6 +263,7 @@ Database build_database(Scene&& scene, const BuildOptions& options) {
   }
   Database database = build_database(std::as_const(scene), options);
   forget_objects(scene);
+  forget_texels(scene);
   return database;
 }
 

@@ -42,7 +42,9 @@ struct PrimitiveValues {
 struct RecordCounts {
   std::uint64_t bricks = 0;
   std::array<std::uint64_t, primitive_kind_count> blocks{};
-  std::uint64_t normals = 0;  ///< PatchNormals
+  std::uint64_t normals = 0;        ///< PatchNormals
+  std::uint64_t textured = 0;       ///< TexturedNormals
+  std::uint64_t texture_tiles = 0;  ///< of all levels
 };
 
 class Database {
@@ -100,7 +102,7 @@ class Database {
 /// Throws RoomError if the database would exceed 16 GiB.
 Database build_database(const Scene& scene, const BuildOptions& options);
 /// The same, and frees the scene's objects on the way: they never lie in memory beside the records. View, lights, materials and
-/// background stay.
+/// background stay, and of textures all but their texels.
 Database build_database(Scene&& scene, const BuildOptions& options);
 
 }  // namespace dmpc::core

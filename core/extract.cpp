@@ -6,6 +6,8 @@
 
 #include "core/directory.h"
 #include "core/record_writer.h"
+#include "core/texture_layout.h"
+#include "core/texture_records.h"
 #include "core/units.h"
 
 namespace dmpc::core {
@@ -31,6 +33,7 @@ class Extractor {
     header.lights = copy_array<LightRecord>(whole_.lights, whole_.light_count);
     header.materials = copy_array<MaterialRecord>(whole_.materials, whole_.material_count);
     copy_directory();
+    copy_textures();
     part_.bytes = std::move(writer_).finish();
     return std::move(part_);
   }
@@ -136,19 +139,64 @@ class Extractor {
   /// A triangle that lies in several bricks keeps one record of normals.
   Address copy_normals(Address from) {
     const auto [found, is_new] = normals_.try_emplace(static_cast<std::uint32_t>(from), no_address);
-    if (is_new) {
+    if (is_new && read<PatchNormals>(at(from)).is_textured()) {
+      auto textured = read<TexturedNormals>(at(from));
+      textured.texture = copy_reference(textured);
+      found->second = writer_.allocate(sizeof(TexturedNormals));
+      writer_.write(found->second, 0, textured);
+    } else if (is_new) {
       found->second = writer_.allocate(sizeof(PatchNormals));
       writer_.write(found->second, 0, std::span(at(from), sizeof(PatchNormals)));
     }
     return found->second;
   }
 
+  /// Notes which tiles the triangle needs; they are copied when all are known.
+  TextureReference copy_reference(const TexturedNormals& triangle) {
+    const auto [found, is_new] = textures_.try_emplace(static_cast<std::uint32_t>(triangle.texture.tiles));
+    UsedTexture& texture = found->second;
+    if (is_new) {
+      const std::size_t entries = tile_entry_count(triangle.texture);
+      texture.from = texture.to = triangle.texture;
+      texture.to.tiles = writer_.allocate_array<Address>(entries);
+      texture.needed.resize(entries);
+    }
+    for_each_tile(triangle, [&](std::uint32_t tile) { texture.needed[tile] = true; });
+    return texture.to;
+  }
+
+  /// In the order of the whole, which keeps neighbours together.
+  void copy_textures() {
+    for (const auto& [address, texture] : textures_) {
+      const auto* const table = reinterpret_cast<const Address*>(at(texture.from.tiles));
+      std::map<Address, std::size_t> tiles;
+      for (std::size_t tile = 0; tile < texture.needed.size(); ++tile) {
+        if (texture.needed[tile]) {
+          tiles.emplace(table[tile], tile);
+        }
+      }
+      std::vector<Address> copies(texture.needed.size(), no_address);
+      for (const auto& [from, tile] : tiles) {
+        copies[tile] = writer_.allocate(sizeof(TextureTile));
+        writer_.write(copies[tile], 0, std::span(at(from), sizeof(TextureTile)));
+      }
+      writer_.write(texture.to.tiles, 0, std::as_bytes(std::span(copies)));
+    }
+  }
+
+  /// A texture that the region's triangles show.
+  struct UsedTexture {
+    TextureReference from, to;
+    std::vector<bool> needed;  ///< tiles
+  };
+
   const DatabaseHeader& whole_;
   const std::byte* bytes_;
   Region region_;
   RecordWriter writer_;
   DatabasePart part_;
-  std::map<std::uint32_t, Address> normals_;  ///< old address -> new
+  std::map<std::uint32_t, Address> normals_;       ///< old address -> new
+  std::map<std::uint32_t, UsedTexture> textures_;  ///< by the old address of their tables
 };
 
 }  // namespace

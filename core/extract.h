@@ -22,9 +22,9 @@ struct DatabasePart {
   std::size_t record_bytes() const { return bytes.size() - overread_bytes; }
 };
 
-/// Copies the directory's entries, bricks, blocks and normals that cells in `region` need, and all materials and lights;
-/// addresses are made anew, values keep their bits. Children whose boxes do not touch the region are left out of
-/// their bricks.
+/// Copies the directory's entries, bricks, blocks and normals that cells in `region` need, all materials and lights, and of
+/// textures the tiles that the triangles there may show; addresses are made anew, values keep their bits. Children whose boxes do
+/// not touch the region are left out of their bricks.
 DatabasePart extract(const Database& database, const Region& region);
 
 }  // namespace dmpc::core

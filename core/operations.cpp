@@ -18,6 +18,8 @@ Operations& operator+=(Operations& sum, const Operations& more) {
   add_all(sum.primitive_tests, more.primitive_tests);
   sum.shadings += more.shadings;
   sum.normal_reads += more.normal_reads;
+  sum.texture_lookups += more.texture_lookups;
+  sum.tile_reads += more.tile_reads;
   add_all(sum.rays, more.rays);
   sum.primary_hits += more.primary_hits;
   sum.secondary_hits += more.secondary_hits;

@@ -18,6 +18,8 @@ struct Operations {
   std::array<std::uint64_t, primitive_kind_count> primitive_tests{};  ///< lanes tested, by kind
   std::uint64_t shadings = 0;                                         ///< hits that were shaded
   std::uint64_t normal_reads = 0;                                     ///< of those, hits on smooth triangles
+  std::uint64_t texture_lookups = 0;                                  ///< of those, hits on textured triangles
+  std::uint64_t tile_reads = 0;                                       ///< of tiles of textures: 1 to 8 for each of those
 
   std::array<std::uint64_t, ray_kind_count> rays{};  ///< shot, hit or miss, by kind
   std::uint64_t primary_hits = 0;

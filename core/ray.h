@@ -1,6 +1,7 @@
 // The self-contained ray: its own continuation, stack entry in svm and message in dataflow.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -29,9 +30,17 @@ struct Ray {
   std::uint32_t sample = 0;  ///< below the samples per pixel
   std::uint8_t depth = 1;    ///< 1 for a primary ray; a shadow ray has the depth of the ray whose hit cast it
   RayKind kind = RayKind::primary;
-  std::uint16_t padding = 0;
+  std::uint16_t cone = 0;  ///< cone_bits() of its cone's width where it starts; 0 where no texture asks for it
 };
 static_assert(sizeof(Ray) == 56 && std::is_trivially_copyable_v<Ray>);
+
+/// A width, grid-local and not negative, as the upper half of a float: to 1 in 128, which is as good as a level of detail needs.
+inline std::uint16_t cone_bits(double width) {
+  return static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(static_cast<float>(width)) >> 16U);
+}
+/// The width of the cone in which a ray stands for all those through its pixel, where it starts (after J. Amanatides, "Ray
+/// Tracing with Cones", SIGGRAPH 1984).
+inline double cone_width(const Ray& ray) { return double{std::bit_cast<float>(std::uint32_t{ray.cone} << 16U)}; }
 
 /// A direction's component below this counts as 0, denormals and -0 included.
 inline constexpr float smallest_component = 1e-18F;

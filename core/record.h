@@ -5,9 +5,10 @@
 //
 //   directory   one DirectoryEntry a top cell of the grid
 //   bricks      Brick, the primitive blocks that it names, and its bricks in turn (top cells in Morton order)
-//   normals     PatchNormals of smooth triangles      } shading data, read for final hits only
+//   normals     PatchNormals, TexturedNormals         } shading data, read for final hits only
 //   materials   MaterialRecord                        }
 //   lights      LightRecord                           }
+//   textures    tables of addresses, and the TextureTiles that they name: read where a final hit is textured
 #pragma once
 
 #include <array>
@@ -141,12 +142,53 @@ struct ShadingReference {
 
 // ---- Shading data --------------------------------------------------------------------------------------------------------
 
-/// Vertex normals of a smooth triangle, of unit length to rounding.
+/// Vertex normals of a smooth triangle, of unit length to rounding; all 0 if it is flat. Begins a TexturedNormals if its flag
+/// says so.
 struct PatchNormals {
+  static constexpr std::uint32_t textured_flag = 0x80000000U;
+
   std::array<Vec3f, 3> normal;
-  std::uint32_t material = 0;
+  std::uint32_t material_bits = 0;  ///< the index of the material, and the flag
+
+  constexpr bool is_textured() const { return (material_bits & textured_flag) != 0; }
+  constexpr std::uint32_t material() const { return material_bits & ~textured_flag; }
 };
 static_assert(sizeof(PatchNormals) == 40);
+
+/// How a texel's 32 bits are read. srgb: red, green and blue from the lowest byte up, with the sRGB curve; shared_exponent:
+/// linear, from the lowest bit up three mantissas of 9 bits and an exponent of 5 (OpenGL's RGB9_E5).
+enum class TexelFormat : std::uint8_t { srgb, shared_exponent };
+/// What lies beyond a texture's edges: itself again, itself mirrored, or its edge.
+enum class TextureWrap : std::uint8_t { repeat, mirror, clamp };
+
+/// The side of a tile, in texels.
+inline constexpr std::uint32_t tile_side = 8;
+/// Texels row by row. Those beyond the edge of a level are of no account.
+struct TextureTile {
+  std::array<std::uint32_t, std::size_t{tile_side} * tile_side> texel{};
+};
+static_assert(sizeof(TextureTile) == 256 && sizeof(TextureTile) <= record_bytes_max);
+
+/// A texture as its users know it (core/texture_layout.h): levels of tiles, the finest first, each half the size of the one
+/// before.
+struct TextureReference {
+  Address tiles = no_address;  ///< a table of the tiles' addresses, level by level, each row by row; two share a record
+  std::uint16_t width = 1, height = 1;
+  TexelFormat format{};
+  TextureWrap wrap_s{}, wrap_t{};
+  std::uint8_t level_count = 1;
+};
+static_assert(sizeof(TextureReference) == 12);
+
+/// What shading needs of a textured triangle, smooth or not. A place on a texture: s to the right, t downwards, both from 0 to 1
+/// over the whole.
+struct TexturedNormals {
+  PatchNormals normals;
+  TextureReference texture;
+  std::array<std::array<float, 2>, 3> place{};  ///< (s, t) of its corners
+  float texels_per_unit = 0;  ///< texels of the finest level along a grid-local unit: the root of the ratio of areas
+};
+static_assert(sizeof(TexturedNormals) == 80 && sizeof(TexturedNormals) <= record_bytes_max);
 
 struct MaterialRecord {
   Color color;

@@ -46,6 +46,8 @@ class RecordWriter {
     static_assert((sizeof(T) & (sizeof(T) - 1)) == 0);
     return take(round_up(end_, std::max(sizeof(T), record_alignment)), count * sizeof(T));
   }
+  /// What is taken next begins a page.
+  void begin_page() { end_ = round_up(end_, page_size_); }
   /// Makes all room that has been taken writable, so that several threads may write to different records. Call it once, when no
   /// more will be taken: then finish() has nothing to move.
   void make_room() {

@@ -36,6 +36,13 @@ void replay_object(const Scene& scene, const Object& object, SceneSink& sink) {
     case ObjectKind::patch:
       return sink.patch(slice(scene.vertices, object.first, object.vertex_count),
                         slice(scene.normals, object.first_normal, object.vertex_count));
+    case ObjectKind::textured: {
+      std::vector<Vec3d> normals;
+      for (std::uint32_t corner = 0; corner < object.vertex_count; ++corner) {
+        normals.push_back(scene.corners[object.first_normal + corner].normal);
+      }
+      return sink.patch(slice(scene.vertices, object.first, object.vertex_count), normals);
+    }
     case ObjectKind::sphere: {
       const Sphere& sphere = scene.spheres[object.first];
       return sink.sphere(sphere.center, sphere.radius);
@@ -51,8 +58,9 @@ void replay_object(const Scene& scene, const Object& object, SceneSink& sink) {
 
 std::size_t SceneBuilder::MaterialHash::operator()(const Material& material) const {
   std::size_t hash = 0;
-  for (const double value : {material.color.x, material.color.y, material.color.z, material.diffuse, material.specular,
-                             material.shine, material.transmittance, material.refraction_index}) {
+  for (const double value :
+       {material.color.x, material.color.y, material.color.z, material.diffuse, material.specular, material.shine,
+        material.transmittance, material.refraction_index, static_cast<double>(material.texture)}) {
     hash = mix(hash, value);
   }
   return hash;
@@ -89,6 +97,14 @@ void SceneBuilder::patch(const std::vector<Vec3d>& vertices, const std::vector<V
   add(ObjectKind::patch, scene_.vertices.size(), vertices.size(), scene_.normals.size());
   scene_.vertices.insert(scene_.vertices.end(), vertices.begin(), vertices.end());
   scene_.normals.insert(scene_.normals.end(), normals.begin(), normals.end());
+}
+
+void SceneBuilder::textured(const std::vector<Vec3d>& vertices, const std::vector<TexturedCorner>& corners) {
+  expect(vertices.size() >= 3 && vertices.size() == corners.size(), "a textured patch has a corner for each of its vertices");
+  add(ObjectKind::textured, scene_.vertices.size(), vertices.size(), scene_.corners.size());
+  expect(scene_.materials[material_].texture < scene_.textures.size(), "a textured patch has a texture");
+  scene_.vertices.insert(scene_.vertices.end(), vertices.begin(), vertices.end());
+  scene_.corners.insert(scene_.corners.end(), corners.begin(), corners.end());
 }
 
 void SceneBuilder::sphere(const Vec3d& center, double radius) {

@@ -2,12 +2,14 @@
 // coordinates. It lives on the host only; core/database.h turns it into flat records for the nodes.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "core/texture.h"
 #include "core/vec.h"
 
 namespace dmpc::core {
@@ -20,7 +22,10 @@ struct Material {
   double shine = 0;             ///< Phong's cosine power
   double transmittance = 0;     ///< T; above 0 the surface transmits
   double refraction_index = 1;  ///< of the inside; meaningful when transmittance > 0 only
+  /// What `color` is multiplied by on textured patches: index into Scene::textures.
+  std::uint32_t texture = no_texture;
 
+  static constexpr std::uint32_t no_texture = 0xffffffffU;
   bool operator==(const Material&) const = default;
 };
 
@@ -53,15 +58,22 @@ struct Cone {
   double apex_radius = 1;
 };
 
-enum class ObjectKind : std::uint8_t { polygon, patch, sphere, cone };
+/// A vertex of a textured patch beside its position.
+struct TexturedCorner {
+  Vec3d normal;                  ///< need not be of unit length; 0 at all corners of a flat patch
+  std::array<float, 2> place{};  ///< on the texture: s to the right, t downwards, 0 to 1 over the whole
+};
 
-/// One entity of the file. `first` indexes the pool of its kind: vertices (polygon, patch), spheres, cones.
+enum class ObjectKind : std::uint8_t { polygon, patch, textured, sphere, cone };
+
+/// One entity of the file. `first` indexes the pool of its kind: vertices (polygon, patch, textured), spheres, cones.
 struct Object {
   ObjectKind kind{};
   std::uint32_t material = 0;  ///< index into Scene::materials
   std::uint32_t first = 0;
-  std::uint32_t vertex_count = 0;  ///< polygon, patch: at least 3; else 0
-  std::uint32_t first_normal = 0;  ///< patch: index into Scene::normals, vertex_count of them
+  std::uint32_t vertex_count = 0;  ///< polygon, patch, textured: at least 3; else 0
+  /// patch: index into Scene::normals, textured: into Scene::corners, vertex_count of them.
+  std::uint32_t first_normal = 0;
 };
 
 struct Scene {
@@ -73,8 +85,10 @@ struct Scene {
   std::vector<Object> objects;      ///< in file order
   std::vector<Vec3d> vertices;
   std::vector<Vec3d> normals;  ///< of patches; need not be of unit length
+  std::vector<TexturedCorner> corners;
   std::vector<Sphere> spheres;
   std::vector<Cone> cones;
+  std::vector<Texture> textures;
 };
 
 /// What a light of the scene shines with. One without a colour shines with 1 / sqrt(number of lights): twice Haines' suggestion,
@@ -113,6 +127,8 @@ class SceneBuilder final : public SceneSink {
   void patch(const std::vector<Vec3d>& vertices, const std::vector<Vec3d>& normals) override;
   void sphere(const Vec3d& center, double radius) override;
   void cone(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius) override;
+  /// A patch, or a polygon, whose material has a texture. At least 3 vertices and a corner for each.
+  void textured(const std::vector<Vec3d>& vertices, const std::vector<TexturedCorner>& corners);
 
  private:
   struct MaterialHash {
@@ -127,7 +143,8 @@ class SceneBuilder final : public SceneSink {
   bool has_material_ = false;
 };
 
-/// Sends a whole scene in file order: background, view, lights, then the objects, with the material wherever it changes.
+/// Sends a whole scene in file order: background, view, lights, then the objects, with the material wherever it changes. Without
+/// its textures, which no sink knows: textured patches come as patches.
 void replay(const Scene& scene, SceneSink& sink);
 
 }  // namespace dmpc::core

@@ -1,7 +1,9 @@
 #include "core/shade.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 
 #include "core/elementary.h"
 #include "core/expect.h"
@@ -87,19 +89,53 @@ void read_geometry(HitState& state, const std::byte* record) {
   state.stage = state.shading.is_smooth() ? Stage::normals : Stage::material;
 }
 
+/// The width, grid-local, of the ray's cone where it hits.
+double cone_at_hit(const HitState& state, const ShadeOptions& options) {
+  return cone_width(state.ray) + options.pixel_angle * double{state.hit.t};
+}
+
+/// What the cone covers of a surface at an angle is longer than wide; its length counts (T. Akenine-Moeller et al., "Texture
+/// Level of Detail Strategies for Real-Time Ray Tracing", Ray Tracing Gems, 2019, chapter 20).
+void begin_texture(HitState& state, const std::byte* record, const ShadeOptions& options, Operations& operations) {
+  ++operations.texture_lookups;
+  const auto textured = read<TexturedNormals>(record);
+  const std::array<double, 3> weight{1.0 - state.u - state.v, state.u, state.v};
+  TexturePlace place;
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    place.s += weight[corner] * double{textured.place[corner][0]};
+    place.t += weight[corner] * double{textured.place[corner][1]};
+  }
+  const double cosine = std::fabs(dot(Vec3d(state.ray.direction), state.geometric_normal));
+  const double texels = cone_at_hit(state, options) * double{textured.texels_per_unit} / std::max(cosine, 1e-6);
+  state.u = place.s;
+  state.v = place.t;
+  std::construct_at(&state.lookup, begin_lookup(textured.texture, place, texels));
+  state.stage = Stage::texture;
+}
+
+TexturePlace texture_place(const HitState& state) { return {state.u, state.v}; }
+
+void step_texture(HitState& state, const std::byte* record, Operations& operations) {
+  step(state.lookup, texture_place(state), record, operations);
+  state.stage = is_finished(state.lookup) ? Stage::textured_material : Stage::texture;
+}
+
 /// Blends the vertex normals, turned to the winding's side and then to the ray's.
-void read_normals(HitState& state, const std::byte* record, Operations& operations) {
-  ++operations.normal_reads;
+void read_normals(HitState& state, const std::byte* record, const ShadeOptions& options, Operations& operations) {
   const auto normals = read<PatchNormals>(record);
   const Vec3d blend = Vec3d(normals.normal[0]) * (1.0 - state.u - state.v) + Vec3d(normals.normal[1]) * state.u +
                       Vec3d(normals.normal[2]) * state.v;
   const double size = length(blend);
   if (size > 0.0) {
+    ++operations.normal_reads;
     const double side = dot(blend, state.normal) < 0.0 ? -1.0 : 1.0;
     state.normal = blend * (side / size);
   }
-  state.shading = ShadingReference::flat(normals.material);
+  state.shading = ShadingReference::flat(normals.material());
   state.stage = Stage::material;
+  if (normals.is_textured()) {
+    begin_texture(state, record, options, operations);
+  }
 }
 
 /// The square of the cosine behind the surface by Snell's law; below 0 there is no refracted ray.
@@ -147,7 +183,11 @@ void judge_children(HitState& state, const Skips& skips, Operations& operations)
 
 void read_material(HitState& state, const std::byte* record, const DatabaseHeader& header, const ShadeOptions& options,
                    const Skips& skips, Operations& operations) {
-  state.material = read<MaterialRecord>(record);
+  auto material = read<MaterialRecord>(record);
+  if (state.stage == Stage::textured_material) {
+    material.color = material.color * state.lookup.sum;
+  }
+  std::construct_at(&state.material, material);
   ++operations.shadings;
   if (state.ray.depth < options.depth_max) {
     judge_children(state, skips, operations);
@@ -212,18 +252,27 @@ bool read_light(HitState& state, const std::byte* record, const DatabaseHeader& 
   return true;
 }
 
-bool reflect(HitState& state, const Skips& skips, Ray& child) {
+/// A reflected or refracted ray's cone goes on with its parent's width and angle: what a curved surface does to it is left out.
+void widen(const HitState& state, const ShadeOptions& options, Ray& child) {
+  if (options.pixel_angle > 0) {
+    child.cone = cone_bits(cone_at_hit(state, options));
+  }
+}
+
+bool reflect(HitState& state, const ShadeOptions& options, const Skips& skips, Ray& child) {
   child = child_ray(state, mirrored(Vec3d(state.ray.direction), state.normal), RayKind::reflected);
+  widen(state, options, child);
   child.weight = state.ray.weight * mirrored_share(state);
   state.stage = after_reflection(state, skips);
   return true;
 }
 
-bool refract(HitState& state, Ray& child) {
+bool refract(HitState& state, const ShadeOptions& options, Ray& child) {
   const double index = relative_index(state), cosine = -dot(Vec3d(state.ray.direction), state.normal);
   const double behind = std::sqrt(refracted_cosine_squared(state, index));
   const Vec3d towards = Vec3d(state.ray.direction) * index + state.normal * (index * cosine - behind);
   child = child_ray(state, towards, RayKind::refracted);
+  widen(state, options, child);
   child.weight = state.ray.weight * state.material.transmittance;
   state.stage = Stage::finished;
   return true;
@@ -251,7 +300,8 @@ double radiance_bound(const Scene& scene, int depth_max) {
     light += brightest(intensity_of(point_light, scene));
   }
   for (const Material& material : scene.materials) {
-    direct = std::max(direct, light * (material.diffuse * brightest(material.color) + material.specular));
+    const double texture = material.texture == Material::no_texture ? 1 : scene.textures[material.texture].brightest;
+    direct = std::max(direct, light * (material.diffuse * brightest(material.color) * texture + material.specular));
     passed_on = std::max(passed_on, material.specular + material.transmittance);
   }
   const double background = brightest(scene.background);
@@ -275,7 +325,10 @@ Address record_needed(const HitState& state, const DatabaseHeader& header) {
       return state.hit.block;
     case Stage::normals:
       return state.shading.normals();
+    case Stage::texture:
+      return record_needed(state.lookup);
     case Stage::material:
+    case Stage::textured_material:
       return advance(header.materials, state.shading.material() * sizeof(MaterialRecord));
     case Stage::light:
       return advance(header.lights, state.next_light * sizeof(LightRecord));
@@ -291,17 +344,21 @@ bool shade_step(HitState& state, const std::byte* record, const DatabaseHeader& 
       read_geometry(state, record);
       return false;
     case Stage::normals:
-      read_normals(state, record, operations);
+      read_normals(state, record, options, operations);
+      return false;
+    case Stage::texture:
+      step_texture(state, record, operations);
       return false;
     case Stage::material:
+    case Stage::textured_material:
       read_material(state, record, header, options, skips, operations);
       return false;
     case Stage::light:
       return kept(read_light(state, record, header, options, skips, child, operations), child, options, operations);
     case Stage::reflected:
-      return kept(reflect(state, skips, child), child, options, operations);
+      return kept(reflect(state, options, skips, child), child, options, operations);
     case Stage::refracted:
-      return kept(refract(state, child), child, options, operations);
+      return kept(refract(state, options, child), child, options, operations);
     case Stage::finished:
       break;
   }

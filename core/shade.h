@@ -10,6 +10,7 @@
 #include "core/record.h"
 #include "core/scene.h"
 #include "core/skips.h"
+#include "core/texture_lookup.h"
 #include "core/vec.h"
 
 namespace dmpc::core {
@@ -25,6 +26,8 @@ struct ShadeOptions {
   /// sample's error. 0: none is cut (after R. Hall, D. Greenberg, "A Testbed for Realistic Image Synthesis", 1983).
   double cutoff = 0;
   double radiance_bound = 0;  ///< radiance_bound() of the scene; read only if there is a cutoff
+  /// Between the rays of neighbouring pixels, in radians: how fast the cones of rays widen. 0: no texture asks for them.
+  double pixel_angle = 0;
 };
 
 /// No reflected or refracted ray in the scene finds more light than this, in any channel: each hit reflects at most the share of
@@ -33,15 +36,30 @@ double radiance_bound(const Scene& scene, int depth_max);
 
 /// A hit being shaded: a record on the ray stack, resumable between any two of its records. Each step reads exactly one record.
 struct HitState {
-  enum class Stage : std::uint8_t { geometry, normals, material, light, reflected, refracted, finished };
+  enum class Stage : std::uint8_t {
+    geometry,
+    normals,
+    texture,
+    material,
+    textured_material,  ///< whose colour is multiplied by what the look-up gave
+    light,
+    reflected,
+    refracted,
+    finished
+  };
+
+  HitState() : material() {}
 
   Ray ray;  ///< the ray that hit
   Hit hit;
   Vec3d point;             ///< on the primitive
   Vec3d geometric_normal;  ///< true normal, unit length
   Vec3d normal;            ///< shading normal on the ray's side, unit length
-  double u = 0, v = 0;     ///< barycentric weights of vertices 1 and 2 (triangles)
-  MaterialRecord material;
+  double u = 0, v = 0;     ///< barycentric weights of vertices 1 and 2 (triangles); the place on the texture, once it is known
+  union {
+    MaterialRecord material;  ///< once it has been read
+    TextureLookup lookup;     ///< before that, if there is a texture
+  };
   ShadingReference shading;
   std::uint32_t next_light = 0;
   bool curved = false;          ///< a ray from here may meet the same primitive again

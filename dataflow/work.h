@@ -16,6 +16,7 @@ struct WorkPrices {
   std::uint64_t brick_read_ps = 0;
   std::array<std::uint64_t, core::primitive_kind_count> primitive_test_ps{};  ///< of one lane
   std::uint64_t shading_ps = 0;                                               ///< of a hit: geometry, normals, material
+  std::uint64_t tile_read_ps = 0;                                             ///< of a texture, with its entry in the table
 };
 
 /// Of one core of the machine on which they were measured.

@@ -20,12 +20,13 @@ enum class Charge : std::uint8_t {
   home_lookup,    ///< of a record in a page that is at home
   cached_lookup,  ///< of a record in a page of another home
   page_install,   ///< a page that has come put into a frame
-  ray_packing     ///< a ray put into a packet or taken out of one
+  ray_packing,    ///< a ray put into a packet or taken out of one
+  tile_read       ///< a tile of a texture found and read
 };
-inline constexpr std::size_t charge_count = 11;
+inline constexpr std::size_t charge_count = 12;
 inline constexpr std::array<std::string_view, charge_count> charge_names = {
     "ray_setup", "cell_step",   "brick_read",    "triangle_test", "sphere_test", "cone_test",
-    "shading",   "home_lookup", "cached_lookup", "page_install",  "ray_packing"};
+    "shading",   "home_lookup", "cached_lookup", "page_install",  "ray_packing", "tile_read"};
 
 /// Operations of each class: what a program has done since the start.
 struct Charges {

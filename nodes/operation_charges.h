@@ -6,7 +6,7 @@
 
 namespace dmpc::nodes {
 
-/// Rays, walk, tests and shading. Look-ups, pages and packing are the strategies' to add.
+/// Rays, walk, tests, shading and textures. Look-ups, pages and packing are the strategies' to add.
 inline Charges charges_of(const core::Operations& operations) {
   Charges charges;
   charges[Charge::ray_setup] = operations.traced_ray_count();
@@ -16,6 +16,7 @@ inline Charges charges_of(const core::Operations& operations) {
   charges[Charge::sphere_test] = operations.primitive_tests[1];
   charges[Charge::cone_test] = operations.primitive_tests[2];
   charges[Charge::shading] = operations.shadings;
+  charges[Charge::tile_read] = operations.tile_reads;
   return charges;
 }
 

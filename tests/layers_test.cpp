@@ -35,7 +35,9 @@ struct Foreign {
 };
 const std::vector<Foreign> foreign = {
     {"embree", {"apps/embree.h"}},
-    {"OpenImageIO/", {"apps/image_file.cpp"}},
+    {"OpenImageIO/",
+     {"apps/image_file.cpp", "apps/texture_file.cpp", "tests/apps/texture_file_test.cpp",
+      "tests/oracle/texture_lookup_test.cpp"}},
     {"assimp/", {"apps/mesh/"}},
     {"CLI/", {"apps/command_line.cpp", "apps/command_description.cpp"}},
     {"nlohmann/",

@@ -48,6 +48,8 @@ Features features_of(const core::Database& database) {
           {"sphere blocks", blocks(core::PrimitiveKind::sphere)},
           {"cone blocks", blocks(core::PrimitiveKind::cone)},
           {"normals", records.normals},
+          {"textured triangles", records.textured},
+          {"tiles of textures", records.texture_tiles},
           {"pages beyond one", beyond_one(database.page_count())}};
 }
 
@@ -62,6 +64,8 @@ Features features_of(const core::Operations& operations) {
           {"sphere tests", tests(core::PrimitiveKind::sphere)},
           {"cone tests", tests(core::PrimitiveKind::cone)},
           {"normals read", operations.normal_reads},
+          {"textures looked up", operations.texture_lookups},
+          {"tiles of textures read", operations.tile_reads},
           {"deposits saturated", operations.deposits_saturated},
           {"rays cut", operations.rays_cut},
           {"cells skipped", operations.skipped.empty_space},

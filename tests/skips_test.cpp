@@ -35,7 +35,7 @@ std::vector<Skips> switched_off() {
 /// Many top cells, most of them empty, and a background that is known, so that every skip acts.
 Subject subject_of(const core::Scene& scene, Subject::Size size = {16, 12}) {
   size.knows_background = true;
-  return Subject(scene, size, {.page_size_bytes = 512, .cells_per_primitive = 4096});
+  return Subject(scene, size, {.page_size_bytes = 512, .cells_per_primitive = 2048});
 }
 
 Operations reference(const Subject& subject, const core::RenderSettings& settings) {

@@ -5,7 +5,7 @@
 
 #include "apps/interrupt.h"
 #include "apps/side_by_side.h"
-#include "apps/srgb.h"
+#include "core/srgb.h"
 #include "apps/subject.h"
 #include "core/expect.h"
 #include "core/records.h"
@@ -46,7 +46,7 @@ std::vector<Vec3d> product_radiance(const Subject& subject) {
 }
 
 bool same_bytes(const Vec3d& a, const Vec3d& b) {
-  const auto byte = [](double value) { return srgb_byte(static_cast<float>(value)); };
+  const auto byte = [](double value) { return core::srgb_byte(static_cast<float>(value)); };
   return byte(a.x) == byte(b.x) && byte(a.y) == byte(b.y) && byte(a.z) == byte(b.z);
 }
 

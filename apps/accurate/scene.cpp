@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "core/expect.h"
 #include "core/triangulate.h"
 
 namespace dmpc::apps {
@@ -66,6 +67,11 @@ void add_object(AccurateScene& to, const core::Scene& scene, std::uint32_t index
 }  // namespace
 
 AccurateScene accurate_scene(const core::Scene& scene) {
+  if (!scene.textures.empty()) {
+    throw core::InputError(scene.name +
+                           ": it has textures, which the renderer in double precision does not know: measure errors on "
+                           "scenes without them");
+  }
   AccurateScene result;
   result.materials = scene.materials;
   result.background = scene.background;

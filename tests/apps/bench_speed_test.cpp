@@ -180,7 +180,7 @@ TEST_CASE("an interrupted ablation has rows of whole rounds only") {
       std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
       ::kill(::getpid(), SIGINT);
     });
-    CHECK_THROWS_AS(apps::measure_ablation(options.settings, interrupt, results), apps::Interrupted);
+    REQUIRE_THROWS_AS(apps::measure_ablation(options.settings, interrupt, results), apps::Interrupted);
     for (const apps::Ablation& one : results) {
       CHECK(one.seconds.subject_figures.size() == results.front().seconds.rounds());
       CHECK(one.seconds.rival_figures.size() == results.front().seconds.rounds());

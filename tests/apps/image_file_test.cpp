@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "apps/srgb.h"
+#include "core/srgb.h"
 #include "core/expect.h"
 #include "tests/support/temporary_folder.h"
 
@@ -51,8 +51,8 @@ TEST_CASE("an 8-bit picture holds the clamped values on the sRGB curve") {
     const Image read = read_image(folder / name);
     REQUIRE(read.rgb.size() == image.rgb.size());
     for (std::size_t index = 0; index < read.rgb.size(); ++index) {
-      CHECK(srgb_byte(read.rgb[index]) == srgb_byte(image.rgb[index]));
-      CHECK(read.rgb[index] == doctest::Approx(linear_from_srgb(srgb_byte(image.rgb[index]) / 255.0)).epsilon(1e-6));
+      CHECK(core::srgb_byte(read.rgb[index]) == core::srgb_byte(image.rgb[index]));
+      CHECK(read.rgb[index] == doctest::Approx(core::linear_from_srgb(core::srgb_byte(image.rgb[index]) / 255.0)).epsilon(1e-6));
     }
   }
 }

@@ -67,7 +67,7 @@ TEST_CASE("every figure reaches its own field") {
     "short_message": {"send_ns": 2, "latency_ns": 3, "receive_ns": 4, "byte_ps": 5},
     "long_message": {"byte_ps": 9, "send_ns": 6, "latency_ns": 7, "receive_ns": 8}, "hop_ns": 10, "service_ns": 11,
     "operation_ps": {"ray_setup": 12, "cell_step": 13, "brick_read": 14, "triangle_test": 15, "sphere_test": 16, "cone_test": 17,
-      "shading": 18, "home_lookup": 19, "cached_lookup": 20, "page_install": 21, "ray_packing": 22}, "has_contention": false,
+      "shading": 18, "home_lookup": 19, "cached_lookup": 20, "page_install": 21, "ray_packing": 22, "tile_read": 23}, "has_contention": false,
     "has_memory_port": false})";
   const MachineDescription description = parse_machine(text, "m.json");
   const nodes::Machine& machine = description.machine;
@@ -79,7 +79,7 @@ TEST_CASE("every figure reaches its own field") {
   CHECK(std::vector{large.send_ns, large.latency_ns, large.receive_ns, large.byte_ps} == std::vector<std::uint64_t>{6, 7, 8, 9});
   CHECK(machine.hop_ns == 10);
   CHECK(machine.service_ns == 11);
-  CHECK(machine.cost_ps == std::array<std::uint64_t, nodes::charge_count>{12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22});
+  CHECK(machine.cost_ps == std::array<std::uint64_t, nodes::charge_count>{12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23});
   CHECK_FALSE(machine.has_contention);
   CHECK_FALSE(machine.has_memory_port);
   CHECK(parse_machine(with(plain_text(), "\"has_memory_port\": false", "\"has_memory_port\": true"), "m.json")

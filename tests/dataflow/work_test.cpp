@@ -13,8 +13,9 @@ TEST_CASE("work is each operation at its price") {
   operations.brick_reads = 6;
   operations.primitive_tests = {7, 8, 9};
   operations.shadings = 10;
-  const dataflow::WorkPrices prices{1'000'000, 100'000, 10'000, {1'000, 100, 10}, 1};
-  CHECK(dataflow::work_of(operations, prices) == 10'000'000 + 500'000 + 60'000 + 7'000 + 800 + 90 + 10);
+  operations.tile_reads = 11;
+  const dataflow::WorkPrices prices{10'000'000, 1'000'000, 100'000, {10'000, 1'000, 100}, 10, 1};
+  CHECK(dataflow::work_of(operations, prices) == 100'000'000 + 5'000'000 + 600'000 + 70'000 + 8'000 + 900 + 100 + 11);
 }
 
 TEST_CASE("a ray that is known to meet only the background is no work") {
@@ -30,6 +31,7 @@ TEST_CASE("every kind of work has a price") {
   CHECK(prices.cell_step_ps > 0);
   CHECK(prices.brick_read_ps > 0);
   CHECK(prices.shading_ps > 0);
+  CHECK(prices.tile_read_ps > 0);
   for (const std::uint64_t price : prices.primitive_test_ps) {
     CHECK(price > 0);
   }

@@ -6,6 +6,7 @@
 
 #include "core/scene.h"
 #include "core/scenes.h"
+#include "tests/support/noise_texture.h"
 
 namespace dmpc::tests {
 
@@ -33,8 +34,23 @@ inline core::Scene mirrors_and_glass() {
   return scene;
 }
 
-/// The same with what other scenes hardly have: a black light, a black triangle, a pane that light cannot leave, and specks
-/// high above the rest.
+/// Adds a wall with a texture that repeats, and a leaning, smooth one with a texture of another kind that does not.
+inline void add_textured_walls(core::Scene& scene) {
+  scene.textures.push_back(noise_texture(50, 33));
+  scene.textures.push_back(
+      noise_texture(24, 24, core::TextureWrap::clamp, core::TextureWrap::mirror, core::TexelFormat::shared_exponent));
+  const auto last = static_cast<std::uint32_t>(scene.textures.size() - 1);
+  core::SceneBuilder builder(scene);
+  builder.material({.color = {0.9, 0.8, 0.7}, .texture = last - 1});
+  builder.textured({{-1, -2.4, 0.1}, {-0.3, -2.3, 0.1}, {-0.3, -2.3, 0.6}, {-1, -2.4, 0.6}},
+                   {{{}, {0, 3}}, {{}, {4, 3}}, {{}, {4, 0}}, {{}, {0, 0}}});
+  builder.material({.color = {0.01, 0.01, 0.01}, .diffuse = 0.8, .specular = 0.2, .shine = 10, .texture = last});
+  builder.textured({{0.6, -2.5, 0.1}, {1.2, -2.4, 0.1}, {0.9, -2.4, 0.7}},
+                   {{{-1, -1, 0}, {-0.5, 1.5F}}, {{1, -1, 0.5}, {1.5, 1.5}}, {{0, -1, 0}, {0.5, -1}}});
+}
+
+/// The same with what other scenes hardly have: a black light, a black triangle, a pane that light cannot leave, specks high
+/// above the rest, and textures.
 inline core::Scene everything() {
   core::Scene scene = mirrors_and_glass();
   scene.name = "everything";
@@ -48,6 +64,7 @@ inline core::Scene everything() {
   for (int i = 0; i < 100; ++i) {
     builder.sphere({2.6, 2.6, 0.08 * (i + 1)}, 0.01);
   }
+  add_textured_walls(scene);
   return scene;
 }
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace dmpc::apps {
+namespace dmpc::core {
 
 /// Linear light of an encoded value; both 0 to 1. x/12.92 up to 0.04045, ((x + 0.055) / 1.055)^2.4 above. Outside it is clamped.
 double linear_from_srgb(double encoded);
@@ -12,4 +12,4 @@ double linear_from_srgb(double encoded);
 /// linear values half-way between neighbouring bytes.
 std::uint8_t srgb_byte(float linear);
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::core

@@ -1,11 +1,11 @@
-#include "apps/srgb.h"
+#include "core/srgb.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <limits>
 
-namespace dmpc::apps {
+namespace dmpc::core {
 
 namespace {
 
@@ -52,4 +52,4 @@ TEST_CASE("bytes are clamped and NaN is black") {
   CHECK(srgb_byte(std::numeric_limits<float>::quiet_NaN()) == 0);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::core

@@ -1,10 +1,10 @@
-#include "apps/srgb.h"
+#include "core/srgb.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 
-namespace dmpc::apps {
+namespace dmpc::core {
 
 namespace {
 
@@ -52,4 +52,4 @@ std::uint8_t srgb_byte(float linear) {
   return static_cast<std::uint8_t>(above - limits.begin());
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::core

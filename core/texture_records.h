@@ -1,0 +1,27 @@
+// Textures as records: tables of addresses, and the tiles that they name.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/record.h"
+#include "core/record_writer.h"
+#include "core/texture.h"
+
+namespace dmpc::core {
+
+/// How shading records are to name a texture whose table begins at `tiles`. Throws InputError for a texture that is larger than
+/// Texture::size_max along a side.
+TextureReference reference_to(const Texture& texture, Address tiles);
+
+/// Writes a texture's tiles, level by level, each in Morton order from the beginning of a page, so that neighbours share pages,
+/// and their addresses to the table that `reference` names.
+void write_tiles(const Texture& texture, const TextureReference& reference, RecordWriter& writer);
+
+/// Which tiles of a texture a textured triangle may ask for, whatever the ray: on every level those about the rectangle in which
+/// its corners lie on the texture.
+void for_each_tile(const TexturedNormals& triangle, const std::function<void(std::uint32_t)>& take);
+
+}  // namespace dmpc::core

@@ -1,0 +1,102 @@
+#include "core/texture_records.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "core/expect.h"
+#include "core/records.h"
+#include "core/texture_layout.h"
+#include "core/texture_lookup.h"
+#include "tests/support/noise_texture.h"
+
+namespace dmpc::core {
+
+namespace {
+
+std::vector<TexturePlace> places_on(const TexturedNormals& triangle, std::mt19937& random) {
+  std::vector<TexturePlace> places;
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int i = 0; i < 60; ++i) {
+    double u = i < 3 ? i % 2 : share(random), v = i < 3 ? i / 2 : share(random);  // the corners first
+    if (u + v > 1) {
+      u = 1 - u, v = 1 - v;
+    }
+    const auto blend = [&](std::size_t side) {
+      return (1 - u - v) * double{triangle.place[0][side]} + u * double{triangle.place[1][side]} +
+             v * double{triangle.place[2][side]};
+    };
+    places.push_back({blend(0), blend(1)});
+  }
+  return places;
+}
+
+}  // namespace
+
+TEST_CASE("a triangle's tiles are all that any look-up on it asks for") {
+  std::mt19937 random(5);
+  for (const TextureWrap wrap : {TextureWrap::repeat, TextureWrap::mirror, TextureWrap::clamp}) {
+    const Texture texture = tests::noise_texture(100, 61, wrap, wrap);
+    RecordWriter writer(1024);
+    TextureReference reference = reference_to(texture, no_address);
+    reference.tiles = writer.allocate_array<Address>(tile_entry_count(reference));
+    write_tiles(texture, reference, writer);
+    const std::vector<std::byte> bytes = std::move(writer).finish();
+    const auto* const table = reinterpret_cast<const Address*>(bytes.data() + byte_offset(reference.tiles));
+    std::uniform_real_distribution<float> middle(-3, 3), size(0, 0.3F);
+    std::uniform_real_distribution<double> detail(-1, 8);
+    std::size_t fewest = tile_count(reference);
+    for (int round = 0; round < 100; ++round) {
+      TexturedNormals triangle{.texture = reference};
+      const float s = middle(random), t = middle(random);
+      for (auto& place : triangle.place) {
+        place = {s + size(random), t + size(random)};
+      }
+      std::set<Address> allowed;
+      for_each_tile(triangle, [&](std::uint32_t tile) { allowed.insert(table[tile]); });
+      fewest = std::min(fewest, allowed.size());
+      for (const TexturePlace& place : places_on(triangle, random)) {
+        TextureLookup lookup = begin_lookup(reference, place, std::exp2(detail(random)));
+        Operations operations;
+        while (!is_finished(lookup)) {
+          const Address address = record_needed(lookup);
+          if (lookup.is_found) {
+            CHECK(allowed.contains(address));
+          }
+          step(lookup, place, LocalRecords(bytes).find(address), operations);
+        }
+      }
+    }
+    CHECK(fewest < tile_count(reference) / 4);  // not simply all of them
+  }
+}
+
+TEST_CASE("neighbouring tiles share pages") {
+  const Texture texture = tests::noise_texture(64, 64);
+  RecordWriter writer(1024);
+  TextureReference reference = reference_to(texture, no_address);
+  reference.tiles = writer.allocate_array<Address>(tile_entry_count(reference));
+  write_tiles(texture, reference, writer);
+  const std::vector<std::byte> bytes = std::move(writer).finish();
+  const auto* const table = reinterpret_cast<const Address*>(bytes.data() + byte_offset(reference.tiles));
+  const auto page = [&](std::uint32_t column, std::uint32_t row) { return byte_offset(table[row * 8 + column]) / 1024; };
+  CHECK(page(2, 2) == page(3, 2));
+  CHECK(page(2, 2) == page(2, 3));
+  CHECK(page(2, 2) == page(3, 3));
+  CHECK(page(3, 3) != page(4, 3));
+}
+
+TEST_CASE("a texture that is too large for its records is refused, with its name and size") {
+  Texture texture{.name = "sky.png", .levels = {{65536, 2, {}}}};
+  CHECK_THROWS_WITH_AS(reference_to(texture, no_address),
+                       "sky.png: a texture of 65536x2 texels; there may be 65535 along a side: make it smaller", InputError);
+  texture.levels.front().width = 65535;
+  CHECK(reference_to(texture, no_address).width == 65535);
+}
+
+}  // namespace dmpc::core

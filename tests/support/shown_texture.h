@@ -1,0 +1,97 @@
+// A texture in records, and the same on the host.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "core/record_writer.h"
+#include "core/records.h"
+#include "core/texel.h"
+#include "core/texture.h"
+#include "core/texture_layout.h"
+#include "core/texture_lookup.h"
+#include "core/texture_records.h"
+
+namespace dmpc::tests {
+
+/// Looked up in by records as shading does, and by the definition.
+class ShownTexture {
+ public:
+  explicit ShownTexture(core::Texture texture) : texture_(std::move(texture)) {
+    core::RecordWriter writer(1024);
+    reference_ = core::reference_to(texture_, core::no_address);
+    reference_.tiles = writer.allocate_array<core::Address>(core::tile_entry_count(reference_));
+    core::write_tiles(texture_, reference_, writer);
+    bytes_ = std::move(writer).finish();
+  }
+
+  /// By the records, one a step.
+  core::Color look_up(const core::TexturePlace& place, double texels) {
+    tiles_read.clear();
+    core::TextureLookup lookup = core::begin_lookup(reference_, place, texels);
+    core::Operations operations;
+    const core::LocalRecords records(bytes_);
+    while (!core::is_finished(lookup)) {
+      const core::Address address = core::record_needed(lookup);
+      if (lookup.is_found) {
+        CHECK(tiles_read.insert(address).second);  // none is read twice
+      }
+      core::step(lookup, place, records.find(address), operations);
+    }
+    CHECK(operations.tile_reads == tiles_read.size());
+    return lookup.sum;
+  }
+
+  /// By the definition: the blend of two levels, each the blend of four texels.
+  core::Vec3d expected(const core::TexturePlace& place, double texels) const {
+    const double detail = std::max(0.0, std::log2(std::max(texels, 1e-30)));
+    const auto coarsest = static_cast<double>(texture_.levels.size() - 1);
+    const double level = std::min(std::floor(detail), coarsest);
+    const double share = level < coarsest ? detail - level : 0;
+    const auto index = static_cast<std::size_t>(level);
+    const core::Vec3d coarse = share > 0 ? blend(texture_.levels[index + 1], place) : core::Vec3d{};
+    return blend(texture_.levels[index], place) * (1 - share) + coarse * share;
+  }
+
+  const core::Texture& texture() const { return texture_; }
+  std::set<core::Address> tiles_read;  ///< by the last look-up
+
+ private:
+  static std::uint32_t wrapped(double texel, std::uint32_t size, core::TextureWrap wrap) {
+    const auto period = static_cast<double>(size);
+    if (wrap == core::TextureWrap::clamp) {
+      return static_cast<std::uint32_t>(std::min(std::max(texel, 0.0), period - 1));
+    }
+    if (wrap == core::TextureWrap::repeat) {
+      return static_cast<std::uint32_t>(texel - period * std::floor(texel / period));
+    }
+    const double turned = texel - 2 * period * std::floor(texel / (2 * period));
+    return static_cast<std::uint32_t>(turned < period ? turned : 2 * period - 1 - turned);
+  }
+
+  core::Vec3d blend(const core::TextureLevel& level, const core::TexturePlace& place) const {
+    const double x = place.s * level.width - 0.5, y = place.t * level.height - 0.5;
+    core::Vec3d sum;
+    for (int corner = 0; corner < 4; ++corner) {
+      const double column = std::floor(x) + corner % 2, row = std::floor(y) + corner / 2;
+      const double weight = (1 - std::fabs(x - column)) * (1 - std::fabs(y - row));
+      const std::size_t texel =
+          std::size_t{wrapped(row, level.height, texture_.wrap_t)} * level.width + wrapped(column, level.width, texture_.wrap_s);
+      sum = sum + core::Vec3d(core::decoded(texture_.format, level.texels[texel])) * weight;
+    }
+    return sum;
+  }
+
+  core::Texture texture_;
+  core::TextureReference reference_;
+  std::vector<std::byte> bytes_;
+};
+
+}  // namespace dmpc::tests
