@@ -70,15 +70,35 @@ void GeometryWriter::add(const aiMesh& mesh, std::size_t index, const Transform&
   }
   read_vertices(mesh, index, world);
   read_normals(mesh, world);
-  if (mesh.mMaterialIndex >= materials_.size()) {
-    throw core::InputError(name_of(mesh, index) + " has material " + std::to_string(mesh.mMaterialIndex) +
-                           ", and there are but " + std::to_string(materials_.size()));
-  }
-  sink_.material(materials_[mesh.mMaterialIndex]);
+  builder_.material(material_for(mesh, index));
   std::size_t first = 0;
   for (const std::uint32_t end : faces_.ends) {
     add_face(first, end);
     first = end;
+  }
+}
+
+/// That of the mesh, without its texture if the mesh does not say where it goes; reads places if it does.
+core::Material GeometryWriter::material_for(const aiMesh& mesh, std::size_t index) {
+  if (mesh.mMaterialIndex >= materials_.size()) {
+    throw core::InputError(name_of(mesh, index) + " has material " + std::to_string(mesh.mMaterialIndex) +
+                           ", and there are but " + std::to_string(materials_.size()));
+  }
+  auto [material, coordinates] = materials_[mesh.mMaterialIndex];
+  places_.clear();
+  if (material.texture != core::Material::no_texture && mesh.HasTextureCoords(coordinates)) {
+    read_places(mesh, coordinates);
+  } else {
+    material.texture = core::Material::no_texture;
+  }
+  return material;
+}
+
+/// A file's t grows upwards.
+void GeometryWriter::read_places(const aiMesh& mesh, unsigned coordinates) {
+  for (std::size_t i = 0; i < mesh.mNumVertices; ++i) {
+    const aiVector3D& place = mesh.mTextureCoords[coordinates][i];
+    places_.push_back({place.x, 1 - place.y});
   }
 }
 
@@ -140,11 +160,24 @@ void GeometryWriter::add_face(std::size_t first, std::size_t end) {
     face_normals_.assign(normals_.begin() + static_cast<std::ptrdiff_t>(first),
                          normals_.begin() + static_cast<std::ptrdiff_t>(end));
   }
-  if (normals_.empty() || all_equal(face_normals_)) {
-    sink_.polygon(face_vertices_);
+  const bool is_flat = normals_.empty() || all_equal(face_normals_);
+  if (!places_.empty()) {
+    face_normals_.resize(is_flat ? 0 : end - first);
+    add_textured(first, end);
+  } else if (is_flat) {
+    builder_.polygon(face_vertices_);
   } else {
-    sink_.patch(face_vertices_, face_normals_);
+    builder_.patch(face_vertices_, face_normals_);
   }
+}
+
+void GeometryWriter::add_textured(std::size_t first, std::size_t end) {
+  face_corners_.clear();
+  for (std::size_t i = first; i < end; ++i) {
+    const core::Vec3d normal = face_normals_.empty() ? core::Vec3d{} : face_normals_[i - first];
+    face_corners_.push_back({normal, places_[faces_.corners[i]]});
+  }
+  builder_.textured(face_vertices_, face_corners_);
 }
 
 }  // namespace dmpc::apps

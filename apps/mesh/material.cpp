@@ -125,6 +125,9 @@ Material material_of(const aiMaterial& source) {
 void list_textures(const aiMaterial& source, std::set<std::string>& names) {
   for (int type = aiTextureType_NONE + 1; type <= AI_TEXTURE_TYPE_MAX; ++type) {
     const auto kind = static_cast<aiTextureType>(type);
+    if (kind == aiTextureType_BASE_COLOR || kind == aiTextureType_DIFFUSE) {
+      continue;
+    }
     for (unsigned i = 0; i < source.GetTextureCount(kind); ++i) {
       aiString name;
       if (source.GetTexture(kind, i, &name) == aiReturn_SUCCESS) {

@@ -19,7 +19,7 @@ core::Material material_of(const aiMaterial& source);
 /// (F. Fisher, A. Woo, "R.E versus N.H Specular Highlights", Graphics Gems IV, 1994); 1 to 10,000.
 double shine_of_roughness(double roughness);
 
-/// The names of its textures, which are not looked at.
+/// The names of its textures that are not looked at: all but those of its colour (apps/mesh/textures.h).
 void list_textures(const aiMaterial& source, std::set<std::string>& names);
 
 bool is_emissive(const aiMaterial& source);

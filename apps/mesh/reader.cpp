@@ -17,6 +17,7 @@
 #include "apps/mesh/lights.h"
 #include "apps/mesh/material.h"
 #include "apps/mesh/placement.h"
+#include "apps/mesh/textures.h"
 #include "apps/whole_view.h"
 #include "core/expect.h"
 #include "core/forget.h"
@@ -36,10 +37,34 @@ void check_readable(const std::string& path) {
   }
 }
 
-std::vector<core::Material> materials_of(const aiScene& file) {
-  std::vector<core::Material> materials;
+/// Which materials some placed mesh has.
+std::vector<bool> used_materials(const aiScene& file, const Placements& placements) {
+  std::vector<bool> used(file.mNumMaterials);
+  for (const Placement& placement : placements) {
+    const unsigned material = file.mMeshes[placement.mesh]->mMaterialIndex;
+    if (material < used.size()) {
+      used[material] = true;
+    }
+  }
+  return used;
+}
+
+/// With the textures of those that are used, which the scene is given.
+std::vector<MeshMaterial> materials_of(const aiScene& file, const Placements& placements, MeshFile& result) {
+  TextureReader textures(file, result.scene.name, result.scene.textures);
+  const std::vector<bool> used = used_materials(file, placements);
+  std::vector<MeshMaterial> materials;
   for (std::size_t i = 0; i < file.mNumMaterials; ++i) {
-    materials.push_back(material_of(*file.mMaterials[i]));
+    MeshMaterial material{material_of(*file.mMaterials[i])};
+    const auto use = used[i] ? colour_texture(*file.mMaterials[i]) : std::nullopt;
+    if (const auto texture = use ? textures.find(*use) : std::nullopt) {
+      material.material.texture = *texture;
+      material.coordinates = use->coordinates;
+    }
+    materials.push_back(material);
+  }
+  for (const std::string& note : textures.notes()) {
+    result.notes.push_back(note);
   }
   return materials;
 }
@@ -85,9 +110,9 @@ void forget(aiScene& file, std::size_t mesh) {
 }
 
 /// Each mesh is freed after its last place.
-void add_geometry(core::Scene& scene, aiScene& file, const Placements& placements, const MeshOptions& options) {
-  core::SceneBuilder builder(scene);
-  const std::vector<core::Material> materials = materials_of(file);
+void add_geometry(MeshFile& result, aiScene& file, const Placements& placements, const MeshOptions& options) {
+  core::SceneBuilder builder(result.scene);
+  const std::vector<MeshMaterial> materials = materials_of(file, placements, result);
   GeometryWriter writer(builder, materials, options.smooth_degrees);
   std::vector<std::size_t> uses = count_uses(file, placements);
   for (const Placement& placement : placements) {
@@ -138,7 +163,7 @@ MeshFile read(const std::string& path, const MeshOptions& options, bool shows_pr
   check_size(size);
   reserve(result.scene, size);
   note_features(*file.scene, placements, result.notes);
-  add_geometry(result.scene, *file.scene, placements, options);
+  add_geometry(result, *file.scene, placements, options);
   add_surroundings(result.scene, *file.scene, options, result.notes);
   return result;
 }

@@ -47,7 +47,7 @@ bool says(const MeshFile& file, const std::string& what) {
 
 }  // namespace
 
-TEST_CASE("a point light stands where its node is; that it has fall-off is said") {
+TEST_CASE("a point light stands where its node is, and that it has fall-off is said") {
   const MeshFile file = lit(R"([{"type":"point","color":[0.5,0.25,0],"intensity":1}])");
   REQUIRE(file.scene.lights.size() == 1);
   CHECK(file.scene.lights[0].position == Vec3d{0, 0, 7});

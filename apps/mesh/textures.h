@@ -1,0 +1,53 @@
+// The textures of a mesh file's materials.
+#pragma once
+
+#include <assimp/scene.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "apps/texture_file.h"
+#include "core/texture.h"
+
+namespace dmpc::apps {
+
+/// Where a material says that its colour comes from.
+struct TextureUse {
+  std::string path;          ///< as the file has it; of one within the file its number behind a star, or its name
+  unsigned coordinates = 0;  ///< which of a mesh's texture coordinates
+  TextureEdges edges;
+};
+
+/// The base colour's (glTF), else that of diffuse light; nothing if the material has neither, or one that is no picture laid out
+/// by coordinates.
+std::optional<TextureUse> colour_texture(const aiMaterial& source);
+
+/// Reads each texture once, from beside the mesh file or from within it.
+class TextureReader {
+ public:
+  /// `file` is what lies at `path`, and outlives the reader.
+  TextureReader(const aiScene& file, const std::filesystem::path& path, std::vector<core::Texture>& textures)
+      : file_(file), path_(path), textures_(textures) {}
+
+  /// Its place among the scene's textures; nothing if it cannot be had, which is noted once for each.
+  std::optional<std::uint32_t> find(const TextureUse& use);
+
+  /// "a.png is missing ...": what could not be had, in the order of their names.
+  std::vector<std::string> notes() const { return {notes_.begin(), notes_.end()}; }
+
+ private:
+  core::Texture read(const TextureUse& use) const;
+
+  const aiScene& file_;
+  std::filesystem::path path_;
+  std::vector<core::Texture>& textures_;
+  std::map<std::string, std::optional<std::uint32_t>> known_;  ///< by path and edges
+  std::set<std::string> notes_;
+};
+
+}  // namespace dmpc::apps
