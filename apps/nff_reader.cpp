@@ -54,7 +54,7 @@ class NffReader {
   void read_view_part(core::View& view, std::size_t part);
   void check_resolution(const core::View& view);
   void check_view(const core::View& view);
-  void check_view_point(const Vec3d& point, const char* name);
+  void check_point(const Vec3d& point, const std::string& name);
   void read_light();
   void read_material();
   void check_material(const core::Material& material);
@@ -185,12 +185,11 @@ void NffReader::check_resolution(const core::View& view) {
   }
 }
 
-void NffReader::check_view_point(const Vec3d& point, const char* name) {
+void NffReader::check_point(const Vec3d& point, const std::string& name) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (std::abs(point[i]) > view_coordinate_max) {
-      tokens_.fail(
-          "found " + number_text(point[i]) + " as a coordinate of " + name +
-          " of v (view), expected a number from -1e30 to 1e30: this one is too large to be reckoned with; move the view nearer");
+      tokens_.fail("found " + number_text(point[i]) + " as a coordinate of " + name +
+                   ", expected a number from -1e30 to 1e30: this one is too large to be reckoned with; move it nearer");
     }
   }
 }
@@ -201,8 +200,8 @@ void NffReader::check_view(const core::View& view) {
     tokens_.fail("found " + number_text(view.angle_degrees) +
                  " as the angle of v (view), expected degrees between 0 and 180, both excluded; correct it");
   }
-  check_view_point(view.from, "from");
-  check_view_point(view.at, "at");
+  check_point(view.from, "from of v (view)");
+  check_point(view.at, "at of v (view)");
   if (fault == ViewFault::direction) {
     tokens_.fail("found from and at of v (view) at the same point, expected two points; move one");
   }
@@ -213,6 +212,7 @@ void NffReader::check_view(const core::View& view) {
 
 void NffReader::read_light() {
   core::PointLight light{.position = vector("l (light)", "a coordinate")};
+  check_point(light.position, "l (light)");
   if (tokens_.next_is_number()) {
     light.has_color = true;
     light.color = vector("l (light)", "a colour component");

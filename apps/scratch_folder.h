@@ -15,9 +15,11 @@ namespace dmpc::apps {
 class ScratchFolder {
  public:
   ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "dmpc-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) {
-      throw core::InputError("no temporary folder can be made as " + name);
+    std::error_code error;
+    const std::filesystem::path place = std::filesystem::temp_directory_path(error);
+    std::string name = (place / "dmpc-XXXXXX").string();
+    if (error || ::mkdtemp(name.data()) == nullptr) {
+      throw core::InputError("no temporary folder can be made as " + name + ": set TMPDIR to a folder that can be written to");
     }
     path_ = name;
   }

@@ -14,7 +14,7 @@ namespace {
 using core::Vec3d;
 
 constexpr const char* camera_form = "FROM/AT[/UP[/DEGREES]] with points such as 1,2,3";
-constexpr const char* light_form = "X,Y,Z[/R,G,B] with finite numbers, none of the colour below 0";
+constexpr const char* light_form = "X,Y,Z[/R,G,B] with numbers, coordinates from -1e30 to 1e30, none of the colour below 0";
 constexpr const char* number_form = "a number above 0, at most 1e30";
 
 [[noreturn]] void refuse(const std::string& option, const std::string& text, const std::string& expected) {
@@ -93,7 +93,8 @@ core::PointLight parse_light(const std::string& text) {
   const std::vector<std::string> parts = words_between(text, '/');
   const auto position = parse_vector(parts[0]);
   const auto color = parse_vector(parts.back());
-  if (parts.size() > 2 || !position || !color || (parts.size() == 2 && std::min({color->x, color->y, color->z}) < 0)) {
+  if (parts.size() > 2 || !position || !is_in_reach(*position) || !color ||
+      (parts.size() == 2 && std::min({color->x, color->y, color->z}) < 0)) {
     refuse("--light", text, light_form);
   }
   return parts.size() == 2 ? core::PointLight{*position, *color, true} : core::PointLight{.position = *position};

@@ -10,6 +10,7 @@
 
 #include "apps/scratch_folder.h"
 #include "core/expect.h"
+#include "core/record_writer.h"
 #include "core/srgb.h"
 #include "core/texel.h"
 
@@ -19,11 +20,19 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int channels = 3;
+/// Of the finest level: four bytes each, and a third of that for the other levels.
+constexpr std::size_t texels_max = core::RecordWriter::bytes_max / 16 * 3;
+
+std::size_t texel_count(const OIIO::ImageSpec& spec) {
+  return static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+}
 
 using Input = std::unique_ptr<OIIO::ImageInput>;
 
 Input open(const fs::path& path, const std::string& name) {
-  Input input = OIIO::ImageInput::open(path.string());
+  OIIO::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);  // else colours come multiplied by alpha
+  Input input = OIIO::ImageInput::open(path.string(), &config);
   if (!input) {
     throw core::InputError(name + ": cannot be read as a picture: " + OIIO::geterror());
   }
@@ -33,6 +42,14 @@ Input open(const fs::path& path, const std::string& name) {
     throw core::InputError(name + ": a texture of " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
                            " texels; expected 1 to " + std::to_string(most) + " along a side");
   }
+  if (spec.depth > 1 || spec.deep) {
+    throw core::InputError(name + ": a texture with " + (spec.deep ? "several samples a texel" : "several layers") +
+                           "; expected a plain picture");
+  }
+  if (texel_count(spec) > texels_max) {
+    throw core::InputError(name + ": a texture of " + std::to_string(texel_count(spec)) + " texels; expected at most " +
+                           std::to_string(texels_max) + ", which fill a database: make it smaller");
+  }
   return input;
 }
 
@@ -41,8 +58,7 @@ template <class T, class Take>
 void for_each_texel(OIIO::ImageInput& input, const std::string& name, OIIO::TypeDesc type, const Take& take) {
   const OIIO::ImageSpec& spec = input.spec();
   const int count = spec.nchannels < channels ? 1 : channels;
-  const auto texels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
-  std::vector<T> values(texels * static_cast<std::size_t>(count));
+  std::vector<T> values(texel_count(spec) * static_cast<std::size_t>(count));
   if (!input.read_image(0, 0, 0, count, type, values.data())) {
     throw core::InputError(name + ": cannot be read: " + input.geterror());
   }
@@ -81,6 +97,7 @@ core::Texture read(const fs::path& path, const std::string& name, const TextureE
                         .wrap_s = edges.s,
                         .wrap_t = edges.t,
                         .levels = {{static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), {}}}};
+  texture.levels.front().texels.reserve(texel_count(spec));
   (keeps_bytes ? read_bytes : read_light)(*input, name, texture.levels.front().texels);
   core::add_levels(texture);
   return texture;
@@ -98,7 +115,7 @@ core::Texture read_texture(std::span<const std::byte> file, const std::string& n
   stream.write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
   stream.close();
   if (!stream) {
-    throw core::InputError(name + ": there is no room for a copy of it in " + path.parent_path().string());
+    throw core::InputError(name + ": a copy of it cannot be written in " + path.parent_path().string());
   }
   return read(path, name, edges);
 }

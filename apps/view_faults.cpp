@@ -8,10 +8,6 @@ namespace {
 
 using core::Vec3d;
 
-bool is_near(const Vec3d& point) {
-  return std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)}) <= view_coordinate_max && is_finite(point);
-}
-
 /// `a` with its largest component brought to 1, so that no product of it overflows or vanishes; zero stays.
 Vec3d to_unit_size(const Vec3d& a) {
   const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
@@ -20,12 +16,16 @@ Vec3d to_unit_size(const Vec3d& a) {
 
 }  // namespace
 
+bool is_in_reach(const Vec3d& point) {
+  return std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)}) <= view_coordinate_max && is_finite(point);
+}
+
 std::optional<ViewFault> fault_of(const core::View& view) {
   if (!(view.angle_degrees > 0 && view.angle_degrees < 180)) {
     return ViewFault::angle;
   }
-  if (!is_near(view.from) || !is_near(view.at)) {
-    return is_near(view.from) ? ViewFault::far_at : ViewFault::far_from;
+  if (!is_in_reach(view.from) || !is_in_reach(view.at)) {
+    return is_in_reach(view.from) ? ViewFault::far_at : ViewFault::far_from;
   }
   if (view.from == view.at) {
     return ViewFault::direction;

@@ -8,8 +8,10 @@
 
 namespace dmpc::apps {
 
-/// Of the view's points: farther out, squares of distances leave the range of floats.
+/// Of the view's points and of lights: farther out, squares of distances leave the range of floats.
 inline constexpr double view_coordinate_max = 1e30;
+/// Whether all coordinates are numbers within it.
+bool is_in_reach(const core::Vec3d& point);
 
 enum class ViewFault : std::uint8_t {
   angle,      ///< not between 0 and 180 degrees, both excluded

@@ -49,11 +49,13 @@ using Run = std::pair<std::uint32_t, std::uint32_t>;
 Run tiles_between(double low, double high, std::uint32_t size, TextureWrap wrap) {
   constexpr double rounding = 0x1p-20;  // places are below 2^20, and sums of three of them in double
   const double first = std::floor((low - rounding) * size - 0.5), last = std::floor((high + rounding) * size - 0.5) + 1;
-  const bool is_inside = first >= 0 && last < size;
-  if (wrap != TextureWrap::clamp && !is_inside) {
-    const double turn = std::floor(low);
-    const bool is_one_turn = wrap == TextureWrap::repeat && first >= turn * size && last < (turn + 1) * size;
-    return is_one_turn ? tiles_between(low - turn, high - turn, size, TextureWrap::clamp) : Run{0, (size - 1) / tile_side};
+  if (const double turn = std::floor(low); wrap != TextureWrap::clamp) {
+    if (first < turn * size || last >= (turn + 1) * size) {
+      return {0, (size - 1) / tile_side};
+    }
+    const bool is_mirrored = wrap == TextureWrap::mirror && std::floor(turn / 2) * 2 != turn;
+    return is_mirrored ? tiles_between(turn + 1 - high, turn + 1 - low, size, TextureWrap::clamp)
+                       : tiles_between(low - turn, high - turn, size, TextureWrap::clamp);
   }
   const double most = size - 1;
   return {static_cast<std::uint32_t>(std::clamp(first, 0.0, most)) / tile_side,

@@ -16,7 +16,7 @@ namespace dmpc::core {
 /// Texture::size_max along a side.
 TextureReference reference_to(const Texture& texture, Address tiles);
 
-/// Writes a texture's tiles, level by level, each in Morton order from the beginning of a page, so that neighbours share pages,
+/// Writes a texture's tiles, from the beginning of a page, level by level, each in Morton order, so that neighbours share pages,
 /// and their addresses to the table that `reference` names.
 void write_tiles(const Texture& texture, const TextureReference& reference, RecordWriter& writer);
 

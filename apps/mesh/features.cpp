@@ -41,7 +41,7 @@ void note_meshes(const std::set<const aiMesh*>& meshes, std::vector<std::string>
   note(notes, "points and lines left out", thin);
   note(notes, "meshes whose vertex colours are not used",
        count(meshes, [](const aiMesh& mesh) { return mesh.HasVertexColors(0); }));
-  note(notes, "meshes whose second texture coordinates are not used",
+  note(notes, "meshes with several sets of texture coordinates, of which colours use one",
        count(meshes, [](const aiMesh& mesh) { return mesh.GetNumUVChannels() > 1; }));
   note(notes, "meshes with a skin, shown at rest", count(meshes, [](const aiMesh& mesh) { return mesh.HasBones(); }));
   note(notes, "meshes with morph targets, shown without them",

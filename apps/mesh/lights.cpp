@@ -125,7 +125,7 @@ std::vector<PointLight> lights_of(const aiScene& scene, const Bounds& bounds, do
     const aiLight& light = *scene.mLights[i];
     const PointLight ours{position_of(light, world_of(scene, light.mName, scale), bounds), color_of(light), true};
     ++counts[light.mType];
-    if (is_shown(light) && is_finite(ours.position) && brightest(ours.color) > 0) {
+    if (is_shown(light) && is_in_reach(ours.position) && brightest(ours.color) > 0) {
       lights.push_back(ours);
     }
   }

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <string>
 
-#include "core/srgb.h"
 #include "core/expect.h"
+#include "core/srgb.h"
 #include "tests/support/temporary_folder.h"
 
 namespace dmpc::apps {

@@ -77,8 +77,8 @@ TEST_CASE("the options of a mesh and of the stage are read") {
 }
 
 TEST_CASE("scales, axes and angles out of range are refused") {
-  for (const char* option : {"--scale=0", "--scale=-1", "--scale=inf", "--scale=x", "--scale=1e31", "--up=w", "--smooth=-1",
-                             "--smooth=181", "--smooth=", "--camera=1", "--light=1"}) {
+  for (const char* option : {"--scale=0", "--scale=-1", "--scale=inf", "--scale=x", "--scale=1e31", "--light=1e31,0,0", "--up=w",
+                             "--smooth=-1", "--smooth=181", "--smooth=", "--camera=1", "--light=1"}) {
     CAPTURE(option);
     CHECK_THROWS_AS(staged({option}), UsageError);
   }

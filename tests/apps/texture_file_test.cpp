@@ -61,6 +61,21 @@ TEST_CASE("alpha is left out, and gray is taken for all channels") {
         0x424242);
 }
 
+TEST_CASE("colours are those of the file, however transparent the texel is") {
+  const TemporaryFolder folder;
+  const std::vector<std::uint8_t> texels{200, 100, 50, 0, 200, 100, 50, 128};
+  for (const std::string name : {"a.png", "a.tga"}) {
+    CAPTURE(name);
+    const auto output = OIIO::ImageOutput::create(name);
+    OIIO::ImageSpec spec(2, 1, 4, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    REQUIRE(output->open((folder / name).string(), spec));
+    REQUIRE(output->write_image(OIIO::TypeDesc::UINT8, texels.data()));
+    REQUIRE(output->close());
+    CHECK(read_texture(folder / name, {}).levels[0].texels == std::vector<std::uint32_t>{0x3264c8, 0x3264c8});
+  }
+}
+
 TEST_CASE("floats are linear light beyond 1, too") {
   const TemporaryFolder folder;
   const std::vector<float> light{0.5F, 2, 1000};

@@ -76,6 +76,19 @@ TEST_CASE("a triangle's tiles are all that any look-up on it asks for") {
   }
 }
 
+TEST_CASE("a small triangle takes few tiles wherever it lies, on whatever turn round the texture") {
+  for (const TextureWrap wrap : {TextureWrap::repeat, TextureWrap::mirror}) {
+    const TextureReference reference = reference_to(tests::noise_texture(64, 64, wrap, wrap), no_address);
+    for (const float turn : {-7.0F, -2.0F, -1.0F, 0.0F, 1.0F, 6.0F}) {
+      TexturedNormals triangle{.texture = reference};
+      triangle.place = {{{turn + 0.45F, 0.45F}, {turn + 0.46F, 0.45F}, {turn + 0.45F, 0.46F}}};
+      std::size_t count = 0;
+      for_each_tile(triangle, [&](std::uint32_t) { ++count; });
+      CHECK(count <= 3 * 4 + 4);  // of 88: at most four on each level but those that are one tile
+    }
+  }
+}
+
 TEST_CASE("neighbouring tiles share pages") {
   const Texture texture = tests::noise_texture(64, 64);
   RecordWriter writer(1024);
