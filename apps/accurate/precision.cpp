@@ -5,11 +5,11 @@
 
 #include "apps/interrupt.h"
 #include "apps/side_by_side.h"
-#include "core/srgb.h"
 #include "apps/subject.h"
 #include "core/expect.h"
 #include "core/records.h"
 #include "core/render.h"
+#include "core/srgb.h"
 
 namespace dmpc::apps {
 namespace {
