@@ -37,11 +37,7 @@ Input open(const fs::path& path, const std::string& name) {
     throw core::InputError(name + ": cannot be read as a picture: " + OIIO::geterror());
   }
   const OIIO::ImageSpec& spec = input->spec();
-  constexpr int most = core::Texture::size_max;
-  if (spec.width < 1 || spec.height < 1 || spec.width > most || spec.height > most) {
-    throw core::InputError(name + ": a texture of " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
-                           " texels; expected 1 to " + std::to_string(most) + " along a side");
-  }
+  check_texture_size(name, spec.width, spec.height);
   if (spec.depth > 1 || spec.deep) {
     throw core::InputError(name + ": a texture with " + (spec.deep ? "several samples a texel" : "several layers") +
                            "; expected a plain picture");
@@ -104,6 +100,14 @@ core::Texture read(const fs::path& path, const std::string& name, const TextureE
 }
 
 }  // namespace
+
+void check_texture_size(const std::string& name, std::int64_t width, std::int64_t height) {
+  constexpr std::int64_t most = core::Texture::size_max;
+  if (width < 1 || height < 1 || width > most || height > most) {
+    throw core::InputError(name + ": a texture of " + std::to_string(width) + "x" + std::to_string(height) +
+                           " texels; expected 1 to " + std::to_string(most) + " along a side");
+  }
+}
 
 core::Texture read_texture(const fs::path& path, const TextureEdges& edges) { return read(path, path.string(), edges); }
 

@@ -146,8 +146,7 @@ class DatabaseBuilder {
                                    static_cast<float>(from.refraction_index)});
     }
     for (const Texture& texture : scene_.textures) {
-      const std::size_t entries = tile_entry_count(reference_to(texture, no_address));
-      textures_.push_back(reference_to(texture, writer_.allocate_array<Address>(entries)));
+      textures_.push_back(reference_to(texture, writer_));
     }
   }
 

@@ -69,19 +69,20 @@ std::pair<double, double> extent_of(const TexturedNormals& triangle, std::size_t
 
 }  // namespace
 
-TextureReference reference_to(const Texture& texture, Address tiles) {
+TextureReference reference_to(const Texture& texture, RecordWriter& writer) {
   const TextureLevel& finest = texture.levels.front();
   if (std::max(finest.width, finest.height) > Texture::size_max) {
     throw InputError(texture.name + ": a texture of " + std::to_string(finest.width) + "x" + std::to_string(finest.height) +
                      " texels; there may be " + std::to_string(Texture::size_max) + " along a side: make it smaller");
   }
-  return {.tiles = tiles,
-          .width = static_cast<std::uint16_t>(finest.width),
-          .height = static_cast<std::uint16_t>(finest.height),
-          .format = texture.format,
-          .wrap_s = texture.wrap_s,
-          .wrap_t = texture.wrap_t,
-          .level_count = static_cast<std::uint8_t>(texture.levels.size())};
+  TextureReference reference{.width = static_cast<std::uint16_t>(finest.width),
+                             .height = static_cast<std::uint16_t>(finest.height),
+                             .format = texture.format,
+                             .wrap_s = texture.wrap_s,
+                             .wrap_t = texture.wrap_t,
+                             .level_count = static_cast<std::uint8_t>(texture.levels.size())};
+  reference.tiles = writer.allocate_array<Address>(tile_entry_count(reference));
+  return reference;
 }
 
 void write_tiles(const Texture& texture, const TextureReference& reference, RecordWriter& writer) {

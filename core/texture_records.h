@@ -12,9 +12,9 @@
 
 namespace dmpc::core {
 
-/// How shading records are to name a texture whose table begins at `tiles`. Throws InputError for a texture that is larger than
-/// Texture::size_max along a side.
-TextureReference reference_to(const Texture& texture, Address tiles);
+/// How shading records are to name a texture: its table of tiles is an array that `writer` has room for now. Throws InputError
+/// for a texture that is larger than Texture::size_max along a side.
+TextureReference reference_to(const Texture& texture, RecordWriter& writer);
 
 /// Writes a texture's tiles, from the beginning of a page, level by level, each in Morton order, so that neighbours share pages,
 /// and their addresses to the table that `reference` names.

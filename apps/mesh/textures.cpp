@@ -67,11 +67,7 @@ fs::path resolved(const fs::path& mesh, std::string name) {
 
 /// Texels that the file holds ready, as bytes.
 core::Texture from_texels(const aiTexture& source, const std::string& name, const TextureEdges& edges) {
-  constexpr unsigned most = core::Texture::size_max;
-  if (source.pcData == nullptr || source.mWidth < 1 || source.mWidth > most || source.mHeight > most) {
-    throw core::InputError(name + ": a texture of " + std::to_string(source.mWidth) + "x" + std::to_string(source.mHeight) +
-                           " texels; expected 1 to " + std::to_string(most) + " along a side");
-  }
+  check_texture_size(name, source.pcData == nullptr ? 0 : source.mWidth, source.mHeight);
   core::Texture texture{.name = name, .wrap_s = edges.s, .wrap_t = edges.t, .levels = {{source.mWidth, source.mHeight, {}}}};
   const std::size_t count = std::size_t{source.mWidth} * source.mHeight;
   for (const aiTexel& texel : std::span(source.pcData, count)) {

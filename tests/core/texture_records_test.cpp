@@ -6,14 +6,13 @@
 #include <cmath>
 #include <random>
 #include <set>
-#include <span>
 #include <vector>
 
 #include "core/expect.h"
-#include "core/records.h"
 #include "core/texture_layout.h"
 #include "core/texture_lookup.h"
 #include "tests/support/noise_texture.h"
+#include "tests/support/shown_texture.h"
 
 namespace dmpc::core {
 
@@ -41,13 +40,8 @@ std::vector<TexturePlace> places_on(const TexturedNormals& triangle, std::mt1993
 TEST_CASE("a triangle's tiles are all that any look-up on it asks for") {
   std::mt19937 random(5);
   for (const TextureWrap wrap : {TextureWrap::repeat, TextureWrap::mirror, TextureWrap::clamp}) {
-    const Texture texture = tests::noise_texture(100, 61, wrap, wrap);
-    RecordWriter writer(1024);
-    TextureReference reference = reference_to(texture, no_address);
-    reference.tiles = writer.allocate_array<Address>(tile_entry_count(reference));
-    write_tiles(texture, reference, writer);
-    const std::vector<std::byte> bytes = std::move(writer).finish();
-    const auto* const table = reinterpret_cast<const Address*>(bytes.data() + byte_offset(reference.tiles));
+    const tests::ShownTexture shown(tests::noise_texture(100, 61, wrap, wrap));
+    const TextureReference& reference = shown.reference();
     std::uniform_real_distribution<float> middle(-3, 3), size(0, 0.3F);
     std::uniform_real_distribution<double> detail(-1, 8);
     std::size_t fewest = tile_count(reference);
@@ -58,7 +52,7 @@ TEST_CASE("a triangle's tiles are all that any look-up on it asks for") {
         place = {s + size(random), t + size(random)};
       }
       std::set<Address> allowed;
-      for_each_tile(triangle, [&](std::uint32_t tile) { allowed.insert(table[tile]); });
+      for_each_tile(triangle, [&](std::uint32_t tile) { allowed.insert(shown.tile(tile)); });
       fewest = std::min(fewest, allowed.size());
       for (const TexturePlace& place : places_on(triangle, random)) {
         TextureLookup lookup = begin_lookup(reference, place, std::exp2(detail(random)));
@@ -68,7 +62,7 @@ TEST_CASE("a triangle's tiles are all that any look-up on it asks for") {
           if (lookup.is_found) {
             CHECK(allowed.contains(address));
           }
-          step(lookup, place, LocalRecords(bytes).find(address), operations);
+          step(lookup, place, shown.records().find(address), operations);
         }
       }
     }
@@ -78,9 +72,9 @@ TEST_CASE("a triangle's tiles are all that any look-up on it asks for") {
 
 TEST_CASE("a small triangle takes few tiles wherever it lies, on whatever turn round the texture") {
   for (const TextureWrap wrap : {TextureWrap::repeat, TextureWrap::mirror}) {
-    const TextureReference reference = reference_to(tests::noise_texture(64, 64, wrap, wrap), no_address);
+    const tests::ShownTexture shown(tests::noise_texture(64, 64, wrap, wrap));
     for (const float turn : {-7.0F, -2.0F, -1.0F, 0.0F, 1.0F, 6.0F}) {
-      TexturedNormals triangle{.texture = reference};
+      TexturedNormals triangle{.texture = shown.reference()};
       triangle.place = {{{turn + 0.45F, 0.45F}, {turn + 0.46F, 0.45F}, {turn + 0.45F, 0.46F}}};
       std::size_t count = 0;
       for_each_tile(triangle, [&](std::uint32_t) { ++count; });
@@ -90,14 +84,8 @@ TEST_CASE("a small triangle takes few tiles wherever it lies, on whatever turn r
 }
 
 TEST_CASE("neighbouring tiles share pages") {
-  const Texture texture = tests::noise_texture(64, 64);
-  RecordWriter writer(1024);
-  TextureReference reference = reference_to(texture, no_address);
-  reference.tiles = writer.allocate_array<Address>(tile_entry_count(reference));
-  write_tiles(texture, reference, writer);
-  const std::vector<std::byte> bytes = std::move(writer).finish();
-  const auto* const table = reinterpret_cast<const Address*>(bytes.data() + byte_offset(reference.tiles));
-  const auto page = [&](std::uint32_t column, std::uint32_t row) { return byte_offset(table[row * 8 + column]) / 1024; };
+  const tests::ShownTexture shown(tests::noise_texture(64, 64));
+  const auto page = [&](std::uint32_t column, std::uint32_t row) { return byte_offset(shown.tile(row * 8 + column)) / 1024; };
   CHECK(page(2, 2) == page(3, 2));
   CHECK(page(2, 2) == page(2, 3));
   CHECK(page(2, 2) == page(3, 3));
@@ -106,10 +94,11 @@ TEST_CASE("neighbouring tiles share pages") {
 
 TEST_CASE("a texture that is too large for its records is refused, with its name and size") {
   Texture texture{.name = "sky.png", .levels = {{65536, 2, {}}}};
-  CHECK_THROWS_WITH_AS(reference_to(texture, no_address),
+  RecordWriter writer(1024);
+  CHECK_THROWS_WITH_AS(reference_to(texture, writer),
                        "sky.png: a texture of 65536x2 texels; there may be 65535 along a side: make it smaller", InputError);
   texture.levels.front().width = 65535;
-  CHECK(reference_to(texture, no_address).width == 65535);
+  CHECK(reference_to(texture, writer).width == 65535);
 }
 
 }  // namespace dmpc::core

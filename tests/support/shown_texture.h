@@ -26,8 +26,7 @@ class ShownTexture {
  public:
   explicit ShownTexture(core::Texture texture) : texture_(std::move(texture)) {
     core::RecordWriter writer(1024);
-    reference_ = core::reference_to(texture_, core::no_address);
-    reference_.tiles = writer.allocate_array<core::Address>(core::tile_entry_count(reference_));
+    reference_ = core::reference_to(texture_, writer);
     core::write_tiles(texture_, reference_, writer);
     bytes_ = std::move(writer).finish();
   }
@@ -37,13 +36,12 @@ class ShownTexture {
     tiles_read.clear();
     core::TextureLookup lookup = core::begin_lookup(reference_, place, texels);
     core::Operations operations;
-    const core::LocalRecords records(bytes_);
     while (!core::is_finished(lookup)) {
       const core::Address address = core::record_needed(lookup);
       if (lookup.is_found) {
         CHECK(tiles_read.insert(address).second);  // none is read twice
       }
-      core::step(lookup, place, records.find(address), operations);
+      core::step(lookup, place, records().find(address), operations);
     }
     CHECK(operations.tile_reads == tiles_read.size());
     return lookup.sum;
@@ -61,6 +59,13 @@ class ShownTexture {
   }
 
   const core::Texture& texture() const { return texture_; }
+  const core::TextureReference& reference() const { return reference_; }
+  core::LocalRecords records() const { return core::LocalRecords(bytes_); }
+  /// Where the tile of a number is.
+  core::Address tile(std::uint32_t number) const {
+    return core::read<core::Address>(records().find(core::tile_entry_address(reference_, number)) +
+                                     core::tile_entry_offset(number));
+  }
   std::set<core::Address> tiles_read;  ///< by the last look-up
 
  private:
