@@ -163,17 +163,13 @@ class DatabaseBuilder {
   void write_normals() {
     result_.records_.normals = conversion_.smooth.size();
     for (const Conversion::Smooth& smooth : conversion_.smooth) {
-      const Address address = writer_.allocate(sizeof(PatchNormals));
-      writer_.write(address, 0, smooth.normals);
-      conversion_.shading[smooth.primitive] = ShadingReference::smooth(address);
+      conversion_.shading[smooth.primitive] = ShadingReference::smooth(writer_.add(smooth.normals));
     }
     forget(conversion_.smooth);
     result_.records_.textured = conversion_.textured.size();
     for (Conversion::Textured& textured : conversion_.textured) {
-      const Address address = writer_.allocate(sizeof(TexturedNormals));
       textured.normals.texture = textures_[textured.texture];
-      writer_.write(address, 0, textured.normals);
-      conversion_.shading[textured.primitive] = ShadingReference::smooth(address);
+      conversion_.shading[textured.primitive] = ShadingReference::smooth(writer_.add(textured.normals));
     }
     forget(conversion_.textured);
   }

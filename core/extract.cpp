@@ -142,11 +142,9 @@ class Extractor {
     if (is_new && read<PatchNormals>(at(from)).is_textured()) {
       auto textured = read<TexturedNormals>(at(from));
       textured.texture = copy_reference(textured);
-      found->second = writer_.allocate(sizeof(TexturedNormals));
-      writer_.write(found->second, 0, textured);
+      found->second = writer_.add(textured);
     } else if (is_new) {
-      found->second = writer_.allocate(sizeof(PatchNormals));
-      writer_.write(found->second, 0, std::span(at(from), sizeof(PatchNormals)));
+      found->second = writer_.add(read<PatchNormals>(at(from)));
     }
     return found->second;
   }
@@ -177,8 +175,7 @@ class Extractor {
       }
       std::vector<Address> copies(texture.needed.size(), no_address);
       for (const auto& [from, tile] : tiles) {
-        copies[tile] = writer_.allocate(sizeof(TextureTile));
-        writer_.write(copies[tile], 0, std::span(at(from), sizeof(TextureTile)));
+        copies[tile] = writer_.add(read<TextureTile>(at(from)));
       }
       writer_.write(texture.to.tiles, 0, std::as_bytes(std::span(copies)));
     }

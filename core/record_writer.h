@@ -63,6 +63,13 @@ class RecordWriter {
     static_assert(std::is_trivially_copyable_v<T>);
     write(address, offset, std::as_bytes(std::span(&value, 1)));
   }
+  /// Makes room for a record and writes it there.
+  template <class T>
+  Address add(const T& record) {
+    const Address address = allocate(sizeof(T));
+    write(address, 0, record);
+    return address;
+  }
   /// Bytes of every record so far, as they were allocated.
   std::span<const std::uint16_t> sizes() const { return sizes_; }
   /// Bytes before the first record.

@@ -91,9 +91,7 @@ void write_tiles(const Texture& texture, const TextureReference& reference, Reco
   for (std::uint32_t level = 0; level < reference.level_count; ++level) {
     const std::uint32_t columns = tile_columns(reference, level), first = first_tile(reference, level);
     for (const TilePlace& place : in_morton_order(columns, tile_rows(reference, level))) {
-      const Address address = writer.allocate(sizeof(TextureTile));
-      writer.write(address, 0, tile_at(texture.levels[level], place));
-      table[first + place.row * columns + place.column] = address;
+      table[first + place.row * columns + place.column] = writer.add(tile_at(texture.levels[level], place));
     }
   }
   writer.write(reference.tiles, 0, std::as_bytes(std::span(table)));
