@@ -1,7 +1,11 @@
 #include "apps/figures.h"
 
+#include <array>
+#include <charconv>
 #include <iomanip>
 #include <sstream>
+
+#include "core/expect.h"
 
 namespace dmpc::apps {
 
@@ -11,6 +15,19 @@ std::string grouped(std::uint64_t value) {
     text.insert(place - 3, 1, ',');
   }
   return text;
+}
+
+std::string shortest(double value) {
+  std::array<char, 32> text{};
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value);
+  core::expect(error == std::errc(), "the shortest text of a real number has a bound");
+  return {text.data(), end};
+}
+
+std::string rounded(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
 }
 
 std::string fixed(double value, int digits) {

@@ -9,6 +9,10 @@ namespace dmpc::apps {
 
 /// 1234567 as 1,234,567.
 std::string grouped(std::uint64_t value);
+/// The shortest text that reads back as the same number.
+std::string shortest(double value);
+/// To six significant digits.
+std::string rounded(double value);
 /// With so many digits after the point.
 std::string fixed(double value, int digits);
 /// "3.142 s", from 10 s on "31.4 s".

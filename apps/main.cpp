@@ -13,6 +13,7 @@
 #include "apps/compare.h"
 #include "apps/error/command.h"
 #include "apps/exit_status.h"
+#include "apps/info/command.h"
 #include "apps/interrupt.h"
 #include "apps/machine.h"
 #include "apps/options.h"
@@ -40,6 +41,7 @@ struct Execute {
     return 0;
   }
   int operator()(const RenderOptions& options) const { return render_command(options, interrupt, std::cout); }
+  int operator()(const InfoOptions& options) const { return info_command(options, interrupt, std::cout); }
   int operator()(const SceneOptions& options) const { return scene_command(options, interrupt, std::cout); }
   int operator()(const CheckOptions& options) const { return check_command(options, interrupt); }
   int operator()(const CompareOptions& options) const { return compare_command(options, interrupt, std::cout); }

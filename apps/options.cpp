@@ -28,6 +28,7 @@ class Commands {
   /// What was set for the command that the line names.
   Command named(const std::string& name) const {
     const std::map<std::string, Command> commands = {{"render", render_},
+                                                     {"info", info_},
                                                      {"scene", scene_},
                                                      {"check", check_},
                                                      {"compare", compare_},
@@ -48,6 +49,7 @@ class Commands {
  private:
   void declare_simple_commands() {
     add_options(line_.add_command("render", "Render a scene on N nodes"), render_);
+    add_options(line_.add_command("info", "Tell what a scene is, and what a render of it would take"), info_);
     add_options(line_.add_command("scene", "Write a built-in scene as an NFF file"), scene_);
     add_options(line_.add_command("check", "Trace every ray of a render with Embree too, and let a referee settle differences"),
                 check_);
@@ -96,6 +98,7 @@ class Commands {
   CommandLine line_{"dmpc: a distributed-memory parallel computer on one machine, for ray tracing", "dmpc " DMPC_VERSION,
                     "dmpc COMMAND --help says more, with examples.\nStart with: dmpc render teapot-12 --nodes=8 -o teapot.png"};
   RenderOptions render_;
+  InfoOptions info_;
   SceneOptions scene_;
   CheckOptions check_;
   CompareOptions compare_;

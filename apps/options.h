@@ -10,6 +10,7 @@
 #include "apps/command_line.h"
 #include "apps/compare.h"
 #include "apps/error/command.h"
+#include "apps/info/command.h"
 #include "apps/machine.h"
 #include "apps/render_options.h"
 #include "apps/scale/command.h"
@@ -21,8 +22,9 @@
 
 namespace dmpc::apps {
 
-using Command = std::variant<HelpText, RenderOptions, SceneOptions, CheckOptions, CompareOptions, MachineOptions, StudyOptions,
-                             PaperStudyOptions, ScaleOptions, StabilityOptions, PrecisionOptions, ErrorOptions, SpeedOptions>;
+using Command =
+    std::variant<HelpText, RenderOptions, InfoOptions, SceneOptions, CheckOptions, CompareOptions, MachineOptions, StudyOptions,
+                 PaperStudyOptions, ScaleOptions, StabilityOptions, PrecisionOptions, ErrorOptions, SpeedOptions>;
 
 /// `arguments` without the program's name. Throws core::UsageError, whose message ends with a hint at the right --help, for
 /// anything wrong that can be seen without reading a file.

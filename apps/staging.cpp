@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/figures.h"
 #include "apps/option_values.h"
 #include "apps/view_faults.h"
 #include "apps/words.h"
@@ -98,6 +99,20 @@ core::PointLight parse_light(const std::string& text) {
     refuse("--light", text, light_form);
   }
   return parts.size() == 2 ? core::PointLight{*position, *color, true} : core::PointLight{.position = *position};
+}
+
+std::string text_of(const core::Vec3d& vector) {
+  return shortest(vector.x) + "," + shortest(vector.y) + "," + shortest(vector.z);
+}
+
+std::string text_of(const CameraChoice& camera) {
+  core::expect(camera.up || !camera.degrees, "degrees stand behind an up");
+  const std::string up = camera.up ? "/" + text_of(*camera.up) : "";
+  return text_of(camera.from) + "/" + text_of(camera.at) + up + (camera.degrees ? "/" + shortest(*camera.degrees) : "");
+}
+
+std::string text_of(const core::PointLight& light) {
+  return text_of(light.position) + (light.has_color ? "/" + text_of(light.color) : "");
 }
 
 void add_options(OptionSet options, Staging& staging) {

@@ -32,6 +32,13 @@ CameraChoice parse_camera(const std::string& text);
 /// "X,Y,Z[/R,G,B]". Throws core::UsageError for anything else, or for a colour below 0.
 core::PointLight parse_light(const std::string& text);
 
+/// What parse_camera() reads as these very numbers. Requires an up if there are degrees.
+std::string text_of(const CameraChoice& camera);
+/// What parse_light() reads as these very numbers.
+std::string text_of(const core::PointLight& light);
+/// "1,2,3", with the very numbers.
+std::string text_of(const core::Vec3d& vector);
+
 /// Gives the scene the camera and the lights. Throws core::UsageError if the scene's own up does not go with the camera.
 void apply(const Staging& staging, core::Scene& scene);
 

@@ -193,6 +193,19 @@ Json host_json(const Account& account, const Json& special, const Json& timed) {
   return result;
 }
 
+/// How the scene is placed, seen and lit, as the command line would say it; null where it says nothing.
+void add_staging(Json& options, const Staging& staging) {
+  const MeshOptions& mesh = staging.mesh;
+  options["camera"] = staging.camera ? Json(text_of(*staging.camera)) : Json();
+  options["light"] = nullptr;
+  for (const core::PointLight& light : staging.lights) {
+    options["light"].push_back(text_of(light));
+  }
+  options["scale"] = mesh.scale ? Json(*mesh.scale) : Json();
+  options["up"] = mesh.up ? Json(std::string(1, "xyz"[*mesh.up])) : Json();
+  options["smooth"] = mesh.smooth_degrees ? Json(*mesh.smooth_degrees) : Json();
+}
+
 Json options_json(const RenderRecord& record, const Account& account, const Json& special) {
   const RenderOptions& options = record.options;
   Json result = {{"scene", options.picture.scene},
@@ -211,6 +224,7 @@ Json options_json(const RenderRecord& record, const Account& account, const Json
                  {"nodes", account.nodes.size()},
                  {"node_memory", account.node_memory_max_bytes},
                  {"page_size", record.database.page_size()}};
+  add_staging(result, options.picture.staging);
   result.update(filled({"cache_pages", "replacement", "in_flight", "work_item", "count_pages", "balance", "subsample",
                         "balance_grid", "ray_batch", "ray_credits", "ray_queue", "topology"},
                        special));

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "apps/ray_hops.h"
+#include "apps/region_options.h"
 #include "apps/stats_strategy.h"
 #include "dataflow/packets.h"
 
@@ -126,7 +127,7 @@ Json mapping_json(const dataflow::Report& report, nodes::TopologyKind topology) 
 
 Json options_json(const RayOptions& rays, const dataflow::Plan& plan) {
   const bool subsampled = rays.balance.balance == dataflow::Balance::subsampled;
-  return {{"balance", subsampled ? "subsampled" : "equal-size"},
+  return {{"balance", name_of(rays.balance.balance)},
           {"subsample", subsampled ? Json(rays.balance.subsample) : Json()},
           {"balance_grid", subsampled ? Json(rays.balance.columns_per_side) : Json()},
           {"ray_batch", plan.ray_batch},

@@ -57,11 +57,7 @@ void check_strategy(const OptionSet& options, const StrategyOptions& run) {
       throw UsageError(std::string(belonging.option) + " goes with " + belonging.names() + ": " + belonging.reason);
     }
   }
-  for (const char* const option : {"--subsample", "--balance-grid"}) {
-    if (options.is_given(option) && run.rays.balance.balance == dataflow::Balance::equal_size) {
-      throw UsageError(std::string(option) + " goes with --balance=subsampled: regions of equal size ask for no load");
-    }
-  }
+  check_regions(options, run.rays.balance);
 }
 
 }  // namespace
@@ -121,11 +117,8 @@ void add_page_options(OptionSet options, PageOptions& pages, const std::string& 
 }
 
 void add_ray_options(OptionSet options, RayOptions& rays) {
-  using dataflow::Balance;
   options.begin_group("Strategy dataflow");
-  options.add_choice<Balance>("--balance", rays.balance.balance,
-                              {{"subsampled", Balance::subsampled}, {"equal-size", Balance::equal_size}},
-                              "Regions of about equal load, by a subsampled picture, or of equal size");
+  add_balance_option(options, rays.balance.balance);
   add_region_options(options, rays.balance);
   options.add_number("--ray-batch", rays.ray_batch, 1, dataflow::ray_batch_max, "what fills 1 KiB", "Rays in a packet, at most");
   options.add_number("--ray-credits", rays.ray_credits, 0, dataflow::ray_credits_max, "4",

@@ -1,8 +1,6 @@
 #include "apps/study_table.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -16,14 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Line = std::vector<std::string>;
-
-/// The shortest that reads back as the same number.
-std::string digits_of(double value) {
-  std::array<char, 32> text{};
-  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value);
-  core::expect(error == std::errc(), "the shortest text of a real number has a bound");
-  return {text.data(), end};
-}
 
 /// A text that cannot end its cell.
 std::string escaped(const std::string& text) {
@@ -123,7 +113,7 @@ struct CsvCell {
   std::string operator()(std::monostate) const { return ""; }
   std::string operator()(const std::string& text) const { return csv_text(text); }
   std::string operator()(std::uint64_t number) const { return std::to_string(number); }
-  std::string operator()(double number) const { return digits_of(number); }
+  std::string operator()(double number) const { return shortest(number); }
 };
 
 template <class Items, class Text>

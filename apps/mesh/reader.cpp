@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
-#include <sstream>
 #include <system_error>
 
 #include "apps/figures.h"
@@ -127,9 +126,7 @@ void add_geometry(MeshFile& result, aiScene& file, const Placements& placements,
 }
 
 std::string text_of(const core::Vec3d& point) {
-  std::ostringstream text;
-  text << point.x << ',' << point.y << ',' << point.z;
-  return text.str();
+  return rounded(point.x) + "," + rounded(point.y) + "," + rounded(point.z);
 }
 
 /// The whole in view; says how, as a start for a camera of one's own.

@@ -11,6 +11,15 @@ TEST_CASE("large numbers are grouped by threes") {
   CHECK(grouped(1234567) == "1,234,567");
 }
 
+TEST_CASE("a real number is written so that it reads back, or to six digits") {
+  CHECK(shortest(0.1) == "0.1");
+  CHECK(shortest(-2) == "-2");
+  CHECK(shortest(1.0 / 3) == "0.3333333333333333");
+  CHECK(shortest(1e300) == "1e+300");
+  CHECK(rounded(1.0 / 3) == "0.333333");
+  CHECK(rounded(12) == "12");
+}
+
 TEST_CASE("seconds have fewer digits the more they are") {
   CHECK(seconds_text(0) == "0.000 s");
   CHECK(seconds_text(3.14159) == "3.142 s");

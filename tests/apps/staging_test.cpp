@@ -66,6 +66,15 @@ TEST_CASE("a light is a point, and a colour if wanted") {
   }
 }
 
+TEST_CASE("a camera and a light are told as they are read, to the last bit") {
+  for (const char* text : {"1,2,3/0,0,0", "0.1,1e-30,3/0,0,-0.3333333333333333/0,1,0", "1,2,3/0,-1.5,10/0,0,1/30.5"}) {
+    CHECK(text_of(parse_camera(text)) == text);
+  }
+  for (const char* text : {"1,2,3", "-0.1,1e+30,3/0,0.3333333333333333,2"}) {
+    CHECK(text_of(parse_light(text)) == text);
+  }
+}
+
 TEST_CASE("the options of a mesh and of the stage are read") {
   const Staging staging = staged({"--light=1,2,3", "--light=4,5,6/1,1,1", "--scale=0.5", "--up=z", "--smooth=30"});
   CHECK(staging.lights.size() == 2);

@@ -5,14 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "tests/apps/rendered.h"
+#include "tests/support/mesh_files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace dmpc::apps {
+
+using tests::TemporaryFolder;
 
 TEST_CASE("the keys of the counters are an interface") {
   const std::string json = Rendered(small()).json();
@@ -79,6 +84,26 @@ TEST_CASE("the counters agree with the report") {
   CHECK(value(json, "load") == "0.5");
   CHECK(value(json, "sent") == value(json, "received"));
   CHECK(value(json, "distinct_per_pixel") == "null");
+}
+
+TEST_CASE("how the scene is placed, seen and lit is told where the command line says it") {
+  RenderOptions options = small();
+  const std::string plain = Rendered(options).json();
+  for (const char* const key : {"camera", "light", "scale", "up", "smooth"}) {
+    CHECK_MESSAGE(value(plain, key) == "null", key);
+  }
+  const TemporaryFolder folder;
+  tests::write_text(folder / "a.obj", tests::triangle_obj);
+  options.picture.scene = folder / "a.obj";
+  options.picture.staging = {.camera = parse_camera("0,0,9/0,0,0"),
+                             .lights = {parse_light("1,2,3"), parse_light("4,5,6/1,1,1")},
+                             .mesh = {.scale = 2, .up = 2, .smooth_degrees = 30}};
+  const auto told = nlohmann::json::parse(Rendered(options).json())["options"];
+  CHECK(told["camera"] == "0,0,9/0,0,0");
+  CHECK(told["light"] == nlohmann::json({"1,2,3", "4,5,6/1,1,1"}));
+  CHECK(told["scale"] == 2);
+  CHECK(told["up"] == "z");
+  CHECK(told["smooth"] == 30);
 }
 
 TEST_CASE("every node has an entry of its own") {

@@ -1,0 +1,80 @@
+#include "apps/info/command.h"
+
+#include <iostream>
+#include <string>
+#include <utility>
+
+#include "apps/info/json.h"
+#include "apps/info/record.h"
+#include "apps/info/text.h"
+#include "apps/load_scene.h"
+#include "apps/option_values.h"
+#include "apps/output_file.h"
+#include "apps/progress.h"
+#include "apps/region_options.h"
+#include "apps/stopwatch.h"
+#include "apps/subject.h"
+#include "svm/plan.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+/// A forecast of what needs the subject alone, with progress on a terminal.
+Forecast forecast_for(const InfoOptions& options, const Subject& subject) {
+  Progress progress(std::cerr, !options.quiet && stderr_is_terminal(), "Cutting space:", "computers");
+  return forecast(subject.database, subject.settings, options.node_counts, options.balance,
+                  [&](std::uint64_t done, std::uint64_t total) { progress.update(done, total); });
+}
+
+}  // namespace
+
+void add_options(OptionSet options, InfoOptions& info) {
+  add_options(options, info.picture);
+  add_options(options, info.database);
+  options.begin_group("The forecast");
+  options.add_text(
+      "--nodes", "N,N,... [1,2,4,...,256]",
+      [&info](const std::string& text) { info.node_counts = parse_different_numbers(text, "--nodes", svm::node_count_max); },
+      "Nodes of the computers whose memory is forecast");
+  add_balance_option(options, info.balance.balance);
+  add_region_options(options, info.balance);
+  options.add_choice<InfoFormat>("--format", info.format, {{"text", InfoFormat::text}, {"json", InfoFormat::json}},
+                                 "Lines and tables to read, or an object with stable keys");
+  options.add_quiet(info.quiet);
+  options.check_in_the_end([options, &info] { check_regions(options, info.balance); });
+  options.set_examples(
+      "Examples:\n"
+      "  dmpc info rings-4-t1\n"
+      "  dmpc info model.glb --nodes=8,64 --page-size=4KiB\n"
+      "  dmpc info tetra-9 --nodes=16 --balance=subsampled --format=json > tetra.json\n"
+      "Nothing is rendered, unless --balance=subsampled asks for the regions that render would make: that takes as long as\n"
+      "the picture of every 8x8th pixel.");
+}
+
+InfoRecord find_out(const InfoOptions& options) {
+  InfoRecord record;
+  Stopwatch stopwatch;
+  core::Scene scene = load_scene(options.picture, options.quiet ? LoadNotes::silent : LoadNotes::said);
+  record.load_seconds = stopwatch.lap();
+  record.scene = figures_of(scene);
+  stopwatch.lap();
+  Subject subject = build_subject(std::move(scene), options.picture, options.database, true);
+  record.build_seconds = stopwatch.lap();
+  subject.database.forget_primitives();
+  record.database = figures_of(subject.database, record.scene);
+  record.width = subject.settings.camera.width();
+  record.height = subject.settings.camera.height();
+  record.forecast = forecast_for(options, subject);
+  return record;
+}
+
+int info_command(const InfoOptions& options, Interrupt& interrupt, std::ostream& output) {
+  const Interrupt::EndAtOnce end_at_once(interrupt);
+  const InfoRecord record = find_out(options);
+  output << (options.format == InfoFormat::json ? info_json(record) : info_text(record));
+  finish_output(output, "the forecast");
+  return 0;
+}
+
+}  // namespace dmpc::apps

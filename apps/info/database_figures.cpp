@@ -1,0 +1,122 @@
+#include "apps/info/database_figures.h"
+
+#include <algorithm>
+
+#include "core/directory.h"
+#include "core/records.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+using core::PrimitiveKind;
+
+constexpr std::array<const char*, core::primitive_kind_count> block_names = {"blocks of triangles", "blocks of spheres",
+                                                                             "blocks of cones"};
+
+/// Goes through the trees below all top cells.
+class TreeWalk {
+ public:
+  explicit TreeWalk(const core::Database& database) : records_(database.bytes()) {
+    const core::DatabaseHeader& header = database.header();
+    for (std::uint64_t i = 0; i < core::directory_entry_count(header.directory_size); ++i) {
+      const std::byte* const entries = records_.find(core::directory_address(header, i));
+      const auto entry = core::read<core::DirectoryEntry>(entries + core::directory_offset(i));
+      if (!entry.empty()) {
+        ++occupied;
+        visit(entry.brick(), 1);
+      }
+    }
+  }
+
+  std::uint64_t occupied = 0, levels_max = 0;
+  std::array<RecordFigures, core::primitive_kind_count> blocks{};
+
+ private:
+  /// `level` is at most core::brick_levels_max.
+  void visit(core::Address address, std::uint64_t level) {
+    const auto brick = core::read<core::Brick>(records_.find(address));
+    levels_max = std::max(levels_max, level);
+    for (std::size_t child = 0; child < brick.child_count; ++child) {
+      if (brick.child[child].is_block()) {
+        count(core::read<core::BlockHeader>(records_.find(brick.child[child].address())));
+      } else {
+        visit(brick.child[child].address(), level + 1);
+      }
+    }
+  }
+
+  void count(const core::BlockHeader& block) {
+    RecordFigures& figures = blocks[static_cast<std::size_t>(block.kind)];
+    ++figures.count;
+    figures.bytes += core::block_bytes(block.kind, block.count);
+  }
+
+  core::LocalRecords records_;
+};
+
+template <class Record>
+RecordFigures figures_for(const char* kind, std::uint64_t count) {
+  return {kind, count, count * sizeof(Record)};
+}
+
+std::vector<RecordFigures> records_of(const core::Database& database, const SceneFigures& scene, const TreeWalk& trees) {
+  const core::DatabaseHeader& header = database.header();
+  const core::RecordCounts& counts = database.records();
+  std::vector<RecordFigures> records = {
+      figures_for<core::DirectoryEntry>("entries of the directory", core::directory_entry_count(header.directory_size)),
+      figures_for<core::Brick>("bricks", counts.bricks)};
+  for (std::size_t kind = 0; kind < trees.blocks.size(); ++kind) {
+    records.push_back({block_names[kind], trees.blocks[kind].count, trees.blocks[kind].bytes});
+  }
+  records.push_back(figures_for<core::PatchNormals>("normals", counts.normals));
+  records.push_back(figures_for<core::TexturedNormals>("textured triangles", counts.textured));
+  std::uint64_t entries = 0;
+  for (const TextureFigures& texture : scene.textures) {
+    entries += texture.entries;
+  }
+  records.push_back(figures_for<core::Address>("entries of tables of tiles", entries));
+  records.push_back(figures_for<core::TextureTile>("texture tiles", counts.texture_tiles));
+  records.push_back(figures_for<core::MaterialRecord>("materials", header.material_count));
+  records.push_back(figures_for<core::LightRecord>("lights", header.light_count));
+  return records;
+}
+
+double ratio(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+}  // namespace
+
+double DatabaseFigures::bytes_each() const { return ratio(bytes, primitives); }
+double DatabaseFigures::copies_each() const { return ratio(copies, primitives); }
+
+double DatabaseFigures::primitives_a_block() const {
+  std::uint64_t blocks = 0;
+  for (const RecordFigures& record : records) {
+    blocks += std::find(block_names.begin(), block_names.end(), record.kind) != block_names.end() ? record.count : 0;
+  }
+  return ratio(copies, blocks);
+}
+
+DatabaseFigures figures_of(const core::Database& database, const SceneFigures& scene) {
+  const TreeWalk trees(database);
+  DatabaseFigures figures{.bytes = database.page_count() * database.page_size(),
+                          .pages = database.page_count(),
+                          .page_size_bytes = database.page_size(),
+                          .primitives = database.header().primitive_count,
+                          .dropped = database.dropped(),
+                          .copies = database.references(),
+                          .cells = database.header().frame.resolution,
+                          .top_cells = core::top_cells(database.header().frame),
+                          .occupied_top_cells = trees.occupied,
+                          .levels_max = trees.levels_max,
+                          .records = records_of(database, scene, trees)};
+  figures.unused_bytes = figures.bytes;
+  for (const RecordFigures& record : figures.records) {
+    figures.unused_bytes -= record.bytes;
+  }
+  return figures;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,40 @@
+// What a database holds, in figures: records by kind, the grid and its trees.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/info/scene_figures.h"
+#include "core/database.h"
+
+namespace dmpc::apps {
+
+/// Records of one kind, with the bytes that they themselves take.
+struct RecordFigures {
+  std::string kind;  ///< in the plural, in words
+  std::uint64_t count = 0, bytes = 0;
+};
+
+struct DatabaseFigures {
+  std::uint64_t bytes = 0, pages = 0, page_size_bytes = 0;
+  std::uint64_t primitives = 0;  ///< what objects became, without those left out
+  std::uint64_t dropped = 0;     ///< primitives left out: no area or length, radius 0, or not finite
+  std::uint64_t copies = 0;      ///< of primitives in blocks, one at least of each
+  std::array<std::int32_t, 3> cells{}, top_cells{};
+  std::uint64_t occupied_top_cells = 0;
+  std::uint64_t levels_max = 0;  ///< bricks from a top cell to a block, at most
+  std::vector<RecordFigures> records;
+  std::uint64_t unused_bytes = 0;  ///< between records, so that they begin at 8 bytes and cross no page border
+
+  /// 0 without primitives.
+  double bytes_each() const;
+  double copies_each() const;
+  double primitives_a_block() const;
+};
+
+/// Goes through all bricks and blocks: `database` has its records still. `scene` is that from which it was built.
+DatabaseFigures figures_of(const core::Database& database, const SceneFigures& scene);
+
+}  // namespace dmpc::apps

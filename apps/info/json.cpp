@@ -1,0 +1,138 @@
+#include "apps/info/json.h"
+
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "apps/info/record.h"
+#include "apps/region_options.h"
+#include "apps/staging.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vector_json(const core::Vec3d& vector) { return {vector.x, vector.y, vector.z}; }
+
+Json objects_json(const SceneFigures& scene) {
+  Json result;
+  for (std::size_t kind = 0; kind < object_kind_count; ++kind) {
+    result[name_of(static_cast<core::ObjectKind>(kind))] = scene.objects[kind];
+  }
+  result["total"] = std::accumulate(scene.objects.begin(), scene.objects.end(), std::uint64_t{0});
+  return result;
+}
+
+Json bounds_json(const core::Box& bounds) {
+  if (bounds.empty()) {
+    return nullptr;
+  }
+  return {
+      {"low", vector_json(bounds.low)}, {"high", vector_json(bounds.high)}, {"extent", vector_json(bounds.high - bounds.low)}};
+}
+
+Json view_json(const InfoRecord& record) {
+  const core::View& view = record.scene.view;
+  return {{"camera", text_of(CameraChoice{view.from, view.at, view.up, view.angle_degrees})},
+          {"from", vector_json(view.from)},
+          {"at", vector_json(view.at)},
+          {"up", vector_json(view.up)},
+          {"degrees", view.angle_degrees},
+          {"width", record.width},
+          {"height", record.height}};
+}
+
+Json lights_json(const SceneFigures& scene) {
+  Json result = Json::array();
+  for (const core::PointLight& light : scene.lights) {
+    result.push_back({{"light", text_of(light)}, {"position", vector_json(light.position)}, {"color", vector_json(light.color)}});
+  }
+  return result;
+}
+
+Json materials_json(const MaterialCounts& materials) {
+  return {{"count", materials.count},
+          {"mirroring", materials.mirroring},
+          {"transmitting", materials.transmitting},
+          {"textured", materials.textured}};
+}
+
+Json textures_json(const SceneFigures& scene) {
+  Json result = Json::array();
+  for (const TextureFigures& texture : scene.textures) {
+    result.push_back({{"name", texture.name},
+                      {"width", texture.width},
+                      {"height", texture.height},
+                      {"levels", texture.levels},
+                      {"format", name_of(texture.format)},
+                      {"tiles", texture.tiles},
+                      {"tile_bytes", texture.tile_bytes},
+                      {"table_bytes", texture.table_bytes}});
+  }
+  return result;
+}
+
+Json database_json(const DatabaseFigures& database) {
+  Json records = Json::array();
+  for (const RecordFigures& record : database.records) {
+    records.push_back({{"kind", record.kind}, {"count", record.count}, {"bytes", record.bytes}});
+  }
+  const auto each = [&](double value) { return database.primitives == 0 ? Json() : Json(value); };
+  return {{"bytes", database.bytes},
+          {"pages", database.pages},
+          {"page_size", database.page_size_bytes},
+          {"bytes_per_primitive", each(database.bytes_each())},
+          {"copies_per_primitive", each(database.copies_each())},
+          {"primitives_per_block", each(database.primitives_a_block())},
+          {"cells", database.cells},
+          {"top_cells", database.top_cells},
+          {"occupied_top_cells", database.occupied_top_cells},
+          {"levels_max", database.levels_max},
+          {"records", records},
+          {"unused_bytes", database.unused_bytes}};
+}
+
+Json memory_json(const MemoryForecast& memory, std::uint32_t node_count) {
+  return {{"least", memory.least_bytes},
+          {"least_together", memory.least_bytes * node_count},
+          {"usual", memory.usual_bytes},
+          {"all", memory.all_bytes}};
+}
+
+Json computers_json(const Forecast& forecast) {
+  Json result = Json::array();
+  for (const ComputerForecast& computer : forecast.computers) {
+    const auto& rays = computer.dataflow;
+    result.push_back({{"nodes", computer.nodes},
+                      {"svm", memory_json(computer.svm, computer.nodes)},
+                      {"replicated", memory_json(computer.replicated, computer.nodes)},
+                      {"dataflow", rays ? memory_json(*rays, computer.nodes) : Json()},
+                      {"dataflow_copies", rays ? Json(computer.dataflow_copies) : Json()}});
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string info_json(const InfoRecord& record) {
+  const DatabaseFigures& database = record.database;
+  const Json all = {
+      {"program", "dmpc " DMPC_VERSION},
+      {"scene", record.scene.name},
+      {"objects", objects_json(record.scene)},
+      {"primitives", {{"count", database.primitives}, {"dropped", database.dropped}, {"copies", database.copies}}},
+      {"bounds", bounds_json(record.scene.bounds)},
+      {"view", view_json(record)},
+      {"background", vector_json(record.scene.background)},
+      {"lights", lights_json(record.scene)},
+      {"materials", materials_json(record.scene.materials)},
+      {"textures", textures_json(record.scene)},
+      {"database", database_json(database)},
+      {"regions", {{"balance", name_of(record.forecast.balance)}}},
+      {"computers", computers_json(record.forecast)},
+      {"seconds", {{"load", record.load_seconds}, {"build", record.build_seconds}, {"regions", record.forecast.region_seconds}}}};
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names of files may be no UTF-8
+}
+
+}  // namespace dmpc::apps

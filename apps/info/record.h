@@ -1,0 +1,18 @@
+// All that `dmpc info` finds out.
+#pragma once
+
+#include "apps/info/database_figures.h"
+#include "apps/info/forecast.h"
+#include "apps/info/scene_figures.h"
+
+namespace dmpc::apps {
+
+struct InfoRecord {
+  SceneFigures scene;
+  DatabaseFigures database;
+  Forecast forecast;
+  int width = 1, height = 1;                   ///< of the picture, in pixels
+  double load_seconds = 0, build_seconds = 0;  ///< by the wall clock
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,71 @@
+#include "apps/info/scene_figures.h"
+
+#include "core/conversion.h"
+#include "core/parallel.h"
+#include "core/texture_layout.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+std::array<std::uint64_t, object_kind_count> count_objects(const core::Scene& scene) {
+  std::array<std::uint64_t, object_kind_count> counts{};
+  for (const core::Object& object : scene.objects) {
+    ++counts[static_cast<std::size_t>(object.kind)];
+  }
+  return counts;
+}
+
+MaterialCounts count_materials(const core::Scene& scene) {
+  MaterialCounts counts{.count = scene.materials.size()};
+  for (const core::Material& material : scene.materials) {
+    counts.mirroring += material.specular > 0 ? 1 : 0;
+    counts.transmitting += material.transmittance > 0 ? 1 : 0;
+    counts.textured += material.texture != core::Material::no_texture ? 1 : 0;
+  }
+  return counts;
+}
+
+TextureFigures figures_of(const core::Texture& texture) {
+  const core::TextureLevel& finest = texture.levels.front();
+  const core::TextureReference reference{.width = static_cast<std::uint16_t>(finest.width),
+                                         .height = static_cast<std::uint16_t>(finest.height),
+                                         .level_count = static_cast<std::uint8_t>(texture.levels.size())};
+  const std::uint64_t tiles = core::tile_count(reference), entries = core::tile_entry_count(reference);
+  return {.name = texture.name,
+          .width = finest.width,
+          .height = finest.height,
+          .levels = reference.level_count,
+          .format = texture.format,
+          .tiles = tiles,
+          .tile_bytes = tiles * sizeof(core::TextureTile),
+          .entries = entries,
+          .table_bytes = entries * sizeof(core::Address)};
+}
+
+}  // namespace
+
+const char* name_of(core::ObjectKind kind) {
+  constexpr std::array<const char*, object_kind_count> names = {"polygon", "patch", "textured", "sphere", "cone"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+const char* name_of(core::TexelFormat format) { return format == core::TexelFormat::srgb ? "srgb" : "shared exponent"; }
+
+SceneFigures figures_of(const core::Scene& scene) {
+  SceneFigures figures{.name = scene.name,
+                       .objects = count_objects(scene),
+                       .bounds = core::bounds_of(scene, core::world_axes, core::Parallel(0)),
+                       .view = scene.view,
+                       .background = scene.background,
+                       .materials = count_materials(scene)};
+  for (const core::PointLight& light : scene.lights) {
+    figures.lights.push_back({light.position, core::intensity_of(light, scene), true});
+  }
+  for (const core::Texture& texture : scene.textures) {
+    figures.textures.push_back(figures_of(texture));
+  }
+  return figures;
+}
+
+}  // namespace dmpc::apps

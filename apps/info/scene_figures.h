@@ -1,0 +1,48 @@
+// What a scene says, in figures: objects, bounds, view, lights, materials, textures.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/box.h"
+#include "core/scene.h"
+
+namespace dmpc::apps {
+
+inline constexpr std::size_t object_kind_count = 5;
+/// "polygon", "patch", ...
+const char* name_of(core::ObjectKind kind);
+
+/// Materials, and those of them that mirror, transmit, or have a texture. A material may be several of these, or none.
+struct MaterialCounts {
+  std::uint64_t count = 0, mirroring = 0, transmitting = 0, textured = 0;
+};
+
+/// A texture as its records will hold it.
+struct TextureFigures {
+  std::string name;
+  std::uint32_t width = 1, height = 1, levels = 1;
+  core::TexelFormat format{};
+  std::uint64_t tiles = 0, tile_bytes = 0;
+  std::uint64_t entries = 0, table_bytes = 0;  ///< of its table of tiles
+};
+/// "srgb" or "shared exponent".
+const char* name_of(core::TexelFormat format);
+
+struct SceneFigures {
+  std::string name;
+  std::array<std::uint64_t, object_kind_count> objects{};  ///< by core::ObjectKind
+  core::Box bounds;                                        ///< of what is finite, in the world; empty if nothing is
+  core::View view;
+  core::Vec3d background;
+  std::vector<core::PointLight> lights;  ///< with the colours in which they shine
+  MaterialCounts materials;
+  std::vector<TextureFigures> textures;
+};
+
+SceneFigures figures_of(const core::Scene& scene);
+
+}  // namespace dmpc::apps

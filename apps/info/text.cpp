@@ -1,0 +1,168 @@
+#include "apps/info/text.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "apps/figures.h"
+#include "apps/info/record.h"
+#include "apps/region_options.h"
+#include "apps/staging.h"
+#include "apps/study_table.h"
+#include "apps/subject.h"
+#include "nodes/size_text.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+constexpr std::size_t lights_shown_max = 8;
+
+/// "7,381 spheres, 1 polygon".
+std::string objects_text(const SceneFigures& scene) {
+  constexpr std::array<const char*, object_kind_count> names = {"polygon", "patch with normals", "textured patch", "sphere",
+                                                                "cone"};
+  constexpr std::array<const char*, object_kind_count> plurals = {"polygons", "patches with normals", "textured patches",
+                                                                  "spheres", "cones"};
+  std::string text;
+  for (std::size_t kind = 0; kind < object_kind_count; ++kind) {
+    const std::uint64_t count = scene.objects[kind];
+    text += count == 0 ? "" : (text.empty() ? "" : ", ") + grouped(count) + " " + (count == 1 ? names : plurals)[kind];
+  }
+  return text.empty() ? "no objects" : text;
+}
+
+std::string primitives_text(const DatabaseFigures& database) {
+  const std::string dropped = dropped_text(database.dropped);
+  return grouped(database.primitives) + (dropped.empty() ? "" : "; " + dropped + ": no area or length, radius 0, or not finite");
+}
+
+std::string triple(const core::Vec3d& vector, const std::string& mark) {
+  return rounded(vector.x) + mark + rounded(vector.y) + mark + rounded(vector.z);
+}
+
+std::string bounds_text(const core::Box& bounds) {
+  return bounds.empty() ? "nothing is in it"
+                        : triple(bounds.low, ",") + " to " + triple(bounds.high, ",") + ", extent " +
+                              triple(bounds.high - bounds.low, " x ");
+}
+
+std::string view_text(const InfoRecord& record) {
+  const core::View& view = record.scene.view;
+  return "--camera=" + text_of(CameraChoice{view.from, view.at, view.up, view.angle_degrees}) + ", " +
+         std::to_string(record.width) + "x" + std::to_string(record.height) + " pixels";
+}
+
+std::string lights_text(const SceneFigures& scene) {
+  std::string text = std::to_string(scene.lights.size());
+  for (std::size_t i = 0; i < std::min(lights_shown_max, scene.lights.size()); ++i) {
+    text += (i == 0 ? ": --light=" : " --light=") + text_of(scene.lights[i]);
+  }
+  return text + (scene.lights.size() > lights_shown_max ? " ..." : "");
+}
+
+std::string materials_text(const MaterialCounts& materials) {
+  return grouped(materials.count) + ", of which mirror " + grouped(materials.mirroring) + ", transmit " +
+         grouped(materials.transmitting) + ", are textured " + grouped(materials.textured);
+}
+
+std::string database_text(const DatabaseFigures& database) {
+  return bytes_text(database.bytes) + ": " + counted(database.pages, "page") + " of " +
+         nodes::size_text(database.page_size_bytes) + "; " + fixed(database.bytes_each(), 1) + " bytes a primitive, " +
+         fixed(database.copies_each(), 2) + " copies of each";
+}
+
+std::string sizes_text(const std::array<std::int32_t, 3>& sizes) {
+  return std::to_string(sizes[0]) + "x" + std::to_string(sizes[1]) + "x" + std::to_string(sizes[2]);
+}
+
+std::string grid_text(const DatabaseFigures& database) {
+  return sizes_text(database.cells) + " cells, " + sizes_text(database.top_cells) + " top cells, " +
+         grouped(database.occupied_top_cells) + " of them occupied; trees of up to " + counted(database.levels_max, "level") +
+         ", " + fixed(database.primitives_a_block(), 2) + " primitives a block";
+}
+
+std::string time_text(const InfoRecord& record) {
+  return "load " + seconds_text(record.load_seconds) + ", build " + seconds_text(record.build_seconds) + ", regions " +
+         seconds_text(record.forecast.region_seconds);
+}
+
+Table records_table(const DatabaseFigures& database) {
+  Table table("Records", {{"kind"}, {"count"}, {"bytes"}, {"share", "%", 1}});
+  const auto add = [&](const std::string& kind, const Cell& count, std::uint64_t bytes) {
+    table.add_row({kind, count, bytes, 100 * static_cast<double>(bytes) / static_cast<double>(database.bytes)});
+  };
+  for (const RecordFigures& record : database.records) {
+    if (record.count > 0) {
+      add(record.kind, record.count, record.bytes);
+    }
+  }
+  add("unused, between records", {}, database.unused_bytes);
+  return table;
+}
+
+Table textures_table(const SceneFigures& scene) {
+  Table table("Textures", {{"name"}, {"texels"}, {"levels"}, {"format"}, {"tiles"}, {"bytes of tiles"}, {"bytes of table"}});
+  for (const TextureFigures& texture : scene.textures) {
+    const std::string texels = std::to_string(texture.width) + "x" + std::to_string(texture.height);
+    table.add_row({texture.name, texels, std::uint64_t{texture.levels}, name_of(texture.format), texture.tiles,
+                   texture.tile_bytes, texture.table_bytes});
+  }
+  return table;
+}
+
+/// The least memory of a node, and what all take together by default; nothing if there is no such computer.
+void add_cells(std::vector<Cell>& row, const std::optional<MemoryForecast>& memory) {
+  if (!memory) {
+    row.resize(row.size() + 2);
+    return;
+  }
+  row.emplace_back(std::uint64_t{memory->least_bytes});
+  row.emplace_back(bytes_text(memory->all_bytes));
+}
+
+Table memory_table(const Forecast& forecast) {
+  Table table("Memory", {{"nodes"},
+                         {"svm, least", "bytes"},
+                         {"svm, all"},
+                         {"dataflow, least", "bytes"},
+                         {"dataflow, all"},
+                         {"copies"},
+                         {"replicated, least", "bytes"},
+                         {"replicated, all"}});
+  table.add_note(
+      "least: a node's; with less --node-memory all nodes together are too small for the scene, and render refuses it");
+  table.add_note("all: what all nodes and the host take together where nothing is said about memory");
+  table.add_note(
+      "copies: of a primitive by dataflow, whose regions are made by --balance=" + std::string(name_of(forecast.balance)) +
+      (forecast.balance == dataflow::Balance::equal_size ? "; render's own choice is subsampled" : ""));
+  for (const ComputerForecast& computer : forecast.computers) {
+    std::vector<Cell> row = {std::uint64_t{computer.nodes}};
+    add_cells(row, computer.svm);
+    add_cells(row, computer.dataflow);
+    row.emplace_back(computer.dataflow ? fixed(computer.dataflow_copies, 2) : "");
+    add_cells(row, computer.replicated);
+    table.add_row(row);
+  }
+  return table;
+}
+
+}  // namespace
+
+std::string info_text(const InfoRecord& record) {
+  const SceneFigures& scene = record.scene;
+  const std::string lines = "scene      " + scene.name + ": " + objects_text(scene) +  //
+                            "\nprimitives " + primitives_text(record.database) +       //
+                            "\nbounds     " + bounds_text(scene.bounds) +              //
+                            "\nview       " + view_text(record) +                      //
+                            "\nlights     " + lights_text(scene) +                     //
+                            "\nmaterials  " + materials_text(scene.materials) +        //
+                            "\ntextures   " + std::to_string(scene.textures.size()) +  //
+                            "\ndatabase   " + database_text(record.database) +         //
+                            "\ngrid       " + grid_text(record.database) +             //
+                            "\ntime       " + time_text(record) + "\n\n" +             //
+                            text_of(records_table(record.database), TableFormat::markdown) + "\n";
+  const std::string textures = scene.textures.empty() ? "" : text_of(textures_table(scene), TableFormat::markdown) + "\n";
+  return lines + textures + text_of(memory_table(record.forecast), TableFormat::markdown);
+}
+
+}  // namespace dmpc::apps
