@@ -158,6 +158,11 @@ Mapping gray_mapping(const Bsp& bsp) {
   return mapping;
 }
 
+void map_onto(Bsp& bsp, nodes::TopologyKind kind, const CutAxes& axes) {
+  const std::vector<Flow> flows = flows_of(boundaries_of(bsp, axes));
+  bsp.assign(map_regions(bsp, flows, nodes::Topology(kind, bsp.region_count())));
+}
+
 Mapping identity_mapping(std::uint32_t region_count) {
   Mapping mapping(region_count);
   std::iota(mapping.begin(), mapping.end(), 0U);

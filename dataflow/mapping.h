@@ -37,6 +37,9 @@ double mean_hops_of_random(std::span<const Flow> flows, const nodes::Topology& t
 /// Takes about regions^2 * neighbours steps a round, a few rounds a beginning. Requires as many nodes as regions.
 Mapping map_regions(const Bsp& bsp, std::span<const Flow> flows, const nodes::Topology& topology);
 
+/// Puts the regions on the nodes of such a machine by map_regions(), with boundaries across `axes` as flows.
+void map_onto(Bsp& bsp, nodes::TopologyKind kind, const CutAxes& axes);
+
 /// For 2^n regions the node whose bits are the sides of the n cuts above the region, each cut's bit reversed on the high side of
 /// the cut before it along the same axis: the halves of every cut mirror each other, so that on a hypercube the regions of a
 /// regular lattice have their neighbours one hop away (the reflected code of F. Gray, 1953, for each axis). For other counts

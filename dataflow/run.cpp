@@ -35,11 +35,6 @@ struct Regions {
   std::vector<double> predicted;
 };
 
-void put_on(Bsp& bsp, nodes::TopologyKind kind, const CutAxes& axes) {
-  const std::vector<Flow> flows = flows_of(boundaries_of(bsp, axes));
-  bsp.assign(map_regions(bsp, flows, nodes::Topology(kind, bsp.region_count())));
-}
-
 std::vector<double> by_node(const Bsp& bsp, const std::vector<double>& by_region) {
   std::vector<double> loads(by_region.size());
   for (std::uint32_t node = 0; node < loads.size(); ++node) {
@@ -56,7 +51,7 @@ Regions regions_for(std::uint32_t node_count, const ColumnLoads& loads, const co
   }
   Balanced balanced = share_out(loads, node_count, options.balance);
   if (options.topology) {
-    put_on(balanced.bsp, *options.topology, axes_facing(settings.camera));
+    map_onto(balanced.bsp, *options.topology, axes_facing(settings.camera));
   }
   const bool is_predicted = options.balance.balance == Balance::subsampled;
   return {balanced.bsp, is_predicted ? by_node(balanced.bsp, balanced.predicted) : std::vector<double>()};

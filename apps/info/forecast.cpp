@@ -1,6 +1,8 @@
 #include "apps/info/forecast.h"
 
 #include "apps/stopwatch.h"
+#include "apps/strategy_options.h"
+#include "dataflow/mapping.h"
 #include "dataflow/run.h"
 #include "svm/run.h"
 
@@ -42,11 +44,17 @@ class Forecaster {
     return forecast_of(svm::plan_of(strategy, database_, settings_, {.node_count = node_count}), node_count);
   }
 
-  /// With regions that are made from the loads known already.
+  /// From the loads known already; on their nodes, since some primary rays are dealt to nodes by number.
+  dataflow::Bsp regions(std::uint32_t node_count) const {
+    dataflow::Bsp bsp = dataflow::share_out(loads_, node_count, balance_).bsp;
+    dataflow::map_onto(bsp, RayOptions().topology, dataflow::axes_facing(settings_.camera));
+    return bsp;
+  }
+
   void add_rays(ComputerForecast& result) {
     stopwatch_.lap();
     dataflow::RunOptions run{.node_count = result.nodes, .balance = {.balance = dataflow::Balance::equal_size}};
-    run.make_bsp = [&](std::uint32_t count) { return dataflow::share_out(loads_, count, balance_).bsp; };
+    run.make_bsp = [&](std::uint32_t count) { return regions(count); };
     const dataflow::Prepared prepared = dataflow::prepare(database_, settings_, run);
     result.dataflow = forecast_of(prepared.plan, result.nodes);
     result.dataflow_copies = prepared.duplication;

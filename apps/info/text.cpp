@@ -134,7 +134,9 @@ Table memory_table(const Forecast& forecast) {
   table.add_note("all: what all nodes and the host take together where nothing is said about memory");
   table.add_note(
       "copies: of a primitive by dataflow, whose regions are made by --balance=" + std::string(name_of(forecast.balance)) +
-      (forecast.balance == dataflow::Balance::equal_size ? "; render's own choice is subsampled" : ""));
+      (forecast.balance == dataflow::Balance::equal_size
+           ? "; render's own choice, subsampled, needs more or less than that, and rendering a part of the picture to know"
+           : ""));
   for (const ComputerForecast& computer : forecast.computers) {
     std::vector<Cell> row = {std::uint64_t{computer.nodes}};
     add_cells(row, computer.svm);

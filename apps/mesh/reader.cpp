@@ -125,9 +125,7 @@ void add_geometry(MeshFile& result, aiScene& file, const Placements& placements,
   }
 }
 
-std::string text_of(const core::Vec3d& point) {
-  return rounded(point.x) + "," + rounded(point.y) + "," + rounded(point.z);
-}
+std::string text_of(const core::Vec3d& point) { return rounded(point.x) + "," + rounded(point.y) + "," + rounded(point.z); }
 
 /// The whole in view; says how, as a start for a camera of one's own.
 core::View plain_view(const Bounds& bounds, const MeshOptions& options, std::vector<std::string>& notes) {

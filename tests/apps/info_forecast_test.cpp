@@ -46,11 +46,13 @@ TEST_CASE("a textured scene larger than all nodes is refused with the memory tha
   options.picture.scene = tests::write_painted_square(folder, 256);
   const ComputerForecast forecast = forecast_for(options);
   for (const Strategy strategy : all_strategies) {
-    CAPTURE(name_of(strategy));
+    CAPTURE(std::string(name_of(strategy)));
     options.strategy = strategy;
     const std::size_t least = part_of(forecast, strategy).least_bytes;
     CHECK(least > 100'000);
-    CHECK(contains(refusal(options, least - 1), "the smallest that works is --node-memory=" + nodes::size_text(least)));
+    const std::string refused = refusal(options, least - 1);
+    CAPTURE(refused);
+    CHECK(contains(refused, "the smallest that works is --node-memory=" + nodes::size_text(least)));
     CHECK(refusal(options, least).empty());
   }
   CHECK(forecast.svm.least_bytes < forecast.replicated.least_bytes);
@@ -58,7 +60,7 @@ TEST_CASE("a textured scene larger than all nodes is refused with the memory tha
 
 TEST_CASE("without a bound a render takes what is forecast") {
   for (const Strategy strategy : all_strategies) {
-    CAPTURE(name_of(strategy));
+    CAPTURE(std::string(name_of(strategy)));
     const RenderOptions options = small(strategy);
     const Rendered rendered(options);
     const MemoryForecast memory = part_of(forecast_for(options), strategy);

@@ -95,11 +95,11 @@ TEST_CASE("how the scene is placed, seen and lit is told where the command line 
   const TemporaryFolder folder;
   tests::write_text(folder / "a.obj", tests::triangle_obj);
   options.picture.scene = folder / "a.obj";
-  options.picture.staging = {.camera = parse_camera("0,0,9/0,0,0"),
+  options.picture.staging = {.camera = parse_camera("0,0,9/0,0,0/0,1,0"),
                              .lights = {parse_light("1,2,3"), parse_light("4,5,6/1,1,1")},
                              .mesh = {.scale = 2, .up = 2, .smooth_degrees = 30}};
   const auto told = nlohmann::json::parse(Rendered(options).json())["options"];
-  CHECK(told["camera"] == "0,0,9/0,0,0");
+  CHECK(told["camera"] == "0,0,9/0,0,0/0,1,0");
   CHECK(told["light"] == nlohmann::json({"1,2,3", "4,5,6/1,1,1"}));
   CHECK(told["scale"] == 2);
   CHECK(told["up"] == "z");

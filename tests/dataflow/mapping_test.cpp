@@ -132,6 +132,15 @@ TEST_CASE("a mapping can be assigned to the regions it was made for") {
   CHECK(bsp.region_of(nodes::NodeId{mapping[3]}) == third);
 }
 
+TEST_CASE("regions are put on a machine by the mapping that is chosen for their boundaries") {
+  Bsp chosen = square(16), put = square(16);
+  chosen.assign(dataflow::map_regions(chosen, flows_in(chosen), Topology(TopologyKind::hypercube, 16)));
+  dataflow::map_onto(put, TopologyKind::hypercube, axes);
+  for (std::uint32_t node = 0; node < 16; ++node) {
+    CHECK(put.region_index_of(nodes::NodeId{node}) == chosen.region_index_of(nodes::NodeId{node}));
+  }
+}
+
 TEST_CASE("a topology of another size and a flow to nowhere are refused") {
   const std::vector<Flow> to_nowhere{{0, 4, 1}}, to_itself{{2, 2, 1}};
   const Topology mesh(TopologyKind::mesh, 4);
