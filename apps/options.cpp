@@ -50,7 +50,7 @@ class Commands {
   void declare_simple_commands() {
     add_options(line_.add_command("render", "Render a scene on N nodes"), render_);
     add_options(line_.add_command("info", "Tell what a scene is, and what a render of it would take"), info_);
-    add_options(line_.add_command("scene", "Write a built-in scene as an NFF file"), scene_);
+    add_options(line_.add_command("scene", "Write a built-in scene as an NFF file, or a landscape as glTF"), scene_);
     add_options(line_.add_command("check", "Trace every ray of a render with Embree too, and let a referee settle differences"),
                 check_);
     add_options(line_.add_command("compare", "Measure how far two pictures lie apart"), compare_);
@@ -83,6 +83,7 @@ class Commands {
       scenes.words.push_back(scene.text());
       families.words.push_back(scene.family);
     }
+    families.words.emplace_back("landscape");
     for (const MachineDescription& preset : machine_presets()) {
       machines.words.push_back(preset.machine.name);
     }

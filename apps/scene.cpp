@@ -2,8 +2,10 @@
 
 #include <ostream>
 
+#include "apps/landscape/files.h"
 #include "apps/nff_writer.h"
 #include "apps/output_file.h"
+#include "core/expect.h"
 #include "core/scenes.h"
 
 namespace dmpc::apps {
@@ -27,20 +29,34 @@ void write_output(const core::SceneName& name, Interrupt& interrupt, std::ostrea
   finish_output(output, "the scene");
 }
 
+void write_landscape_files(int size, const std::optional<std::filesystem::path>& path, Interrupt& interrupt) {
+  if (!path) {
+    throw core::UsageError("a landscape is several files: give -o FILE.gltf");
+  }
+  check_output_path(*path, "-o");
+  const Interrupt::EndAtOnce end_at_once(interrupt);
+  write_landscape(size, *path);
+}
+
 }  // namespace
 
 void add_options(OptionSet options, SceneOptions& scene) {
   options.add_argument(
       "SCENE", [&scene](const std::string& text) { scene.name = text; },
       "FAMILY, FAMILY-SIZE, or FAMILY-SIZE-tN for curved surfaces as triangles");
-  options.add_path("-o,--output", "FILE.nff [stdout]", scene.output, "Where it goes");
-  options.set_examples("Families:\n" + core::describe_scene_families() +
+  options.add_path("-o,--output", "FILE [stdout]", scene.output, "Where it goes");
+  options.set_examples("Families:\n" + core::describe_scene_families() + describe_landscape() +
                        "\nExamples:\n"
                        "  dmpc scene teapot-12 -o teapot.nff\n"
-                       "  dmpc scene rings-4-t1 | head");
+                       "  dmpc scene rings-4-t1 | head\n"
+                       "  dmpc scene landscape-10 -o land.gltf");
 }
 
 int scene_command(const SceneOptions& options, Interrupt& interrupt, std::ostream& output) {
+  if (const auto size = landscape_size(options.name)) {
+    write_landscape_files(*size, options.output, interrupt);
+    return 0;
+  }
   const core::SceneName name = core::parse_scene_name(options.name);
   if (options.output) {
     write_file(name, *options.output, interrupt);

@@ -1,4 +1,4 @@
-// The command `scene`: writes a built-in scene as NFF.
+// The command `scene`: writes a built-in scene as NFF, or a landscape as glTF.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 namespace dmpc::apps {
 
 struct SceneOptions {
-  std::string name;                             ///< of a built-in scene
+  std::string name;                             ///< of a built-in scene or a landscape
   std::optional<std::filesystem::path> output;  ///< stdout if not given
 };
 
@@ -20,7 +20,8 @@ struct SceneOptions {
 void add_options(OptionSet options, SceneOptions& scene);
 
 /// Writes to the file asked for (whole or not at all), else to `output`. A signal ends the process. Returns the exit status 0.
-/// Throws core::InputError for an unknown name or if writing fails, Interrupted if a signal came before.
+/// Throws core::InputError for an unknown name or if writing fails,
+/// core::UsageError for a landscape without an -o that ends in .gltf, Interrupted if a signal came before.
 int scene_command(const SceneOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

@@ -1,0 +1,26 @@
+// The landscape as files: a large textured scene that anybody can make.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace dmpc::apps {
+
+inline constexpr int landscape_size_max = 11, landscape_size_default = 10;
+
+/// The size that "landscape-10" or "landscape" names; nothing for names that do not begin so. Throws core::InputError for one
+/// that begins so, but has no size from 1 to landscape_size_max.
+std::optional<int> landscape_size(std::string_view name);
+
+/// A line about it, as core::describe_scene_families() has them.
+std::string describe_landscape();
+
+/// Writes a landscape of 4^size triangles and a lake to `gltf`, and beside it their numbers (FILE.bin) and a
+/// picture (FILE-ground.png) of 2^(size + 2) texels a side, at most 4,096; none of them gets its name before all are written.
+/// Throws core::UsageError unless `gltf` ends in .gltf and its name has letters, digits, - and _ alone, core::InputError if a
+/// file cannot be written.
+void write_landscape(int size, const std::filesystem::path& gltf);
+
+}  // namespace dmpc::apps

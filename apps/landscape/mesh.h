@@ -1,0 +1,24 @@
+// The landscape's ground and lake as triangles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace dmpc::apps {
+
+/// What glTF calls a primitive: vertices, and three numbers of theirs a triangle, counter-clockwise as seen from above.
+struct LandscapeMesh {
+  using Point = std::array<float, 3>;
+  std::vector<Point> positions, normals;
+  std::vector<std::array<float, 2>> places;  ///< on the texture: s to the right, t downwards
+  std::vector<std::uint32_t> indices;
+};
+
+/// 4^size triangles over a lattice of 2^size by 2^(size - 1) squares, x from -1 to 1, z from -1/2 to 1/2; size from 1 to 13.
+LandscapeMesh ground_mesh(int size);
+
+/// Two triangles.
+LandscapeMesh lake_mesh();
+
+}  // namespace dmpc::apps
