@@ -135,7 +135,7 @@ Table memory_table(const Forecast& forecast) {
   table.add_note(
       "copies: of a primitive by dataflow, whose regions are made by --balance=" + std::string(name_of(forecast.balance)) +
       (forecast.balance == dataflow::Balance::equal_size
-           ? "; render's own choice, subsampled, needs more or less than that, and rendering a part of the picture to know"
+           ? "; those of render's own choice may need several times as much: --balance=subsampled tells"
            : ""));
   for (const ComputerForecast& computer : forecast.computers) {
     std::vector<Cell> row = {std::uint64_t{computer.nodes}};
