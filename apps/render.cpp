@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdint>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <ostream>
 #include <utility>
@@ -20,6 +21,9 @@
 #include "apps/stopwatch.h"
 #include "apps/subject.h"
 #include "apps/summary.h"
+#include "apps/trace_file.h"
+#include "apps/trace_options.h"
+#include "nodes/trace.h"
 
 namespace dmpc::apps {
 
@@ -47,6 +51,9 @@ void check_outputs(const RenderOptions& options) {
   if (options.stats) {
     outputs.push_back({"--stats", *options.stats});
   }
+  if (options.trace.path) {
+    outputs.push_back({"--trace", *options.trace.path});
+  }
   for (const HeatRequest& request : options.heat_maps) {
     outputs.push_back({"--heatmap", request.path});
   }
@@ -54,6 +61,9 @@ void check_outputs(const RenderOptions& options) {
   check_image_path(options.image, "-o");
   if (options.stats) {
     check_output_path(*options.stats, "--stats");
+  }
+  if (options.trace.path) {
+    check_output_path(*options.trace.path, "--trace");
   }
   for (const HeatRequest& request : options.heat_maps) {
     check_image_path(request.path, "--heatmap");
@@ -82,13 +92,35 @@ std::optional<nodes::HeatMap> make_heat_map(const RenderOptions& options, const 
   return nodes::HeatMap(static_cast<std::uint32_t>(camera.width() * camera.height()), kinds_of(options.heat_maps));
 }
 
+/// Where the run is recorded; nothing if nobody wants to know.
+std::unique_ptr<nodes::TraceRecorder> make_recorder(const RenderOptions& options) {
+  if (!options.trace.path) {
+    return nullptr;
+  }
+  const std::uint32_t node_count = options.computer.node_count;
+  return std::make_unique<nodes::TraceRecorder>(node_count + 1, trace_choice(options.trace, node_count));
+}
+
+/// What was recorded, if anything was; says so if some of it was lost.
+std::optional<nodes::Trace> take_trace(const RenderOptions& options, nodes::TraceRecorder* recorder) {
+  if (recorder == nullptr) {
+    return std::nullopt;
+  }
+  nodes::Trace trace = recorder->take();
+  if (trace.events_lost > 0 && !options.quiet) {
+    std::cerr << "dmpc: " << loss_note(trace) << '\n';
+  }
+  return trace;
+}
+
 /// Plans, and says what the user should know before waiting for the picture; a signal ends the process here and now.
 /// The host's copy of the database is freed as soon as the nodes have theirs.
-ReadyRun prepare(const RenderOptions& options, Subject& subject, nodes::HeatMap* heat, Interrupt& interrupt, Seconds& seconds) {
+ReadyRun prepare(const RenderOptions& options, Subject& subject, nodes::HeatMap* heat, nodes::Observer* observer,
+                 Interrupt& interrupt, Seconds& seconds) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   Stopwatch stopwatch;
   ReadyRun run = make_ready(
-      options, subject.database, subject.settings, {}, [&subject] { subject.database.forget_records(); }, heat);
+      options, subject.database, subject.settings, {}, [&subject] { subject.database.forget_records(); }, heat, observer);
   seconds.prepare = stopwatch.lap();
   for (const std::string& note : run.notes) {
     if (!options.quiet) {
@@ -116,6 +148,7 @@ Report run_timed(const RenderOptions& options, const ReadyRun& run, const Interr
 /// Writes all files before any gets its name, so that a failure leaves none of them.
 void write_files(const RenderRecord& record, OutputFile& picture, const std::string& counters, Interrupt& interrupt) {
   HeatFiles heat_maps(record);
+  TraceFile trace(record);
   std::optional<OutputFile> stats;
   if (!counters.empty()) {
     stats.emplace(*record.options.stats);
@@ -124,6 +157,7 @@ void write_files(const RenderRecord& record, OutputFile& picture, const std::str
   interrupt.set_consequence("perhaps not all outputs were written");
   picture.commit();
   heat_maps.commit();
+  trace.commit();
   if (stats) {
     stats->commit();
   }
@@ -177,9 +211,12 @@ int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostrea
   Seconds seconds;
   Subject subject = load(options, interrupt, seconds);
   std::optional<nodes::HeatMap> heat = make_heat_map(options, subject.settings.camera);
-  const ReadyRun run = prepare(options, subject, heat ? &*heat : nullptr, interrupt, seconds);
+  const std::unique_ptr<nodes::TraceRecorder> recorder = make_recorder(options);
+  const ReadyRun run = prepare(options, subject, heat ? &*heat : nullptr, recorder.get(), interrupt, seconds);
   const Report report = run_timed(options, run, interrupt, seconds);
-  write_outputs({options, subject.database, report, seconds, heat ? &*heat : nullptr}, interrupt, output);
+  const std::optional<nodes::Trace> trace = take_trace(options, recorder.get());
+  write_outputs({options, subject.database, report, seconds, heat ? &*heat : nullptr, trace ? &*trace : nullptr}, interrupt,
+                output);
   return 0;
 }
 

@@ -44,6 +44,7 @@ void add_study_options(OptionSet& options, RenderOptions& render) {
                                    "Who finds what a ray hits; embree goes with --strategy=replicated only");
   options.add_path("--stats", "FILE.json", render.stats, "Write all counters");
   add_heat_option(options, render.heat_maps);
+  add_options(options, render.trace);
   options.add_flag("--quiet", render.quiet, "No progress, no closing lines");
 }
 
@@ -86,6 +87,7 @@ void check(const OptionSet& options, const RenderOptions& render) {
   check_tracer(render);
   check_runner(options, render);
   check_heat(render.heat_maps, render.strategy);
+  check_trace(options, render.trace, render.computer.node_count);
   if (render.pages.count_pages && !render.stats) {
     throw UsageError("--count-pages counts for the --stats file: give --stats=FILE.json too");
   }
@@ -113,6 +115,7 @@ void add_options(OptionSet options, RenderOptions& render) {
       "  dmpc render tetra-10 --nodes=64 --node-memory=4MiB -o tetra.exr\n"
       "  dmpc render rings-4-t1 --cache-pages=16 --count-pages --stats=rings.json -o rings.png\n"
       "  dmpc render rings-4-t1 --heatmap=faults:faults.png --heatmap=faults:faults.exr -o rings.png\n"
+      "  dmpc render rings-4-t1 --nodes=4 --cache-pages=64 --trace=rings.json --trace-window=10,12 -o rings.png\n"
       "  dmpc render rings-3-t1 --strategy=dataflow --nodes=16 --grid-axes=screen -o rings.png\n"
       "  dmpc render teapot-12 --nodes=64 --runner=virtual --machine=ipsc860 --stats=teapot.json -o teapot.png\n"
       "  dmpc render my.nff --strategy=replicated --tracer=embree --resolution=1024x768 -o my.tif\n"

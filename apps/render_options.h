@@ -11,6 +11,7 @@
 #include "apps/heat_options.h"
 #include "apps/picture_options.h"
 #include "apps/strategy_options.h"
+#include "apps/trace_options.h"
 
 namespace dmpc::apps {
 
@@ -20,6 +21,7 @@ struct RenderOptions : StrategyOptions {
   std::filesystem::path image;                 ///< where the picture goes
   std::optional<std::filesystem::path> stats;  ///< where the counters go, as JSON
   std::vector<HeatRequest> heat_maps;          ///< what else is to be shown of each pixel
+  TraceOptions trace;                          ///< what is recorded of the run
   bool quiet = false;                          ///< no progress and no closing lines
 };
 

@@ -53,11 +53,12 @@ svm::Report run_with_embree(const core::Database& database, const core::RenderSe
 
 /// svm and replicated.
 ReadyRun ready_with_pages(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
-                          const std::function<void()>& distributed, nodes::HeatMap* heat) {
+                          const std::function<void()>& distributed, nodes::HeatMap* heat, nodes::Observer* observer) {
   const bool paged = options.strategy == Strategy::svm, by_embree = options.tracer == TracerChoice::embree;
   svm::RunOptions run = svm_options(options);
   run.distributed = distributed;
   run.heat = heat;
+  run.observer = observer;
   const auto start = [&database, &settings, run, paged, by_embree](const RunProgress& progress, std::stop_token stop) -> Report {
     svm::RunOptions watched = run;
     watched.progress = progress;
@@ -72,9 +73,11 @@ ReadyRun ready_with_pages(const StrategyOptions& options, const core::Database& 
 }
 
 ReadyRun ready_with_rays(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
-                         const std::stop_token& stop, const std::function<void()>& distributed, nodes::HeatMap* heat) {
+                         const std::stop_token& stop, const std::function<void()>& distributed, nodes::HeatMap* heat,
+                         nodes::Observer* observer) {
   dataflow::RunOptions run = dataflow_options(options);
   run.heat = heat;
+  run.observer = observer;
   const auto prepared = std::make_shared<dataflow::Prepared>(dataflow::prepare(database, settings, run, stop));
   if (distributed) {
     distributed();
@@ -112,11 +115,12 @@ void choose_machine(StrategyOptions& options) {
 }
 
 ReadyRun make_ready(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
-                    const std::stop_token& stop, const std::function<void()>& distributed, nodes::HeatMap* heat) {
+                    const std::stop_token& stop, const std::function<void()>& distributed, nodes::HeatMap* heat,
+                    nodes::Observer* observer) {
   core::expect(options.computer.machine.has_value() == (options.computer.runner == RunnerKind::virtual_time),
                "a modelled machine has been read");
-  return options.strategy == Strategy::dataflow ? ready_with_rays(options, database, settings, stop, distributed, heat)
-                                                : ready_with_pages(options, database, settings, distributed, heat);
+  return options.strategy == Strategy::dataflow ? ready_with_rays(options, database, settings, stop, distributed, heat, observer)
+                                                : ready_with_pages(options, database, settings, distributed, heat, observer);
 }
 
 }  // namespace dmpc::apps

@@ -12,6 +12,7 @@
 #include "core/database.h"
 #include "core/pixel_task.h"
 #include "nodes/heat_map.h"
+#include "nodes/observer.h"
 
 namespace dmpc::apps {
 
@@ -38,10 +39,11 @@ void choose_machine(StrategyOptions& options, const nodes::Machine& machine);
 /// Throws core::UsageError for options that the strategy does not take, core::InputError if the nodes' memory is too small,
 /// naming what works. No memory of a node is asked of the real computer before the start.
 /// `heat`: if given, what each pixel takes is added to it; it is of the picture's size and outlives the run.
+/// `observer`: if given, sees the run happen, and outlives it.
 /// `distributed`: if given, the run starts at most once, and this is called when it will not read the database's records again:
 /// here, or when it starts.
 ReadyRun make_ready(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
                     const std::stop_token& stop = {}, const std::function<void()>& distributed = {},
-                    nodes::HeatMap* heat = nullptr);
+                    nodes::HeatMap* heat = nullptr, nodes::Observer* observer = nullptr);
 
 }  // namespace dmpc::apps

@@ -9,6 +9,10 @@
 #include "core/database.h"
 #include "nodes/heat_map.h"
 
+namespace dmpc::nodes {
+struct Trace;
+}
+
 namespace dmpc::apps {
 
 /// Seconds of wall clock by phase, and of processor time.
@@ -25,6 +29,7 @@ struct RenderRecord {
   const Report& report;
   Seconds seconds;
   const nodes::HeatMap* heat = nullptr;  ///< what options.heat_maps ask for
+  const nodes::Trace* trace = nullptr;   ///< what options.trace asks for
 };
 
 /// One JSON object, indented, with a line end. The keys are an interface; what does not apply is null, and no number is NaN or

@@ -51,6 +51,7 @@ class HostProgram final : public nodes::Program {
   void receive(const nodes::Packet& packet) override;
   bool work() override;
   bool finished() const override { return stopped_; }
+  nodes::Levels levels() const override { return {{"pixels with light", pixels_with_light_}, {"rays kept", kept_.size()}}; }
   std::string describe() const override;
 
   /// Call it only while the program is not running.

@@ -2,7 +2,7 @@
 
 namespace dmpc::dataflow {
 
-MeteredProgram::MeteredProgram(nodes::Node& node, const Plan& plan, const NodeDeal& deal, const nodes::HeatMeter& meter)
+MeteredProgram::MeteredProgram(nodes::Node& node, const Plan& plan, const NodeDeal& deal, const nodes::Meter& meter)
     : NodeProgram(node, plan, deal), meter_(meter) {}
 
 bool MeteredProgram::work() {

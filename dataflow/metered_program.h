@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dataflow/program.h"
-#include "nodes/heat_meter.h"
+#include "nodes/meter.h"
 
 namespace dmpc::dataflow {
 
@@ -11,14 +11,14 @@ namespace dmpc::dataflow {
 class MeteredProgram final : public NodeProgram {
  public:
   /// `meter` is this node's.
-  MeteredProgram(nodes::Node& node, const Plan& plan, const NodeDeal& deal, const nodes::HeatMeter& meter);
+  MeteredProgram(nodes::Node& node, const Plan& plan, const NodeDeal& deal, const nodes::Meter& meter);
 
   bool work() override;
 
  private:
   nodes::HeatTotals totals() const { return {.rays = operations().ray_count(), .charges = charges()}; }
 
-  nodes::HeatMeter meter_;
+  nodes::Meter meter_;
 };
 
 }  // namespace dmpc::dataflow

@@ -425,6 +425,10 @@ nodes::Charges NodeProgram::charges() const {
   return charges;
 }
 
+nodes::Levels NodeProgram::levels() const {
+  return {{"rays in backlog", backlog_.size()}, {"rays gathered", gather_.size()}, {"packets queued", gather_.queued()}};
+}
+
 std::string NodeProgram::describe() const {
   return std::to_string(primaries_.left()) + " primary rays not started, " + std::to_string(backlog_.size()) +
          " rays in the backlog, " +

@@ -76,6 +76,7 @@ class NodeProgram : public nodes::Program {
   bool work() override;
   bool finished() const override { return stopped_; }
   nodes::Charges charges() const override;
+  nodes::Levels levels() const override;
   std::string describe() const override;
 
   /// Call it only while the program is not running.

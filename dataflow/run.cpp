@@ -85,11 +85,10 @@ NodeReport report_of(nodes::Node& node, const nodes::Program& program, const Dis
 
 std::unique_ptr<nodes::Program> make_program_of(nodes::Node& node, const Plan& plan, const NodeDeal& deal,
                                                 const RunOptions& options) {
-  if (options.heat == nullptr) {
-    return std::make_unique<NodeProgram>(node, plan, deal);
+  if (options.metering().is_wanted()) {
+    return std::make_unique<MeteredProgram>(node, plan, deal, nodes::Meter(options.metering(), node.id()));
   }
-  const nodes::HeatMeter meter(*options.heat, node.id(), options.machine ? &*options.machine : nullptr);
-  return std::make_unique<MeteredProgram>(node, plan, deal, meter);
+  return std::make_unique<NodeProgram>(node, plan, deal);
 }
 
 void add(TrafficByKind& sum, const TrafficByKind& more) {
@@ -255,7 +254,7 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
   core::expect(options.heat == nullptr || options.heat->pixel_count() == report.film.pixels().size(),
                "a heat map is of the picture's size");
   const auto runner = nodes::make_runner(specifications_of(report.plan, prepared.distribution, settings, report.film, options),
-                                         {options.chaos, options.machine});
+                                         {options.chaos, options.machine, options.observer});
   if (options.distributed) {
     options.distributed();
   }

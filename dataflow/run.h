@@ -22,6 +22,7 @@
 #include "nodes/counters.h"
 #include "nodes/heat_map.h"
 #include "nodes/machine.h"
+#include "nodes/meter.h"
 #include "nodes/runner.h"
 #include "nodes/topology.h"
 
@@ -46,9 +47,13 @@ struct RunOptions {
   /// What each pixel takes is added to it, of the kinds that it records but `samples`. Rays look up no pages: those kinds stay
   /// zero. Of the size of the picture; outlives the run.
   nodes::HeatMap* heat = nullptr;
+  nodes::Observer* observer = nullptr;  ///< sees the run happen; outlives it
   /// Called on the calling thread when the nodes hold their parts of the database, which are not read again, before any node
   /// starts.
   std::function<void()> distributed = {};
+
+  /// What the nodes' meters are for. The options outlive it.
+  nodes::Metering metering() const { return {heat, observer, machine ? &*machine : nullptr}; }
 };
 
 struct NodeReport {
@@ -116,7 +121,7 @@ Report run_dataflow(const core::Database& database, const core::RenderSettings& 
                     std::stop_token stop);
 
 /// What a runner needs for `plan`: the nodes in order, then the host, which writes `film`. All arguments outlive
-/// the runner. Of `options` it reads what a heat map asks for.
+/// the runner. Of `options` it reads what meters are for.
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,
                                                         const core::RenderSettings& settings, core::Film& film,
                                                         const RunOptions& options);

@@ -16,17 +16,10 @@ struct HeatTotals {
   Charges charges = {};
 };
 
-/// A program without one costs nothing: what it would do for a meter is not compiled.
-struct NoMeter {
-  static constexpr bool is_on = false;
-};
-
 /// One node's. Time is what a machine's model asks for the operations charged, or without one the processor's time of the calling
 /// thread, read twice a quantum. Thread safety: belongs to one node.
 class HeatMeter {
  public:
-  static constexpr bool is_on = true;
-
   /// `map` and `machine` outlive the meter; without a machine the node is a thread.
   HeatMeter(HeatMap& map, NodeId self, const Machine* machine) : map_(&map), self_(self), machine_(machine) {}
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "nodes/charge.h"
+#include "nodes/level.h"
 #include "nodes/packet.h"
 
 namespace dmpc::nodes {
@@ -26,6 +27,9 @@ class Program {
 
   /// The operations done since the start, for runners that price them. Only ever grows.
   virtual Charges charges() const { return {}; }
+
+  /// How full and how far it is, for observers. Called only while the program is not running.
+  virtual Levels levels() const { return {}; }
 
   /// One line on queues and state, for the watchdog's report. Called only while the program is not running.
   virtual std::string describe() const = 0;

@@ -13,6 +13,7 @@
 #include "nodes/machine.h"
 #include "nodes/mailbox.h"
 #include "nodes/node.h"
+#include "nodes/observer.h"
 #include "nodes/program.h"
 #include "nodes/virtual_times.h"
 
@@ -55,6 +56,7 @@ class Runner {
 struct RunnerChoice {
   std::optional<Chaos> chaos = std::nullopt;      ///< with threads only
   std::optional<Machine> machine = std::nullopt;  ///< the model; without it threads
+  Observer* observer = nullptr;                   ///< looks on, and outlives the run
 };
 /// `specifications`: the nodes in order, then the host, last.
 std::unique_ptr<Runner> make_runner(std::span<const NodeSpecification> specifications, const RunnerChoice& choice);

@@ -101,6 +101,7 @@ struct alignas(cache_line_bytes) Processor {
   std::unique_ptr<Program> program;
   std::optional<ChaosPauses> pauses;
   std::uint32_t quanta_idle = 0;
+  std::uint32_t call = 0;           ///< number of the program's call, if somebody looks on
   std::uint32_t quanta_to_run = 0;  ///< this many quanta from now the node runs one
   Thread thread;
 };
@@ -111,8 +112,8 @@ struct alignas(cache_line_bytes) Processor {
 /// a Processor's parts belong to its thread but for the mailbox. Everything else runs on the caller's thread while no node's
 /// thread exists.
 struct ThreadsRunner::Implementation final : Network {
-  Implementation(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos)
-      : chaos_(chaos), awake_(static_cast<std::uint32_t>(specifications.size())) {
+  Implementation(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos, Observer* observer)
+      : chaos_(chaos), observer_(observer), awake_(static_cast<std::uint32_t>(specifications.size())) {
     core::expect(!specifications.empty(), "a computer has at least the host");
     const Computer computer{static_cast<std::uint32_t>(specifications.size()), *this, chaos_};
     for (std::uint32_t i = 0; i < computer.peer_count; ++i) {
@@ -121,6 +122,15 @@ struct ThreadsRunner::Implementation final : Network {
   }
 
   void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) override {
+    if (observer_ != nullptr) {
+      const std::uint64_t now_ns = since_start_ns();
+      observer_->sent({.node = NodeId{header.source},
+                       .peer = target,
+                       .kind = header.kind,
+                       .call = processors_[header.source]->call,
+                       .payload = payload,
+                       .times = {.sending_ns = now_ns, .left_ns = now_ns}});
+    }
     core::expect(processors_[index_of(target)]->mailbox.push(header, payload, awake_),
                  "credits leave room in the target's mailbox");
   }
@@ -128,6 +138,7 @@ struct ThreadsRunner::Implementation final : Network {
   RunEnd run(std::stop_token stop) {
     core::expect(!started_, "a runner runs once");
     started_ = true;
+    start_ns_ = nanoseconds(CLOCK_MONOTONIC);
     for (const auto& processor : processors_) {
       processor->memory.back();
     }
@@ -186,8 +197,11 @@ struct ThreadsRunner::Implementation final : Network {
     if (self.sits_out()) {
       return self.pass_idly();
     }
-    self.mailbox.drain([&self](const Packet& packet) {
+    self.mailbox.drain([this, &self](const Packet& packet) {
       self.node.counters().received[packet.kind].add(packet.payload.size());
+      if (observer_ != nullptr) {
+        return receive_observed(self, packet);
+      }
       self.program->receive(packet);
     });
     const bool has_more = work(self);
@@ -199,12 +213,52 @@ struct ThreadsRunner::Implementation final : Network {
     }
   }
 
-  static bool work(Processor& self) {
+  bool work(Processor& self) {
     if (self.program->finished()) {
       return false;
     }
     ++self.node.counters().quanta;
+    if (observer_ != nullptr) {
+      return work_observed(self);
+    }
     return self.program->work();
+  }
+
+  std::uint64_t since_start_ns() const { return nanoseconds(CLOCK_MONOTONIC) - start_ns_; }
+
+  bool work_observed(Processor& self) {
+    Span span = begin_span(self, Activity::work, 0);
+    const bool has_more = self.program->work();
+    end_span(self, span);
+    return has_more;
+  }
+
+  void receive_observed(Processor& self, const Packet& packet) {
+    Span span = begin_span(self, Activity::receive, packet.kind);
+    observer_->received({.node = self.node.id(),
+                         .peer = packet.source,
+                         .kind = packet.kind,
+                         .call = span.call,
+                         .payload = packet.payload,
+                         .times = {.received_ns = span.begin_ns}});
+    self.program->receive(packet);
+    end_span(self, span);
+  }
+
+  Span begin_span(Processor& self, Activity activity, PacketKind packet) const {
+    return {.node = self.node.id(),
+            .activity = activity,
+            .packet = packet,
+            .call = ++self.call,
+            .begin_ns = since_start_ns(),
+            .before = self.program->charges()};
+  }
+
+  void end_span(Processor& self, Span& span) const {
+    span.end_ns = since_start_ns();
+    span.own_ns = span.end_ns - span.begin_ns;
+    span.after = self.program->charges();
+    observer_->ended(span, *self.program);
   }
 
   static bool packet_comes_soon(const Mailbox& mailbox) {
@@ -271,6 +325,8 @@ struct ThreadsRunner::Implementation final : Network {
   }
 
   std::optional<Chaos> chaos_;
+  Observer* observer_;
+  std::uint64_t start_ns_ = 0;  ///< of the run; written before the threads start
   AwakeCount awake_;
   alignas(cache_line_bytes) std::atomic<Ending> ending_{Ending::none};
   std::atomic<bool> failing_{false};
@@ -280,8 +336,9 @@ struct ThreadsRunner::Implementation final : Network {
   bool started_ = false;
 };
 
-ThreadsRunner::ThreadsRunner(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos)
-    : implementation_(std::make_unique<Implementation>(specifications, chaos)) {}
+ThreadsRunner::ThreadsRunner(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos,
+                             Observer* observer)
+    : implementation_(std::make_unique<Implementation>(specifications, chaos, observer)) {}
 ThreadsRunner::~ThreadsRunner() = default;
 
 RunEnd ThreadsRunner::run(std::stop_token stop) { return implementation_->run(std::move(stop)); }

@@ -19,8 +19,10 @@ inline constexpr std::size_t thread_stack_bytes_min = std::size_t{64} << 10U;
 class ThreadsRunner final : public Runner {
  public:
   /// `specifications`: the nodes in order, then the host, last. With `chaos` the computer delays and reorders packets, and some
-  /// of its nodes are slow; the credits are the strategy's to shrink (shrunk_credits()).
-  explicit ThreadsRunner(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos = std::nullopt);
+  /// of its nodes are slow; the credits are the strategy's to shrink (shrunk_credits()). `observer`, if there is one, is told on
+  /// the nodes' threads.
+  explicit ThreadsRunner(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos = std::nullopt,
+                         Observer* observer = nullptr);
   ~ThreadsRunner() override;
 
   /// Starts a thread for each. After a stop is requested every thread ends within a quantum. A stall is found exactly, without a

@@ -23,6 +23,7 @@ struct Message {
   NodeId target{};
   PacketHeader header;
   std::vector<std::byte> payload;
+  MessageTimes times;  ///< for an observer
 
   std::uint64_t bytes() const { return sizeof(PacketHeader) + payload.size(); }
   bool is_bulk() const { return payload.size() > small_payload_bytes; }
@@ -46,6 +47,7 @@ class MessageStore {
     return number;
   }
   const Message& operator[](std::uint32_t number) const { return messages_[number]; }
+  Message& operator[](std::uint32_t number) { return messages_[number]; }
   void release(std::uint32_t number) { free_.push_back(number); }
   bool empty() const { return free_.size() == messages_.size(); }
 
@@ -121,14 +123,18 @@ struct Processor final : Network {
   std::uint64_t served_until_ns = 0;  ///< the last interrupt
   std::uint64_t idle_since_ns = 0;
   std::uint64_t lent_before_ns = 0;  ///< times.lent_ns when it fell idle
+  std::uint32_t calls = 0;           ///< of the program, if somebody looks on
+  Span span, service;                ///< what it is doing and what it interrupted that for, likewise
   VirtualTimes times;
 };
 
 }  // namespace
 
 struct VirtualRunner::Implementation {
-  Implementation(std::span<const NodeSpecification> specifications, const Machine& model)
-      : machine(model), links(model, static_cast<std::uint32_t>(std::max<std::size_t>(specifications.size(), 2) - 1)) {
+  Implementation(std::span<const NodeSpecification> specifications, const Machine& model, Observer* looking_on)
+      : machine(model),
+        observer(looking_on),
+        links(model, static_cast<std::uint32_t>(std::max<std::size_t>(specifications.size(), 2) - 1)) {
     core::expect(!specifications.empty(), "a computer has at least the host");
     const auto peer_count = static_cast<std::uint32_t>(specifications.size());
     for (std::uint32_t i = 0; i < peer_count; ++i) {
@@ -185,8 +191,11 @@ struct VirtualRunner::Implementation {
   }
 
   /// A processor has sent a message, which enters the network after its latency, behind those to the same target.
-  void leave(Processor& self, std::uint32_t number, std::uint64_t time_ns) {
+  void leave(Processor& self, std::uint32_t number, std::uint64_t time_ns, std::uint32_t call) {
     const Message& message = computer.messages[number];
+    if (observer != nullptr) {
+      tell_sent(number, time_ns, call);
+    }
     std::uint64_t& enters_ns = self.ways[index_of(message.target)].last_enters_ns;
     enters_ns = std::max(enters_ns, time_ns + machine.cost_of_message(message.bytes()).latency_ns);
     post(self, Event::Kind::enters, enters_ns, number);
@@ -194,11 +203,15 @@ struct VirtualRunner::Implementation {
 
   /// A message enters the network: reserves its links.
   void enter(std::uint32_t number) {
-    const Message& message = computer.messages[number];
+    Message& message = computer.messages[number];
     const NodeId source{message.header.source};
     Processor& sender = *computer.processors[index_of(source)];
     std::uint64_t& arrives_ns = sender.ways[index_of(message.target)].last_arrives_ns;
+    const std::uint64_t waited_ns = links.traffic().wait_ns;
     arrives_ns = std::max(arrives_ns, links.pass(source, message.target, events.now_ns(), message.bytes()));
+    message.times.entered_ns = events.now_ns();
+    message.times.links_ns = links.traffic().wait_ns - waited_ns;
+    message.times.arrived_ns = arrives_ns;
     post(sender, Event::Kind::arrives, arrives_ns, number);
   }
 
@@ -215,7 +228,9 @@ struct VirtualRunner::Implementation {
     if (target.is_occupied) {
       target.occupied_until_ns += receive_ns;
     } else {
-      occupy(target, end_wait(target, message.header.kind) + receive_ns);
+      const std::uint64_t begin_ns = end_wait(target, message.header.kind);
+      begin(target, target.span, Activity::take_over, message.header.kind, begin_ns, receive_ns);
+      occupy(target, begin_ns + receive_ns);
     }
   }
 
@@ -229,14 +244,17 @@ struct VirtualRunner::Implementation {
   /// An interrupt: first come, first served, whatever the program was doing.
   void serve(Processor& self, std::uint32_t number) {
     const std::uint64_t receive_ns = machine.cost_of_message(computer.messages[number].bytes()).receive_ns;
-    self.receive(number);
-    std::uint64_t service_ns = receive_ns + machine.service_ns + charge(self);
     const std::uint64_t start_ns = std::max(events.now_ns(), self.served_until_ns);
+    begin(self, self.service, Activity::serve, computer.messages[number].header.kind, start_ns);
+    receive(self, number, self.service);
+    std::uint64_t service_ns = receive_ns + machine.service_ns + charge(self);
     for (const std::uint32_t reply : self.sent) {
       service_ns += machine.cost_of_message(computer.messages[reply].bytes()).send_ns;
-      leave(self, reply, start_ns + service_ns);
+      leave(self, reply, start_ns + service_ns, self.service.call);
     }
     self.sent.clear();
+    charged(self, self.service, service_ns);
+    end(self, self.service, start_ns + service_ns);
     self.served_until_ns = start_ns + service_ns;
     if (self.is_occupied) {
       self.occupied_until_ns += service_ns;
@@ -249,16 +267,19 @@ struct VirtualRunner::Implementation {
   /// What was under way is done: its packets leave, then the program goes on.
   void become_free(Processor& self) {
     self.is_occupied = false;
-    if (self.outgoing.empty()) {
-      return go_on(self);
-    }
+    const bool sends = !self.outgoing.empty();
     std::uint64_t sent_ns = events.now_ns();
     for (const std::uint32_t number : self.outgoing) {
       sent_ns += machine.cost_of_message(computer.messages[number].bytes()).send_ns;
-      leave(self, number, sent_ns);
+      leave(self, number, sent_ns, self.span.call);
     }
     self.outgoing.clear();
+    end(self, self.span, events.now_ns());
+    if (!sends) {
+      return go_on(self);
+    }
     self.times.sending_ns += sent_ns - events.now_ns();
+    begin(self, self.span, Activity::send, 0, events.now_ns(), sent_ns - events.now_ns());
     occupy(self, sent_ns);
   }
 
@@ -268,9 +289,11 @@ struct VirtualRunner::Implementation {
     if (!self.inbox.empty()) {
       const std::uint32_t number = self.inbox.front();
       self.inbox.pop_front();
-      self.receive(number);
+      begin(self, self.span, Activity::receive, computer.messages[number].header.kind, now_ns);
+      receive(self, number, self.span);
       self.has_more = true;
     } else if (self.has_more && !self.program->finished()) {
+      begin(self, self.span, Activity::work, 0, now_ns);
       ++self.node.counters().quanta;
       self.has_more = self.program->work();
     } else {
@@ -281,6 +304,7 @@ struct VirtualRunner::Implementation {
     std::swap(self.outgoing, self.sent);  // empty until now
     const std::uint64_t computing_ns = charge(self);
     self.times.computing_ns += computing_ns;
+    charged(self, self.span, computing_ns);
     occupy(self, now_ns + computing_ns);
   }
 
@@ -297,6 +321,58 @@ struct VirtualRunner::Implementation {
     self.charged = now;
     self.remainder_ps = price_ps % 1000;
     return price_ps / 1000;
+  }
+
+  // ---- For an observer -----------------------------------------------------------------------------------------------------
+
+  void receive(Processor& self, std::uint32_t number, const Span& span) {
+    if (observer != nullptr) {
+      Message& message = computer.messages[number];
+      message.times.received_ns = span.begin_ns;
+      observer->received(
+          {self.node.id(), NodeId{message.header.source}, message.header.kind, span.call, message.payload, message.times});
+    }
+    self.receive(number);
+  }
+
+  /// Of what is no call of the program, `own_ns` is known.
+  void begin(Processor& self, Span& span, Activity activity, PacketKind packet, std::uint64_t begin_ns,
+             std::uint64_t own_ns = 0) const {
+    if (observer != nullptr) {
+      const bool is_call = activity != Activity::send && activity != Activity::take_over;
+      span = {.node = self.node.id(),
+              .activity = activity,
+              .packet = packet,
+              .call = is_call                      ? ++self.calls
+                      : activity == Activity::send ? span.call
+                                                   : self.calls,
+              .begin_ns = begin_ns,
+              .own_ns = own_ns,
+              .before = self.charged,
+              .after = self.charged};
+    }
+  }
+
+  /// The call has been made, and its operations are priced.
+  void charged(const Processor& self, Span& span, std::uint64_t own_ns) const {
+    if (observer != nullptr) {
+      span.own_ns = own_ns;
+      span.after = self.charged;
+    }
+  }
+
+  void end(const Processor& self, Span& span, std::uint64_t end_ns) const {
+    if (observer != nullptr) {
+      span.end_ns = end_ns;
+      observer->ended(span, *self.program);
+    }
+  }
+
+  /// A message whose sender's processor is done with it at `time_ns`.
+  void tell_sent(std::uint32_t number, std::uint64_t time_ns, std::uint32_t call) {
+    Message& message = computer.messages[number];
+    message.times = {.sending_ns = time_ns - machine.cost_of_message(message.bytes()).send_ns, .left_ns = time_ns};
+    observer->sent({NodeId{message.header.source}, message.target, message.header.kind, call, message.payload, message.times});
   }
 
   // ---- The end -----------------------------------------------------------------------------------------------------------
@@ -333,6 +409,7 @@ struct VirtualRunner::Implementation {
   }
 
   Machine machine;
+  Observer* observer;
   Links links;
   Computer computer;
   EventQueue events;
@@ -340,8 +417,8 @@ struct VirtualRunner::Implementation {
   bool is_started = false;
 };
 
-VirtualRunner::VirtualRunner(std::span<const NodeSpecification> specifications, const Machine& machine)
-    : implementation_(std::make_unique<Implementation>(specifications, machine)) {}
+VirtualRunner::VirtualRunner(std::span<const NodeSpecification> specifications, const Machine& machine, Observer* observer)
+    : implementation_(std::make_unique<Implementation>(specifications, machine, observer)) {}
 VirtualRunner::~VirtualRunner() = default;
 
 RunEnd VirtualRunner::run(std::stop_token stop) { return implementation_->run(stop); }

@@ -27,8 +27,9 @@ namespace dmpc::nodes {
 /// No thread of its own, no clock of the host's: several may run side by side. As Runner otherwise.
 class VirtualRunner final : public Runner {
  public:
-  /// `specifications`: the nodes in order, then the host, last.
-  VirtualRunner(std::span<const NodeSpecification> specifications, const Machine& machine);
+  /// `specifications`: the nodes in order, then the host, last. `observer`, if there is one, is told what happens, in virtual
+  /// time.
+  VirtualRunner(std::span<const NodeSpecification> specifications, const Machine& machine, Observer* observer = nullptr);
   ~VirtualRunner() override;
 
   RunEnd run(std::stop_token stop) override;

@@ -54,6 +54,8 @@ class Cache {
   /// size.
   PageId install(PageId page, std::span<const std::byte> bytes);
 
+  /// Frames that have a page.
+  std::uint32_t filled_count() const { return filled_count_; }
   std::uint32_t frame_count() const { return static_cast<std::uint32_t>(stamps_.size()); }
 
  private:

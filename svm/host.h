@@ -33,6 +33,7 @@ class HostProgram final : public nodes::Program {
   void receive(const nodes::Packet& packet) override;
   bool work() override { return false; }
   bool finished() const override { return stopped_; }
+  nodes::Levels levels() const override { return {{"pixels done", pixels_done()}}; }
   std::string describe() const override;
 
   /// Deposits that saturated a sum on the host's film.

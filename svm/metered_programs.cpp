@@ -11,13 +11,12 @@ namespace {
 template <class Records>
 MakeProgram maker(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
                   const RunOptions& options) {
-  return [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
+  return [&](std::uint32_t /*index*/, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
     const auto make_tracer = [&](Records& records) {
       return core::GridTracer<Records>(records, settings.header, settings.skips);
     };
-    const nodes::HeatMeter meter(*options.heat, nodes::NodeId{index}, options.machine ? &*options.machine : nullptr);
-    using Metered = ControlProgram<Records, core::GridTracer<Records>, core::PixelTask, nodes::HeatMeter>;
-    return std::make_unique<Metered>(node, plan, settings, database.bytes(), make_tracer, meter);
+    return make_metered_program<Records, core::GridTracer<Records>>(node, plan, settings, database.bytes(), make_tracer,
+                                                                    options.metering());
   };
 }
 
@@ -25,7 +24,7 @@ MakeProgram maker(const core::Database& database, const core::RenderSettings& se
 
 MakeProgram metered_programs(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
                              const RunOptions& options) {
-  core::expect(options.heat != nullptr, "a meter has a heat map");
+  core::expect(options.metering().is_wanted(), "a meter is for somebody");
   if (plan.request.strategy == Strategy::replicated) {
     return maker<LocalCopy>(database, settings, plan, options);
   }

@@ -1,4 +1,4 @@
-// The node programs of a run of which a heat map is wanted. In a file of their own: beside them the compiler would inline less of
+// The node programs of a run with meters. In a file of their own: beside them the compiler would inline less of
 // those without a meter.
 #pragma once
 
@@ -9,7 +9,8 @@
 
 namespace dmpc::svm {
 
-/// Makes the programs of the plan's strategy, with our grid. Requires options.heat. All arguments outlive the result.
+/// Makes the programs of the plan's strategy, with our grid. Requires options.metering().is_wanted(). All arguments outlive the
+/// result.
 MakeProgram metered_programs(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
                              const RunOptions& options);
 

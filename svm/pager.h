@@ -55,6 +55,8 @@ class Pager {
 
   /// Faults that have not ended.
   std::uint32_t faults() const { return faults_.count(); }
+  /// Pages in the cache.
+  std::uint32_t cached_pages() const { return cache_.filled_count(); }
   PageCounters counters() const;
 
  private:

@@ -18,7 +18,7 @@
 
 #include "core/expect.h"
 #include "core/pixel_task.h"
-#include "nodes/heat_meter.h"
+#include "nodes/meter.h"
 #include "nodes/node.h"
 #include "nodes/operation_charges.h"
 #include "svm/faults.h"
@@ -32,7 +32,7 @@
 namespace dmpc::svm {
 
 /// `Records` is Pager, CountingPager or LocalCopy; `Tracer` reads them; `Task` is core::PixelTask, or a test's. `Meter` is
-/// nodes::HeatMeter where somebody wants to know what each pixel takes.
+/// nodes::Meter where somebody wants to know what is done for which pixel.
 template <class Records, class Tracer, class Task = core::PixelTask, class Meter = nodes::NoMeter>
 class ControlProgram final : public NodeProgram {
  public:
@@ -106,6 +106,15 @@ class ControlProgram final : public NodeProgram {
     charges[nodes::Charge::cached_lookup] = pages.references - pages.home_hits;
     charges[nodes::Charge::page_install] = pages.faults - pending_faults();
     return charges;
+  }
+
+  nodes::Levels levels() const override {
+    if constexpr (Records::pages_travel) {
+      return {
+          {"pages in cache", records_.cached_pages()}, {"pages awaited", records_.faults()}, {"pixels done", pixels_rendered_}};
+    } else {
+      return {{"pixels done", pixels_rendered_}};
+    }
   }
 
   std::string describe() const override {

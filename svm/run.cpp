@@ -95,7 +95,7 @@ MakeProgram maker(const core::Database& database, const core::RenderSettings& se
 
 Report run_recording(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                      const Plan& plan, std::stop_token stop) {
-  core::expect(options.heat == nullptr, "references are recorded, or heat is, not both");
+  core::expect(!options.metering().is_wanted(), "references are recorded, or there are meters, not both");
   std::vector<ReferenceLog> logs(plan.request.node_count);
   const auto record = [&logs](std::uint32_t index, RecordingPager& pager) { pager.record_into(logs[index]); };
   Report report = run_programs(plan, maker<RecordingPager>(database, settings, plan, record), options, std::move(stop));
@@ -190,7 +190,7 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
   core::expect(options.heat == nullptr || options.heat->pixel_count() == report.film.pixels().size(),
                "a heat map is of the picture's size");
   const auto runner = nodes::make_runner(specifications_of(plan, make_program, report.film, options.progress),
-                                         {plan.request.chaos, options.machine});
+                                         {plan.request.chaos, options.machine, options.observer});
   if (options.distributed) {
     options.distributed();
   }
@@ -216,17 +216,17 @@ Report run_svm(const core::Database& database, const core::RenderSettings& setti
   if (options.record_references) {
     return run_recording(database, settings, options, plan, std::move(stop));
   }
-  const MakeProgram make_program = options.heat != nullptr    ? metered_programs(database, settings, plan, options)
-                                   : plan.request.count_pages ? maker<CountingPager>(database, settings, plan)
-                                                              : maker<Pager>(database, settings, plan);
+  const MakeProgram make_program = options.metering().is_wanted() ? metered_programs(database, settings, plan, options)
+                                   : plan.request.count_pages     ? maker<CountingPager>(database, settings, plan)
+                                                                  : maker<Pager>(database, settings, plan);
   return run_programs(plan, make_program, options, std::move(stop));
 }
 
 Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                       std::stop_token stop) {
   const Plan plan = plan_of(Strategy::replicated, database, settings, options);
-  const MakeProgram make_program =
-      options.heat != nullptr ? metered_programs(database, settings, plan, options) : maker<LocalCopy>(database, settings, plan);
+  const MakeProgram make_program = options.metering().is_wanted() ? metered_programs(database, settings, plan, options)
+                                                                  : maker<LocalCopy>(database, settings, plan);
   return run_programs(plan, make_program, options, std::move(stop));
 }
 

@@ -20,8 +20,8 @@
 #include "nodes/chaos.h"
 #include "nodes/counters.h"
 #include "nodes/heat_map.h"
-#include "nodes/heat_meter.h"
 #include "nodes/machine.h"
+#include "nodes/meter.h"
 #include "nodes/runner.h"
 #include "svm/host.h"
 #include "svm/local_copy.h"
@@ -52,8 +52,12 @@ struct RunOptions {
   /// What each pixel takes is added to it, of the kinds that it records but `samples`; `pages` are then counted, whatever
   /// count_pages says. Of the size of the picture; outlives the run.
   nodes::HeatMap* heat = nullptr;
+  nodes::Observer* observer = nullptr;  ///< sees the run happen; outlives it
   /// Called on the calling thread when the nodes hold the database, which is not read again, before any node starts.
   std::function<void()> distributed = {};
+
+  /// What the nodes' meters are for. The options outlive it.
+  nodes::Metering metering() const { return {heat, observer, machine ? &*machine : nullptr}; }
 };
 
 struct NodeReport {
@@ -96,17 +100,24 @@ using MakeProgram = std::function<std::unique_ptr<NodeProgram>(std::uint32_t ind
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const MakeProgram& make_program, core::Film& film,
                                                         const Progress& progress);
 
-/// The program of node `index`: with a meter if a heat map is asked for, without any trace of one if not. `options` outlives it.
+/// The program of a node with a meter.
 template <class Records, class Tracer, class MakeTracer>
-std::unique_ptr<NodeProgram> make_control_program(std::uint32_t index, nodes::Node& node, const Plan& plan,
-                                                  const core::RenderSettings& settings, std::span<const std::byte> database,
-                                                  const MakeTracer& make_tracer, const RunOptions& options) {
-  if (options.heat == nullptr) {
-    return std::make_unique<ControlProgram<Records, Tracer>>(node, plan, settings, database, make_tracer);
+std::unique_ptr<NodeProgram> make_metered_program(nodes::Node& node, const Plan& plan, const core::RenderSettings& settings,
+                                                  std::span<const std::byte> database, const MakeTracer& make_tracer,
+                                                  const nodes::Metering& metering) {
+  using Metered = ControlProgram<Records, Tracer, core::PixelTask, nodes::Meter>;
+  return std::make_unique<Metered>(node, plan, settings, database, make_tracer, nodes::Meter(metering, node.id()));
+}
+
+/// The program of a node: with a meter if one is asked for, without any trace of one if not. `options` outlives it.
+template <class Records, class Tracer, class MakeTracer>
+std::unique_ptr<NodeProgram> make_control_program(nodes::Node& node, const Plan& plan, const core::RenderSettings& settings,
+                                                  std::span<const std::byte> database, const MakeTracer& make_tracer,
+                                                  const RunOptions& options) {
+  if (options.metering().is_wanted()) {
+    return make_metered_program<Records, Tracer>(node, plan, settings, database, make_tracer, options.metering());
   }
-  const nodes::HeatMeter meter(*options.heat, nodes::NodeId{index}, options.machine ? &*options.machine : nullptr);
-  using Metered = ControlProgram<Records, Tracer, core::PixelTask, nodes::HeatMeter>;
-  return std::make_unique<Metered>(node, plan, settings, database, make_tracer, meter);
+  return std::make_unique<ControlProgram<Records, Tracer>>(node, plan, settings, database, make_tracer);
 }
 
 /// Runs any programs of this family under `plan`, checks the laws of conservation and reports.
@@ -122,7 +133,7 @@ Report run_replicated(const core::Database& database, const core::RenderSettings
   const Plan plan = plan_of(Strategy::replicated, database, settings, options);
   const auto make_program = [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
     const auto tracer_over = [&](LocalCopy& copy) { return make_tracer(index, copy.bytes()); };
-    return make_control_program<LocalCopy, Tracer>(index, node, plan, settings, database.bytes(), tracer_over, options);
+    return make_control_program<LocalCopy, Tracer>(node, plan, settings, database.bytes(), tracer_over, options);
   };
   return run_programs(plan, make_program, options, std::move(stop));
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "nodes/heat_map.h"
+#include "tests/support/priced_machine.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
@@ -40,15 +41,6 @@ HeatMap empty_map(bool with_pages = true) {
 }
 
 Values values(const HeatMap& map, HeatKind kind) { return {map.values(kind).begin(), map.values(kind).end()}; }
-
-nodes::Machine priced() {
-  nodes::Machine machine{.name = "priced", .topology = nodes::TopologyKind::hypercube};
-  machine.short_message = machine.long_message = {.send_ns = 1000, .latency_ns = 2000, .receive_ns = 1000, .byte_ps = 100'000};
-  for (std::size_t i = 0; i < machine.cost_ps.size(); ++i) {
-    machine.cost_ps[i] = 10'000 + 1'001 * i;
-  }
-  return machine;
-}
 
 svm::RunOptions small_cache(std::uint32_t node_count) {
   svm::RunOptions options;
@@ -125,7 +117,7 @@ TEST_CASE("in virtual time the pixels' times add up to the nodes' computing") {
   HeatMap map = empty_map(false);
   svm::RunOptions options = small_cache(3);
   options.heat = &map;
-  options.machine = priced();
+  options.machine = priced_machine();
   const svm::Report report = run_svm(small, options);
   check_time(map.sum(HeatKind::time), computing_ns(*report.virtual_time), 3);
 }
@@ -133,7 +125,7 @@ TEST_CASE("in virtual time the pixels' times add up to the nodes' computing") {
 TEST_CASE("where rays travel the pixels' virtual times are all computing but unpacking") {
   const Subject small = subject();
   HeatMap map = empty_map(false);
-  dataflow::RunOptions options{.node_count = 3, .machine = priced(), .heat = &map};
+  dataflow::RunOptions options{.node_count = 3, .machine = priced_machine(), .heat = &map};
   const dataflow::Report report = run_dataflow(small, options);
   std::uint64_t unpacked = 0;
   for (const std::uint64_t rays : report.rays().in) {
@@ -174,7 +166,7 @@ TEST_CASE("references and distinct pages of a pixel are the same for every numbe
 TEST_CASE("with pixels that stay and wait alone, threads and virtual time fault for the same pixels on the same nodes") {
   const Subject small = subject();
   svm::RunOptions modelled = fixed_order(4);
-  modelled.machine = priced();
+  modelled.machine = priced_machine();
   const HeatMap threads = svm_map(small, fixed_order(4)), virtually = svm_map(small, modelled);
   CHECK(values(threads, HeatKind::faults) == values(virtually, HeatKind::faults));
   CHECK(values(threads, HeatKind::node) == values(virtually, HeatKind::node));
@@ -184,9 +176,9 @@ TEST_CASE("with pixels that stay and wait alone, threads and virtual time fault 
 TEST_CASE("in virtual time every kind is the same again") {
   const Subject small = subject();
   svm::RunOptions options = small_cache(4);
-  options.machine = priced();
+  options.machine = priced_machine();
   const HeatMap first = svm_map(small, options), second = svm_map(small, options);
-  const dataflow::RunOptions rays{.node_count = 4, .machine = priced()};
+  const dataflow::RunOptions rays{.node_count = 4, .machine = priced_machine()};
   const HeatMap first_rays = dataflow_map(small, rays), second_rays = dataflow_map(small, rays);
   for (const HeatKind kind : all_kinds) {
     CHECK(values(first, kind) == values(second, kind));

@@ -1,0 +1,85 @@
+// What a run tells somebody who wants to see it happen: typed events, from the runner and from programs with a meter.
+//
+// One interface for all who look on (traces, reports), so that each point of a run is instrumented once. A run without an
+// observer is asked once for each packet and quantum whether there is one, and never within a quantum.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "nodes/charge.h"
+#include "nodes/node_id.h"
+#include "nodes/packet.h"
+
+namespace dmpc::nodes {
+
+class Program;
+
+/// What a processor is doing for a while.
+enum class Activity : std::uint8_t {
+  work,      ///< a quantum
+  receive,   ///< the program takes a packet
+  serve,     ///< the same by an interrupt, within another activity or while there is nothing to do (modelled machines)
+  send,      ///< what it costs to send the packets of a quantum (modelled machines)
+  take_over  ///< what it costs to take over a packet that has come while there was nothing to do (modelled machines)
+};
+
+/// An activity from its beginning to its end. Those of one node do not overlap, but that those of the kind `serve` lie within
+/// others. Times are nanoseconds since the start of the run: virtual ones on a modelled machine, else those of the wall clock.
+struct Span {
+  NodeId node{};
+  Activity activity = Activity::work;
+  PacketKind packet = 0;  ///< of receive, serve and take_over
+  /// Calls of the node's program are numbered. Of send it is that whose packets are sent, of take_over the last one before.
+  std::uint32_t call = 0;
+  std::uint64_t begin_ns = 0, end_ns = 0;
+  std::uint64_t own_ns = 0;  ///< what it takes by itself, without interrupts and packets that came meanwhile
+  Charges before, after;     ///< operations charged until its begin and its end; equal but for calls of the program
+};
+
+/// Where a message was when. What does not apply is 0.
+struct MessageTimes {
+  std::uint64_t sending_ns = 0;   ///< the sender's processor begins to send it
+  std::uint64_t left_ns = 0;      ///< the sender's processor is done with it
+  std::uint64_t entered_ns = 0;   ///< it enters the network (modelled machines)
+  std::uint64_t links_ns = 0;     ///< how long it waited there for links that others held (modelled machines)
+  std::uint64_t arrived_ns = 0;   ///< it is at its target (modelled machines)
+  std::uint64_t received_ns = 0;  ///< the target's program takes it, or an interrupt's service begins
+};
+
+/// A packet leaves, or is received. Packets of one kind from one node to another are received in the order in which they were
+/// sent, so that the two ends of each can be found again.
+struct Passing {
+  NodeId node{};  ///< the node that tells: the sender of what is sent, the receiver of what is received
+  NodeId peer{};  ///< the other
+  PacketKind kind = 0;
+  std::uint32_t call = 0;  ///< of the node's program, in which it is sent or received
+  std::span<const std::byte> payload;
+  /// When it is sent, the first two; on a modelled machine all when it is received, else only the last.
+  MessageTimes times;
+};
+
+/// What a call of a program has worked on. There may be several in a call, or none.
+struct Worked {
+  NodeId node{};
+  std::uint32_t pixel = 0;
+  std::uint32_t depth = 1;  ///< of the ray worked on last
+};
+
+/// Looks on. What a call sends, receives and works on is told before its span, which is told when it ends. Thread safety: what
+/// one node tells comes one after the other; with threads, several nodes tell at a time.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+
+  /// From the runner. `program` is the node's, between two calls.
+  virtual void ended(const Span& span, const Program& program) = 0;
+  virtual void sent(const Passing& packet) = 0;
+  virtual void received(const Passing& packet) = 0;
+  /// From a program with a meter.
+  virtual void worked(const Worked& worked) = 0;
+};
+
+}  // namespace dmpc::nodes

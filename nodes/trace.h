@@ -1,0 +1,120 @@
+// What happened in a run and when, as far as somebody wants to look at it: an instrument beside the computer, whose memory is no
+// node's.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "nodes/observer.h"
+
+namespace dmpc::nodes {
+
+/// What of a run is recorded.
+struct TraceChoice {
+  std::uint64_t from_ns = 0;                                        ///< a window of time: what begins or ends in it
+  std::uint64_t to_ns = std::numeric_limits<std::uint64_t>::max();  ///< not included
+  std::vector<bool> nodes;                                          ///< by number, the host last; empty: all
+  /// One of so many pixels, chosen by a hash of its number: the calls that work on it, and what follows from the messages that
+  /// these send. 1: everything.
+  std::uint32_t every = 1;
+  std::uint64_t events_max = 1'000'000;  ///< spans, ends of messages and levels that are kept
+};
+
+/// What a call of a program was for, from the operations that it was charged.
+enum class Doing : std::uint8_t {
+  trace,    ///< rays
+  shade,    ///< a hit, and perhaps rays too
+  install,  ///< a page, and nothing else
+  pack,     ///< rays into packets or out of them, and nothing else
+  other     ///< whatever has no price
+};
+Doing doing_between(const Charges& before, const Charges& after);
+
+/// A Span, cut where the window ends.
+struct TraceSpan {
+  static constexpr std::uint32_t no_pixel = 0xffffffffU;
+
+  std::uint64_t begin_ns = 0, end_ns = 0;
+  std::uint64_t own_ns = 0;  ///< as a Span's, of the whole
+  std::uint32_t call = 0;
+  std::uint32_t pixel = no_pixel;  ///< that was worked on, of several the first chosen
+  std::uint32_t depth = 0;         ///< of its ray
+  Activity activity = Activity::work;
+  Doing doing = Doing::other;
+  PacketKind packet = 0;
+  bool is_cut = false;     ///< it began before the window, or ends after it
+  bool is_chosen = false;  ///< for its pixel, or because all are
+};
+
+/// A packet from node to node, both of whose ends were recorded.
+struct TraceMessage {
+  NodeId source{}, target{};
+  PacketKind kind = 0;
+  std::uint32_t bytes = 0;       ///< of the payload
+  std::uint32_t first_word = 0;  ///< of the payload: of a page's request or reply its number
+  std::uint32_t sent_call = 0, received_call = 0;
+  std::uint64_t sent_ns = 0, received_ns = 0;
+};
+
+/// A level that a program has had since a time.
+struct TraceLevel {
+  std::uint64_t time_ns = 0;
+  std::uint64_t value = 0;
+  std::uint32_t number = 0;  ///< index in TraceNode::level_names
+};
+
+/// What one node did, in order of time.
+struct TraceNode {
+  std::vector<TraceSpan> spans;  ///< what begins first comes first, and what lies within it behind it
+  std::vector<std::string_view> level_names;
+  std::vector<TraceLevel> levels;  ///< only where they change
+};
+
+struct Trace {
+  std::vector<TraceNode> nodes;  ///< by number, the host last
+  std::vector<TraceMessage> messages;
+  std::uint64_t events_lost = 0;   ///< beyond TraceChoice::events_max
+  std::uint64_t lost_from_ns = 0;  ///< since when, if there are any
+};
+
+/// Records. Thread safety: as an Observer; take() when the run is over.
+class TraceRecorder final : public Observer {
+ public:
+  /// `peer_count` = nodes + host.
+  TraceRecorder(std::uint32_t peer_count, const TraceChoice& choice);
+  ~TraceRecorder() override;
+
+  void ended(const Span& span, const Program& program) override;
+  void sent(const Passing& packet) override;
+  void received(const Passing& packet) override;
+  void worked(const Worked& worked) override;
+
+  /// What was recorded; call it once.
+  Trace take();
+
+ private:
+  struct Log;
+  struct End;
+
+  bool is_chosen_node(NodeId node) const { return choice_.nodes.empty() || choice_.nodes[index_of(node)]; }
+  bool is_chosen_pixel(std::uint32_t pixel) const;
+  bool is_wanted(const TraceSpan& span) const;
+  bool overlaps_window(const Span& span) const;
+  TraceSpan cut(Log& log, const Span& span) const;
+  bool is_in_window(std::uint64_t time_ns) const { return choice_.from_ns <= time_ns && time_ns < choice_.to_ns; }
+  bool admit(Log& log, std::uint64_t time_ns);
+  void note_levels(Log& log, const Program& program, std::uint64_t time_ns);
+  void note_end(Log& log, std::vector<End>& ends, const Passing& packet, std::uint64_t time_ns);
+  std::vector<TraceMessage> join() const;
+
+  TraceChoice choice_;
+  std::vector<std::unique_ptr<Log>> logs_;
+  std::atomic<std::uint64_t> events_{0};
+};
+
+}  // namespace dmpc::nodes
