@@ -1,5 +1,7 @@
 #include "apps/info/command.h"
 
+#include <sys/resource.h>
+
 #include <iostream>
 #include <string>
 #include <utility>
@@ -19,6 +21,13 @@
 namespace dmpc::apps {
 
 namespace {
+
+/// The most memory that this process has held so far.
+std::uint64_t peak_bytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
 
 /// A forecast of what needs the subject alone, with progress on a terminal.
 Forecast forecast_for(const InfoOptions& options, const Subject& subject) {
@@ -61,6 +70,7 @@ InfoRecord find_out(const InfoOptions& options) {
   stopwatch.lap();
   Subject subject = build_subject(std::move(scene), options.picture, options.database, true);
   record.build_seconds = stopwatch.lap();
+  record.build_peak_bytes = peak_bytes();
   subject.database.forget_primitives();
   record.database = figures_of(subject.database, record.scene);
   record.width = subject.settings.camera.width();

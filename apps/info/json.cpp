@@ -129,6 +129,7 @@ std::string info_json(const InfoRecord& record) {
       {"materials", materials_json(record.scene.materials)},
       {"textures", textures_json(record.scene)},
       {"database", database_json(database)},
+      {"build_peak", record.build_peak_bytes},
       {"regions", {{"balance", name_of(record.forecast.balance)}}},
       {"computers", computers_json(record.forecast)},
       {"seconds", {{"load", record.load_seconds}, {"build", record.build_seconds}, {"regions", record.forecast.region_seconds}}}};

@@ -20,6 +20,8 @@ struct InfoRecord;
 ///   copies_per_primitive, primitives_per_block, cells and top_cells
 ///                (along x, y, z), occupied_top_cells, levels_max (bricks from a top cell to a block), records (for each kind:
 ///                kind, count, bytes), unused_bytes (between records)
+///   build_peak   the most memory that this process held until the database was built, libraries included: a render holds more
+///                than this, and more than `all` below
 ///   regions      of dataflow: balance (equal-size or subsampled)
 ///   computers    for each number of nodes: nodes, and for svm, replicated and dataflow (null where that takes fewer nodes):
 ///                least (the least memory of a node, with less a render is refused), least_together (of all nodes), usual (of the

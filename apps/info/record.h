@@ -1,6 +1,8 @@
 // All that `dmpc info` finds out.
 #pragma once
 
+#include <cstdint>
+
 #include "apps/info/database_figures.h"
 #include "apps/info/forecast.h"
 #include "apps/info/scene_figures.h"
@@ -11,6 +13,7 @@ struct InfoRecord {
   SceneFigures scene;
   DatabaseFigures database;
   Forecast forecast;
+  std::uint64_t build_peak_bytes = 0;          ///< the most that this process held until the database was built
   int width = 1, height = 1;                   ///< of the picture, in pixels
   double load_seconds = 0, build_seconds = 0;  ///< by the wall clock
 };

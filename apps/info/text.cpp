@@ -81,6 +81,11 @@ std::string grid_text(const DatabaseFigures& database) {
          ", " + fixed(database.primitives_a_block(), 2) + " primitives a block";
 }
 
+std::string process_text(const InfoRecord& record) {
+  return bytes_text(record.build_peak_bytes) +
+         " held until the database was built; a render holds more than this, and more than its nodes take";
+}
+
 std::string time_text(const InfoRecord& record) {
   return "load " + seconds_text(record.load_seconds) + ", build " + seconds_text(record.build_seconds) + ", regions " +
          seconds_text(record.forecast.region_seconds);
@@ -161,6 +166,7 @@ std::string info_text(const InfoRecord& record) {
                             "\ntextures   " + std::to_string(scene.textures.size()) +  //
                             "\ndatabase   " + database_text(record.database) +         //
                             "\ngrid       " + grid_text(record.database) +             //
+                            "\nprocess    " + process_text(record) +                   //
                             "\ntime       " + time_text(record) + "\n\n" +             //
                             text_of(records_table(record.database), TableFormat::markdown) + "\n";
   const std::string textures = scene.textures.empty() ? "" : text_of(textures_table(scene), TableFormat::markdown) + "\n";

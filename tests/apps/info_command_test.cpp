@@ -65,7 +65,7 @@ TEST_CASE("the keys of a forecast are an interface") {
   const InfoRecord record = find_out(info(tests::write_painted_square(folder, 8), {"--nodes=2", "--resolution=8x4", "--quiet"}));
   const Json json = Json::parse(info_json(record));
   CHECK(keys_of(json) == Keys{"program", "scene", "objects", "primitives", "bounds", "view", "background", "lights", "materials",
-                              "textures", "database", "regions", "computers", "seconds"});
+                              "textures", "database", "build_peak", "regions", "computers", "seconds"});
   CHECK(keys_of(json["objects"]) == Keys{"polygon", "patch", "textured", "sphere", "cone", "total"});
   CHECK(keys_of(json["primitives"]) == Keys{"count", "dropped", "copies"});
   CHECK(keys_of(json["bounds"]) == Keys{"low", "high", "extent"});
@@ -80,6 +80,7 @@ TEST_CASE("the keys of a forecast are an interface") {
   CHECK(keys_of(json["database"]["records"][0]) == Keys{"kind", "count", "bytes"});
   CHECK(keys_of(json["computers"][0]) == Keys{"nodes", "svm", "replicated", "dataflow", "dataflow_copies"});
   CHECK(keys_of(json["computers"][0]["svm"]) == Keys{"least", "least_together", "usual", "all"});
+  CHECK(json["build_peak"] > 1'000'000);
   CHECK(keys_of(json["seconds"]) == Keys{"load", "build", "regions"});
 }
 
@@ -116,8 +117,8 @@ TEST_CASE("a text has a line for each matter and tables of records, textures and
   const tests::TemporaryFolder folder;
   const std::string text = info_text(find_out(info(tests::write_painted_square(folder, 8), {"--nodes=3", "--quiet"})));
   for (const char* part : {"2 textured patches\n", "\nprimitives 2\n", "extent 1 x 1 x 0\n", "\nmaterials  1, of which",
-                           "are textured 1\n", "\ntextures   1\n", "**Records**", "| texture tiles", "**Textures**", "| 8x8 ",
-                           "**Memory**", "|     3 |", "--balance=equal-size"}) {
+                           "are textured 1\n", "\ntextures   1\n", "\nprocess    ", "**Records**", "| texture tiles",
+                           "**Textures**", "| 8x8 ", "**Memory**", "|     3 |", "--balance=equal-size"}) {
     CAPTURE(part);
     CHECK(contains(text, part));
   }
