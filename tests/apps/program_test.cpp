@@ -100,6 +100,23 @@ TEST_CASE("heat maps stand beside the picture, or nothing does") {
   CHECK(apps::read_image(folder / "f.exr").width == 16);
 }
 
+TEST_CASE("a trace stands beside the picture, or nothing does, and says what it lost") {
+  const TemporaryFolder folder;
+  const std::string image = folder / "a.png", trace = folder / "a.json";
+  const auto render = [&](const std::string& file, const std::string& more) {
+    return run({"render", "tetra-1", "--resolution=4x4", "--nodes=2", "--trace=" + file, more, "-o", image});
+  };
+  CHECK(render(image, "--trace-every=1").status == 2);
+  CHECK(render(trace, "--trace-nodes=2").status == 2);
+  CHECK(render(folder / "none" / "a.json", "--trace-every=1").status == 1);
+  CHECK(folder.entry_count() == 0);
+  CHECK(render(trace, "--trace-every=1").errors.empty());
+  CHECK(contains(file_text(trace), "\"lost\":\"nothing\""));
+  CHECK(contains(render(trace, "--trace-events=5").errors, "the trace is full: "));
+  CHECK(contains(file_text(trace), "\"lost\":\"the trace is full: "));
+  CHECK(folder.entry_count() == 2);
+}
+
 TEST_CASE("a quiet render says nothing") {
   const TemporaryFolder folder;
   const Result result = run({"render", "tetra-1", "--resolution=4x4", "--quiet", "-o", folder / "a.png"});
@@ -387,8 +404,9 @@ TEST_CASE("Ctrl-C and SIGTERM end a render with status 130 and leave an older pi
   const TemporaryFolder folder;
   write_text(folder / "a.png", "older");
   for (const int signal : {SIGINT, SIGTERM}) {
-    ChildProcess process(dmpc({"render", "balls-3", "--resolution=1024x1024", "--samples=32768",
-                               "--heatmap=time:" + (folder / "t.png").string(), "-o", folder / "a.png"}));
+    ChildProcess process(
+        dmpc({"render", "balls-3", "--resolution=1024x1024", "--samples=32768", "--heatmap=time:" + (folder / "t.png").string(),
+              "--trace=" + (folder / "t.json").string(), "-o", folder / "a.png"}));
     REQUIRE(process.blocks(signal));
     std::this_thread::sleep_for(std::chrono::milliseconds(300));  // so that it mostly renders already
     process.send(signal);

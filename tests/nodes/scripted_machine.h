@@ -130,8 +130,9 @@ inline std::vector<nodes::NodeSpecification> specifications_of(const std::vector
 }
 
 /// Runs them to the end.
-inline ScriptedRun run_scripts(const std::vector<Script>& scripts, const nodes::Machine& machine = toy_model()) {
-  nodes::VirtualRunner runner(specifications_of(scripts), machine);
+inline ScriptedRun run_scripts(const std::vector<Script>& scripts, const nodes::Machine& machine = toy_model(),
+                               nodes::Observer* observer = nullptr) {
+  nodes::VirtualRunner runner(specifications_of(scripts), machine, observer);
   core::expect(runner.run({}) == nodes::RunEnd::finished, "nobody interrupts a scripted run");
   ScriptedRun run{.report = *runner.virtual_report()};
   for (std::size_t i = 0; i < scripts.size(); ++i) {
