@@ -1,7 +1,6 @@
 #include "nodes/virtual_runner.h"
 
 #include <algorithm>
-#include <deque>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "nodes/event_queue.h"
 #include "nodes/links.h"
 #include "nodes/processors.h"
+#include "nodes/virtual_processor.h"
 
 namespace dmpc::nodes {
 namespace {
@@ -18,120 +18,22 @@ namespace {
 /// Events between two looks at a request to stop.
 constexpr std::uint64_t events_per_look = 1024;
 
-/// A message on its way, or at its target and not received.
-struct Message {
-  NodeId target{};
-  PacketHeader header;
-  std::vector<std::byte> payload;
-  MessageTimes times;  ///< for an observer
-
-  std::uint64_t bytes() const { return sizeof(PacketHeader) + payload.size(); }
-  bool is_bulk() const { return payload.size() > small_payload_bytes; }
-  Packet packet() const { return {NodeId{header.source}, header.kind, payload}; }
-};
-
-/// Messages by number; a number is used again, and so is its memory.
-class MessageStore {
- public:
-  std::uint32_t put(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) {
-    if (free_.empty()) {
-      free_.push_back(static_cast<std::uint32_t>(messages_.size()));
-      messages_.emplace_back();
-    }
-    const std::uint32_t number = free_.back();
-    free_.pop_back();
-    Message& message = messages_[number];
-    message.target = target;
-    message.header = header;
-    message.payload.assign(payload.begin(), payload.end());
-    return number;
-  }
-  const Message& operator[](std::uint32_t number) const { return messages_[number]; }
-  Message& operator[](std::uint32_t number) { return messages_[number]; }
-  void release(std::uint32_t number) { free_.push_back(number); }
-  bool empty() const { return free_.size() == messages_.size(); }
-
- private:
-  std::deque<Message> messages_;  // whose addresses stay
-  std::vector<std::uint32_t> free_;
-};
-
-/// From one node to another: messages keep their order, even a short one behind a long one.
-struct Way {
-  std::uint64_t last_enters_ns = 0, last_arrives_ns = 0;
-};
-
-struct Processor;
-
-/// What all processors of a computer have in common.
-struct Computer {
-  MessageStore messages;
-  std::vector<std::unique_ptr<Processor>> processors;
-};
-
-/// One node with all that belongs to it.
-struct Processor final : Network {
-  Processor(const NodeSpecification& specification, NodeId id, std::uint32_t peer_count, Computer& of)
-      : computer(of),
-        mailbox(specification.mailbox),
-        interrupt_kinds(specification.interrupt_kinds),
-        memory(specification.plan),
-        node(id, peer_count, memory, *this),
-        ways(peer_count) {
-    static_cast<void>(memory.allocate<std::byte>(Category::mailbox, specification.mailbox.bytes()));  // the model's, unused
-    program = specification.make_program(node);
-    core::expect(program != nullptr, "a specification makes a program");
-    memory.seal();
-  }
-
-  /// The sender's side: the message has its place in the target's mailbox from now on.
-  void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) override {
-    sent.push_back(computer.messages.put(target, header, payload));
-    Processor& at = *computer.processors[index_of(target)];
-    const bool is_bulk = payload.size() > small_payload_bytes;
-    std::uint32_t& held = is_bulk ? at.bulk_held : at.small_held;
-    core::expect(++held <= (is_bulk ? at.mailbox.bulk_slots : at.mailbox.small_slots) &&
-                     payload.size() <= std::max(small_payload_bytes, at.mailbox.bulk_payload_bytes),
-                 "credits leave room in the target's mailbox");
-  }
-
-  /// Lets the program receive a message of its mailbox.
-  void receive(std::uint32_t number) {
-    const Message& message = computer.messages[number];
-    program->receive(message.packet());
-    --(message.payload.size() > small_payload_bytes ? bulk_held : small_held);
-    computer.messages.release(number);
-  }
-
-  Computer& computer;
-  MailboxCapacity mailbox;
-  std::uint32_t small_held = 0, bulk_held = 0;  ///< places of the mailbox that are taken
-  std::uint32_t interrupt_kinds;
-  LocalMemory memory;
-  Node node;
-  std::unique_ptr<Program> program;
-  std::vector<std::uint32_t> sent;      ///< in the call that is going on, in order
-  std::vector<std::uint32_t> outgoing;  ///< sent in a call whose operations are not done yet
-  std::deque<std::uint32_t> inbox;      ///< arrived and not received
-  std::vector<Way> ways;                ///< by target
-  Charges charged;
-  std::uint64_t remainder_ps = 0;  ///< charged, and not yet a whole nanosecond
-  std::uint64_t sequence = 0;
-  bool has_more = true;      ///< work() may have something to do
-  bool is_occupied = false;  ///< an is_free event is under way
-  std::uint64_t occupied_until_ns = 0;
-  std::uint64_t served_until_ns = 0;  ///< the last interrupt
-  std::uint64_t idle_since_ns = 0;
-  std::uint64_t lent_before_ns = 0;  ///< times.lent_ns when it fell idle
-  std::uint32_t calls = 0;           ///< of the program, if somebody looks on
-  Span span, service;                ///< what it is doing and what it interrupted that for, likewise
-  VirtualTimes times;
-};
+using Processor = VirtualProcessor;
 
 }  // namespace
 
 struct VirtualRunner::Implementation {
-  Implementation(std::span<const NodeSpecification> specifications, const Machine& model, Observer* looking_on)
+  virtual ~Implementation() = default;
+  virtual RunEnd run(const std::stop_token& stop) = 0;
+
+  VirtualComputer computer;
+  VirtualReport result;
+};
+
+/// `is_watched`: somebody looks on. Without that nothing is compiled for it.
+template <bool is_watched>
+struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
+  Simulation(std::span<const NodeSpecification> specifications, const Machine& model, Observer* looking_on)
       : machine(model),
         observer(looking_on),
         links(model, static_cast<std::uint32_t>(std::max<std::size_t>(specifications.size(), 2) - 1)) {
@@ -142,7 +44,7 @@ struct VirtualRunner::Implementation {
     }
   }
 
-  RunEnd run(const std::stop_token& stop) {
+  RunEnd run(const std::stop_token& stop) override {
     core::expect(!std::exchange(is_started, true), "a runner runs once");
     for (const auto& processor : computer.processors) {
       go_on(*processor);
@@ -193,7 +95,7 @@ struct VirtualRunner::Implementation {
   /// A processor has sent a message, which enters the network after its latency, behind those to the same target.
   void leave(Processor& self, std::uint32_t number, std::uint64_t time_ns, std::uint32_t call) {
     const Message& message = computer.messages[number];
-    if (observer != nullptr) {
+    if constexpr (is_watched) {
       tell_sent(number, time_ns, call);
     }
     std::uint64_t& enters_ns = self.ways[index_of(message.target)].last_enters_ns;
@@ -203,15 +105,18 @@ struct VirtualRunner::Implementation {
 
   /// A message enters the network: reserves its links.
   void enter(std::uint32_t number) {
-    Message& message = computer.messages[number];
+    const Message& message = computer.messages[number];
     const NodeId source{message.header.source};
     Processor& sender = *computer.processors[index_of(source)];
     std::uint64_t& arrives_ns = sender.ways[index_of(message.target)].last_arrives_ns;
-    const std::uint64_t waited_ns = links.traffic().wait_ns;
+    [[maybe_unused]] const std::uint64_t waited_ns = links.traffic().wait_ns;
     arrives_ns = std::max(arrives_ns, links.pass(source, message.target, events.now_ns(), message.bytes()));
-    message.times.entered_ns = events.now_ns();
-    message.times.links_ns = links.traffic().wait_ns - waited_ns;
-    message.times.arrived_ns = arrives_ns;
+    if constexpr (is_watched) {
+      MessageTimes& times = computer.messages[number].times;
+      times.entered_ns = events.now_ns();
+      times.links_ns = links.traffic().wait_ns - waited_ns;
+      times.arrived_ns = arrives_ns;
+    }
     post(sender, Event::Kind::arrives, arrives_ns, number);
   }
 
@@ -326,7 +231,7 @@ struct VirtualRunner::Implementation {
   // ---- For an observer -----------------------------------------------------------------------------------------------------
 
   void receive(Processor& self, std::uint32_t number, const Span& span) {
-    if (observer != nullptr) {
+    if constexpr (is_watched) {
       Message& message = computer.messages[number];
       message.times.received_ns = span.begin_ns;
       observer->received(
@@ -338,7 +243,7 @@ struct VirtualRunner::Implementation {
   /// Of what is no call of the program, `own_ns` is known.
   void begin(Processor& self, Span& span, Activity activity, PacketKind packet, std::uint64_t begin_ns,
              std::uint64_t own_ns = 0) const {
-    if (observer != nullptr) {
+    if constexpr (is_watched) {
       const bool is_call = activity != Activity::send && activity != Activity::take_over;
       span = {.node = self.node.id(),
               .activity = activity,
@@ -355,14 +260,14 @@ struct VirtualRunner::Implementation {
 
   /// The call has been made, and its operations are priced.
   void charged(const Processor& self, Span& span, std::uint64_t own_ns) const {
-    if (observer != nullptr) {
+    if constexpr (is_watched) {
       span.own_ns = own_ns;
       span.after = self.charged;
     }
   }
 
   void end(const Processor& self, Span& span, std::uint64_t end_ns) const {
-    if (observer != nullptr) {
+    if constexpr (is_watched) {
       span.end_ns = end_ns;
       observer->ended(span, *self.program);
     }
@@ -409,16 +314,19 @@ struct VirtualRunner::Implementation {
   }
 
   Machine machine;
-  Observer* observer;
+  Observer* observer;  ///< none unless is_watched
   Links links;
-  Computer computer;
   EventQueue events;
-  VirtualReport result;
   bool is_started = false;
 };
 
-VirtualRunner::VirtualRunner(std::span<const NodeSpecification> specifications, const Machine& machine, Observer* observer)
-    : implementation_(std::make_unique<Implementation>(specifications, machine, observer)) {}
+VirtualRunner::VirtualRunner(std::span<const NodeSpecification> specifications, const Machine& machine, Observer* observer) {
+  if (observer != nullptr) {
+    implementation_ = std::make_unique<Simulation<true>>(specifications, machine, observer);
+  } else {
+    implementation_ = std::make_unique<Simulation<false>>(specifications, machine, observer);
+  }
+}
 VirtualRunner::~VirtualRunner() = default;
 
 RunEnd VirtualRunner::run(std::stop_token stop) { return implementation_->run(stop); }

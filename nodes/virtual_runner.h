@@ -40,6 +40,9 @@ class VirtualRunner final : public Runner {
 
  private:
   struct Implementation;
+  template <bool is_watched>
+  struct Simulation;
+
   std::unique_ptr<Implementation> implementation_;
 };
 
