@@ -102,6 +102,7 @@ struct alignas(cache_line_bytes) Processor {
   std::optional<ChaosPauses> pauses;
   std::uint32_t quanta_idle = 0;
   std::uint32_t call = 0;           ///< number of the program's call, if somebody looks on
+  Charges charged;                  ///< until the last one's end, likewise
   std::uint32_t quanta_to_run = 0;  ///< this many quanta from now the node runs one
   Thread thread;
 };
@@ -251,13 +252,13 @@ struct ThreadsRunner::Implementation final : Network {
             .packet = packet,
             .call = ++self.call,
             .begin_ns = since_start_ns(),
-            .before = self.program->charges()};
+            .before = self.charged};
   }
 
   void end_span(Processor& self, Span& span) const {
     span.end_ns = since_start_ns();
     span.own_ns = span.end_ns - span.begin_ns;
-    span.after = self.program->charges();
+    span.after = self.charged = self.program->charges();
     observer_->ended(span, *self.program);
   }
 

@@ -197,8 +197,7 @@ void TraceRecorder::note_levels(Log& log, const Program& program, std::uint64_t 
     if (is_first) {
       log.node.level_names.push_back(level.name);
     }
-    if ((is_first || log.levels[number] != level.value) && admit(log, time_ns)) {
-      log.levels[number] = level.value;
+    if ((std::exchange(log.levels[number], level.value) != level.value || is_first) && admit(log, time_ns)) {
       log.node.levels.push_back({time_ns, level.value, number});
     }
     ++number;
