@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/expect.h"
+#include "core/partial_picture.h"
 #include "core/units.h"
 
 namespace dmpc::core {
@@ -69,6 +70,15 @@ std::uint32_t PixelMask::count() const {
   return sum;
 }
 
+PixelMask PixelMask::without(const PixelMask& other) const {
+  expect(words_.size() == other.words_.size(), "masks are of one picture");
+  PixelMask rest = *this;
+  for (std::size_t i = 0; i < words_.size(); ++i) {
+    rest.words_[i] &= ~other.words_[i];
+  }
+  return rest;
+}
+
 Refinement::Refinement(const RefinementOptions& options, std::uint32_t samples, int width, int height)
     : options_(options),
       first_samples_(samples),
@@ -86,6 +96,28 @@ Refinement::Refinement(const RefinementOptions& options, std::uint32_t samples, 
     while (samples_at(level_max_) <= options.samples_max / 2) {
       ++level_max_;
     }
+  }
+}
+
+/// What next_pass() will not find anew belongs to pixels that neither are in the pass nor touch one of it: on their part of the
+/// film nothing has changed since it was estimated last, so that it is estimated alike. The rest does not matter.
+void Refinement::resume(const PartialPicture& start) {
+  expect(result_.passes == 1 && samples_total_ == 0 && start.film.pixels().size() == pixel_count_,
+         "a picture is gone on with from the start");
+  samples_ = start.samples;
+  pixels_ = start.pixels;
+  pixel_count_ = pixels_.count();
+  samples_total_ = start.film.samples();
+  result_.passes = start.passes;
+  if (levels_.empty() || start.passes == 1) {
+    return;
+  }
+  for (std::uint32_t pixel = 0; pixel < levels_.size(); ++pixel) {
+    levels_[pixel] = static_cast<std::uint8_t>(std::bit_width(start.film.samples(pixel) / first_samples_) - 1);
+    note_variance(start.film, pixel);
+  }
+  for (std::uint32_t pixel = 0; pixel < levels_.size(); ++pixel) {
+    square_errors_[pixel] = estimate(start.film, pixel);
   }
 }
 
@@ -117,9 +149,13 @@ void Refinement::end_pass(Film& film) {
     film.add_samples(pixel, samples_.count);
     if (!levels_.empty()) {
       levels_[pixel] = static_cast<std::uint8_t>(levels_[pixel] + (result_.passes > 1 ? 1 : 0));
-      variances_[pixel] = square_mean(film.half_difference(pixel)) * spread(film.samples(pixel));
+      note_variance(film, pixel);
     }
   }
+}
+
+void Refinement::note_variance(const Film& film, std::uint32_t pixel) {
+  variances_[pixel] = square_mean(film.half_difference(pixel)) * spread(film.samples(pixel));
 }
 
 /// Calls visit(pixel) for the pixel and those around it, as far as the picture goes.

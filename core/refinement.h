@@ -3,11 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/film.h"
 
 namespace dmpc::core {
+
+struct PartialPicture;
 
 /// Consecutive samples that each pixel of a pass gets.
 struct SampleRange {
@@ -39,6 +42,12 @@ class PixelMask {
   bool has(std::uint32_t pixel) const { return (words_[pixel / 64] >> (pixel % 64) & 1U) != 0; }
   void add(std::uint32_t pixel) { words_[pixel / 64] |= std::uint64_t{1} << (pixel % 64); }
   std::uint32_t count() const;
+  /// Those that `other`, a mask of the same picture, does not have.
+  PixelMask without(const PixelMask& other) const;
+  /// 64 pixels each, the first the lowest bit. Whoever writes them sets no bit beyond the picture.
+  std::span<const std::uint64_t> words() const { return words_; }
+  std::span<std::uint64_t> words() { return words_; }
+  bool operator==(const PixelMask&) const = default;
 
  private:
   std::vector<std::uint64_t> words_;
@@ -60,6 +69,9 @@ class Refinement {
   /// of this size, if there is an error to come down to; else any number.
   Refinement(const RefinementOptions& options, std::uint32_t samples, int width, int height);
 
+  /// Goes on where another has left off, from whose film all that it had estimated is found again. Before the first next_pass().
+  void resume(const PartialPicture& start);
+
   SampleRange samples() const { return samples_; }
   /// The pixels of the pass under way.
   const PixelMask& pixels() const { return pixels_; }
@@ -74,6 +86,7 @@ class Refinement {
   class Bins;
 
   void end_pass(Film& film);
+  void note_variance(const Film& film, std::uint32_t pixel);
   template <class Visit>
   void visit_around(std::uint32_t pixel, const Visit& visit) const;
   bool touches_pass(std::uint32_t pixel) const;

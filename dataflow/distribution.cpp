@@ -30,7 +30,7 @@ double Distribution::duplication(const core::Database& database) const {
 }
 
 Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Bsp& bsp,
-                        const std::stop_token& stop) {
+                        const std::stop_token& stop, bool deals_primaries) {
   Distribution distribution{bsp, {}, {}};
   for (std::uint32_t node = 0; node < bsp.region_count(); ++node) {
     distribution.parts.push_back(core::extract(database, bsp.region_of(nodes::NodeId{node})));
@@ -39,7 +39,7 @@ Distribution distribute(const core::Database& database, const core::RenderSettin
     }
   }
   distribution.primaries = deal_primaries(settings, distribution.bsp, settings.first_samples(),
-                                          core::PixelMask(settings.camera.pixel_count(), true), stop);
+                                          core::PixelMask(settings.camera.pixel_count(), deals_primaries), stop);
   return distribution;
 }
 

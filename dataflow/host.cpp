@@ -13,19 +13,24 @@ namespace {
 using nodes::Category;
 using nodes::LocalMemory;
 
+/// In a run of primary rays, where some must be done soon. A node has room for 120 runs: milliseconds of work, as a rule.
+constexpr std::uint64_t run_rays_max = 16;
+
 std::size_t light_words(const Plan& plan) {
   return core::ceil_divide<std::size_t>(std::size_t{plan.request.width} * plan.request.height, 64);
 }
 
 }  // namespace
 
-HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, Progress progress, DealPrimaries deal)
+HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, Progress progress, DealPrimaries deal,
+                         const core::Continuation& continuation)
     : node_(&node),
       film_(&film),
       progress_(std::move(progress)),
       deal_(std::move(deal)),
+      continuation_(continuation),
       refinement_(plan.request.refinement, plan.request.first_samples, film.width(), film.height()),
-      undealt_(plan.node_count()),
+      undealt_(plan.node_count(), plan.request.is_dealt_on_the_way ? run_rays_max : ~std::uint64_t{0}),
       kept_(plan.node_count()),
       packet_(node.memory().allocate<std::byte>(Category::queues, ray_packet_bytes(plan.ray_batch))),
       has_light_(node.memory().allocate<std::uint64_t>(Category::film_tiles, light_words(plan))),
@@ -36,6 +41,23 @@ HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, 
     node.grant(nodes::NodeId{i}, ray_channel, plan.host_credits);
     node.grant(nodes::NodeId{i}, film_channel, plan.dealing_credits());
   }
+  core::expect(plan.request.is_dealt_on_the_way || (continuation.start == nullptr && !continuation.keep),
+               "where a picture is gone on with, or kept, the host deals all of it");
+  if (plan.request.is_dealt_on_the_way) {
+    begin_first_pass();
+  }
+}
+
+/// Finds whose the rays are that are missing; work() deals them.
+void HostProgram::begin_first_pass() {
+  core::PixelMask done(pixels_total_);
+  if (const core::PartialPicture* const start = continuation_.start) {
+    refinement_.resume(*start);
+    done = start->done;
+  }
+  pixels_with_light_ = done.count();
+  std::copy(done.words().begin(), done.words().end(), has_light_.begin());
+  undealt_.begin_pass(deal_(refinement_.samples(), refinement_.pixels().without(done)), refinement_.samples(), done);
 }
 
 void HostProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan) {
@@ -65,6 +87,7 @@ void HostProgram::receive(const nodes::Packet& packet) {
 
 /// Forwards all that it can; without a ray it hands on the token, and tells all when the end is proved.
 bool HostProgram::work() {
+  deal_all();
   for (std::uint32_t owner = 0; owner < node_count_; ++owner) {
     while (can_forward(owner)) {
       forward(owner);
@@ -132,6 +155,9 @@ void HostProgram::take_film(const nodes::Packet& packet) {
   if (progress_) {
     progress_(pixels_with_light_, refinement_.pixel_count());
   }
+  if (!undealt_.is_empty() && !undealt_.holds_back() && is_due()) {
+    undealt_.hold_back();
+  }
 }
 
 void HostProgram::take_entry(const FilmEntry& entry) {
@@ -154,6 +180,9 @@ void HostProgram::take_done(const Done& done) {
     return;
   }
   core::expect(entries_announced_ == counters_.film_entries, "all light that was sent has arrived");
+  if (undealt_.holds_back()) {
+    return go_on_dealing();
+  }
   if (progress_) {
     progress_(refinement_.pixel_count(), refinement_.pixel_count());
   }
@@ -167,34 +196,50 @@ void HostProgram::end_pass() {
     stopped_ = true;
     return;
   }
+  const core::PixelMask none(pixels_total_);
+  if (is_due()) {
+    continuation_.keep(*film_, refinement_, none);
+  }
+  pixels_with_light_ = 0;
+  std::fill(has_light_.begin(), has_light_.end(), 0);
+  undealt_.begin_pass(deal_(refinement_.samples(), refinement_.pixels()), refinement_.samples(), none);
+  begin_again();
+}
+
+/// No ray is left but those held back: the pixels that have begun are done.
+void HostProgram::go_on_dealing() {
+  continuation_.keep(*film_, refinement_, undealt_.begun());
+  undealt_.release();
+  begin_again();
+}
+
+bool HostProgram::is_due() const { return continuation_.is_due && continuation_.is_due(); }
+
+/// After the end of what was dealt.
+void HostProgram::begin_again() {
   finishing_ = false;
   termination_.begin_again();
-  entries_announced_ = nodes_done_ = pixels_with_light_ = 0;
-  std::fill(has_light_.begin(), has_light_.end(), 0);
-  undealt_ = deal_(refinement_.samples(), refinement_.pixels());
+  entries_announced_ = nodes_done_ = 0;
+  deal_all();
+}
+
+void HostProgram::deal_all() {
   for (std::uint32_t i = 0; i < node_count_; ++i) {
-    std::reverse(undealt_[i].begin(), undealt_[i].end());
     deal(i);
   }
 }
 
 /// Sends a node as many of its primary rays as it has room for.
 void HostProgram::deal(std::uint32_t index) {
-  std::vector<PrimaryRun>& left = undealt_[index];
-  while (!left.empty() && node_->credits(nodes::NodeId{index}, film_channel) > 0) {
-    DealtPrimaries packet{.samples = refinement_.samples()};
-    for (; !left.empty() && packet.count < packet.runs.size(); left.pop_back()) {
-      packet.runs[packet.count++] = left.back();
-    }
-    node_->send_reserved(nodes::NodeId{index}, film_channel, number_of(Kind::primaries), packet);
+  while (undealt_.has(index) && node_->credits(nodes::NodeId{index}, film_channel) > 0) {
+    node_->send_reserved(nodes::NodeId{index}, film_channel, number_of(Kind::primaries), undealt_.take(index));
     termination_.ray_packet_sent();
   }
 }
 
 /// In the sense of termination: has no ray to send.
 bool HostProgram::is_passive() const {
-  return host_is_passive(kept_.size()) &&
-         std::all_of(undealt_.begin(), undealt_.end(), [](const std::vector<PrimaryRun>& left) { return left.empty(); });
+  return host_is_passive(kept_.size()) && undealt_.is_empty();
 }
 
 void HostProgram::tell_all(Kind kind) {

@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "core/film.h"
+#include "core/partial_picture.h"
 #include "core/refinement.h"
 #include "dataflow/flow_control.h"
 #include "dataflow/kept_rays.h"
 #include "dataflow/packets.h"
 #include "dataflow/plan.h"
 #include "dataflow/termination.h"
+#include "dataflow/undealt.h"
 #include "nodes/node.h"
 #include "nodes/program.h"
 
@@ -39,12 +41,16 @@ struct HostCounters {
 };
 
 /// Depends on nobody: film and overflow are taken and acknowledged at once. When the end of a pass is proved and its film
-/// complete, it deals the primary rays of the next, if there is one, packet by packet as nodes have room.
+/// complete, it deals the primary rays of the next, if there is one, packet by packet as nodes have room. Where the plan says so
+/// it deals those of the first pass, too. If then the picture is to be kept, it holds rays back until no other is left anywhere,
+/// which the same proof tells: then the pixels that have begun are done.
 class HostProgram final : public nodes::Program {
  public:
-  /// `film` outlives the program and is written by it alone until the run's end. `progress` may be empty.
-  /// `deal` finds whose the primary rays of a later pass are.
-  HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, Progress progress, DealPrimaries deal);
+  /// `film` outlives the program and is written by it alone until the run's end; it is as continuation.start has it.
+  /// `progress` may be empty. `deal` finds whose the primary rays are that are dealt after the start; nothing is kept unless the
+  /// plan says that all are.
+  HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, Progress progress, DealPrimaries deal,
+              const core::Continuation& continuation = {});
   /// Adds to `memory` exactly what the constructor takes of the local memory.
   static void add_needs(nodes::MemoryPlan& memory, const Plan& plan);
 
@@ -65,7 +71,12 @@ class HostProgram final : public nodes::Program {
   void take_done(const Done& done);
   bool can_forward(std::uint32_t owner) const;
   void forward(std::uint32_t owner);
+  void begin_first_pass();
   void end_pass();
+  void go_on_dealing();
+  bool is_due() const;
+  void begin_again();
+  void deal_all();
   void deal(std::uint32_t index);
   bool is_passive() const;
   void tell_all(Kind kind);
@@ -74,8 +85,9 @@ class HostProgram final : public nodes::Program {
   core::Film* film_;
   Progress progress_;
   DealPrimaries deal_;
+  core::Continuation continuation_;
   core::Refinement refinement_;
-  std::vector<std::vector<PrimaryRun>> undealt_;  ///< of each node, the next one last
+  Undealt undealt_;
   KeptRays kept_;
   Termination termination_ = Termination::initiator();
   std::span<std::byte> packet_;         ///< where a packet is put together

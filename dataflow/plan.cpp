@@ -48,7 +48,7 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
                          + 1,                       // Stop
           .bulk_slots = others * plan.ray_credits   // rays: each other node's credits for this one
                         + plan.host_credits         // forwarded rays: the host's
-                        + dealt,                    // primary rays of later passes
+                        + dealt,                    // primary rays dealt after the start
           .bulk_payload_bytes = std::max(ray_packet_bytes(plan.ray_batch), dealt > 0 ? sizeof(DealtPrimaries) : 0)};
 }
 
@@ -179,7 +179,7 @@ void note_reductions(Plan& plan) {
 
 }  // namespace
 
-std::uint32_t Plan::dealing_credits() const { return request.refinement.is_wanted() ? dealt_packets : 0; }
+std::uint32_t Plan::dealing_credits() const { return request.is_dealt() ? dealt_packets : 0; }
 
 nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
   nodes::MemoryPlan plan;

@@ -38,12 +38,15 @@ struct PlanRequest {
   std::uint32_t depth_max = 5;  ///< of a ray
   std::uint32_t width = 0, height = 0;
   std::uint32_t first_samples = 1;     ///< of each pixel in the first pass
-  core::RefinementOptions refinement;  ///< if it is wanted, nodes have room for the primary rays of later passes
+  core::RefinementOptions refinement;
+  bool is_dealt_on_the_way = false;  ///< the host deals the primary rays of the first pass as nodes have room for them
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;  ///< of each node's thread
   /// Fewer credits, and room for packets held back; mailboxes stay as they are.
   std::optional<nodes::Chaos> chaos = std::nullopt;
 
   std::uint32_t node_count() const { return static_cast<std::uint32_t>(shares.size()); }
+  /// The host deals primary rays after the start, for which nodes have room.
+  bool is_dealt() const { return is_dealt_on_the_way || refinement.is_wanted(); }
 };
 
 inline constexpr std::uint32_t ray_credits_max = 64;

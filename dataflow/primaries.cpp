@@ -74,13 +74,13 @@ std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& 
   return runs;
 }
 
-std::size_t Primaries::capacity(std::size_t run_count, bool is_refined) {
-  return std::max(run_count, is_refined ? dealt_packets * std::tuple_size_v<decltype(DealtPrimaries::runs)> : 0);
+std::size_t Primaries::capacity(std::size_t run_count, bool is_dealt) {
+  return std::max(run_count, is_dealt ? dealt_packets * std::tuple_size_v<decltype(DealtPrimaries::runs)> : 0);
 }
 
 Primaries::Primaries(nodes::LocalMemory& memory, std::span<const PrimaryRun> runs, const core::SampleRange& samples,
-                     bool is_refined)
-    : runs_(memory.allocate<PrimaryRun>(nodes::Category::queues, capacity(runs.size(), is_refined))),
+                     bool is_dealt)
+    : runs_(memory.allocate<PrimaryRun>(nodes::Category::queues, capacity(runs.size(), is_dealt))),
       count_(runs.size()),
       samples_(samples) {
   std::copy(runs.begin(), runs.end(), runs_.begin());
@@ -89,8 +89,8 @@ Primaries::Primaries(nodes::LocalMemory& memory, std::span<const PrimaryRun> run
   }
 }
 
-void Primaries::add_needs(nodes::MemoryPlan& plan, std::size_t run_count, bool is_refined) {
-  plan[nodes::Category::queues] += nodes::LocalMemory::bytes_for<PrimaryRun>(capacity(run_count, is_refined));
+void Primaries::add_needs(nodes::MemoryPlan& plan, std::size_t run_count, bool is_dealt) {
+  plan[nodes::Category::queues] += nodes::LocalMemory::bytes_for<PrimaryRun>(capacity(run_count, is_dealt));
 }
 
 std::uint64_t Primaries::take() {

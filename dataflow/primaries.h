@@ -23,14 +23,14 @@ std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& 
                                                     const core::SampleRange& samples, const core::PixelMask& pixels,
                                                     const std::stop_token& stop = {});
 
-/// A node's own primary rays, in its local memory: those dealt before the start, then, where the picture is refined, packets of
-/// those of later passes. Thread safety: belongs to one node.
+/// A node's own primary rays, in its local memory: those dealt before the start, then packets of those that the host deals on the
+/// way. Thread safety: belongs to one node.
 class Primaries {
  public:
-  /// Copies `runs`, which are those of the first pass. With `is_refined` there is room for dealt_packets afterwards.
-  Primaries(nodes::LocalMemory& memory, std::span<const PrimaryRun> runs, const core::SampleRange& samples, bool is_refined);
+  /// Copies `runs`, which are of the first pass. With `is_dealt` there is room for dealt_packets afterwards.
+  Primaries(nodes::LocalMemory& memory, std::span<const PrimaryRun> runs, const core::SampleRange& samples, bool is_dealt);
   /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, std::size_t run_count, bool is_refined);
+  static void add_needs(nodes::MemoryPlan& plan, std::size_t run_count, bool is_dealt);
 
   bool empty() const { return left_ == 0; }
   /// Rays that have not started.
@@ -45,7 +45,7 @@ class Primaries {
   std::uint32_t packets_worked_off();
 
  private:
-  static std::size_t capacity(std::size_t run_count, bool is_refined);
+  static std::size_t capacity(std::size_t run_count, bool is_dealt);
 
   std::span<PrimaryRun> runs_;  ///< a ring
   std::size_t first_ = 0, count_ = 0;

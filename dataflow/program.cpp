@@ -75,7 +75,7 @@ NodeProgram::NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& de
       part_(keep_part(node.memory(), deal.part.bytes)),
       records_(part_),
       tracer_(records_, deal.part.header, deal.settings.skips),
-      primaries_(node.memory(), deal.primaries, deal.settings.first_samples(), plan.request.refinement.is_wanted()),
+      primaries_(node.memory(), deal.primaries, deal.settings.first_samples(), plan.request.is_dealt()),
       backlog_(node.memory(), backlog_capacity(plan)),
       task_(node.memory(), node.id(), plan.request.depth_max),
       gather_(node, gather_capacity(plan)),
@@ -86,7 +86,7 @@ void NodeProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::ui
   const Share& share = plan.request.shares[index];
   memory[Category::constants] += LocalMemory::bytes_for<std::byte>(sizeof(Constants));
   memory[Category::home_pages] += LocalMemory::bytes_for<std::byte>(share.part_bytes + core::overread_bytes);
-  Primaries::add_needs(memory, share.primary_runs, plan.request.refinement.is_wanted());
+  Primaries::add_needs(memory, share.primary_runs, plan.request.is_dealt());
   RayQueue::add_needs(memory, backlog_capacity(plan));
   RayTask::add_needs(memory, plan.request.depth_max);
   Gather::add_needs(memory, gather_capacity(plan));

@@ -14,6 +14,11 @@ namespace {
 
 using TrafficByKind = std::array<nodes::Traffic, nodes::packet_kind_count>;
 
+/// What was dealt before the start would have to be done before anything can be kept.
+bool is_dealt_on_the_way(const RunOptions& options) {
+  return options.continuation.start != nullptr || options.continuation.keep;
+}
+
 PlanRequest request_of(const Distribution& distribution, const core::RenderSettings& settings, const RunOptions& options) {
   return {.shares = distribution.shares(),
           .node_memory_bytes = options.node_memory_bytes,
@@ -25,6 +30,7 @@ PlanRequest request_of(const Distribution& distribution, const core::RenderSetti
           .height = static_cast<std::uint32_t>(settings.camera.height()),
           .first_samples = settings.first_samples().count,
           .refinement = settings.refinement,
+          .is_dealt_on_the_way = is_dealt_on_the_way(options),
           .stack_reserve_bytes = options.stack_reserve_bytes,
           .chaos = options.chaos};
 }
@@ -62,7 +68,7 @@ Plan plan_for(const Distribution& distribution, const core::Database& database, 
   const PlanRequest request = request_of(distribution, settings, options);
   const MakeShares make_shares = [&](std::uint32_t node_count) {
     const Regions regions = regions_for(node_count, loads, settings, options);
-    return distribute(database, settings, regions.bsp, stop).shares();
+    return distribute(database, settings, regions.bsp, stop, !is_dealt_on_the_way(options)).shares();
   };
   return make_plan(request, [&] { return smallest_node_count(request, make_shares); });
 }
@@ -114,7 +120,8 @@ void check_rays(const Report& report) {
   core::expect(operations.shadings == operations.primary_hits + operations.secondary_hits, "each hit was claimed by one node");
   core::expect(report.host_rays.rays_in == report.gathers().rays_overflowed, "every ray that overflowed came to the host");
   core::expect(report.host_rays.rays_in == report.host_rays.rays_out, "every ray that overflowed was forwarded");
-  core::expect(report.film.samples() == operations.rays[static_cast<std::size_t>(core::RayKind::primary)],
+  core::expect(report.film.samples() - report.samples_found_done ==
+                   operations.rays[static_cast<std::size_t>(core::RayKind::primary)],
                "every primary ray was shot");
 }
 
@@ -238,7 +245,8 @@ Prepared prepare(const core::Database& database, const core::RenderSettings& set
                  const std::stop_token& stop) {
   const ColumnLoads loads = column_loads(database, settings, options.balance, stop);
   Regions regions = regions_for(options.node_count, loads, settings, options);
-  Prepared prepared{.distribution = distribute(database, settings, regions.bsp, stop), .predicted = std::move(regions.predicted)};
+  Prepared prepared{.distribution = distribute(database, settings, regions.bsp, stop, !is_dealt_on_the_way(options)),
+                    .predicted = std::move(regions.predicted)};
   prepared.duplication = prepared.distribution.duplication(database);
   prepared.plan = plan_for(prepared.distribution, database, loads, settings, options, stop);
   return prepared;
@@ -246,7 +254,9 @@ Prepared prepare(const core::Database& database, const core::RenderSettings& set
 
 Report run_prepared(const Prepared& prepared, const core::RenderSettings& settings, const RunOptions& options,
                     std::stop_token stop) {
-  Report report{.film = core::Film(settings.camera.width(), settings.camera.height()),
+  const core::PartialPicture* const start = options.continuation.start;
+  Report report{.film = start != nullptr ? start->film : core::Film(settings.camera.width(), settings.camera.height()),
+                .samples_found_done = start != nullptr ? start->samples_done() : 0,
                 .plan = prepared.plan,
                 .bsp = prepared.distribution.bsp,
                 .predicted = prepared.predicted,
@@ -277,7 +287,7 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
     return deal_primaries(settings, distribution.bsp, samples, pixels);
   };
   const auto make_host = [&, deal](nodes::Node& node) {
-    return std::make_unique<HostProgram>(node, plan, film, options.progress, deal);
+    return std::make_unique<HostProgram>(node, plan, film, options.progress, deal, options.continuation);
   };
   specifications.push_back({plan.host_memory(), plan.host_mailbox, make_host, plan.held_bytes});
   return specifications;

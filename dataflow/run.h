@@ -10,6 +10,7 @@
 
 #include "core/database.h"
 #include "core/film.h"
+#include "core/partial_picture.h"
 #include "core/pixel_task.h"
 #include "core/traversal.h"
 #include "dataflow/balance.h"
@@ -48,6 +49,9 @@ struct RunOptions {
   /// zero. Of the size of the picture; outlives the run.
   nodes::HeatMap* heat = nullptr;
   nodes::Observer* observer = nullptr;  ///< sees the run happen; outlives it
+  /// Where the picture is begun, and what of it is kept on the way: at points to which the host brings the run by dealing no more
+  /// primary rays until none is left. So with any of it the host deals all of them after the start.
+  core::Continuation continuation = {};
   /// Called on the calling thread when the nodes hold their parts of the database, which are not read again, before any node
   /// starts.
   std::function<void()> distributed = {};
@@ -68,6 +72,7 @@ struct NodeReport {
 
 struct Report {
   core::Film film;
+  std::uint64_t samples_found_done = 0;         ///< of all pixels, before the start
   nodes::RunEnd end = nodes::RunEnd::finished;  ///< interrupted: the film is not complete
   Plan plan;
   Bsp bsp;

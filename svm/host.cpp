@@ -14,10 +14,12 @@ std::size_t words_for(std::uint32_t pixel_count) { return core::ceil_divide<std:
 
 }  // namespace
 
-HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, Progress progress)
+HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, Progress progress,
+                         const core::Continuation& continuation)
     : node_(&node),
       film_(&film),
       progress_(std::move(progress)),
+      continuation_(continuation),
       refinement_(plan.request.refinement, plan.request.first_samples, film.width(), film.height()),
       arrived_(node.memory().allocate<std::uint64_t>(nodes::Category::film_tiles,
                                                      words_for(plan.request.width * plan.request.height))),
@@ -27,6 +29,12 @@ HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, 
       height_(plan.request.height) {
   for (std::uint32_t i = 0; i < node_count_; ++i) {
     node.grant(nodes::NodeId{i}, control_channel, 1);  // for Stop; an acknowledgement's place is reserved by its film packet
+  }
+  if (const core::PartialPicture* const start = plan.request.start) {
+    refinement_.resume(*start);
+    const std::span<const std::uint64_t> done = start->done.words();
+    std::copy(done.begin(), done.end(), arrived_.begin());
+    pixels_done_ = pixels_found_done_ = start->done.count();
   }
 }
 
@@ -62,6 +70,18 @@ void HostProgram::take_film(const nodes::Packet& packet) {
   if (progress_) {
     progress_(pixels_done_, refinement_.pixel_count());
   }
+  if (continuation_.is_due && continuation_.is_due()) {
+    keep();
+  }
+}
+
+void HostProgram::keep() const {
+  if (stopped_ || !continuation_.keep) {
+    return;
+  }
+  core::PixelMask done(width_ * height_);
+  std::copy(arrived_.begin(), arrived_.end(), done.words().begin());
+  continuation_.keep(*film_, refinement_, done);
 }
 
 void HostProgram::take_pixel(const FilmEntry& entry) {
@@ -79,7 +99,8 @@ void HostProgram::take_done(const Done& done) {
   pixels_announced_ += done.pixels_rendered;
   if (nodes_done_ == node_count_) {
     const std::uint32_t pixels = refinement_.pixel_count();
-    core::expect(pixels_announced_ == pixels && pixels_done_ == pixels, "every pixel is rendered and has arrived");
+    core::expect(pixels_announced_ + pixels_found_done_ == pixels && pixels_done_ == pixels,
+                 "every pixel is rendered and has arrived");
     end_pass();
   }
 }
@@ -91,7 +112,7 @@ void HostProgram::end_pass() {
   }
   std::fill(arrived_.begin(), arrived_.end(), 0);
   std::fill(words_sent_.begin(), words_sent_.end(), 0);
-  pixels_of_old_passes_ += std::exchange(pixels_done_, 0);
+  pixels_of_old_passes_ += std::exchange(pixels_done_, 0) - std::exchange(pixels_found_done_, 0);
   pixels_announced_ = nodes_done_ = nodes_masked_ = 0;
   for (std::uint32_t i = 0; i < node_count_; ++i) {
     send_mask(i);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/film.h"
+#include "core/partial_picture.h"
 #include "core/refinement.h"
 #include "nodes/node.h"
 #include "nodes/program.h"
@@ -20,13 +21,15 @@ namespace dmpc::svm {
 /// ends with that.
 using Progress = std::function<void(std::uint32_t, std::uint32_t)>;
 
-/// Every pixel of a pass arrives exactly once, which it checks. When every node is done and the film complete, it ends the pass;
+/// Every pixel of a pass arrives exactly once, which it checks, and whole: what has arrived can be kept at any time. When every node is done and the film complete, it ends the pass;
 /// if another follows, it sends each node its submap's part of the mask, and begins it when all have theirs; else it sends each
 /// node a Stop.
 class HostProgram final : public nodes::Program {
  public:
-  /// `film` outlives the program and is written by it alone until the run's end. `progress` may be empty.
-  HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, Progress progress);
+  /// `film` outlives the program and is written by it alone until the run's end; it is as plan.request.start has it.
+  /// `progress` may be empty.
+  HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, Progress progress,
+              const core::Continuation& continuation = {});
   /// Adds to `plan` exactly what the constructor takes.
   static void add_needs(nodes::MemoryPlan& plan, std::uint32_t pixel_count);
 
@@ -38,8 +41,10 @@ class HostProgram final : public nodes::Program {
 
   /// Deposits that saturated a sum on the host's film.
   std::uint64_t deposits_saturated() const { return deposits_saturated_; }
-  /// Over all passes.
-  std::uint64_t pixels_done() const { return pixels_of_old_passes_ + pixels_done_; }
+  /// Keeps what has arrived, if that is wanted: for when the run has been interrupted.
+  void keep() const;
+  /// By this run, over all passes.
+  std::uint64_t pixels_done() const { return pixels_of_old_passes_ + pixels_done_ - pixels_found_done_; }
   const core::Refinement& refinement() const { return refinement_; }
 
  private:
@@ -54,12 +59,14 @@ class HostProgram final : public nodes::Program {
   nodes::Node* node_;
   core::Film* film_;
   Progress progress_;
+  core::Continuation continuation_;
   core::Refinement refinement_;
   std::span<std::uint64_t> arrived_;       ///< a bit a pixel
   std::vector<std::uint32_t> words_sent_;  ///< of the mask, to each node; empty unless the picture is refined
   std::uint32_t node_count_, width_, height_;
   std::uint32_t nodes_masked_ = 0;  ///< how many have their whole mask
   std::uint32_t pixels_done_ = 0;
+  std::uint32_t pixels_found_done_ = 0;  ///< of them, before the start
   std::uint32_t nodes_done_ = 0;
   std::uint64_t pixels_announced_ = 0;
   std::uint64_t pixels_of_old_passes_ = 0;

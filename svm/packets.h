@@ -89,7 +89,7 @@ struct WorkReply {
 };
 static_assert(is_small_packet<WorkReply>);
 
-/// What answers a work request where the picture is refined.
+/// What answers a work request where passes leave pixels out.
 struct MaskedWorkReply {
   WorkReply reply;
   std::uint64_t pixels = 0;  ///< of the item, row by row: a bit for each that has samples in this pass

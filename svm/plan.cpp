@@ -149,6 +149,8 @@ void check(const PlanRequest& request) {
   check_recording(request);
   core::expect(request.page_count >= 1 && request.depth_max >= 1, "a database has a page, and a ray a depth");
   core::expect(request.width >= 1 && request.height >= 1, "a picture has a pixel");
+  core::expect(request.start == nullptr || request.start->film.pixels().size() == std::size_t{request.width} * request.height,
+               "what is gone on with is of the same picture");
 }
 
 /// What the user asked for, or our choice, before the memory is looked at.
@@ -217,7 +219,7 @@ std::optional<std::uint32_t> smallest_node_count(PlanRequest request) {
 /// With an item's pixels in a word where they are masked.
 PlanRequest with_small_items(PlanRequest request) {
   request.work_item_side =
-      request.refinement.is_wanted() ? std::min(request.work_item_side, masked_side_max) : request.work_item_side;
+      request.is_masked() ? std::min(request.work_item_side, masked_side_max) : request.work_item_side;
   return request;
 }
 
@@ -262,7 +264,7 @@ nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
 
 std::size_t Plan::node_memory_max_bytes() const {
   std::size_t most = node_memory(0).total();  // it has as many pages at home as any
-  for (std::uint32_t index = 1; request.refinement.is_wanted() && index < request.node_count; ++index) {
+  for (std::uint32_t index = 1; request.is_masked() && index < request.node_count; ++index) {
     most = std::max(most, node_memory(index).total());
   }
   return most;
@@ -297,7 +299,7 @@ Plan make_plan(const PlanRequest& asked) {
   note_reductions(plan);
   if (request.work_item_side < asked.work_item_side) {
     plan.notes.push_back("work items reduced from " + std::to_string(asked.work_item_side) + " to " +
-                         std::to_string(masked_side_max) + " pixels a side: where samples are refined none is larger");
+                         std::to_string(masked_side_max) + " pixels a side: where pixels are left out none is larger");
   }
   return plan;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/partial_picture.h"
 #include "core/refinement.h"
 #include "nodes/chaos.h"
 #include "nodes/local_memory.h"
@@ -41,7 +42,8 @@ struct PlanRequest {
   int depth_max = 5;                 ///< entries of a pixel's ray stack
   std::uint32_t width = 0, height = 0;
   std::uint32_t first_samples = 1;     ///< of each pixel in the first pass
-  core::RefinementOptions refinement;  ///< if it is wanted each node keeps a bit for each pixel of its submap
+  core::RefinementOptions refinement;
+  const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; outlives plan and run
   bool count_pages = false;            ///< count the distinct pages of each pixel; costs a bit a page for each pixel in flight
   /// Record every node's page references. Only where these depend on neither the cache nor the schedule: without work given
   /// from node to node, and with one pixel in flight. Not with count_pages.
@@ -49,6 +51,11 @@ struct PlanRequest {
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;  ///< of each node's thread
   /// Fewer credits, and room for packets held back; mailboxes stay as they are.
   std::optional<nodes::Chaos> chaos = std::nullopt;
+
+  /// Some pass may leave pixels out, so that each node keeps a bit for each pixel of its submap.
+  bool is_masked() const { return refinement.is_wanted() || start != nullptr; }
+  /// Of each pixel in the pass that the run begins with.
+  core::SampleRange start_samples() const { return start != nullptr ? start->samples : core::SampleRange{0, first_samples}; }
 };
 
 inline constexpr std::uint32_t node_count_max = 4096;

@@ -51,7 +51,7 @@ class ControlProgram final : public NodeProgram {
         slots_(node.memory(), plan.in_flight, static_cast<std::uint32_t>(plan.request.depth_max)),
         work_(node, plan),
         film_(node, plan),
-        samples_(settings.first_samples()),
+        samples_(plan.request.start_samples()),
         meter_(meter) {
     node.grant(host_, control_channel, 1);  // for Done
   }

@@ -33,6 +33,7 @@ PlanRequest request_of(Strategy strategy, const core::Database& database, const 
           .height = static_cast<std::uint32_t>(settings.camera.height()),
           .first_samples = settings.first_samples().count,
           .refinement = settings.refinement,
+          .start = options.continuation.start,
           .count_pages = counts_pages(options),
           .record_references = options.record_references,
           .stack_reserve_bytes = options.stack_reserve_bytes,
@@ -167,7 +168,7 @@ Plan plan_of(Strategy strategy, const core::Database& database, const core::Rend
 }
 
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const MakeProgram& make_program, core::Film& film,
-                                                        const Progress& progress) {
+                                                        const Progress& progress, const core::Continuation& continuation) {
   std::vector<nodes::NodeSpecification> specifications;
   for (std::uint32_t i = 0; i < plan.request.node_count; ++i) {
     specifications.push_back({plan.node_memory(i), plan.node_mailbox,
@@ -176,20 +177,26 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
   }
   specifications.push_back(
       {plan.host_memory(), plan.host_mailbox,
-       [&plan, &film, &progress](nodes::Node& node) { return std::make_unique<HostProgram>(node, plan, film, progress); },
+       [&plan, &film, &progress, continuation](nodes::Node& node) {
+         return std::make_unique<HostProgram>(node, plan, film, progress, continuation);
+       },
        plan.held_bytes});
   return specifications;
 }
 
 Report run_programs(const Plan& plan, const MakeProgram& make_program, const RunOptions& options, std::stop_token stop) {
-  Report report{.film = core::Film(static_cast<int>(plan.request.width), static_cast<int>(plan.request.height)),
+  const core::PartialPicture* const start = plan.request.start;
+  Report report{.film = start != nullptr
+                            ? start->film
+                            : core::Film(static_cast<int>(plan.request.width), static_cast<int>(plan.request.height)),
                 .end = nodes::RunEnd::finished,
                 .plan = plan,
                 .nodes = {},
                 .host = {}};
   core::expect(options.heat == nullptr || options.heat->pixel_count() == report.film.pixels().size(),
                "a heat map is of the picture's size");
-  const auto runner = nodes::make_runner(specifications_of(plan, make_program, report.film, options.progress),
+  const auto runner = nodes::make_runner(specifications_of(plan, make_program, report.film, options.progress,
+                                                           options.continuation),
                                          {plan.request.chaos, options.machine, options.observer});
   if (options.distributed) {
     options.distributed();
@@ -206,6 +213,8 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
   if (report.end == nodes::RunEnd::finished) {
     check_conservation(report);
     report.virtual_time = runner->virtual_report();
+  } else {
+    host.keep();
   }
   return report;
 }

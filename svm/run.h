@@ -15,6 +15,7 @@
 
 #include "core/database.h"
 #include "core/film.h"
+#include "core/partial_picture.h"
 #include "core/pixel_task.h"
 #include "core/traversal.h"
 #include "nodes/chaos.h"
@@ -53,6 +54,8 @@ struct RunOptions {
   /// count_pages says. Of the size of the picture; outlives the run.
   nodes::HeatMap* heat = nullptr;
   nodes::Observer* observer = nullptr;  ///< sees the run happen; outlives it
+  /// Where the picture is begun, and what of it is kept on the way. An interrupted run keeps what it has.
+  core::Continuation continuation = {};
   /// Called on the calling thread when the nodes hold the database, which is not read again, before any node starts.
   std::function<void()> distributed = {};
 
@@ -75,7 +78,7 @@ struct Report {
   nodes::NodeCounters host;
   std::optional<nodes::VirtualReport> virtual_time;  ///< of a modelled machine
   std::uint64_t host_deposits_saturated = 0;         ///< pixels whose sums saturated on the host's film
-  std::uint64_t pixels_done = 0;                     ///< over all passes
+  std::uint64_t pixels_done = 0;                     ///< by this run, over all passes
   core::RefinementResult refinement;
 
   core::Operations operations() const;  ///< summed over the nodes
@@ -96,9 +99,10 @@ Report run_svm(const core::Database& database, const core::RenderSettings& setti
 /// Makes the program of node `index`; called before the start, in order, on the calling thread.
 using MakeProgram = std::function<std::unique_ptr<NodeProgram>(std::uint32_t index, nodes::Node& node)>;
 
-/// What a runner needs for `plan`: the nodes in order, then the host, which writes `film`. All arguments outlive the runner.
+/// What a runner needs for `plan`: the nodes in order, then the host, which writes `film`. All arguments but `continuation`
+/// outlive the runner.
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const MakeProgram& make_program, core::Film& film,
-                                                        const Progress& progress);
+                                                        const Progress& progress, const core::Continuation& continuation = {});
 
 /// The program of a node with a meter.
 template <class Records, class Tracer, class MakeTracer>

@@ -15,12 +15,12 @@ PixelRectangle own_submap(const PlanRequest& request, std::uint32_t index) {
 /// A bit a pixel; at least a word, so that a node without pixels has a mask, too.
 std::size_t mask_words(const PlanRequest& request, std::uint32_t index) {
   const std::uint64_t pixels = std::max<std::uint64_t>(own_submap(request, index).pixel_count(), 1);
-  return request.refinement.is_wanted() ? core::ceil_divide<std::size_t>(pixels, 64) : 0;
+  return request.is_masked() ? core::ceil_divide<std::size_t>(pixels, 64) : 0;
 }
 
 /// A node that gives no work away has its submap as one item, or in masked ones.
 std::uint32_t item_side_of(const PlanRequest& request) {
-  return request.refinement.is_wanted() && request.work_item_side == 0 ? masked_side_max : request.work_item_side;
+  return request.is_masked() && request.work_item_side == 0 ? masked_side_max : request.work_item_side;
 }
 
 }  // namespace
@@ -38,6 +38,19 @@ WorkSource::WorkSource(nodes::Node& node, const Plan& plan)
       is_alone_(plan.request.work_item_side == 0 || node_count_ == 1),
       no_more_(is_alone_) {
   std::fill(mask_.begin(), mask_.end(), ~std::uint64_t{0});
+  if (plan.request.start != nullptr) {
+    want_only(plan.request.start->missing());
+  }
+}
+
+/// The host has said before the start which pixels are wanted.
+void WorkSource::want_only(const core::PixelMask& pixels) {
+  std::fill(mask_.begin(), mask_.end(), 0);
+  for (std::uint64_t i = 0; i < submap_.pixel_count(); ++i) {
+    const std::uint64_t x = submap_.x + i % submap_.width, y = submap_.y + i / submap_.width;
+    mask_[i / 64] |= std::uint64_t{pixels.has(static_cast<std::uint32_t>(y * image_width_ + x))} << (i % 64);
+  }
+  skip_unwanted();
 }
 
 void WorkSource::add_needs(nodes::MemoryPlan& memory, const PlanRequest& request, std::uint32_t index) {
@@ -71,12 +84,12 @@ std::uint64_t WorkSource::wanted(const PixelRectangle& item) const {
 }
 
 PixelScan WorkSource::scan_of(const PixelRectangle& item) const {
-  return refines() ? PixelScan(item, wanted(item)) : PixelScan(item);
+  return is_masked() ? PixelScan(item, wanted(item)) : PixelScan(item);
 }
 
 /// So that the first item left, if any, has a pixel.
 void WorkSource::skip_unwanted() {
-  while (refines() && !items_.empty() && wanted(*items_.front()) == 0) {
+  while (is_masked() && !items_.empty() && wanted(*items_.front()) == 0) {
     items_.take();
   }
 }
@@ -84,7 +97,7 @@ void WorkSource::skip_unwanted() {
 /// The last item that has a pixel.
 std::optional<PixelRectangle> WorkSource::give() {
   std::optional<PixelRectangle> item = items_.give();
-  while (refines() && item && wanted(*item) == 0) {
+  while (is_masked() && item && wanted(*item) == 0) {
     item = items_.give();
   }
   return item;
@@ -135,7 +148,7 @@ void WorkSource::answer(const WorkRequest& request) {
 void WorkSource::reply(std::uint32_t asker, const PixelRectangle& item) {
   node_->grant(nodes::NodeId{asker}, control_channel);  // the place that the request has reserved
   const WorkReply work{item, self_};
-  if (refines()) {
+  if (is_masked()) {
     node_->send_reserved(nodes::NodeId{asker}, control_channel, number_of(Kind::work_reply), MaskedWorkReply{work, wanted(item)});
   } else {
     node_->send_reserved(nodes::NodeId{asker}, control_channel, number_of(Kind::work_reply), work);
@@ -144,7 +157,7 @@ void WorkSource::reply(std::uint32_t asker, const PixelRectangle& item) {
 
 void WorkSource::take_reply(const nodes::Packet& packet) {
   core::expect(asking_ && !has_pixel(), "a work reply answers the one request under way");
-  const auto masked = refines() ? packet.as<MaskedWorkReply>() : MaskedWorkReply{packet.as<WorkReply>()};
+  const auto masked = is_masked() ? packet.as<MaskedWorkReply>() : MaskedWorkReply{packet.as<WorkReply>()};
   const WorkReply& reply = masked.reply;
   asking_ = false;
   if (reply.item.pixel_count() == 0) {
@@ -153,7 +166,7 @@ void WorkSource::take_reply(const nodes::Packet& packet) {
   }
   ++counters_.items_taken;
   last_giver_ = reply.giver;
-  scan_ = refines() ? PixelScan(reply.item, masked.pixels) : PixelScan(reply.item);
+  scan_ = is_masked() ? PixelScan(reply.item, masked.pixels) : PixelScan(reply.item);
 }
 
 std::string WorkSource::describe() const {

@@ -20,10 +20,11 @@ namespace dmpc::svm {
 /// an asker that is so told rests for that pass). The first request enters the ring at the next node, a later one at the node
 /// that gave last, because all before it had nothing. Thread safety: none.
 ///
-/// Where the picture is refined, a pass after the first has only those pixels of the submap that the host's mask names.
+/// Where the picture is refined, a pass after the first has only those pixels of the submap that the host's mask names; where it
+/// was begun by another run, the first one has those that are missing.
 class WorkSource {
  public:
-  /// In the first pass all pixels are wanted.
+  /// In the first pass all pixels are wanted that plan.request.start lacks.
   WorkSource(nodes::Node& node, const Plan& plan);
   /// Adds to `memory` exactly what the constructor takes at node `index`.
   static void add_needs(nodes::MemoryPlan& memory, const PlanRequest& request, std::uint32_t index);
@@ -50,7 +51,8 @@ class WorkSource {
 
  private:
   std::uint32_t after(std::uint32_t node, std::uint32_t asker) const;
-  bool refines() const { return !mask_.empty(); }
+  bool is_masked() const { return !mask_.empty(); }
+  void want_only(const core::PixelMask& pixels);
   std::uint64_t wanted(const PixelRectangle& item) const;
   PixelScan scan_of(const PixelRectangle& item) const;
   void skip_unwanted();
@@ -63,7 +65,7 @@ class WorkSource {
   std::uint32_t image_width_;
   std::uint32_t item_side_;
   PixelRectangle submap_;
-  std::span<std::uint64_t> mask_;  ///< of the submap, row by row; empty unless the picture is refined
+  std::span<std::uint64_t> mask_;  ///< of the submap, row by row; empty unless is_masked()
   WorkItems items_;
   PixelScan scan_;
   WorkCounters counters_;

@@ -1,0 +1,37 @@
+// A picture under way, in the terms of no strategy: what one run leaves behind, so that another can go on with it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "core/film.h"
+#include "core/refinement.h"
+
+namespace dmpc::core {
+
+/// What is known of a picture between two samples. Every light on the film is of a sample that is wholly done.
+struct PartialPicture {
+  /// The light of the passes that have ended and of what is done of the one under way; the samples are those of the former alone.
+  Film film;
+  std::uint32_t passes = 1;  ///< the one under way included
+  SampleRange samples;       ///< of each pixel of the pass
+  PixelMask pixels;          ///< of the pass
+  PixelMask done;            ///< of these: all light of their samples is on the film
+
+  /// Pixels of the pass that are still to be rendered.
+  PixelMask missing() const { return pixels.without(done); }
+  /// Of all pixels, in passes that have ended and in the one under way.
+  std::uint64_t samples_done() const { return film.samples() + std::uint64_t{done.count()} * samples.count; }
+};
+
+/// How a run goes on from another, and lets others go on from it. Called on the host's thread; if a function throws, the run ends
+/// with that.
+struct Continuation {
+  const PartialPicture* start = nullptr;  ///< where it begins: of the same picture, and outlives the run; nothing: at nothing
+  /// Whether what is done should be kept now: asked whenever light arrives. May be empty, if `keep` is.
+  std::function<bool()> is_due = {};
+  /// Keeps a picture under way: the film, the pass, and which of its pixels are done, as in PartialPicture.
+  std::function<void(const Film& film, const Refinement& pass, const PixelMask& done)> keep = {};
+};
+
+}  // namespace dmpc::core
