@@ -29,8 +29,9 @@ fs::path resolve(const fs::path& path) {
   return error ? path : resolved;
 }
 
-fs::path temporary_name(const fs::path& target) {
-  return folder_of(target) / (".dmpc-" + std::to_string(::getpid()) + "-" + target.filename().string());
+fs::path temporary_name(const fs::path& target, TemporaryName name) {
+  const std::string who = name == TemporaryName::of_process ? std::to_string(::getpid()) : "next";
+  return folder_of(target) / (".dmpc-" + who + "-" + target.filename().string());
 }
 
 }  // namespace
@@ -80,11 +81,11 @@ void make_output_folder(const fs::path& path, std::string_view option) {
   check_output_path(path / "file", option);
 }
 
-OutputFile::OutputFile(const fs::path& path) : target_(resolve(path)) {
+OutputFile::OutputFile(const fs::path& path, TemporaryName name) : target_(resolve(path)) {
   if (is_special(target_)) {
     temporary_ = target_;
   } else {
-    temporary_ = temporary_name(target_);
+    temporary_ = temporary_name(target_, name);
     removed_at_once_.emplace(temporary_);
   }
 }

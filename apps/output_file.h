@@ -1,6 +1,7 @@
 // A file that is written whole or not at all: to a temporary name beside it, renamed at the end.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
@@ -27,17 +28,23 @@ bool is_standard_output(const std::filesystem::path& path);
 /// Throws core::InputError, naming `what`, unless all that was written to the standard output, `output`, has arrived.
 void finish_output(std::ostream& output, std::string_view what);
 
+/// What a file is called before it is whole.
+enum class TemporaryName : std::uint8_t {
+  of_process,  ///< with this process's number: two may write the same target
+  of_target    ///< always the same: of processes that are killed, one after the other, one such file is left at most
+};
+
 /// One output under way. Whatever ends its life before commit() removes the temporary file, an Interrupt's end at once included.
 /// Not thread-safe.
 class OutputFile {
  public:
   /// Touches nothing yet. A symbolic link is followed, so that the file behind it is replaced.
-  explicit OutputFile(const std::filesystem::path& path);
+  explicit OutputFile(const std::filesystem::path& path, TemporaryName name = TemporaryName::of_process);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Where to write: a hidden name in the same folder, with the same extension and this process's number in it. It is the target
+  /// Where to write: a hidden name in the same folder, with the same extension, as the TemporaryName says. It is the target
   /// itself if that exists and is no ordinary file (/dev/stdout, a pipe): those cannot be renamed over.
   const std::filesystem::path& temporary() const { return temporary_; }
 

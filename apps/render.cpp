@@ -10,6 +10,7 @@
 #include <ostream>
 #include <utility>
 
+#include "apps/checkpoints.h"
 #include "apps/distinct_files.h"
 #include "apps/heat_files.h"
 #include "apps/load_scene.h"
@@ -57,6 +58,9 @@ void check_outputs(const RenderOptions& options) {
   for (const HeatRequest& request : options.heat_maps) {
     outputs.push_back({"--heatmap", request.path});
   }
+  if (options.checkpoint.file) {
+    outputs.push_back({"--checkpoint", *options.checkpoint.file});
+  }
   check_distinct(inputs, outputs);
   check_image_path(options.image, "-o");
   if (options.stats) {
@@ -68,13 +72,17 @@ void check_outputs(const RenderOptions& options) {
   for (const HeatRequest& request : options.heat_maps) {
     check_image_path(request.path, "--heatmap");
   }
+  check_checkpoint(options.checkpoint);
 }
 
-/// Reads and builds; a signal ends the process here and now.
-Subject load(const RenderOptions& options, Interrupt& interrupt, Seconds& seconds) {
+/// Reads and builds, and makes `checkpoints` if some are asked for; a signal ends the process here and now.
+Subject load(const RenderOptions& options, std::optional<Checkpoints>& checkpoints, Interrupt& interrupt, Seconds& seconds) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   Stopwatch stopwatch;
   core::Scene scene = load_scene(options.picture, options.quiet ? LoadNotes::silent : LoadNotes::said);
+  if (options.checkpoint.file) {
+    checkpoints.emplace(options.checkpoint, identity_of(options, scene), std::cerr, options.quiet);
+  }
   seconds.load = stopwatch.lap();
   Subject subject = build_subject(std::move(scene), options.picture, options.database, true);
   if (options.tracer != TracerChoice::embree) {
@@ -114,13 +122,11 @@ std::optional<nodes::Trace> take_trace(const RenderOptions& options, nodes::Trac
 }
 
 /// Plans, and says what the user should know before waiting for the picture; a signal ends the process here and now.
-/// The host's copy of the database is freed as soon as the nodes have theirs.
-ReadyRun prepare(const RenderOptions& options, Subject& subject, nodes::HeatMap* heat, nodes::Observer* observer,
-                 Interrupt& interrupt, Seconds& seconds) {
+ReadyRun prepare(const RenderOptions& options, const Subject& subject, const RunTies& ties, Interrupt& interrupt,
+                 Seconds& seconds) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   Stopwatch stopwatch;
-  ReadyRun run = make_ready(
-      options, subject.database, subject.settings, {}, [&subject] { subject.database.forget_records(); }, heat, observer);
+  ReadyRun run = make_ready(options, subject.database, subject.settings, {}, ties);
   seconds.prepare = stopwatch.lap();
   for (const std::string& note : run.notes) {
     if (!options.quiet) {
@@ -209,14 +215,26 @@ int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostrea
   RenderOptions options = asked;
   choose_machine(options);
   Seconds seconds;
-  Subject subject = load(options, interrupt, seconds);
+  std::optional<Checkpoints> checkpoints;
+  Subject subject = load(options, checkpoints, interrupt, seconds);
   std::optional<nodes::HeatMap> heat = make_heat_map(options, subject.settings.camera);
   const std::unique_ptr<nodes::TraceRecorder> recorder = make_recorder(options);
-  const ReadyRun run = prepare(options, subject, heat ? &*heat : nullptr, recorder.get(), interrupt, seconds);
+  const RunTies ties{.distributed = [&subject] { subject.database.forget_records(); },  // the nodes have theirs
+                     .heat = heat ? &*heat : nullptr,
+                     .observer = recorder.get(),
+                     .continuation = checkpoints ? checkpoints->continuation() : core::Continuation{}};
+  const ReadyRun run = prepare(options, subject, ties, interrupt, seconds);
+  if (checkpoints) {
+    interrupt.set_consequence("no picture was written; --resume goes on from the checkpoint");
+  }
   const Report report = run_timed(options, run, interrupt, seconds);
   const std::optional<nodes::Trace> trace = take_trace(options, recorder.get());
-  write_outputs({options, subject.database, report, seconds, heat ? &*heat : nullptr, trace ? &*trace : nullptr}, interrupt,
-                output);
+  write_outputs({options, subject.database, report, seconds, heat ? &*heat : nullptr, trace ? &*trace : nullptr,
+                 checkpoints ? checkpoints->samples_found_done() : 0},
+                interrupt, output);
+  if (checkpoints) {
+    checkpoints->finish();
+  }
   return 0;
 }
 

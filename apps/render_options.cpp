@@ -66,6 +66,7 @@ constexpr Conflict conflicts[] = {
     {"--no-contention", RunnerKind::threads, "threads model no links"},
     {"--memory-port", RunnerKind::threads, "threads model no ports"},
     {"--chaos", RunnerKind::virtual_time, "chaos disturbs threads only"},
+    {"--checkpoint", RunnerKind::virtual_time, "the time of two halves of a run is not the time of a whole one"},
     {"--topology", RunnerKind::virtual_time, "the machine has a topology of its own, onto which regions are mapped"},
 };
 
@@ -91,6 +92,9 @@ void check(const OptionSet& options, const RenderOptions& render) {
   if (render.pages.count_pages && !render.stats) {
     throw UsageError("--count-pages counts for the --stats file: give --stats=FILE.json too");
   }
+  if (render.checkpoint.resumes && !render.heat_maps.empty()) {
+    throw UsageError("--resume does not go with --heatmap: what was done before would be missing on it");
+  }
 }
 
 }  // namespace
@@ -108,6 +112,7 @@ void add_options(OptionSet options, RenderOptions& render) {
   add_ray_options(options, render.rays);
   add_topology_option(options, render.rays.topology);
   add_study_options(options, render);
+  add_options(options, render.checkpoint);
   options.check_in_the_end([options, &render] { check(options, render); });
   options.set_examples(
       "Examples:\n"
@@ -118,6 +123,7 @@ void add_options(OptionSet options, RenderOptions& render) {
       "  dmpc render rings-4-t1 --nodes=4 --cache-pages=64 --trace=rings.json --trace-window=10,12 -o rings.png\n"
       "  dmpc render rings-3-t1 --strategy=dataflow --nodes=16 --grid-axes=screen -o rings.png\n"
       "  dmpc render teapot-12 --nodes=64 --runner=virtual --machine=ipsc860 --stats=teapot.json -o teapot.png\n"
+      "  dmpc render balls-6 --samples=256 --checkpoint=balls.checkpoint --resume -o balls.exr\n"
       "  dmpc render my.nff --strategy=replicated --tracer=embree --resolution=1024x768 -o my.tif\n"
       "The picture does not depend on the computer's options, to the last bit: the film_hash of --stats says so. Only\n"
       "--grid-axes=screen, another grid, rounds otherwise than --grid-axes=world.");

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "apps/checkpoint_options.h"
 #include "apps/command_line.h"
 #include "apps/database_options.h"
 #include "apps/heat_options.h"
@@ -22,6 +23,7 @@ struct RenderOptions : StrategyOptions {
   std::optional<std::filesystem::path> stats;  ///< where the counters go, as JSON
   std::vector<HeatRequest> heat_maps;          ///< what else is to be shown of each pixel
   TraceOptions trace;                          ///< what is recorded of the run
+  CheckpointOptions checkpoint;                ///< what is kept on the way
   bool quiet = false;                          ///< no progress and no closing lines
 };
 

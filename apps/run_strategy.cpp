@@ -51,14 +51,21 @@ svm::Report run_with_embree(const core::Database& database, const core::RenderSe
   });
 }
 
+/// `run`: the options of any strategy.
+template <class RunOptions>
+void tie(RunOptions& run, const RunTies& ties) {
+  run.heat = ties.heat;
+  run.observer = ties.observer;
+  run.continuation = ties.continuation;
+}
+
 /// svm and replicated.
 ReadyRun ready_with_pages(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
-                          const std::function<void()>& distributed, nodes::HeatMap* heat, nodes::Observer* observer) {
+                          const RunTies& ties) {
   const bool paged = options.strategy == Strategy::svm, by_embree = options.tracer == TracerChoice::embree;
   svm::RunOptions run = svm_options(options);
-  run.distributed = distributed;
-  run.heat = heat;
-  run.observer = observer;
+  run.distributed = ties.distributed;
+  tie(run, ties);
   const auto start = [&database, &settings, run, paged, by_embree](const RunProgress& progress, std::stop_token stop) -> Report {
     svm::RunOptions watched = run;
     watched.progress = progress;
@@ -73,14 +80,12 @@ ReadyRun ready_with_pages(const StrategyOptions& options, const core::Database& 
 }
 
 ReadyRun ready_with_rays(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
-                         const std::stop_token& stop, const std::function<void()>& distributed, nodes::HeatMap* heat,
-                         nodes::Observer* observer) {
+                         const std::stop_token& stop, const RunTies& ties) {
   dataflow::RunOptions run = dataflow_options(options);
-  run.heat = heat;
-  run.observer = observer;
+  tie(run, ties);
   const auto prepared = std::make_shared<dataflow::Prepared>(dataflow::prepare(database, settings, run, stop));
-  if (distributed) {
-    distributed();
+  if (ties.distributed) {
+    ties.distributed();
     run.distributed = [prepared] { prepared->distribution.forget_records(); };
   }
   const auto start = [&settings, run, prepared](const RunProgress& progress, std::stop_token stop_run) -> Report {
@@ -115,12 +120,11 @@ void choose_machine(StrategyOptions& options) {
 }
 
 ReadyRun make_ready(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
-                    const std::stop_token& stop, const std::function<void()>& distributed, nodes::HeatMap* heat,
-                    nodes::Observer* observer) {
+                    const std::stop_token& stop, const RunTies& ties) {
   core::expect(options.computer.machine.has_value() == (options.computer.runner == RunnerKind::virtual_time),
                "a modelled machine has been read");
-  return options.strategy == Strategy::dataflow ? ready_with_rays(options, database, settings, stop, distributed, heat, observer)
-                                                : ready_with_pages(options, database, settings, distributed, heat, observer);
+  return options.strategy == Strategy::dataflow ? ready_with_rays(options, database, settings, stop, ties)
+                                                : ready_with_pages(options, database, settings, ties);
 }
 
 }  // namespace dmpc::apps

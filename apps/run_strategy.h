@@ -10,6 +10,7 @@
 #include "apps/report.h"
 #include "apps/strategy_options.h"
 #include "core/database.h"
+#include "core/partial_picture.h"
 #include "core/pixel_task.h"
 #include "nodes/heat_map.h"
 #include "nodes/observer.h"
@@ -18,6 +19,16 @@ namespace dmpc::apps {
 
 /// Told (pixels that are done, or have light, and pixels in all) on the host's thread.
 using RunProgress = std::function<void(std::uint32_t, std::uint32_t)>;
+
+/// What ties a run to those who want more of it than a picture. Everything pointed to outlives it.
+struct RunTies {
+  /// If given, the run starts at most once, and this is called when it will not read the database's records again: before the
+  /// start, or when it starts.
+  std::function<void()> distributed = {};
+  nodes::HeatMap* heat = nullptr;        ///< what each pixel takes is added to it; of the picture's size
+  nodes::Observer* observer = nullptr;   ///< sees the run happen
+  core::Continuation continuation = {};  ///< where the run begins, and what is kept of it
+};
 
 /// Everything is planned and, for dataflow, balanced and dealt.
 struct ReadyRun {
@@ -38,12 +49,7 @@ void choose_machine(StrategyOptions& options, const nodes::Machine& machine);
 /// requested: then the result is good for a run that the same stop ends at once. `database` and `settings` outlive the result.
 /// Throws core::UsageError for options that the strategy does not take, core::InputError if the nodes' memory is too small,
 /// naming what works. No memory of a node is asked of the real computer before the start.
-/// `heat`: if given, what each pixel takes is added to it; it is of the picture's size and outlives the run.
-/// `observer`: if given, sees the run happen, and outlives it.
-/// `distributed`: if given, the run starts at most once, and this is called when it will not read the database's records again:
-/// here, or when it starts.
 ReadyRun make_ready(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
-                    const std::stop_token& stop = {}, const std::function<void()>& distributed = {},
-                    nodes::HeatMap* heat = nullptr, nodes::Observer* observer = nullptr);
+                    const std::stop_token& stop = {}, const RunTies& ties = {});
 
 }  // namespace dmpc::apps

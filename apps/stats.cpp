@@ -60,12 +60,13 @@ Json operations_json(const core::Operations& operations) {
 }
 
 /// How samples were shared out.
-Json sampling_json(const RenderOptions& options, const Account& account) {
+Json sampling_json(const RenderRecord& record, const Account& account) {
   const std::uint64_t samples = account.film.samples();
   Json result = {{"samples", samples},
+                 {"resumed", record.samples_found_done},
                  {"samples_per_pixel", static_cast<double>(samples) / static_cast<double>(account.film.pixels().size())},
                  {"passes", account.refinement.passes}};
-  result["estimated_error"] = options.picture.is_refined ? Json(account.refinement.error) : Json();
+  result["estimated_error"] = record.options.picture.is_refined ? Json(account.refinement.error) : Json();
   return result;
 }
 
@@ -309,7 +310,7 @@ std::string stats_json(const RenderRecord& record) {
               {"runner", name_of(record.options.computer.runner)},
               {"machine", machine ? machine_json(*machine) : Json()},
               {"film_hash", hash_text(account.film.hash())},
-              {"sampling", sampling_json(record.options, account)},
+              {"sampling", sampling_json(record, account)},
               {"rays", rays_json(account.operations.rays)},
               {"hits", hits_json(account.operations)},
               {"operations", operations_json(account.operations)},

@@ -30,6 +30,7 @@ struct RenderRecord {
   Seconds seconds;
   const nodes::HeatMap* heat = nullptr;  ///< what options.heat_maps ask for
   const nodes::Trace* trace = nullptr;   ///< what options.trace asks for
+  std::uint64_t samples_found_done = 0;  ///< of all pixels, in the checkpoint that the run went on from
 };
 
 /// One JSON object, indented, with a line end. The keys are an interface; what does not apply is null, and no number is NaN or
@@ -43,7 +44,8 @@ struct RenderRecord {
 ///   runner         threads or virtual
 ///   machine        that was modelled, as machine_file.h says; null with threads, as is all that follows from virtual time
 ///   film_hash      of the film's integers, 16 hexadecimal digits: equal pictures, equal hashes
-///   sampling       samples (of all pixels), samples_per_pixel, passes, and where they are refined estimated_error (root mean
+///   sampling       samples (of all pixels), resumed (how many of them a checkpoint had: no counter below has seen them),
+///                  samples_per_pixel, passes, and where they are refined estimated_error (root mean
 ///                  square of the linear channels)
 ///   rays           rays shot
 ///   hits           primary, secondary, shadow_blocked, total_internal_reflections

@@ -29,7 +29,7 @@ struct Rendered {
       const core::Camera& camera = subject.settings.camera;
       heat.emplace(static_cast<std::uint32_t>(camera.width() * camera.height()), kinds_of(options.heat_maps));
     }
-    const ReadyRun run = make_ready(options, database, subject.settings, {}, {}, heat ? &*heat : nullptr);
+    const ReadyRun run = make_ready(options, database, subject.settings, {}, {.heat = heat ? &*heat : nullptr});
     notes = run.notes;
     report = run.start({}, std::move(stop));
   }

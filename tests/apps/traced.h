@@ -58,7 +58,7 @@ struct Traced {
     database = std::move(subject.database);
     const std::uint32_t node_count = options.computer.node_count;
     nodes::TraceRecorder recorder(node_count + 1, trace_choice(options.trace, node_count));
-    Report made = make_ready(options, database, subject.settings, {}, {}, nullptr, &recorder).start({}, {});
+    Report made = make_ready(options, database, subject.settings, {}, {.observer = &recorder}).start({}, {});
     trace = recorder.take();
     return made;
   }

@@ -1,0 +1,197 @@
+#include "apps/checkpoint_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/digest.h"
+#include "core/expect.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view first_line = "dmpc checkpoint 1";
+
+struct PassRecord {
+  std::uint64_t number = 0, first_sample = 0, samples = 0;
+};
+
+struct PixelRecord {
+  core::PixelSums sums;
+  std::uint64_t samples = 0;
+};
+static_assert(sizeof(PixelRecord) == 56 && std::is_trivially_copyable_v<PixelRecord>);
+
+/// Written and read at a time.
+constexpr std::uint32_t block_pixels = 4096;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& what) {
+  throw core::InputError("--checkpoint " + path.string() + ": " + what);
+}
+
+std::string head_of(const PictureIdentity& identity) {
+  std::string text = std::string(first_line) + "\n";
+  for (const PictureFact& fact : identity.facts) {
+    text += fact.name + "=" + fact.value + "\n";
+  }
+  return text + "\n";
+}
+
+/// Bytes to a file and a digest of them.
+class Writer {
+ public:
+  explicit Writer(const fs::path& path) : stream_(path, std::ios::binary) {}
+
+  void put(std::span<const std::byte> bytes) {
+    digest_.add(bytes);
+    stream_.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  }
+  /// Whether all has been written.
+  bool close() {
+    const std::uint64_t digest = digest_.value();
+    put(std::as_bytes(std::span(&digest, 1)));
+    stream_.close();
+    return bool{stream_};
+  }
+
+ private:
+  std::ofstream stream_;
+  Digest digest_;
+};
+
+void put_pixels(Writer& writer, const core::Film& film) {
+  const auto pixel_count = static_cast<std::uint32_t>(film.pixels().size());
+  std::vector<PixelRecord> block;
+  for (std::uint32_t first = 0; first < pixel_count; first += block_pixels) {
+    block.clear();
+    for (std::uint32_t pixel = first; pixel < std::min(first + block_pixels, pixel_count); ++pixel) {
+      block.push_back({film.pixels()[pixel], film.samples(pixel)});
+    }
+    writer.put(std::as_bytes(std::span(block)));
+  }
+}
+
+/// So that the name is given to bytes that are on the disk.
+bool sync_file(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool is_synced = file >= 0 && ::fsync(file) == 0;
+  if (file >= 0) {
+    ::close(file);
+  }
+  return is_synced;
+}
+
+/// Bytes from a file, and whether they are those that were written.
+class Reader {
+ public:
+  explicit Reader(const fs::path& path) : path_(path), stream_(path, std::ios::binary) {
+    if (!stream_) {
+      fail(path, std::string("cannot be read: ") + std::strerror(errno));
+    }
+  }
+
+  std::vector<PictureFact> take_head() {
+    std::string head, line;
+    std::vector<PictureFact> facts;
+    if (!std::getline(stream_, line) || line != first_line) {
+      fail(path_, "this is no checkpoint of this version of dmpc");
+    }
+    for (head = line + "\n"; std::getline(stream_, line) && !line.empty(); head += line + "\n") {
+      const std::size_t sign = line.find('=');
+      check(sign != std::string::npos);
+      facts.push_back({line.substr(0, sign), line.substr(sign + 1)});
+    }
+    head += "\n";
+    digest_.add(std::as_bytes(std::span(head)));
+    return facts;
+  }
+  template <class T>
+  void take(std::span<T> values) {
+    const std::span<std::byte> bytes = std::as_writable_bytes(values);
+    stream_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    check(bool{stream_});
+    digest_.add(std::span<const std::byte>(bytes));
+  }
+  void take_end() {
+    const std::uint64_t expected = digest_.value();
+    std::uint64_t digest = 0;
+    take(std::span(&digest, 1));
+    check(digest == expected && stream_.peek() == std::ifstream::traits_type::eof());
+  }
+  void check(bool is_whole) const {
+    if (!is_whole) {
+      fail(path_, "this checkpoint is damaged or cut short: start again without --resume, when it is removed");
+    }
+  }
+
+ private:
+  fs::path path_;
+  std::ifstream stream_;
+  Digest digest_;
+};
+
+void take_pixels(Reader& reader, core::Film& film) {
+  const auto pixel_count = static_cast<std::uint32_t>(film.pixels().size());
+  std::vector<PixelRecord> block;
+  for (std::uint32_t first = 0; first < pixel_count; first += block_pixels) {
+    block.resize(std::min(block_pixels, pixel_count - first));
+    reader.take(std::span(block));
+    for (std::uint32_t i = 0; i < block.size(); ++i) {
+      film.deposit(first + i, block[i].sums);
+      film.add_samples(first + i, static_cast<std::uint32_t>(block[i].samples));
+    }
+  }
+}
+
+}  // namespace
+
+void write_checkpoint(const fs::path& path, const PictureIdentity& identity, const core::Film& film, const core::Refinement& pass,
+                      const core::PixelMask& done) {
+  OutputFile file(path, TemporaryName::of_target);
+  Writer writer(file.temporary());
+  const std::string head = head_of(identity);
+  const PassRecord record{pass.result().passes, pass.samples().first, pass.samples().count};
+  writer.put(std::as_bytes(std::span(head)));
+  writer.put(std::as_bytes(std::span(&record, 1)));
+  writer.put(std::as_bytes(pass.pixels().words()));
+  writer.put(std::as_bytes(done.words()));
+  put_pixels(writer, film);
+  if (!writer.close() || !sync_file(file.temporary())) {
+    fail(path, std::string("cannot be written: ") + std::strerror(errno));
+  }
+  file.commit();
+}
+
+core::PartialPicture read_checkpoint(const fs::path& path, const PictureIdentity& identity) {
+  Reader reader(path);
+  if (const std::string difference = difference_text(reader.take_head(), identity.facts); !difference.empty()) {
+    fail(path, "this is the checkpoint of another picture: " + difference);
+  }
+  PassRecord pass;
+  reader.take(std::span(&pass, 1));
+  reader.check(pass.number > 0 && pass.samples > 0);
+  const auto pixel_count = static_cast<std::uint32_t>(identity.width) * static_cast<std::uint32_t>(identity.height);
+  core::PixelMask pixels(pixel_count), done(pixel_count);
+  reader.take(pixels.words());
+  reader.take(done.words());
+  core::PartialPicture picture{core::Film(identity.width, identity.height),
+                               static_cast<std::uint32_t>(pass.number),
+                               {static_cast<std::uint32_t>(pass.first_sample), static_cast<std::uint32_t>(pass.samples)},
+                               pixels,
+                               done};
+  take_pixels(reader, picture.film);
+  reader.take_end();
+  return picture;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,29 @@
+// A picture under way in a file: whose it is, and what of it is done.
+//
+// Lines of text: "dmpc checkpoint 1", "name=value" for each fact of the picture, an empty one. Then, in this computer's order of
+// bytes: the pass (number, first sample, samples a pixel: 8 bytes each); a bit for each pixel of the pass, then one for each that
+// is done, in words of 64; for each pixel its sums on the film and its samples of passes that have ended; the digest of all that.
+#pragma once
+
+#include <filesystem>
+
+#include "apps/output_file.h"
+#include "apps/picture_identity.h"
+#include "core/partial_picture.h"
+
+namespace dmpc::apps {
+
+/// The name under which a checkpoint is written before it replaces the one at `path`.
+inline std::filesystem::path next_checkpoint(const std::filesystem::path& path) {
+  return OutputFile(path, TemporaryName::of_target).temporary();
+}
+
+/// Writes it whole, as far as the disk, or leaves what there was. Throws core::InputError if that fails.
+void write_checkpoint(const std::filesystem::path& path, const PictureIdentity& identity, const core::Film& film,
+                      const core::Refinement& pass, const core::PixelMask& done);
+
+/// Throws core::InputError if the file cannot be read, is no checkpoint, is damaged, or is one of another picture: then it says
+/// what differs.
+core::PartialPicture read_checkpoint(const std::filesystem::path& path, const PictureIdentity& identity);
+
+}  // namespace dmpc::apps
