@@ -31,8 +31,7 @@ struct Part {
 
 template <class Report>
 Part part_of(const Report& report) {
-  return {report.film, report.end, report.refinement,
-          report.operations().rays[static_cast<std::size_t>(core::RayKind::primary)]};
+  return {report.film, report.end, report.refinement, report.operations().rays[static_cast<std::size_t>(core::RayKind::primary)]};
 }
 
 struct Run {
@@ -48,10 +47,8 @@ Part run(const Subject& subject, const Run& run, const std::stop_token& stop = {
     const dataflow::RunOptions options{.node_count = run.nodes, .chaos = run.chaos, .continuation = run.continuation};
     return part_of(dataflow::run_dataflow(subject.database(), subject.settings(), options, stop));
   }
-  const svm::RunOptions options{.node_count = run.nodes,
-                                .work_item_side = run.work_item_side,
-                                .chaos = run.chaos,
-                                .continuation = run.continuation};
+  const svm::RunOptions options{
+      .node_count = run.nodes, .work_item_side = run.work_item_side, .chaos = run.chaos, .continuation = run.continuation};
   return part_of(run.strategy == Strategy::svm ? svm::run_svm(subject.database(), subject.settings(), options, stop)
                                                : svm::run_replicated(subject.database(), subject.settings(), options, stop));
 }
@@ -172,10 +169,21 @@ TEST_CASE("a run that keeps the picture whenever it can comes to the same end") 
   const Subject subject(tests::mirrors_and_glass(), {24, 20, 2, {.error = 0.03}});
   for (const Strategy strategy : all_strategies) {
     Keeper keeper(1);
-    CHECK(run(subject, {.strategy = strategy, .continuation = keeper.continuation()}).film.hash() ==
-          subject.outcome().film_hash);
+    CHECK(run(subject, {.strategy = strategy, .continuation = keeper.continuation()}).film.hash() == subject.outcome().film_hash);
     CHECK(keeper.count() > 2);
   }
+}
+
+TEST_CASE("a run that is interrupted where pixels come whole keeps all that has come") {
+  const Subject subject(tests::mirrors_and_glass(), {96, 80});
+  Keeper keeper(~0U);
+  std::stop_source stop;
+  svm::RunOptions options{.node_count = 3, .continuation = keeper.continuation()};
+  options.progress = [&](std::uint32_t done, std::uint32_t) { done > 1000 ? stop.request_stop() : false; };
+  const svm::Report report = svm::run_svm(subject.database(), subject.settings(), options, stop.get_token());
+  CHECK(report.end == nodes::RunEnd::interrupted);
+  CHECK(keeper.count() == 1);
+  CHECK(keeper.last()->done.count() == report.pixels_done);
 }
 
 TEST_CASE("a picture of which nothing or everything is done can be gone on with") {
