@@ -54,7 +54,7 @@ TEST_CASE("the options of checkpoints need a file") {
 }
 
 TEST_CASE("the time between checkpoints is above 0 and finite") {
-  for (const std::string text : {"0", "-1", "nan", "inf", "1e9", "", "2s"}) {
+  for (const std::string text : {"0", "-1", "nan", "inf", "1e9", "2s"}) {
     CAPTURE(text);
     CHECK(contains(complaint({"--checkpoint=a", "--checkpoint-every=" + text}), "expected seconds"));
   }

@@ -79,11 +79,11 @@ bool waits_for_checkpoint(const TemporaryFolder& folder) {
 }
 
 /// Of a picture that takes about a second.
-const std::vector<std::vector<std::string>> computers = {{"--samples=32", "--strategy=svm", "--nodes=3"},
-                                                         {"--samples=32", "--strategy=dataflow", "--nodes=2"},
-                                                         {"--samples=32", "--strategy=replicated", "--nodes=2"},
-                                                         {"--samples=32", "--strategy=dataflow", "--nodes=5", "--chaos=7"},
-                                                         {"--samples=32", "--strategy=svm", "--page-size=4KiB"}};
+const std::vector<std::vector<std::string>> computers = {{"--samples=16", "--strategy=svm", "--nodes=3"},
+                                                         {"--samples=16", "--strategy=dataflow", "--nodes=2"},
+                                                         {"--samples=16", "--strategy=replicated", "--nodes=2"},
+                                                         {"--samples=16", "--strategy=dataflow", "--nodes=5", "--chaos=7"},
+                                                         {"--samples=16", "--strategy=svm", "--page-size=4KiB"}};
 
 }  // namespace
 
@@ -161,7 +161,7 @@ TEST_CASE("a render that is killed again and again comes to the same film, whate
     if (!waits_for_checkpoint(folder)) {
       break;
     }
-    ::usleep(random() % 30'000);
+    ::usleep(static_cast<useconds_t>(random() % 30'000));
     process.send(SIGKILL);
     process.status();
   }
