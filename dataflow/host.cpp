@@ -238,9 +238,7 @@ void HostProgram::deal(std::uint32_t index) {
 }
 
 /// In the sense of termination: has no ray to send.
-bool HostProgram::is_passive() const {
-  return host_is_passive(kept_.size()) && undealt_.is_empty();
-}
+bool HostProgram::is_passive() const { return host_is_passive(kept_.size()) && undealt_.is_empty(); }
 
 void HostProgram::tell_all(Kind kind) {
   for (std::uint32_t i = 0; i < node_count_; ++i) {

@@ -37,7 +37,7 @@ struct PlanRequest {
   std::optional<std::uint32_t> queue_packets = std::nullopt;
   std::uint32_t depth_max = 5;  ///< of a ray
   std::uint32_t width = 0, height = 0;
-  std::uint32_t first_samples = 1;     ///< of each pixel in the first pass
+  std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
   core::RefinementOptions refinement;
   bool is_dealt_on_the_way = false;  ///< the host deals the primary rays of the first pass as nodes have room for them
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;  ///< of each node's thread

@@ -15,9 +15,7 @@ namespace {
 using TrafficByKind = std::array<nodes::Traffic, nodes::packet_kind_count>;
 
 /// What was dealt before the start would have to be done before anything can be kept.
-bool is_dealt_on_the_way(const RunOptions& options) {
-  return options.continuation.start != nullptr || options.continuation.keep;
-}
+bool is_dealt_on_the_way(const RunOptions& options) { return options.continuation.start != nullptr || options.continuation.keep; }
 
 PlanRequest request_of(const Distribution& distribution, const core::RenderSettings& settings, const RunOptions& options) {
   return {.shares = distribution.shares(),
@@ -120,9 +118,9 @@ void check_rays(const Report& report) {
   core::expect(operations.shadings == operations.primary_hits + operations.secondary_hits, "each hit was claimed by one node");
   core::expect(report.host_rays.rays_in == report.gathers().rays_overflowed, "every ray that overflowed came to the host");
   core::expect(report.host_rays.rays_in == report.host_rays.rays_out, "every ray that overflowed was forwarded");
-  core::expect(report.film.samples() - report.samples_found_done ==
-                   operations.rays[static_cast<std::size_t>(core::RayKind::primary)],
-               "every primary ray was shot");
+  core::expect(
+      report.film.samples() - report.samples_found_done == operations.rays[static_cast<std::size_t>(core::RayKind::primary)],
+      "every primary ray was shot");
 }
 
 void check_packets(const Report& report) {

@@ -10,9 +10,9 @@
 
 namespace dmpc::dataflow {
 
-/// A pixel has begun when one of its rays was dealt. Rays of a pixel may be dealt to several nodes, so at any time some pixels have
-/// begun whose other rays are here. hold_back() leaves only these to be dealt: when they are, and no ray is left anywhere, the
-/// pixels that have begun are done, all others untouched. Belongs to the host.
+/// A pixel has begun when one of its rays was dealt. Rays of a pixel may be dealt to several nodes, so at any time some pixels
+/// have begun whose other rays are here. hold_back() leaves only these to be dealt: when they are, and no ray is left anywhere,
+/// the pixels that have begun are done, all others untouched. Belongs to the host.
 class Undealt {
  public:
   /// `run_rays_max`: no run that is dealt has more rays, which bounds those that a node has room for; at least 1.

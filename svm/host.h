@@ -21,9 +21,9 @@ namespace dmpc::svm {
 /// ends with that.
 using Progress = std::function<void(std::uint32_t, std::uint32_t)>;
 
-/// Every pixel of a pass arrives exactly once, which it checks, and whole: what has arrived can be kept at any time. When every node is done and the film complete, it ends the pass;
-/// if another follows, it sends each node its submap's part of the mask, and begins it when all have theirs; else it sends each
-/// node a Stop.
+/// Every pixel of a pass arrives exactly once, which it checks, and whole: what has arrived can be kept at any time. When every
+/// node is done and the film complete, it ends the pass; if another follows, it sends each node its submap's part of the mask,
+/// and begins it when all have theirs; else it sends each node a Stop.
 class HostProgram final : public nodes::Program {
  public:
   /// `film` outlives the program and is written by it alone until the run's end; it is as plan.request.start has it.

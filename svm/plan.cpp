@@ -218,8 +218,7 @@ std::optional<std::uint32_t> smallest_node_count(PlanRequest request) {
 
 /// With an item's pixels in a word where they are masked.
 PlanRequest with_small_items(PlanRequest request) {
-  request.work_item_side =
-      request.is_masked() ? std::min(request.work_item_side, masked_side_max) : request.work_item_side;
+  request.work_item_side = request.is_masked() ? std::min(request.work_item_side, masked_side_max) : request.work_item_side;
   return request;
 }
 

@@ -41,10 +41,10 @@ struct PlanRequest {
   std::uint32_t work_item_side = 3;  ///< pixels along the side of a work item; 0: no node gives work to another
   int depth_max = 5;                 ///< entries of a pixel's ray stack
   std::uint32_t width = 0, height = 0;
-  std::uint32_t first_samples = 1;     ///< of each pixel in the first pass
+  std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
   core::RefinementOptions refinement;
   const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; outlives plan and run
-  bool count_pages = false;            ///< count the distinct pages of each pixel; costs a bit a page for each pixel in flight
+  bool count_pages = false;  ///< count the distinct pages of each pixel; costs a bit a page for each pixel in flight
   /// Record every node's page references. Only where these depend on neither the cache nor the schedule: without work given
   /// from node to node, and with one pixel in flight. Not with count_pages.
   bool record_references = false;

@@ -175,12 +175,11 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
                               [&make_program, i](nodes::Node& node) { return make_program(i, node); }, plan.held_bytes,
                               interrupt_kinds});
   }
-  specifications.push_back(
-      {plan.host_memory(), plan.host_mailbox,
-       [&plan, &film, &progress, continuation](nodes::Node& node) {
-         return std::make_unique<HostProgram>(node, plan, film, progress, continuation);
-       },
-       plan.held_bytes});
+  specifications.push_back({plan.host_memory(), plan.host_mailbox,
+                            [&plan, &film, &progress, continuation](nodes::Node& node) {
+                              return std::make_unique<HostProgram>(node, plan, film, progress, continuation);
+                            },
+                            plan.held_bytes});
   return specifications;
 }
 
@@ -195,9 +194,9 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
                 .host = {}};
   core::expect(options.heat == nullptr || options.heat->pixel_count() == report.film.pixels().size(),
                "a heat map is of the picture's size");
-  const auto runner = nodes::make_runner(specifications_of(plan, make_program, report.film, options.progress,
-                                                           options.continuation),
-                                         {plan.request.chaos, options.machine, options.observer});
+  const auto runner =
+      nodes::make_runner(specifications_of(plan, make_program, report.film, options.progress, options.continuation),
+                         {plan.request.chaos, options.machine, options.observer});
   if (options.distributed) {
     options.distributed();
   }
