@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <sstream>
 #include <string>
 
 #include "tests/apps/traced.h"
@@ -19,7 +21,7 @@ using tests::TemporaryFolder;
 std::string dump(const std::string& text) {
   const TemporaryFolder folder;
   write_file(folder / "a.paje", text);
-  ChildProcess reader({"/usr/bin/pj_dump", (folder / "a.paje").string()});
+  ChildProcess reader({"/usr/bin/pj_dump", "--float-precision=9", (folder / "a.paje").string()});
   const int status = reader.status();
   return std::to_string(status) + "\n" + reader.output();
 }
@@ -31,6 +33,24 @@ std::uint64_t count(const std::string& text, const std::string& beginning) {
     ++found;
   }
   return found;
+}
+
+/// Of all nodes, from lines "State, node, activity, begin, end, duration, depth, name" in seconds with nine decimals.
+std::uint64_t shading_ns(const std::string& read) {
+  std::istringstream lines(read);
+  std::uint64_t sum_ns = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("State, ", 0) == 0 && line.rfind(", shade") == line.size() - 7) {
+      std::istringstream fields(line);
+      std::string field;
+      for (int i = 0; i < 6; ++i) {
+        std::getline(fields, field, ',');
+      }
+      field.erase(field.find('.'), 1);
+      sum_ns += std::stoull(field);
+    }
+  }
+  return sum_ns;
 }
 
 std::uint64_t states_with_duration(const nodes::Trace& trace) {
@@ -56,6 +76,18 @@ TEST_CASE("pajeng reads a Paje trace, and finds in it all nodes, states and mess
       CHECK(count(read, "Variable, ") > 10);
     }
   }
+}
+
+TEST_CASE("pajeng finds each activity in virtual time as long as it was") {
+  Traced traced(to_trace(Strategy::svm, RunnerKind::virtual_time));
+  std::uint64_t sum_ns = 0;
+  for (const nodes::TraceNode& node : traced.trace.nodes) {
+    for (const nodes::TraceSpan& span : node.spans) {
+      sum_ns += name_of(span) == SpanName::shade ? span.end_ns - span.begin_ns : 0;
+    }
+  }
+  CHECK(sum_ns > 0);
+  CHECK(shading_ns(dump(traced.text(".paje"))) == sum_ns);
 }
 
 TEST_CASE("pajeng refuses a Paje trace that lacks a line") {

@@ -221,6 +221,21 @@ TEST_CASE("of one pixel in four there is its call, what serves that, and the ans
   CHECK(trace.messages.size() == 2);
 }
 
+TEST_CASE("what follows from a chosen pixel is found where no time passes, too") {
+  Scene scene({.every = 4});
+  scene.recorder.worked({NodeId{1}, pixel(true), 1});
+  scene.sends(1, 0, 10, 1);
+  scene.span(1, 10, 10, Activity::work, 1);
+  scene.receives(0, 1, 10, 1);
+  scene.sends(0, 2, 10, 1);
+  scene.span(0, 10, 10, Activity::receive, 1);
+  scene.receives(2, 0, 10, 1);
+  scene.span(2, 10, 10, Activity::receive, 1);
+  const Trace trace = scene.recorder.take();
+  CHECK(trace.messages.size() == 2);
+  CHECK(trace.nodes[2].spans.size() == 1);
+}
+
 TEST_CASE("of one pixel in four there is nothing that the others bring about") {
   Scene scene({.every = 4});
   scene.recorder.worked({NodeId{0}, pixel(false), 1});
