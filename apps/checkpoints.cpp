@@ -35,7 +35,7 @@ Checkpoints::Checkpoints(const CheckpointOptions& options, PictureIdentity ident
 
 core::Continuation Checkpoints::continuation() {
   wait_for_next();
-  return {start_ ? &*start_ : nullptr, [this] { return Clock::now() >= next_; },
+  return {start(), [this] { return Clock::now() >= next_; },
           [this](const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) { keep(film, pass, done); }};
 }
 

@@ -20,6 +20,8 @@ class Checkpoints {
 
   /// For a run, which it outlives. What cannot be written is a warning on `messages`; the last checkpoint stays.
   core::Continuation continuation();
+  /// What the file had; nullptr without.
+  const core::PartialPicture* start() const { return start_ ? &*start_ : nullptr; }
   /// Samples of all pixels that the file had.
   std::uint64_t samples_found_done() const { return start_ ? start_->samples_done() : 0; }
   /// The picture is written: removes the file, unless it is to stay.

@@ -122,6 +122,11 @@ void OptionSet::add_flag(const std::string& name, bool& flag, const std::string&
   app_->add_flag(name, flag, description);
 }
 
+void OptionSet::add_flag_with_text(const std::string& name, const std::string& standard, std::string& value,
+                                   const std::string& description) {
+  app_->add_flag(name + "{" + standard + "}", value, description);
+}
+
 void OptionSet::add_quiet(bool& quiet) { add_flag("--quiet", quiet, "No progress, on a terminal either"); }
 
 void OptionSet::add_words(const std::string& name, const std::vector<std::string>& words, const TakeText& take,

@@ -52,6 +52,9 @@ class OptionSet {
   void add_path(const std::string& name, const std::string& shown, std::optional<std::filesystem::path>& path,
                 const std::string& description);
   void add_flag(const std::string& name, bool& flag, const std::string& description);
+  /// A flag that may be followed by "=" and a text; `value` is that, or `standard` without one, or as it is without the flag.
+  void add_flag_with_text(const std::string& name, const std::string& standard, std::string& value,
+                          const std::string& description);
   /// --quiet, of a command that says nothing but its progress unasked.
   void add_quiet(bool& quiet);
   /// An option that takes one of `words`, or several with commas between, and may be given several times.

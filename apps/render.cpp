@@ -16,6 +16,7 @@
 #include "apps/load_scene.h"
 #include "apps/machines.h"
 #include "apps/output_file.h"
+#include "apps/preview.h"
 #include "apps/progress.h"
 #include "apps/run_strategy.h"
 #include "apps/stats.h"
@@ -98,6 +99,26 @@ std::optional<nodes::HeatMap> make_heat_map(const RenderOptions& options, const 
     return std::nullopt;
   }
   return nodes::HeatMap(static_cast<std::uint32_t>(camera.width() * camera.height()), kinds_of(options.heat_maps));
+}
+
+/// Who looks on; nothing if nobody wants to or listens.
+std::unique_ptr<Preview> make_preview(const RenderOptions& options, const core::Camera& camera,
+                                      const core::PartialPicture* start) {
+  if (options.viewer.empty()) {
+    return nullptr;
+  }
+  return Preview::to_viewer(parse_viewer_address(options.viewer, "--preview"), options.picture.scene, camera.width(),
+                            camera.height(), start);
+}
+
+core::Continuation continuation_of(Checkpoints* checkpoints, Preview* preview) {
+  core::Continuation continuation = checkpoints != nullptr ? checkpoints->continuation() : core::Continuation{};
+  if (preview != nullptr) {
+    continuation.watch = [preview](const core::Film& film, const core::Refinement& pass, std::uint32_t pixel) {
+      preview->watch(film, pass, pixel);
+    };
+  }
+  return continuation;
 }
 
 /// Where the run is recorded; nothing if nobody wants to know.
@@ -219,16 +240,21 @@ int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostrea
   Subject subject = load(options, checkpoints, interrupt, seconds);
   std::optional<nodes::HeatMap> heat = make_heat_map(options, subject.settings.camera);
   const std::unique_ptr<nodes::TraceRecorder> recorder = make_recorder(options);
+  const std::unique_ptr<Preview> preview =
+      make_preview(options, subject.settings.camera, checkpoints ? checkpoints->start() : nullptr);
   const RunTies ties{.distributed = [&subject] { subject.database.forget_records(); },  // the nodes have theirs
                      .heat = heat ? &*heat : nullptr,
                      .observer = recorder.get(),
-                     .continuation = checkpoints ? checkpoints->continuation() : core::Continuation{}};
+                     .continuation = continuation_of(checkpoints ? &*checkpoints : nullptr, preview.get())};
   const ReadyRun run = prepare(options, subject, ties, interrupt, seconds);
   if (checkpoints) {
     interrupt.set_consequence("no picture was written; --resume goes on from the checkpoint");
   }
   const Report report = run_timed(options, run, interrupt, seconds);
   const std::optional<nodes::Trace> trace = take_trace(options, recorder.get());
+  if (preview) {
+    preview->finish(account_of(report).film);
+  }
   write_outputs({options, subject.database, report, seconds, heat ? &*heat : nullptr, trace ? &*trace : nullptr,
                  checkpoints ? checkpoints->samples_found_done() : 0},
                 interrupt, output);

@@ -4,6 +4,7 @@
 
 #include "apps/option_values.h"
 #include "apps/region_options.h"
+#include "apps/viewer_connection.h"
 #include "core/expect.h"
 #include "dataflow/packets.h"
 #include "dataflow/plan.h"
@@ -45,6 +46,10 @@ void add_study_options(OptionSet& options, RenderOptions& render) {
   options.add_path("--stats", "FILE.json", render.stats, "Write all counters");
   add_heat_option(options, render.heat_maps);
   add_options(options, render.trace);
+  const ViewerAddress standard;
+  options.add_flag_with_text("--preview", standard.host + ":" + standard.port, render.viewer,
+                             "Show the picture as it comes in the image viewer tev, if that listens there; --preview=HOST:PORT "
+                             "if it listens elsewhere");
   options.add_flag("--quiet", render.quiet, "No progress, no closing lines");
 }
 
@@ -91,6 +96,9 @@ void check(const OptionSet& options, const RenderOptions& render) {
   check_trace(options, render.trace, render.computer.node_count);
   if (render.pages.count_pages && !render.stats) {
     throw UsageError("--count-pages counts for the --stats file: give --stats=FILE.json too");
+  }
+  if (!render.viewer.empty()) {
+    parse_viewer_address(render.viewer, "--preview");
   }
   if (render.checkpoint.resumes && !render.heat_maps.empty()) {
     throw UsageError("--resume does not go with --heatmap: what was done before would be missing on it");

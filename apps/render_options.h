@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "apps/checkpoint_options.h"
@@ -24,6 +25,7 @@ struct RenderOptions : StrategyOptions {
   std::vector<HeatRequest> heat_maps;          ///< what else is to be shown of each pixel
   TraceOptions trace;                          ///< what is recorded of the run
   CheckpointOptions checkpoint;                ///< what is kept on the way
+  std::string viewer;                          ///< HOST:PORT of one that is to show the picture as it comes; empty: none
   bool quiet = false;                          ///< no progress and no closing lines
 };
 

@@ -24,14 +24,16 @@ struct PartialPicture {
   std::uint64_t samples_done() const { return film.samples() + std::uint64_t{done.count()} * samples.count; }
 };
 
-/// How a run goes on from another, and lets others go on from it. Called on the host's thread; if a function throws, the run ends
-/// with that.
+/// How a run goes on from another, lets others go on from it, and lets somebody look on. Called on the host's thread; if a
+/// function throws, the run ends with that.
 struct Continuation {
   const PartialPicture* start = nullptr;  ///< where it begins: of the same picture, and outlives the run; nothing: at nothing
   /// Whether what is done should be kept now: asked whenever light arrives. May be empty, if `keep` is.
   std::function<bool()> is_due = {};
   /// Keeps a picture under way: the film, the pass, and which of its pixels are done, as in PartialPicture.
   std::function<void(const Film& film, const Refinement& pass, const PixelMask& done)> keep = {};
+  /// Told of every pixel of the pass to which light has come, when it is on the film. May be empty.
+  std::function<void(const Film& film, const Refinement& pass, std::uint32_t pixel)> watch = {};
 };
 
 }  // namespace dmpc::core

@@ -170,6 +170,9 @@ void HostProgram::take_entry(const FilmEntry& entry) {
   const std::uint64_t bit = std::uint64_t{1} << (entry.pixel % 64);
   pixels_with_light_ += (word & bit) == 0 ? 1 : 0;
   word |= bit;
+  if (continuation_.watch) {
+    continuation_.watch(*film_, refinement_, entry.pixel);
+  }
 }
 
 void HostProgram::take_done(const Done& done) {

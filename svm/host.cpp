@@ -92,6 +92,9 @@ void HostProgram::take_pixel(const FilmEntry& entry) {
   word |= bit;
   ++pixels_done_;
   deposits_saturated_ += film_->deposit(entry.pixel, entry.sums) ? 1 : 0;
+  if (continuation_.watch) {
+    continuation_.watch(*film_, refinement_, entry.pixel);
+  }
 }
 
 void HostProgram::take_done(const Done& done) {

@@ -52,13 +52,13 @@ const std::vector<Foreign> foreign = {
     {"concurrentqueue/", {"tests/bench/rivals.h"}},
     {"hwy/", {"core/kernel.cpp"}},
     {"doctest/", {"tests/"}},
-    // Threads are the computer's; the edge has one, which waits for signals, those on which rays are timed, and runs side by side
-    // that share their progress.
-    {"thread", {"nodes/", "tests/", "apps/interrupt.", "apps/speed/crew."}},
-    {"atomic", {"nodes/", "tests/", "apps/interrupt."}},
-    {"mutex", {"nodes/", "tests/", "apps/study_runs.cpp", "core/parallel.cpp"}},
+    // Threads are the computer's; the edge has one that waits for signals, one that sends to a viewer, those on which rays are
+    // timed, and runs side by side that share their progress.
+    {"thread", {"nodes/", "tests/", "apps/interrupt.", "apps/preview.", "apps/speed/crew."}},
+    {"atomic", {"nodes/", "tests/", "apps/interrupt.", "apps/preview."}},
+    {"mutex", {"nodes/", "tests/", "apps/preview.", "apps/study_runs.cpp", "core/parallel.cpp"}},
     {"shared_mutex", {"nodes/", "tests/"}},
-    {"condition_variable", {"nodes/", "tests/"}},
+    {"condition_variable", {"nodes/", "tests/", "apps/preview."}},
     {"future", {"nodes/", "tests/"}},
     {"semaphore", {"nodes/", "tests/"}},
     {"latch", {"nodes/", "tests/"}},

@@ -1,0 +1,41 @@
+// A stream of bytes to a program that shows pictures, if one listens.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace dmpc::apps {
+
+struct ViewerAddress {
+  std::string host = "127.0.0.1";
+  std::string port = "14158";
+};
+
+/// "127.0.0.1:14158", "[::1]:14158". Throws core::UsageError naming `option` for anything else.
+ViewerAddress parse_viewer_address(const std::string& text, std::string_view option);
+
+/// Never throws, and never waits for longer than `patience` for a viewer that takes nothing. Not thread-safe.
+class ViewerConnection {
+ public:
+  /// Connects, if somebody listens.
+  ViewerConnection(const ViewerAddress& address, std::chrono::milliseconds patience);
+  ~ViewerConnection() { close(); }
+  ViewerConnection(const ViewerConnection&) = delete;
+  ViewerConnection& operator=(const ViewerConnection&) = delete;
+
+  bool is_open() const { return socket_ >= 0; }
+  /// Sends all, or closes: for good, since what follows half a packet would be misunderstood.
+  void send(std::string_view bytes);
+
+ private:
+  bool connects(int socket, const void* address, std::size_t address_bytes) const;
+  bool waits_for_room(int socket) const;
+  void close();
+
+  std::chrono::milliseconds patience_;
+  int socket_ = -1;
+};
+
+}  // namespace dmpc::apps
