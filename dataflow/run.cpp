@@ -253,6 +253,8 @@ Prepared prepare(const core::Database& database, const core::RenderSettings& set
 Report run_prepared(const Prepared& prepared, const core::RenderSettings& settings, const RunOptions& options,
                     std::stop_token stop) {
   const core::PartialPicture* const start = options.continuation.start;
+  core::expect(start == nullptr || start->film.pixels().size() == settings.camera.pixel_count(),
+               "what is gone on with is of the same picture");
   Report report{.film = start != nullptr ? start->film : core::Film(settings.camera.width(), settings.camera.height()),
                 .samples_found_done = start != nullptr ? start->samples_done() : 0,
                 .plan = prepared.plan,
