@@ -2,8 +2,11 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <iomanip>
+#include <numeric>
 #include <sstream>
+#include <utility>
 
 #include "core/expect.h"
 
@@ -48,6 +51,19 @@ std::string bytes_text(std::size_t bytes) {
 
 std::string percent(std::uint64_t part, std::uint64_t whole) {
   return fixed(whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole), 2) + " %";
+}
+
+std::vector<double> percent_parts(std::span<const std::uint64_t> parts) {
+  const auto whole = static_cast<double>(std::accumulate(parts.begin(), parts.end(), std::uint64_t{0}));
+  std::vector<double> percent(parts.size());
+  std::uint64_t end = 0;
+  double end_tenths = 0;  // rounded: each part is the distance of two such ends
+  for (std::size_t i = 0; i < parts.size() && whole > 0; ++i) {
+    end += parts[i];
+    const double begin_tenths = std::exchange(end_tenths, std::floor(1000 * static_cast<double>(end) / whole + 0.5));
+    percent[i] = (end_tenths - begin_tenths) / 10;
+  }
+  return percent;
 }
 
 std::string counted(std::uint64_t count, const std::string& thing) {

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace dmpc::apps {
 
@@ -21,6 +23,9 @@ std::string seconds_text(double seconds);
 std::string bytes_text(std::size_t bytes);
 /// "12.34 %"; 0 of 0 is "0.00 %".
 std::string percent(std::uint64_t part, std::uint64_t whole);
+/// What each part is of the whole, in percent with one decimal place: rounded so that they add up to 100 as they stand. All 0 if
+/// there is nothing.
+std::vector<double> percent_parts(std::span<const std::uint64_t> parts);
 /// "1 node", "2 nodes".
 std::string counted(std::uint64_t count, const std::string& thing);
 

@@ -2,22 +2,15 @@
 
 #include <string>
 
-#include "apps/figures.h"
 #include "apps/heat_field.h"
 #include "apps/heat_options.h"
 #include "apps/heat_picture.h"
 #include "apps/image_file.h"
+#include "apps/summary.h"
 
 namespace dmpc::apps {
 
 namespace {
-
-/// The computer that made the map, in words.
-std::string computer_text(const RenderRecord& record) {
-  const RenderOptions& options = record.options;
-  const std::string on_machine = options.computer.machine ? " of " + options.computer.machine->name : "";
-  return std::string(name_of(options.strategy)) + ", " + counted(options.computer.node_count, "node") + on_machine;
-}
 
 Channel channel_of(const HeatField& field, const RenderRecord& record) {
   Channel channel{.width = field.width, .height = field.height, .name = std::string(nodes::name_of(field.kind))};

@@ -12,10 +12,13 @@ namespace dmpc::apps {
 namespace {
 
 /// M. Okabe and K. Ito, "Color Universal Design", 2008, without their yellow, which is faint on white.
-constexpr std::array<const char*, 8> colors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                               "#E69F00", "#56B4E9", "#000000", "#999999"};
+constexpr std::array<const char*, plot_color_count> colors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                              "#E69F00", "#56B4E9", "#000000", "#999999"};
 /// gnuplot's numbers of filled and open shapes.
-constexpr std::array<int, 8> shapes = {7, 5, 9, 13, 11, 15, 6, 4};
+constexpr std::array<int, plot_color_count> shapes = {7, 5, 9, 13, 11, 15, 6, 4};
+
+/// Names of places along x that can be told apart, where there is little room.
+constexpr std::size_t small_names_max = 24;
 
 /// Between the bars of one place and those of the next, in places.
 constexpr double gap = 0.2;
@@ -107,6 +110,8 @@ class Script {
     }
   }
 
+  bool is_small() const { return plot_.size == PlotSize::small; }
+
   std::string head() const {
     return "# Draws " + plot_.name + ".svg from " + data_ + ": gnuplot " + plot_.name +
            ".gnuplot\n"
@@ -114,11 +119,18 @@ class Script {
            "set encoding utf8\n"
            "set datafile separator ','\n"
            "set datafile missing NaN\n"
-           "set terminal svg size 960,600 noenhanced font 'sans-serif,14' background '#ffffff'\n"
+           "set terminal svg size " +
+           (is_small() ? "480,340 noenhanced font 'sans-serif,13'" : "960,600 noenhanced font 'sans-serif,14'") +
+           " background '#ffffff'\n"
            "set output " +
            quoted(plot_.name + ".svg") + "\nset title " + quoted(plot_.title) +
-           "\nset key outside right top Left reverse\n"
+           "\nset key " + key() + "\n" +
            "set grid ytics linecolor '#dddddd'\n";
+  }
+
+  std::string key() const {
+    const bool needs_none = is_small() && drawn_.size() == 1;  // the title says it
+    return needs_none ? "off" : is_small() ? "bmargin center horizontal Left reverse" : "outside right top Left reverse";
   }
 
   static std::string axis(const std::string& name, const PlotAxis& axis) {
@@ -128,13 +140,16 @@ class Script {
            "]\n" + (axis.scale == PlotScale::linear ? "" : "set logscale " + name + base + "\n");
   }
 
-  /// Those of bars, from 1 on.
+  /// Those of bars, from 1 on; where there is little room for names, every so many is named.
   std::string places() const {
     const std::string count = std::to_string(places_.size());
+    const std::size_t step = is_small() ? (places_.size() + small_names_max - 1) / small_names_max : 1;
     std::string names, tics;
     for (std::size_t place = 0; place < places_.size(); ++place) {
       names += (place == 0 ? "" : ", ") + quoted(places_[place]);
-      tics += (place == 0 ? "" : ", ") + quoted(places_[place]) + " " + std::to_string(place + 1);
+      if (place % step == 0) {
+        tics += (place == 0 ? "" : ", ") + quoted(places_[place]) + " " + std::to_string(place + 1);
+      }
     }
     return "array names[" + count + "] = [" + names + "]\nplace_of(name) = sum [i = 1:" + count +
            "] (name eq names[i] ? i : 0)\nset xtics rotate by 60 right nomirror (" + tics + ")\nset xrange [0.4:" + count +

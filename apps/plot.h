@@ -15,6 +15,9 @@ namespace dmpc::apps {
 /// How a series is drawn: what was computed as a line from left to right, what it is held against as points.
 enum class PlotMark : std::uint8_t { line, points, bars };
 
+/// Colours that people who are colour-blind can tell apart.
+inline constexpr std::size_t plot_color_count = 8;
+
 /// One column, or those of its rows that are meant.
 struct PlotSeries {
   std::string title;   ///< in the legend
@@ -22,7 +25,7 @@ struct PlotSeries {
   /// Only rows with each of these texts in the column named before it. gnuplot loses what CSV has to quote: no commas or quotes.
   std::vector<std::pair<std::string, std::string>> where = {};
   PlotMark mark = PlotMark::line;
-  std::size_t color = 0;  ///< of eight that people who are colour-blind can tell apart; each has a shape of its points, too
+  std::size_t color = 0;  ///< below plot_color_count; each has a shape of its points, too
 };
 
 enum class PlotScale : std::uint8_t { linear, powers_of_2, powers_of_10 };
@@ -32,6 +35,9 @@ struct PlotAxis {
   PlotScale scale = PlotScale::linear;
   std::optional<double> least = std::nullopt, most = std::nullopt;  ///< nothing: as the figures ask for
 };
+
+/// large: a file of its own. small: part of a page, legible on a telephone, with the legend below.
+enum class PlotSize : std::uint8_t { large, small };
 
 /// What is drawn. The series are all bars, or none is.
 struct Plot {
@@ -43,6 +49,7 @@ struct Plot {
   PlotAxis x, y;
   std::vector<PlotSeries> series;
   bool is_stacked = false;  ///< bars upon one another, the first at the bottom
+  PlotSize size = PlotSize::large;
 };
 
 /// Series over one column.

@@ -13,6 +13,7 @@
 #include "apps/checkpoints.h"
 #include "apps/distinct_files.h"
 #include "apps/heat_files.h"
+#include "apps/html/render_page.h"
 #include "apps/load_scene.h"
 #include "apps/machines.h"
 #include "apps/output_file.h"
@@ -56,6 +57,9 @@ void check_outputs(const RenderOptions& options) {
   if (options.trace.path) {
     outputs.push_back({"--trace", *options.trace.path});
   }
+  if (options.report) {
+    outputs.push_back({"--report", *options.report});
+  }
   for (const HeatRequest& request : options.heat_maps) {
     outputs.push_back({"--heatmap", request.path});
   }
@@ -69,6 +73,9 @@ void check_outputs(const RenderOptions& options) {
   }
   if (options.trace.path) {
     check_output_path(*options.trace.path, "--trace");
+  }
+  if (options.report) {
+    check_output_path(*options.report, "--report");
   }
   for (const HeatRequest& request : options.heat_maps) {
     check_image_path(request.path, "--heatmap");
@@ -172,22 +179,41 @@ Report run_timed(const RenderOptions& options, const ReadyRun& run, const Interr
   return report;
 }
 
+/// A file of text, as far as there is a text.
+class TextFile {
+ public:
+  TextFile(const std::optional<std::filesystem::path>& path, const std::string& text) {
+    if (!text.empty()) {
+      file_.emplace(*path).write(text);
+    }
+  }
+  void commit() {
+    if (file_) {
+      file_->commit();
+    }
+  }
+
+ private:
+  std::optional<OutputFile> file_;
+};
+
+/// What is written of a run beside its picture.
+struct Texts {
+  std::string counters;  ///< for --stats
+  std::string page;      ///< for --report
+};
+
 /// Writes all files before any gets its name, so that a failure leaves none of them.
-void write_files(const RenderRecord& record, OutputFile& picture, const std::string& counters, Interrupt& interrupt) {
+void write_files(const RenderRecord& record, OutputFile& picture, const Texts& texts, Interrupt& interrupt) {
   HeatFiles heat_maps(record);
   TraceFile trace(record);
-  std::optional<OutputFile> stats;
-  if (!counters.empty()) {
-    stats.emplace(*record.options.stats);
-    stats->write(counters);
-  }
+  TextFile stats(record.options.stats, texts.counters), page(record.options.report, texts.page);
   interrupt.set_consequence("perhaps not all outputs were written");
   picture.commit();
   heat_maps.commit();
   trace.commit();
-  if (stats) {
-    stats->commit();
-  }
+  stats.commit();
+  page.commit();
 }
 
 /// What goes to the standard output: counters if they were asked for there, then the closing lines.
@@ -202,6 +228,8 @@ void print_closing(const RenderRecord& record, const std::string& counters, std:
 void write_outputs(RenderRecord record, Interrupt& interrupt, std::ostream& output) {
   std::signal(SIGPIPE, SIG_IGN);  // a pipe that nobody reads is an error to report, and no reason to leave temporary files
   interrupt.set_consequence("the picture was not written");
+  Texts texts{.page = record.options.report ? html::render_page(record, std::cerr) : ""};
+  interrupt.check();
   const Interrupt::EndAtOnce end_at_once(interrupt);
   Stopwatch stopwatch;
   const RenderOptions& options = record.options;
@@ -211,11 +239,14 @@ void write_outputs(RenderRecord record, Interrupt& interrupt, std::ostream& outp
   const ProcessorTime all = processor_time();
   record.seconds.user = all.user;
   record.seconds.system = all.system;
-  const std::string counters = options.stats ? stats_json(record) : "";
+  std::string counters = options.stats ? stats_json(record) : "";
   const bool to_standard_output = options.stats && is_standard_output(*options.stats);
-  write_files(record, picture, to_standard_output ? "" : counters, interrupt);
+  if (!to_standard_output) {
+    texts.counters.swap(counters);
+  }
+  write_files(record, picture, texts, interrupt);
   interrupt.set_consequence("the picture was written, what follows it is incomplete");
-  print_closing(record, to_standard_output ? counters : "", output);
+  print_closing(record, counters, output);
 }
 
 }  // namespace

@@ -44,6 +44,9 @@ void add_study_options(OptionSet& options, RenderOptions& render) {
   options.add_choice<TracerChoice>("--tracer", render.tracer, {{"grid", TracerChoice::grid}, {"embree", TracerChoice::embree}},
                                    "Who finds what a ray hits; embree goes with --strategy=replicated only");
   options.add_path("--stats", "FILE.json", render.stats, "Write all counters");
+  options.add_path(
+      "--report", "FILE.html", render.report,
+      "Write a page to be read in a browser: the picture, heat maps asked for, counters, losses, traffic and memory");
   add_heat_option(options, render.heat_maps);
   add_options(options, render.trace);
   const ViewerAddress standard;
@@ -94,6 +97,9 @@ void check(const OptionSet& options, const RenderOptions& render) {
   check_runner(options, render);
   check_heat(render.heat_maps, render.strategy);
   check_trace(options, render.trace, render.computer.node_count);
+  if (render.report && render.report->extension() != ".html") {
+    throw UsageError("--report=" + render.report->string() + ": expected a file with the ending .html");
+  }
   if (render.pages.count_pages && !render.stats) {
     throw UsageError("--count-pages counts for the --stats file: give --stats=FILE.json too");
   }
@@ -129,6 +135,7 @@ void add_options(OptionSet options, RenderOptions& render) {
       "  dmpc render rings-4-t1 --cache-pages=16 --count-pages --stats=rings.json -o rings.png\n"
       "  dmpc render rings-4-t1 --heatmap=faults:faults.png --heatmap=faults:faults.exr -o rings.png\n"
       "  dmpc render rings-4-t1 --nodes=4 --cache-pages=64 --trace=rings.json --trace-window=10,12 -o rings.png\n"
+      "  dmpc render rings-4-t1 --cache-pages=64 --heatmap=faults:faults.png --report=rings.html -o rings.png\n"
       "  dmpc render rings-3-t1 --strategy=dataflow --nodes=16 --grid-axes=screen -o rings.png\n"
       "  dmpc render teapot-12 --nodes=64 --runner=virtual --machine=ipsc860 --stats=teapot.json -o teapot.png\n"
       "  dmpc render balls-6 --samples=256 --checkpoint=balls.checkpoint --resume -o balls.exr\n"

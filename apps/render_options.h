@@ -20,13 +20,14 @@ namespace dmpc::apps {
 struct RenderOptions : StrategyOptions {
   PictureOptions picture;
   DatabaseOptions database;
-  std::filesystem::path image;                 ///< where the picture goes
-  std::optional<std::filesystem::path> stats;  ///< where the counters go, as JSON
-  std::vector<HeatRequest> heat_maps;          ///< what else is to be shown of each pixel
-  TraceOptions trace;                          ///< what is recorded of the run
-  CheckpointOptions checkpoint;                ///< what is kept on the way
-  std::string viewer;                          ///< HOST:PORT of one that is to show the picture as it comes; empty: none
-  bool quiet = false;                          ///< no progress and no closing lines
+  std::filesystem::path image;                  ///< where the picture goes
+  std::optional<std::filesystem::path> stats;   ///< where the counters go, as JSON
+  std::optional<std::filesystem::path> report;  ///< where the page goes that shows all of it
+  std::vector<HeatRequest> heat_maps;           ///< what else is to be shown of each pixel
+  TraceOptions trace;                           ///< what is recorded of the run
+  CheckpointOptions checkpoint;                 ///< what is kept on the way
+  std::string viewer;                           ///< HOST:PORT of one that is to show the picture as it comes; empty: none
+  bool quiet = false;                           ///< no progress and no closing lines
 };
 
 /// Declares them, and which go together.

@@ -124,6 +124,12 @@ std::string time_text(const Seconds& seconds) {
 
 }  // namespace
 
+std::string computer_text(const RenderRecord& record) {
+  const RenderOptions& options = record.options;
+  const std::string on_machine = options.computer.machine ? " of " + options.computer.machine->name : "";
+  return std::string(name_of(options.strategy)) + ", " + counted(options.computer.node_count, "node") + on_machine;
+}
+
 void print_summary(std::ostream& output, const RenderRecord& record) {
   const Account account = account_of(record.report);
   const StrategyLines special = std::visit([&](const auto& report) { return lines_of(record.options, report); }, record.report);

@@ -20,7 +20,8 @@ TimePart wait_part(std::size_t kind, const WaitKinds& waits) {
   return is_one_of(waits.end_kinds) ? TimePart::idle_at_end : TimePart::other_wait;
 }
 
-/// As people read them.
+}  // namespace
+
 std::string words_of(TimePart part, const WaitKinds& waits) {
   switch (part) {
     case TimePart::data_wait:
@@ -35,8 +36,6 @@ std::string words_of(TimePart part, const WaitKinds& waits) {
       return time_part_names[static_cast<std::size_t>(part)];
   }
 }
-
-}  // namespace
 
 std::uint64_t TimeParts::total_ns() const { return std::accumulate(ns.begin(), ns.end(), std::uint64_t{0}); }
 
@@ -83,17 +82,14 @@ nodes::VirtualTimes sum_of_nodes(const nodes::VirtualReport& report) {
 }
 
 std::string parts_text(const TimeParts& parts, const WaitKinds& waits) {
+  if (parts.total_ns() == 0) {
+    return words_of(TimePart::computing, waits) + " 100.0 %";
+  }
   std::string text;
-  double end = 0;
-  std::int64_t end_tenths = 0;  // rounded: each figure is the distance of two such ends
-  const std::array<double, time_part_count> percent = parts.percent();
+  const std::vector<double> percent = percent_parts(parts.ns);
   for (std::size_t part = 0; part < time_part_count; ++part) {
-    end += percent[part];
-    const std::int64_t begin_tenths = end_tenths;
-    end_tenths = static_cast<std::int64_t>(10 * end + 0.5);
-    if (percent[part] > 0) {
-      const std::string figure = fixed(static_cast<double>(end_tenths - begin_tenths) / 10, 1);
-      text += (text.empty() ? "" : ", ") + words_of(static_cast<TimePart>(part), waits) + " " + figure + " %";
+    if (parts.ns[part] > 0) {
+      text += (text.empty() ? "" : ", ") + words_of(static_cast<TimePart>(part), waits) + " " + fixed(percent[part], 1) + " %";
     }
   }
   return text;

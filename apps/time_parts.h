@@ -43,6 +43,9 @@ struct TimeParts {
   std::array<double, time_part_count> percent() const;
 };
 
+/// As people read them: "page wait".
+std::string words_of(TimePart part, const WaitKinds& waits);
+
 TimeParts parts_of(const nodes::VirtualTimes& times, const WaitKinds& waits);
 
 /// Summed over the nodes without the host: their number times the length of the run.

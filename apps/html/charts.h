@@ -1,0 +1,36 @@
+// Pictures of tables within a page: SVG by gnuplot, in the reader's light or dark.
+#pragma once
+
+#include <iosfwd>
+#include <set>
+#include <string>
+
+#include "apps/plot.h"
+#include "apps/scratch_folder.h"
+#include "apps/study_table.h"
+
+namespace dmpc::apps::html {
+
+/// Draws one after the other. Not thread-safe.
+class Charts {
+ public:
+  /// What cannot be drawn is told to `complaints`, which outlives this, each reason once: a picture is an extra. `program` is
+  /// looked for as draw() does.
+  explicit Charts(std::ostream& complaints, std::string program = "gnuplot");
+
+  /// The plot as a URL of its own bytes; empty if it has nothing to show, or cannot be drawn. Throws core::InputError if no
+  /// temporary file can be written.
+  std::string url_of(Plot plot, const Table& table);
+
+ private:
+  std::ostream& complaints_;
+  std::string program_;
+  std::set<std::string> told_;
+  ScratchFolder folder_;
+};
+
+/// gnuplot's SVG with a style of its own in front: no background, and what is black on white is light on dark where the reader's
+/// page is.
+std::string themed(std::string svg);
+
+}  // namespace dmpc::apps::html

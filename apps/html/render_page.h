@@ -1,0 +1,15 @@
+// The page of --report: what a render was, showed, took and lost.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+#include "apps/stats.h"
+
+namespace dmpc::apps::html {
+
+/// The whole document. What could not be drawn is told to `complaints`. Throws core::InputError if no temporary file can be
+/// written.
+std::string render_page(const RenderRecord& record, std::ostream& complaints);
+
+}  // namespace dmpc::apps::html
