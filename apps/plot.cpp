@@ -123,8 +123,8 @@ class Script {
            (is_small() ? "480,340 noenhanced font 'sans-serif,13'" : "960,600 noenhanced font 'sans-serif,14'") +
            " background '#ffffff'\n"
            "set output " +
-           quoted(plot_.name + ".svg") + "\nset title " + quoted(plot_.title) +
-           "\nset key " + key() + "\n" +
+           quoted(plot_.name + ".svg") + "\nset title " + quoted(plot_.title) + "\nset key " + key() +
+           "\n"
            "set grid ytics linecolor '#dddddd'\n";
   }
 
