@@ -75,13 +75,25 @@ std::vector<PlotSeries> series_of(const std::vector<Column>& columns) {
 // ---- Losses
 // --------------------------------------------------------------------------------------------------------------------
 
-/// What a node's time is made of, in words.
+/// Numbers of the parts of which any node has some; computing is always among them.
+std::vector<std::size_t> parts_found(const nodes::VirtualReport& report, const WaitKinds& waits) {
+  const TimeParts all = parts_of(sum_of_nodes(report), waits);
+  std::vector<std::size_t> found;
+  for (std::size_t part = 0; part < time_part_count; ++part) {
+    if (all.ns[part] > 0 || part == static_cast<std::size_t>(TimePart::computing)) {
+      found.push_back(part);
+    }
+  }
+  return found;
+}
+
+/// What nodes' time is made of, in words.
 std::vector<std::string> part_names(const Account& account) {
   if (!account.virtual_time) {
     return {"computing", "asleep", "waiting for a core"};
   }
   std::vector<std::string> names;
-  for (std::size_t part = 0; part < time_part_count; ++part) {
+  for (const std::size_t part : parts_found(*account.virtual_time, account.waits)) {
     names.push_back(words_of(static_cast<TimePart>(part), account.waits));
   }
   return names;
@@ -89,8 +101,12 @@ std::vector<std::string> part_names(const Account& account) {
 
 std::vector<std::uint64_t> parts_of_node(const Account& account, std::size_t node) {
   if (account.virtual_time) {
-    const TimeParts parts = parts_of(account.virtual_time->nodes[node], account.waits);
-    return {parts.ns.begin(), parts.ns.end()};
+    const TimeParts all = parts_of(account.virtual_time->nodes[node], account.waits);
+    std::vector<std::uint64_t> parts;
+    for (const std::size_t part : parts_found(*account.virtual_time, account.waits)) {
+      parts.push_back(all.ns[part]);
+    }
+    return parts;
   }
   const nodes::NodeCounters& counters = account.nodes[node].counters;
   const std::uint64_t known_ns = counters.busy_ns + counters.asleep_ns;

@@ -39,6 +39,14 @@ TEST_CASE("a share of nothing is nothing") {
   CHECK(percent(7, 7) == "100.00 %");
 }
 
+TEST_CASE("parts in percent add up to a hundred as they stand") {
+  const auto percent = [](std::vector<std::uint64_t> parts) { return percent_parts(parts); };
+  CHECK(percent({1, 1, 1}) == std::vector<double>{33.3, 33.4, 33.3});
+  CHECK(percent({0, 7}) == std::vector<double>{0, 100});
+  CHECK(percent({0, 0}) == std::vector<double>{0, 0});
+  CHECK(percent({}).empty());
+}
+
 TEST_CASE("one thing stands in the singular") {
   CHECK(counted(0, "ray") == "0 rays");
   CHECK(counted(1, "ray") == "1 ray");

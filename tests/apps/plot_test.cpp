@@ -123,4 +123,26 @@ TEST_CASE("a plot of what the table has not, of too many colours, or of bars and
   is_refused(plot);
 }
 
+TEST_CASE("a small plot has its legend below, and none for a single series") {
+  Plot plot = curves();
+  CHECK(contains(script(plot), "svg size 960,600"));
+  CHECK(contains(script(plot), "set key outside right top"));
+  plot.size = PlotSize::small;
+  CHECK(contains(script(plot), "svg size 480,340"));
+  CHECK(contains(script(plot), "set key bmargin"));
+  plot.series.pop_back();
+  CHECK(contains(script(plot), "set key off"));
+}
+
+TEST_CASE("a small plot of many bars names every so many") {
+  Table table("Many", {{"node"}, {"time", "s", 1}});
+  for (std::uint64_t node = 0; node < 30; ++node) {
+    table.add_row({node, 1.0});
+  }
+  Plot plot = apps::curves("many", "Many", "node", {}, {}, {{.title = "time", .column = "time", .mark = PlotMark::bars}});
+  CHECK(contains(script(plot, table), "'28' 29, '29' 30)"));
+  plot.size = PlotSize::small;
+  CHECK(contains(script(plot, table), "'26' 27, '28' 29)"));
+}
+
 }  // namespace dmpc::tests

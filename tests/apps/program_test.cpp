@@ -225,6 +225,16 @@ TEST_CASE("a bad machine file ends with status 1, its name, the key and what was
   CHECK(folder.entry_count() == 1);
 }
 
+TEST_CASE("a page is written beside the picture, or neither is") {
+  const TemporaryFolder folder;
+  const std::string page = folder / "a.html";
+  const Result result = run({"render", "tetra-1", "--resolution=8x8", "--report", page, "-o", folder / "a.png"});
+  CHECK(result.status == 0);
+  CHECK(contains(file_text(page), "Render of tetra-1"));
+  CHECK(run({"render", "tetra-1", "--report", folder / "no/a.html", "-o", folder / "b.png"}).status == 1);
+  CHECK(folder.entry_count() == 2);
+}
+
 TEST_CASE("no output may fall on the machine file") {
   const TemporaryFolder folder;
   const std::string machine = folder / "mine.json";

@@ -1,0 +1,58 @@
+#include "apps/html/render_page.h"
+
+#include <doctest/doctest.h>
+
+#include <sstream>
+#include <string>
+
+#include "tests/apps/rendered.h"
+
+namespace dmpc::apps::html {
+
+namespace {
+
+std::string page_of(const RenderOptions& options) {
+  std::ostringstream complaints;
+  std::string text = render_page(Rendered(options).record(), complaints);
+  CHECK(complaints.str().empty());
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("the page of a render has its picture, losses, nodes, traffic and memory") {
+  for (const RenderOptions& options : {small(), modelled(Strategy::dataflow), small(Strategy::replicated)}) {
+    const std::string text = page_of(options);
+    for (const char* const part : {"Render of balls-1", "16x12 pixels", "Where each node&#39;s time went", "What each node did",
+                                   "Packets by kind", "Memory of each node", "data:image/png", "data:image/svg+xml"}) {
+      CHECK_MESSAGE(contains(text, part), part);
+    }
+    CHECK_FALSE(contains(text, "What each pixel took"));
+  }
+}
+
+TEST_CASE("links and the run's hash are shown of modelled machines alone") {
+  CHECK(contains(page_of(modelled()), "The busiest links"));
+  CHECK(contains(page_of(modelled()), "<dt>Run</dt>"));
+  CHECK_FALSE(contains(page_of(small()), "The busiest links"));
+}
+
+TEST_CASE("heat maps are shown if they are asked for") {
+  RenderOptions options = small();
+  options.heat_maps = {{nodes::HeatKind::rays, "r.png"}, {nodes::HeatKind::faults, "f.exr"}};
+  const std::string text = page_of(options);
+  CHECK(contains(text, "Heat map of rays"));
+  CHECK(contains(text, "Heat map of faults"));
+  CHECK_FALSE(contains(text, "Heat map of depth"));
+}
+
+TEST_CASE("a scene's name is no markup") {
+  Rendered rendered(small());
+  rendered.options.picture.scene = "<script>alert(1)</script>.nff";
+  std::ostringstream complaints;
+  const std::string text = render_page(rendered.record(), complaints);
+  CHECK_FALSE(contains(text, "<script"));
+  CHECK(contains(text, "&lt;script&gt;alert(1)"));
+}
+
+}  // namespace dmpc::apps::html
