@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "apps/html/sweep_page.h"
 #include "apps/output_file.h"
 #include "apps/paper_data.h"
 #include "apps/paper_plots.h"
@@ -47,17 +48,41 @@ Pictures draw_all(const std::vector<NamedTable>& tables, const std::filesystem::
   return pictures;
 }
 
-std::string head_of(const PaperReport& report) {
+constexpr const char* title = "The tables of 1994, regenerated";
+
+/// What stands before the tables.
+std::vector<std::string> introduction(const PaperReport& report) {
   const std::string side = std::to_string(report.resolution), fitted_side = std::to_string(paper_resolution);
-  std::string text =
-      "# The tables of 1994, regenerated\n\nD. Badouel, K. Bouatouch, T. Priol, \"Distributing Data and Control for Ray Tracing "
-      "in Parallel\", on the modelled iPSC/2 (`dmpc machine ipsc2`), pictures of " +
-      side + "x" + side + " pixels.\n";
+  std::vector<std::string> paragraphs = {
+      "D. Badouel, K. Bouatouch, T. Priol, \"Distributing Data and Control for Ray Tracing in Parallel\", on the modelled iPSC/2 "
+      "(`dmpc machine ipsc2`), pictures of " +
+      side + "x" + side + " pixels."};
   if (report.resolution != paper_resolution) {
-    text += "\nThe machine's prices are fitted to pictures of " + fitted_side + "x" + fitted_side +
-            " pixels: those of another size show how the study works, and no more.\n";
+    paragraphs.push_back("The machine's prices are fitted to pictures of " + fitted_side + "x" + fitted_side +
+                         " pixels: those of another size show how the study works, and no more.");
   }
-  return text + (report.is_complete ? "" : "\nUnfinished: rows are missing.\n");
+  if (!report.is_complete) {
+    paragraphs.push_back("Unfinished: rows are missing.");
+  }
+  return paragraphs;
+}
+
+std::string head_of(const PaperReport& report) {
+  std::string text = std::string("# ") + title + "\n";
+  for (const std::string& paragraph : introduction(report)) {
+    text += "\n" + paragraph + "\n";
+  }
+  return text;
+}
+
+std::vector<Plot> plots_of(const std::string& table) {
+  std::vector<Plot> plots;
+  for (const PaperPlot& of_table : paper_plots()) {
+    if (of_table.table == table) {
+      plots.push_back(of_table.plot);
+    }
+  }
+  return plots;
 }
 
 std::string text_with(const PaperReport& report, const Pictures& pictures, const std::vector<std::string>& complaints) {
@@ -82,6 +107,14 @@ std::vector<std::string> write_report(const PaperReport& report, const std::file
   const Pictures pictures = draw_all(report.tables, folder, complaints);
   write_file(folder / "report.md", text_with(report, pictures, complaints));
   return complaints;
+}
+
+std::string page_of(const PaperReport& report, std::ostream& complaints) {
+  std::vector<html::SweepPart> parts;
+  for (const NamedTable& named : report.tables) {
+    parts.push_back({named.table.title(), named.table, plots_of(named.name)});
+  }
+  return html::sweep_page(title, introduction(report), parts, complaints);
 }
 
 }  // namespace dmpc::apps

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -29,5 +30,9 @@ std::string text_of(const PaperReport& report);
 /// as report.md the text with links to the pictures. Returns sentences about pictures that could not be drawn, which stand in
 /// report.md, too. Throws core::InputError for what cannot be written.
 std::vector<std::string> write_report(const PaperReport& report, const std::filesystem::path& folder);
+
+/// The same as a page. What could not be drawn is told to `complaints`. Throws core::InputError if no temporary file can be
+/// written.
+std::string page_of(const PaperReport& report, std::ostream& complaints);
 
 }  // namespace dmpc::apps

@@ -4,6 +4,7 @@
 
 #include "apps/option_values.h"
 #include "apps/region_options.h"
+#include "apps/table_options.h"
 #include "apps/viewer_connection.h"
 #include "core/expect.h"
 #include "dataflow/packets.h"
@@ -44,9 +45,7 @@ void add_study_options(OptionSet& options, RenderOptions& render) {
   options.add_choice<TracerChoice>("--tracer", render.tracer, {{"grid", TracerChoice::grid}, {"embree", TracerChoice::embree}},
                                    "Who finds what a ray hits; embree goes with --strategy=replicated only");
   options.add_path("--stats", "FILE.json", render.stats, "Write all counters");
-  options.add_path(
-      "--report", "FILE.html", render.report,
-      "Write a page to be read in a browser: the picture, heat maps asked for, counters, losses, traffic and memory");
+  add_report_option(options, render.report, "with the picture, heat maps asked for, counters, losses, traffic and memory");
   add_heat_option(options, render.heat_maps);
   add_options(options, render.trace);
   const ViewerAddress standard;
@@ -97,9 +96,6 @@ void check(const OptionSet& options, const RenderOptions& render) {
   check_runner(options, render);
   check_heat(render.heat_maps, render.strategy);
   check_trace(options, render.trace, render.computer.node_count);
-  if (render.report && render.report->extension() != ".html") {
-    throw UsageError("--report=" + render.report->string() + ": expected a file with the ending .html");
-  }
   if (render.pages.count_pages && !render.stats) {
     throw UsageError("--count-pages counts for the --stats file: give --stats=FILE.json too");
   }

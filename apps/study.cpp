@@ -10,6 +10,7 @@
 
 #include "apps/distinct_files.h"
 #include "apps/figures.h"
+#include "apps/html/sweep_page.h"
 #include "apps/load_scene.h"
 #include "apps/machines.h"
 #include "apps/output_file.h"
@@ -50,12 +51,18 @@ void check_output(const StudyOptions& options) {
   if (options.output) {
     outputs.push_back({"-o", *options.output});
   }
+  if (options.report) {
+    outputs.push_back({"--report", *options.report});
+  }
   if (options.plots) {
     add_plot_files(options, outputs);
   }
   check_distinct(inputs, outputs);
   if (options.output) {
     check_output_path(*options.output, "-o");
+  }
+  if (options.report) {
+    check_output_path(*options.report, "--report");
   }
 }
 
@@ -89,10 +96,23 @@ std::string film_note(const StudyRuns& runs) {
   return "Film of every run, " + std::to_string(runs.count()) + " in all: " + hash_text(*runs.film_hash()) + ".";
 }
 
+/// Of --report; empty without.
 template <class OneStudy>
-void write(const OneStudy& study, Table& table, const StudyRuns& runs, const StudyOptions& options, std::ostream& output) {
-  table.add_note(film_note(runs));
+std::string page_of(const OneStudy& study, const Table& table, const StudyOptions& options) {
+  if (!options.report) {
+    return "";
+  }
+  const html::SweepPart part{"", table, study.plots()};
+  return html::sweep_page("Study " + std::string(OneStudy::name) + " of " + options.picture.scene, {}, {&part, 1}, std::cerr);
+}
+
+template <class OneStudy>
+void write(const OneStudy& study, const Table& table, const std::string& page, const StudyOptions& options,
+           std::ostream& output) {
   write_to(options.output, text_of(table, options.format), output, "the table");
+  if (options.report) {
+    write_file(*options.report, page);
+  }
   if (options.plots) {
     PlotFolder(*options.plots, std::cerr).add(table, data_file_of(OneStudy::name), study.plots());
   }
@@ -134,11 +154,13 @@ void carry_out(const OneStudy& study, const StudyOptions& options, Interrupt& in
     interrupt.set_consequence(failure          ? "the table has the rows finished before"
                               : options.output ? "nothing was written"
                                                : "the table is incomplete");
+    table.add_note(film_note(runs));
+    const std::string page = page_of(study, table, options);  // its temporary files are gone before a signal ends all at once
     std::optional<Interrupt::EndAtOnce> end_at_once;
     if (!failure) {
       end_at_once.emplace(interrupt);
     }
-    write(study, table, runs, options, output);
+    write(study, table, page, options, output);
   }
   if (failure) {
     std::rethrow_exception(failure);

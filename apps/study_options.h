@@ -27,6 +27,7 @@ struct StudyOptions {
   DatabaseOptions database;
   TableFormat format = TableFormat::markdown;
   std::optional<std::filesystem::path> output;  ///< stdout if not given
+  std::optional<std::filesystem::path> report;  ///< a page with the table and its pictures
   std::optional<std::filesystem::path> plots;   ///< a folder for pictures and what they are drawn from
   std::string machine_name;                     ///< as given on the command line, if it was
   bool quiet = false;                           ///< no progress

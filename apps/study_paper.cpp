@@ -15,6 +15,7 @@
 #include "apps/paper_runs.h"
 #include "apps/paper_sensitivity.h"
 #include "apps/paper_tables.h"
+#include "apps/table_options.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -67,6 +68,9 @@ void publish(const PaperReport& report, const PaperStudyOptions& options, std::o
       std::cerr << "dmpc: " << complaint << std::endl;
     }
   }
+  if (options.report) {
+    write_file(*options.report, page_of(report, std::cerr));
+  }
   finish_output(output, "the report");
 }
 
@@ -78,6 +82,7 @@ void add_options(OptionSet options, PaperStudyOptions& paper) {
                    "Also change each figure of the machine by a fifth, and show what it does: some minutes more");
   options.add_path("-o,--output", "FOLDER", paper.output,
                    "Where report.md goes, with each table as CSV and JSON and pictures by gnuplot");
+  add_report_option(options, paper.report, "with the tables and their plots");
   options.add_quiet(paper.quiet);
   options.set_examples(
       "Examples:\n"
@@ -89,6 +94,9 @@ void add_options(OptionSet options, PaperStudyOptions& paper) {
 int study_paper_command(const PaperStudyOptions& options, Interrupt& interrupt, std::ostream& output) {
   if (options.output) {
     make_output_folder(*options.output, "-o");
+  }
+  if (options.report) {
+    check_output_path(*options.report, "--report");
   }
   Catalogue catalogue = catalogue_of(options.resolution);
   const std::vector<VariedRuns> varied = options.has_sensitivity ? add_variations(catalogue) : std::vector<VariedRuns>();

@@ -19,6 +19,7 @@ struct PaperStudyOptions {
   std::uint32_t resolution = paper_resolution;
   bool has_sensitivity = false;                 ///< also change each figure of the machine and see what that does
   std::optional<std::filesystem::path> output;  ///< a folder for the report, its tables and plots; without it the report alone
+  std::optional<std::filesystem::path> report;  ///< a page with the tables and their pictures
   bool quiet = false;                           ///< no progress
 };
 
@@ -30,7 +31,8 @@ void add_options(OptionSet options, PaperStudyOptions& paper);
 int study_paper_command(const PaperStudyOptions& options, Interrupt& interrupt, std::ostream& output);
 
 /// Carries out the catalogue's runs, as many at once as there are cores, and writes the report as Markdown to `output`; then,
-/// with options.output, the report with its pictures and each table as CSV and JSON to that folder, which exists. Without varied
+/// with options.output, the report with its pictures and each table as CSV and JSON to that folder, which exists, and with
+/// options.report a page. Without varied
 /// runs there is no table of the sensitivity. Progress goes to stderr if that is a terminal; a sentence on pictures that could
 /// not be drawn goes there always. After a signal, or whatever a run throws, all of this has the rows that are known and says how
 /// many are missing; then throws Interrupted, or rethrows. Throws core::InputError for what cannot be written,

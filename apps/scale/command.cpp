@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/distinct_files.h"
+#include "apps/html/sweep_page.h"
 #include "apps/machine_load.h"
 #include "apps/option_values.h"
 #include "apps/output_file.h"
@@ -28,6 +29,9 @@ void check_files(const ScaleOptions& options) {
   if (options.output) {
     outputs.push_back({"-o", *options.output});
   }
+  if (options.report) {
+    outputs.push_back({"--report", *options.report});
+  }
   if (options.plots) {
     make_output_folder(*options.plots, "--plots");
     outputs.push_back({"--plots", *options.plots / data_file});
@@ -40,6 +44,9 @@ void check_files(const ScaleOptions& options) {
   if (options.output) {
     check_output_path(*options.output, "-o");
   }
+  if (options.report) {
+    check_output_path(*options.report, "--report");
+  }
 }
 
 void publish(const std::vector<ScaleResult>& results, bool is_complete, double load, const ScaleOptions& options,
@@ -50,6 +57,10 @@ void publish(const std::vector<ScaleResult>& results, bool is_complete, double l
   }
   table.add_note(load_note(load));
   write_to(options.output, text_of(table, options.format), output, "the table");
+  if (options.report) {
+    const html::SweepPart part{"", table, scale_plots(options.settings)};
+    write_file(*options.report, html::sweep_page("Study scale", {}, {&part, 1}, std::cerr));
+  }
   if (options.plots) {
     PlotFolder(*options.plots, std::cerr).add(table, data_file, scale_plots(options.settings));
   }
@@ -128,6 +139,7 @@ void add_options(OptionSet set, ScaleOptions& options) {
   add_subject(set, options.settings);
   add_computer(set, options.settings);
   add_format_option(set, options.format);
+  add_report_option(set, options.report, "with the table and its plots");
   set.add_path("--plots", "FOLDER", options.plots, "Where pictures by gnuplot go, with their scripts and the table as CSV");
   set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
   set.add_quiet(options.quiet);

@@ -16,6 +16,7 @@ struct ScaleOptions {
   ScaleSettings settings;
   TableFormat format = TableFormat::markdown;
   std::optional<std::filesystem::path> output;  ///< stdout if not given
+  std::optional<std::filesystem::path> report;  ///< a page with the table and its pictures
   std::optional<std::filesystem::path> plots;   ///< a folder for pictures by gnuplot and what they are drawn from
   bool quiet = false;                           ///< no progress
 };

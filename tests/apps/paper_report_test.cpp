@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cstdlib>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,15 @@ TEST_CASE("a report in a folder has each table twice, each picture with its scri
       CHECK(std::filesystem::file_size(folder / (name + extension)) > 100);
     }
   }
+}
+
+TEST_CASE("a page of the report has a section for each table, with its pictures") {
+  std::ostringstream complaints;
+  const std::string page = page_of(report_of(16), complaints);
+  CHECK(contains(page, "Table 3"));
+  CHECK(contains(page, "fitted to pictures of 512x512 pixels"));
+  CHECK(contains(page, "alt=\"Plot: Where the nodes&#39; time goes, computing apart\""));
+  CHECK(complaints.str().empty());
 }
 
 TEST_CASE("without gnuplot the report is complete but for the pictures, and one sentence says so") {

@@ -131,6 +131,19 @@ TEST_CASE("pictures of a study go to a folder that is made for them, beside the 
   CHECK_THROWS_AS(output_of(options), core::InputError);
 }
 
+TEST_CASE("a page of a study has its table and pictures, and no place where another output goes") {
+  const TemporaryFolder folder;
+  StudyOptions options = small_study();
+  options.report = folder / "page.html";
+  output_of(options);
+  const std::string page = file_text(folder / "page.html");
+  CHECK(contains(page, "Study traffic of balls-1"));
+  CHECK(contains(page, "alt=\"Plot: Bytes that travel\""));
+  CHECK(contains(page, "<li>Film of every run, 6 in all"));
+  options.output = options.report;
+  CHECK_THROWS_AS(output_of(options), core::UsageError);
+}
+
 TEST_CASE("a table may lie in the folder of its pictures, but not in place of one of their files or of the folder") {
   const TemporaryFolder folder;
   StudyOptions options = small_study();
