@@ -120,12 +120,27 @@ class Script {
            "set datafile separator ','\n"
            "set datafile missing NaN\n"
            "set terminal svg size " +
-           (is_small() ? "480,340 noenhanced font 'sans-serif,13'" : "960,600 noenhanced font 'sans-serif,14'") +
+           (is_small() ? "480," + std::to_string(small_height()) + " noenhanced font 'sans-serif,13'"
+                       : "960,600 noenhanced font 'sans-serif,14'") +
            " background '#ffffff'\n"
            "set output " +
            quoted(plot_.name + ".svg") + "\nset title " + quoted(plot_.title) + "\nset key " + key() +
            "\n"
            "set grid ytics linecolor '#dddddd'\n";
+  }
+
+  /// So high that legend and names below leave the plot its room.
+  std::size_t small_height() const {
+    constexpr std::size_t plot_height = 270, line_height = 18, letter_width = 7;
+    std::size_t longest_name = 0, longest_title = 0;
+    for (const std::string& name : places_) {
+      longest_name = std::max(longest_name, name.size());
+    }
+    for (const PlotSeries* series : drawn_) {
+      longest_title = std::max(longest_title, series->title.size());
+    }
+    const std::size_t titles_in_line = longest_title > 20 ? 1 : 2;
+    return plot_height + line_height * ((drawn_.size() + 1) / titles_in_line) + letter_width * longest_name;
   }
 
   std::string key() const {

@@ -36,7 +36,7 @@ struct PlotAxis {
   std::optional<double> least = std::nullopt, most = std::nullopt;  ///< nothing: as the figures ask for
 };
 
-/// large: a file of its own. small: part of a page, legible on a telephone, with the legend below.
+/// large: a file of its own. small: part of a page, legible on a telephone, with the legend below, and as high as that needs.
 enum class PlotSize : std::uint8_t { large, small };
 
 /// What is drawn. The series are all bars, or none is.

@@ -112,7 +112,7 @@ void Page::add_table(const Table& table) {
 
 void Page::add_plot(const Plot& plot, const Table& table) {
   if (const std::string url = charts_.url_of(plot, table); !url.empty()) {
-    add_figure(url, "class=\"plot\" width=\"480\" height=\"340\"", "Plot: " + plot.title, "");
+    add_figure(url, "class=\"plot\"", "Plot: " + plot.title, "");
   }
 }
 

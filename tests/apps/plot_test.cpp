@@ -128,7 +128,7 @@ TEST_CASE("a small plot has its legend below, and none for a single series") {
   CHECK(contains(script(plot), "svg size 960,600"));
   CHECK(contains(script(plot), "set key outside right top"));
   plot.size = PlotSize::small;
-  CHECK(contains(script(plot), "svg size 480,340"));
+  CHECK(contains(script(plot), "svg size 480,288"));
   CHECK(contains(script(plot), "set key bmargin"));
   plot.series.pop_back();
   CHECK(contains(script(plot), "set key off"));
