@@ -26,7 +26,7 @@ constexpr std::array all_kinds = {HeatKind::faults, HeatKind::references, HeatKi
 constexpr int side = 12;
 
 /// Mirrors, glass, shadows and some sky; two samples a pixel.
-Subject subject() {
+Subject heated() {
   core::BuildOptions options;
   options.page_size_bytes = 512;
   return Subject(core::built_in_scene(core::parse_scene_name("balls-2")),
@@ -57,25 +57,25 @@ svm::RunOptions fixed_order(std::uint32_t node_count) {
   return options;
 }
 
-HeatMap svm_map(const Subject& subject, svm::RunOptions options) {
+HeatMap svm_map(const Subject& heated, svm::RunOptions options) {
   HeatMap map = empty_map();
   options.heat = &map;
-  CHECK(outcome_of(run_svm(subject, options)) == subject.outcome());
+  CHECK(outcome_of(run_svm(heated, options)) == heated.outcome());
   return map;
 }
 
-HeatMap replicated_map(const Subject& subject, svm::RunOptions options) {
+HeatMap replicated_map(const Subject& heated, svm::RunOptions options) {
   HeatMap map = empty_map(false);
   options.cache_pages = std::nullopt;
   options.heat = &map;
-  CHECK(outcome_of(run_replicated(subject, options)) == subject.outcome());
+  CHECK(outcome_of(run_replicated(heated, options)) == heated.outcome());
   return map;
 }
 
-HeatMap dataflow_map(const Subject& subject, dataflow::RunOptions options) {
+HeatMap dataflow_map(const Subject& heated, dataflow::RunOptions options) {
   HeatMap map = empty_map(false);
   options.heat = &map;
-  CHECK(outcome_of(run_dataflow(subject, options)) == subject.outcome());
+  CHECK(outcome_of(run_dataflow(heated, options)) == heated.outcome());
   return map;
 }
 
@@ -96,7 +96,7 @@ void check_time(std::uint64_t sum_ps, std::uint64_t expected_ns, std::uint32_t n
 }  // namespace
 
 TEST_CASE("over all pixels the heat of pages adds up to the run's counters, with waiting pixels, too") {
-  const Subject small = subject();
+  const Subject small = heated();
   for (const std::uint32_t node_count : {1U, 2U, 5U}) {
     HeatMap map = empty_map();
     svm::RunOptions options = small_cache(node_count);
@@ -113,7 +113,7 @@ TEST_CASE("over all pixels the heat of pages adds up to the run's counters, with
 }
 
 TEST_CASE("in virtual time the pixels' times add up to the nodes' computing") {
-  const Subject small = subject();
+  const Subject small = heated();
   HeatMap map = empty_map(false);
   svm::RunOptions options = small_cache(3);
   options.heat = &map;
@@ -123,7 +123,7 @@ TEST_CASE("in virtual time the pixels' times add up to the nodes' computing") {
 }
 
 TEST_CASE("where rays travel the pixels' virtual times are all computing but unpacking") {
-  const Subject small = subject();
+  const Subject small = heated();
   HeatMap map = empty_map(false);
   dataflow::RunOptions options{.node_count = 3, .machine = priced_machine(), .heat = &map};
   const dataflow::Report report = run_dataflow(small, options);
@@ -138,7 +138,7 @@ TEST_CASE("where rays travel the pixels' virtual times are all computing but unp
 }
 
 TEST_CASE("rays and depths of a pixel are the same for every strategy and number of nodes") {
-  const Subject small = subject();
+  const Subject small = heated();
   const HeatMap one = svm_map(small, small_cache(1));
   CHECK(values(one, HeatKind::depth).size() == side * side);
   for (const std::uint32_t node_count : {2U, 5U}) {
@@ -152,7 +152,7 @@ TEST_CASE("rays and depths of a pixel are the same for every strategy and number
 }
 
 TEST_CASE("references and distinct pages of a pixel are the same for every number of nodes and schedule") {
-  const Subject small = subject();
+  const Subject small = heated();
   const HeatMap one = svm_map(small, small_cache(1));
   svm::RunOptions disturbed = small_cache(5);
   disturbed.chaos = nodes::chaos_of(7);
@@ -164,7 +164,7 @@ TEST_CASE("references and distinct pages of a pixel are the same for every numbe
 }
 
 TEST_CASE("with pixels that stay and wait alone, threads and virtual time fault for the same pixels on the same nodes") {
-  const Subject small = subject();
+  const Subject small = heated();
   svm::RunOptions modelled = fixed_order(4);
   modelled.machine = priced_machine();
   const HeatMap threads = svm_map(small, fixed_order(4)), virtually = svm_map(small, modelled);
@@ -174,7 +174,7 @@ TEST_CASE("with pixels that stay and wait alone, threads and virtual time fault 
 }
 
 TEST_CASE("in virtual time every kind is the same again") {
-  const Subject small = subject();
+  const Subject small = heated();
   svm::RunOptions options = small_cache(4);
   options.machine = priced_machine();
   const HeatMap first = svm_map(small, options), second = svm_map(small, options);
@@ -187,7 +187,7 @@ TEST_CASE("in virtual time every kind is the same again") {
 }
 
 TEST_CASE("where rays travel a pixel's node is the same in every run") {
-  const Subject small = subject();
+  const Subject small = heated();
   const dataflow::RunOptions calm{.node_count = 4};
   dataflow::RunOptions disturbed = calm;
   disturbed.chaos = nodes::chaos_of(5);
@@ -197,7 +197,7 @@ TEST_CASE("where rays travel a pixel's node is the same in every run") {
 }
 
 TEST_CASE("a metered node uses exactly the memory of its plan") {
-  const Subject small = subject();
+  const Subject small = heated();
   HeatMap map = empty_map();
   svm::RunOptions options = small_cache(3);
   options.heat = &map;
@@ -221,7 +221,7 @@ TEST_CASE("a refined picture's heat is that of all its passes") {
 }
 
 TEST_CASE("a heat map of another size than the picture's is an error") {
-  const Subject small = subject();
+  const Subject small = heated();
   HeatMap map(side * side - 1, all_kinds);
   svm::RunOptions options = small_cache(2);
   options.heat = &map;

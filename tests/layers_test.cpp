@@ -123,6 +123,18 @@ Names violations_in(const std::string& file, const std::string& text) {
   return violations(file, stream);
 }
 
+/// Whether what `text` includes first is the header of the same name: so that compiles alone.
+bool begins_with_own_header(const std::string& file, std::istream& text) {
+  std::string line;
+  while (std::getline(text, line)) {
+    const std::string_view header = included_header(line);
+    if (!header.empty()) {
+      return header == fs::path(file).replace_extension(".h").generic_string();
+    }
+  }
+  return false;
+}
+
 bool is_source(const fs::path& path) { return path.extension() == ".h" || path.extension() == ".cpp"; }
 
 /// All sources, relative to the root.
@@ -153,6 +165,20 @@ TEST_CASE("every include goes downwards and every foreign library has its one fi
       FAIL_CHECK(violation);
     }
   }
+}
+
+TEST_CASE("a header compiles alone, since its own source includes it before any other") {
+  const fs::path root = DMPC_SOURCE_DIR;
+  for (const std::string& file : source_files(root)) {
+    if (fs::path(file).extension() == ".cpp" && fs::exists((root / file).replace_extension(".h"))) {
+      CAPTURE(file);
+      std::ifstream text(root / file);
+      CHECK(begins_with_own_header(file, text));
+    }
+  }
+  std::istringstream late("// A film.\n#include <vector>\n#include \"core/film.h\"\n"), never("int x;\n");
+  CHECK_FALSE(begins_with_own_header("core/film.cpp", late));
+  CHECK_FALSE(begins_with_own_header("core/film.cpp", never));
 }
 
 TEST_CASE("an upward include is found, with file and line") {

@@ -18,7 +18,7 @@
 namespace dmpc::tests {
 namespace {
 
-constexpr std::uint32_t node_counts[] = {1, 2, 5, 16};
+constexpr std::uint32_t virtual_node_counts[] = {1, 2, 5, 16};
 constexpr nodes::TopologyKind topologies[] = {nodes::TopologyKind::hypercube, nodes::TopologyKind::torus,
                                               nodes::TopologyKind::fat_tree};
 
@@ -83,7 +83,7 @@ svm::RunOptions fixed_assignment(std::uint32_t node_count, std::uint32_t cache_p
 TEST_CASE("virtual time: svm, replicated and dataflow give the reference's picture on any nodes and topology") {
   for (const core::Scene& scene : {mirrors_and_glass(), built_in("gears-1")}) {
     const Subject subject(scene, {20, 16}, {.page_size_bytes = 512});
-    for (const std::uint32_t nodes : node_counts) {
+    for (const std::uint32_t nodes : virtual_node_counts) {
       for (const nodes::TopologyKind topology : topologies) {
         CAPTURE(scene.name);
         CAPTURE(nodes);
@@ -109,7 +109,7 @@ TEST_CASE("virtual time: a refined picture is the same, and equal runs have equa
 
 TEST_CASE("virtual time: starved runs give the same picture") {
   const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
-  for (const std::uint32_t nodes : node_counts) {
+  for (const std::uint32_t nodes : virtual_node_counts) {
     CAPTURE(nodes);
     check(subject, run_svm(subject, {.node_count = nodes, .cache_pages = 1, .in_flight = 1, .machine = slow_network()}));
     check(subject, run_svm(subject, {.node_count = nodes, .cache_pages = 1, .in_flight = 64, .machine = nodes::Machine{}}));
@@ -178,7 +178,7 @@ TEST_CASE("virtual time: another cost makes another run and the same film") {
 
 TEST_CASE("virtual time: under fixed assignment every node has the faults that it has on threads") {
   const Subject subject(built_in("teapot-4"), {24, 24}, {.page_size_bytes = 512});
-  for (const std::uint32_t nodes : node_counts) {
+  for (const std::uint32_t nodes : virtual_node_counts) {
     for (const std::uint32_t cache_pages : {1U, 4U, 20U}) {
       svm::RunOptions options = fixed_assignment(nodes, cache_pages);
       const std::vector<std::uint64_t> on_threads = faults_by_node(run_svm(subject, options));

@@ -51,7 +51,7 @@ std::string sentence_on(const Summary& summary) {
 
 }  // namespace
 
-Verdict verdict_on(const Ablation& ablation) {
+AblationVerdict verdict_on(const Ablation& ablation) {
   const RatioSpread times = ratio_of(ablation.seconds);
   const double doubt = std::max(times.most - times.least, ablation.noise);
   const bool is_clear =
@@ -60,7 +60,7 @@ Verdict verdict_on(const Ablation& ablation) {
   return {effect_of(ratio), !is_clear, ratio};
 }
 
-std::string text_of(const Verdict& verdict) {
+std::string text_of(const AblationVerdict& verdict) {
   const std::string effect = verdict.effect == Effect::wins ? "wins" : verdict.effect == Effect::loses ? "loses" : "even";
   return effect + (verdict.is_by_work ? " (work)" : " (time)");
 }

@@ -16,7 +16,7 @@ inline constexpr double win_share = 0.03, loss_share = 0.01;
 /// What a skip does to one scene.
 enum class Effect : std::uint8_t { wins, even, loses };
 
-struct Verdict {
+struct AblationVerdict {
   Effect effect = Effect::even;
   bool is_by_work = false;  ///< times differ too much from round to round to tell
   double ratio = 1;         ///< that told: the median one of times, or that of counted work
@@ -24,9 +24,9 @@ struct Verdict {
 
 /// By time if all rounds say the same, and neither they differ nor noise is by more than what the skip does, or than 1 %; else by
 /// counted work. Requires a round.
-Verdict verdict_on(const Ablation& ablation);
+AblationVerdict verdict_on(const Ablation& ablation);
 /// "wins (time)".
-std::string text_of(const Verdict& verdict);
+std::string text_of(const AblationVerdict& verdict);
 
 /// A sentence on each skip by itself, over all scenes that have been measured, in their order: "any-hit: kept, wins up to 12.0 %
 /// (tetra-9), loses 1 % nowhere." Bounded skips change pictures, so theirs ends with their largest error.

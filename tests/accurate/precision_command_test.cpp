@@ -9,6 +9,7 @@
 #include "apps/options.h"
 #include "core/expect.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace dmpc::tests {
 namespace {
@@ -27,8 +28,6 @@ std::string output_of(const PrecisionOptions& options) {
   return output.str();
 }
 
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 TEST_CASE("bench precision takes any number of scenes") {
   CHECK(parse({}).scenes.empty());
   CHECK(parse({"tetra-3", "balls-1", "--depth=3"}).scenes == std::vector<std::string>{"tetra-3", "balls-1"});
@@ -39,17 +38,17 @@ TEST_CASE("bench precision takes any number of scenes") {
 
 TEST_CASE("bench precision prints a row a scene and that all is explained") {
   const std::string table = output_of(parse({"tetra-3", "balls-2", "--resolution=40x30"}));
-  CHECK(says(table, "| tetra-3 |         64 |"));
-  CHECK(says(table, "| balls-2 |"));
-  CHECK(says(table, "40x30 pixels"));
-  CHECK(says(table, "Every pixel is explained."));
+  CHECK(contains(table, "| tetra-3 |         64 |"));
+  CHECK(contains(table, "| balls-2 |"));
+  CHECK(contains(table, "40x30 pixels"));
+  CHECK(contains(table, "Every pixel is explained."));
 }
 
 TEST_CASE("bench precision without a scene measures all families") {
   const std::string table = output_of(parse({"--resolution=8x8", "--format=csv"}));
   for (const char* scene : {"balls-4,", "gears-4,", "jacks-1,", "lattice-12,", "mount-6,", "rings-7,", "shells-5,", "sombrero-1,",
                             "teapot-12,", "tetra-6,", "tree-11,"}) {
-    CHECK(says(table, scene));
+    CHECK(contains(table, scene));
   }
 }
 
@@ -58,7 +57,7 @@ TEST_CASE("bench precision writes its table to a file") {
   PrecisionOptions options = parse({"tetra-2", "--resolution=8x8", "--format=json"});
   options.output = folder / "table.json";
   CHECK(output_of(options).empty());
-  CHECK(says(file_text(folder / "table.json"), "\"unexplained\": 0"));
+  CHECK(contains(file_text(folder / "table.json"), "\"unexplained\": 0"));
 }
 
 TEST_CASE("bench precision refuses a scene that is none and an output over its scene") {

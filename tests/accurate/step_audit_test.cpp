@@ -6,6 +6,7 @@
 
 #include "tests/accurate/workbench.h"
 #include "tests/support/small_scenes.h"
+#include "tests/support/text.h"
 
 namespace dmpc::tests {
 namespace {
@@ -51,8 +52,6 @@ std::size_t index_of(const ProductLog& log, RayKind kind) {
   return index;
 }
 
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 TEST_CASE("every step of the product is right but for rounding") {
   for (const char* name : {"balls-3", "gears-1", "jacks-2", "lattice-3", "mount-3", "rings-2", "shells-3", "sombrero-1",
                            "teapot-4", "tetra-3", "tree-5"}) {
@@ -80,16 +79,16 @@ TEST_CASE("a ray with another direction, start, weight or end is found") {
     const auto falsified = [&](const auto& change) {
       return bench.error_of(pixel, [&](ProductLog& log) { change(log.shots[index_of(log, kind)].world); });
     };
-    CHECK(says(falsified([](apps::AccurateRay& ray) {
-                 ray.direction = normalize(ray.direction + core::Vec3d{1e-4, 0, 0});
-               }),
-               "off by"));
-    CHECK(says(falsified([](apps::AccurateRay& ray) { ray.origin.y += 1e-3; }), "off by"));
-    CHECK(says(falsified([](apps::AccurateRay& ray) { ray.weight = ray.weight + core::Vec3d{0, 1e-3, 0}; }), "off by"));
+    CHECK(contains(falsified([](apps::AccurateRay& ray) {
+                     ray.direction = normalize(ray.direction + core::Vec3d{1e-4, 0, 0});
+                   }),
+                   "off by"));
+    CHECK(contains(falsified([](apps::AccurateRay& ray) { ray.origin.y += 1e-3; }), "off by"));
+    CHECK(contains(falsified([](apps::AccurateRay& ray) { ray.weight = ray.weight + core::Vec3d{0, 1e-3, 0}; }), "off by"));
   }
-  CHECK(says(bench.error_of(bench.pixel_with(RayKind::shadow),
-                            [](ProductLog& log) { log.shots[index_of(log, RayKind::shadow)].world.t_max *= 0.9; }),
-             "another end"));
+  CHECK(contains(bench.error_of(bench.pixel_with(RayKind::shadow),
+                                [](ProductLog& log) { log.shots[index_of(log, RayKind::shadow)].world.t_max *= 0.9; }),
+                 "another end"));
 }
 
 TEST_CASE("a ray too many and a ray too few are found") {
@@ -100,9 +99,9 @@ TEST_CASE("a ray too many and a ray too few are found") {
     log.rays.erase(log.rays.begin() + at);
     log.shots.erase(log.shots.begin() + at);
   };
-  CHECK(says(bench.error_of(pixel, forget), "is missing"));
+  CHECK(contains(bench.error_of(pixel, forget), "is missing"));
   const auto mistake = [](ProductLog& log) { log.shots[index_of(log, RayKind::reflected)].world.kind = RayKind::refracted; };
-  CHECK(says(bench.error_of(pixel, mistake), "should not be there"));
+  CHECK(contains(bench.error_of(pixel, mistake), "should not be there"));
 }
 
 TEST_CASE("a wrong answer is found by the referee") {
@@ -111,7 +110,7 @@ TEST_CASE("a wrong answer is found by the referee") {
     log.rays.front().hit = false;
     log.shots.front().answer = {};
   };
-  CHECK(says(bench.error_of(bench.pixel_with(RayKind::reflected), miss), "referee does not allow"));
+  CHECK(contains(bench.error_of(bench.pixel_with(RayKind::reflected), miss), "referee does not allow"));
 }
 
 TEST_CASE("shading by another material is found") {
@@ -123,7 +122,7 @@ TEST_CASE("shading by another material is found") {
   const Audited bench(scene, shinier, 24);
   std::uint32_t found = 0;
   for (std::uint32_t pixel = 0; pixel < bench.pixel_count(); ++pixel) {
-    found += says(bench.of(pixel).error, "a shadow ray") ? 1 : 0;
+    found += contains(bench.of(pixel).error, "a shadow ray") ? 1 : 0;
   }
   CHECK(found > 20);
 }

@@ -13,6 +13,7 @@
 #include "apps/options.h"
 #include "core/expect.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace dmpc::tests {
 
@@ -22,16 +23,16 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-ErrorOptions parse(Words arguments) {
+ErrorOptions error_options(Words arguments) {
   arguments.insert(arguments.begin(), {"bench", "error"});
   return std::get<ErrorOptions>(apps::parse_command_line(arguments));
 }
 
 /// Of tetra-2 at 16x16 against a rough reference.
-ErrorOptions tiny(const TemporaryFolder& folder, Words more = {}) {
+ErrorOptions tiny_error(const TemporaryFolder& folder, Words more = {}) {
   more.insert(more.end(), {"tetra-2", "--resolution=16x16", "--quick", "--repeat=2", "--reference-samples=12",
                            "--references=" + (folder / "references").string()});
-  return parse(more);
+  return error_options(more);
 }
 
 std::string output_of(const ErrorOptions& options) {
@@ -41,25 +42,23 @@ std::string output_of(const ErrorOptions& options) {
   return output.str();
 }
 
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 }  // namespace
 
 TEST_CASE("bench error prints a row for each point, and what they say") {
   const TemporaryFolder folder;
-  const std::string table = output_of(tiny(folder));
+  const std::string table = output_of(tiny_error(folder));
   for (const char* part :
        {"| samples ", "| adaptive ", "| cutoff ", "| depth ", "| arithmetic ", "| adaptive and cutoff ",
         "the reference has 12x12 samples a pixel", "cheapest with a deterministic RMSE", "Load of the machine"}) {
     CAPTURE(std::string(part));
-    CHECK(says(table, part));
+    CHECK(contains(table, part));
   }
-  CHECK_FALSE(says(table, "| tessellation "));
+  CHECK_FALSE(contains(table, "| tessellation "));
 }
 
 TEST_CASE("the base point of bench error has no deterministic error and float next to none") {
   const TemporaryFolder folder;
-  const ErrorOptions options = tiny(folder, {"--knobs=depth,arithmetic"});
+  const ErrorOptions options = tiny_error(folder, {"--knobs=depth,arithmetic"});
   apps::Interrupt interrupt;
   apps::SceneResult result;
   apps::measure_scene("tetra-2", options.measure, interrupt, result);
@@ -74,11 +73,11 @@ TEST_CASE("the base point of bench error has no deterministic error and float ne
 
 TEST_CASE("bench error writes its table, plots and pictures of errors where they are asked for") {
   const TemporaryFolder folder;
-  const ErrorOptions options =
-      tiny(folder, {"--knobs=samples,depth", "--plots=" + (folder / "plots").string(),
-                    "--pictures=" + (folder / "pictures").string(), "--format=csv", "-o" + (folder / "table.csv").string()});
+  const ErrorOptions options = tiny_error(
+      folder, {"--knobs=samples,depth", "--plots=" + (folder / "plots").string(), "--pictures=" + (folder / "pictures").string(),
+               "--format=csv", "-o" + (folder / "table.csv").string()});
   CHECK(output_of(options).empty());
-  CHECK(says(file_text(folder / "table.csv"), "RMSE (1/255)"));
+  CHECK(contains(file_text(folder / "table.csv"), "RMSE (1/255)"));
   CHECK(std::filesystem::exists(folder / "plots" / "error_tetra-2_rays.gnuplot"));
   CHECK(std::filesystem::exists(folder / "pictures" / "tetra-2_depth_8.png"));
   CHECK(std::filesystem::exists(folder / "pictures" / "tetra-2_depth_2_deterministic.png"));
@@ -88,16 +87,16 @@ TEST_CASE("bench error writes what was measured before an error ended it") {
   const TemporaryFolder folder;
   apps::Interrupt interrupt;
   std::ostringstream output;
-  ErrorOptions options = tiny(folder, {"--knobs=depth"});
+  ErrorOptions options = tiny_error(folder, {"--knobs=depth"});
   options.scenes.push_back((folder / "no.nff").string());
   CHECK_THROWS_AS(apps::bench_error_command(options, interrupt, output), core::InputError);
-  CHECK(says(output.str(), "| tetra-2 | depth "));
-  CHECK(says(output.str(), "Ended before its time"));
+  CHECK(contains(output.str(), "| tetra-2 | depth "));
+  CHECK(contains(output.str(), "Ended before its time"));
 }
 
 TEST_CASE("an interrupted bench error writes nothing before anything is measured") {
   const TemporaryFolder folder;
-  ErrorOptions options = tiny(folder);
+  ErrorOptions options = tiny_error(folder);
   options.output = folder / "table.md";
   apps::Interrupt interrupt;
   ::kill(::getpid(), SIGINT);
@@ -120,10 +119,10 @@ TEST_CASE("bench error refuses what makes no sense before it begins") {
                              {"tetra-2", "--repeat=0"},
                              {"rings-2-t1", "--knobs=tessellation"}}) {
     CAPTURE(words.size());
-    CHECK_THROWS_AS(parse(words), core::UsageError);
+    CHECK_THROWS_AS(error_options(words), core::UsageError);
   }
-  CHECK(parse({"rings-2", "tetra-2"}).scenes == Words{"rings-2", "tetra-2"});
-  CHECK_NOTHROW(parse({"rings-2", "--knobs=tessellation"}));
+  CHECK(error_options({"rings-2", "tetra-2"}).scenes == Words{"rings-2", "tetra-2"});
+  CHECK_NOTHROW(error_options({"rings-2", "--knobs=tessellation"}));
 }
 
 }  // namespace dmpc::tests

@@ -18,6 +18,7 @@
 #include "apps/speed/table.h"
 #include "core/expect.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace dmpc::tests {
 
@@ -29,14 +30,14 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-SpeedOptions parse(Words arguments) {
+SpeedOptions speed_options(Words arguments) {
   arguments.insert(arguments.begin(), {"bench", "speed"});
   return std::get<SpeedOptions>(apps::parse_command_line(arguments));
 }
 
-SpeedOptions tiny(Words more = {}) {
+SpeedOptions tiny_speed(Words more = {}) {
   more.insert(more.end(), {"tetra-2", "--resolution=16x16", "--quick", "--repeat=2"});
-  SpeedOptions options = parse(more);
+  SpeedOptions options = speed_options(more);
   options.settings.program = DMPC_PROGRAM;
   return options;
 }
@@ -48,32 +49,30 @@ std::string output_of(const SpeedOptions& options) {
   return output.str();
 }
 
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 }  // namespace
 
 TEST_CASE("bench speed measures all its parts and holds them against what is to be reached") {
-  const std::string table = output_of(tiny());
+  const std::string table = output_of(tiny_speed());
   for (const char* part :
        {"| kernel ", "| picture ", "| emulation ", "| build ", "| memory ", "| Embree robust ", "| Embree fast ", "| secondary",
         "| dataflow on 64 nodes ", "Kernel over Embree robust, records local", "Kernel over Embree robust, through the pager",
         "grid over Embree fast, threads: 1; closest hit", "Whole picture on 2 nodes", "64 nodes over 2",
         "8 nodes with a cache of 10 %", "Anonymous memory above", "Load of the machine"}) {
     CAPTURE(std::string(part));
-    CHECK(says(table, part) == (std::string(part) != "| secondary"));  // of which the scene has none
+    CHECK(contains(table, part) == (std::string(part) != "| secondary"));  // of which the scene has none
   }
 }
 
 TEST_CASE("bench speed holds a scene of the article against its table") {
-  SpeedOptions options = tiny({"--parts=pages"});
+  SpeedOptions options = tiny_speed({"--parts=pages"});
   options.settings.scenes = {"mount-6-t6", "tetra-2"};
   const std::string table = output_of(options);
-  CHECK(says(table, "| pages | mount-6-t6 | database "));
-  CHECK(says(table, "Distinct pages a pixel over the article's (worst of 1)"));
+  CHECK(contains(table, "| pages | mount-6-t6 | database "));
+  CHECK(contains(table, "Distinct pages a pixel over the article's (worst of 1)"));
 }
 
 TEST_CASE("the kernel is measured for all classes, queries and threads, all in each round") {
-  SpeedOptions options = tiny({"--threads=1,3"});
+  SpeedOptions options = tiny_speed({"--threads=1,3"});
   apps::Interrupt interrupt;
   std::vector<Comparison> results;
   apps::measure_kernel(options.settings, interrupt, results);
@@ -86,7 +85,7 @@ TEST_CASE("the kernel is measured for all classes, queries and threads, all in e
 }
 
 TEST_CASE("each of our grids is held against each Embree by the figures of one round") {
-  SpeedOptions options = tiny({"--threads=1"});
+  SpeedOptions options = tiny_speed({"--threads=1"});
   apps::Interrupt interrupt;
   std::vector<Comparison> results;
   apps::measure_kernel(options.settings, interrupt, results);
@@ -104,7 +103,7 @@ TEST_CASE("each of our grids is held against each Embree by the figures of one r
 }
 
 TEST_CASE("a computer that is in several comparisons has one time in all") {
-  SpeedOptions options = tiny();
+  SpeedOptions options = tiny_speed();
   apps::Interrupt interrupt;
   std::vector<Comparison> results;
   apps::measure_emulation(options.settings, interrupt, results);
@@ -119,10 +118,10 @@ TEST_CASE("a computer that is in several comparisons has one time in all") {
 
 TEST_CASE("bench speed writes its table and plots where they are asked for") {
   const TemporaryFolder folder;
-  const SpeedOptions options = tiny(
+  const SpeedOptions options = tiny_speed(
       {"--parts=kernel,build", "--plots=" + (folder / "plots").string(), "--format=csv", "-o" + (folder / "table.csv").string()});
   CHECK(output_of(options).empty());
-  CHECK(says(file_text(folder / "table.csv"), "largest ratio"));
+  CHECK(contains(file_text(folder / "table.csv"), "largest ratio"));
   for (const char* name : {"speed_kernel.csv", "speed_kernel.gnuplot", "speed_build.gnuplot"}) {
     CHECK(std::filesystem::exists(folder / "plots" / name));
   }
@@ -132,16 +131,16 @@ TEST_CASE("bench speed writes what was measured before an error ended it") {
   const TemporaryFolder folder;
   apps::Interrupt interrupt;
   std::ostringstream output;
-  SpeedOptions options = tiny({"--parts=kernel,memory"});
+  SpeedOptions options = tiny_speed({"--parts=kernel,memory"});
   options.settings.program = folder / "no program";
   CHECK_THROWS_AS(apps::bench_speed_command(options, interrupt, output), core::InputError);
-  CHECK(says(output.str(), "| kernel "));
-  CHECK(says(output.str(), "Ended before its time"));
+  CHECK(contains(output.str(), "| kernel "));
+  CHECK(contains(output.str(), "Ended before its time"));
 }
 
 TEST_CASE("an interrupted bench speed writes nothing before anything is measured") {
   const TemporaryFolder folder;
-  SpeedOptions options = tiny();
+  SpeedOptions options = tiny_speed();
   options.output = folder / "table.md";
   apps::Interrupt interrupt;
   ::kill(::getpid(), SIGINT);
@@ -153,7 +152,7 @@ TEST_CASE("an interrupted bench speed writes nothing before anything is measured
 }
 
 TEST_CASE("an ablation renders without each skip, without all, and with cutoffs, all in each round") {
-  SpeedOptions options = tiny({"--ablation", "balls-2"});
+  SpeedOptions options = tiny_speed({"--ablation", "balls-2"});
   apps::Interrupt interrupt;
   std::vector<apps::Ablation> results;
   apps::measure_ablation(options.settings, interrupt, results);
@@ -171,7 +170,7 @@ TEST_CASE("an ablation renders without each skip, without all, and with cutoffs,
 }
 
 TEST_CASE("an interrupted ablation has rows of whole rounds only") {
-  SpeedOptions options = tiny({"--ablation"});
+  SpeedOptions options = tiny_speed({"--ablation"});
   options.settings.rounds = 1000;
   std::vector<apps::Ablation> results;
   for (int milliseconds = 5; results.empty(); milliseconds *= 2) {
@@ -191,7 +190,7 @@ TEST_CASE("an interrupted ablation has rows of whole rounds only") {
 }
 
 TEST_CASE("skips that a scene needs not are worth nothing there, others are") {
-  SpeedOptions options = tiny({"--ablation"});
+  SpeedOptions options = tiny_speed({"--ablation"});
   apps::Interrupt interrupt;
   std::vector<apps::Ablation> results;
   apps::measure_ablation(options.settings, interrupt, results);
@@ -208,28 +207,28 @@ TEST_CASE("skips that a scene needs not are worth nothing there, others are") {
 
 TEST_CASE("bench speed --ablation writes its own table and plot") {
   const TemporaryFolder folder;
-  const std::string table = output_of(tiny({"--ablation", "--plots=" + folder.path().string()}));
-  CHECK(says(table, "| tetra-2 | background "));
-  CHECK(says(table, "| cutoff 1/1024 | bounded "));
-  CHECK(says(table, "any-hit: "));
-  CHECK(says(table, "Load of the machine"));
+  const std::string table = output_of(tiny_speed({"--ablation", "--plots=" + folder.path().string()}));
+  CHECK(contains(table, "| tetra-2 | background "));
+  CHECK(contains(table, "| cutoff 1/1024 | bounded "));
+  CHECK(contains(table, "any-hit: "));
+  CHECK(contains(table, "Load of the machine"));
   CHECK(std::filesystem::exists(folder / "speed_ablation.csv"));
 }
 
 TEST_CASE("an ablation takes neither parts nor threads") {
-  CHECK_THROWS_AS(parse({"--ablation", "--parts=kernel"}), core::UsageError);
-  CHECK_THROWS_AS(parse({"--ablation", "--threads=1"}), core::UsageError);
-  CHECK(parse({"--ablation"}).parts == std::set{SpeedPart::ablation});
-  CHECK(parse({"--ablation"}).settings.scenes_of(SpeedPart::ablation).size() == 6);
+  CHECK_THROWS_AS(speed_options({"--ablation", "--parts=kernel"}), core::UsageError);
+  CHECK_THROWS_AS(speed_options({"--ablation", "--threads=1"}), core::UsageError);
+  CHECK(speed_options({"--ablation"}).parts == std::set{SpeedPart::ablation});
+  CHECK(speed_options({"--ablation"}).settings.scenes_of(SpeedPart::ablation).size() == 6);
 }
 
 TEST_CASE("bench speed refuses what makes no sense before it begins") {
   for (const Words& words : {Words{"--parts=speed"}, {"--threads=0"}, {"--repeat=0"}, {"--resolution=16"}, {"--format=xml"}}) {
     CAPTURE(words.front());
-    CHECK_THROWS_AS(parse(words), core::UsageError);
+    CHECK_THROWS_AS(speed_options(words), core::UsageError);
   }
-  CHECK(parse({}).settings.scenes.empty());
-  CHECK(parse({}).parts == apps::all_speed_parts());
+  CHECK(speed_options({}).settings.scenes.empty());
+  CHECK(speed_options({}).parts == apps::all_speed_parts());
 }
 
 TEST_CASE("a plot of a part has a bar for each pair, the mean over what was traced") {

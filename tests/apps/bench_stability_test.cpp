@@ -8,6 +8,7 @@
 #include "apps/options.h"
 #include "core/expect.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace dmpc::tests {
 
@@ -15,7 +16,7 @@ using apps::StabilityOptions;
 
 namespace {
 
-StabilityOptions parse(std::vector<std::string> arguments) {
+StabilityOptions stability_options(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"bench", "stability"});
   return std::get<StabilityOptions>(apps::parse_command_line(arguments));
 }
@@ -27,22 +28,20 @@ std::string output_of(const StabilityOptions& options) {
   return output.str();
 }
 
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 }  // namespace
 
 TEST_CASE("bench stability prints a row for each kernel, and where the other tests are") {
-  const std::string table = output_of(parse({"--tests=R5,R6", "--rays=20"}));
-  CHECK(says(table, "| R5 sequence of cells"));
-  CHECK(says(table, "| R6 points listed, no pad"));
-  CHECK(says(table, "Our grid: no failure."));
-  CHECK(says(table, "tests/chaos"));
-  CHECK_FALSE(says(table, "R1 "));
+  const std::string table = output_of(stability_options({"--tests=R5,R6", "--rays=20"}));
+  CHECK(contains(table, "| R5 sequence of cells"));
+  CHECK(contains(table, "| R6 points listed, no pad"));
+  CHECK(contains(table, "Our grid: no failure."));
+  CHECK(contains(table, "tests/chaos"));
+  CHECK_FALSE(contains(table, "R1 "));
 }
 
 TEST_CASE("bench stability writes its table and its state, and goes on from the state") {
   const TemporaryFolder folder;
-  StabilityOptions options = parse({"--tests=R5", "--rays=2000", "--resume=" + (folder / "state").string()});
+  StabilityOptions options = stability_options({"--tests=R5", "--rays=2000", "--resume=" + (folder / "state").string()});
   const std::string first = output_of(options);
   CHECK(std::filesystem::exists(folder / "state"));
   options.output = folder / "table.md";
@@ -55,19 +54,19 @@ TEST_CASE("bench stability writes its table and its state, and goes on from the 
 }
 
 TEST_CASE("the amounts of rays of bench stability exclude each other") {
-  CHECK(parse({}).rays == StabilityOptions::standard_rays);
-  CHECK(parse({"--quick"}).rays == StabilityOptions::quick_rays);
-  CHECK(parse({"--long"}).rays == 0);
-  CHECK(parse({"--rays=7"}).rays == 7);
-  CHECK_THROWS_AS(parse({"--quick", "--long"}), core::UsageError);
-  CHECK_THROWS_AS(parse({"--quick", "--rays=7"}), core::UsageError);
-  CHECK_THROWS_AS(parse({"--rays=0"}), core::UsageError);
+  CHECK(stability_options({}).rays == StabilityOptions::standard_rays);
+  CHECK(stability_options({"--quick"}).rays == StabilityOptions::quick_rays);
+  CHECK(stability_options({"--long"}).rays == 0);
+  CHECK(stability_options({"--rays=7"}).rays == 7);
+  CHECK_THROWS_AS(stability_options({"--quick", "--long"}), core::UsageError);
+  CHECK_THROWS_AS(stability_options({"--quick", "--rays=7"}), core::UsageError);
+  CHECK_THROWS_AS(stability_options({"--rays=0"}), core::UsageError);
 }
 
 TEST_CASE("bench stability refuses a test that is none") {
-  CHECK(parse({"--tests=R1,quadrics"}).tests == std::vector<std::string>{"R1", "quadrics"});
-  CHECK_THROWS_AS(parse({"--tests=R13"}), core::UsageError);
-  CHECK_THROWS_WITH_AS(parse({"--tests=R1,"}), doctest::Contains("--tests=R1,: a word is missing"), core::UsageError);
+  CHECK(stability_options({"--tests=R1,quadrics"}).tests == std::vector<std::string>{"R1", "quadrics"});
+  CHECK_THROWS_AS(stability_options({"--tests=R13"}), core::UsageError);
+  CHECK_THROWS_WITH_AS(stability_options({"--tests=R1,"}), doctest::Contains("--tests=R1,: a word is missing"), core::UsageError);
 }
 
 }  // namespace dmpc::tests

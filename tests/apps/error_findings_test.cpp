@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/error/table.h"
+#include "tests/support/text.h"
 
 namespace dmpc::tests {
 
@@ -15,8 +16,6 @@ using apps::Measurement;
 using apps::SceneResult;
 
 namespace {
-
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 Measurement measured(std::uint64_t rays, double error) {
   Measurement one{.seconds = {static_cast<double>(rays)}, .rays = rays, .samples = rays};
@@ -91,14 +90,14 @@ TEST_CASE("the cheapest cutoff has a deterministic error below a quarter of an 8
   const auto cheapest = apps::cheapest_point(result, Knob::cutoff);
   REQUIRE(cheapest);
   CHECK(result.points[*cheapest].text == "1/255");
-  CHECK(says(apps::findings_of(result).back(), "cutoff 1/255 (0.128/255, 0.800 times the rays)"));
+  CHECK(contains(apps::findings_of(result).back(), "cutoff 1/255 (0.128/255, 0.800 times the rays)"));
 }
 
 TEST_CASE("several scenes are summed up by geometric means of those that have a figure") {
   const std::vector<SceneResult> results = {scene_result(0.1), scene_result(0.4), SceneResult()};
   const auto sentences = apps::findings_of_all(results);
   REQUIRE(sentences.size() == 2);
-  CHECK(says(sentences[0], "RMSE of 16 uniform samples adaptive sampling takes 0.200 (of 2 scenes) times the rays"));
+  CHECK(contains(sentences[0], "RMSE of 16 uniform samples adaptive sampling takes 0.200 (of 2 scenes) times the rays"));
   CHECK(apps::findings_of_all(std::vector{scene_result(0.1)}).empty());
 }
 

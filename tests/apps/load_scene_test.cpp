@@ -14,7 +14,7 @@ namespace dmpc::apps {
 
 namespace {
 
-std::string complaint(const std::string& scene) {
+std::string scene_complaint(const std::string& scene) {
   try {
     load_scene(scene);
   } catch (const core::InputError& error) {
@@ -33,11 +33,11 @@ TEST_CASE("a built-in name is made, a path is read") {
 }
 
 TEST_CASE("what is neither is refused: a bare word as a name, anything else as a file") {
-  CHECK(complaint("nonsense").find("teapot") != std::string::npos);
-  CHECK(complaint("nonsense.nff").find("nonsense.nff") == 0);
-  CHECK(complaint("./nonsense").find("./nonsense") == 0);
-  CHECK(complaint(".").find("folder") != std::string::npos);
-  CHECK_FALSE(complaint("").empty());
+  CHECK(scene_complaint("nonsense").find("teapot") != std::string::npos);
+  CHECK(scene_complaint("nonsense.nff").find("nonsense.nff") == 0);
+  CHECK(scene_complaint("./nonsense").find("./nonsense") == 0);
+  CHECK(scene_complaint(".").find("folder") != std::string::npos);
+  CHECK_FALSE(scene_complaint("").empty());
 }
 
 TEST_CASE("an unknown ending is refused with those that are known, no ending is NFF's") {
@@ -48,7 +48,7 @@ TEST_CASE("an unknown ending is refused with those that are known, no ending is 
   }
   CHECK(load_scene((folder / "plain").string()).spheres.size() == 1);
   CHECK(load_scene((folder / "a.NFF").string()).spheres.size() == 1);
-  CHECK(tests::contains(complaint(folder / "a.xyz"), "expected .nff or one of obj, ply, stl"));
+  CHECK(tests::contains(scene_complaint(folder / "a.xyz"), "expected .nff or one of obj, ply, stl"));
 }
 
 TEST_CASE("a mesh file is a scene, seen and lit as the options say") {

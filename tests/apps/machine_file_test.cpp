@@ -8,8 +8,11 @@
 
 #include "core/expect.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace dmpc::apps {
+
+using tests::contains;
 
 namespace {
 
@@ -30,7 +33,7 @@ std::string with(std::string text, const std::string& from, const std::string& t
   return text.replace(at, from.size(), to);
 }
 
-std::string complaint(const std::string& text) {
+std::string machine_complaint(const std::string& text) {
   try {
     parse_machine(text, "m.json");
   } catch (const core::InputError& error) {
@@ -40,9 +43,9 @@ std::string complaint(const std::string& text) {
 }
 
 /// The complaint about the iPSC/2 with one change.
-std::string complaint_with(const std::string& from, const std::string& to) { return complaint(with(plain_text(), from, to)); }
-
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+std::string machine_complaint_with(const std::string& from, const std::string& to) {
+  return machine_complaint(with(plain_text(), from, to));
+}
 
 }  // namespace
 
@@ -89,59 +92,68 @@ TEST_CASE("every figure reaches its own field") {
 
 TEST_CASE("a machine on which all is free and one on which all takes as long as it may are taken") {
   CHECK_NOTHROW(parse_machine(machine_text({nodes::Machine(), {}}), "m.json"));
-  CHECK(complaint_with("\"hop_ns\": 10300", "\"hop_ns\": 1000000000") == "");
-  CHECK(complaint_with("\"name\": \"ipsc2\"", "\"name\": \"" + std::string(64, 'x') + "\"") == "");
+  CHECK(machine_complaint_with("\"hop_ns\": 10300", "\"hop_ns\": 1000000000") == "");
+  CHECK(machine_complaint_with("\"name\": \"ipsc2\"", "\"name\": \"" + std::string(64, 'x') + "\"") == "");
 }
 
 TEST_CASE("a key that is unknown, missing or there twice is named") {
-  CHECK(says(complaint_with("hop_ns", "hop_us"), "m.json: \"hop_us\": unknown key, expected name, topology, "));
-  CHECK(says(complaint_with("latency_ns", "delay"), "m.json: short_message.\"delay\": unknown key, expected send_ns, "));
-  CHECK(says(complaint_with("\"sources\": {}", "\"sources\": {\"nonsense\": \"a book\"}"), "sources.\"nonsense\": unknown key"));
-  CHECK(complaint_with("\"service_ns\": 200000,", "") == "m.json: service_ns: this key is missing");
-  CHECK(says(complaint_with("\"send_ns\": 160000,", ""), "m.json: short_message.send_ns: this key is missing"));
-  CHECK(says(complaint("{}"), "m.json: name: this key is missing"));
-  CHECK(says(complaint_with("\"has_memory_port\": false", "\"sources\": {}"), "m.json: \"sources\": this key is given twice"));
-  CHECK(says(complaint_with("\"hop_ns\"", "\"service_ns\": 1, \"hop_ns\""), "m.json: \"service_ns\": this key is given twice"));
+  CHECK(contains(machine_complaint_with("hop_ns", "hop_us"), "m.json: \"hop_us\": unknown key, expected name, topology, "));
+  CHECK(contains(machine_complaint_with("latency_ns", "delay"),
+                 "m.json: short_message.\"delay\": unknown key, expected send_ns, "));
+  CHECK(contains(machine_complaint_with("\"sources\": {}", "\"sources\": {\"nonsense\": \"a book\"}"),
+                 "sources.\"nonsense\": unknown key"));
+  CHECK(machine_complaint_with("\"service_ns\": 200000,", "") == "m.json: service_ns: this key is missing");
+  CHECK(contains(machine_complaint_with("\"send_ns\": 160000,", ""), "m.json: short_message.send_ns: this key is missing"));
+  CHECK(contains(machine_complaint("{}"), "m.json: name: this key is missing"));
+  CHECK(contains(machine_complaint_with("\"has_memory_port\": false", "\"sources\": {}"),
+                 "m.json: \"sources\": this key is given twice"));
+  CHECK(contains(machine_complaint_with("\"hop_ns\"", "\"service_ns\": 1, \"hop_ns\""),
+                 "m.json: \"service_ns\": this key is given twice"));
 }
 
 TEST_CASE("a value of the wrong type or out of range is named with what was expected") {
   for (const std::string wrong :
        {"-1", "1.5", "1e3", "\"1\"", "true", "null", "[1]", "{}", "1000000001", "18446744073709551616"}) {
     CAPTURE(wrong);
-    CHECK(says(complaint_with("10300", wrong), "m.json: hop_ns: expected a whole number from 0 to 1000000000, got "));
+    CHECK(contains(machine_complaint_with("10300", wrong), "m.json: hop_ns: expected a whole number from 0 to 1000000000, got "));
   }
-  CHECK(says(complaint_with("\"byte_ps\": 200000", "\"byte_ps\": 1000000001"), "short_message.byte_ps: expected a whole number"));
-  CHECK(says(complaint_with("\"home_lookup\": 0", "\"home_lookup\": 100000000001"), "operation_ps.home_lookup: expected"));
-  CHECK(says(complaint_with("\"short_bytes_max\": 100", "\"short_bytes_max\": 1000000001"), "short_bytes_max: expected"));
-  CHECK(says(complaint_with("true", "1"), "m.json: has_contention: expected true or false, got 1"));
-  CHECK(says(complaint_with("false", "\"no\""), "m.json: has_memory_port: expected true or false, got \"no\""));
-  CHECK(says(complaint_with("\"hypercube\"", "3"), "m.json: topology: expected a text, got 3"));
-  CHECK(says(complaint_with("\"hypercube\"", "\"ring\""), "m.json: topology: there is no topology \"ring\": use one of "));
-  CHECK(says(complaint_with("\"ipsc2\"", "2"), "m.json: name: expected a text, got 2"));
+  CHECK(contains(machine_complaint_with("\"byte_ps\": 200000", "\"byte_ps\": 1000000001"),
+                 "short_message.byte_ps: expected a whole number"));
+  CHECK(contains(machine_complaint_with("\"home_lookup\": 0", "\"home_lookup\": 100000000001"),
+                 "operation_ps.home_lookup: expected"));
+  CHECK(contains(machine_complaint_with("\"short_bytes_max\": 100", "\"short_bytes_max\": 1000000001"),
+                 "short_bytes_max: expected"));
+  CHECK(contains(machine_complaint_with("true", "1"), "m.json: has_contention: expected true or false, got 1"));
+  CHECK(contains(machine_complaint_with("false", "\"no\""), "m.json: has_memory_port: expected true or false, got \"no\""));
+  CHECK(contains(machine_complaint_with("\"hypercube\"", "3"), "m.json: topology: expected a text, got 3"));
+  CHECK(contains(machine_complaint_with("\"hypercube\"", "\"ring\""),
+                 "m.json: topology: there is no topology \"ring\": use one of "));
+  CHECK(contains(machine_complaint_with("\"ipsc2\"", "2"), "m.json: name: expected a text, got 2"));
   for (const std::string& wrong : {std::string(), std::string(65, 'x'), std::string("a\\nb")}) {
-    CHECK(says(complaint_with("\"ipsc2\"", "\"" + wrong + "\""),
-               "m.json: name: expected 1 to 64 characters that can be printed, got "));
+    CHECK(contains(machine_complaint_with("\"ipsc2\"", "\"" + wrong + "\""),
+                   "m.json: name: expected 1 to 64 characters that can be printed, got "));
   }
-  CHECK(says(complaint_with("\"sources\": {}", "\"sources\": {\"hop_ns\": 3}"), "sources.hop_ns: expected a text, got 3"));
-  CHECK(says(complaint_with("\"sources\": {}", "\"sources\": []"), "sources: expected an object, got []"));
+  CHECK(contains(machine_complaint_with("\"sources\": {}", "\"sources\": {\"hop_ns\": 3}"),
+                 "sources.hop_ns: expected a text, got 3"));
+  CHECK(contains(machine_complaint_with("\"sources\": {}", "\"sources\": []"), "sources: expected an object, got []"));
 }
 
 TEST_CASE("memory ports without contention are refused, both named") {
   const std::string ported = with(plain_text(), "\"has_memory_port\": false", "\"has_memory_port\": true");
-  CHECK(complaint(ported) == "");
-  CHECK(complaint_with("true", "false") == "");
-  CHECK(says(complaint(with(ported, "\"has_contention\": true", "\"has_contention\": false")),
-             "m.json: has_memory_port: true does not go with has_contention false: "));
+  CHECK(machine_complaint(ported) == "");
+  CHECK(machine_complaint_with("true", "false") == "");
+  CHECK(contains(machine_complaint(with(ported, "\"has_contention\": true", "\"has_contention\": false")),
+                 "m.json: has_memory_port: true does not go with has_contention false: "));
 }
 
 TEST_CASE("what is no JSON is named with its place") {
-  CHECK(says(complaint(""), "m.json:1:1: this is no JSON"));
-  CHECK(says(complaint("{\n  \"name\": \"a\",,"), "m.json:2:15: this is no JSON"));
-  CHECK(says(complaint("{\"name\": \"\xff\"}"), "m.json:1:11: this is no JSON"));
-  CHECK(says(complaint(plain_text() + "x"), "this is no JSON"));
-  CHECK(says(complaint_with("10300", "1e999"), "m.json: a number is out of all range"));
+  CHECK(contains(machine_complaint(""), "m.json:1:1: this is no JSON"));
+  CHECK(contains(machine_complaint("{\n  \"name\": \"a\",,"), "m.json:2:15: this is no JSON"));
+  CHECK(contains(machine_complaint("{\"name\": \"\xff\"}"), "m.json:1:11: this is no JSON"));
+  CHECK(contains(machine_complaint(plain_text() + "x"), "this is no JSON"));
+  CHECK(contains(machine_complaint_with("10300", "1e999"), "m.json: a number is out of all range"));
   for (const std::string other : {"3", "[]", "null", "\"ipsc2\""}) {
-    CHECK(says(complaint(other), "m.json: expected an object of a machine's figures"));
+    CHECK(contains(machine_complaint(other), "m.json: expected an object of a machine's figures"));
   }
 }
 
@@ -150,12 +162,12 @@ TEST_CASE("every key but the sources must be there") {
   for (const auto& [key, value] : whole.items()) {
     auto rest = whole;
     rest.erase(key);
-    CHECK(complaint(rest.dump()) == (key == "sources" ? "" : "m.json: " + key + ": this key is missing"));
+    CHECK(machine_complaint(rest.dump()) == (key == "sources" ? "" : "m.json: " + key + ": this key is missing"));
     for (const auto& [inner, unused] : value.items()) {
       if (value.is_object()) {
         rest = whole;
         rest[key].erase(inner);
-        CHECK(complaint(rest.dump()) == "m.json: " + key + "." + inner + ": this key is missing");
+        CHECK(machine_complaint(rest.dump()) == "m.json: " + key + "." + inner + ": this key is missing");
       }
     }
   }
@@ -163,8 +175,8 @@ TEST_CASE("every key but the sources must be there") {
 
 TEST_CASE("values in values without end are refused") {
   const std::string deep(200'000, '[');
-  CHECK(says(complaint(deep), "m.json: expected at most 8 "));
-  CHECK(says(complaint_with("10300", deep), "m.json: expected at most 8 "));
+  CHECK(contains(machine_complaint(deep), "m.json: expected at most 8 "));
+  CHECK(contains(machine_complaint_with("10300", deep), "m.json: expected at most 8 "));
 }
 
 TEST_CASE("a name is a machine's, and anything else a file's") {

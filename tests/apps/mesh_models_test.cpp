@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Models that are refused, and what the complaint says.
+/// Models that are refused, and what the model_complaint says.
 const std::map<std::string, std::string> refused = {
     {"OBJ/box_UTF16BE.obj", "no triangle"},     // Assimp reads nothing from it
     {"OBJ/number_formats.obj", "no triangle"},  // one on a line
@@ -77,7 +77,7 @@ std::vector<std::string> models() {
 std::string model(const std::string& path) { return std::string(DMPC_MODELS) + "/" + path; }
 
 /// Empty if it can be read.
-std::string complaint(const std::string& path) {
+std::string model_complaint(const std::string& path) {
   try {
     const MeshFile file = read_mesh_file(model(path));
     CHECK_FALSE(file.scene.objects.empty());
@@ -109,8 +109,8 @@ TEST_CASE("every model is a scene, or refused for a reason that is known") {
   for (const std::string& path : models()) {
     CAPTURE(path);
     const auto reason = refused.find(path);
-    CHECK(contains(complaint(path), reason == refused.end() ? "" : reason->second));
-    CHECK(complaint(path).empty() == (reason == refused.end()));
+    CHECK(contains(model_complaint(path), reason == refused.end() ? "" : reason->second));
+    CHECK(model_complaint(path).empty() == (reason == refused.end()));
   }
 }
 

@@ -8,16 +8,19 @@
 #include <vector>
 
 #include "core/expect.h"
+#include "tests/support/text.h"
 
 namespace dmpc::apps {
 
 using namespace core;
 
+using tests::contains;
+
 namespace {
 
 Command parse(std::initializer_list<std::string> arguments) { return parse_command_line(std::vector<std::string>(arguments)); }
 
-std::string complaint(std::initializer_list<std::string> arguments) {
+std::string command_complaint(std::initializer_list<std::string> arguments) {
   try {
     parse(arguments);
   } catch (const UsageError& error) {
@@ -25,8 +28,6 @@ std::string complaint(std::initializer_list<std::string> arguments) {
   }
   return "";
 }
-
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 
@@ -47,28 +48,28 @@ TEST_CASE("scene, check and compare take their own options") {
 
 TEST_CASE("machine takes a name") {
   CHECK(std::get<MachineOptions>(parse({"machine", "cm5"})).machine == "cm5");
-  CHECK(says(complaint({"machine"}), "Try: dmpc machine --help"));
-  CHECK(says(std::get<HelpText>(parse({"machine", "--help"})).text, "ipsc2, ipsc860, paragon, cm5, cs2, gigabit, hdr"));
+  CHECK(contains(command_complaint({"machine"}), "Try: dmpc machine --help"));
+  CHECK(contains(std::get<HelpText>(parse({"machine", "--help"})).text, "ipsc2, ipsc860, paragon, cm5, cs2, gigabit, hdr"));
 }
 
 TEST_CASE("help shows examples and every command") {
   const std::string general = std::get<HelpText>(parse({"--help"})).text;
   for (const std::string word : {"render", "scene", "check", "compare", "machine", "study", "dmpc render teapot-12"}) {
-    CHECK_MESSAGE(says(general, word), word);
+    CHECK_MESSAGE(contains(general, word), word);
   }
 }
 
 TEST_CASE("the version can be asked for") { CHECK(std::get<HelpText>(parse({"--version"})).text.find("dmpc ") == 0); }
 
 TEST_CASE("wrong usage ends with a hint at the command's help") {
-  CHECK(says(complaint({}), "Try: dmpc --help"));
-  CHECK(says(complaint({"draw"}), "draw is no command"));
-  CHECK(says(complaint({"draw"}), "Try: dmpc --help"));
-  CHECK(says(complaint({"render"}), "Try: dmpc render --help"));
-  CHECK(says(complaint({"render", "teapot-12"}), "Try: dmpc render --help"));
-  CHECK(says(complaint({"render", "-o", "a.png"}), "SCENE"));
-  CHECK(says(complaint({"compare", "a.exr"}), "Try: dmpc compare --help"));
-  CHECK(says(complaint({"scene"}), "SCENE"));
+  CHECK(contains(command_complaint({}), "Try: dmpc --help"));
+  CHECK(contains(command_complaint({"draw"}), "draw is no command"));
+  CHECK(contains(command_complaint({"draw"}), "Try: dmpc --help"));
+  CHECK(contains(command_complaint({"render"}), "Try: dmpc render --help"));
+  CHECK(contains(command_complaint({"render", "teapot-12"}), "Try: dmpc render --help"));
+  CHECK(contains(command_complaint({"render", "-o", "a.png"}), "SCENE"));
+  CHECK(contains(command_complaint({"compare", "a.exr"}), "Try: dmpc compare --help"));
+  CHECK(contains(command_complaint({"scene"}), "SCENE"));
 }
 
 TEST_CASE("every command that shows progress can be told not to") {

@@ -9,14 +9,13 @@
 #include "apps/paper_tables.h"
 #include "nodes/charge.h"
 #include "tests/support/paper_results.h"
+#include "tests/support/table_cells.h"
 
 namespace dmpc::tests {
 
 using namespace apps;
 
 namespace {
-
-double number(const Cell& cell) { return std::get<double>(cell); }
 
 std::uint64_t price(const nodes::Machine& machine, nodes::Charge charge) {
   return machine.cost_ps[static_cast<std::size_t>(charge)];
@@ -36,8 +35,6 @@ FitTimes times_on(const nodes::Machine& machine, std::uint32_t resolution) {
   const PaperResults results = carried_out(runs, paper_subjects(runs));
   return {results[0]->seconds(), results[1]->seconds(), results[2]->seconds()};
 }
-
-nodes::Machine preset() { return catalogue_of(16).runs.front().machine; }
 
 /// As printed, with a dearer run.
 PaperResults calibrated_results(const Catalogue& catalogue) {
@@ -112,7 +109,7 @@ TEST_CASE("a fit of closed form: 10 s and 6 s that should be 20 s and 16 s") {
 }
 
 TEST_CASE("a fitted machine has all prices scaled and that of a cached look-up once more") {
-  const nodes::Machine machine = preset(), after = fitted(machine, {.operations = 2, .cached_lookup = 3});
+  const nodes::Machine machine = paper_machine(), after = fitted(machine, {.operations = 2, .cached_lookup = 3});
   CHECK(price(after, nodes::Charge::shading) == 2 * price(machine, nodes::Charge::shading));
   CHECK(price(after, nodes::Charge::cached_lookup) == 6 * price(machine, nodes::Charge::cached_lookup));
   CHECK(after.service_ns == machine.service_ns);
@@ -121,7 +118,7 @@ TEST_CASE("a fitted machine has all prices scaled and that of a cached look-up o
 TEST_CASE("a machine that was fitted takes the times that it was fitted to, and would be fitted the same way again") {
   constexpr std::uint32_t resolution = 32;
   const std::array<double, 2> wanted = {90, 51};
-  const nodes::Machine machine = preset();
+  const nodes::Machine machine = paper_machine();
   const auto fit = fit_of(times_on(machine, resolution), wanted), again = fit_of(times_on(machine, resolution), wanted);
   REQUIRE((fit && again));
   CHECK(fit->operations == again->operations);
@@ -132,7 +129,7 @@ TEST_CASE("a machine that was fitted takes the times that it was fitted to, and 
 }
 
 TEST_CASE("the preset is calibrated: a sixteenth of Mountain's pixels takes about a sixteenth of the printed times") {
-  const FitTimes found = times_on(preset(), 128);
+  const FitTimes found = times_on(paper_machine(), 128);
   CHECK(16 * found.one == doctest::Approx(calibration_scene.seconds[0]).epsilon(0.02));
   CHECK(16 * found.two == doctest::Approx(calibration_scene.seconds[1]).epsilon(0.02));
 }

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "tests/support/paper_results.h"
+#include "tests/support/table_cells.h"
 
 namespace dmpc::tests {
 
@@ -16,7 +17,6 @@ using namespace apps;
 
 namespace {
 
-double number(const Cell& cell) { return std::get<double>(cell); }
 std::string text(const Cell& cell) { return std::get<std::string>(cell); }
 
 PaperScene scene_of(const std::array<std::uint32_t, 7>& seconds) {

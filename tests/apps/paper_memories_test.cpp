@@ -8,14 +8,13 @@
 #include <vector>
 
 #include "tests/support/paper_results.h"
+#include "tests/support/table_cells.h"
 
 namespace dmpc::tests {
 
 using namespace apps;
 
 namespace {
-
-double number(const Cell& cell) { return std::get<double>(cell); }
 
 /// As if all kinds of runs had come out as printed.
 PaperResults all_as_printed(const Catalogue& catalogue) {

@@ -16,8 +16,6 @@ using namespace apps;
 
 namespace {
 
-nodes::Machine preset() { return catalogue_of(16).runs.front().machine; }
-
 const Variation& find(const std::vector<Variation>& variations, const std::string& figure, const std::string& change) {
   const auto found = std::find_if(variations.begin(), variations.end(),
                                   [&](const Variation& one) { return one.figure == figure && one.change == change; });
@@ -60,7 +58,7 @@ PaperResults unchanged(const Catalogue& catalogue, const std::vector<VariedRuns>
 }  // namespace
 
 TEST_CASE("every figure is made a fifth less and more, and nothing else is changed") {
-  const nodes::Machine machine = preset();
+  const nodes::Machine machine = paper_machine();
   const std::vector<Variation> variations = variations_of(machine);
   CHECK(variations.size() == 32);
   for (const Variation& variation : variations) {
@@ -78,7 +76,7 @@ TEST_CASE("every figure is made a fifth less and more, and nothing else is chang
 }
 
 TEST_CASE("a home look-up, which is free, gets a fifth of a cached one's price, and its row says so") {
-  const nodes::Machine machine = preset();
+  const nodes::Machine machine = paper_machine();
   const auto price = [](const nodes::Machine& of, nodes::Charge charge) { return of.cost_ps[static_cast<std::size_t>(charge)]; };
   const Variation dearer = find(variations_of(machine), "home look-up", "a fifth of a cached one's");
   CHECK(price(machine, nodes::Charge::home_lookup) == 0);
@@ -87,7 +85,7 @@ TEST_CASE("a home look-up, which is free, gets a fifth of a cached one's price, 
 
 TEST_CASE("no two variations are the same machine") {
   std::set<std::vector<std::uint64_t>> machines;
-  const std::vector<Variation> variations = variations_of(preset());
+  const std::vector<Variation> variations = variations_of(paper_machine());
   for (const Variation& variation : variations) {
     machines.insert(figures_of(variation.machine));
   }

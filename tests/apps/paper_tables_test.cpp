@@ -12,6 +12,7 @@
 #include "apps/paper_claims.h"
 #include "core/expect.h"
 #include "tests/support/paper_results.h"
+#include "tests/support/table_cells.h"
 
 namespace dmpc::tests {
 
@@ -19,13 +20,7 @@ using namespace apps;
 
 namespace {
 
-double number(const Cell& cell) { return std::get<double>(cell); }
 std::uint64_t whole(std::uint64_t value) { return value; }
-
-bool has_note(const Table& table, const std::string& words) {
-  return std::any_of(table.notes().begin(), table.notes().end(),
-                     [&](const std::string& note) { return note.find(words) != std::string::npos; });
-}
 
 }  // namespace
 

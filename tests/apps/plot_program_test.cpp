@@ -15,7 +15,7 @@ using namespace apps;
 
 namespace {
 
-Table small_table() {
+Table two_times() {
   Table table("Times", {{"nodes"}, {"time", "s", 1}});
   table.add_row({std::uint64_t{1}, 8.0});
   table.add_row({std::uint64_t{2}, 5.0});
@@ -54,7 +54,7 @@ class Drawing {
 
  private:
   TemporaryFolder folder_;
-  Table table_ = small_table();
+  Table table_ = two_times();
 };
 
 }  // namespace
@@ -133,7 +133,7 @@ TEST_CASE("a table without rows is not drawn, and leaves nothing of an older one
   Drawing drawing;
   drawing.write("times.svg");
   drawing.write("times.gnuplot");
-  drawing.table() = Table("Times", small_table().columns());
+  drawing.table() = Table("Times", two_times().columns());
   CHECK_FALSE(drawing.draw().has_value());
   CHECK_FALSE(drawing.has("times.svg"));
   CHECK_FALSE(drawing.has("times.gnuplot"));
@@ -141,7 +141,7 @@ TEST_CASE("a table without rows is not drawn, and leaves nothing of an older one
 
 TEST_CASE("a folder that is not there is bad input") {
   const TemporaryFolder folder;
-  CHECK_THROWS_AS(draw(small_plot(), small_table(), folder / "none", "t.csv"), core::InputError);
+  CHECK_THROWS_AS(draw(small_plot(), two_times(), folder / "none", "t.csv"), core::InputError);
 }
 
 }  // namespace dmpc::tests

@@ -14,7 +14,7 @@ using namespace apps;
 namespace {
 
 /// Two scenes on two machines, and a figure that is missing.
-Table small_table() {
+Table small_times() {
   Table table("Times", {{"scene"}, {"nodes"}, {"time", "s", 1}, {"loss", "%", 1}, {"remark"}});
   table.add_row({"a", std::uint64_t{1}, 8.0, 0.0, "x, y"});
   table.add_row({"a", std::uint64_t{2}, 5.0, 20.0, "x, y"});
@@ -42,7 +42,7 @@ Plot bars(bool is_stacked) {
           .is_stacked = is_stacked};
 }
 
-std::string script(const Plot& plot, const Table& table = small_table()) { return script_of(plot, table, "t.csv").value_or(""); }
+std::string script(const Plot& plot, const Table& table = small_times()) { return script_of(plot, table, "t.csv").value_or(""); }
 }  // namespace
 
 TEST_CASE("a script names its files, its axes and their scales") {
@@ -85,7 +85,7 @@ TEST_CASE("a logarithmic axis leaves a series out that has nothing above 0") {
   Plot plot = curves();
   plot.y.scale = PlotScale::powers_of_10;
   plot.series[1].where = {{"scene", "a"}, {"nodes", "4"}};
-  Table table = small_table();
+  Table table = small_times();
   table.add_row({"a", std::uint64_t{4}, 3.0, 0.0, "x, y"});
   CHECK_FALSE(contains(script(plot, table), "a''s loss"));
   plot.y.scale = PlotScale::linear;
@@ -98,14 +98,14 @@ TEST_CASE("a series without a row is left out, and without any series there is n
   CHECK(contains(script(plot), "a''s time"));
   CHECK_FALSE(contains(script(plot), "a''s loss"));
   plot.series.erase(plot.series.begin());
-  CHECK_FALSE(script_of(plot, small_table(), "t.csv").has_value());
-  CHECK_FALSE(script_of(curves(), Table("", small_table().columns()), "t.csv").has_value());
+  CHECK_FALSE(script_of(plot, small_times(), "t.csv").has_value());
+  CHECK_FALSE(script_of(curves(), Table("", small_times().columns()), "t.csv").has_value());
   plot.series.clear();
-  CHECK_FALSE(script_of(plot, small_table(), "t.csv").has_value());
+  CHECK_FALSE(script_of(plot, small_times(), "t.csv").has_value());
 }
 
 TEST_CASE("a plot of what the table has not, of too many colours, or of bars and curves is a mistake") {
-  const auto is_refused = [](const Plot& plot) { CHECK_THROWS_AS(script_of(plot, small_table(), "t.csv"), core::InternalError); };
+  const auto is_refused = [](const Plot& plot) { CHECK_THROWS_AS(script_of(plot, small_times(), "t.csv"), core::InternalError); };
   Plot plot = curves();
   plot.series[0].column = "speed";
   is_refused(plot);

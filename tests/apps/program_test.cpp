@@ -16,6 +16,7 @@
 #include "apps/image_file.h"
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace dmpc::tests {
 
@@ -49,8 +50,6 @@ bool until(const Done& done) {
   }
   return false;
 }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::string film_hash(const std::string& stats_file) {
   const std::string json = file_text(stats_file);

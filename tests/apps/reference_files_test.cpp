@@ -47,14 +47,14 @@ bool same_token(const std::string& ours, const std::string& theirs) {
   return end != ours.c_str() && *end == '\0' && std::abs(x - y) <= tolerance(y);
 }
 
-struct Comparison {
+struct TokenComparison {
   std::size_t tokens = 0, differences = 0;
   std::string first_difference;
 };
 
 /// Token by token in file order; a missing or surplus token is a difference.
-Comparison compare(std::istream& ours, std::istream& theirs) {
-  Comparison result;
+TokenComparison compare(std::istream& ours, std::istream& theirs) {
+  TokenComparison result;
   std::string x, y;
   while (true) {
     const bool has_ours = static_cast<bool>(ours >> x), has_theirs = static_cast<bool>(theirs >> y);
@@ -73,7 +73,7 @@ Comparison compare(std::istream& ours, std::istream& theirs) {
   }
 }
 
-Comparison compare_with_file(const std::filesystem::path& path) {
+TokenComparison compare_with_file(const std::filesystem::path& path) {
   std::stringstream ours;
   apps::NffWriter writer(ours);
   core::generate_unrounded_scene(core::parse_scene_name(path.stem().string()), writer);
@@ -119,7 +119,7 @@ TEST_CASE("the generators reproduce the reference files number for number in fil
     return;
   }
   for (const std::filesystem::path& file : files) {
-    const Comparison result = compare_with_file(file);
+    const TokenComparison result = compare_with_file(file);
     CAPTURE(file.string());
     CAPTURE(result.first_difference);
     CHECK(result.tokens > 100);

@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "tests/support/table_cells.h"
+
 namespace dmpc::tests {
 
 using apps::ScaleFigure;
@@ -43,23 +45,8 @@ ScaleResult misfit(int size) {
           .misfit = "too little memory"};
 }
 
-const apps::Cell& cell(const Table& table, std::size_t row, const std::string& column) {
-  const auto at =
-      std::find_if(table.columns().begin(), table.columns().end(), [&](const auto& one) { return one.name == column; });
-  REQUIRE(at != table.columns().end());
-  return table.rows().at(row).at(static_cast<std::size_t>(at - table.columns().begin()));
-}
-
-double number(const Table& table, std::size_t row, const std::string& column) {
-  return std::get<double>(cell(table, row, column));
-}
 std::string text(const Table& table, std::size_t row, const std::string& column) {
   return std::get<std::string>(cell(table, row, column));
-}
-
-bool has_note(const Table& table, const std::string& part) {
-  return std::any_of(table.notes().begin(), table.notes().end(),
-                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
 }
 
 }  // namespace
@@ -71,7 +58,7 @@ TEST_CASE("the growth over all sizes and over the last three stands below the ro
   CHECK(text(table, 4, "part") == "growth by size");
   CHECK(text(table, 4, "scene") == "tetra-5 to tetra-8");
   CHECK(text(table, 5, "scene") == "tetra-6 to tetra-8");
-  CHECK(number(table, 4, "build") == doctest::Approx(1));
+  CHECK(real(table, 4, "build") == doctest::Approx(1));
   CHECK(has_note(table, "Growth, tetra-5 to tetra-8, svm 1MiB: build 1.00, faults a ray 0.00 (2 of 4 rows)."));
 }
 
@@ -81,18 +68,18 @@ TEST_CASE("every method grows by its own exponent") {
       ScaleSettings());
   REQUIRE(table.rows().size() == 6);
   CHECK(text(table, 4, "method") == "svm 1MiB");
-  CHECK(number(table, 4, "build") == doctest::Approx(1));
+  CHECK(real(table, 4, "build") == doctest::Approx(1));
   CHECK(text(table, 5, "method") == "dataflow");
-  CHECK(number(table, 5, "build") == doctest::Approx(2));
+  CHECK(real(table, 5, "build") == doctest::Approx(2));
 }
 
 TEST_CASE("on more nodes the time is held against that on the first number of them") {
   const Table table = apps::scale_table({of_nodes(1, 2), of_nodes(4, 3), of_nodes(16, 8)}, ScaleSettings());
-  CHECK(number(table, 0, "render over first") == 1);
-  CHECK(number(table, 1, "render over first") == 1.5);
+  CHECK(real(table, 0, "render over first") == 1);
+  CHECK(real(table, 1, "render over first") == 1.5);
   CHECK(text(table, 3, "part") == "growth by nodes");
   CHECK(text(table, 3, "scene") == "tetra-3 on 1 to 16 nodes");
-  CHECK(number(table, 3, "render") == doctest::Approx(0.5));
+  CHECK(real(table, 3, "render") == doctest::Approx(0.5));
 }
 
 TEST_CASE("what does not fit has a row without figures, a note, and no part in the growth") {

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t plenty = 1'000'000;
 
-apps::Subject small_subject(const std::string& scene = "balls-1") {
+apps::Subject recorded_subject(const std::string& scene = "balls-1") {
   apps::PictureOptions picture;
   picture.scene = scene;
   picture.resolution = {24, 16};
@@ -68,7 +68,7 @@ TEST_CASE("a sample of rays favours neither of two that take turns") {
 }
 
 TEST_CASE("the rays recorded are those that the render counts, by class") {
-  const apps::Subject subject = small_subject();
+  const apps::Subject subject = recorded_subject();
   const Recording recording = apps::record_rays(subject.database, subject.settings, plenty);
   core::LocalRecords records(subject.database.bytes());
   core::GridTracer tracer(records, subject.settings.header, core::Skips{});
@@ -83,7 +83,7 @@ TEST_CASE("the rays recorded are those that the render counts, by class") {
 }
 
 TEST_CASE("what is recorded has the same bits again") {
-  const apps::Subject subject = small_subject("teapot-2");
+  const apps::Subject subject = recorded_subject("teapot-2");
   const Recording one = apps::record_rays(subject.database, subject.settings, 100);
   const Recording two = apps::record_rays(subject.database, subject.settings, 100);
   for (std::size_t i = 0; i < apps::ray_class_count; ++i) {
@@ -93,12 +93,12 @@ TEST_CASE("what is recorded has the same bits again") {
 }
 
 TEST_CASE("a scene without mirrors has no secondary rays") {
-  const apps::Subject subject = small_subject("tetra-2");
+  const apps::Subject subject = recorded_subject("tetra-2");
   CHECK(apps::record_rays(subject.database, subject.settings, plenty).of(RayClass::secondary).empty());
 }
 
 TEST_CASE("bounces leave a wall on the ray's side, by the cosine, and ignore the triangle they start on") {
-  const apps::Subject subject = small_subject("tetra-2");
+  const apps::Subject subject = recorded_subject("tetra-2");
   const Recording recording = apps::record_rays(subject.database, subject.settings, plenty);
   const core::Ray& primary = recording.of(RayClass::primary)[24 * 8 + 12];
   core::LocalRecords records(subject.database.bytes());

@@ -17,7 +17,7 @@ namespace {
 using apps::CacheStudy;
 using apps::geometric_sizes;
 using apps::Table;
-using Sizes = std::vector<std::uint32_t>;
+using CacheSizes = std::vector<std::uint32_t>;
 
 nodes::Machine ipsc2() { return apps::find_machine_preset("ipsc2")->machine; }
 
@@ -31,13 +31,13 @@ std::uint64_t faults_on_threads(StudySubject& subject, std::uint32_t cache_pages
 }  // namespace
 
 TEST_CASE("sizes go from one page to all in steps of about the same ratio") {
-  CHECK(geometric_sizes(2048, 12) == Sizes{1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048});
-  CHECK(geometric_sizes(3, 12) == Sizes{1, 2, 3});
-  CHECK(geometric_sizes(1000, 2) == Sizes{1, 1000});
-  CHECK(geometric_sizes(1, 12) == Sizes{1});
+  CHECK(geometric_sizes(2048, 12) == CacheSizes{1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048});
+  CHECK(geometric_sizes(3, 12) == CacheSizes{1, 2, 3});
+  CHECK(geometric_sizes(1000, 2) == CacheSizes{1, 1000});
+  CHECK(geometric_sizes(1, 12) == CacheSizes{1});
   CHECK(geometric_sizes(0, 12).empty());
   for (const std::uint32_t most : {5U, 77U, 12'345U, 4'000'000'000U}) {
-    const Sizes sizes = geometric_sizes(most, 12);
+    const CacheSizes sizes = geometric_sizes(most, 12);
     CHECK(sizes.size() <= 12);
     CHECK(sizes.front() == 1);
     CHECK(sizes.back() == most);

@@ -28,15 +28,15 @@ using Words = std::vector<std::string>;
 
 namespace {
 
-ScaleOptions parse(Words words) {
+ScaleOptions scale_options(Words words) {
   words.insert(words.begin(), {"study", "scale"});
   return std::get<ScaleOptions>(apps::parse_command_line(words));
 }
 
-ScaleOptions tiny(const Words& more = {}) {
+ScaleOptions tiny_scale(const Words& more = {}) {
   Words words = {"tetra", "--sizes=1-3", "--resolution=8x8", "--size-nodes=2", "--nodes=1,3"};
   words.insert(words.end(), more.begin(), more.end());
-  ScaleOptions options = parse(words);
+  ScaleOptions options = scale_options(words);
   options.settings.program = DMPC_PROGRAM;
   options.format = apps::TableFormat::csv;
   return options;
@@ -71,7 +71,7 @@ std::string endless() {
 }  // namespace
 
 TEST_CASE("the study of scale has a row for each scene, number of nodes and method, and their growth") {
-  const std::string table = output_of(tiny());
+  const std::string table = output_of(tiny_scale());
   CHECK(count(table, "\nsizes,tetra,") == 9);
   CHECK(count(table, "\nnodes,tetra,tetra-2,") == 4);
   CHECK(count(table, "\ngrowth by size,tetra,tetra-1 to tetra-3,") == 3);
@@ -80,7 +80,7 @@ TEST_CASE("the study of scale has a row for each scene, number of nodes and meth
 
 TEST_CASE("the study of scale is written as text that says what it means, how busy the machine was and how all grows") {
   const std::string text = [] {
-    ScaleOptions options = tiny({"--repeat=2", "--parts=sizes", "--methods=quarter"});
+    ScaleOptions options = tiny_scale({"--repeat=2", "--parts=sizes", "--methods=quarter"});
     options.format = apps::TableFormat::markdown;
     return output_of(options);
   }();
@@ -92,7 +92,7 @@ TEST_CASE("the study of scale is written as text that says what it means, how bu
 }
 
 TEST_CASE("a run asks for the method's strategy, cache and counters") {
-  const ScaleOptions options = tiny({"--cache=4KiB"});
+  const ScaleOptions options = tiny_scale({"--cache=4KiB"});
   const auto words = [&](ScaleMethod method) {
     return apps::render_arguments({ScalePart::sizes, {.family = "tetra", .size = 2}, method, 5}, options.settings, "s", "p");
   };
@@ -106,7 +106,7 @@ TEST_CASE("a run asks for the method's strategy, cache and counters") {
 
 TEST_CASE("a run that finds no room is a row without figures, and if all are so there is no room for the study") {
   const TemporaryFolder folder;
-  ScaleOptions options = tiny({"--methods=dataflow", "--parts=nodes"});
+  ScaleOptions options = tiny_scale({"--methods=dataflow", "--parts=nodes"});
   options.settings.program =
       stand_in(folder, "case \"$*\" in *--nodes=3*) echo dmpc: no room. >&2; exit 4;; esac\nexec " DMPC_PROGRAM " \"$@\"");
   CHECK(contains(output_of(options), "\nnodes,tetra,tetra-2,dataflow,3,16,,"));
@@ -119,7 +119,7 @@ TEST_CASE("a run that finds no room is a row without figures, and if all are so 
 
 TEST_CASE("a run that is refused for another reason than room ends the study of scale, with the rows before") {
   const TemporaryFolder folder;
-  ScaleOptions options = tiny({"--methods=dataflow", "--parts=nodes"});
+  ScaleOptions options = tiny_scale({"--methods=dataflow", "--parts=nodes"});
   options.settings.program =
       stand_in(folder, "case \"$*\" in *--nodes=3*) echo dmpc: bad. >&2; exit 1;; esac\nexec " DMPC_PROGRAM " \"$@\"");
   apps::Interrupt interrupt;
@@ -131,7 +131,7 @@ TEST_CASE("a run that is refused for another reason than room ends the study of 
 
 TEST_CASE("a run that the system kills is a row without figures") {
   const TemporaryFolder folder;
-  ScaleOptions options = tiny({"--methods=cache", "--parts=nodes"});
+  ScaleOptions options = tiny_scale({"--methods=cache", "--parts=nodes"});
   options.format = apps::TableFormat::markdown;
   options.settings.program = stand_in(folder, "case \"$*\" in *--nodes=3*) kill -9 $$;; esac\nexec " DMPC_PROGRAM " \"$@\"");
   CHECK(contains(output_of(options), "tetra-2, svm 1MiB on 3 nodes: no figures. It was killed"));
@@ -140,7 +140,7 @@ TEST_CASE("a run that the system kills is a row without figures") {
 TEST_CASE("the study of scale writes its table and pictures where they are asked for") {
   const TemporaryFolder folder;
   const ScaleOptions options =
-      tiny({"--methods=cache", "--plots=" + (folder / "plots").string(), "-o" + (folder / "table.csv").string()});
+      tiny_scale({"--methods=cache", "--plots=" + (folder / "plots").string(), "-o" + (folder / "table.csv").string()});
   CHECK(output_of(options).empty());
   CHECK(file_text(folder / "table.csv") == file_text(folder / "plots" / "scale.csv"));
   for (const char* name : {"scale_tetra_seconds", "scale_tetra_memory", "scale_nodes_seconds"}) {
@@ -153,15 +153,17 @@ TEST_CASE("outputs of the study of scale that clash or cannot be written are ref
   apps::Interrupt interrupt;
   std::ostringstream output;
   const std::string plots = "--plots=" + (folder / "plots").string();
-  CHECK_THROWS_AS(apps::study_scale_command(tiny({plots, "-o" + (folder / "plots" / "scale.csv").string()}), interrupt, output),
-                  core::UsageError);
-  CHECK_THROWS_AS(apps::study_scale_command(tiny({"-o" + (folder / "no" / "a").string()}), interrupt, output), core::InputError);
+  CHECK_THROWS_AS(
+      apps::study_scale_command(tiny_scale({plots, "-o" + (folder / "plots" / "scale.csv").string()}), interrupt, output),
+      core::UsageError);
+  CHECK_THROWS_AS(apps::study_scale_command(tiny_scale({"-o" + (folder / "no" / "a").string()}), interrupt, output),
+                  core::InputError);
   CHECK(output.str().empty());
 }
 
 TEST_CASE("a program that fails by a fault of its own ends the study of scale") {
   const TemporaryFolder folder;
-  ScaleOptions options = tiny();
+  ScaleOptions options = tiny_scale();
   options.settings.program = folder / "no program";
   apps::Interrupt interrupt;
   std::ostringstream output;
@@ -172,24 +174,24 @@ TEST_CASE("a program that fails by a fault of its own ends the study of scale") 
 }
 
 TEST_CASE("options of the study of scale are taken, and wrong ones refused") {
-  const ScaleOptions options = parse({"mount", "rings", "--sizes=2", "--scene=mount-3", "--repeat=3", "--parts=nodes"});
+  const ScaleOptions options = scale_options({"mount", "rings", "--sizes=2", "--scene=mount-3", "--repeat=3", "--parts=nodes"});
   CHECK(options.settings.families == Words{"mount", "rings"});
   CHECK(options.settings.rounds == 3);
-  CHECK(parse({}).settings.families == Words{"tetra", "mount"});
-  CHECK(parse({"--cache=64KiB"}).settings.cache_bytes == 65536);
-  CHECK(parse({"--nodes=8,1,3,8,1"}).settings.node_counts == std::vector<std::uint32_t>{1, 3, 8});
+  CHECK(scale_options({}).settings.families == Words{"tetra", "mount"});
+  CHECK(scale_options({"--cache=64KiB"}).settings.cache_bytes == 65536);
+  CHECK(scale_options({"--nodes=8,1,3,8,1"}).settings.node_counts == std::vector<std::uint32_t>{1, 3, 8});
   for (const char* word : {"--sizes=x", "--parts=all", "--methods=svm", "--cache=100", "--nodes=0", "--nodes=1025",
                            "--size-nodes=0", "--repeat=0", "--resolution=9", "--format=xml", "--cache=0", "--cache=1025GiB"}) {
     CAPTURE(std::string(word));
-    CHECK_THROWS_AS(parse({word}), core::UsageError);
+    CHECK_THROWS_AS(scale_options({word}), core::UsageError);
   }
 }
 
 TEST_CASE("the study of scale says what is wrong with a family, and with a cache") {
-  CHECK_THROWS_WITH_AS(parse({"mount", "tetra", "mount"}), doctest::Contains("FAMILY mount: it is there twice"),
+  CHECK_THROWS_WITH_AS(scale_options({"mount", "tetra", "mount"}), doctest::Contains("FAMILY mount: it is there twice"),
                        core::UsageError);
-  CHECK_THROWS_WITH_AS(parse({"--cache=1500"}), doctest::Contains("multiple of 1KiB"), core::UsageError);
-  CHECK_THROWS_WITH_AS(parse({"--cache=9000GiB"}), doctest::Contains("at most 1024GiB"), core::UsageError);
+  CHECK_THROWS_WITH_AS(scale_options({"--cache=1500"}), doctest::Contains("multiple of 1KiB"), core::UsageError);
+  CHECK_THROWS_WITH_AS(scale_options({"--cache=9000GiB"}), doctest::Contains("at most 1024GiB"), core::UsageError);
 }
 
 TEST_CASE("Ctrl-C ends the study of scale with status 130 and the rows finished before") {

@@ -12,6 +12,7 @@
 #include "apps/run_strategy.h"
 #include "apps/stats.h"
 #include "tests/support/study_subject.h"
+#include "tests/support/table_cells.h"
 
 namespace dmpc::tests {
 
@@ -22,17 +23,10 @@ using apps::SpeedupStudy;
 using apps::Strategy;
 using apps::Table;
 
-double number(const Cell& cell) { return std::get<double>(cell); }
-
 SpeedupStudy study_of(Strategy strategy, std::vector<std::uint32_t> node_counts) {
   SpeedupStudy study{.node_counts = std::move(node_counts)};
   study.run.strategy = strategy;
   return study;
-}
-
-bool has_note(const Table& table, const std::string& part) {
-  return std::any_of(table.notes().begin(), table.notes().end(),
-                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "apps/stability/listing.h"
 #include "apps/stability/random.h"
 #include "core/expect.h"
+#include "tests/support/ids.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
@@ -62,13 +63,6 @@ BrickTree tree_of(const std::vector<PrimitiveValues>& primitives, int levels_max
   std::iota(ids.begin(), ids.end(), 0U);
   const Parallel serial(1);
   return BrickBuilder(primitives, 0.0, 1e18F, serial, levels_max).build({0, 0, 0}, ids);
-}
-
-bool are_all(std::vector<std::uint32_t> ids, std::size_t count) {
-  std::sort(ids.begin(), ids.end());
-  std::vector<std::uint32_t> all(count);
-  std::iota(all.begin(), all.end(), 0U);
-  return ids == all;
 }
 
 int levels_of(const BrickDraft& draft) {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "apps/stability/random.h"
+#include "tests/support/ids.h"
 
 using namespace dmpc::core;
 
@@ -40,13 +41,6 @@ std::vector<std::uint32_t> cut_up(Cutter& cutter, const Group& group, bool balan
   const auto more = cut_up(cutter, second, balanced);
   ids.insert(ids.end(), more.begin(), more.end());
   return ids;
-}
-
-bool are_all(std::vector<std::uint32_t> ids, std::size_t count) {
-  std::vector<std::uint32_t> all(count);
-  std::iota(all.begin(), all.end(), 0U);
-  std::sort(ids.begin(), ids.end());
-  return ids == all;
 }
 
 }  // namespace

@@ -17,9 +17,9 @@ using namespace dmpc::tests;
 namespace {
 
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr std::array<float, 14> odd{0.0F,   -0.0F,   nan_value, infinite, -infinite, 3e38F, -3e38F,
-                                    1e-40F, -1e-40F, 1e-30F,    1e-18F,   -1e-17F,   0.5F,  1.0F};
+constexpr float infinite_float = std::numeric_limits<float>::infinity();
+constexpr std::array<float, 14> odd{0.0F,   -0.0F,   nan_value, infinite_float, -infinite_float, 3e38F, -3e38F,
+                                    1e-40F, -1e-40F, 1e-30F,    1e-18F,         -1e-17F,         0.5F,  1.0F};
 
 Scene small_scene() {
   Scene scene = scene_of(sphere_mesh(6, 8, 0.1));

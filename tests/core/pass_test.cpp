@@ -36,11 +36,11 @@ core::Region part_around(const core::Corner& cell, const core::Region& box, Rand
   return part;
 }
 
-struct Outcome {
+struct Stepped {
   core::Traced traced;
   core::Passage passage;
 
-  bool operator==(const Outcome& other) const {
+  bool operator==(const Stepped& other) const {
     return traced == other.traced && (traced != core::Traced::left || is_same_passage(other.passage));
   }
   bool is_same_passage(const core::Passage& other) const {
@@ -49,14 +49,14 @@ struct Outcome {
   }
 };
 
-Outcome in_one_step(const core::Ray& ray, const core::GridFrame& frame, core::Passage passage, const core::Region& box) {
+Stepped in_one_step(const core::Ray& ray, const core::GridFrame& frame, core::Passage passage, const core::Region& box) {
   core::Operations operations;
   const core::Traced traced = core::pass(ray, frame, box, passage, operations);
   CHECK(operations.cell_steps == 1);
   return {traced, passage};
 }
 
-Outcome in_many_steps(const core::Ray& ray, const core::GridFrame& frame, core::Passage passage, const core::Region& box,
+Stepped in_many_steps(const core::Ray& ray, const core::GridFrame& frame, core::Passage passage, const core::Region& box,
                       Random& random) {
   core::Operations operations;
   core::Traced traced = core::Traced::left;
@@ -93,7 +93,7 @@ TEST_CASE("a region is passed in one step with the bits of many") {
     const std::optional<core::Passage> first = core::first_passage(ray, frame);
     if (first) {
       const core::Region box = box_around(first->cell, core::grid_size(frame), random);
-      const Outcome outcome = in_one_step(ray, frame, *first, box);
+      const Stepped outcome = in_one_step(ray, frame, *first, box);
       CHECK(outcome == in_many_steps(ray, frame, *first, box, random));
       left += outcome.traced == core::Traced::left ? 1 : 0;
       missed += outcome.traced == core::Traced::miss ? 1 : 0;

@@ -15,9 +15,9 @@ using namespace dmpc::tests;
 namespace {
 
 /// Holds one record, the one fetched last, for one question.
-class OneRecord {
+class LastRecord {
  public:
-  explicit OneRecord(const Database& database) : all_(database.bytes()) {}
+  explicit LastRecord(const Database& database) : all_(database.bytes()) {}
   const std::byte* find(Address address) {
     const bool held = address == held_;
     held_ = no_address;
@@ -52,8 +52,8 @@ RenderSettings settings_of(const Database& database, const Scene& scene, int sam
 /// Runs a pixel to its end over memory for one record; counts how often it had to wait.
 PixelSums starved(const Database& database, const RenderSettings& settings, std::uint32_t pixel, Operations& operations,
                   int& waits) {
-  OneRecord records(database);
-  GridTracer<OneRecord> tracer(records, database.header(), {});
+  LastRecord records(database);
+  GridTracer<LastRecord> tracer(records, database.header(), {});
   std::vector<HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
   PixelTask task(stack);
   task.start(pixel, settings.first_samples(), settings, operations);
@@ -131,8 +131,8 @@ TEST_CASE("where the background shows no tracer is asked, and rays count and lea
   BackgroundTiles::Bits bits{};
   bits[16] = std::uint64_t{1} << 32U;  // pixel 6 of 4x4: 16 tiles a pixel
   settings.background = BackgroundTiles(settings.camera, bits);
-  OneRecord nothing(database);
-  GridTracer<OneRecord> tracer(nothing, database.header(), {});
+  LastRecord nothing(database);
+  GridTracer<LastRecord> tracer(nothing, database.header(), {});
   std::vector<HitState> stack(5);
   PixelTask task(stack);
   Operations operations;

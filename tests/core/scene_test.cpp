@@ -11,7 +11,7 @@ using namespace dmpc::core;
 
 namespace {
 
-const std::vector<Vec3d> triangle = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+const std::vector<Vec3d> small_triangle = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 const std::vector<Vec3d> square = {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 const std::vector<Vec3d> upright = {{0, 0, 1}, {0, 0, 2}, {0, 0, 3}};
 
@@ -45,19 +45,19 @@ TEST_CASE("objects keep the order of the file and find their data in the pool of
   SceneBuilder builder(scene);
   builder.polygon(square);
   builder.sphere({1, 2, 3}, 4);
-  builder.patch(triangle, upright);
+  builder.patch(small_triangle, upright);
   builder.cone({0, 0, 0}, 2, {0, 0, 1}, 1);
-  builder.polygon(triangle);
+  builder.polygon(small_triangle);
   builder.sphere({5, 6, 7}, -8);
 
   REQUIRE(scene.objects.size() == 6);
   CHECK(scene.objects[0].kind == ObjectKind::polygon);
   CHECK(scene.objects[0].vertex_count == 4);
   CHECK(scene.objects[2].kind == ObjectKind::patch);
-  CHECK(scene.vertices[scene.objects[2].first + 1] == triangle[1]);
+  CHECK(scene.vertices[scene.objects[2].first + 1] == small_triangle[1]);
   CHECK(scene.normals[scene.objects[2].first_normal + 2] == upright[2]);
   CHECK(scene.cones[scene.objects[3].first].base_radius == 2);
-  CHECK(scene.vertices[scene.objects[4].first + 2] == triangle[2]);
+  CHECK(scene.vertices[scene.objects[4].first + 2] == small_triangle[2]);
   CHECK(scene.spheres[scene.objects[5].first].radius == -8);
   CHECK(scene.vertices.size() == 10);
 }
@@ -111,7 +111,7 @@ TEST_CASE("a polygon of two vertices and a patch without all its normals break a
   Scene scene;
   SceneBuilder builder(scene);
   CHECK_THROWS_AS(builder.polygon({{0, 0, 0}, {1, 0, 0}}), InternalError);
-  CHECK_THROWS_AS(builder.patch(triangle, {{0, 0, 1}}), InternalError);
+  CHECK_THROWS_AS(builder.patch(small_triangle, {{0, 0, 1}}), InternalError);
   CHECK(scene.objects.empty());
 }
 
@@ -124,7 +124,7 @@ TEST_CASE("a scene is replayed in file order with the material wherever it chang
   builder.material(red());
   builder.sphere({}, 1);
   builder.material(green());
-  builder.patch(triangle, upright);
+  builder.patch(small_triangle, upright);
   builder.cone({}, 1, {0, 0, 1}, 1);
   Notes notes;
   replay(scene, notes);

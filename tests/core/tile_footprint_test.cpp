@@ -13,7 +13,7 @@ namespace {
 
 /// Looks along -z from z = 1 with y up, through a frame that changes nothing. At z = 0 the picture's outermost pixels have their
 /// middles at -1 and 1 along its shorter side.
-const View straight{.from = {0, 0, 1}, .at = {0, 0, 0}, .up = {0, 1, 0}, .angle_degrees = 90};
+const View wide_view{.from = {0, 0, 1}, .at = {0, 0, 0}, .up = {0, 1, 0}, .angle_degrees = 90};
 
 constexpr std::uint64_t all_tiles = ~std::uint64_t{0};
 
@@ -22,7 +22,7 @@ Box box(const Vec3d& low, const Vec3d& high) { return {low, high}; }
 /// Along one side from the middle of pixel `pixel` of 129 on: at z = 0, where a pixel is 1/64 wide.
 double place(double pixel) { return pixel / 64 - 1; }
 
-Camera camera_of(int width, int height, const View& view = straight) { return {view, {}, width, height, 1}; }
+Camera camera_of(int width, int height, const View& view = wide_view) { return {view, {}, width, height, 1}; }
 
 TileFootprint footprint_of(const Box& of, int width = 129, int height = 129) {
   return BoxProjector(camera_of(width, height)).footprint_of(of);
@@ -94,7 +94,7 @@ TEST_CASE("a side of fewer pixels than tiles has a tile for each, one of more ha
 
 TEST_CASE("of a film that rounding could turn around nothing is said") {
   const auto is_certain = [](double angle, int side) {
-    View view = straight;
+    View view = wide_view;
     view.angle_degrees = angle;
     return BoxProjector(camera_of(side, side, view)).is_certain();
   };
@@ -105,13 +105,13 @@ TEST_CASE("of a film that rounding could turn around nothing is said") {
 }
 
 TEST_CASE("of an eye that is nowhere nothing is said") {
-  View view = straight;
+  View view = wide_view;
   view.from.x = std::numeric_limits<double>::infinity();
   CHECK_FALSE(BoxProjector(camera_of(8, 8, view)).is_certain());
 }
 
 TEST_CASE("where a pixel is smaller than what rounding does to a ray footprints reach far") {
-  View view = straight;
+  View view = wide_view;
   view.angle_degrees = 1e-7;  // a pixel is 2.7e-11 radians wide
   const TileFootprint footprint = BoxProjector(camera_of(65, 65, view)).footprint_of(box({-1e-12, -1e-12, 0}, {1e-12, 1e-12, 0}));
   CHECK(footprint.columns == all_tiles);

@@ -15,8 +15,8 @@ using dataflow::FilmGather;
 
 namespace {
 
-struct Sender {
-  explicit Sender(std::uint32_t credits) : single(plan(), 0, 2), film(single.node, 1, credits) {}
+struct FilmSender {
+  explicit FilmSender(std::uint32_t credits) : single(plan(), 0, 2), film(single.node, 1, credits) {}
 
   static nodes::MemoryPlan plan() {
     nodes::MemoryPlan plan;
@@ -43,7 +43,7 @@ FilmEntry entry_in(const tests::Parcel& parcel, std::uint32_t index) {
 }  // namespace
 
 TEST_CASE("light on one plane of a pixel is one entry") {
-  Sender sender(2);
+  FilmSender sender(2);
   sender.film.add(7, 0, {{1, 2, 3}});
   sender.film.add(7, 1, {{5, 0, 0}});
   sender.film.add(8, 0, {{9, 9, 9}});
@@ -60,7 +60,7 @@ TEST_CASE("light on one plane of a pixel is one entry") {
 }
 
 TEST_CASE("a full film packet leaves at once, a third waits until the host acknowledges one") {
-  Sender sender(2);
+  FilmSender sender(2);
   sender.fill(0);
   sender.fill(100);
   CHECK_FALSE(sender.film.waits());
@@ -75,7 +75,7 @@ TEST_CASE("a full film packet leaves at once, a third waits until the host ackno
 }
 
 TEST_CASE("the film is settled when all has been sent and acknowledged") {
-  Sender sender(1);
+  FilmSender sender(1);
   CHECK(sender.film.settled());
   sender.film.flush();
   CHECK(sender.single.post.parcels.empty());
@@ -89,7 +89,7 @@ TEST_CASE("the film is settled when all has been sent and acknowledged") {
 }
 
 TEST_CASE("light that saturates an entry is counted") {
-  Sender sender(1);
+  FilmSender sender(1);
   sender.film.add(1, 0, {{std::numeric_limits<std::int64_t>::max(), 0, 0}});
   sender.film.add(1, 0, {{1, 0, 0}});
   CHECK(sender.film.counters().saturated == 1);

@@ -19,8 +19,8 @@ using nodes::NodeId;
 namespace {
 
 /// Node 1 of some, with a gather.
-struct Sender {
-  explicit Sender(const Gather::Capacity& capacity)
+struct RaySender {
+  explicit RaySender(const Gather::Capacity& capacity)
       : single(plan_for(capacity), 1, capacity.node_count + 1), gather(single.node, capacity) {}
 
   static nodes::MemoryPlan plan_for(const Gather::Capacity& capacity) {
@@ -56,7 +56,7 @@ constexpr NodeId host{3};
 }  // namespace
 
 TEST_CASE("a packet waits when it is full, and carries its rays to their owner in order") {
-  Sender sender({.node_count = 3, .ray_batch = 2, .ray_credits = 1});
+  RaySender sender({.node_count = 3, .ray_batch = 2, .ray_credits = 1});
   sender.add(0, 10);
   sender.add(2, 20);
   CHECK_FALSE(sender.gather.waits());
@@ -76,7 +76,7 @@ TEST_CASE("a packet waits when it is full, and carries its rays to their owner i
 }
 
 TEST_CASE("a batch of one is one ray a message") {
-  Sender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 1});
+  RaySender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 1});
   sender.add(2, 5);
   CHECK(sender.gather.waits());
   CHECK(sender.gather.send() == Way::to_owner);
@@ -84,7 +84,7 @@ TEST_CASE("a batch of one is one ray a message") {
 }
 
 TEST_CASE("without a credit for the owner a packet goes to the host, named with its owner, and without that it waits") {
-  Sender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 1, .host_credits = 1});
+  RaySender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 1, .host_credits = 1});
   const Way ways[] = {Way::to_owner, Way::to_host, Way::wait};
   for (const Way way : ways) {
     sender.add(2, 7);
@@ -104,7 +104,7 @@ TEST_CASE("without a credit for the owner a packet goes to the host, named with 
 }
 
 TEST_CASE("packets without credit are queued for their owners and leave in order when credits come") {
-  Sender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 1, .queue_packets = 3});
+  RaySender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 1, .queue_packets = 3});
   const Way ways[] = {Way::to_owner, Way::to_queue, Way::to_queue, Way::to_queue, Way::to_host, Way::wait};
   for (std::uint32_t pixel = 0; pixel < 6; ++pixel) {
     sender.add(2, pixel);
@@ -129,7 +129,7 @@ TEST_CASE("packets without credit are queued for their owners and leave in order
 }
 
 TEST_CASE("a credit for one owner sends nothing that is queued for another") {
-  Sender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 1, .queue_packets = 2});
+  RaySender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 1, .queue_packets = 2});
   for (const std::uint32_t owner : {0U, 2U, 0U, 2U}) {
     sender.add(owner, owner);
     sender.gather.send();
@@ -141,7 +141,7 @@ TEST_CASE("a credit for one owner sends nothing that is queued for another") {
 }
 
 TEST_CASE("without credits between nodes nothing is queued and all rays go by way of the host") {
-  Sender sender({.node_count = 3, .ray_batch = 2, .ray_credits = 0, .host_credits = 2, .queue_packets = 2});
+  RaySender sender({.node_count = 3, .ray_batch = 2, .ray_credits = 0, .host_credits = 2, .queue_packets = 2});
   sender.add(0, 1);
   CHECK(sender.gather.can_flush());
   sender.gather.flush();
@@ -152,7 +152,7 @@ TEST_CASE("without credits between nodes nothing is queued and all rays go by wa
 }
 
 TEST_CASE("the fullest packet is flushed first") {
-  Sender sender({.node_count = 3, .ray_batch = 4, .ray_credits = 1});
+  RaySender sender({.node_count = 3, .ray_batch = 4, .ray_credits = 1});
   CHECK_FALSE(sender.gather.can_flush());
   CHECK_THROWS_AS(sender.gather.flush(), core::InternalError);
   sender.add(0, 1);
@@ -169,7 +169,7 @@ TEST_CASE("the fullest packet is flushed first") {
 }
 
 TEST_CASE("a packet that is not full waits for its owner's credit and does not overflow") {
-  Sender sender({.node_count = 3, .ray_batch = 2, .ray_credits = 1, .queue_packets = 1});
+  RaySender sender({.node_count = 3, .ray_batch = 2, .ray_credits = 1, .queue_packets = 1});
   sender.add(0, 1);
   sender.gather.flush();
   sender.gather.send();
@@ -180,7 +180,7 @@ TEST_CASE("a packet that is not full waits for its owner's credit and does not o
 }
 
 TEST_CASE("no ray leaves for its own node or for the host") {
-  Sender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 1});
+  RaySender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 1});
   CHECK_THROWS_AS(sender.add(1, 1), core::InternalError);
   CHECK_THROWS_AS(sender.add(3, 1), core::InternalError);
 }

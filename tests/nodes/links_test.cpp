@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/topologies.h"
+
 namespace dmpc::tests {
 namespace {
 
@@ -74,13 +76,10 @@ std::vector<std::string> texts_of(const Links& links) {
   return texts;
 }
 
-constexpr std::array all_kinds{TopologyKind::crossbar, TopologyKind::hypercube, TopologyKind::mesh, TopologyKind::torus,
-                               TopologyKind::fat_tree};
-
 }  // namespace
 
 TEST_CASE("hops are the topology's, and the host hangs on node 0") {
-  for (const TopologyKind kind : all_kinds) {
+  for (const TopologyKind kind : all_topologies) {
     for (const std::uint32_t count : {1U, 2U, 7U, 16U}) {
       const Topology topology(kind, count);
       const Links links = links_of(kind, count);
@@ -98,7 +97,7 @@ TEST_CASE("hops are the topology's, and the host hangs on node 0") {
 }
 
 TEST_CASE("a message passes as many links as there are hops") {
-  for (const TopologyKind kind : all_kinds) {
+  for (const TopologyKind kind : all_topologies) {
     Links links = links_of(kind, 13);
     std::uint64_t hops = 0;
     for (std::uint32_t a = 0; a <= 13; ++a) {
@@ -202,7 +201,7 @@ TEST_CASE("each topology has as many links as its drawing") {
   CHECK(wires_of(TopologyKind::torus, 4) == 2 * (2 + 2));           // rings of two have one link each way, not two
   CHECK(wires_of(TopologyKind::fat_tree, 16) == 2 * (16 + 4));      // 16 leaves, 4 switches below the root
   CHECK(wires_of(TopologyKind::fat_tree, 4) == 2 * 4);
-  for (const TopologyKind kind : all_kinds) {
+  for (const TopologyKind kind : all_topologies) {
     CHECK(wires_of(kind, 1) == 0);
     CHECK(wires_of(kind, 2) == (kind == TopologyKind::fat_tree ? 4 : 2));
   }
@@ -257,7 +256,7 @@ TEST_CASE("switches and places without a node have names of their own") {
 TEST_CASE("what every link carried adds up to the traffic, with and without memory ports") {
   std::mt19937 random(3);
   const auto draw = [&random](std::uint32_t below) { return static_cast<std::uint32_t>(random() % below); };
-  for (const TopologyKind kind : all_kinds) {
+  for (const TopologyKind kind : all_topologies) {
     Links plain = links_of(kind, 13), ported = ported_links_of(kind, 13), free = free_links_of(kind, 13);
     for (std::uint64_t now_ns = 0; now_ns < 2000; now_ns += 2) {
       const std::uint32_t source = draw(14), target = draw(14), bytes = draw(40);

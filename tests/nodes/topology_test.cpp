@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/expect.h"
+#include "tests/support/topologies.h"
 
 namespace dmpc::tests {
 
@@ -15,9 +16,6 @@ using nodes::Topology;
 using nodes::TopologyKind;
 
 namespace {
-
-constexpr std::array all_kinds{TopologyKind::crossbar, TopologyKind::hypercube, TopologyKind::mesh, TopologyKind::torus,
-                               TopologyKind::fat_tree};
 
 std::vector<Link> route(const Topology& topology, std::uint32_t from, std::uint32_t to) {
   return topology.route(NodeId{from}, NodeId{to});
@@ -40,7 +38,7 @@ bool is_way(const std::vector<Link>& links, std::uint32_t from, std::uint32_t to
 }  // namespace
 
 TEST_CASE("a route leads from node to node over as many links as there are hops, for every count and topology") {
-  for (const TopologyKind kind : all_kinds) {
+  for (const TopologyKind kind : all_topologies) {
     for (const std::uint32_t count : {1U, 2U, 3U, 5U, 8U, 13U, 16U, 31U, 64U}) {
       const Topology topology(kind, count);
       bool is_right = true;
@@ -105,7 +103,7 @@ TEST_CASE("a fat tree goes up to the lowest common switch") {
 }
 
 TEST_CASE("every topology's name is read back, and no other") {
-  for (const TopologyKind kind : all_kinds) {
+  for (const TopologyKind kind : all_topologies) {
     CHECK(nodes::parse_topology(nodes::name_of(kind)) == kind);
   }
   CHECK_THROWS_AS(nodes::parse_topology("ring"), core::InputError);

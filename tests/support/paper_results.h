@@ -12,6 +12,9 @@
 
 namespace dmpc::tests {
 
+/// The preset that the study runs on.
+inline nodes::Machine paper_machine() { return apps::catalogue_of(16).runs.front().machine; }
+
 inline apps::PaperResult result_of_seconds(std::uint64_t seconds) { return {.total_ns = seconds * 1'000'000'000}; }
 
 /// As if every cell of Table 3 had come out as printed; of all other runs nothing.

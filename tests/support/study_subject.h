@@ -10,6 +10,7 @@
 #include "apps/study_table.h"
 #include "apps/subject.h"
 #include "tests/support/small_scenes.h"
+#include "tests/support/table_cells.h"
 
 namespace dmpc::tests {
 
@@ -30,25 +31,5 @@ struct StudySubject {
   std::ostringstream progress;
   apps::StudyRuns runs{subject.database, subject.settings, {progress, true, 9}, interrupt};
 };
-
-/// What stands in the column called `name` of `row`.
-inline apps::Cell cell(const apps::Table& table, std::size_t row, const std::string& name) {
-  std::size_t column = 0;
-  while (table.columns().at(column).name != name) {
-    ++column;
-  }
-  return table.rows().at(row)[column];
-}
-
-/// The same where a real number, a whole one or nothing is known to stand.
-inline double real(const apps::Table& table, std::size_t row, const std::string& name) {
-  return std::get<double>(cell(table, row, name));
-}
-inline std::uint64_t whole(const apps::Table& table, std::size_t row, const std::string& name) {
-  return std::get<std::uint64_t>(cell(table, row, name));
-}
-inline bool is_missing(const apps::Table& table, std::size_t row, const std::string& name) {
-  return std::holds_alternative<std::monostate>(cell(table, row, name));
-}
 
 }  // namespace dmpc::tests

@@ -10,16 +10,17 @@
 #include <vector>
 
 #include "core/expect.h"
+#include "tests/support/small_pages.h"
 
 using namespace dmpc;
 using svm::Cache;
 using svm::CacheShape;
 using svm::PageId;
 using svm::Replacement;
+using tests::page_size;
 
 namespace {
 
-constexpr std::size_t page_size = 512;
 constexpr auto all_policies = {Replacement::lru, Replacement::clock, Replacement::fifo, Replacement::random};
 
 /// A cache in a memory of exactly the size that it says it needs.

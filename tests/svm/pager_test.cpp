@@ -8,6 +8,7 @@
 #include "core/expect.h"
 #include "svm/packets.h"
 #include "tests/support/small_machine.h"
+#include "tests/support/small_pages.h"
 
 using namespace dmpc;
 using namespace dmpc::tests;
@@ -15,9 +16,6 @@ using svm::Kind;
 using svm::PageId;
 
 namespace {
-
-constexpr std::size_t page_size = 512;
-constexpr std::uint32_t page_count = 40;
 
 svm::Plan plan_with(std::uint32_t nodes, std::uint32_t cache_pages, std::uint32_t in_flight) {
   return svm::make_plan({.page_count = page_count,
@@ -27,10 +25,6 @@ svm::Plan plan_with(std::uint32_t nodes, std::uint32_t cache_pages, std::uint32_
                          .in_flight = in_flight,
                          .width = 1,
                          .height = 1});
-}
-
-core::Address start_of(std::uint32_t page) {
-  return core::Address{static_cast<std::uint32_t>(page * page_size / core::record_alignment)};
 }
 
 /// The pager of node 0.

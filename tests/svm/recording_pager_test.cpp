@@ -8,19 +8,13 @@
 #include "svm/packets.h"
 #include "tests/support/references.h"
 #include "tests/support/small_machine.h"
+#include "tests/support/small_pages.h"
 
 using namespace dmpc;
 using namespace dmpc::tests;
 using svm::PageId;
 
 namespace {
-
-constexpr std::size_t page_size = 512;
-constexpr std::uint32_t page_count = 40;
-
-core::Address start_of(std::uint32_t page) {
-  return core::Address{static_cast<std::uint32_t>(page * page_size / core::record_alignment)};
-}
 
 /// The recording pager of node 0 of 4, with two frames.
 struct SmallRecorder {
