@@ -9,6 +9,7 @@
 #include "tests/support/ids.h"
 
 using namespace dmpc::core;
+using dmpc::tests::are_all;
 
 namespace {
 
