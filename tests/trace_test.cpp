@@ -23,10 +23,10 @@ using nodes::Trace;
 using nodes::TraceChoice;
 using nodes::TraceSpan;
 
-constexpr std::uint32_t node_count = 3;
+constexpr std::uint32_t traced_nodes = 3;
 
 /// Mirrors, glass, shadows and some sky.
-Subject subject() {
+Subject traced() {
   core::BuildOptions options;
   options.page_size_bytes = 512;
   return Subject(core::built_in_scene(core::parse_scene_name("balls-2")), {.width = 8, .height = 8, .knows_background = true},
@@ -71,12 +71,12 @@ enum class Way { pages, rays, copies };
 /// One run with somebody who looks on, or nobody.
 Counted run(const Subject& subject, Way way, const std::optional<nodes::Machine>& machine, nodes::Observer* observer) {
   if (way == Way::rays) {
-    const dataflow::Report report = run_dataflow(subject, {.node_count = node_count, .machine = machine, .observer = observer});
+    const dataflow::Report report = run_dataflow(subject, {.node_count = traced_nodes, .machine = machine, .observer = observer});
     CHECK(outcome_of(report) == subject.outcome());
     return counted(report);
   }
   svm::RunOptions options;
-  options.node_count = node_count;
+  options.node_count = traced_nodes;
   options.machine = machine;
   options.observer = observer;
   if (way == Way::pages) {
@@ -95,7 +95,7 @@ struct Traced {
 };
 
 Traced traced(const Subject& subject, Way way, const std::optional<nodes::Machine>& machine, const TraceChoice& choice = {}) {
-  nodes::TraceRecorder recorder(node_count + 1, choice);
+  nodes::TraceRecorder recorder(traced_nodes + 1, choice);
   const Counted counted = run(subject, way, machine, &recorder);
   return {counted, recorder.take()};
 }
@@ -155,11 +155,11 @@ constexpr Way all_ways[] = {Way::pages, Way::rays, Way::copies};
 }  // namespace
 
 TEST_CASE("a trace has every quantum and every packet of a run, by either clock") {
-  const Subject small = subject();
+  const Subject small = traced();
   for (const Way way : all_ways) {
     for (const auto& machine : {std::optional<nodes::Machine>(), std::optional(priced_machine())}) {
       const auto [counted, trace] = traced(small, way, machine);
-      CHECK(trace.nodes.size() == node_count + 1);
+      CHECK(trace.nodes.size() == traced_nodes + 1);
       CHECK(sum(trace, {Activity::work}).count == counted.quanta);
       CHECK(sum(trace, {Activity::receive, Activity::serve}).count == counted.received);
       CHECK(trace.messages.size() == counted.sent);
@@ -169,7 +169,7 @@ TEST_CASE("a trace has every quantum and every packet of a run, by either clock"
 }
 
 TEST_CASE("in virtual time what the nodes did takes as long as the run says") {
-  const Subject small = subject();
+  const Subject small = traced();
   for (const Way way : all_ways) {
     const auto [counted, trace] = traced(small, way, priced_machine());
     const nodes::VirtualTimes& times = counted.times;
@@ -183,7 +183,7 @@ TEST_CASE("in virtual time what the nodes did takes as long as the run says") {
 }
 
 TEST_CASE("what a node does stands in order of time, and interrupts lie within what they interrupt") {
-  const Subject small = subject();
+  const Subject small = traced();
   for (const Way way : all_ways) {
     for (const auto& machine : {std::optional<nodes::Machine>(), std::optional(priced_machine())}) {
       for (const nodes::TraceNode& node : traced(small, way, machine).trace.nodes) {
@@ -194,7 +194,7 @@ TEST_CASE("what a node does stands in order of time, and interrupts lie within w
 }
 
 TEST_CASE("no message is received before it is sent") {
-  const Subject small = subject();
+  const Subject small = traced();
   for (const Way way : all_ways) {
     for (const auto& machine : {std::optional<nodes::Machine>(), std::optional(priced_machine())}) {
       for (const nodes::TraceMessage& message : traced(small, way, machine).trace.messages) {
@@ -205,14 +205,14 @@ TEST_CASE("no message is received before it is sent") {
 }
 
 TEST_CASE("looking on does not change a run in virtual time") {
-  const Subject small = subject();
+  const Subject small = traced();
   for (const Way way : all_ways) {
     CHECK(run(small, way, priced_machine(), nullptr).hash == traced(small, way, priced_machine()).counted.hash);
   }
 }
 
 TEST_CASE("a trace of one pixel in so many has the quanta that work on these pixels and no others") {
-  const Subject small = subject();
+  const Subject small = traced();
   for (const Way way : {Way::pages, Way::rays}) {
     const Trace all = traced(small, way, priced_machine()).trace;
     const Trace some = traced(small, way, priced_machine(), {.every = 4}).trace;

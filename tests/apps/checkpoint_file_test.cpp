@@ -37,7 +37,7 @@ struct SmallPicture {
   core::PixelMask done{5000};
 };
 
-std::string complaint(const std::filesystem::path& path, const PictureIdentity& of = identity) {
+std::string file_complaint(const std::filesystem::path& path, const PictureIdentity& of = identity) {
   try {
     read_checkpoint(path, of);
   } catch (const core::InputError& error) {
@@ -80,7 +80,7 @@ TEST_CASE("a checkpoint of another picture is refused, with what differs") {
   PictureIdentity other = identity;
   other.facts[0].value = "4";
   other.facts[1].value = "#13";
-  CHECK(contains(complaint(folder / "a", other), "of another picture: depth is 5, here 4; other objects"));
+  CHECK(contains(file_complaint(folder / "a", other), "of another picture: depth is 5, here 4; other objects"));
 }
 
 TEST_CASE("wherever a byte of a checkpoint is changed, it is refused") {
@@ -92,7 +92,7 @@ TEST_CASE("wherever a byte of a checkpoint is changed, it is refused") {
     changed[place] = static_cast<char>(changed[place] ^ 1);
     write_text(folder / "b", changed);
     CAPTURE(place);
-    CHECK_FALSE(complaint(folder / "b").empty());
+    CHECK_FALSE(file_complaint(folder / "b").empty());
   }
 }
 
@@ -102,17 +102,17 @@ TEST_CASE("a checkpoint that is cut short or goes on too long is damaged") {
   const std::string text = file_text(folder / "a");
   for (const std::string& wrong : {text.substr(0, text.size() - 1), text.substr(0, 1000), text + "x"}) {
     write_text(folder / "b", wrong);
-    CHECK(contains(complaint(folder / "b"), "is damaged or cut short"));
+    CHECK(contains(file_complaint(folder / "b"), "is damaged or cut short"));
   }
 }
 
 TEST_CASE("what is no checkpoint is refused") {
   const TemporaryFolder folder;
   write_text(folder / "a", "");
-  CHECK(contains(complaint(folder / "a"), "no checkpoint"));
+  CHECK(contains(file_complaint(folder / "a"), "no checkpoint"));
   write_text(folder / "a", "dmpc checkpoint 2\n\n");
-  CHECK(contains(complaint(folder / "a"), "no checkpoint of this version"));
-  CHECK(contains(complaint(folder / "none"), "cannot be read"));
+  CHECK(contains(file_complaint(folder / "a"), "no checkpoint of this version"));
+  CHECK(contains(file_complaint(folder / "none"), "cannot be read"));
 }
 
 TEST_CASE("where there is no room for a checkpoint that is said, and the old one stays") {

@@ -27,7 +27,7 @@ using tests::write_text;
 
 namespace {
 
-const PictureIdentity identity{4, 2, {{"depth", "5"}}};
+const PictureIdentity small_identity{4, 2, {{"depth", "5"}}};
 
 /// Keeps a picture of which `done` pixels are done.
 void keep(const core::Continuation& continuation, std::uint32_t done) {
@@ -90,9 +90,9 @@ const std::vector<std::vector<std::string>> computers = {{"--samples=16", "--str
 TEST_CASE("a checkpoint is due when its time has come, and then not for a while") {
   const TemporaryFolder folder;
   std::ostringstream messages;
-  Checkpoints never({.file = folder / "a", .every_seconds = 1e6}, identity, messages, false);
+  Checkpoints never({.file = folder / "a", .every_seconds = 1e6}, small_identity, messages, false);
   CHECK_FALSE(never.continuation().is_due());
-  Checkpoints often({.file = folder / "a", .every_seconds = 1e-9}, identity, messages, false);
+  Checkpoints often({.file = folder / "a", .every_seconds = 1e-9}, small_identity, messages, false);
   CHECK(often.continuation().is_due());
   CHECK(messages.str().empty());
 }
@@ -101,17 +101,17 @@ TEST_CASE("who resumes is told how far the picture was, unless quiet, or that th
   const TemporaryFolder folder;
   std::ostringstream messages;
   const CheckpointOptions options{.file = folder / "a", .resumes = true};
-  Checkpoints first(options, identity, messages, false);
+  Checkpoints first(options, small_identity, messages, false);
   CHECK(contains(messages.str(), "yet: from the start"));
   CHECK(first.continuation().start == nullptr);
   keep(first.continuation(), 3);
-  Checkpoints second(options, identity, messages, false);
+  Checkpoints second(options, small_identity, messages, false);
   CHECK(contains(messages.str(), "3 of 8 pixels of pass 1 are done"));
   REQUIRE(second.continuation().start != nullptr);
   CHECK(second.continuation().start->done.count() == 3);
   CHECK(second.samples_found_done() == 3);
   messages.str("");
-  const Checkpoints quiet(options, identity, messages, true);
+  const Checkpoints quiet(options, small_identity, messages, true);
   CHECK(messages.str().empty());
 }
 
@@ -119,7 +119,7 @@ TEST_CASE("in the end the checkpoint is removed, with what a killed process has 
   const TemporaryFolder folder;
   std::ostringstream messages;
   for (const bool stays : {true, false}) {
-    Checkpoints checkpoints({.file = folder / "a", .stays = stays}, identity, messages, false);
+    Checkpoints checkpoints({.file = folder / "a", .stays = stays}, small_identity, messages, false);
     keep(checkpoints.continuation(), 1);
     write_text(next_checkpoint(folder / "a"), "half");
     checkpoints.finish();
@@ -131,7 +131,7 @@ TEST_CASE("a checkpoint that cannot be written is a warning") {
   const TemporaryFolder folder;
   std::ostringstream messages;
   std::filesystem::create_directory(folder / "b");
-  Checkpoints checkpoints({.file = folder / "b" / "a"}, identity, messages, false);
+  Checkpoints checkpoints({.file = folder / "b" / "a"}, small_identity, messages, false);
   const core::Continuation continuation = checkpoints.continuation();
   std::filesystem::remove(folder / "b");
   keep(continuation, 1);

@@ -16,14 +16,13 @@
 namespace dmpc::apps {
 
 using tests::contains;
-using Json = nlohmann::json;
 
 namespace {
 
 /// Events of one phase.
-std::vector<Json> events(const Json& trace, const std::string& phase) {
-  std::vector<Json> found;
-  for (const Json& event : trace["traceEvents"]) {
+std::vector<nlohmann::json> events(const nlohmann::json& trace, const std::string& phase) {
+  std::vector<nlohmann::json> found;
+  for (const nlohmann::json& event : trace["traceEvents"]) {
     if (event["ph"] == phase) {
       found.push_back(event);
     }
@@ -31,9 +30,9 @@ std::vector<Json> events(const Json& trace, const std::string& phase) {
   return found;
 }
 
-std::set<int> ids(const std::vector<Json>& events) {
+std::set<int> ids(const std::vector<nlohmann::json>& events) {
   std::set<int> found;
-  for (const Json& event : events) {
+  for (const nlohmann::json& event : events) {
     found.insert(event["id"].get<int>());
   }
   return found;
@@ -56,12 +55,12 @@ std::string written(const nodes::TraceSpan& span) {
 
 TEST_CASE("a Chrome trace is JSON whose times never decrease, and says its clock") {
   for (const RunnerKind runner : {RunnerKind::threads, RunnerKind::virtual_time}) {
-    const Json trace = Json::parse(Traced(to_trace(Strategy::svm, runner)).text(".json"));
+    const nlohmann::json trace = nlohmann::json::parse(Traced(to_trace(Strategy::svm, runner)).text(".json"));
     CHECK(trace["otherData"]["clock"] == (runner == RunnerKind::threads ? "wall clock" : "virtual time"));
     CHECK(trace["otherData"].contains("run_hash") == (runner == RunnerKind::virtual_time));
     double last = 0;
     bool ascends = true;
-    for (const Json& event : trace["traceEvents"]) {
+    for (const nlohmann::json& event : trace["traceEvents"]) {
       ascends = ascends && (event["ph"] == "M" || event["ts"] >= last);
       last = event.value("ts", last);
     }
@@ -75,8 +74,8 @@ TEST_CASE("a Chrome trace is JSON whose times never decrease, and says its clock
 TEST_CASE("every flow of a Chrome trace has a beginning and an end, and is a packet") {
   for (const Strategy strategy : {Strategy::svm, Strategy::dataflow, Strategy::replicated}) {
     Traced traced(to_trace(strategy, RunnerKind::virtual_time));
-    const Json trace = Json::parse(traced.text(".json"));
-    const std::vector<Json> begins = events(trace, "s"), ends = events(trace, "f");
+    const nlohmann::json trace = nlohmann::json::parse(traced.text(".json"));
+    const std::vector<nlohmann::json> begins = events(trace, "s"), ends = events(trace, "f");
     CHECK(begins.size() == packets_sent(traced.report));
     CHECK(ends.size() == begins.size());
     CHECK(ids(begins).size() == begins.size());
@@ -86,8 +85,8 @@ TEST_CASE("every flow of a Chrome trace has a beginning and an end, and is a pac
 
 TEST_CASE("a node waits for each page that it asked for from the request to the reply") {
   Traced traced(to_trace(Strategy::svm, RunnerKind::virtual_time));
-  const Json trace = Json::parse(traced.text(".json"));
-  const std::vector<Json> begins = events(trace, "b"), ends = events(trace, "e");
+  const nlohmann::json trace = nlohmann::json::parse(traced.text(".json"));
+  const std::vector<nlohmann::json> begins = events(trace, "b"), ends = events(trace, "e");
   CHECK(begins.size() == std::get<svm::Report>(traced.report).pages().faults);
   CHECK(ids(ends) == ids(begins));
   CHECK(contains(begins.front()["name"].get<std::string>(), "page "));
@@ -114,14 +113,14 @@ TEST_CASE("a slice says when, how long, of which packet and for which pixel") {
                                     .is_cut = true});
   CHECK(contains(text, "\"pid\":2,\"tid\":2,\"ts\":1234.567,\"dur\":765.433,\"name\":\"shade\""));
   CHECK(contains(text, "{\"own_us\":0.005,\"packet\":\"page_reply\",\"x\":2,\"y\":4,\"depth\":3,\"cut\":true}"));
-  CHECK(Json::parse(text)["otherData"]["scene"] == "a\"b\\c d");
+  CHECK(nlohmann::json::parse(text)["otherData"]["scene"] == "a\"b\\c d");
 }
 
 TEST_CASE("a trace of nothing is whole, too") {
   const nodes::Trace nothing{.nodes = std::vector<nodes::TraceNode>(2)};
   std::ostringstream output;
   write_chrome({.trace = nothing, .kind_names = {}, .clock = "wall clock", .remarks = {}}, output);
-  const Json trace = Json::parse(output.str());
+  const nlohmann::json trace = nlohmann::json::parse(output.str());
   CHECK(trace["traceEvents"].size() == 6);
   CHECK(trace["traceEvents"][0]["args"]["name"] == "node 0");
   CHECK(trace["traceEvents"][3]["args"]["name"] == "host");

@@ -56,8 +56,8 @@ std::uint64_t shading_ns(const std::string& read) {
 std::uint64_t states_with_duration(const nodes::Trace& trace) {
   std::uint64_t sum = 0;
   for (const nodes::TraceNode& node : trace.nodes) {
-    sum += static_cast<std::uint64_t>(
-        std::count_if(node.spans.begin(), node.spans.end(), [](const auto& span) { return span.begin_ns != span.end_ns; }));
+    sum += static_cast<std::uint64_t>(std::count_if(node.spans.begin(), node.spans.end(),
+                                                    [](const nodes::TraceSpan& span) { return span.begin_ns != span.end_ns; }));
   }
   return sum;
 }
