@@ -184,10 +184,11 @@ TEST_CASE("a render that is interrupted says how to go on") {
 
 TEST_CASE("a checkpoint of other settings is refused by the program, which says what differs") {
   const TemporaryFolder folder;
-  ChildProcess process(render(folder, {"--samples=2", "--keep-checkpoint"}));
-  REQUIRE(process.status() == 0);
-  REQUIRE(std::filesystem::exists(folder / "c"));
-  ChildProcess other(render(folder, {"--samples=2", "--depth=4"}));
+  ChildProcess process(render(folder, {"--samples=4096"}));
+  REQUIRE(waits_for_checkpoint(folder));
+  process.send(SIGKILL);
+  process.status();
+  ChildProcess other(render(folder, {"--samples=4096", "--depth=4"}));
   CHECK(other.status() == 1);
   CHECK(contains(other.errors(), "of another picture: depth is 5, here 4"));
 }
