@@ -13,6 +13,7 @@
 #include "dataflow/run.h"
 #include "tests/support/border_scene.h"
 #include "tests/support/pairwise.h"
+#include "tests/support/scaled.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"
 
@@ -89,11 +90,11 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
 }  // namespace
 
 TEST_CASE("dataflow: any nodes, batches, credits, queues, balances, skips and axes give the picture of mirrors and glass") {
-  check_pairwise(mirrors_and_glass(), {20, 20});
+  check_pairwise(mirrors_and_glass(), {scaled_edge(20), scaled_edge(20)});
 }
 
 TEST_CASE("dataflow: any nodes, batches, credits, queues, balances, skips and axes give the picture of gears") {
-  check_pairwise(built_in("gears-2"), {16, 16});
+  check_pairwise(built_in("gears-2"), {scaled_edge(16), scaled_edge(16)});
 }
 
 TEST_CASE("dataflow: nodes whose regions are empty stay idle unless that skip is off, and the picture is the same") {
@@ -164,7 +165,7 @@ TEST_CASE("dataflow: a hit beside the region of its triangle, which its owner ca
 }
 
 TEST_CASE("dataflow: repeated runs give one picture and the same counts of rays between each two nodes") {
-  const Subject subject(mirrors_and_glass(), {16, 16});
+  const Subject subject(mirrors_and_glass(), {scaled_edge(16), scaled_edge(16)});
   const RunOptions ample{.node_count = 6}, starved{.node_count = 64, .ray_batch = 1, .ray_credits = 1, .queue_packets = 0};
   for (const RunOptions& options : {ample, starved}) {
     const std::vector<std::uint64_t> matrix = check(subject, options).ray_matrix();

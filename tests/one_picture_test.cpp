@@ -13,6 +13,7 @@
 #include "dataflow/run.h"
 #include "svm/run.h"
 #include "tests/support/pairwise.h"
+#include "tests/support/scaled.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
@@ -29,6 +30,7 @@ constexpr std::uint32_t item_sides[] = {0, 1, 3, 16};
 constexpr double cache_shares[] = {0.0, 0.05, 1.0};
 
 using tests::outcome_of;
+using tests::scaled_edge;
 using tests::Subject;
 
 /// A scene's databases by page size.
@@ -90,21 +92,26 @@ void check_strategies(const Subject& subject, std::initializer_list<std::uint32_
 }  // namespace
 
 TEST_CASE("mirrors, glass and every kind of primitive give one picture in every pair of choices") {
-  check_pairwise(tests::mirrors_and_glass(), {40, 32});
+  check_pairwise(tests::mirrors_and_glass(), {scaled_edge(40), scaled_edge(32)});
 }
 
-TEST_CASE("a thousand lights give one picture in every pair of choices") { check_pairwise(tests::thousand_lights(), {12, 12}); }
+TEST_CASE("a thousand lights give one picture in every pair of choices") {
+  check_pairwise(tests::thousand_lights(), {scaled_edge(12), scaled_edge(12)});
+}
 
 TEST_CASE("concave and transparent gears give one picture in every pair of choices") {
-  check_pairwise(tests::built_in("gears-1"), {16, 16});
+  check_pairwise(tests::built_in("gears-1"), {scaled_edge(16), scaled_edge(16)});
 }
 
-TEST_CASE("a teapot gives one picture in every pair of choices") { check_pairwise(tests::built_in("teapot-4"), {32, 32}); }
+TEST_CASE("a teapot gives one picture in every pair of choices") {
+  check_pairwise(tests::built_in("teapot-4"), {scaled_edge(32), scaled_edge(32)});
+}
 
 TEST_CASE("svm, replicated and dataflow give one film along the world's axes, and one along the screen's") {
   for (const core::Scene& scene : {tests::mirrors_and_glass(), tests::built_in("gears-1"), tests::built_in("balls-2")}) {
     CAPTURE(scene.name);
-    for (const Subject& subject : tests::along_both_axes(scene, {.width = 20, .height = 16, .samples = 2})) {
+    for (const Subject& subject :
+         tests::along_both_axes(scene, {.width = scaled_edge(20), .height = scaled_edge(16), .samples = 2})) {
       check_strategies(subject);
     }
   }
@@ -134,7 +141,7 @@ TEST_CASE("a cutoff gives one picture, with fewer rays than without") {
 }
 
 TEST_CASE("twenty runs on 64 nodes give one picture") {
-  const Subject subject(tests::mirrors_and_glass(), {64, 64});
+  const Subject subject(tests::mirrors_and_glass(), {scaled_edge(64), scaled_edge(64)});
   for (int run = 0; run < 20; ++run) {
     CAPTURE(run);
     CHECK(outcome_of(run_svm(subject, {.node_count = 64})) == subject.outcome());

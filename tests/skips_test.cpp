@@ -10,6 +10,7 @@
 
 #include "core/render.h"
 #include "nodes/machine.h"
+#include "tests/support/scaled.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
@@ -58,7 +59,7 @@ std::uint64_t messages_of(const dataflow::Report& report) { return report.gather
 TEST_CASE("skips: whichever is off, svm, replicated and dataflow give one film, with a cache of one page too") {
   for (const core::Scene& scene : {everything(), built_in("gears-1")}) {
     CAPTURE(scene.name);
-    const Subject subject = subject_of(scene);
+    const Subject subject = subject_of(scene, {scaled_edge(16), scaled_edge(12)});
     const std::uint64_t film = subject.outcome().film_hash;
     for (const Skips& skips : switched_off()) {
       CHECK(run_svm(subject, {.node_count = 3}, skips).film.hash() == film);

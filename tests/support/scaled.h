@@ -15,6 +15,9 @@ inline constexpr std::size_t slowness = 1;
 /// `count` where the build is fast, a sixteenth of it (at least 1) where it is slow.
 constexpr std::size_t scaled(std::size_t count) { return count < slowness ? 1 : count / slowness; }
 
+/// The edge of a picture of which a slow build renders a sixteenth.
+constexpr int scaled_edge(int pixels) { return slowness == 1 ? pixels : (pixels + 3) / 4; }
+
 /// How many rays a stress test shoots: DMPC_RAYS if it is set, else scaled(count).
 inline std::size_t ray_count(std::size_t count) {
   const char* wanted = std::getenv("DMPC_RAYS");
