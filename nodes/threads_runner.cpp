@@ -46,6 +46,33 @@ struct Computer {
   std::uint32_t peer_count;
   Network& network;
   const std::optional<Chaos>& chaos;
+  Observer* observer;
+  const std::uint64_t& start_ns;  ///< of the run
+};
+
+/// Between a program and the network, chaos or not: tells an observer what is sent, when the program sends it.
+class Telling final : public Network {
+ public:
+  /// `call` is the number of the program's. All outlive this.
+  Telling(Observer& observer, const std::uint64_t& start_ns, const std::uint32_t& call, Network& next)
+      : observer_(&observer), start_ns_(&start_ns), call_(&call), next_(&next) {}
+
+  void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) override {
+    const std::uint64_t now_ns = nanoseconds(CLOCK_MONOTONIC) - *start_ns_;
+    observer_->sent({.node = NodeId{header.source},
+                     .peer = target,
+                     .kind = header.kind,
+                     .call = *call_,
+                     .payload = payload,
+                     .times = {.sending_ns = now_ns, .left_ns = now_ns}});
+    next_->deliver(target, header, payload);
+  }
+
+ private:
+  Observer* observer_;
+  const std::uint64_t* start_ns_;
+  const std::uint32_t* call_;
+  Network* next_;
 };
 
 /// One node with all that belongs to it. On cache lines of its own, so that neighbours do not disturb each other's counters.
@@ -54,7 +81,7 @@ struct alignas(cache_line_bytes) Processor {
       : memory(specification.plan),
         mailbox(specification.mailbox, memory),
         held(held_packets_of(computer.chaos, specification, id, memory, computer.network)),
-        node(id, computer.peer_count, memory, held ? *held : computer.network) {
+        node(id, computer.peer_count, memory, way_out(computer)) {
     core::expect(specification.plan[Category::reserve] >= thread_stack_bytes_min, "a plan reserves room for the thread's stack");
     if (computer.chaos) {
       pauses.emplace(*computer.chaos, id);
@@ -62,6 +89,12 @@ struct alignas(cache_line_bytes) Processor {
     program = specification.make_program(node);
     core::expect(program != nullptr, "a specification makes a program");
     memory.seal();
+  }
+
+  /// Where the program's packets go first.
+  Network& way_out(const Computer& computer) {
+    Network& next = held ? *held : computer.network;
+    return computer.observer == nullptr ? next : telling.emplace(*computer.observer, computer.start_ns, call, next);
   }
 
   /// Whether this node, being slow, lets the next quantum pass.
@@ -97,6 +130,7 @@ struct alignas(cache_line_bytes) Processor {
   LocalMemory memory;
   Mailbox mailbox;
   std::optional<HeldPackets> held;
+  std::optional<Telling> telling;  ///< if somebody looks on
   Node node;
   std::unique_ptr<Program> program;
   std::optional<ChaosPauses> pauses;
@@ -116,22 +150,13 @@ struct ThreadsRunner::Implementation final : Network {
   Implementation(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos, Observer* observer)
       : chaos_(chaos), observer_(observer), awake_(static_cast<std::uint32_t>(specifications.size())) {
     core::expect(!specifications.empty(), "a computer has at least the host");
-    const Computer computer{static_cast<std::uint32_t>(specifications.size()), *this, chaos_};
+    const Computer computer{static_cast<std::uint32_t>(specifications.size()), *this, chaos_, observer_, start_ns_};
     for (std::uint32_t i = 0; i < computer.peer_count; ++i) {
       processors_.push_back(std::make_unique<Processor>(specifications[i], NodeId{i}, computer));
     }
   }
 
   void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) override {
-    if (observer_ != nullptr) {
-      const std::uint64_t now_ns = since_start_ns();
-      observer_->sent({.node = NodeId{header.source},
-                       .peer = target,
-                       .kind = header.kind,
-                       .call = processors_[header.source]->call,
-                       .payload = payload,
-                       .times = {.sending_ns = now_ns, .left_ns = now_ns}});
-    }
     core::expect(processors_[index_of(target)]->mailbox.push(header, payload, awake_),
                  "credits leave room in the target's mailbox");
   }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "nodes/held_packets.h"
 #include "nodes/threads_runner.h"
 #include "tests/nodes/scripted_machine.h"
 
@@ -124,6 +125,29 @@ TEST_CASE("an observer of threads sees each call after what it sends and receive
   CHECK(sent.times.sending_ns <= scribe.received_by[1].front().times.received_ns);
   for (const std::vector<Span>& spans : scribe.spans) {
     CHECK(std::is_sorted(spans.begin(), spans.end(), [](const Span& a, const Span& b) { return a.end_ns < b.begin_ns; }));
+  }
+}
+
+TEST_CASE("an observer of threads sees a packet when its program sends it, however long chaos holds it back") {
+  const std::vector<Script> scripts = {
+      {.quanta = {{0, {{1}}}, {0, {{1}}}, {0, {{1}}}, {0, {}}, {0, {}}, {0, {}}, {0, {}}}}, {.packets_awaited = 3}, {}};
+  std::vector<NodeSpecification> specifications = specifications_of(scripts);
+  for (NodeSpecification& specification : specifications) {
+    specification.held_bytes = HeldPackets::room_bytes(small_payload_bytes);
+    specification.plan[Category::queues] += specification.held_bytes;
+  }
+  Scribe scribe(scripts.size());
+  ThreadsRunner runner(specifications, Chaos{.seed = 1, .held_percent = 100, .shrinks_credits = false}, &scribe);
+  CHECK(runner.run({}) == RunEnd::finished);
+  CHECK(runner.node(0).counters().held == 3);
+  REQUIRE(scribe.sent_by[0].size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Span& work = scribe.spans[0].at(i);
+    const Passing& sent = scribe.sent_by[0][i];
+    CHECK(sent.call == work.call);
+    CHECK(work.begin_ns <= sent.times.sending_ns);
+    CHECK(sent.times.sending_ns <= work.end_ns);
+    CHECK(sent.times.sending_ns <= scribe.received_by[1].at(i).times.received_ns);
   }
 }
 
