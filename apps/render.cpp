@@ -144,7 +144,7 @@ std::optional<nodes::Trace> take_trace(const RenderOptions& options, nodes::Trac
   }
   nodes::Trace trace = recorder->take();
   if (trace.events_lost > 0 && !options.quiet) {
-    std::cerr << "dmpc: " << loss_note(trace) << '\n';
+    std::cerr << "dmpc: " << loss_note(trace, options.trace) << '\n';
   }
   return trace;
 }

@@ -35,7 +35,7 @@ TraceView view_of(const RenderRecord& record) {
   if (options.trace.every > 1) {
     view.remarks.push_back({"recorded", "one pixel of " + std::to_string(options.trace.every)});
   }
-  view.remarks.push_back({"lost", record.trace->events_lost == 0 ? "nothing" : loss_note(*record.trace)});
+  view.remarks.push_back({"lost", record.trace->events_lost == 0 ? "nothing" : loss_note(*record.trace, options.trace)});
   return view;
 }
 
@@ -64,12 +64,14 @@ void TraceFile::commit() {
   }
 }
 
-std::string loss_note(const nodes::Trace& trace) {
+std::string loss_note(const nodes::Trace& trace, const TraceOptions& options) {
   if (trace.events_lost == 0) {
     return "";
   }
   return "the trace is full: " + counted(trace.events_lost, "event") + " from " + thousandths(trace.lost_from_ns / 1000) +
-         " ms on were not recorded; --trace-window, --trace-nodes or --trace-every leave room, --trace-events makes some";
+         " ms on were not recorded; " +
+         (options.every > 1 ? "--trace-window or --trace-nodes leave" : "--trace-window, --trace-nodes or --trace-every leave") +
+         " room, --trace-events makes some";
 }
 
 }  // namespace dmpc::apps

@@ -7,6 +7,7 @@
 
 #include "apps/output_file.h"
 #include "apps/stats.h"
+#include "apps/trace_options.h"
 
 namespace dmpc::apps {
 
@@ -23,7 +24,7 @@ class TraceFile {
   std::optional<OutputFile> file_;
 };
 
-/// A sentence on what was lost; empty if nothing was.
-std::string loss_note(const nodes::Trace& trace);
+/// A sentence on what was lost of a trace with these options, and which others leave room; empty if nothing was lost.
+std::string loss_note(const nodes::Trace& trace, const TraceOptions& options);
 
 }  // namespace dmpc::apps

@@ -39,7 +39,7 @@ bool is_before(const TraceSpan& a, const TraceSpan& b) {
 /// Of each node, the numbers of some of its program's calls.
 using Calls = std::vector<std::unordered_set<std::uint32_t>>;
 
-/// Calls for a pixel that was not chosen are not among the spans.
+/// Calls for a pixel that was not chosen are not among the spans, nor are their messages' ends kept.
 void split_calls(const std::vector<TraceNode>& nodes, Calls& chosen, Calls& undecided) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     for (const TraceSpan& span : nodes[i].spans) {
@@ -90,15 +90,29 @@ struct TraceRecorder::End {
   Name name(std::uint32_t source, std::uint32_t target) const { return {source, target, kind, ordinal}; }
 };
 
+/// Those that one node has told, either of what it sent or of what it received.
+struct TraceRecorder::Ends {
+  std::vector<End> kept;
+  std::vector<End> undecided;  ///< of calls under way, whose pixels are not known yet
+  Ordinals count;
+};
+
 /// What one node has told, on cache lines of its own.
 struct alignas(cache_line_bytes) TraceRecorder::Log {
   TraceNode node;
-  std::vector<End> sent, received;
-  Ordinals sent_count, received_count;
+  Ends sent, received;
   std::array<std::uint64_t, Levels::count_max> levels{};
-  TraceSpan current;  ///< of the call under way: what it has worked on
+  TraceSpan current;                ///< of the call under way: what it has worked on
+  bool is_last_call_wanted = true;  ///< but for interrupts
   std::uint64_t lost_from_ns = std::numeric_limits<std::uint64_t>::max();
 };
+
+namespace {
+
+/// Work or a packet, and no interrupt.
+bool is_own_call(Activity activity) { return activity == Activity::work || activity == Activity::receive; }
+
+}  // namespace
 
 Doing doing_between(const Charges& before, const Charges& after) {
   const auto any = [&](std::initializer_list<Charge> charges) {
@@ -151,10 +165,11 @@ void TraceRecorder::ended(const Span& span, const Program& program) {
     return;
   }
   const TraceSpan made = cut(log, span);
-  if (span.activity == Activity::work || span.activity == Activity::receive) {
+  const bool is_wanted = decide(log, made);
+  if (is_own_call(span.activity) && made.is_chosen) {
     note_levels(log, program, span.end_ns);
   }
-  if (is_wanted(made) && overlaps_window(span) && admit(log, made.begin_ns)) {
+  if (is_wanted && overlaps_window(span) && admit(log, made.begin_ns)) {
     log.node.spans.push_back(made);
   }
 }
@@ -162,7 +177,7 @@ void TraceRecorder::ended(const Span& span, const Program& program) {
 /// With what the call has worked on, if it is one that does.
 TraceSpan TraceRecorder::cut(Log& log, const Span& span) const {
   TraceSpan made;
-  if (span.activity == Activity::work || span.activity == Activity::receive) {
+  if (is_own_call(span.activity)) {
     made = std::exchange(log.current, {});
   }
   made.begin_ns = std::max(span.begin_ns, choice_.from_ns);
@@ -177,10 +192,34 @@ TraceSpan TraceRecorder::cut(Log& log, const Span& span) const {
   return made;
 }
 
-/// Chosen, or perhaps to be chosen for a message.
-bool TraceRecorder::is_wanted(const TraceSpan& span) const {
-  const bool can_follow = span.activity != Activity::work && span.activity != Activity::take_over;
-  return span.is_chosen || (can_follow && span.pixel == TraceSpan::no_pixel);
+/// Whether a span is chosen, or may be for a message that its call has received.
+bool TraceRecorder::decide(Log& log, const TraceSpan& span) {
+  if (span.activity == Activity::send || span.activity == Activity::take_over) {
+    return span.activity == Activity::send ? log.is_last_call_wanted : span.is_chosen;
+  }
+  const bool is_wanted = span.is_chosen || (span.activity != Activity::work && span.pixel == TraceSpan::no_pixel);
+  if (is_own_call(span.activity)) {
+    log.is_last_call_wanted = is_wanted;
+  }
+  settle(log, log.sent, span.call, is_wanted);
+  settle(log, log.received, span.call, is_wanted);
+  return is_wanted;
+}
+
+/// A call's messages stand and fall with it.
+void TraceRecorder::settle(Log& log, Ends& ends, std::uint32_t call, bool is_wanted) {
+  std::erase_if(ends.undecided, [&](const End& end) {
+    if (end.call == call && is_wanted) {
+      keep(log, ends, end);
+    }
+    return end.call == call;
+  });
+}
+
+void TraceRecorder::keep(Log& log, Ends& ends, const End& end) {
+  if (admit(log, end.time_ns)) {
+    ends.kept.push_back(end);
+  }
 }
 
 bool TraceRecorder::overlaps_window(const Span& span) const {
@@ -204,17 +243,22 @@ void TraceRecorder::note_levels(Log& log, const Program& program, std::uint64_t 
   }
 }
 
-void TraceRecorder::note_end(Log& log, std::vector<End>& ends, const Passing& packet, std::uint64_t time_ns) {
-  const bool is_sent = &ends == &log.sent;
-  const std::uint32_t ordinal = (is_sent ? log.sent_count : log.received_count).next(packet.peer, packet.kind);
-  if (is_chosen_node(packet.node) && is_chosen_node(packet.peer) && is_in_window(time_ns) && admit(log, time_ns)) {
-    ends.push_back({.time_ns = time_ns,
-                    .peer = index_of(packet.peer),
-                    .ordinal = ordinal,
-                    .call = packet.call,
-                    .bytes = static_cast<std::uint32_t>(packet.payload.size()),
-                    .first_word = first_word_of(packet.payload),
-                    .kind = packet.kind});
+void TraceRecorder::note_end(Log& log, Ends& ends, const Passing& packet, std::uint64_t time_ns) {
+  const std::uint32_t ordinal = ends.count.next(packet.peer, packet.kind);
+  if (!is_chosen_node(packet.node) || !is_chosen_node(packet.peer) || !is_in_window(time_ns)) {
+    return;
+  }
+  const End end{.time_ns = time_ns,
+                .peer = index_of(packet.peer),
+                .ordinal = ordinal,
+                .call = packet.call,
+                .bytes = static_cast<std::uint32_t>(packet.payload.size()),
+                .first_word = first_word_of(packet.payload),
+                .kind = packet.kind};
+  if (choice_.every == 1) {
+    keep(log, ends, end);
+  } else {
+    ends.undecided.push_back(end);
   }
 }
 
@@ -233,10 +277,10 @@ std::vector<TraceMessage> TraceRecorder::join() const {
   using Named = std::pair<End::Name, const End*>;
   std::vector<Named> sent, received;
   for (std::uint32_t i = 0; i < logs_.size(); ++i) {
-    for (const End& end : logs_[i]->sent) {
+    for (const End& end : logs_[i]->sent.kept) {
       sent.emplace_back(end.name(i, end.peer), &end);
     }
-    for (const End& end : logs_[i]->received) {
+    for (const End& end : logs_[i]->received.kept) {
       received.emplace_back(end.name(end.peer, i), &end);
     }
   }

@@ -20,7 +20,7 @@ struct TraceChoice {
   std::uint64_t to_ns = std::numeric_limits<std::uint64_t>::max();  ///< not included
   std::vector<bool> nodes;                                          ///< by number, the host last; empty: all
   /// One of so many pixels, chosen by a hash of its number: the calls that work on it, and what follows from the messages that
-  /// these send. 1: everything.
+  /// these send; levels only after such calls. 1: everything.
   std::uint32_t every = 1;
   std::uint64_t events_max = 1'000'000;  ///< spans, ends of messages and levels that are kept
 };
@@ -100,16 +100,19 @@ class TraceRecorder final : public Observer {
  private:
   struct Log;
   struct End;
+  struct Ends;
 
   bool is_chosen_node(NodeId node) const { return choice_.nodes.empty() || choice_.nodes[index_of(node)]; }
   bool is_chosen_pixel(std::uint32_t pixel) const;
-  bool is_wanted(const TraceSpan& span) const;
+  bool decide(Log& log, const TraceSpan& span);
+  void settle(Log& log, Ends& ends, std::uint32_t call, bool is_wanted);
+  void keep(Log& log, Ends& ends, const End& end);
   bool overlaps_window(const Span& span) const;
   TraceSpan cut(Log& log, const Span& span) const;
   bool is_in_window(std::uint64_t time_ns) const { return choice_.from_ns <= time_ns && time_ns < choice_.to_ns; }
   bool admit(Log& log, std::uint64_t time_ns);
   void note_levels(Log& log, const Program& program, std::uint64_t time_ns);
-  void note_end(Log& log, std::vector<End>& ends, const Passing& packet, std::uint64_t time_ns);
+  void note_end(Log& log, Ends& ends, const Passing& packet, std::uint64_t time_ns);
   std::vector<TraceMessage> join() const;
 
   TraceChoice choice_;

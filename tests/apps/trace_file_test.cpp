@@ -36,9 +36,11 @@ TEST_CASE("a trace that nobody asked for is no file, and one that cannot be writ
 }
 
 TEST_CASE("what was lost is said with its count and its time") {
-  CHECK(loss_note({}).empty());
-  const std::string note = loss_note({.events_lost = 12'345, .lost_from_ns = 2'500'000});
+  CHECK(loss_note({}, {}).empty());
+  const std::string note = loss_note({.events_lost = 12'345, .lost_from_ns = 2'500'000}, {});
   CHECK(contains(note, "12,345 events from 2.500 ms on"));
+  CHECK(contains(note, "--trace-every"));
+  CHECK_FALSE(contains(loss_note({.events_lost = 1}, {.every = 2}), "--trace-every"));
 }
 
 }  // namespace dmpc::apps

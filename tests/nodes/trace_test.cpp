@@ -253,6 +253,42 @@ TEST_CASE("of one pixel in four there is nothing that the others bring about") {
   CHECK(trace.messages.empty());
 }
 
+TEST_CASE("of one pixel in four what the others do takes no room") {
+  Scene scene({.every = 4, .events_max = 6});
+  for (std::uint32_t call = 1; call < 9; ++call) {
+    scene.gauge.height = call;
+    scene.recorder.worked({NodeId{0}, pixel(call == 8), 1});
+    scene.receives(0, 2, 10 * call, call);
+    scene.sends(0, 1, 10 * call, call);
+    scene.span(0, 10 * call, 10 * call + 1, call % 2 == 0 ? Activity::work : Activity::receive, call);
+    scene.span(0, 10 * call + 1, 10 * call + 2, Activity::send, call);
+  }
+  const Trace trace = scene.recorder.take();  // of the last call: two ends, two levels, two spans
+  CHECK(trace.events_lost == 0);
+  CHECK(trace.nodes[0].spans.size() == 2);
+  CHECK(trace.nodes[0].levels.size() == 2);
+}
+
+TEST_CASE("of one pixel in four a call that is interrupted keeps its message, and so does the interrupt") {
+  Scene scene({.every = 4});
+  scene.recorder.worked({NodeId{2}, pixel(true), 1});
+  scene.sends(2, 0, 1, 1);
+  scene.span(2, 0, 2, Activity::work, 1);
+  scene.recorder.worked({NodeId{0}, pixel(true), 1});
+  scene.receives(0, 2, 5, 4);
+  scene.sends(0, 2, 6, 4);
+  scene.span(0, 5, 6, Activity::serve, 4);
+  scene.sends(0, 1, 9, 3);
+  scene.span(0, 0, 9, Activity::work, 3);
+  scene.receives(1, 0, 20, 1);
+  scene.span(1, 20, 21, Activity::receive, 1);
+  scene.receives(2, 0, 20, 2);
+  scene.span(2, 20, 21, Activity::receive, 2);
+  const Trace trace = scene.recorder.take();
+  CHECK(trace.messages.size() == 3);
+  CHECK(trace.nodes[0].spans.size() == 2);
+}
+
 TEST_CASE("a full trace keeps what came first and counts the rest") {
   Scene scene({.events_max = 4});
   scene.span(0, 0, 1);  // and two levels
