@@ -6,6 +6,7 @@
 #include <set>
 #include <system_error>
 
+#include "apps/landscape/files.h"
 #include "apps/mesh/reader.h"
 #include "apps/nff_reader.h"
 #include "apps/progress.h"
@@ -51,6 +52,10 @@ core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int
   std::error_code error;
   const bool looks_like_name = scene.find_first_of("./") == std::string::npos;
   if (looks_like_name && !std::filesystem::exists(scene, error)) {
+    if (landscape_size(scene)) {
+      throw core::InputError("'" + scene + "' is a scene of several files: write them first, dmpc scene " + scene + " -o " +
+                             scene + ".gltf, then take " + scene + ".gltf");
+    }
     return core::built_in_scene(core::parse_scene_name(scene));  // throws, listing what there is
   }
   return is_mesh_path(scene) ? load_mesh(scene, mesh, notes) : load_nff(scene, pixels_max, notes);

@@ -138,6 +138,9 @@ Table memory_table(const Forecast& forecast) {
       "least: a node's; with less --node-memory all nodes together are too small for the scene, and render refuses it");
   table.add_note("all: what all nodes and the host take together where nothing is said about memory");
   table.add_note(
+      "both by the default options of a render on threads: larger caches, batches and queues, chaos, counted pages and --resume "
+      "take more");
+  table.add_note(
       "copies: of a primitive by dataflow, whose regions are made by --balance=" + std::string(name_of(forecast.balance)) +
       (forecast.balance == dataflow::Balance::equal_size
            ? "; those of render's own choice may need several times as much: --balance=subsampled tells"

@@ -40,6 +40,11 @@ TEST_CASE("what is neither is refused: a bare word as a name, anything else as a
   CHECK_FALSE(scene_complaint("").empty());
 }
 
+TEST_CASE("a landscape is to be written first, and the message says how") {
+  CHECK(tests::contains(scene_complaint("landscape-3"), "write them first, dmpc scene landscape-3 -o landscape-3.gltf"));
+  CHECK(tests::contains(scene_complaint("landscape-99"), "landscape-99"));
+}
+
 TEST_CASE("an unknown ending is refused with those that are known, no ending is NFF's") {
   const tests::TemporaryFolder folder;
   const std::string text = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 30\nhither 1\nresolution 8 8\ns 0 0 0 1\n";
