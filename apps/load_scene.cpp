@@ -63,9 +63,9 @@ core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int
 
 void check_mesh_options(const std::string& scene, const MeshOptions& options) {
   const bool is_mesh = !core::find_scene_name(scene) && is_mesh_path(scene);
-  if (!is_mesh && (options.scale || options.up || options.smooth_degrees)) {
-    throw core::UsageError("--scale, --up and --smooth go with mesh files (" + known_mesh_formats() + "), and " + scene +
-                           " is none");
+  if (!is_mesh && (options.scale || options.up || options.smooth_degrees || options.allows_missing)) {
+    throw core::UsageError("--scale, --up, --smooth and --missing=plain go with mesh files (" + known_mesh_formats() + "), and " +
+                           scene + " is none");
   }
 }
 

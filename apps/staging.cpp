@@ -135,6 +135,10 @@ void add_options(OptionSet options, Staging& staging) {
       "--smooth", "DEGREES [the file's normals]",
       [&staging](const std::string& text) { staging.mesh.smooth_degrees = parse_smooth(text); },
       "Mesh files: reckon vertex normals anew, smooth over edges up to this angle");
+  options.add_words(
+      "--missing", {"error", "plain"}, [&staging](const std::string& text) { staging.mesh.allows_missing = text == "plain"; },
+      "Mesh files that refer to textures or other files that cannot be had: an error, or what they cover in its plain colour; "
+      "error if not given");
 }
 
 void apply(const Staging& staging, core::Scene& scene) {

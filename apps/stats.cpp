@@ -205,6 +205,7 @@ void add_staging(Json& options, const Staging& staging) {
   options["scale"] = mesh.scale ? Json(*mesh.scale) : Json();
   options["up"] = mesh.up ? Json(std::string(1, "xyz"[*mesh.up])) : Json();
   options["smooth"] = mesh.smooth_degrees ? Json(*mesh.smooth_degrees) : Json();
+  options["missing"] = mesh.allows_missing ? Json("plain") : Json();
 }
 
 Json options_json(const RenderRecord& record, const Account& account, const Json& special) {

@@ -48,9 +48,10 @@ std::vector<bool> used_materials(const aiScene& file, const Placements& placemen
   return used;
 }
 
-/// With the textures of those that are used, which the scene is given.
-std::vector<MeshMaterial> materials_of(const aiScene& file, const Placements& placements, MeshFile& result) {
-  TextureReader textures(file, result.scene.name, result.scene.textures);
+/// With the textures of those that are used, which the scene is given; what cannot be had is added to `missing`.
+std::vector<MeshMaterial> materials_of(const aiScene& file, const Placements& placements, core::Scene& scene,
+                                       std::vector<std::string>& missing) {
+  TextureReader textures(file, scene.name, scene.textures);
   const std::vector<bool> used = used_materials(file, placements);
   std::vector<MeshMaterial> materials;
   for (std::size_t i = 0; i < file.mNumMaterials; ++i) {
@@ -62,10 +63,24 @@ std::vector<MeshMaterial> materials_of(const aiScene& file, const Placements& pl
     }
     materials.push_back(material);
   }
-  for (const std::string& note : textures.notes()) {
-    result.notes.push_back(note);
+  for (const std::string& texture : textures.missing()) {
+    missing.push_back(texture);
   }
   return materials;
+}
+
+/// A picture without them would be another, so that has to be asked for.
+void judge_missing(const std::vector<std::string>& missing, const MeshOptions& options, std::vector<std::string>& notes) {
+  std::string list;
+  for (const std::string& one : missing) {
+    list += "\n  " + one;
+    notes.push_back(one + "; what it covers has its plain colour");
+  }
+  if (!missing.empty() && !options.allows_missing) {
+    throw core::InputError("what it refers to cannot be had:" + list +
+                           "\nPut these files where they are looked for, or show what they cover in its plain colour by " +
+                           "--missing=plain");
+  }
 }
 
 /// What all placements become; says what instancing costs.
@@ -109,9 +124,9 @@ void forget(aiScene& file, std::size_t mesh) {
 }
 
 /// Each mesh is freed after its last place.
-void add_geometry(MeshFile& result, aiScene& file, const Placements& placements, const MeshOptions& options) {
-  core::SceneBuilder builder(result.scene);
-  const std::vector<MeshMaterial> materials = materials_of(file, placements, result);
+void add_geometry(core::Scene& scene, aiScene& file, const Placements& placements, const std::vector<MeshMaterial>& materials,
+                  const MeshOptions& options) {
+  core::SceneBuilder builder(scene);
   GeometryWriter writer(builder, materials, options.smooth_degrees);
   std::vector<std::size_t> uses = count_uses(file, placements);
   for (const Placement& placement : placements) {
@@ -150,15 +165,18 @@ MeshFile read(const std::string& path, const MeshOptions& options, bool shows_pr
   check_readable(path);
   const ImportedFile file = import_file(path, shows_progress);
   MeshFile result{.scene = {.name = path}, .notes = {}};
-  for (const std::string& missing : file.missing) {
-    result.notes.push_back(missing + " is missing or cannot be opened, and " + path + " refers to it");
+  std::vector<std::string> missing;
+  for (const std::string& name : file.missing) {
+    missing.push_back(name + " is missing or cannot be opened");
   }
   const Placements placements = find_placements(*file.scene, options.scale.value_or(1));
   const GeometrySize size = measure(*file.scene, placements, result.notes);
   check_size(size);
   reserve(result.scene, size);
   note_features(*file.scene, placements, result.notes);
-  add_geometry(result, *file.scene, placements, options);
+  const std::vector<MeshMaterial> materials = materials_of(*file.scene, placements, result.scene, missing);
+  judge_missing(missing, options, result.notes);
+  add_geometry(result.scene, *file.scene, placements, materials, options);
   add_surroundings(result.scene, *file.scene, options, result.notes);
   return result;
 }

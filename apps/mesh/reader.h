@@ -21,8 +21,8 @@ std::string known_mesh_formats();
 
 /// All triangles and polygons, instances expanded; the file's first camera, else the whole scene in view; its lights, else two of
 /// ours; a plain background. Throws core::InputError "PATH: ..." for what cannot be read or makes no scene (apps/mesh/geometry.h,
-/// apps/mesh/placement.h), or has no triangle at all; std::bad_alloc
-/// if memory ends. `shows_progress` on stderr.
+/// apps/mesh/placement.h), has no triangle at all, or refers to files that cannot be had, unless `options` allow that;
+/// std::bad_alloc if memory ends. `shows_progress` on stderr.
 MeshFile read_mesh_file(const std::string& path, const MeshOptions& options = {}, bool shows_progress = false);
 
 }  // namespace dmpc::apps

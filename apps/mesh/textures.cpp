@@ -107,7 +107,7 @@ std::optional<std::uint32_t> TextureReader::find(const TextureUse& use) {
       textures_.push_back(read(use));
       known->second = static_cast<std::uint32_t>(textures_.size() - 1);
     } catch (const core::InputError& error) {
-      notes_.insert(std::string(error.what()) + "; what it covers has its plain colour");
+      missing_.insert(error.what());
     }
   }
   return known->second;

@@ -34,11 +34,11 @@ class TextureReader {
   TextureReader(const aiScene& file, const std::filesystem::path& path, std::vector<core::Texture>& textures)
       : file_(file), path_(path), textures_(textures) {}
 
-  /// Its place among the scene's textures; nothing if it cannot be had, which is noted once for each.
+  /// Its place among the scene's textures; nothing if it cannot be had, which missing() tells.
   std::optional<std::uint32_t> find(const TextureUse& use);
 
-  /// "a.png is missing ...": what could not be had, in the order of their names.
-  std::vector<std::string> notes() const { return {notes_.begin(), notes_.end()}; }
+  /// "a.png: ...": what could not be had and why, once each, in the order of their names.
+  std::vector<std::string> missing() const { return {missing_.begin(), missing_.end()}; }
 
  private:
   core::Texture read(const TextureUse& use) const;
@@ -47,7 +47,7 @@ class TextureReader {
   std::filesystem::path path_;
   std::vector<core::Texture>& textures_;
   std::map<std::string, std::optional<std::uint32_t>> known_;  ///< by path and edges
-  std::set<std::string> notes_;
+  std::set<std::string> missing_;
 };
 
 }  // namespace dmpc::apps

@@ -83,10 +83,17 @@ TEST_CASE("faces without a textured material or without places are plain") {
   CHECK(scene.objects.size() == textured_count(scene) + 2);
 }
 
-TEST_CASE("a texture that is missing is named, once, and the rest is shown in its plain colour") {
+TEST_CASE("all textures that are missing are named in one error") {
   const TemporaryFolder folder;
   write_square(folder, "map_Kd gone.png");
-  const MeshFile file = read_mesh_file(folder / "a.obj");
+  CHECK_THROWS_WITH_AS(read_mesh_file(folder / "a.obj"), doctest::Contains("gone.png"), core::InputError);
+  CHECK_THROWS_WITH_AS(read_mesh_file(folder / "a.obj"), doctest::Contains("--missing=plain"), core::InputError);
+}
+
+TEST_CASE("a texture that may be missing is named, once, and the rest is shown in its plain colour") {
+  const TemporaryFolder folder;
+  write_square(folder, "map_Kd gone.png");
+  const MeshFile file = read_mesh_file(folder / "a.obj", {.allows_missing = true});
   CHECK(textured_count(file.scene) == 0);
   CHECK(std::count_if(file.notes.begin(), file.notes.end(),
                       [](const std::string& note) { return note.find("gone.png") != std::string::npos; }) == 1);

@@ -76,18 +76,21 @@ TEST_CASE("a camera and a light are told as they are read, to the last bit") {
 }
 
 TEST_CASE("the options of a mesh and of the stage are read") {
-  const Staging staging = staged({"--light=1,2,3", "--light=4,5,6/1,1,1", "--scale=0.5", "--up=z", "--smooth=30"});
+  const Staging staging =
+      staged({"--light=1,2,3", "--light=4,5,6/1,1,1", "--scale=0.5", "--up=z", "--smooth=30", "--missing=plain"});
   CHECK(staging.lights.size() == 2);
   CHECK(staging.mesh.scale == 0.5);
   CHECK(staging.mesh.up == 2U);
   CHECK(staging.mesh.smooth_degrees == 30);
+  CHECK(staging.mesh.allows_missing);
+  CHECK_FALSE(staged({"--missing=error"}).mesh.allows_missing);
   CHECK_FALSE(staged({}).camera);
   CHECK_FALSE(staged({}).mesh.up);
 }
 
 TEST_CASE("scales, axes and angles out of range are refused") {
   for (const char* option : {"--scale=0", "--scale=-1", "--scale=inf", "--scale=x", "--scale=1e31", "--light=1e31,0,0", "--up=w",
-                             "--smooth=-1", "--smooth=181", "--smooth=", "--camera=1", "--light=1"}) {
+                             "--smooth=-1", "--smooth=181", "--smooth=", "--missing=no", "--camera=1", "--light=1"}) {
     CAPTURE(option);
     CHECK_THROWS_AS(staged({option}), UsageError);
   }

@@ -89,7 +89,7 @@ TEST_CASE("the counters agree with the report") {
 TEST_CASE("how the scene is placed, seen and lit is told where the command line says it") {
   RenderOptions options = small();
   const std::string plain = Rendered(options).json();
-  for (const char* const key : {"camera", "light", "scale", "up", "smooth"}) {
+  for (const char* const key : {"camera", "light", "scale", "up", "smooth", "missing"}) {
     CHECK_MESSAGE(value(plain, key) == "null", key);
   }
   const TemporaryFolder folder;
@@ -97,13 +97,14 @@ TEST_CASE("how the scene is placed, seen and lit is told where the command line 
   options.picture.scene = folder / "a.obj";
   options.picture.staging = {.camera = parse_camera("0,0,9/0,0,0/0,1,0"),
                              .lights = {parse_light("1,2,3"), parse_light("4,5,6/1,1,1")},
-                             .mesh = {.scale = 2, .up = 2, .smooth_degrees = 30}};
+                             .mesh = {.scale = 2, .up = 2, .smooth_degrees = 30, .allows_missing = true}};
   const auto told = nlohmann::json::parse(Rendered(options).json())["options"];
   CHECK(told["camera"] == "0,0,9/0,0,0/0,1,0");
   CHECK(told["light"] == nlohmann::json({"1,2,3", "4,5,6/1,1,1"}));
   CHECK(told["scale"] == 2);
   CHECK(told["up"] == "z");
   CHECK(told["smooth"] == 30);
+  CHECK(told["missing"] == "plain");
 }
 
 TEST_CASE("every node has an entry of its own") {
