@@ -188,8 +188,10 @@ TEST_CASE("what cannot be read is refused, by the file's name") {
 
 TEST_CASE("a missing buffer is named") { CHECK(contains(complaint("a.gltf", Gltf{}.json("wheels.bin")), "wheels.bin")); }
 
-TEST_CASE("a missing material library is said, once, and the mesh shown without it") {
-  const MeshFile file = read("a.obj", "mtllib paint.mtl\nmtllib paint.mtl\nusemtl red\n" + tests::triangle_obj);
+TEST_CASE("a missing material library is an error, or said, once, and the mesh shown without it") {
+  const std::string text = "mtllib paint.mtl\nmtllib paint.mtl\nusemtl red\n" + tests::triangle_obj;
+  CHECK(tests::count(complaint("a.obj", text), "paint.mtl is missing") == 1);
+  const MeshFile file = read("a.obj", text, {.allows_missing = true});
   CHECK(file.scene.objects.size() == 1);
   CHECK(notes(file, "paint.mtl is missing"));
 }
