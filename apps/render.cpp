@@ -137,14 +137,16 @@ std::unique_ptr<nodes::TraceRecorder> make_recorder(const RenderOptions& options
   return std::make_unique<nodes::TraceRecorder>(node_count + 1, trace_choice(options.trace, node_count));
 }
 
-/// What was recorded, if anything was; says so if some of it was lost.
+/// What was recorded, if anything was; says so if some of it was lost, or there is none.
 std::optional<nodes::Trace> take_trace(const RenderOptions& options, nodes::TraceRecorder* recorder) {
   if (recorder == nullptr) {
     return std::nullopt;
   }
   nodes::Trace trace = recorder->take();
-  if (trace.events_lost > 0 && !options.quiet) {
-    std::cerr << "dmpc: " << loss_note(trace, options.trace) << '\n';
+  for (const std::string& note : {loss_note(trace, options.trace), empty_note(trace)}) {
+    if (!note.empty() && !options.quiet) {
+      std::cerr << "dmpc: " << note << '\n';
+    }
   }
   return trace;
 }

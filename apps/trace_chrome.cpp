@@ -1,23 +1,73 @@
 #include "apps/trace_chrome.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <ostream>
+#include <span>
 #include <tuple>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "core/expect.h"
 
 namespace dmpc::apps {
 
 namespace {
 
-/// Between quotation marks.
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      result += '\\';
+/// Between quotation marks: a name of ours, which needs no more.
+std::string quoted(const std::string& name) { return "\"" + name + "\""; }
+
+/// Any text as a string of JSON; what is no UTF-8, as the name of a file may be, is replaced.
+std::string json_of(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// Where each node's items begin among some in order of node; the last first.
+std::vector<std::size_t> beginnings(std::span<const TraceItem> items) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = items.size(); i-- > 0;) {
+    if (i == 0 || items[i - 1].node != items[i].node) {
+      found.push_back(i);
     }
-    result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
   }
-  return result + "\"";
+  return found;
+}
+
+/// Of items of one time, in order of node: each node's stay in their order, but it stops before the end of a message until
+/// another node has come to its beginning.
+void order_causally(std::span<TraceItem> items) {
+  std::unordered_set<std::uint32_t> unsent;
+  for (const TraceItem& item : items) {
+    if (item.moment == TraceMoment::sent) {
+      unsent.insert(item.index);
+    }
+  }
+  if (unsent.empty()) {
+    return;
+  }
+  const std::vector<TraceItem> all(items.begin(), items.end());
+  std::vector<std::size_t> ready = beginnings(all);        // where nodes go on, the next last
+  std::unordered_map<std::uint32_t, std::size_t> stopped;  // where one has, by message
+  auto place = items.begin();
+  while (!ready.empty()) {
+    std::size_t at = ready.back();
+    ready.pop_back();
+    for (const std::uint32_t node = all[at].node; at < all.size() && all[at].node == node; ++at) {
+      const TraceItem& item = all[at];
+      if (item.moment == TraceMoment::received && unsent.contains(item.index)) {
+        stopped[item.index] = at;
+        break;
+      }
+      *place++ = item;
+      if (item.moment == TraceMoment::sent && unsent.erase(item.index) > 0) {
+        if (const auto waiting = stopped.extract(item.index)) {
+          ready.push_back(waiting.mapped());
+        }
+      }
+    }
+  }
+  core::expect(place == items.end(), "no message is received before it is sent");
 }
 
 std::string key(const char* name, const std::string& value) { return std::string("\"") + name + "\":" + value; }
@@ -27,9 +77,9 @@ class ChromeWriter {
   ChromeWriter(const TraceView& view, std::ostream& output) : view_(view), output_(output), waits_(page_waits(view)) {}
 
   void write() {
-    output_ << "{\"displayTimeUnit\":\"ns\",\n\"otherData\":{" << key("clock", quoted(view_.clock));
+    output_ << "{\"displayTimeUnit\":\"ns\",\n\"otherData\":{" << key("clock", json_of(view_.clock));
     for (const auto& [name, text] : view_.remarks) {
-      output_ << ",\n" << quoted(name) << ":" << quoted(text);
+      output_ << ",\n" << json_of(name) << ":" << json_of(text);
     }
     output_ << "},\n\"traceEvents\":[\n";
     for (std::uint32_t node = 0; node < view_.trace.nodes.size(); ++node) {
@@ -47,6 +97,11 @@ class ChromeWriter {
     std::sort(items.begin(), items.end(), [](const TraceItem& a, const TraceItem& b) {
       return std::tie(a.time_ns, a.node, a.call, a.moment, a.index) < std::tie(b.time_ns, b.node, b.call, b.moment, b.index);
     });
+    for (auto begin = items.begin(); begin != items.end();) {
+      const auto end = std::find_if(begin, items.end(), [&](const TraceItem& item) { return item.time_ns != begin->time_ns; });
+      order_causally({begin, end});
+      begin = end;
+    }
     return items;
   }
 

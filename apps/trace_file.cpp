@@ -1,8 +1,10 @@
 #include "apps/trace_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
 #include "apps/figures.h"
 #include "apps/trace_chrome.h"
@@ -14,6 +16,27 @@
 namespace dmpc::apps {
 
 namespace {
+
+/// In one line.
+std::string line_of(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
+  return text;
+}
+
+std::string milliseconds(std::uint64_t time_ns) { return thousandths(time_ns / 1000); }
+
+std::string window_text(const std::optional<TraceWindow>& window) {
+  return window ? milliseconds(window->from_ns) + " to " + (window->to_ns ? milliseconds(*window->to_ns) : "the end") : "all";
+}
+
+std::string nodes_text(const std::optional<TraceNodes>& nodes) {
+  std::string text;
+  for (const auto& [first, last] : nodes.value_or(TraceNodes{}).rows) {
+    text += (text.empty() ? "" : ", ") + std::to_string(first) + (first == last ? "" : " to " + std::to_string(last));
+  }
+  return !nodes ? "all" : !nodes->has_host ? text : text.empty() ? "host" : text + ", host";
+}
 
 TraceView view_of(const RenderRecord& record) {
   const RenderOptions& options = record.options;
@@ -32,10 +55,15 @@ TraceView view_of(const RenderRecord& record) {
     view.remarks.push_back({"machine_digest", hash_text(account.virtual_time->machine_digest)});
     view.remarks.push_back({"run_hash", hash_text(account.virtual_time->run_hash(account.film.hash()))});
   }
+  view.remarks.push_back({"window_ms", window_text(options.trace.window)});
+  view.remarks.push_back({"recorded_nodes", nodes_text(options.trace.nodes)});
   if (options.trace.every > 1) {
     view.remarks.push_back({"recorded", "one pixel of " + std::to_string(options.trace.every)});
   }
   view.remarks.push_back({"lost", record.trace->events_lost == 0 ? "nothing" : loss_note(*record.trace, options.trace)});
+  for (auto& [name, text] : view.remarks) {
+    text = line_of(std::move(text));
+  }
   return view;
 }
 
@@ -68,10 +96,16 @@ std::string loss_note(const nodes::Trace& trace, const TraceOptions& options) {
   if (trace.events_lost == 0) {
     return "";
   }
-  return "the trace is full: " + counted(trace.events_lost, "event") + " from " + thousandths(trace.lost_from_ns / 1000) +
+  return "the trace is full: " + counted(trace.events_lost, "event") + " from " + milliseconds(trace.lost_from_ns) +
          " ms on were not recorded; " +
          (options.every > 1 ? "--trace-window or --trace-nodes leave" : "--trace-window, --trace-nodes or --trace-every leave") +
          " room, --trace-events makes some";
+}
+
+std::string empty_note(const nodes::Trace& trace) {
+  const bool is_empty = trace.messages.empty() && std::all_of(trace.nodes.begin(), trace.nodes.end(),
+                                                              [](const nodes::TraceNode& node) { return node.spans.empty(); });
+  return is_empty ? "the trace is empty: nothing of what it was to record happened in this run" : "";
 }
 
 }  // namespace dmpc::apps

@@ -26,5 +26,7 @@ class TraceFile {
 
 /// A sentence on what was lost of a trace with these options, and which others leave room; empty if nothing was lost.
 std::string loss_note(const nodes::Trace& trace, const TraceOptions& options);
+/// A sentence on a trace without any activity or message; else empty.
+std::string empty_note(const nodes::Trace& trace);
 
 }  // namespace dmpc::apps

@@ -100,7 +100,7 @@ void add_options(OptionSet options, TraceOptions& trace) {
   options.add_number("--trace-every", trace.every, 1, 1'000'000'000, "1",
                      "Only one of so many pixels: the quanta that work on it, and what follows from the messages that they send");
   options.add_number("--trace-events", trace.events_max, 1, 100'000'000, "1000000",
-                     "The most events to keep; what comes later is lost");
+                     "The most events to keep, each in about 110 bytes of the real computer; what comes later is lost");
 }
 
 void check_trace(const OptionSet& options, const TraceOptions& trace, std::uint32_t node_count) {

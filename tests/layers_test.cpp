@@ -42,7 +42,7 @@ const std::vector<Foreign> foreign = {
     {"CLI/", {"apps/command_line.cpp", "apps/command_description.cpp"}},
     {"nlohmann/",
      {"apps/stats", "apps/machine_file.", "apps/study_table.cpp", "apps/compare.cpp", "apps/accurate/reference_file.cpp",
-      "apps/info/json.cpp", "apps/landscape/gltf.cpp", "apps/scale/figures.cpp", "tests/apps/"}},
+      "apps/info/json.cpp", "apps/landscape/gltf.cpp", "apps/scale/figures.cpp", "apps/trace_chrome.cpp", "tests/apps/"}},
     {"oneapi/", {"apps/inspection.cpp", "apps/side_by_side.cpp", "apps/accurate/picture.cpp", "tests/accurate/"}},
     {"tbb/",
      {"core/parallel.cpp", "apps/inspection.cpp", "apps/side_by_side.cpp", "apps/accurate/picture.cpp", "tests/accurate/",

@@ -113,7 +113,33 @@ TEST_CASE("a slice says when, how long, of which packet and for which pixel") {
                                     .is_cut = true});
   CHECK(contains(text, "\"pid\":2,\"tid\":2,\"ts\":1234.567,\"dur\":765.433,\"name\":\"shade\""));
   CHECK(contains(text, "{\"own_us\":0.005,\"packet\":\"page_reply\",\"x\":2,\"y\":4,\"depth\":3,\"cut\":true}"));
-  CHECK(nlohmann::json::parse(text)["otherData"]["scene"] == "a\"b\\c d");
+  CHECK(nlohmann::json::parse(text)["otherData"]["scene"] == "a\"b\\c\nd");
+}
+
+TEST_CASE("a message that takes no time begins before it ends, and both belong to their slices") {
+  nodes::Trace trace{.nodes = std::vector<nodes::TraceNode>(3)};
+  const auto hop = [&trace](std::uint32_t from, std::uint32_t to, std::uint32_t sent_call, std::uint32_t received_call) {
+    trace.nodes[to].spans.push_back({.begin_ns = 10, .end_ns = 10, .call = received_call});
+    trace.messages.push_back({.source = nodes::NodeId{from},
+                              .target = nodes::NodeId{to},
+                              .sent_call = sent_call,
+                              .received_call = received_call,
+                              .sent_ns = 10,
+                              .received_ns = 10});
+  };
+  trace.nodes[1].spans.push_back({.begin_ns = 10, .end_ns = 10, .call = 1});
+  hop(1, 0, 1, 1);
+  hop(0, 2, 1, 1);
+  hop(2, 0, 1, 2);
+  const char* const kinds[] = {"ray"};
+  std::ostringstream output;
+  write_chrome({.trace = trace, .kind_names = kinds, .clock = "virtual time", .remarks = {}}, output);
+  const nlohmann::json written = nlohmann::json::parse(output.str());
+  std::string order;
+  for (const nlohmann::json& event : written["traceEvents"]) {
+    order += event["ph"] == "M" ? "" : event["ph"].get<std::string>() + std::to_string(event["pid"].get<int>()) + " ";
+  }
+  CHECK(order == "X2 s2 f1 X1 s1 f3 X3 s3 f1 X1 ");
 }
 
 TEST_CASE("a trace of nothing is whole, too") {
