@@ -32,6 +32,9 @@ struct PixelRecord {
 };
 static_assert(sizeof(PixelRecord) == 56 && std::is_trivially_copyable_v<PixelRecord>);
 
+/// Settings and digests of less than 2 KiB, as a rule.
+constexpr std::size_t head_bytes_max = 65536;
+
 /// Written and read at a time.
 constexpr std::uint32_t block_pixels = 4096;
 
@@ -101,17 +104,16 @@ class Reader {
   }
 
   std::vector<PictureFact> take_head() {
-    std::string head, line;
-    std::vector<PictureFact> facts;
-    if (!std::getline(stream_, line) || line != first_line) {
+    std::string head(first_line.size() + 1, ' ');
+    if (!stream_.read(head.data(), static_cast<std::streamsize>(head.size())) || head != std::string(first_line) + "\n") {
       fail(path_, "this is no checkpoint of this version of dmpc");
     }
-    for (head = line + "\n"; std::getline(stream_, line) && !line.empty(); head += line + "\n") {
+    std::vector<PictureFact> facts;
+    for (std::string line = take_line(head); !line.empty(); line = take_line(head)) {
       const std::size_t sign = line.find('=');
       check(sign != std::string::npos);
       facts.push_back({line.substr(0, sign), line.substr(sign + 1)});
     }
-    head += "\n";
     digest_.add(std::as_bytes(std::span(head)));
     return facts;
   }
@@ -135,6 +137,15 @@ class Reader {
   }
 
  private:
+  /// The next line, without its end; with it, it is added to `head`, which a file of something else must not fill for ever.
+  std::string take_line(std::string& head) {
+    const std::size_t begin = head.size();
+    for (char character = ' '; character != '\n'; head += character) {
+      check(head.size() < head_bytes_max && bool{stream_.get(character)});
+    }
+    return head.substr(begin, head.size() - begin - 1);
+  }
+
   fs::path path_;
   std::ifstream stream_;
   Digest digest_;

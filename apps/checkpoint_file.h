@@ -13,9 +13,9 @@
 
 namespace dmpc::apps {
 
-/// The name under which a checkpoint is written before it replaces the one at `path`.
+/// The name under which a checkpoint is written before it replaces the one at `path`, which is no symbolic link.
 inline std::filesystem::path next_checkpoint(const std::filesystem::path& path) {
-  return OutputFile(path, TemporaryName::of_target).temporary();
+  return temporary_name(path, TemporaryName::of_target);
 }
 
 /// Writes it whole, as far as the disk, or leaves what there was. Throws core::InputError if that fails.

@@ -19,13 +19,28 @@ std::string start_text(const fs::path& file, const core::PartialPicture& start) 
          " of pass " + std::to_string(start.passes) + " are done";
 }
 
+bool is_there(const fs::path& file) {
+  std::error_code error;
+  const bool is_found = fs::exists(file, error);
+  if (error) {
+    throw core::InputError("--checkpoint " + file.string() + ": cannot be looked at: " + error.message());
+  }
+  return is_found;
+}
+
 }  // namespace
 
-Checkpoints::Checkpoints(const CheckpointOptions& options, PictureIdentity identity, std::ostream& messages, bool is_quiet)
-    : options_(options), identity_(std::move(identity)), messages_(messages) {
+Checkpoints::Checkpoints(const CheckpointOptions& options, PictureIdentity identity, std::ostream& messages, bool is_quiet,
+                         std::stop_token stop)
+    : options_(options),
+      file_(file_behind(*options.file)),
+      identity_(std::move(identity)),
+      messages_(messages),
+      stop_(std::move(stop)) {
   const fs::path& file = *options.file;
-  if (options.resumes && fs::exists(file)) {
-    start_.emplace(read_checkpoint(file, identity_));
+  if (options.resumes && is_there(file_)) {
+    start_.emplace(read_checkpoint(file_, identity_));
+    has_one_ = true;
   }
   if (options.resumes && !is_quiet) {
     messages_ << "dmpc: " << (start_ ? start_text(file, *start_) : "there is no " + file.string() + " yet: from the start")
@@ -45,9 +60,10 @@ void Checkpoints::wait_for_next() {
 
 void Checkpoints::keep(const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) {
   try {
-    write_checkpoint(*options_.file, identity_, film, pass, done);
+    write_checkpoint(file_, identity_, film, pass, done);
+    has_one_ = true;
   } catch (const core::InputError& error) {
-    messages_ << "\ndmpc: " << error.what() << "; the render goes on" << std::endl;
+    messages_ << "\ndmpc: " << error.what() << (stop_.stop_requested() ? "" : "; the render goes on") << std::endl;
   }
   wait_for_next();
 }
@@ -55,23 +71,28 @@ void Checkpoints::keep(const core::Film& film, const core::Refinement& pass, con
 void Checkpoints::finish() const {
   if (!options_.stays) {
     std::error_code error;
-    fs::remove(*options_.file, error);
-    fs::remove(next_checkpoint(*options_.file), error);
+    fs::remove(file_, error);
+    fs::remove(next_checkpoint(file_), error);
   }
 }
 
-void check_checkpoint(const CheckpointOptions& options) {
+std::optional<FileLock> claim_checkpoint(const CheckpointOptions& options) {
   if (!options.file) {
-    return;
+    return std::nullopt;
   }
   const std::string what = "--checkpoint " + options.file->string() + ": ";
   check_output_path(*options.file, "--checkpoint");
   if (is_special(*options.file)) {
     throw core::InputError(what + "this is a pipe or device, from which nothing can be resumed");
   }
-  if (fs::exists(*options.file) && !options.resumes) {
+  std::optional<FileLock> lock = FileLock::try_lock(hidden_name(file_behind(*options.file), "lock"));
+  if (!lock) {
+    throw core::InputError(what + "another dmpc keeps its checkpoint there");
+  }
+  if (is_there(*options.file) && !options.resumes) {
     throw core::InputError(what + "this file is there already: --resume goes on from it, or remove it to start again");
   }
+  return lock;
 }
 
 }  // namespace dmpc::apps

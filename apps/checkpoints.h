@@ -4,8 +4,10 @@
 #include <chrono>
 #include <iosfwd>
 #include <optional>
+#include <stop_token>
 
 #include "apps/checkpoint_options.h"
+#include "apps/file_lock.h"
 #include "apps/picture_identity.h"
 #include "core/partial_picture.h"
 
@@ -15,8 +17,9 @@ namespace dmpc::apps {
 class Checkpoints {
  public:
   /// Reads the file if that is asked for, and says on `messages` what it has, unless `is_quiet`. Requires options.file. Throws
-  /// core::InputError as read_checkpoint() does. `messages` outlives it.
-  Checkpoints(const CheckpointOptions& options, PictureIdentity identity, std::ostream& messages, bool is_quiet);
+  /// core::InputError as read_checkpoint() does. `messages` outlives it. `stop` is that of the run.
+  Checkpoints(const CheckpointOptions& options, PictureIdentity identity, std::ostream& messages, bool is_quiet,
+              std::stop_token stop = {});
 
   /// For a run, which it outlives. What cannot be written is a warning on `messages`; the last checkpoint stays.
   core::Continuation continuation();
@@ -24,6 +27,8 @@ class Checkpoints {
   const core::PartialPicture* start() const { return start_ ? &*start_ : nullptr; }
   /// Samples of all pixels that the file had.
   std::uint64_t samples_found_done() const { return start_ ? start_->samples_done() : 0; }
+  /// There is a checkpoint to go on from: one was read, or one has been written. Not while the run's host may be writing.
+  bool has_one() const { return has_one_; }
   /// The picture is written: removes the file, unless it is to stay.
   void finish() const;
 
@@ -34,14 +39,18 @@ class Checkpoints {
   void keep(const core::Film& film, const core::Refinement& pass, const core::PixelMask& done);
 
   CheckpointOptions options_;
+  std::filesystem::path file_;  ///< no symbolic link
   PictureIdentity identity_;
   std::ostream& messages_;
+  std::stop_token stop_;
   std::optional<core::PartialPicture> start_;
+  bool has_one_ = false;
   Clock::time_point next_;
 };
 
-/// Throws core::InputError unless the options can be followed: the file can be written, it is no pipe or device, and it is not
-/// there unless it is to be resumed from.
-void check_checkpoint(const CheckpointOptions& options);
+/// To be held as long as the file may be read, written or removed; nothing without one. Throws core::InputError unless the
+/// options can be followed: the file can be written, it is no pipe or device, no other process has its checkpoint there, and it
+/// is not there unless it is to be resumed from.
+std::optional<FileLock> claim_checkpoint(const CheckpointOptions& options);
 
 }  // namespace dmpc::apps

@@ -27,7 +27,7 @@ void change_mask(int how) {
   core::expect(pthread_sigmask(how, &set, nullptr) == 0, "the signal mask can be changed");
 }
 
-/// A render has a picture, counters, a trace, a page, and up to 32 heat maps under way, no command more.
+/// A render has a picture, counters, a trace, a page, a checkpoint, its lock, and up to 32 heat maps under way, no command more.
 constexpr std::size_t slot_count = 40;
 
 /// Whoever takes a path out owns it.

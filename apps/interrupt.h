@@ -18,7 +18,7 @@ struct Interrupted {};
 /// a thread of its own waits for them. So nothing of ours ever runs inside a signal handler. The first signal requests a stop,
 /// the second ends the process at once with status 130. At most one at a time, made before any other thread.
 ///
-/// Thread safety: token() and requested() from any thread, the rest from the thread that made it.
+/// Thread safety: token(), requested() and set_consequence() from any thread, the rest from the thread that made it.
 class Interrupt {
  public:
   Interrupt();

@@ -19,8 +19,17 @@ namespace {
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-/// The file behind a chain of symbolic links; `path` itself if there is none or if it leads nowhere.
-fs::path resolve(const fs::path& path) {
+}  // namespace
+
+fs::path hidden_name(const fs::path& target, const std::string& who) {
+  return folder_of(target) / (".dmpc-" + who + "-" + target.filename().string());
+}
+
+fs::path temporary_name(const fs::path& target, TemporaryName name) {
+  return hidden_name(target, name == TemporaryName::of_process ? std::to_string(::getpid()) : "next");
+}
+
+fs::path file_behind(const fs::path& path) {
   std::error_code error;
   if (!fs::is_symlink(path, error)) {
     return path;
@@ -28,13 +37,6 @@ fs::path resolve(const fs::path& path) {
   fs::path resolved = fs::weakly_canonical(path, error);
   return error ? path : resolved;
 }
-
-fs::path temporary_name(const fs::path& target, TemporaryName name) {
-  const std::string who = name == TemporaryName::of_process ? std::to_string(::getpid()) : "next";
-  return folder_of(target) / (".dmpc-" + who + "-" + target.filename().string());
-}
-
-}  // namespace
 
 bool is_special(const fs::path& path) {
   std::error_code error;
@@ -60,7 +62,7 @@ void check_output_path(const fs::path& path, std::string_view option) {
   if (path.empty() || !path.has_filename() || fs::is_directory(path, error)) {
     throw core::InputError(what + "this is a folder, expected the name of a file");
   }
-  const fs::path folder = folder_of(resolve(path));
+  const fs::path folder = folder_of(file_behind(path));
   if (!fs::is_directory(folder, error)) {
     throw core::InputError(what + "there is no folder " + folder.string() + ", make it first");
   }
@@ -81,7 +83,7 @@ void make_output_folder(const fs::path& path, std::string_view option) {
   check_output_path(path / "file", option);
 }
 
-OutputFile::OutputFile(const fs::path& path, TemporaryName name) : target_(resolve(path)) {
+OutputFile::OutputFile(const fs::path& path, TemporaryName name) : target_(file_behind(path)) {
   if (is_special(target_)) {
     temporary_ = target_;
   } else {

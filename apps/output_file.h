@@ -34,6 +34,14 @@ enum class TemporaryName : std::uint8_t {
   of_target    ///< always the same: of processes that are killed, one after the other, one such file is left at most
 };
 
+/// `.dmpc-WHO-NAME` beside `target`: hidden, with the same extension.
+std::filesystem::path hidden_name(const std::filesystem::path& target, const std::string& who);
+/// What `target`, which is no symbolic link, is called before it is whole.
+std::filesystem::path temporary_name(const std::filesystem::path& target, TemporaryName name);
+
+/// The file behind a chain of symbolic links; `path` itself if there is none or if it leads nowhere.
+std::filesystem::path file_behind(const std::filesystem::path& path);
+
 /// One output under way. Whatever ends its life before commit() removes the temporary file, an Interrupt's end at once included.
 /// Not thread-safe.
 class OutputFile {

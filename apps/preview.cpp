@@ -15,6 +15,8 @@ constexpr std::size_t tiles_max = 64;
 constexpr std::chrono::milliseconds interval{250};
 /// For a viewer that takes nothing.
 constexpr std::chrono::milliseconds patience{500};
+/// For all that is to be sent in the end.
+constexpr std::chrono::seconds patience_at_the_end{2};
 /// The clock is asked once in so many pixels.
 constexpr std::uint32_t pixels_a_look = 64;
 
@@ -28,13 +30,17 @@ void add_pixel(std::vector<float>& rgb, const core::PixelSums& sums, std::uint32
 }  // namespace
 
 std::unique_ptr<Preview> Preview::to_viewer(const ViewerAddress& address, const std::string& picture, int width, int height,
-                                            const core::PartialPicture* start) {
-  std::unique_ptr<Preview> preview(new Preview(address, picture, width, height, start));
+                                            const core::PartialPicture* start, std::stop_token stop) {
+  std::unique_ptr<Preview> preview(new Preview(address, picture, width, height, start, std::move(stop)));
   return preview->connection_.is_open() ? std::move(preview) : nullptr;
 }
 
-Preview::Preview(const ViewerAddress& address, std::string picture, int width, int height, const core::PartialPicture* start)
-    : connection_(address, patience),
+Preview::Preview(const ViewerAddress& address, std::string picture, int width, int height, const core::PartialPicture* start,
+                 std::stop_token stop)
+    : connection_(address, patience,
+                  [this, stop = std::move(stop)] {
+                    return stop.stop_requested() || Clock::now() >= deadline_.load(std::memory_order_relaxed);
+                  }),
       picture_(std::move(picture)),
       width_(static_cast<std::uint32_t>(width)),
       height_(static_cast<std::uint32_t>(height)),
@@ -48,7 +54,7 @@ Preview::Preview(const ViewerAddress& address, std::string picture, int width, i
     pass_samples_ = start->samples.count;
   }
   if (connection_.is_open()) {
-    sender_ = std::jthread([this](const std::stop_token& stop) { run_sender(stop); });
+    sender_ = std::jthread([this](const std::stop_token& ending) { run_sender(ending); });
   }
 }
 
@@ -74,10 +80,12 @@ void Preview::hand_over(const core::Film& film) {
   if (!lock || !tiles_.empty() || is_sending_) {
     return;
   }
-  for (std::uint32_t tile = 0; tile < is_dirty_.size() && tiles_.size() < tiles_max; ++tile) {
-    if (std::exchange(is_dirty_[tile], std::uint8_t{0}) != 0) {
-      tiles_.push_back(tile_of(film, tile));
+  const auto tile_count = static_cast<std::uint32_t>(is_dirty_.size());
+  for (std::uint32_t looks = 0; looks < tile_count && tiles_.size() < tiles_max; ++looks) {
+    if (std::exchange(is_dirty_[next_tile_], std::uint8_t{0}) != 0) {
+      tiles_.push_back(tile_of(film, next_tile_));
     }
+    next_tile_ = (next_tile_ + 1) % tile_count;
   }
   handed_over_.notify_one();
   next_ = Clock::now() + interval;
@@ -117,6 +125,7 @@ void Preview::run_sender(const std::stop_token& stop) {
 }
 
 void Preview::finish(const core::Film& film) {
+  deadline_.store(Clock::now() + patience_at_the_end, std::memory_order_relaxed);  // the sender may see it a little later
   sender_.request_stop();
   sender_.join();
   is_lit_ = core::PixelMask(width_ * height_);  // all samples are counted on the film

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -27,31 +28,35 @@ namespace dmpc::apps {
 class Preview {
  public:
   /// Nothing, if no viewer listens at `address`. `picture` is what the viewer is to call it; `start`: what is done before, if
-  /// anything.
+  /// anything. Once `stop` is requested nothing more is sent.
   static std::unique_ptr<Preview> to_viewer(const ViewerAddress& address, const std::string& picture, int width, int height,
-                                            const core::PartialPicture* start = nullptr);
+                                            const core::PartialPicture* start = nullptr, std::stop_token stop = {});
   Preview(const Preview&) = delete;
   Preview& operator=(const Preview&) = delete;
 
   /// Light has come to a pixel of the pass.
   void watch(const core::Film& film, const core::Refinement& pass, std::uint32_t pixel);
-  /// Sends the whole picture as it is in the end. Requires that watch() is not called any more.
+  /// Sends the whole picture as it is in the end, or what of it a viewer takes within two seconds. Requires that watch() is not
+  /// called any more.
   void finish(const core::Film& film);
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  Preview(const ViewerAddress& address, std::string picture, int width, int height, const core::PartialPicture* start);
+  Preview(const ViewerAddress& address, std::string picture, int width, int height, const core::PartialPicture* start,
+          std::stop_token stop);
 
   PictureTile tile_of(const core::Film& film, std::uint32_t index) const;
   void hand_over(const core::Film& film);
   void run_sender(const std::stop_token& stop);
 
+  std::atomic<Clock::time_point> deadline_ = Clock::time_point::max();
   ViewerConnection connection_;  ///< the sender's
   std::string picture_;
   std::uint32_t width_, height_, columns_;
   std::vector<std::uint8_t> is_dirty_;  ///< tile by tile: to be sent
   core::PixelMask is_lit_;              ///< in the pass under way
+  std::uint32_t next_tile_ = 0;         ///< at which to look first, so that each has its turn
   std::uint32_t pass_ = 0;
   std::uint32_t pass_samples_ = 0;
   std::uint32_t calls_ = 0;

@@ -45,7 +45,8 @@ ProcessorTime processor_time() {
   return {seconds(usage.ru_utime), seconds(usage.ru_stime)};
 }
 
-void check_outputs(const RenderOptions& options) {
+/// Returns what keeps others off the checkpoint, if there is to be one.
+std::optional<FileLock> check_outputs(const RenderOptions& options) {
   std::vector<NamedFile> inputs, outputs = {{"-o", options.image}};
   add_scene_file(options.picture.scene, inputs);
   if (options.computer.runner == RunnerKind::virtual_time && find_machine_preset(options.computer.machine_name) == nullptr) {
@@ -80,7 +81,7 @@ void check_outputs(const RenderOptions& options) {
   for (const HeatRequest& request : options.heat_maps) {
     check_image_path(request.path, "--heatmap");
   }
-  check_checkpoint(options.checkpoint);
+  return claim_checkpoint(options.checkpoint);
 }
 
 /// Reads and builds, and makes `checkpoints` if some are asked for; a signal ends the process here and now.
@@ -89,7 +90,7 @@ Subject load(const RenderOptions& options, std::optional<Checkpoints>& checkpoin
   Stopwatch stopwatch;
   core::Scene scene = load_scene(options.picture, options.quiet ? LoadNotes::silent : LoadNotes::said);
   if (options.checkpoint.file) {
-    checkpoints.emplace(options.checkpoint, identity_of(options, scene), std::cerr, options.quiet);
+    checkpoints.emplace(options.checkpoint, identity_of(options, scene), std::cerr, options.quiet, interrupt.token());
   }
   seconds.load = stopwatch.lap();
   Subject subject = build_subject(std::move(scene), options.picture, options.database, true);
@@ -109,17 +110,30 @@ std::optional<nodes::HeatMap> make_heat_map(const RenderOptions& options, const 
 }
 
 /// Who looks on; nothing if nobody wants to or listens.
-std::unique_ptr<Preview> make_preview(const RenderOptions& options, const core::Camera& camera,
-                                      const core::PartialPicture* start) {
+std::unique_ptr<Preview> make_preview(const RenderOptions& options, const core::Camera& camera, const core::PartialPicture* start,
+                                      const std::stop_token& stop) {
   if (options.viewer.empty()) {
     return nullptr;
   }
   return Preview::to_viewer(parse_viewer_address(options.viewer, "--preview"), options.picture.scene, camera.width(),
-                            camera.height(), start);
+                            camera.height(), start, stop);
 }
 
-core::Continuation continuation_of(Checkpoints* checkpoints, Preview* preview) {
-  core::Continuation continuation = checkpoints != nullptr ? checkpoints->continuation() : core::Continuation{};
+/// What an interruption of the run means.
+const char* consequence_of(const Checkpoints& checkpoints) {
+  return checkpoints.has_one() ? "no picture was written; --resume goes on from the checkpoint" : "no picture was written";
+}
+
+core::Continuation continuation_of(Checkpoints* checkpoints, Preview* preview, Interrupt& interrupt) {
+  core::Continuation continuation;
+  if (checkpoints != nullptr) {
+    continuation = checkpoints->continuation();
+    continuation.keep = [keep = continuation.keep, checkpoints, &interrupt](const core::Film& film, const core::Refinement& pass,
+                                                                            const core::PixelMask& done) {
+      keep(film, pass, done);
+      interrupt.set_consequence(consequence_of(*checkpoints));
+    };
+  }
   if (preview != nullptr) {
     continuation.watch = [preview](const core::Film& film, const core::Refinement& pass, std::uint32_t pixel) {
       preview->watch(film, pass, pixel);
@@ -265,7 +279,7 @@ Image image_of(const core::Film& film) {
 }
 
 int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostream& output) {
-  check_outputs(asked);
+  const std::optional<FileLock> lock = check_outputs(asked);
   RenderOptions options = asked;
   choose_machine(options);
   Seconds seconds;
@@ -274,25 +288,25 @@ int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostrea
   std::optional<nodes::HeatMap> heat = make_heat_map(options, subject.settings.camera);
   const std::unique_ptr<nodes::TraceRecorder> recorder = make_recorder(options);
   const std::unique_ptr<Preview> preview =
-      make_preview(options, subject.settings.camera, checkpoints ? checkpoints->start() : nullptr);
+      make_preview(options, subject.settings.camera, checkpoints ? checkpoints->start() : nullptr, interrupt.token());
   const RunTies ties{.distributed = [&subject] { subject.database.forget_records(); },  // the nodes have theirs
                      .heat = heat ? &*heat : nullptr,
                      .observer = recorder.get(),
-                     .continuation = continuation_of(checkpoints ? &*checkpoints : nullptr, preview.get())};
+                     .continuation = continuation_of(checkpoints ? &*checkpoints : nullptr, preview.get(), interrupt)};
   const ReadyRun run = prepare(options, subject, ties, interrupt, seconds);
   if (checkpoints) {
-    interrupt.set_consequence("no picture was written; --resume goes on from the checkpoint");
+    interrupt.set_consequence(consequence_of(*checkpoints));
   }
   const Report report = run_timed(options, run, interrupt, seconds);
   const std::optional<nodes::Trace> trace = take_trace(options, recorder.get());
-  if (preview) {
-    preview->finish(account_of(report).film);
-  }
   write_outputs({options, subject.database, report, seconds, heat ? &*heat : nullptr, trace ? &*trace : nullptr,
                  checkpoints ? checkpoints->samples_found_done() : 0},
                 interrupt, output);
   if (checkpoints) {
     checkpoints->finish();
+  }
+  if (preview) {
+    preview->finish(account_of(report).film);
   }
   return 0;
 }

@@ -70,14 +70,19 @@ Json sampling_json(const RenderRecord& record, const Account& account) {
   return result;
 }
 
+/// A figure of the whole picture that a part of its samples does not tell: null where some were found done.
+Json of_whole_picture(const RenderRecord& record, const Json& figure) { return record.samples_found_done == 0 ? figure : Json(); }
+
 /// The cutoff's own bound: on average a sample lacks at most so much light.
-Json cutoff_json(const RenderOptions& options, const Account& account) {
+Json cutoff_json(const RenderRecord& record, const Account& account) {
+  const RenderOptions& options = record.options;
   const auto cut = static_cast<double>(account.operations.rays_cut);
-  return {{"on", options.picture.cutoff > 0},
-          {"exact", false},
-          {"cutoff", options.picture.cutoff},
-          {"rays_cut", account.operations.rays_cut},
-          {"mean_error_bound", options.picture.cutoff * cut / static_cast<double>(account.film.samples())}};
+  return {
+      {"on", options.picture.cutoff > 0},
+      {"exact", false},
+      {"cutoff", options.picture.cutoff},
+      {"rays_cut", account.operations.rays_cut},
+      {"mean_error_bound", of_whole_picture(record, options.picture.cutoff * cut / static_cast<double>(account.film.samples()))}};
 }
 
 /// A name as keys have it.
@@ -88,7 +93,8 @@ std::string key_of(std::string name) {
 }
 
 /// What was left out.
-Json skips_json(const RenderOptions& options, const Account& account) {
+Json skips_json(const RenderRecord& record, const Account& account) {
+  const RenderOptions& options = record.options;
   Json result;
   for (const core::Skip& skip : core::all_skips) {
     result[key_of(skip.name)] = {{"on", options.picture.skips.*skip.is_on},
@@ -96,7 +102,7 @@ Json skips_json(const RenderOptions& options, const Account& account) {
                                  {"avoided", account.operations.skipped.*skip.avoided},
                                  {"unit", skip.unit}};
   }
-  result["cutoff"] = cutoff_json(options, account);
+  result["cutoff"] = cutoff_json(record, account);
   return result;
 }
 
@@ -184,9 +190,9 @@ Json nodes_json(const Account& account, const StrategyStats& special, const Virt
   return result;
 }
 
-Json host_json(const Account& account, const Json& special, const Json& timed) {
+Json host_json(const RenderRecord& record, const Account& account, const Json& special, const Json& timed) {
   Json result = {{"packets", packets_json(account.host)},
-                 {"deposits_saturated", account.host_deposits_saturated},
+                 {"deposits_saturated", of_whole_picture(record, account.host_deposits_saturated)},
                  {"seconds", timed.empty() ? node_seconds_json(account.host) : Json()},
                  {"sleeps", account.host.sleeps}};
   result.update(filled({"virtual_seconds"}, timed));
@@ -316,14 +322,15 @@ std::string stats_json(const RenderRecord& record) {
               {"hits", hits_json(account.operations)},
               {"operations", operations_json(account.operations)},
               {"seconds", seconds_json(record.seconds)}};
+  all["operations"]["deposits_saturated"] = of_whole_picture(record, account.operations.deposits_saturated);
   all.update(filled({"run_hash", "machine_digest", "virtual_seconds", "time_percent", "events", "links"}, timed.all));
   all.update({{"database", database_json(record.database)}, {"packets", all_packets_json(account, special.packets_overflowed)}});
   all.update(filled({"pages", "work", "travel", "load", "regions", "mapping", "pairs"}, special.all));
   all["chaos"] = chaos_json(account, special.chaos);
-  all["skips"] = skips_json(record.options, account);
+  all["skips"] = skips_json(record, account);
   all["heat_maps"] = heat_maps_json(record);
   all["nodes"] = nodes_json(account, special, timed);
-  all["host"] = host_json(account, special.host, timed.host);
+  all["host"] = host_json(record, account, special.host, timed.host);
   return all.dump(2) + "\n";
 }
 

@@ -44,7 +44,8 @@ struct RenderRecord {
 ///   runner         threads or virtual
 ///   machine        that was modelled, as machine_file.h says; null with threads, as is all that follows from virtual time
 ///   film_hash      of the film's integers, 16 hexadecimal digits: equal pictures, equal hashes
-///   sampling       samples (of all pixels), resumed (how many of them a checkpoint had: no counter below has seen them),
+///   sampling       samples (of all pixels), resumed (how many of them a checkpoint had: no counter below has seen them, and
+///                  those that judge the picture are null: deposits_saturated, but of a node, and mean_error_bound),
 ///                  samples_per_pixel, passes, and where they are refined estimated_error (root mean
 ///                  square of the linear channels)
 ///   rays           rays shot

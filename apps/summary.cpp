@@ -52,7 +52,7 @@ std::string pages_text(const svm::Report& report) {
                      percent(pages.misses, pages.references) + "; " + grouped(pages.faults) + " faults, " +
                      grouped(pages.evictions) + " evictions";
   if (report.plan.request.count_pages) {
-    const auto pixels = static_cast<double>(report.film.pixels().size());
+    const auto pixels = static_cast<double>(std::max<std::uint64_t>(report.work().pixels_rendered, 1));  // of this run
     text += ", " + fixed(static_cast<double>(pages.distinct_pages) / pixels, 2) + " distinct pages a pixel";
   }
   return text;

@@ -9,12 +9,16 @@
 #include <algorithm>
 #include <cerrno>
 #include <memory>
+#include <utility>
 
 #include "core/expect.h"
 
 namespace dmpc::apps {
 
 namespace {
+
+/// While it waits it asks so often whether to give up.
+constexpr std::chrono::milliseconds look_interval{50};
 
 using Addresses = std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)>;
 
@@ -49,7 +53,9 @@ ViewerAddress parse_viewer_address(const std::string& text, std::string_view opt
   throw core::UsageError(std::string(option) + "=" + text + ": expected HOST:PORT such as 127.0.0.1:14158");
 }
 
-ViewerConnection::ViewerConnection(const ViewerAddress& address, std::chrono::milliseconds patience) : patience_(patience) {
+ViewerConnection::ViewerConnection(const ViewerAddress& address, std::chrono::milliseconds patience,
+                                   std::function<bool()> gives_up)
+    : patience_(patience), gives_up_(std::move(gives_up)) {
   const Addresses addresses = addresses_of(address);
   for (const addrinfo* at = addresses.get(); at != nullptr && socket_ < 0; at = at->ai_next) {
     const int socket = ::socket(at->ai_family, at->ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, at->ai_protocol);
@@ -73,11 +79,18 @@ bool ViewerConnection::connects(int socket, const void* address, std::size_t add
 
 bool ViewerConnection::waits_for_room(int socket) const {
   pollfd watched{.fd = socket, .events = POLLOUT, .revents = 0};
-  return ::poll(&watched, 1, static_cast<int>(patience_.count())) == 1 && (watched.revents & (POLLERR | POLLHUP)) == 0;
+  int ready = 0;
+  for (std::chrono::milliseconds left = patience_; ready == 0 && left.count() > 0 && !has_given_up(); left -= look_interval) {
+    ready = ::poll(&watched, 1, static_cast<int>(std::min(left, look_interval).count()));
+  }
+  return ready == 1 && (watched.revents & (POLLERR | POLLHUP)) == 0;
 }
 
 void ViewerConnection::send(std::string_view bytes) {
   while (is_open() && !bytes.empty()) {
+    if (has_given_up()) {
+      return close();
+    }
     const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
     if (sent > 0) {
       bytes.remove_prefix(static_cast<std::size_t>(sent));

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -17,10 +18,11 @@ struct ViewerAddress {
 ViewerAddress parse_viewer_address(const std::string& text, std::string_view option);
 
 /// Never throws, and never waits for longer than `patience` for a viewer that takes nothing. Not thread-safe.
+/// `gives_up` is asked again and again while it sends: once it says so, the connection is closed. May be empty.
 class ViewerConnection {
  public:
   /// Connects, if somebody listens.
-  ViewerConnection(const ViewerAddress& address, std::chrono::milliseconds patience);
+  ViewerConnection(const ViewerAddress& address, std::chrono::milliseconds patience, std::function<bool()> gives_up = {});
   ~ViewerConnection() { close(); }
   ViewerConnection(const ViewerConnection&) = delete;
   ViewerConnection& operator=(const ViewerConnection&) = delete;
@@ -32,9 +34,11 @@ class ViewerConnection {
  private:
   bool connects(int socket, const void* address, std::size_t address_bytes) const;
   bool waits_for_room(int socket) const;
+  bool has_given_up() const { return gives_up_ && gives_up_(); }
   void close();
 
   std::chrono::milliseconds patience_;
+  std::function<bool()> gives_up_;
   int socket_ = -1;
 };
 

@@ -57,7 +57,16 @@ void HostProgram::begin_first_pass() {
   }
   pixels_with_light_ = done.count();
   std::copy(done.words().begin(), done.words().end(), has_light_.begin());
-  undealt_.begin_pass(deal_(refinement_.samples(), refinement_.pixels().without(done)), refinement_.samples(), done);
+  deal_pass(done);
+}
+
+/// The rays of the pass's pixels, but those that are done, from now on wait for deal_all().
+void HostProgram::deal_pass(const core::PixelMask& done) {
+  std::optional<std::vector<std::vector<PrimaryRun>>> runs = deal_(refinement_.samples(), refinement_.pixels().without(done));
+  if (runs) {
+    undealt_.begin_pass(std::move(*runs), refinement_.samples(), done);
+  }
+  is_cut_short_ = !runs;
 }
 
 void HostProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan) {
@@ -87,6 +96,9 @@ void HostProgram::receive(const nodes::Packet& packet) {
 
 /// Forwards all that it can; without a ray it hands on the token, and tells all when the end is proved.
 bool HostProgram::work() {
+  if (is_cut_short_) {
+    return true;  // so that nobody takes the stillness for the end before the runner has seen the stop
+  }
   deal_all();
   for (std::uint32_t owner = 0; owner < node_count_; ++owner) {
     while (can_forward(owner)) {
@@ -205,7 +217,7 @@ void HostProgram::end_pass() {
   }
   pixels_with_light_ = 0;
   std::fill(has_light_.begin(), has_light_.end(), 0);
-  undealt_.begin_pass(deal_(refinement_.samples(), refinement_.pixels()), refinement_.samples(), none);
+  deal_pass(none);
   begin_again();
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,9 +26,9 @@ namespace dmpc::dataflow {
 /// all. If it throws, the run ends with that.
 using Progress = std::function<void(std::uint32_t, std::uint32_t)>;
 
-/// The primary rays of a pass, by node.
-using DealPrimaries =
-    std::function<std::vector<std::vector<PrimaryRun>>(const core::SampleRange& samples, const core::PixelMask& pixels)>;
+/// The primary rays of a pass, by node: all of them, or nothing if a stop of the run was requested meanwhile.
+using DealPrimaries = std::function<std::optional<std::vector<std::vector<PrimaryRun>>>(const core::SampleRange& samples,
+                                                                                        const core::PixelMask& pixels)>;
 
 /// What the host counts beside the packets.
 struct HostCounters {
@@ -43,7 +44,8 @@ struct HostCounters {
 /// Depends on nobody: film and overflow are taken and acknowledged at once. When the end of a pass is proved and its film
 /// complete, it deals the primary rays of the next, if there is one, packet by packet as nodes have room. Where the plan says so
 /// it deals those of the first pass, too. If then the picture is to be kept, it holds rays back until no other is left anywhere,
-/// which the same proof tells: then the pixels that have begun are done.
+/// which the same proof tells: then the pixels that have begun are done. A pass that could not be dealt whole never ends: the
+/// host then waits for the runner to end the run.
 class HostProgram final : public nodes::Program {
  public:
   /// `film` outlives the program and is written by it alone until the run's end; it is as continuation.start has it.
@@ -72,6 +74,7 @@ class HostProgram final : public nodes::Program {
   bool can_forward(std::uint32_t owner) const;
   void forward(std::uint32_t owner);
   void begin_first_pass();
+  void deal_pass(const core::PixelMask& done);
   void end_pass();
   void go_on_dealing();
   bool is_due() const;
@@ -101,6 +104,7 @@ class HostProgram final : public nodes::Program {
   HostCounters counters_;
   bool finishing_ = false;
   bool stopped_ = false;
+  bool is_cut_short_ = false;  ///< the rays of the pass are not known, as a stop was requested
 };
 
 }  // namespace dmpc::dataflow

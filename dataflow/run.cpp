@@ -263,8 +263,9 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
                 .duplication = prepared.duplication};
   core::expect(options.heat == nullptr || options.heat->pixel_count() == report.film.pixels().size(),
                "a heat map is of the picture's size");
-  const auto runner = nodes::make_runner(specifications_of(report.plan, prepared.distribution, settings, report.film, options),
-                                         {options.chaos, options.machine, options.observer});
+  const auto runner =
+      nodes::make_runner(specifications_of(report.plan, prepared.distribution, settings, report.film, options, stop),
+                         {options.chaos, options.machine, options.observer});
   if (options.distributed) {
     options.distributed();
   }
@@ -275,7 +276,7 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
 
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,
                                                         const core::RenderSettings& settings, core::Film& film,
-                                                        const RunOptions& options) {
+                                                        const RunOptions& options, const std::stop_token& stop) {
   std::vector<nodes::NodeSpecification> specifications;
   for (std::uint32_t i = 0; i < plan.node_count(); ++i) {
     const auto make_program = [&, i](nodes::Node& node) {
@@ -283,8 +284,9 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
     };
     specifications.push_back({plan.node_memory(i), plan.node_mailbox, make_program, plan.held_bytes});
   }
-  const auto deal = [&](const core::SampleRange& samples, const core::PixelMask& pixels) {
-    return deal_primaries(settings, distribution.bsp, samples, pixels);
+  const auto deal = [&settings, &distribution, stop](const core::SampleRange& samples, const core::PixelMask& pixels) {
+    std::optional runs = deal_primaries(settings, distribution.bsp, samples, pixels, stop);
+    return stop.stop_requested() ? std::nullopt : std::move(runs);
   };
   const auto make_host = [&, deal](nodes::Node& node) {
     return std::make_unique<HostProgram>(node, plan, film, options.progress, deal, options.continuation);

@@ -126,9 +126,9 @@ Report run_dataflow(const core::Database& database, const core::RenderSettings& 
                     std::stop_token stop);
 
 /// What a runner needs for `plan`: the nodes in order, then the host, which writes `film`. All arguments outlive
-/// the runner. Of `options` it reads what meters are for.
+/// the runner. Of `options` it reads what meters are for. `stop` is that of the run.
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,
                                                         const core::RenderSettings& settings, core::Film& film,
-                                                        const RunOptions& options);
+                                                        const RunOptions& options, const std::stop_token& stop = {});
 
 }  // namespace dmpc::dataflow

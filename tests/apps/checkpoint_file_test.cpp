@@ -113,6 +113,9 @@ TEST_CASE("what is no checkpoint is refused") {
   write_text(folder / "a", "dmpc checkpoint 2\n\n");
   CHECK(contains(file_complaint(folder / "a"), "no checkpoint of this version"));
   CHECK(contains(file_complaint(folder / "none"), "cannot be read"));
+  write_text(folder / "a", "dmpc checkpoint 1\n" + std::string(100'000, 'x') + "=\n");
+  CHECK(contains(file_complaint(folder / "a"), "is damaged"));
+  CHECK(contains(file_complaint("/dev/zero"), "no checkpoint"));
 }
 
 TEST_CASE("where there is no room for a checkpoint that is said, and the old one stays") {

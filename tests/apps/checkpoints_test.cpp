@@ -127,27 +127,82 @@ TEST_CASE("in the end the checkpoint is removed, with what a killed process has 
   }
 }
 
+TEST_CASE("a checkpoint behind a symbolic link is removed, and the link stays") {
+  const TemporaryFolder folder;
+  std::ostringstream messages;
+  write_text(folder / "file", "");
+  std::filesystem::create_symlink(folder / "file", folder / "link");
+  Checkpoints checkpoints({.file = folder / "link"}, small_identity, messages, false);
+  keep(checkpoints.continuation(), 1);
+  checkpoints.finish();
+  CHECK_FALSE(std::filesystem::exists(folder / "file"));
+  CHECK(std::filesystem::is_symlink(folder / "link"));
+}
+
+TEST_CASE("there is one to go on from when one was written or read") {
+  const TemporaryFolder folder;
+  std::ostringstream messages;
+  const CheckpointOptions options{.file = folder / "a", .resumes = true};
+  Checkpoints first(options, small_identity, messages, true);
+  CHECK_FALSE(first.has_one());
+  keep(first.continuation(), 1);
+  CHECK(first.has_one());
+  CHECK(Checkpoints(options, small_identity, messages, true).has_one());
+}
+
 TEST_CASE("a checkpoint that cannot be written is a warning") {
   const TemporaryFolder folder;
   std::ostringstream messages;
   std::filesystem::create_directory(folder / "b");
-  Checkpoints checkpoints({.file = folder / "b" / "a"}, small_identity, messages, false);
+  std::stop_source stop;
+  Checkpoints checkpoints({.file = folder / "b" / "a"}, small_identity, messages, false, stop.get_token());
   const core::Continuation continuation = checkpoints.continuation();
   std::filesystem::remove(folder / "b");
   keep(continuation, 1);
   CHECK(contains(messages.str(), "cannot be written"));
   CHECK(contains(messages.str(), "the render goes on"));
+  CHECK_FALSE(checkpoints.has_one());
+  messages.str("");
+  stop.request_stop();
+  keep(continuation, 1);
+  CHECK(contains(messages.str(), "cannot be written"));
+  CHECK_FALSE(contains(messages.str(), "the render goes on"));
 }
 
 TEST_CASE("a checkpoint that is there is not written over unasked") {
   const TemporaryFolder folder;
   write_text(folder / "a", "precious");
-  CHECK_THROWS_WITH_AS(check_checkpoint({.file = folder / "a"}), doctest::Contains("--resume goes on from it"), core::InputError);
-  CHECK_NOTHROW(check_checkpoint({.file = folder / "a", .resumes = true}));
-  CHECK_NOTHROW(check_checkpoint({.file = folder / "b"}));
-  CHECK_NOTHROW(check_checkpoint({}));
-  CHECK_THROWS_AS(check_checkpoint({.file = folder / "none" / "a"}), core::InputError);
-  CHECK_THROWS_WITH_AS(check_checkpoint({.file = "/dev/full"}), doctest::Contains("pipe or device"), core::InputError);
+  CHECK_THROWS_WITH_AS(claim_checkpoint({.file = folder / "a"}), doctest::Contains("--resume goes on from it"), core::InputError);
+  CHECK(claim_checkpoint({.file = folder / "a", .resumes = true}).has_value());
+  CHECK(claim_checkpoint({.file = folder / "b"}).has_value());
+  CHECK_FALSE(claim_checkpoint({}).has_value());
+  CHECK_THROWS_AS(claim_checkpoint({.file = folder / "none" / "a"}), core::InputError);
+  CHECK_THROWS_WITH_AS(claim_checkpoint({.file = "/dev/full"}), doctest::Contains("pipe or device"), core::InputError);
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("a symbolic link to itself is bad input") {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink(folder / "a", folder / "a");
+  const CheckpointOptions options{.file = folder / "a", .resumes = true};
+  std::ostringstream messages;
+  CHECK_THROWS_WITH_AS(claim_checkpoint(options), doctest::Contains("cannot be looked at"), core::InputError);
+  CHECK_THROWS_AS(Checkpoints(options, small_identity, messages, true), core::InputError);
+}
+
+TEST_CASE("two renders cannot have their checkpoints in one file, by whatever names") {
+  const TemporaryFolder folder;
+  write_text(folder / "a", "");
+  std::filesystem::create_symlink(folder / "a", folder / "link");
+  {
+    const auto lock = claim_checkpoint({.file = folder / "a", .resumes = true});
+    for (const char* const name : {"a", "link"}) {
+      CHECK_THROWS_WITH_AS(claim_checkpoint({.file = folder / name, .resumes = true}),
+                           doctest::Contains("another dmpc keeps its checkpoint there"), core::InputError);
+    }
+  }
+  CHECK(claim_checkpoint({.file = folder / "link", .resumes = true}).has_value());
+  CHECK(folder.entry_count() == 2);
 }
 
 TEST_CASE("a render that is killed again and again comes to the same film, whatever computers go on with it") {
@@ -170,6 +225,19 @@ TEST_CASE("a render that is killed again and again comes to the same film, whate
   REQUIRE(last.status() == 0);
   CHECK(film_hash(folder) == film_hash(undisturbed));
   CHECK_FALSE(std::filesystem::exists(folder / "c"));
+}
+
+TEST_CASE("a render that is interrupted before its first checkpoint does not speak of one") {
+  const TemporaryFolder folder;
+  ChildProcess process({DMPC_PROGRAM, "render", "balls-4", "--strategy=dataflow", "--samples=1024",
+                        "--checkpoint=" + (folder / "c").string(), "-o", folder / "a.exr"});
+  for (int tries = 0; tries < 6000 && !std::filesystem::exists(folder / ".dmpc-lock-c"); ++tries) {
+    ::usleep(10'000);
+  }
+  process.send(SIGINT);
+  CHECK(process.status() == 130);
+  CHECK_FALSE(contains(process.errors(), "--resume"));
+  CHECK(folder.entry_count() == 0);
 }
 
 TEST_CASE("a render that is interrupted says how to go on") {

@@ -86,6 +86,40 @@ TEST_CASE("a viewer sees pixels as they come, with the light of the samples that
   CHECK(small.value(shown, 163) == 0);
 }
 
+TEST_CASE("every tile has its turn, however many change all the time") {
+  LoopbackListener listener;
+  core::Film film(6400, 64);
+  core::PixelSums light;
+  light.plane[0] = core::to_fixed({1, 1, 1});
+  film.deposit(6399, light);
+  const core::Refinement pass({}, 1, 6400, 64);
+  {
+    const auto preview = Preview::to_viewer({"127.0.0.1", listener.port()}, "a", 6400, 64);
+    REQUIRE(preview != nullptr);
+    preview->watch(film, pass, 6399);
+    for (int rounds = 0; rounds < 10; ++rounds) {
+      for (std::uint32_t tile = 0; tile < 64; ++tile) {
+        preview->watch(film, pass, 64 * tile);
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  }
+  const ShownPicture shown(listener.received());
+  CHECK(shown.rgb[std::size_t{3} * 6399] == 1);
+}
+
+TEST_CASE("in the end a viewer that takes nothing is not waited for when a stop is requested") {
+  const LoopbackListener listener(false);
+  const core::Film film(2048, 2048);
+  std::stop_source stop;
+  const auto preview = Preview::to_viewer({"127.0.0.1", listener.port()}, "a", 2048, 2048, nullptr, stop.get_token());
+  REQUIRE(preview != nullptr);
+  stop.request_stop();
+  const auto begin = std::chrono::steady_clock::now();
+  preview->finish(film);
+  CHECK(std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(300));
+}
+
 TEST_CASE("what was done before is shown, too") {
   LoopbackListener listener;
   SmallFilm small;

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cstring>
+#include <optional>
 #include <vector>
 
 #include "core/expect.h"
@@ -116,6 +117,20 @@ TEST_CASE("primary rays of a later pass are dealt as nodes have room, and the ho
   CHECK(single.post.parcels.back().packet().as<dataflow::DealtPrimaries>().count == 1);
   host.work();
   CHECK(sent(Kind::token) == tokens + 1);
+}
+
+TEST_CASE("a pass whose rays were not all found, as a stop was requested, is not taken for one that has ended") {
+  dataflow::Plan plan = plan_for(2, 2);
+  plan.request.is_dealt_on_the_way = true;
+  core::Film film(4, 2);
+  tests::SingleNode single(plan.host_memory(), 2, 3);
+  dataflow::HostProgram host(single.node, plan, film, {},
+                             [](const core::SampleRange&, const core::PixelMask&) { return std::nullopt; });
+  for (int quanta = 0; quanta < 3; ++quanta) {
+    CHECK(host.work());
+  }
+  CHECK(single.post.parcels.empty());
+  CHECK_FALSE(host.finished());
 }
 
 TEST_CASE("without a credit for the owner the host keeps rays until one comes") {
