@@ -155,6 +155,16 @@ TEST_CASE("sums that saturate on the host's film are told") {
   CHECK(contains(rendered.json(), "\"deposits_saturated\": 4711"));
 }
 
+TEST_CASE("of a picture that was gone on with, what its earlier samples would have to tell is null") {
+  const Rendered rendered(small());
+  RenderRecord record = rendered.record();
+  record.samples_found_done = 3;
+  const std::string json = stats_json(record);
+  CHECK(value(json, "mean_error_bound") == "null");
+  CHECK(value(json, "deposits_saturated") == "null");
+  CHECK(value(rendered.json(), "mean_error_bound") != "null");
+}
+
 TEST_CASE("what belongs to another strategy is null") {
   const std::string pages = Rendered(small()).json(), copies = Rendered(small(Strategy::replicated)).json(),
                     rays = Rendered(small(Strategy::dataflow)).json();
