@@ -96,11 +96,11 @@ TEST_CASE("every tile has its turn, however many change all the time") {
   {
     const auto preview = Preview::to_viewer({"127.0.0.1", listener.port()}, "a", 6400, 64);
     REQUIRE(preview != nullptr);
-    preview->watch(film, pass, 6399);
     for (int rounds = 0; rounds < 10; ++rounds) {
-      for (std::uint32_t tile = 0; tile < 64; ++tile) {
+      for (std::uint32_t tile = 0; tile < 80; ++tile) {  // more than are handed over at a time
         preview->watch(film, pass, 64 * tile);
       }
+      preview->watch(film, pass, 6399);
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
   }
