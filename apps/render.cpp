@@ -16,6 +16,7 @@
 #include "apps/html/render_page.h"
 #include "apps/load_scene.h"
 #include "apps/machines.h"
+#include "apps/onlookers.h"
 #include "apps/output_file.h"
 #include "apps/preview.h"
 #include "apps/progress.h"
@@ -25,8 +26,6 @@
 #include "apps/subject.h"
 #include "apps/summary.h"
 #include "apps/trace_file.h"
-#include "apps/trace_options.h"
-#include "nodes/trace.h"
 
 namespace dmpc::apps {
 
@@ -142,27 +141,18 @@ core::Continuation continuation_of(Checkpoints* checkpoints, Preview* preview, I
   return continuation;
 }
 
-/// Where the run is recorded; nothing if nobody wants to know.
-std::unique_ptr<nodes::TraceRecorder> make_recorder(const RenderOptions& options) {
-  if (!options.trace.path) {
-    return nullptr;
+/// What the onlookers have seen; says so if some of a trace was lost, or there is none.
+Sights take_sights(const RenderOptions& options, Onlookers& onlookers) {
+  Sights sights = onlookers.take();
+  if (!sights.trace || options.quiet) {
+    return sights;
   }
-  const std::uint32_t node_count = options.computer.node_count;
-  return std::make_unique<nodes::TraceRecorder>(node_count + 1, trace_choice(options.trace, node_count));
-}
-
-/// What was recorded, if anything was; says so if some of it was lost, or there is none.
-std::optional<nodes::Trace> take_trace(const RenderOptions& options, nodes::TraceRecorder* recorder) {
-  if (recorder == nullptr) {
-    return std::nullopt;
-  }
-  nodes::Trace trace = recorder->take();
-  for (const std::string& note : {loss_note(trace, options.trace), empty_note(trace)}) {
-    if (!note.empty() && !options.quiet) {
+  for (const std::string& note : {loss_note(*sights.trace, options.trace), empty_note(*sights.trace)}) {
+    if (!note.empty()) {
       std::cerr << "dmpc: " << note << '\n';
     }
   }
-  return trace;
+  return sights;
 }
 
 /// Plans, and says what the user should know before waiting for the picture; a signal ends the process here and now.
@@ -286,21 +276,22 @@ int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostrea
   std::optional<Checkpoints> checkpoints;
   Subject subject = load(options, checkpoints, interrupt, seconds);
   std::optional<nodes::HeatMap> heat = make_heat_map(options, subject.settings.camera);
-  const std::unique_ptr<nodes::TraceRecorder> recorder = make_recorder(options);
+  Onlookers onlookers(options, static_cast<std::uint32_t>(subject.database.page_count()));
   const std::unique_ptr<Preview> preview =
       make_preview(options, subject.settings.camera, checkpoints ? checkpoints->start() : nullptr, interrupt.token());
   const RunTies ties{.distributed = [&subject] { subject.database.forget_records(); },  // the nodes have theirs
                      .heat = heat ? &*heat : nullptr,
-                     .observer = recorder.get(),
+                     .observer = onlookers.observer(),
+                     .reference_logs = onlookers.reference_logs(),
                      .continuation = continuation_of(checkpoints ? &*checkpoints : nullptr, preview.get(), interrupt)};
   const ReadyRun run = prepare(options, subject, ties, interrupt, seconds);
   if (checkpoints) {
     interrupt.set_consequence(consequence_of(*checkpoints));
   }
   const Report report = run_timed(options, run, interrupt, seconds);
-  const std::optional<nodes::Trace> trace = take_trace(options, recorder.get());
-  write_outputs({options, subject.database, report, seconds, heat ? &*heat : nullptr, trace ? &*trace : nullptr,
-                 checkpoints ? checkpoints->samples_found_done() : 0},
+  const Sights sights = take_sights(options, onlookers);
+  write_outputs({options, subject.database, report, seconds, heat ? &*heat : nullptr, sights.trace ? &*sights.trace : nullptr,
+                 sights.view ? &*sights.view : nullptr, checkpoints ? checkpoints->samples_found_done() : 0},
                 interrupt, output);
   if (checkpoints) {
     checkpoints->finish();

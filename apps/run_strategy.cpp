@@ -65,6 +65,7 @@ ReadyRun ready_with_pages(const StrategyOptions& options, const core::Database& 
   const bool paged = options.strategy == Strategy::svm, by_embree = options.tracer == TracerChoice::embree;
   svm::RunOptions run = svm_options(options);
   run.distributed = ties.distributed;
+  run.reference_logs = ties.reference_logs;
   tie(run, ties);
   const auto start = [&database, &settings, run, paged, by_embree](const RunProgress& progress, std::stop_token stop) -> Report {
     svm::RunOptions watched = run;

@@ -25,9 +25,10 @@ struct RunTies {
   /// If given, the run starts at most once, and this is called when it will not read the database's records again: before the
   /// start, or when it starts.
   std::function<void()> distributed = {};
-  nodes::HeatMap* heat = nullptr;        ///< what each pixel takes is added to it; of the picture's size
-  nodes::Observer* observer = nullptr;   ///< sees the run happen
-  core::Continuation continuation = {};  ///< where the run begins, and what is kept of it
+  nodes::HeatMap* heat = nullptr;                            ///< what each pixel takes is added to it; of the picture's size
+  nodes::Observer* observer = nullptr;                       ///< sees the run happen
+  std::vector<svm::ReferenceLog>* reference_logs = nullptr;  ///< as svm::RunOptions has them
+  core::Continuation continuation = {};                      ///< where the run begins, and what is kept of it
 };
 
 /// Everything is planned and, for dataflow, balanced and dealt.

@@ -15,6 +15,8 @@ struct Trace;
 
 namespace dmpc::apps {
 
+struct RunView;
+
 /// Seconds of wall clock by phase, and of processor time.
 struct Seconds {
   double load = 0, build = 0, prepare = 0, render = 0, write = 0;
@@ -30,6 +32,7 @@ struct RenderRecord {
   Seconds seconds;
   const nodes::HeatMap* heat = nullptr;  ///< what options.heat_maps ask for
   const nodes::Trace* trace = nullptr;   ///< what options.trace asks for
+  const RunView* view = nullptr;         ///< what options.report asks for
   std::uint64_t samples_found_done = 0;  ///< of all pixels, in the checkpoint that the run went on from
 };
 

@@ -1,9 +1,13 @@
 #include "svm/metered_programs.h"
 
+#include <memory>
+#include <type_traits>
+
 #include "core/expect.h"
 #include "svm/counting_pager.h"
 #include "svm/local_copy.h"
 #include "svm/pager.h"
+#include "svm/recording_pager.h"
 
 namespace dmpc::svm {
 namespace {
@@ -11,8 +15,11 @@ namespace {
 template <class Records>
 MakeProgram maker(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
                   const RunOptions& options) {
-  return [&](std::uint32_t /*index*/, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
+  return [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
     const auto make_tracer = [&](Records& records) {
+      if constexpr (std::is_same_v<Records, RecordingPager>) {
+        records.record_into(options.reference_logs->at(index));
+      }
       return core::GridTracer<Records>(records, settings.header, settings.skips);
     };
     return make_metered_program<Records, core::GridTracer<Records>>(node, plan, settings, database.bytes(), make_tracer,
@@ -28,8 +35,9 @@ MakeProgram metered_programs(const core::Database& database, const core::RenderS
   if (plan.request.strategy == Strategy::replicated) {
     return maker<LocalCopy>(database, settings, plan, options);
   }
-  return plan.request.count_pages ? maker<CountingPager>(database, settings, plan, options)
-                                  : maker<Pager>(database, settings, plan, options);
+  return plan.request.count_pages            ? maker<CountingPager>(database, settings, plan, options)
+         : options.reference_logs != nullptr ? maker<RecordingPager>(database, settings, plan, options)
+                                             : maker<Pager>(database, settings, plan, options);
 }
 
 }  // namespace dmpc::svm

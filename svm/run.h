@@ -54,6 +54,9 @@ struct RunOptions {
   /// count_pages says. Of the size of the picture; outlives the run.
   nodes::HeatMap* heat = nullptr;
   nodes::Observer* observer = nullptr;  ///< sees the run happen; outlives it
+  /// One for each node, where run_svm() notes what the node references, with an observer and unless different pages are counted,
+  /// in whatever order it comes. Outlive the run.
+  std::vector<ReferenceLog>* reference_logs = nullptr;
   /// Where the picture is begun, and what of it is kept on the way. An interrupted run keeps what it has.
   core::Continuation continuation = {};
   /// Called on the calling thread when the nodes hold the database, which is not read again, before any node starts.

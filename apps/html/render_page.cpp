@@ -1,10 +1,16 @@
 #include "apps/html/render_page.h"
 
+#include <algorithm>
+#include <cmath>
+#include <variant>
+#include <vector>
+
 #include "apps/figures.h"
 #include "apps/heat_field.h"
 #include "apps/heat_picture.h"
 #include "apps/html/page.h"
 #include "apps/html/render_tables.h"
+#include "apps/html/view_tables.h"
 #include "apps/render.h"
 #include "apps/summary.h"
 #include "nodes/size_text.h"
@@ -48,6 +54,57 @@ void add_pictures(Page& page, const RenderRecord& record, const Account& account
                        name + ": " + field.meaning + ", least " + rounded(field.least()) + ", largest " +
                            rounded(field.largest()) + " " + field.unit + ".");
     }
+  }
+}
+
+void add_time(Page& page, const RunView& view) {
+  if (view.steps.nodes.front().empty()) {
+    return;
+  }
+  page.begin_section("Over time");
+  const Table table = step_table(view.steps);
+  page.add_plot(step_plot(), table);
+  page.add_picture(step_picture(view.steps), "How busy each node was over time",
+                   "How busy each node was: time from left to right, nodes from node 0 at the top down. Dark: not at all.",
+                   PictureSize::wide);
+  page.add_table(table);
+}
+
+/// Who asks, from the top down, of whom, from left to right.
+template <class Count>
+void add_matrix(Page& page, const std::vector<Count>& counts, const std::string& what) {
+  const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(counts.size())) + 0.5);
+  const auto largest = std::max_element(counts.begin(), counts.end());
+  const auto at = static_cast<std::size_t>(largest - counts.begin());
+  page.add_picture(number_picture(std::vector<double>(counts.begin(), counts.end()), side, side), what,
+                   what + ", from node 0 on. Dark: 0; lightest: " + grouped(*largest) + ", from node " +
+                       std::to_string(at / side) + " to node " + std::to_string(at % side) + ".",
+                   PictureSize::wide);
+}
+
+void add_misses(Page& page, const RenderRecord& record, const MissEstimate& misses) {
+  const auto& report = std::get<svm::Report>(record.report);
+  const svm::PageCounters pages = report.pages();
+  const Table table = miss_table(misses, static_cast<std::uint32_t>(record.database.page_count()), pages.references,
+                                 report.plan.frames, pages.faults);
+  page.add_plot(miss_plot(), table);
+  page.add_table(table);
+}
+
+void add_pages(Page& page, const RenderRecord& record, const svm::Fetches& fetches) {
+  page.begin_section("Pages");
+  add_matrix(page, fetches.by_pair, "Fetches: who asks, from the top down, and the page's home, from left to right");
+  const Table shares = page_share_table(fetches);
+  page.add_plot(page_share_plot(), shares);
+  page.add_table(page_table(fetches));
+  page.begin_section("Fetching a page");
+  const Table table = fetch_table(fetches);
+  page.add_plot(fetch_plot(fetches), table);
+  page.add_table(table);
+  page.add_table(fetch_part_table(fetches));
+  if (record.view->misses) {
+    page.begin_section("Other caches");
+    add_misses(page, record, *record.view->misses);
   }
 }
 
@@ -97,6 +154,16 @@ std::string render_page(const RenderRecord& record, std::ostream& complaints) {
   page.add_facts(facts_of(record, account));
   add_pictures(page, record, account);
   add_losses(page, account);
+  if (record.view != nullptr) {
+    add_time(page, *record.view);
+  }
+  if (record.view != nullptr && record.view->fetches) {
+    add_pages(page, record, *record.view->fetches);
+  }
+  if (const auto* const report = std::get_if<dataflow::Report>(&record.report)) {
+    page.begin_section("Rays between nodes");
+    add_matrix(page, report->ray_matrix(), "Rays: their sender, from the top down, and their owner, from left to right");
+  }
   add_nodes(page, record);
   add_traffic(page, account);
   add_memory(page, account);

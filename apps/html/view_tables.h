@@ -1,0 +1,43 @@
+// What was seen of a run beyond its counters, as tables, pictures and plots.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "apps/image_file.h"
+#include "apps/plot.h"
+#include "apps/run_view.h"
+#include "apps/study_table.h"
+
+namespace dmpc::apps::html {
+
+/// A square of colour for each number, row by row, from dark (0) to light (the largest). Requires rows * columns numbers.
+Image number_picture(std::span<const double> values, std::size_t rows, std::size_t columns, int cell_height = 1);
+
+/// A row for each step of time: what all nodes but the host were busy with, in percent of their time.
+Table step_table(const nodes::ActivitySteps& steps);
+Plot step_plot();
+/// A row for each node but the host, a column for each step: its share of the time in which it was busy.
+Image step_picture(const nodes::ActivitySteps& steps);
+
+/// Fetches as long as half of all, as one of twenty and as one of a hundred, and all of them on average: each with its parts,
+/// which add up to the whole.
+Table fetch_table(const svm::Fetches& fetches);
+Plot fetch_plot(const svm::Fetches& fetches);
+/// Each part by itself: its mean, median, and so on.
+Table fetch_part_table(const svm::Fetches& fetches);
+
+/// The pages that were fetched most.
+Table page_table(const svm::Fetches& fetches);
+/// How large a share of the fetches the hottest pages have, for ever more of them.
+Table page_share_table(const svm::Fetches& fetches);
+Plot page_share_plot();
+
+/// Estimated misses for caches of every size, up to all `page_count` pages, with those of the run itself, in percent of its
+/// `references`.
+Table miss_table(const MissEstimate& estimate, std::uint32_t page_count, std::uint64_t references, std::uint32_t cache_pages,
+                 std::uint64_t faults);
+Plot miss_plot();
+
+}  // namespace dmpc::apps::html

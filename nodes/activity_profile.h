@@ -1,0 +1,60 @@
+// What every node was busy with over time, in a bounded number of steps: an instrument beside the computer, whose memory is no
+// node's.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "nodes/observer.h"
+
+namespace dmpc::nodes {
+
+/// What a node is busy with.
+enum class Work : std::uint8_t {
+  tracing,   ///< rays, and what their hits look like
+  shading,   ///< hits, and the rays that they shoot
+  paging,    ///< installing pages and serving them to others
+  packing,   ///< rays into packets and out of them
+  messages,  ///< sending and taking over packets (modelled machines)
+  control    ///< what has no price
+};
+inline constexpr std::array<std::string_view, 6> work_names = {"tracing", "shading", "paging", "packing", "messages", "control"};
+
+/// Nanoseconds by Work.
+using WorkTimes = std::array<std::uint64_t, work_names.size()>;
+
+/// Steps of equal length from the start of the run.
+struct ActivitySteps {
+  std::uint64_t step_ns = 0;
+  std::vector<std::vector<WorkTimes>>
+      nodes;  ///< by number, the host last; each of all steps up to the last in which any was busy
+};
+
+/// Adds up the spans of each node by time: what a span takes by itself is spread evenly over its length. Thread safety: as an
+/// Observer; take() when the run is over.
+class ActivityProfile final : public Observer {
+ public:
+  /// `peer_count` = nodes + host. A run has up to `step_count_max` steps, which is even, of a length that doubles as it goes on.
+  explicit ActivityProfile(std::uint32_t peer_count, std::size_t step_count_max = 128);
+  ~ActivityProfile() override;
+
+  void ended(const Span& span, const Program& program) override;
+  void sent(const Passing&) override {}
+  void received(const Passing&) override {}
+  void worked(const Worked&) override {}
+
+  /// What was seen, all nodes in steps of the same length. Call it once.
+  ActivitySteps take();
+
+ private:
+  struct Log;
+
+  std::size_t step_count_max_;
+  std::vector<std::unique_ptr<Log>> logs_;
+};
+
+}  // namespace dmpc::nodes

@@ -1,0 +1,42 @@
+// Several who look on at one run.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "nodes/observer.h"
+
+namespace dmpc::nodes {
+
+/// Tells all of them, in order. Thread safety: as theirs.
+class ObserverGroup final : public Observer {
+ public:
+  /// They outlive it.
+  explicit ObserverGroup(std::vector<Observer*> members) : members_(std::move(members)) {}
+
+  void ended(const Span& span, const Program& program) override {
+    for (Observer* const member : members_) {
+      member->ended(span, program);
+    }
+  }
+  void sent(const Passing& packet) override {
+    for (Observer* const member : members_) {
+      member->sent(packet);
+    }
+  }
+  void received(const Passing& packet) override {
+    for (Observer* const member : members_) {
+      member->received(packet);
+    }
+  }
+  void worked(const Worked& worked) override {
+    for (Observer* const member : members_) {
+      member->worked(worked);
+    }
+  }
+
+ private:
+  std::vector<Observer*> members_;
+};
+
+}  // namespace dmpc::nodes
