@@ -10,7 +10,7 @@
 
 #include "apps/html/render_page.h"
 #include "apps/image_file.h"
-#include "tests/apps/rendered.h"
+#include "tests/apps/watched.h"
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -39,12 +39,10 @@ std::string window_around(const std::string& file, int width) {
          std::to_string(width) + "px}</style><iframe src=\"" + file + "\"></iframe>";
 }
 
-/// A page of a modelled machine with all that a page can have.
+/// A page of a modelled machine with all that a page can have but heat maps.
 std::string page_text() {
-  RenderOptions options = modelled();
-  options.heat_maps = {{nodes::HeatKind::rays, "r.png"}};
   std::ostringstream complaints;
-  return render_page(Rendered(options).record(), complaints);
+  return render_page(Watched(starved(modelled())).record(), complaints);
 }
 
 /// What the browser shows of the page in a window of so many pixels.

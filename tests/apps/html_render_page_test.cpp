@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include "tests/apps/rendered.h"
+#include "tests/apps/watched.h"
 
 namespace dmpc::apps::html {
 
@@ -44,6 +44,19 @@ TEST_CASE("heat maps are shown if they are asked for") {
   CHECK(contains(text, "Heat map of rays"));
   CHECK(contains(text, "Heat map of faults"));
   CHECK_FALSE(contains(text, "Heat map of depth"));
+}
+
+TEST_CASE("what onlookers have seen is shown") {
+  std::ostringstream complaints;
+  const std::string text = render_page(Watched(starved(modelled())).record(), complaints);
+  for (const char* const part : {"Over time", "Fetches: who asks", "The hottest pages", "What fetching a page takes",
+                                 "Misses by the size of the caches", "Plot: What the nodes were busy with over time"}) {
+    CHECK_MESSAGE(contains(text, part), part);
+  }
+  CHECK(complaints.str().empty());
+  const std::string rays = render_page(Watched(small(Strategy::dataflow)).record(), complaints);
+  CHECK(contains(rays, "Rays: their sender"));
+  CHECK_FALSE(contains(rays, "The hottest pages"));
 }
 
 TEST_CASE("a scene's name is no markup") {
