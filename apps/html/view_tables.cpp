@@ -20,6 +20,8 @@ using svm::Fetch;
 using svm::Fetches;
 
 constexpr std::size_t pages_listed = 20;
+/// Pages of a sample that a cache has to hold for the sample to tell something of it.
+constexpr std::uint32_t sampled_pages_least = 4;
 constexpr std::size_t part_count = svm::fetch_part_names.size();
 
 /// Rows of a picture with few of them are so many pixels high that it is no mere line.
@@ -144,9 +146,10 @@ Table step_table(const nodes::ActivitySteps& steps) {
     columns.push_back({std::string(name), "%", 1});
   }
   Table table("What the nodes were busy with over time", std::move(columns));
+  const int digits = steps.step_ns < 10'000 ? 3 : steps.step_ns < 100'000 ? 2 : steps.step_ns < 1'000'000 ? 1 : 0;
   const double whole_ns = static_cast<double>(steps.step_ns) * static_cast<double>(node_count_of(steps));
   for (std::size_t step = 0; step < step_count_of(steps); ++step) {
-    std::vector<Cell> row = {rounded(static_cast<double>(step * steps.step_ns) / 1e6)};
+    std::vector<Cell> row = {fixed(static_cast<double>(step * steps.step_ns) / 1e6, digits)};
     for (std::size_t work = 0; work < nodes::work_names.size(); ++work) {
       std::uint64_t sum_ns = 0;
       for (std::size_t node = 0; node < node_count_of(steps); ++node) {
@@ -275,12 +278,14 @@ Table miss_table(const MissEstimate& estimate, std::uint32_t page_count, std::ui
                  std::uint64_t faults) {
   Table table("Misses by the size of the caches",
               {{"cache", "pages", 0}, {"misses", "", 0}, {"of all look-ups", "%", 3}, {"this run", "%", 3}});
+  const std::uint32_t size_min = estimate.every == 1 ? 1 : sampled_pages_least * estimate.every;
   std::vector<std::uint32_t> sizes = geometric_sizes(page_count, 24);
+  std::erase_if(sizes, [&](std::uint32_t size) { return size < size_min; });
   sizes.push_back(cache_pages);
   std::sort(sizes.begin(), sizes.end());
   sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
   for (const std::uint32_t size : sizes) {
-    const double misses = estimate.misses(size), whole = static_cast<double>(references);
+    const double whole = static_cast<double>(references), misses = std::min(estimate.misses(size), whole);
     std::vector<Cell> row = {std::uint64_t{size}, static_cast<std::uint64_t>(misses), percent_of(misses, whole)};
     row.resize(table.columns().size());
     if (size == cache_pages) {
@@ -289,7 +294,8 @@ Table miss_table(const MissEstimate& estimate, std::uint32_t page_count, std::ui
     table.add_row(std::move(row));
   }
   table.add_note("Lru, by the stack distances of this run's references in their own order, of one page in " +
-                 std::to_string(estimate.every) + " (SHARDS). This run: pages that it fetched.");
+                 std::to_string(estimate.every) + " (SHARDS), which tells nothing of caches of less than " +
+                 counted(size_min, "page") + ". This run: pages that it fetched.");
   return table;
 }
 

@@ -34,8 +34,8 @@ Table page_table(const svm::Fetches& fetches);
 Table page_share_table(const svm::Fetches& fetches);
 Plot page_share_plot();
 
-/// Estimated misses for caches of every size, up to all `page_count` pages, with those of the run itself, in percent of its
-/// `references`.
+/// Estimated misses for caches of every size of which the sample tells something, up to all `page_count` pages, with those of the
+/// run itself, in percent of its `references`.
 Table miss_table(const MissEstimate& estimate, std::uint32_t page_count, std::uint64_t references, std::uint32_t cache_pages,
                  std::uint64_t faults);
 Plot miss_plot();

@@ -93,6 +93,13 @@ TEST_CASE("steps have the nodes' time without the host's") {
   CHECK(step_picture(steps).height == 64);
 }
 
+TEST_CASE("a sample tells nothing of caches that would hold next to nothing of it") {
+  const MissEstimate estimate{.every = 8};
+  const Table table = miss_table(estimate, 1000, 10, 100, 1);
+  CHECK(std::get<std::uint64_t>(table.rows().front()[0]) >= 32);
+  CHECK(std::get<std::uint64_t>(table.rows().back()[0]) == 1000);
+}
+
 TEST_CASE("a table of misses has the run's own cache among ever larger ones") {
   const Watched watched(starved(modelled()));
   const svm::PageCounters pages = std::get<svm::Report>(*watched.report).pages();
