@@ -91,17 +91,24 @@ void add_misses(Page& page, const RenderRecord& record, const MissEstimate& miss
   page.add_table(table);
 }
 
-void add_pages(Page& page, const RenderRecord& record, const svm::Fetches& fetches) {
-  page.begin_section("Pages");
-  add_matrix(page, fetches.by_pair, "Fetches: who asks, from the top down, and the page's home, from left to right");
-  const Table shares = page_share_table(fetches);
-  page.add_plot(page_share_plot(), shares);
-  page.add_table(page_table(fetches));
+void add_fetches(Page& page, const svm::Fetches& fetches) {
   page.begin_section("Fetching a page");
   const Table table = fetch_table(fetches);
   page.add_plot(fetch_plot(fetches), table);
   page.add_table(table);
   page.add_table(fetch_part_table(fetches));
+}
+
+void add_pages(Page& page, const RenderRecord& record, const svm::Fetches& fetches) {
+  page.begin_section("Pages");
+  if (std::get<svm::Report>(record.report).pages().faults == 0) {
+    page.add_text("No page was fetched.");
+    return;
+  }
+  add_matrix(page, fetches.by_pair, "Fetches: who asks, from the top down, and the page's home, from left to right");
+  page.add_plot(page_share_plot(), page_share_table(fetches));
+  page.add_table(page_table(fetches));
+  add_fetches(page, fetches);
   if (record.view->misses) {
     page.begin_section("Other caches");
     add_misses(page, record, *record.view->misses);

@@ -24,7 +24,7 @@ figcaption{color:var(--faint);font-size:.85rem;max-width:496px;margin-top:4px}
 img{display:block;max-width:100%;height:auto}
 img.picture{background:#fff}
 img.plot{background:var(--card);border-radius:6px}
-img.squares{width:480px;image-rendering:pixelated}
+img.squares{width:480px;max-height:480px;image-rendering:pixelated}
 .scroll{overflow-x:auto;margin:.8em 0}
 table{border-collapse:collapse;min-width:280px;font-size:.85rem;font-variant-numeric:tabular-nums}
 caption{text-align:left;font-weight:600;padding:0 0 4px}

@@ -293,9 +293,11 @@ Table miss_table(const MissEstimate& estimate, std::uint32_t page_count, std::ui
     }
     table.add_row(std::move(row));
   }
-  table.add_note("Lru, by the stack distances of this run's references in their own order, of one page in " +
-                 std::to_string(estimate.every) + " (SHARDS), which tells nothing of caches of less than " +
-                 counted(size_min, "page") + ". This run: pages that it fetched.");
+  table.add_note("Lru, by the stack distances of this run's references in their own order. This run: pages that it fetched.");
+  if (estimate.every > 1) {
+    table.add_note("Estimated from the references of one page in " + std::to_string(estimate.every) +
+                   " (SHARDS), which tell nothing of caches of less than " + std::to_string(size_min) + " pages.");
+  }
   return table;
 }
 

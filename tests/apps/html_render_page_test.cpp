@@ -59,6 +59,15 @@ TEST_CASE("what onlookers have seen is shown") {
   CHECK_FALSE(contains(rays, "The hottest pages"));
 }
 
+TEST_CASE("a page of a node that fetches nothing says so") {
+  RenderOptions options = modelled();
+  options.computer.node_count = 1;
+  std::ostringstream complaints;
+  const std::string text = render_page(Watched(options).record(), complaints);
+  CHECK(contains(text, "No page was fetched."));
+  CHECK_FALSE(contains(text, "Fetching a page"));
+}
+
 TEST_CASE("a scene's name is no markup") {
   Rendered rendered(small());
   rendered.options.picture.scene = "<script>alert(1)</script>.nff";
