@@ -8,25 +8,18 @@
 #include "apps/options.h"
 #include "core/expect.h"
 #include "tests/support/text.h"
+#include "tests/support/usage.h"
 
 namespace dmpc::apps {
 
 using tests::contains;
+using tests::render_usage_complaint;
 
 namespace {
 
 CheckpointOptions parse(std::vector<std::string> more) {
   more.insert(more.begin(), {"render", "teapot-12", "-o", "a.png"});
   return std::get<RenderOptions>(parse_command_line(more)).checkpoint;
-}
-
-std::string checkpoint_complaint(const std::vector<std::string>& more) {
-  try {
-    parse(more);
-  } catch (const core::UsageError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace
@@ -49,21 +42,22 @@ TEST_CASE("a checkpoint can come sooner, be resumed from, and stay") {
 
 TEST_CASE("the options of checkpoints need a file") {
   for (const std::string option : {"--resume", "--keep-checkpoint", "--checkpoint-every=3"}) {
-    CHECK(contains(checkpoint_complaint({option}), "goes with --checkpoint=FILE"));
+    CHECK(contains(render_usage_complaint({option}), "goes with --checkpoint=FILE"));
   }
 }
 
 TEST_CASE("the time between checkpoints is above 0 and finite") {
   for (const std::string text : {"0", "-1", "nan", "inf", "1e9", "2s"}) {
     CAPTURE(text);
-    CHECK(contains(checkpoint_complaint({"--checkpoint=a", "--checkpoint-every=" + text}), "expected seconds"));
+    CHECK(contains(render_usage_complaint({"--checkpoint=a", "--checkpoint-every=" + text}), "expected seconds"));
   }
 }
 
 TEST_CASE("what was done before is neither on a heat map nor in virtual time") {
-  CHECK(contains(checkpoint_complaint({"--checkpoint=a", "--resume", "--heatmap=rays:b.png"}),
+  CHECK(contains(render_usage_complaint({"--checkpoint=a", "--resume", "--heatmap=rays:b.png"}),
                  "--resume does not go with --heatmap"));
-  CHECK(contains(checkpoint_complaint({"--checkpoint=a", "--runner=virtual"}), "--checkpoint does not go with --runner=virtual"));
+  CHECK(
+      contains(render_usage_complaint({"--checkpoint=a", "--runner=virtual"}), "--checkpoint does not go with --runner=virtual"));
   CHECK(parse({"--checkpoint=a", "--heatmap=rays:b.png"}).file == "a");
 }
 

@@ -8,11 +8,13 @@
 #include "apps/options.h"
 #include "core/expect.h"
 #include "tests/support/text.h"
+#include "tests/support/usage.h"
 
 namespace dmpc::apps {
 
 using nodes::HeatKind;
 using tests::contains;
+using tests::render_usage_complaint;
 
 namespace {
 
@@ -20,15 +22,6 @@ RenderOptions render(const std::vector<std::string>& more) {
   std::vector<std::string> arguments = {"render", "teapot-12", "-o", "a.png"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return std::get<RenderOptions>(parse_command_line(arguments));
-}
-
-std::string heat_complaint(const std::vector<std::string>& more) {
-  try {
-    render(more);
-  } catch (const core::UsageError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace
@@ -54,9 +47,9 @@ TEST_CASE("heat maps may be asked for several times, of every kind") {
 TEST_CASE("a heat map needs a kind, a colon and a file of one of two formats") {
   for (const std::string wrong :
        {"rays", "heat:a.png", "RAYS:a.png", ":a.png", "rays:", "rays:a", "rays:a.jpg", "rays:a.tif", ""}) {
-    CHECK_MESSAGE(contains(heat_complaint({"--heatmap=" + wrong}), "--heatmap"), wrong);
+    CHECK_MESSAGE(contains(render_usage_complaint({"--heatmap=" + wrong}), "--heatmap"), wrong);
   }
-  CHECK(contains(heat_complaint({"--heatmap=colour:a.png"}), "faults|references|pages|rays|time|node|depth|samples"));
+  CHECK(contains(render_usage_complaint({"--heatmap=colour:a.png"}), "faults|references|pages|rays|time|node|depth|samples"));
 }
 
 TEST_CASE("there may be 32 heat maps and no more") {
@@ -66,19 +59,19 @@ TEST_CASE("there may be 32 heat maps and no more") {
   }
   CHECK(render(arguments).heat_maps.size() == 32);
   arguments.push_back("--heatmap=rays:last.png");
-  CHECK(contains(heat_complaint(arguments), "given 33 times"));
+  CHECK(contains(render_usage_complaint(arguments), "given 33 times"));
 }
 
 TEST_CASE("strategies without page look-ups refuse the kinds of pages, and say why") {
   for (const std::string kind : {"faults", "references", "pages"}) {
     const std::string option = "--heatmap=" + kind + ":a.png";
-    CHECK(contains(heat_complaint({option, "--strategy=dataflow"}), "rays travel"));
-    CHECK(contains(heat_complaint({"--strategy=replicated", option}), "every node holds the whole scene"));
-    CHECK(heat_complaint({option}).empty());
+    CHECK(contains(render_usage_complaint({option, "--strategy=dataflow"}), "rays travel"));
+    CHECK(contains(render_usage_complaint({"--strategy=replicated", option}), "every node holds the whole scene"));
+    CHECK(render_usage_complaint({option}).empty());
   }
   for (const std::string kind : {"rays", "time", "node", "depth", "samples"}) {
-    CHECK(heat_complaint({"--heatmap=" + kind + ":a.png", "--strategy=dataflow"}).empty());
-    CHECK(heat_complaint({"--heatmap=" + kind + ":a.png", "--strategy=replicated"}).empty());
+    CHECK(render_usage_complaint({"--heatmap=" + kind + ":a.png", "--strategy=dataflow"}).empty());
+    CHECK(render_usage_complaint({"--heatmap=" + kind + ":a.png", "--strategy=replicated"}).empty());
   }
 }
 

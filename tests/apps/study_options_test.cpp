@@ -8,8 +8,11 @@
 
 #include "apps/options.h"
 #include "core/expect.h"
+#include "tests/support/usage.h"
 
 namespace dmpc::apps {
+
+using tests::usage_complaint;
 
 namespace {
 
@@ -28,15 +31,6 @@ BalanceStudy balance(std::initializer_list<std::string> more = {}) {
 
 SpeedupStudy speedup(std::initializer_list<std::string> more = {}) {
   return std::get<SpeedupStudy>(study("speedup", more).study);
-}
-
-std::string study_complaint(const std::vector<std::string>& arguments) {
-  try {
-    parse_command_line(arguments);
-  } catch (const core::UsageError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace
@@ -76,7 +70,7 @@ TEST_CASE("node counts are taken in the order given, equal ones too") {
 TEST_CASE("anything but node counts in range with commas between them is refused") {
   for (const std::string text : {",", "4,", ",4", "4,,8", "0", "1025", "-1", "+4", "4;8", "4 8", "4.5", "x", "99999999999"}) {
     CAPTURE(text);
-    CHECK(study_complaint({"study", "balance", "teapot-12", "--nodes=" + text}).find("with commas between") != std::string::npos);
+    CHECK(usage_complaint({"study", "balance", "teapot-12", "--nodes=" + text}).find("with commas between") != std::string::npos);
   }
 }
 
@@ -92,9 +86,9 @@ TEST_CASE("the options of the study of caches are taken") {
 }
 
 TEST_CASE("caches of no page, a lone node and an unknown machine are refused") {
-  CHECK(study_complaint({"study", "cache", "teapot-12", "--cache-pages=4,0"}).find("--cache-pages=4,0: expected") !=
+  CHECK(usage_complaint({"study", "cache", "teapot-12", "--cache-pages=4,0"}).find("--cache-pages=4,0: expected") !=
         std::string::npos);
-  CHECK(study_complaint({"study", "cache", "teapot-12", "--nodes=1"}).find("--nodes") != std::string::npos);
+  CHECK(usage_complaint({"study", "cache", "teapot-12", "--nodes=1"}).find("--nodes") != std::string::npos);
   CHECK_THROWS_AS(study("cache", {"--machine=abacus"}), core::InputError);
 }
 
@@ -143,7 +137,7 @@ TEST_CASE("options of a study of speedup that do not go together are refused wit
   const auto says = [](std::initializer_list<std::string> more, const std::string& part) {
     std::vector<std::string> arguments = {"study", "speedup", "teapot-12"};
     arguments.insert(arguments.end(), more);
-    return study_complaint(arguments).find(part) != std::string::npos;
+    return usage_complaint(arguments).find(part) != std::string::npos;
   };
   CHECK(says({"--strategy=dataflow", "--cache-pages=5"}, "--cache-pages goes with --strategy=svm: "));
   CHECK(says({"--strategy=replicated", "--replacement=lru"}, "--replacement goes with --strategy=svm: "));
@@ -159,19 +153,19 @@ TEST_CASE("options of a study of speedup that do not go together are refused wit
 }
 
 TEST_CASE("node counts that are left out are refused") {
-  CHECK(study_complaint({"study", "balance", "teapot-12", "--nodes="}).find("--nodes") != std::string::npos);
+  CHECK(usage_complaint({"study", "balance", "teapot-12", "--nodes="}).find("--nodes") != std::string::npos);
 }
 
 TEST_CASE("a study that is missing or does not exist is answered with those there are") {
-  CHECK(study_complaint({"study"}).find("Try: dmpc study --help") != std::string::npos);
-  CHECK(study_complaint({"study", "weather", "teapot-12"}).find("expected balance, traffic, cache, speedup, paper or scale") !=
+  CHECK(usage_complaint({"study"}).find("Try: dmpc study --help") != std::string::npos);
+  CHECK(usage_complaint({"study", "weather", "teapot-12"}).find("expected balance, traffic, cache, speedup, paper or scale") !=
         std::string::npos);
 }
 
 TEST_CASE("a study has its own options alone") {
-  CHECK(study_complaint({"study", "traffic", "teapot-12", "--per-node"}).find("dmpc study traffic --help") != std::string::npos);
-  CHECK(study_complaint({"study", "balance", "teapot-12", "--format=xml"}).find("--format") != std::string::npos);
-  CHECK(study_complaint({"study", "balance"}).find("SCENE") != std::string::npos);
+  CHECK(usage_complaint({"study", "traffic", "teapot-12", "--per-node"}).find("dmpc study traffic --help") != std::string::npos);
+  CHECK(usage_complaint({"study", "balance", "teapot-12", "--format=xml"}).find("--format") != std::string::npos);
+  CHECK(usage_complaint({"study", "balance"}).find("SCENE") != std::string::npos);
 }
 
 }  // namespace dmpc::apps

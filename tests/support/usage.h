@@ -1,0 +1,29 @@
+// What the command line says of words that it does not take.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/options.h"
+#include "core/expect.h"
+
+namespace dmpc::tests {
+
+/// The message of the UsageError; empty if the words are taken.
+inline std::string usage_complaint(const std::vector<std::string>& words) {
+  try {
+    apps::parse_command_line(words);
+  } catch (const core::UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// The same of `dmpc render teapot-12 -o a.png` and more, on 6 nodes.
+inline std::string render_usage_complaint(const std::vector<std::string>& more) {
+  std::vector<std::string> words = {"render", "teapot-12", "--nodes=6", "-o", "a.png"};
+  words.insert(words.end(), more.begin(), more.end());
+  return usage_complaint(words);
+}
+
+}  // namespace dmpc::tests
