@@ -26,26 +26,29 @@ void say_once(const std::vector<std::string>& notes) {
   }
 }
 
-core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadNotes notes) {
+core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadNotes notes, OpenedFiles& opened) {
   const bool says = notes == LoadNotes::said;
   MeshFile file = read_mesh_file(path, options, says && stderr_is_terminal());
+  opened.add(file.opened);
   if (says) {
     say_once(file.notes);
   }
   return std::move(file.scene);
 }
 
-core::Scene load_nff(const std::string& path, std::int64_t pixels_max, LoadNotes notes) {
+core::Scene load_nff(const std::string& path, std::int64_t pixels_max, LoadNotes notes, OpenedFiles& opened) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (!ending.empty() && ending != ".nff" && ending != ".NFF") {
     throw core::InputError(path + ": files that end in " + ending + " are not read; expected .nff or one of " +
                            known_mesh_formats());
   }
   Progress progress(std::cerr, notes == LoadNotes::said && stderr_is_terminal(), "Reading " + path + ":", "bytes");
+  opened.add(path);
   return read_nff_file(path, pixels_max, [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); });
 }
 
-core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int64_t pixels_max, LoadNotes notes) {
+core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int64_t pixels_max, LoadNotes notes,
+                     OpenedFiles& opened) {
   if (const auto name = core::find_scene_name(scene)) {
     return core::built_in_scene(*name);
   }
@@ -58,7 +61,7 @@ core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int
     }
     return core::built_in_scene(core::parse_scene_name(scene));  // throws, listing what there is
   }
-  return is_mesh_path(scene) ? load_mesh(scene, mesh, notes) : load_nff(scene, pixels_max, notes);
+  return is_mesh_path(scene) ? load_mesh(scene, mesh, notes, opened) : load_nff(scene, pixels_max, notes, opened);
 }
 
 void check_mesh_options(const std::string& scene, const MeshOptions& options) {
@@ -72,7 +75,8 @@ void check_mesh_options(const std::string& scene, const MeshOptions& options) {
 }  // namespace
 
 core::Scene load_scene(const std::string& scene, std::int64_t pixels_max) {
-  return load_any(scene, {}, pixels_max, LoadNotes::said);
+  OpenedFiles opened;
+  return load_any(scene, {}, pixels_max, LoadNotes::said, opened);
 }
 
 void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs) {
@@ -81,10 +85,14 @@ void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs) {
   }
 }
 
-core::Scene load_scene(const PictureOptions& picture, LoadNotes notes) {
+core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFiles* opened) {
   check_mesh_options(picture.scene, picture.staging.mesh);
+  OpenedFiles read;
   core::Scene scene = load_any(picture.scene, picture.staging.mesh,
-                               picture.resolution ? std::numeric_limits<std::int64_t>::max() : picture_pixels_max, notes);
+                               picture.resolution ? std::numeric_limits<std::int64_t>::max() : picture_pixels_max, notes, read);
+  if (opened != nullptr) {
+    opened->add(read);
+  }
   apply(picture.staging, scene);
   return scene;
 }

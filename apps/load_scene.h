@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/distinct_files.h"
+#include "apps/opened_files.h"
 #include "apps/picture_options.h"
 #include "core/scene.h"
 
@@ -24,7 +25,8 @@ void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs);
 enum class LoadNotes : std::uint8_t { said, silent };
 
 /// The scene of a picture, seen and lit as its options say; its view may be of any size if the options give another one. Throws
-/// core::UsageError, too, for options of mesh files with another scene, and if the camera does not go with the scene.
-core::Scene load_scene(const PictureOptions& picture, LoadNotes notes = LoadNotes::said);
+/// core::UsageError, too, for options of mesh files with another scene, and if the camera does not go with the scene. `opened`,
+/// if given, gets all files that were read.
+core::Scene load_scene(const PictureOptions& picture, LoadNotes notes = LoadNotes::said, OpenedFiles* opened = nullptr);
 
 }  // namespace dmpc::apps

@@ -18,20 +18,23 @@
 namespace dmpc::apps {
 namespace {
 
-/// The files of the computer, with a list of those asked for in vain.
+/// The files of the computer, with lists of those opened and of those asked for in vain.
 class Files final : public Assimp::DefaultIOSystem {
  public:
-  explicit Files(std::vector<std::string>& missing) : missing_(missing) {}
+  explicit Files(ImportedFile& file) : opened_(file.opened), missing_(file.missing) {}
 
   Assimp::IOStream* Open(const char* path, const char* mode) override {
     Assimp::IOStream* const stream = DefaultIOSystem::Open(path, mode);
-    if (stream == nullptr && std::find(missing_.begin(), missing_.end(), path) == missing_.end()) {
+    if (stream != nullptr) {
+      opened_.add(path);
+    } else if (std::find(missing_.begin(), missing_.end(), path) == missing_.end()) {
       missing_.emplace_back(path);
     }
     return stream;
   }
 
  private:
+  OpenedFiles& opened_;
   std::vector<std::string>& missing_;
 };
 
@@ -81,7 +84,7 @@ const std::vector<std::string>& mesh_extensions() {
 ImportedFile import_file(const std::string& path, bool shows_progress) {
   ImportedFile file;
   Assimp::Importer importer;
-  importer.SetIOHandler(new Files(file.missing));  // is the importer's from now on, and so is the next
+  importer.SetIOHandler(new Files(file));  // is the importer's from now on, and so is the next
   importer.SetProgressHandler(new LoadProgress(path, shows_progress));
   if (importer.ReadFile(path, 0) == nullptr) {
     rethrow_end_of_memory(importer.GetException());

@@ -7,10 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "apps/opened_files.h"
+
 namespace dmpc::apps {
 
 struct ImportedFile {
   std::unique_ptr<aiScene> scene;
+  OpenedFiles opened;
   std::vector<std::string> missing;  ///< files that it refers to and that could not be opened, in order, each once
 };
 

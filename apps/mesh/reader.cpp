@@ -161,10 +161,20 @@ void add_surroundings(core::Scene& scene, const aiScene& file, const MeshOptions
   }
 }
 
+/// Those that lie in files of their own are called as these.
+void add_textures(const core::Scene& scene, OpenedFiles& opened) {
+  std::error_code error;
+  for (const core::Texture& texture : scene.textures) {
+    if (std::filesystem::exists(texture.name, error)) {
+      opened.add(texture.name);
+    }
+  }
+}
+
 MeshFile read(const std::string& path, const MeshOptions& options, bool shows_progress) {
   check_readable(path);
   const ImportedFile file = import_file(path, shows_progress);
-  MeshFile result{.scene = {.name = path}, .notes = {}};
+  MeshFile result{.scene = {.name = path}, .notes = {}, .opened = file.opened};
   std::vector<std::string> missing;
   for (const std::string& name : file.missing) {
     missing.push_back(name + " is missing or cannot be opened");
@@ -175,6 +185,7 @@ MeshFile read(const std::string& path, const MeshOptions& options, bool shows_pr
   reserve(result.scene, size);
   note_features(*file.scene, placements, result.notes);
   const std::vector<MeshMaterial> materials = materials_of(*file.scene, placements, result.scene, missing);
+  add_textures(result.scene, result.opened);
   judge_missing(missing, options, result.notes);
   add_geometry(result.scene, *file.scene, placements, materials, options);
   add_surroundings(result.scene, *file.scene, options, result.notes);

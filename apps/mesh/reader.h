@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/mesh/options.h"
+#include "apps/opened_files.h"
 #include "core/scene.h"
 
 namespace dmpc::apps {
@@ -12,6 +13,7 @@ namespace dmpc::apps {
 struct MeshFile {
   core::Scene scene;
   std::vector<std::string> notes;  ///< what of the file is not shown as it is, a sentence each
+  OpenedFiles opened;              ///< with those of the textures
 };
 
 /// Whether the path ends as mesh files do, whatever the case of its letters.

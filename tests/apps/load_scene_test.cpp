@@ -2,9 +2,12 @@
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "apps/image_file.h"
 #include "core/expect.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
@@ -90,6 +93,22 @@ TEST_CASE("a scene's own resolution is bounded, unless another is asked for") {
   CHECK_THROWS_WITH_AS(load_scene(PictureOptions{.scene = path}),
                        doctest::Contains("huge.nff:7: found the resolution 65535 65535"), core::InputError);
   CHECK(load_scene(PictureOptions{.scene = path, .resolution = Resolution{8, 8}}).view.width == 65535);
+}
+
+TEST_CASE("whoever loads a scene learns which files were opened for it") {
+  const tests::TemporaryFolder folder;
+  tests::write_text(folder / "a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl p\nf 1/1 2/1 3/1\n");
+  tests::write_text(folder / "a.mtl", "newmtl p\nmap_Kd link.png\n");
+  write_image(folder / "real.png", Image(2, 2));
+  std::filesystem::create_symlink("real.png", folder / "link.png");
+  OpenedFiles opened;
+  load_scene(PictureOptions{.scene = (folder / "a.obj").string()}, LoadNotes::silent, &opened);
+  const std::filesystem::path resolved = std::filesystem::canonical(folder.path());
+  CHECK(opened.paths() == std::set{resolved / "a.obj", resolved / "a.mtl", resolved / "real.png"});
+  tests::write_text(folder / "a.nff", "v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 8 8\n");
+  OpenedFiles single;
+  load_scene(PictureOptions{.scene = (folder / "a.nff").string()}, LoadNotes::silent, &single);
+  CHECK(single.paths() == std::set{resolved / "a.nff"});
 }
 
 }  // namespace dmpc::apps
