@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "apps/reader/picture_reader.h"
 #include "core/expect.h"
 #include "core/srgb.h"
 
@@ -102,31 +103,6 @@ void write_to(const fs::path& file, const fs::path& path, const Image& image) {
   write_to(file, path, specification(path, image), [&](OIIO::ImageOutput& output) { return write_pixels(output, path, image); });
 }
 
-std::vector<float> read_channels(OIIO::ImageInput& input, const fs::path& path, int count) {
-  const OIIO::ImageSpec& spec = input.spec();
-  const auto pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
-  std::vector<float> values(pixels * static_cast<std::size_t>(count));
-  if (!input.read_image(0, 0, 0, count, OIIO::TypeDesc::FLOAT, values.data())) {
-    throw core::InputError(path.string() + ": cannot be read: " + input.geterror());
-  }
-  return values;
-}
-
-void make_linear(std::vector<float>& values) {
-  for (float& value : values) {
-    value = static_cast<float>(core::linear_from_srgb(static_cast<double>(value)));
-  }
-}
-
-std::vector<float> spread(const std::vector<float>& gray) {
-  std::vector<float> rgb;
-  rgb.reserve(gray.size() * channels);
-  for (const float value : gray) {
-    rgb.insert(rgb.end(), channels, value);
-  }
-  return rgb;
-}
-
 }  // namespace
 
 void check_image_path(const fs::path& path, std::string_view option) {
@@ -159,20 +135,6 @@ void write_channel(const fs::path& path, const Channel& channel, const OutputFil
            [&](OIIO::ImageOutput& output) { return output.write_image(OIIO::TypeDesc::FLOAT, channel.values.data()); });
 }
 
-Image read_image(const fs::path& path) {
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
-  if (!input) {
-    throw core::InputError(path.string() + ": cannot be read as a picture: " + OIIO::geterror());
-  }
-  const OIIO::ImageSpec spec = input->spec();
-  const int count = spec.nchannels < channels ? 1 : channels;
-  std::vector<float> values = read_channels(*input, path, count);
-  if (!spec.format.is_floating_point()) {
-    make_linear(values);
-  }
-  Image image(spec.width, spec.height);
-  image.rgb = count == 1 ? spread(values) : std::move(values);
-  return image;
-}
+Image read_image(const fs::path& path) { return PictureReader().read_image(open_picture(path)); }
 
 }  // namespace dmpc::apps

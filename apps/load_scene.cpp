@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "apps/landscape/files.h"
-#include "apps/mesh/reader.h"
+#include "apps/mesh_file.h"
 #include "apps/nff_reader.h"
 #include "apps/progress.h"
 #include "core/expect.h"
@@ -66,9 +66,9 @@ core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int
 
 void check_mesh_options(const std::string& scene, const MeshOptions& options) {
   const bool is_mesh = !core::find_scene_name(scene) && is_mesh_path(scene);
-  if (!is_mesh && (options.scale || options.up || options.smooth_degrees || options.allows_missing)) {
-    throw core::UsageError("--scale, --up, --smooth and --missing=plain go with mesh files (" + known_mesh_formats() + "), and " +
-                           scene + " is none");
+  if (!is_mesh && (options.scale || options.up || options.smooth_degrees || options.allows_missing || options.opens_anywhere)) {
+    throw core::UsageError("--scale, --up, --smooth, --missing=plain and --files=anywhere go with mesh files (" +
+                           known_mesh_formats() + "), and " + scene + " is none");
   }
 }
 

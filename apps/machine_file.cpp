@@ -1,15 +1,13 @@
 #include "apps/machine_file.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <span>
 #include <vector>
 
+#include "apps/text_input.h"
 #include "core/expect.h"
 #include "nodes/topology.h"
 
@@ -240,17 +238,18 @@ Json parse_json(std::string_view text, const std::string& file) {
 }
 
 std::string read_text(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
   std::string text(file_bytes_max + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream) {
+  try {
+    TextInput stream(path);
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+  } catch (const core::InputError& error) {
+    throw core::InputError(path + ": this is neither a machine (" + machine_preset_names() +
+                           ") nor a file that can be read: it " + error.what());
+  }
+  if (text.size() > file_bytes_max) {
     throw core::InputError(path + ": a machine file has 1 MiB at most");
   }
-  if (!stream.eof()) {
-    throw core::InputError(path + ": this is neither a machine (" + machine_preset_names() +
-                           ") nor a file that can be read: " + std::strerror(errno));
-  }
-  text.resize(static_cast<std::size_t>(stream.gcount()));
   return text;
 }
 

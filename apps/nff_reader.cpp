@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <limits>
+#include <memory>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "apps/nff_tokens.h"
+#include "apps/text_input.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -297,6 +294,14 @@ void NffReader::read_patch() {
   builder_.patch(vertices_, normals_);
 }
 
+std::unique_ptr<TextInput> open(const std::string& path) {
+  try {
+    return std::make_unique<TextInput>(path);
+  } catch (const core::InputError& error) {
+    throw core::InputError(path + ": " + error.what() + "; an NFF scene was expected");
+  }
+}
+
 }  // namespace
 
 core::Scene read_nff(std::istream& input, const std::string& name, std::int64_t pixels_max) {
@@ -307,17 +312,10 @@ core::Scene read_nff(std::istream& input, const std::string& name, std::int64_t 
 
 core::Scene read_nff_file(const std::string& path, std::int64_t pixels_max,
                           const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    throw core::InputError(path + ": is a folder, expected an NFF file");
-  }
-  std::ifstream input(path, std::ios::binary);
-  if (!input) {
-    throw core::InputError(path + ": cannot be opened: " + std::strerror(errno) + "; expected an NFF file");
-  }
-  const std::uintmax_t size = std::filesystem::is_regular_file(path, error) ? std::filesystem::file_size(path, error) : 0;
+  const std::unique_ptr<TextInput> input = open(path);
+  const std::uint64_t size = input->file_bytes();
   core::Scene scene;
-  NffReader(input, path, pixels_max, scene).read([&progress, size](std::uint64_t bytes) {
+  NffReader(*input, path, pixels_max, scene).read([&progress, size](std::uint64_t bytes) {
     if (progress && bytes <= size) {
       progress(bytes, size);
     }

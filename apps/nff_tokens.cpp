@@ -14,6 +14,11 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f";
 
+/// Of one line; a polygon of the most corners has a third of that. And of what may stand between two tokens.
+constexpr std::size_t line_bytes_max = std::size_t{16} << 20U, blank_bytes_max = std::size_t{64} << 20U;
+
+std::string mebibytes(std::size_t bytes) { return std::to_string(bytes >> 20U) + " MiB"; }
+
 bool looks_like_number(std::string_view token) {
   const std::size_t sign = token.starts_with('-') || token.starts_with('+') ? 1 : 0;
   const std::string_view rest = token.substr(sign);
@@ -33,6 +38,9 @@ std::optional<double> number_from(std::string_view token) {
 
 }  // namespace
 
+NffTokens::NffTokens(std::istream& input, const std::string& name)
+    : input_(input), name_(name), room_(std::make_unique_for_overwrite<char[]>(line_bytes_max + 1)) {}
+
 std::string quoted(std::string_view token) {
   constexpr std::size_t shown_max = 32;
   std::string text = "'";
@@ -48,31 +56,50 @@ std::string number_text(double value) {
 }
 
 bool NffTokens::read_line() {
-  if (!std::getline(input_, text_)) {
-    if (input_.bad()) {
-      throw core::InputError(name_ + ": reading failed after line " + std::to_string(line_));
-    }
-    text_.clear();
-    position_ = 0;
+  position_ = 0;
+  text_ = {};
+  get_line();
+  const auto size = static_cast<std::size_t>(input_.gcount());
+  if (size == 0) {
     return false;
   }
   ++line_;
+  if (size >= line_bytes_max && !input_.eof()) {
+    throw core::InputError(name_ + ":" + std::to_string(line_) + ": found a line of more than " + mebibytes(line_bytes_max) +
+                           ", expected an NFF scene");
+  }
+  text_ = {room_.get(), input_.eof() ? size : size - 1};
   bytes_read_ += text_.size() + 1;
-  position_ = 0;
+  if (bytes_read_ > token_bytes_ + blank_bytes_max) {
+    throw core::InputError(name_ + ":" + std::to_string(line_) + ": found nothing but blanks and comments for " +
+                           mebibytes(blank_bytes_max) + ", expected an NFF scene");
+  }
   return true;
+}
+
+void NffTokens::get_line() {
+  try {
+    input_.getline(room_.get(), line_bytes_max + 1);
+  } catch (const core::InputError& error) {
+    throw core::InputError(name_ + ": " + error.what());
+  }
+  if (input_.bad()) {
+    throw core::InputError(name_ + ": reading failed after line " + std::to_string(line_));
+  }
 }
 
 std::string_view NffTokens::peek() {
   while (token_.empty()) {
     const std::size_t start = text_.find_first_not_of(blanks, position_);
-    if (start == std::string::npos || text_[start] == '#') {
+    if (start == std::string_view::npos || text_[start] == '#') {
       if (!read_line()) {
         break;
       }
       continue;
     }
     const std::size_t end = std::min(text_.find_first_of(" \t\r\v\f#", start), text_.size());
-    token_ = std::string_view(text_).substr(start, end - start);
+    token_ = text_.substr(start, end - start);
+    token_bytes_ = bytes_read_;
     position_ = end;
   }
   return token_;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iosfwd>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -13,9 +14,10 @@ namespace dmpc::apps {
 class NffTokens {
  public:
   /// `name` is what messages call the stream. Both must outlive the object.
-  NffTokens(std::istream& input, const std::string& name) : input_(input), name_(name) {}
+  NffTokens(std::istream& input, const std::string& name);
 
-  /// The next token, or empty at the end; valid until the token after it is taken. Throws core::InputError if reading fails.
+  /// The next token, or empty at the end; valid until the token after it is taken. Throws core::InputError if reading fails, for
+  /// a line that does not end within 16 MiB, and for 64 MiB of blanks and comments.
   std::string_view peek();
   std::string_view take();
 
@@ -41,15 +43,17 @@ class NffTokens {
 
  private:
   bool read_line();
+  void get_line();
 
   std::istream& input_;
   const std::string& name_;
-  std::string text_;            ///< the current line
-  std::string_view token_;      ///< in text_; empty if it is not cut yet
-  std::size_t position_ = 0;    ///< in text_, behind token_
-  std::size_t line_ = 0;        ///< of text_, from 1
-  std::size_t taken_line_ = 0;  ///< of the token taken last
-  std::uint64_t bytes_read_ = 0;
+  std::unique_ptr<char[]> room_;                    ///< for a line
+  std::string_view text_;                           ///< the current line
+  std::string_view token_;                          ///< in text_; empty if it is not cut yet
+  std::size_t position_ = 0;                        ///< in text_, behind token_
+  std::size_t line_ = 0;                            ///< of text_, from 1
+  std::size_t taken_line_ = 0;                      ///< of the token taken last
+  std::uint64_t bytes_read_ = 0, token_bytes_ = 0;  ///< up to the end of the current line, and of that of the last token
 };
 
 /// A token as a message shows it: in quotes, short, printable.

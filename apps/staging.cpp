@@ -139,6 +139,9 @@ void add_options(OptionSet options, Staging& staging) {
       "--missing", {"error", "plain"}, [&staging](const std::string& text) { staging.mesh.allows_missing = text == "plain"; },
       "Mesh files that refer to textures or other files that cannot be had: an error, or what they cover in its plain colour; "
       "error if not given");
+  options.add_words(
+      "--files", {"below", "anywhere"}, [&staging](const std::string& text) { staging.mesh.opens_anywhere = text == "anywhere"; },
+      "Mesh files: which files they may refer to: those beside and below them, or any; below if not given");
 }
 
 void apply(const Staging& staging, core::Scene& scene) {

@@ -36,9 +36,10 @@ struct Foreign {
 const std::vector<Foreign> foreign = {
     {"embree", {"apps/embree.h"}},
     {"OpenImageIO/",
-     {"apps/image_file.cpp", "apps/texture_file.cpp", "tests/apps/texture_file_test.cpp",
+     {"apps/image_file.cpp", "apps/foreign/picture_decoder.cpp", "tests/apps/texture_file_test.cpp",
       "tests/oracle/texture_lookup_test.cpp"}},
     {"assimp/", {"apps/mesh/"}},
+    {"seccomp.h", {"apps/foreign/sandbox.cpp"}},
     {"CLI/", {"apps/command_line.cpp", "apps/command_description.cpp"}},
     {"nlohmann/",
      {"apps/stats", "apps/machine_file.", "apps/study_table.cpp", "apps/compare.cpp", "apps/accurate/reference_file.cpp",

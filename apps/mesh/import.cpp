@@ -1,55 +1,88 @@
 #include "apps/mesh/import.h"
 
-#include <assimp/DefaultIOSystem.h>
+#include <assimp/BaseImporter.h>
 
 #include <algorithm>
+#include <assimp/IOStream.hpp>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/ProgressHandler.hpp>
-#include <cstdint>
+#include <cctype>
+#include <cstring>
 #include <exception>
 #include <filesystem>
-#include <iostream>
 #include <new>
-#include <system_error>
+#include <set>
+#include <utility>
 
-#include "apps/progress.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
 namespace {
 
-/// The files of the computer, with lists of those opened and of those asked for in vain.
-class Files final : public Assimp::DefaultIOSystem {
+/// Read only, from memory.
+class Stream final : public Assimp::IOStream {
  public:
-  explicit Files(ImportedFile& file) : opened_(file.opened), missing_(file.missing) {}
+  explicit Stream(std::unique_ptr<FileBytes> file) : file_(std::move(file)) {}
 
-  Assimp::IOStream* Open(const char* path, const char* mode) override {
-    Assimp::IOStream* const stream = DefaultIOSystem::Open(path, mode);
-    if (stream != nullptr) {
-      opened_.add(path);
-    } else if (std::find(missing_.begin(), missing_.end(), path) == missing_.end()) {
-      missing_.emplace_back(path);
+  std::size_t Read(void* buffer, std::size_t size, std::size_t count) override {
+    const auto left = file_->bytes().subspan(position_);
+    const std::size_t whole = size == 0 ? 0 : std::min(count, left.size() / size);
+    if (whole > 0) {
+      std::memcpy(buffer, left.data(), whole * size);
     }
-    return stream;
+    position_ += whole * size;
+    return whole;
   }
+  std::size_t Write(const void* /*buffer*/, std::size_t /*size*/, std::size_t /*count*/) override { return 0; }
+  aiReturn Seek(std::size_t offset, aiOrigin origin) override {
+    const std::size_t size = FileSize(), from = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? position_ : size;
+    const std::size_t target = from + offset;  // a step back comes as a large step, and wraps round
+    if (target > size) {
+      return aiReturn_FAILURE;
+    }
+    position_ = target;
+    return aiReturn_SUCCESS;
+  }
+  std::size_t Tell() const override { return position_; }
+  std::size_t FileSize() const override { return file_->bytes().size(); }
+  void Flush() override {}
 
  private:
-  OpenedFiles& opened_;
+  std::unique_ptr<FileBytes> file_;
+  std::size_t position_ = 0;
+};
+
+/// With a list of what was asked for in vain.
+class Files final : public Assimp::IOSystem {
+ public:
+  Files(SceneFiles& files, std::vector<std::string>& missing) : files_(files), missing_(missing) {}
+
+  bool Exists(const char* path) const override { return files_.exists(path); }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* path, const char* /*mode*/) override {
+    try {
+      return new Stream(files_.open(path));
+    } catch (const core::InputError& error) {
+      if (std::find(missing_.begin(), missing_.end(), error.what()) == missing_.end()) {
+        missing_.emplace_back(error.what());
+      }
+      return nullptr;
+    }
+  }
+  void Close(Assimp::IOStream* stream) override { delete stream; }
+
+ private:
+  SceneFiles& files_;
   std::vector<std::string>& missing_;
 };
 
-/// Assimp's shares of the work as bytes of the file.
 class LoadProgress final : public Assimp::ProgressHandler {
  public:
-  LoadProgress(const std::string& path, bool shown) : progress_(std::cerr, shown, "Reading " + path + ":", "bytes") {
-    std::error_code unknown;
-    const auto size = std::filesystem::file_size(path, unknown);
-    file_bytes_ = unknown ? 1 : std::max<std::uint64_t>(size, 1);
-  }
+  explicit LoadProgress(SceneFiles& files) : files_(files) {}
 
   bool Update(float share) override {
-    const double done = std::clamp(double{share}, 0.0, 1.0) * static_cast<double>(file_bytes_);
-    progress_.update(static_cast<std::uint64_t>(done), file_bytes_);
+    files_.show_progress(share >= 0 && share <= 1 ? share : 0);
     return true;
   }
   void UpdateFileRead(int step, int step_count) override {
@@ -57,9 +90,31 @@ class LoadProgress final : public Assimp::ProgressHandler {
   }
 
  private:
-  Progress progress_;
-  std::uint64_t file_bytes_ = 1;
+  SceneFiles& files_;
 };
+
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending.empty() ? ending : ending.substr(1);
+}
+
+bool reads(Assimp::BaseImporter& reader, const std::string& ending) {
+  std::set<std::string> endings;
+  reader.GetExtensionList(endings);
+  return endings.contains(ending);
+}
+
+/// Assimp else asks all of them, whatever the file's ending, whether they know its first bytes.
+void keep_readers_of(const std::string& ending, Assimp::Importer& importer) {
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    Assimp::BaseImporter* const reader = importer.GetImporter(i);
+    if (!reads(*reader, ending)) {
+      importer.UnregisterLoader(reader);
+      delete reader;
+    }
+  }
+}
 
 /// What Assimp has caught on its way out, if that was the end of memory.
 void rethrow_end_of_memory(const std::exception_ptr& caught) {
@@ -75,17 +130,14 @@ void rethrow_end_of_memory(const std::exception_ptr& caught) {
 
 }  // namespace
 
-const std::vector<std::string>& mesh_extensions() {
-  static const std::vector<std::string> extensions = {"obj", "ply", "stl", "gltf", "glb",  "3ds", "3mf", "ac", "amf",
-                                                      "ase", "dae", "fbx", "lwo",  "ms3d", "off", "x",   "x3d"};
-  return extensions;
-}
+void prepare_import() { static_cast<void>(Assimp::Importer().GetImporterCount()); }
 
-ImportedFile import_file(const std::string& path, bool shows_progress) {
+ImportedFile import_file(const std::string& path, SceneFiles& files) {
   ImportedFile file;
   Assimp::Importer importer;
-  importer.SetIOHandler(new Files(file));  // is the importer's from now on, and so is the next
-  importer.SetProgressHandler(new LoadProgress(path, shows_progress));
+  keep_readers_of(ending_of(path), importer);
+  importer.SetIOHandler(new Files(files, file.missing));  // is the importer's from now on, and so is the next
+  importer.SetProgressHandler(new LoadProgress(files));
   if (importer.ReadFile(path, 0) == nullptr) {
     rethrow_end_of_memory(importer.GetException());
     throw core::InputError(importer.GetErrorString());

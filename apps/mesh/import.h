@@ -7,21 +7,20 @@
 #include <string>
 #include <vector>
 
-#include "apps/opened_files.h"
+#include "apps/mesh/scene_files.h"
 
 namespace dmpc::apps {
 
 struct ImportedFile {
   std::unique_ptr<aiScene> scene;
-  OpenedFiles opened;
-  std::vector<std::string> missing;  ///< files that it refers to and that could not be opened, in order, each once
+  std::vector<std::string> missing;  ///< sentences: which files it refers to cannot be had, in order, each once
 };
 
-/// What ends so is read by Assimp: "obj", "ply", ..., in lower case.
-const std::vector<std::string>& mesh_extensions();
+/// Makes the library ready, after which it opens nothing but through SceneFiles.
+void prepare_import();
 
-/// Reads meshes, materials, lights and cameras as the file has them. Shows its progress on stderr if `shows_progress`. Throws
+/// Reads meshes, materials, lights and cameras as the file has them, by a reader for files that end as it does. Throws
 /// core::InputError with Assimp's own words if it cannot read the file, std::bad_alloc if memory ends.
-ImportedFile import_file(const std::string& path, bool shows_progress);
+ImportedFile import_file(const std::string& path, SceneFiles& files);
 
 }  // namespace dmpc::apps

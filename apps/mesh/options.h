@@ -10,6 +10,7 @@ struct MeshOptions {
   std::optional<double> scale;           ///< all coordinates are multiplied by it; above 0; 1 if not given
   std::optional<std::size_t> up;         ///< the axis that points up where the file has no camera: 0 x, 1 y, 2 z; y if not given
   std::optional<double> smooth_degrees;  ///< vertex normals are reckoned anew, over edges up to this angle; 0 to 180
+  bool opens_anywhere = false;           ///< files that lie neither beside nor below the scene are opened, too
   bool allows_missing = false;           ///< what files that are missing would cover is shown in its plain colour
 };
 

@@ -1,13 +1,7 @@
 #include "apps/mesh/reader.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <set>
-#include <system_error>
 
 #include "apps/figures.h"
 #include "apps/mesh/features.h"
@@ -26,16 +20,6 @@ namespace {
 
 using Placements = std::vector<Placement>;
 
-void check_readable(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    throw core::InputError("is a folder, expected a mesh file");
-  }
-  if (!std::ifstream(path, std::ios::binary)) {
-    throw core::InputError(std::string("cannot be opened: ") + std::strerror(errno));
-  }
-}
-
 /// Which materials some placed mesh has.
 std::vector<bool> used_materials(const aiScene& file, const Placements& placements) {
   std::vector<bool> used(file.mNumMaterials);
@@ -49,9 +33,9 @@ std::vector<bool> used_materials(const aiScene& file, const Placements& placemen
 }
 
 /// With the textures of those that are used, which the scene is given; what cannot be had is added to `missing`.
-std::vector<MeshMaterial> materials_of(const aiScene& file, const Placements& placements, core::Scene& scene,
+std::vector<MeshMaterial> materials_of(const aiScene& file, const Placements& placements, SceneFiles& files, core::Scene& scene,
                                        std::vector<std::string>& missing) {
-  TextureReader textures(file, scene.name, scene.textures);
+  TextureReader textures(file, scene.name, files, scene.textures);
   const std::vector<bool> used = used_materials(file, placements);
   std::vector<MeshMaterial> materials;
   for (std::size_t i = 0; i < file.mNumMaterials; ++i) {
@@ -161,31 +145,16 @@ void add_surroundings(core::Scene& scene, const aiScene& file, const MeshOptions
   }
 }
 
-/// Those that lie in files of their own are called as these.
-void add_textures(const core::Scene& scene, OpenedFiles& opened) {
-  std::error_code error;
-  for (const core::Texture& texture : scene.textures) {
-    if (std::filesystem::exists(texture.name, error)) {
-      opened.add(texture.name);
-    }
-  }
-}
-
-MeshFile read(const std::string& path, const MeshOptions& options, bool shows_progress) {
-  check_readable(path);
-  const ImportedFile file = import_file(path, shows_progress);
-  MeshFile result{.scene = {.name = path}, .notes = {}, .opened = file.opened};
-  std::vector<std::string> missing;
-  for (const std::string& name : file.missing) {
-    missing.push_back(name + " is missing or cannot be opened");
-  }
+MeshScene read(const std::string& path, const MeshOptions& options, SceneFiles& files) {
+  const ImportedFile file = import_file(path, files);
+  MeshScene result{.scene = {.name = path}, .notes = {}};
+  std::vector<std::string> missing = file.missing;
   const Placements placements = find_placements(*file.scene, options.scale.value_or(1));
   const GeometrySize size = measure(*file.scene, placements, result.notes);
   check_size(size);
   reserve(result.scene, size);
   note_features(*file.scene, placements, result.notes);
-  const std::vector<MeshMaterial> materials = materials_of(*file.scene, placements, result.scene, missing);
-  add_textures(result.scene, result.opened);
+  const std::vector<MeshMaterial> materials = materials_of(*file.scene, placements, files, result.scene, missing);
   judge_missing(missing, options, result.notes);
   add_geometry(result.scene, *file.scene, placements, materials, options);
   add_surroundings(result.scene, *file.scene, options, result.notes);
@@ -194,31 +163,10 @@ MeshFile read(const std::string& path, const MeshOptions& options, bool shows_pr
 
 }  // namespace
 
-bool is_mesh_path(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  const auto& known = mesh_extensions();
-  return !extension.empty() && std::find(known.begin(), known.end(), extension.substr(1)) != known.end();
-}
-
-std::string known_mesh_formats() {
-  std::string text;
-  for (const std::string& extension : mesh_extensions()) {
-    text += (text.empty() ? "" : ", ") + extension;
-  }
-  return text;
-}
-
-MeshFile read_mesh_file(const std::string& path, const MeshOptions& options, bool shows_progress) {
-  try {
-    MeshFile file = read(path, options, shows_progress);
-    core::give_back_freed();  // Assimp's faces are many small pieces
-    return file;
-  } catch (const core::RoomError& error) {
-    throw core::RoomError(path + ": " + error.what());
-  } catch (const core::InputError& error) {
-    throw core::InputError(path + ": " + error.what());
-  }
+MeshScene read_mesh(const std::string& path, const MeshOptions& options, SceneFiles& files) {
+  MeshScene mesh = read(path, options, files);
+  core::give_back_freed();  // Assimp's faces are many small pieces
+  return mesh;
 }
 
 }  // namespace dmpc::apps

@@ -5,26 +5,20 @@
 #include <vector>
 
 #include "apps/mesh/options.h"
-#include "apps/opened_files.h"
+#include "apps/mesh/scene_files.h"
 #include "core/scene.h"
 
 namespace dmpc::apps {
 
-struct MeshFile {
-  core::Scene scene;
+struct MeshScene {
+  core::Scene scene;               ///< its textures are names alone: who has the files has the texels
   std::vector<std::string> notes;  ///< what of the file is not shown as it is, a sentence each
-  OpenedFiles opened;              ///< with those of the textures
 };
 
-/// Whether the path ends as mesh files do, whatever the case of its letters.
-bool is_mesh_path(const std::string& path);
-/// "obj, ply, ...", for messages.
-std::string known_mesh_formats();
-
 /// All triangles and polygons, instances expanded; the file's first camera, else the whole scene in view; its lights, else two of
-/// ours; a plain background. Throws core::InputError "PATH: ..." for what cannot be read or makes no scene (apps/mesh/geometry.h,
+/// ours; a plain background. Throws core::InputError for what cannot be read or makes no scene (apps/mesh/geometry.h,
 /// apps/mesh/placement.h), has no triangle at all, or refers to files that cannot be had, unless `options` allow that;
-/// std::bad_alloc if memory ends. `shows_progress` on stderr.
-MeshFile read_mesh_file(const std::string& path, const MeshOptions& options = {}, bool shows_progress = false);
+/// std::bad_alloc if memory ends.
+MeshScene read_mesh(const std::string& path, const MeshOptions& options, SceneFiles& files);
 
 }  // namespace dmpc::apps

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/mesh/scene_files.h"
 #include "apps/texture_file.h"
 #include "core/texture.h"
 
@@ -30,9 +31,9 @@ std::optional<TextureUse> colour_texture(const aiMaterial& source);
 /// Reads each texture once, from beside the mesh file or from within it.
 class TextureReader {
  public:
-  /// `file` is what lies at `path`, and outlives the reader.
-  TextureReader(const aiScene& file, const std::filesystem::path& path, std::vector<core::Texture>& textures)
-      : file_(file), path_(path), textures_(textures) {}
+  /// `file` is what lies at `path`; it and `files` outlive the reader. `textures` get names alone.
+  TextureReader(const aiScene& file, const std::filesystem::path& path, SceneFiles& files, std::vector<core::Texture>& textures)
+      : file_(file), path_(path), files_(files), textures_(textures) {}
 
   /// Its place among the scene's textures; nothing if it cannot be had, which missing() tells.
   std::optional<std::uint32_t> find(const TextureUse& use);
@@ -41,10 +42,14 @@ class TextureReader {
   std::vector<std::string> missing() const { return {missing_.begin(), missing_.end()}; }
 
  private:
-  core::Texture read(const TextureUse& use) const;
+  /// As the scene's next texture.
+  void read(const TextureUse& use);
+  /// That is meant by this name (apps/mesh/named_file.h).
+  std::string file_of(const std::string& name) const;
 
   const aiScene& file_;
   std::filesystem::path path_;
+  SceneFiles& files_;
   std::vector<core::Texture>& textures_;
   std::map<std::string, std::optional<std::uint32_t>> known_;  ///< by path and edges
   std::set<std::string> missing_;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/mesh/reader.h"
+#include "apps/mesh_file.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
 

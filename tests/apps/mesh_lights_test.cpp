@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "apps/mesh/reader.h"
+#include "apps/mesh_file.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "apps/mesh/reader.h"
+#include "apps/mesh_file.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/mesh/reader.h"
+#include "apps/mesh_file.h"
 #include "apps/view_faults.h"
 #include "core/expect.h"
 #include "tests/apps/rendered.h"

@@ -1,4 +1,4 @@
-#include "apps/mesh/reader.h"
+#include "apps/mesh_file.h"
 
 #include <doctest/doctest.h>
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/image_file.h"
-#include "apps/mesh/reader.h"
+#include "apps/mesh_file.h"
 #include "core/scene.h"
 #include "tests/support/temporary_folder.h"
 

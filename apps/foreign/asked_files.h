@@ -1,0 +1,35 @@
+// A reader's files, which it asks dmpc for.
+#pragma once
+
+#include "apps/mesh/scene_files.h"
+#include "apps/reader/line.h"
+
+namespace dmpc::apps {
+
+/// dmpc has hung up: nobody wants to know any more.
+struct HungUp {};
+
+class AskedFiles final : public SceneFiles {
+ public:
+  explicit AskedFiles(Line& line) : line_(line) {}
+
+  std::unique_ptr<FileBytes> open(const std::string& path) override;
+  bool exists(const std::string& path) override;
+  std::vector<std::filesystem::path> meant(const std::filesystem::path& folder, const std::string& name) override;
+  void add_texture(const std::string& path, const TextureEdges& edges) override;
+  void add_texture(std::span<const std::byte> file, const std::string& name, const std::string& format_hint,
+                   const TextureEdges& edges) override;
+  void add_texture(std::span<const std::uint32_t> texels, std::uint32_t width, std::uint32_t height, const std::string& name,
+                   const TextureEdges& edges) override;
+  void show_progress(float share) override;
+
+ private:
+  Message ask(Saying question, const Packer& fields);
+  void ask_for_texture(Saying question, const Packer& fields);
+  void send_bytes(std::span<const std::byte> bytes);
+
+  Line& line_;
+  float shown_ = -1;
+};
+
+}  // namespace dmpc::apps

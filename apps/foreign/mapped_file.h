@@ -1,0 +1,15 @@
+// A file's bytes, from where the system keeps them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "apps/mesh/scene_files.h"
+#include "apps/reader/descriptor.h"
+
+namespace dmpc::apps {
+
+/// Throws std::bad_alloc if there is no room for them.
+std::unique_ptr<FileBytes> map_file(const Descriptor& file, std::uint64_t bytes);
+
+}  // namespace dmpc::apps

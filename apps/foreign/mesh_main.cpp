@@ -1,0 +1,53 @@
+// The program dmpc_mesh_reader: reads mesh files for dmpc, which starts it.
+
+#include <optional>
+#include <string>
+
+#include "apps/foreign/asked_files.h"
+#include "apps/foreign/service.h"
+#include "apps/mesh/import.h"
+#include "apps/mesh/reader.h"
+#include "apps/reader/scene_blocks.h"
+#include "core/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+template <class T>
+std::optional<T> take_choice(Unpacker& fields) {
+  const bool has_value = fields.take_flag();
+  const auto value = fields.take<double>();
+  return has_value ? std::optional<T>(static_cast<T>(value)) : std::nullopt;
+}
+
+MeshOptions take_options(Unpacker& fields) {
+  MeshOptions options;
+  options.scale = take_choice<double>(fields);
+  options.up = take_choice<std::size_t>(fields);
+  options.smooth_degrees = take_choice<double>(fields);
+  options.allows_missing = fields.take_flag();
+  return options;
+}
+
+void serve_mesh(const Message& request, Line& line) {
+  core::expect(request.saying == Saying::read_mesh, "a reader of mesh files is asked for mesh files");
+  Unpacker fields(request.bytes);
+  const std::string path = fields.take_text();
+  const MeshOptions options = take_options(fields);
+  AskedFiles files(line);
+  MeshScene mesh = read_mesh(path, options, files);
+  for (const std::string& note : mesh.notes) {
+    line.send(Saying::note, Packer().add_text(note));
+  }
+  if (send_scene(mesh.scene, line)) {
+    line.send(Saying::done);
+  }
+}
+
+}  // namespace
+}  // namespace dmpc::apps
+
+int main() {
+  dmpc::apps::prepare_import();
+  dmpc::apps::serve_requests(dmpc::apps::serve_mesh);
+}

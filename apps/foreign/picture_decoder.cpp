@@ -1,0 +1,182 @@
+#include "apps/foreign/picture_decoder.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "apps/reader/picture_format.h"
+#include "apps/texture_file.h"
+#include "core/expect.h"
+#include "core/record_writer.h"
+#include "core/srgb.h"
+#include "core/texel.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr int channels = 3;
+/// Of the finest level: four bytes each, and a third of that for the other levels.
+constexpr std::size_t texels_max = core::RecordWriter::bytes_max / 16 * 3;
+
+std::size_t texel_count(const OIIO::ImageSpec& spec) {
+  return static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+}
+
+/// An open picture, with the memory that it is read from.
+struct Input {
+  std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;
+  std::unique_ptr<OIIO::ImageInput> image;
+
+  const OIIO::ImageSpec& spec() const { return image->spec(); }
+};
+
+[[noreturn]] void fail_to_read(const std::string& name, const std::string& why) {
+  throw core::InputError(name + ": cannot be read as a picture: " + why);
+}
+
+void check_declared(const EncodedPicture& picture, const OIIO::ImageSpec& spec) {
+  const auto width = static_cast<std::uint64_t>(std::max(spec.width, 0)),
+             height = static_cast<std::uint64_t>(std::max(spec.height, 0));
+  if (width > picture_side_max || height > picture_side_max ||
+      decoded_bytes(width, height, spec.format.basesize()) > decoded_bytes_max(picture.bytes.size())) {
+    throw core::InputError(picture.name + ": says that it has " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
+                           " pixels, more than " + std::to_string(picture.bytes.size()) + " bytes can hold: it is damaged");
+  }
+}
+
+/// Where `unassociated`, colours come as they are, and not multiplied by alpha.
+Input open(const EncodedPicture& picture, bool unassociated) {
+  Input input;
+  void* const begin = const_cast<std::byte*>(picture.bytes.data());
+  input.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(begin, picture.bytes.size());
+  OIIO::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", unassociated ? 1 : 0);
+  void* const proxy = input.memory.get();
+  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  input.image = OIIO::ImageInput::create(picture.format, false, nullptr, nullptr, "");
+  if (!input.image) {
+    fail_to_read(picture.name, OIIO::geterror());
+  }
+  OIIO::ImageSpec spec;
+  if (!input.image->open(picture.name, spec, config)) {
+    fail_to_read(picture.name, input.image->geterror());
+  }
+  check_declared(picture, input.spec());
+  return input;
+}
+
+Input open_texture(const EncodedPicture& picture) {
+  Input input = open(picture, true);
+  const OIIO::ImageSpec& spec = input.spec();
+  check_texture_size(picture.name, spec.width, spec.height);
+  if (spec.depth > 1 || spec.deep) {
+    throw core::InputError(picture.name + ": a texture with " + (spec.deep ? "several samples a texel" : "several layers") +
+                           "; expected a plain picture");
+  }
+  if (texel_count(spec) > texels_max) {
+    throw core::InputError(picture.name + ": a texture of " + std::to_string(texel_count(spec)) + " texels; expected at most " +
+                           std::to_string(texels_max) + ", which fill a database: make it smaller");
+  }
+  return input;
+}
+
+template <class T>
+std::vector<T> read_values(const Input& input, const std::string& name, OIIO::TypeDesc type, int count) {
+  std::vector<T> values(texel_count(input.spec()) * static_cast<std::size_t>(count));
+  if (!input.image->read_image(0, 0, 0, count, type, values.data())) {
+    throw core::InputError(name + ": cannot be read: " + input.image->geterror());
+  }
+  return values;
+}
+
+/// Calls take(values of three channels) for each texel, row by row; integers come as 0 to 1.
+template <class T, class Take>
+void for_each_texel(const Input& input, const std::string& name, OIIO::TypeDesc type, const Take& take) {
+  const int count = input.spec().nchannels < channels ? 1 : channels;
+  const std::vector<T> values = read_values<T>(input, name, type, count);
+  const std::size_t green = count == channels ? 1 : 0, blue = 2 * green;
+  for (std::size_t first = 0; first < values.size(); first += static_cast<std::size_t>(count)) {
+    take(values[first], values[first + green], values[first + blue]);
+  }
+}
+
+bool is_linear(const OIIO::ImageSpec& spec) {
+  const std::string space = spec.get_string_attribute("oiio:ColorSpace");
+  return spec.format.is_floating_point() || space == "Linear" || space == "linear" || space == "scene_linear";
+}
+
+void read_bytes(const Input& input, const std::string& name, std::vector<std::uint32_t>& texels) {
+  using Byte = std::uint8_t;
+  for_each_texel<Byte>(input, name, OIIO::TypeDesc::UINT8, [&](Byte red, Byte green, Byte blue) {
+    texels.push_back(std::uint32_t{red} | std::uint32_t{green} << 8U | std::uint32_t{blue} << 16U);
+  });
+}
+
+void read_light(const Input& input, const std::string& name, std::vector<std::uint32_t>& texels) {
+  const bool linear = is_linear(input.spec());
+  const auto light = [&](float value) { return linear ? double{value} : core::linear_from_srgb(double{value}); };
+  for_each_texel<float>(input, name, OIIO::TypeDesc::FLOAT, [&](float red, float green, float blue) {
+    texels.push_back(core::encoded(core::TexelFormat::shared_exponent, {light(red), light(green), light(blue)}));
+  });
+}
+
+void make_linear(std::vector<float>& values) {
+  for (float& value : values) {
+    value = static_cast<float>(core::linear_from_srgb(static_cast<double>(value)));
+  }
+}
+
+std::vector<float> spread(const std::vector<float>& gray) {
+  std::vector<float> rgb;
+  rgb.reserve(gray.size() * channels);
+  for (const float value : gray) {
+    rgb.insert(rgb.end(), channels, value);
+  }
+  return rgb;
+}
+
+}  // namespace
+
+/// The first reader of a kind that is made has the library look round for others.
+void prepare_decoders() {
+  OIIO::attribute("threads", 1);
+  OIIO::attribute("exr_threads", -1);
+  for (const char* format : {"png", "jpeg", "openexr", "tiff", "targa", "bmp", "hdr", "webp", "gif", "pnm", "dds"}) {
+    static_cast<void>(OIIO::ImageInput::create(format, false, nullptr, nullptr, ""));
+  }
+  static_cast<void>(OIIO::geterror());
+}
+
+core::Texture decode_texture(const EncodedPicture& picture) {
+  const Input input = open_texture(picture);
+  const OIIO::ImageSpec& spec = input.spec();
+  const bool keeps_bytes = spec.format == OIIO::TypeDesc::UINT8 && !is_linear(spec);
+  core::Texture texture{.name = picture.name,
+                        .format = keeps_bytes ? core::TexelFormat::srgb : core::TexelFormat::shared_exponent,
+                        .levels = {{static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), {}}}};
+  texture.levels.front().texels.reserve(texel_count(spec));
+  (keeps_bytes ? read_bytes : read_light)(input, picture.name, texture.levels.front().texels);
+  return texture;
+}
+
+Image decode_image(const EncodedPicture& picture) {
+  const Input input = open(picture, false);
+  const OIIO::ImageSpec& spec = input.spec();
+  const int count = spec.nchannels < channels ? 1 : channels;
+  std::vector<float> values = read_values<float>(input, picture.name, OIIO::TypeDesc::FLOAT, count);
+  if (!spec.format.is_floating_point()) {
+    make_linear(values);
+  }
+  Image image;
+  image.width = spec.width;
+  image.height = spec.height;
+  image.rgb = count == 1 ? spread(values) : std::move(values);
+  return image;
+}
+
+}  // namespace dmpc::apps

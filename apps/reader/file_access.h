@@ -1,0 +1,35 @@
+// Which files a scene may have opened.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/opened_files.h"
+#include "apps/reader/input_file.h"
+
+namespace dmpc::apps {
+
+/// A scene's own file, and ordinary files beside and below it, links resolved: beside the name that it was given by, or beside
+/// where it lies. Or any ordinary file.
+class FileAccess {
+ public:
+  /// Finds the scene's file. Throws core::InputError, a sentence that goes on "SCENE: ...", if there is none.
+  FileAccess(const std::filesystem::path& scene, bool anywhere);
+
+  /// Throws core::InputError, a whole sentence, if there is no such file, or if it may not be opened.
+  InputFile open(const std::filesystem::path& path);
+
+  const OpenedFiles& opened() const { return opened_; }
+  const std::filesystem::path& scene() const { return scene_; }
+
+ private:
+  bool allows(const std::filesystem::path& resolved) const;
+
+  std::filesystem::path scene_;
+  std::vector<std::filesystem::path> folders_;
+  bool anywhere_;
+  OpenedFiles opened_;
+};
+
+}  // namespace dmpc::apps

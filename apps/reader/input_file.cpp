@@ -1,0 +1,58 @@
+#include "apps/reader/input_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <system_error>
+
+#include "core/expect.h"
+
+namespace dmpc::apps {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What leads to an open file whatever becomes of its name.
+fs::path link_of(const Descriptor& descriptor) { return "/proc/self/fd/" + std::to_string(descriptor.number()); }
+
+[[noreturn]] void fail_to_open() { throw core::InputError(std::string("cannot be opened: ") + std::strerror(errno)); }
+
+}  // namespace
+
+bool is_ordinary_file(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+InputFile find_input_file(const fs::path& path) {
+  InputFile file;
+  file.descriptor = Descriptor(::open(path.c_str(), O_PATH | O_CLOEXEC));
+  struct stat status {};
+  if (!file.descriptor.is_open() || ::fstat(file.descriptor.number(), &status) != 0) {
+    fail_to_open();
+  }
+  if (S_ISDIR(status.st_mode)) {
+    throw core::InputError("is a folder, expected a file");
+  }
+  if (!S_ISREG(status.st_mode)) {
+    throw core::InputError("is a pipe, a device or the like, expected an ordinary file; give the name of one");
+  }
+  std::error_code error;
+  file.resolved = fs::read_symlink(link_of(file.descriptor), error);
+  file.bytes = static_cast<std::uint64_t>(status.st_size);
+  return file;
+}
+
+void open_input_file(InputFile& file) {
+  Descriptor opened(::open(link_of(file.descriptor).c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
+  if (!opened.is_open()) {
+    fail_to_open();
+  }
+  file.descriptor = std::move(opened);
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,88 @@
+// Values as bytes of a message, and back.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "apps/reader/saying.h"
+#include "core/expect.h"
+
+namespace dmpc::apps {
+
+/// A reader has said what no reader of ours says: the matter that it reads has taken it over.
+struct Nonsense : core::InputError {
+  using core::InputError::InputError;
+};
+
+class Packer {
+ public:
+  template <class T>
+  Packer& add(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
+    return *this;
+  }
+  /// Cut off if it is too long.
+  Packer& add_text(std::string_view text) {
+    text = text.substr(0, text_bytes_max);
+    add(static_cast<std::uint32_t>(text.size()));
+    bytes_.append(text);
+    return *this;
+  }
+
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+/// Throws Nonsense where there is less than what is taken, or more in the end.
+class Unpacker {
+ public:
+  explicit Unpacker(std::string_view bytes) : bytes_(bytes) {}
+
+  /// Only types all of whose bits are values: no bool.
+  template <class T>
+  T take() {
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> && !std::is_same_v<T, bool>);
+    T value{};
+    std::memcpy(&value, take_bytes(sizeof(T)).data(), sizeof(T));
+    return value;
+  }
+  std::string take_text() { return std::string(take_bytes(take<std::uint32_t>())); }
+  /// An enumeration whose values are 0 to `last`.
+  template <class T>
+  T take_choice(T last) {
+    const auto value = take<std::uint8_t>();
+    require(value <= static_cast<std::uint8_t>(last));
+    return static_cast<T>(value);
+  }
+  bool take_flag() {
+    const auto value = take<std::uint8_t>();
+    require(value <= 1);
+    return value == 1;
+  }
+  bool is_empty() const { return bytes_.empty(); }
+  void finish() const { require(bytes_.empty()); }
+
+  static void require(bool holds) {
+    if (!holds) {
+      throw Nonsense("what its reader makes of it is nonsense");
+    }
+  }
+
+ private:
+  std::string_view take_bytes(std::size_t count) {
+    require(count <= bytes_.size());
+    const std::string_view taken = bytes_.substr(0, count);
+    bytes_.remove_prefix(count);
+    return taken;
+  }
+
+  std::string_view bytes_;
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,160 @@
+#include "apps/reader/process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <utility>
+
+#include "apps/reader/program_path.h"
+#include "core/expect.h"
+
+// NOLINTNEXTLINE(readability-redundant-declaration): POSIX leaves its declaration to the program
+extern char** environ;
+
+namespace dmpc::apps {
+namespace {
+
+/// Where a reader finds its end of the line.
+constexpr int line_number = 3;
+
+/// The terminal's signals are for dmpc, whose end is its reader's end, too.
+void set_signals(posix_spawnattr_t& attributes) {
+  sigset_t blocked;
+  sigemptyset(&blocked);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    sigaddset(&blocked, signal);
+  }
+  posix_spawnattr_setsigmask(&attributes, &blocked);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+}
+
+int spawn(pid_t& id, const std::string& program, int line) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, line, line_number);
+  posix_spawn_file_actions_addclosefrom_np(&actions, line_number + 1);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  // What libraries say of a file may be what the file has them say.
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  set_signals(attributes);
+  std::string name = program;
+  std::array<char*, 2> words{name.data(), nullptr};
+  const int error = ::posix_spawn(&id, program.c_str(), &actions, &attributes, words.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  return error;
+}
+
+std::string seconds_text(std::uint64_t seconds) { return std::to_string(seconds) + (seconds == 1 ? " second" : " seconds"); }
+
+std::string mebibytes_text(std::uint64_t bytes) { return std::to_string(bytes >> 20U) + " MiB"; }
+
+}  // namespace
+
+ReaderProcess::ReaderProcess(const std::string& program, std::uint64_t memory_bytes, const ReaderLimits& limits)
+    : limits_(limits), memory_bytes_(memory_bytes), line_(Descriptor()) {
+  const std::string path = reader_program(program).string();
+  auto [ours, its] = make_ends();
+  line_ = Line(std::move(ours));
+  start(path, its);
+  its = Descriptor();  // else its death would not close the line
+  allow(0);
+  send(Saying::limits, Packer().add(memory_bytes));
+  try {
+    const Message message = receive();
+    Unpacker fields(message.bytes);
+    Unpacker::require(message.saying == Saying::ready && fields.take<std::uint32_t>() == protocol);
+    is_filtered_ = fields.take_flag();
+  } catch (const core::InputError& error) {
+    throw core::InternalError(path + ", which reads foreign files for dmpc, does not start: it " + error.what());
+  }
+}
+
+ReaderProcess::~ReaderProcess() {
+  if (id_ > 0) {
+    ::kill(id_, SIGKILL);
+    ::waitpid(id_, nullptr, 0);
+  }
+}
+
+void ReaderProcess::start(const std::string& program, const Descriptor& its_end) {
+  const int error = spawn(id_, program, its_end.number());
+  if (error != 0) {
+    id_ = -1;
+    throw core::InputError(program + ", which reads foreign files for dmpc, cannot be started: " + std::strerror(error));
+  }
+}
+
+void ReaderProcess::allow(std::uint64_t file_bytes) {
+  file_bytes_ += file_bytes;
+  seconds_ = limits_.seconds + file_bytes_ / std::max<std::uint64_t>(limits_.bytes_a_second, 1);
+  rlimit limit{};
+  ::prlimit(id_, RLIMIT_CPU, nullptr, &limit);
+  limit.rlim_cur = std::min<rlim_t>(seconds_, limit.rlim_max);
+  ::prlimit(id_, RLIMIT_CPU, &limit, nullptr);  // where that is refused, the wall's clock is left
+  deadline_ = Clock::now() + std::chrono::seconds(seconds_ * limits_.wall_factor);
+}
+
+void ReaderProcess::send(Saying saying, const Packer& fields, const Descriptor* file, std::uint64_t file_bytes) {
+  allow(file_bytes);
+  if (!line_.send(saying, fields, file == nullptr ? -1 : file->number(), false)) {
+    end("does not listen");
+  }
+}
+
+void ReaderProcess::wait_for_message() {
+  pollfd entry{.fd = line_.descriptor(), .events = POLLIN, .revents = 0};
+  while (true) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - Clock::now()).count();
+    const int ready = left <= 0 ? 0 : ::poll(&entry, 1, static_cast<int>(std::min<std::int64_t>(left, 1'000'000)));
+    if (ready > 0) {
+      return;
+    }
+    if (left <= 0) {
+      end("took too long");
+    }
+  }
+}
+
+Message ReaderProcess::receive() {
+  wait_for_message();
+  std::optional<Message> message = line_.receive(false);
+  if (!message) {
+    end("ended without a word");
+  }
+  if (message->saying == Saying::out_of_memory) {
+    throw core::RoomError("took more than the " + mebibytes_text(memory_bytes_) + " of memory that it may take");
+  }
+  return std::move(*message);
+}
+
+void ReaderProcess::end(const char* unless_by_signal) {
+  ::kill(id_, SIGKILL);  // changes nothing of an end that has begun
+  int status = 0;
+  ::waitpid(std::exchange(id_, -1), &status, 0);
+  const bool is_over = Clock::now() >= deadline_;
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
+    throw ReaderDeath("took more than " + seconds_text(seconds_) + " of processor time");
+  }
+  if (WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL) {
+    throw ReaderDeath("crashed (signal " + std::to_string(WTERMSIG(status)) + ", " + ::strsignal(WTERMSIG(status)) + ")");
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) != 0) {
+    throw ReaderDeath("ended with status " + std::to_string(WEXITSTATUS(status)));
+  }
+  throw ReaderDeath(is_over ? "took more than " + seconds_text(seconds_ * limits_.wall_factor) : unless_by_signal);
+}
+
+}  // namespace dmpc::apps

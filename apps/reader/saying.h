@@ -1,0 +1,53 @@
+// What dmpc and the processes that read foreign files for it say to each other: kinds of messages, each with its fields.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace dmpc::apps {
+
+/// Of the messages and of what they hold; processes of different builds do not understand each other.
+inline constexpr std::uint32_t protocol = 1;
+
+/// A message is no longer; more is sent in pieces.
+inline constexpr std::size_t message_bytes_max = 64 * 1024;
+/// A text is cut off there.
+inline constexpr std::size_t text_bytes_max = 32 * 1024;
+
+/// Fields in the order in which they are packed (apps/reader/packing.h).
+enum class Saying : std::uint8_t {
+  // From dmpc.
+  limits,        ///< bytes of memory: the first message
+  read_mesh,     ///< path, scale, up, smooth, allows_missing
+  read_texture,  ///< name, format hint, bytes of the file; with the file
+  read_image,    ///< name, format hint, bytes of the file; with the file
+  file,          ///< bytes of the file; with the file
+  names,         ///< paths
+  yes,
+  no,  ///< why not
+  // From a reader.
+  ready,           ///< protocol, whether calls of the system are filtered
+  open,            ///< path; answered by file or no
+  exists,          ///< path; answered by yes or no
+  meant,           ///< a folder and a name in the scene's file; answered by names
+  progress,        ///< share, 0 to 1
+  bytes,           ///< more of the picture that is talked of
+  texture_file,    ///< path, edges; answered by yes, when it is the scene's next texture, or no
+  texture_bytes,   ///< of the bytes sent: name, format hint, edges; answered likewise
+  texture_texels,  ///< of the bytes sent, four a texel: name, width, height, edges; answered likewise
+  picture,         ///< width, height, format; its bytes follow, then done
+  scene,           ///< view, background, counts of materials, objects, vertices, normals and corners
+  lights,
+  materials,
+  objects,
+  vertices,
+  normals,
+  corners,
+  note,       ///< a text
+  done,       ///< the last message about what was asked for
+  bad_input,  ///< a text
+  no_room,    ///< a text
+  out_of_memory,
+};
+
+}  // namespace dmpc::apps
