@@ -286,8 +286,12 @@ Table miss_table(const MissEstimate& estimate, std::uint32_t page_count, std::ui
   sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
   for (const std::uint32_t size : sizes) {
     const double whole = static_cast<double>(references), misses = std::min(estimate.misses(size), whole);
-    std::vector<Cell> row = {std::uint64_t{size}, static_cast<std::uint64_t>(misses), percent_of(misses, whole)};
+    std::vector<Cell> row = {std::uint64_t{size}};
     row.resize(table.columns().size());
+    if (size >= size_min) {
+      row[1] = static_cast<std::uint64_t>(misses);
+      row[2] = percent_of(misses, whole);
+    }
     if (size == cache_pages) {
       row.back() = percent_of(static_cast<double>(faults), whole);
     }

@@ -95,8 +95,12 @@ TEST_CASE("steps have the nodes' time without the host's") {
 
 TEST_CASE("a sample tells nothing of caches that would hold next to nothing of it") {
   const MissEstimate estimate{.every = 8};
-  const Table table = miss_table(estimate, 1000, 10, 100, 1);
-  CHECK(std::get<std::uint64_t>(table.rows().front()[0]) >= 32);
+  const Table table = miss_table(estimate, 1000, 10, 20, 1);
+  CHECK(std::get<std::uint64_t>(table.rows()[0][0]) == 20);
+  CHECK(std::holds_alternative<std::monostate>(table.rows()[0][1]));
+  CHECK(std::holds_alternative<std::monostate>(table.rows()[0][2]));
+  CHECK(std::get<double>(table.rows()[0][3]) == 10);
+  CHECK(std::get<std::uint64_t>(table.rows()[1][0]) >= 32);
   CHECK(std::get<std::uint64_t>(table.rows().back()[0]) == 1000);
 }
 
