@@ -87,8 +87,11 @@ void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs) {
 
 core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFiles* opened) {
   check_mesh_options(picture.scene, picture.staging.mesh);
+  MeshOptions mesh = picture.staging.mesh;
+  mesh.is_seen_otherwise = picture.staging.camera.has_value();
+  mesh.is_lit_otherwise = !picture.staging.lights.empty();
   OpenedFiles read;
-  core::Scene scene = load_any(picture.scene, picture.staging.mesh,
+  core::Scene scene = load_any(picture.scene, mesh,
                                picture.resolution ? std::numeric_limits<std::int64_t>::max() : picture_pixels_max, notes, read);
   if (opened != nullptr) {
     opened->add(read);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/render_options.h"
+#include "core/partial_picture.h"
 #include "core/scene.h"
 
 namespace dmpc::apps {
@@ -13,11 +14,13 @@ namespace dmpc::apps {
 struct PictureFact {
   std::string name;
   std::string value;  ///< "#" and a digest where it would be too long
+  bool operator==(const PictureFact&) const = default;
 };
 
 struct PictureIdentity {
   int width = 1, height = 1;
   std::vector<PictureFact> facts;
+  core::PictureTerms terms = {};  ///< what follows from the facts for a part of the picture
 };
 
 /// `scene` as it is rendered: staged, and not yet built from.

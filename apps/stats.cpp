@@ -331,7 +331,7 @@ std::string stats_json(const RenderRecord& record) {
   all["heat_maps"] = heat_maps_json(record);
   all["nodes"] = nodes_json(account, special, timed);
   all["host"] = host_json(record, account, special.host, timed.host);
-  return all.dump(2) + "\n";
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names of files may be no UTF-8
 }
 
 }  // namespace dmpc::apps

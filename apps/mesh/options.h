@@ -11,6 +11,8 @@ struct MeshOptions {
   std::optional<std::size_t> up;         ///< the axis that points up where the file has no camera: 0 x, 1 y, 2 z; y if not given
   std::optional<double> smooth_degrees;  ///< vertex normals are reckoned anew, over edges up to this angle; 0 to 180
   bool allows_missing = false;           ///< what files that are missing would cover is shown in its plain colour
+  /// Another view is taken, or other lights, so that nothing is said of the file's.
+  bool is_seen_otherwise = false, is_lit_otherwise = false;
 };
 
 }  // namespace dmpc::apps

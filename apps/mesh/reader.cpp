@@ -153,9 +153,12 @@ void add_surroundings(core::Scene& scene, const aiScene& file, const MeshOptions
   const double scale = options.scale.value_or(1);
   const Bounds bounds = bounds_of_vertices(scene);
   scene.background = plain_background;
-  const auto camera = camera_of(file, scale, notes);
-  scene.view = camera ? *camera : plain_view(bounds, options, notes);
-  scene.lights = lights_of(file, bounds, scale, notes);
+  // What is said of a view or of lights that others are put in place of would be untrue.
+  std::vector<std::string> unsaid;
+  std::vector<std::string>& view_notes = options.is_seen_otherwise ? unsaid : notes;
+  const auto camera = camera_of(file, scale, view_notes);
+  scene.view = camera ? *camera : plain_view(bounds, options, view_notes);
+  scene.lights = lights_of(file, bounds, scale, options.is_lit_otherwise ? unsaid : notes);
   if (scene.lights.empty()) {
     scene.lights = plain_lights(bounds, scene.view);
   }
