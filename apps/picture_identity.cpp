@@ -146,6 +146,15 @@ PictureIdentity identity_of(const RenderOptions& options, const core::Scene& sce
   return identity;
 }
 
+std::uint64_t scene_digest(const core::Scene& scene) {
+  Digest digest;
+  for (const std::string& text :
+       {objects_text(scene), materials_text(scene), textures_text(scene), lights_text(scene), view_text(scene.view)}) {
+    digest.add(text);
+  }
+  return digest.value();
+}
+
 std::string difference_text(const std::vector<PictureFact>& other, const std::vector<PictureFact>& here) {
   std::vector<PictureFact> all = other;
   std::copy_if(here.begin(), here.end(), std::back_inserter(all),

@@ -1,6 +1,7 @@
 // What makes a picture: two with the same identity have the same bits, whatever computes them.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct PictureIdentity {
 
 /// `scene` as it is rendered: staged, and not yet built from.
 PictureIdentity identity_of(const RenderOptions& options, const core::Scene& scene);
+
+/// Of all that the scene is: equal scenes, equal digests, whatever file or name they come from.
+std::uint64_t scene_digest(const core::Scene& scene);
 
 /// How the facts of another picture differ from those of `here`, as a part of a sentence: "depth is 5, here 4; other materials".
 /// Empty if they are the same.

@@ -39,4 +39,16 @@ std::string escaped(std::string_view text) {
   return safe;
 }
 
+std::string escaped_with_code(std::string_view text) {
+  std::string safe;
+  for (;;) {
+    const std::size_t begin = text.find('`'), end = begin == std::string_view::npos ? begin : text.find('`', begin + 1);
+    if (end == std::string_view::npos) {
+      return safe + escaped(text);
+    }
+    safe += escaped(text.substr(0, begin)) + "<code>" + escaped(text.substr(begin + 1, end - begin - 1)) + "</code>";
+    text.remove_prefix(end + 1);
+  }
+}
+
 }  // namespace dmpc::apps::html
