@@ -18,6 +18,8 @@
 
 #include "apps/gltf/reader.h"
 #include "apps/mesh/named_file.h"
+#include "apps/mesh/ply_check.h"
+#include "apps/mesh/stl_check.h"
 #include "apps/progress.h"
 #include "core/expect.h"
 
@@ -96,6 +98,15 @@ std::vector<std::byte> bytes_of_file(const std::filesystem::path& path) {
   return bytes;
 }
 
+/// What Assimp takes for a scene or for ever to read, although its end is missing.
+void check_is_whole(const std::string& path) {
+  const auto check = ends_in(path, {".ply"}) ? check_ply : ends_in(path, {".stl"}) ? check_stl : nullptr;
+  if (check != nullptr) {
+    const std::vector<std::byte> bytes = bytes_of_file(path);
+    check({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  }
+}
+
 /// Nothing for version 1, which is left to Assimp.
 std::optional<ImportedFile> import_gltf(const std::string& path) {
   const std::vector<std::byte> bytes = bytes_of_file(path);
@@ -148,6 +159,7 @@ ImportedFile import_file(const std::string& path, bool shows_progress) {
       return *std::move(file);
     }
   }
+  check_is_whole(path);
   ImportedFile file;
   Assimp::Importer importer;
   importer.SetIOHandler(new Files(file));  // is the importer's from now on, and so is the next

@@ -45,8 +45,8 @@ class GltfDocument {
 
   /// One mesh with this one primitive; `more` are further members of the outermost object.
   std::string text(const std::string& primitive, const std::string& more = "") const {
-    return R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[)" + node + R"(],"meshes":[{"primitives":[)" + primitive +
-           R"(]}],"accessors":[)" + joined(accessors_) + R"(],"bufferViews":[)" + joined(views_) +
+    return R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[)" + node + R"(],"meshes":[{"primitives":[)" +
+           primitive + R"(]}],"accessors":[)" + joined(accessors_) + R"(],"bufferViews":[)" + joined(views_) +
            R"(],"buffers":[{"uri":"data:application/octet-stream;base64,)" + base64(bytes_) + R"(","byteLength":)" +
            std::to_string(bytes_.size()) + R"(},{"byteLength":1000000}])" + (more.empty() ? "" : "," + more) + "}";
   }
