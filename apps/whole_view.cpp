@@ -35,7 +35,7 @@ core::View whole_view(const Bounds& bounds, const UpAxis& up) {
       {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}}};
   Frame frame = frames[up.axis];
   if (up.is_negative) {  // half a turn about the way to the front
-    frame = {frame.right * -1, frame.up * -1, frame.front};
+    frame = {Vec3d{} - frame.right, Vec3d{} - frame.up, frame.front};
   }
   core::View view{.at = bounds.center, .up = frame.up};
   const Vec3d towards_eye = normalize(frame.right * 0.6 + frame.up * 0.5 + frame.front);

@@ -40,7 +40,7 @@ const std::vector<Foreign> foreign = {
       "tests/oracle/texture_lookup_test.cpp"}},
     {"assimp/", {"apps/mesh/", "apps/gltf/"}},
     {"meshoptimizer.h", {"apps/gltf/meshopt.cpp", "tests/mesh/"}},
-    {"draco/", {"apps/gltf/draco.cpp"}},
+    {"draco/", {"apps/gltf/draco.cpp", "tests/mesh/"}},
     {"CLI/", {"apps/command_line.cpp", "apps/command_description.cpp"}},
     {"nlohmann/",
      {"apps/stats", "apps/machine_file.", "apps/study_table.cpp", "apps/compare.cpp", "apps/accurate/reference_file.cpp",

@@ -162,6 +162,7 @@ std::unique_ptr<aiNode> Tree::node(const Part& where, int level) {
 
 /// What apps/mesh/lights.h makes the angle from: the vertical one times the aspect.
 void fill(const Part& source, aiCamera& camera) {
+  camera.mLookAt = {0, 0, -1};
   const auto perspective = source.find("perspective");
   if (source.get("type").as_text() != "perspective" || !perspective) {
     camera.mHorizontalFOV = 0;
@@ -226,9 +227,11 @@ void add_nodes(const Document& document, Accessors& accessors, const Meshes& mes
   if (scenes.empty()) {
     root.fail("has no scene, so that nothing says what is to be shown");
   }
+  const Part& shown = scenes[root.index("scene", scenes.size(), "scenes").value_or(0)];
   Tree tree(document, accessors, meshes);
   Nodes roots;
-  for (const Part& where : scenes[root.index("scene", scenes.size(), "scenes").value_or(0)].list("nodes")) {
+  scene.mName = shown.text("name", "");
+  for (const Part& where : shown.list("nodes")) {
     if (auto node = tree.node(where, 0)) {
       roots.push_back(std::move(node));
     }

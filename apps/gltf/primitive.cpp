@@ -7,6 +7,18 @@
 namespace dmpc::apps::gltf {
 namespace {
 
+/// TEXCOORD_1 without TEXCOORD_0 would be taken for it by some and left out by others.
+void check_sets(const Part& attributes) {
+  for (const auto& [name, part] : attributes.members()) {
+    const std::string first = name.substr(0, name.find('_') + 1);
+    const bool has_sets = first == "TEXCOORD_" || first == "COLOR_" || first == "JOINTS_" || first == "WEIGHTS_";
+    const std::string number = name.substr(first.size());
+    if (has_sets && number != "0" && (number.empty() || !attributes.find(first + "0"))) {
+      part.fail("attributes of this kind are numbered from 0 on, and there is no " + first + "0");
+    }
+  }
+}
+
 /// Names of what is read, and how many numbers each has.
 std::map<std::string, std::size_t> wanted(const Part& attributes) {
   std::map<std::string, std::size_t> widths;
@@ -44,6 +56,7 @@ void check_indices(const Primitive& result, const Part& primitive) {
 
 Primitive read_plain(const Part& primitive, Accessors& accessors) {
   const Part attributes = primitive.get("attributes");
+  check_sets(attributes);
   Primitive result;
   for (const auto& [name, width] : wanted(attributes)) {
     result.attributes[name] = accessors.values(attributes.get(name), width);

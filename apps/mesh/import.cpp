@@ -18,6 +18,7 @@
 
 #include "apps/gltf/reader.h"
 #include "apps/mesh/named_file.h"
+#include "apps/mesh/obj_check.h"
 #include "apps/mesh/ply_check.h"
 #include "apps/mesh/stl_check.h"
 #include "apps/progress.h"
@@ -98,9 +99,12 @@ std::vector<std::byte> bytes_of_file(const std::filesystem::path& path) {
   return bytes;
 }
 
-/// What Assimp takes for a scene or for ever to read, although its end is missing.
+/// What Assimp takes for a scene, or for ever to read, although something of it is missing.
 void check_is_whole(const std::string& path) {
-  const auto check = ends_in(path, {".ply"}) ? check_ply : ends_in(path, {".stl"}) ? check_stl : nullptr;
+  const auto check = ends_in(path, {".ply"})   ? check_ply
+                     : ends_in(path, {".stl"}) ? check_stl
+                     : ends_in(path, {".obj"}) ? check_obj
+                                               : nullptr;
   if (check != nullptr) {
     const std::vector<std::byte> bytes = bytes_of_file(path);
     check({reinterpret_cast<const char*>(bytes.data()), bytes.size()});

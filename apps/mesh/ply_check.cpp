@@ -136,10 +136,7 @@ Header Reader::header() {
       add_element(words, header);
     } else if (first == "property") {
       add_property(words, header);
-    } else if (!first.empty() && first != "comment" && first != "obj_info") {
-      fail("found '" + std::string(first.substr(0, 40)) +
-           "' in the header; expected format, element, property, comment or end_header");
-    }
+    }  // comments, obj_info, and what Blender 2.47 wrote without calling it one
   }
   if (header.format != "ascii" && header.format != "binary_little_endian" && header.format != "binary_big_endian") {
     fail("the header names no format; expected ascii, binary_little_endian or binary_big_endian");

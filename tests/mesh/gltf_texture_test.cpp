@@ -4,8 +4,9 @@
 
 #include <array>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "apps/image_file.h"
 #include "apps/mesh/reader.h"
@@ -34,8 +35,9 @@ std::array<Place, 3> places_by(const std::string& info, const std::string& image
   std::string picture = image;
   if (image == "within") {
     std::ifstream stream(folder / "a.png", std::ios::binary);
-    const std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-    picture = R"({"mimeType":"png","bufferView":)" + std::to_string(document.view(bytes)) + "}";
+    std::ostringstream bytes;
+    bytes << stream.rdbuf();
+    picture = R"({"mimeType":"png","bufferView":)" + std::to_string(document.view(bytes.str())) + "}";
   }
   write_text(folder / "a.gltf",
              document.text(R"({"material":0,"attributes":{"POSITION":)" + std::to_string(positions) + R"(,"TEXCOORD_0":)" +

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/mesh/obj_check.h"
 #include "apps/mesh/ply_check.h"
 #include "apps/mesh/reader.h"
 #include "apps/mesh/stl_check.h"
@@ -44,7 +45,10 @@ TEST_CASE("a PLY file cut within its header is refused at once, wherever it is c
   }
   CHECK(tests::contains(refusal_of("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nprop"),
                         "a.ply: line 4: the file ends within its header"));
-  CHECK(tests::contains(refusal_of("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nprop\n"), "line 4: found 'prop'"));
+  CHECK(tests::contains(refusal_of("a.ply", "ply\nelement vertex three\n"), "line 2: expected 'element NAME COUNT'"));
+  CHECK(
+      tests::contains(refusal_of("a.ply", "ply\nelement vertex 3\nproperty real x\n"), "line 3: expected 'property TYPE NAME'"));
+  check_ply("ply\nformat ascii 1.0\nCreated by somebody\ncomment b\nobj_info c\nend_header\n");
 }
 
 TEST_CASE("a PLY file cut within its body is refused with what it ends in") {
@@ -74,11 +78,13 @@ TEST_CASE("an STL file cut short is refused, in text and in binary") {
 TEST_CASE("an OBJ file with an index of nothing is refused, be it of a vertex, a place or a normal") {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
   CHECK(refusal_of("a.obj", vertices + "f 1/1/1 2/1/1 3/1/1\n").empty());
-  for (const char* face :
-       {"f 1/1/1 2/1/1 4/1/1\n", "f 1/1/1 2/2/1 3/1/1\n", "f 1/1/1 2/1/1 3/1/2\n", "f 1 2 0\n", "f 1 2 -4\n"}) {
-    CAPTURE(face);
-    CHECK_FALSE(refusal_of("a.obj", vertices + face).empty());
-  }
+  const auto refusal = [&](const std::string& face) { return refusal_of("a.obj", vertices + face); };
+  CHECK(tests::contains(refusal("f 1/1/1 2/1/1 4/1/1\n"), "line 6: the face has vertex 4, which does not exist: there are 3"));
+  CHECK(tests::contains(refusal("f 1/1/1 2/2/1 3/1/1\n"), "texture coordinate 2, which does not exist: there are 1"));
+  CHECK(tests::contains(refusal("f 1//1 2//1 \\\n3//2\n"), "line 7: the face has normal 2, which does not exist: there are 1"));
+  CHECK(tests::contains(refusal("f 1 2 -4\n"), "vertex -4, which does not exist: there are 3 before it"));
+  CHECK_FALSE(refusal("f 1 2 0\n").empty());
+  check_obj(vertices + "f -3/-1/-1 -2/-1/-1 -1/-1/-1 # 9\nf 1 2 4\nv 0 0 1\n");
 }
 
 TEST_CASE("a Collada file without a mesh is refused, and no figure is shown in its place") {
