@@ -209,7 +209,7 @@ void add_staging(Json& options, const Staging& staging) {
     options["light"].push_back(text_of(light));
   }
   options["scale"] = mesh.scale ? Json(*mesh.scale) : Json();
-  options["up"] = mesh.up ? Json(std::string(1, "xyz"[*mesh.up])) : Json();
+  options["up"] = mesh.up ? Json(text_of(*mesh.up)) : Json();
   options["smooth"] = mesh.smooth_degrees ? Json(*mesh.smooth_degrees) : Json();
   options["missing"] = mesh.allows_missing ? Json("plain") : Json();
 }

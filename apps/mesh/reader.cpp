@@ -48,10 +48,25 @@ std::vector<bool> used_materials(const aiScene& file, const Placements& placemen
   return used;
 }
 
+/// One line for all textures that are not where the file says.
+void note_other_names(const std::vector<std::string>& names, std::vector<std::string>& notes) {
+  constexpr std::size_t shown = 4;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), shown); ++i) {
+    list += (i > 0 ? ", " : "") + names[i];
+  }
+  if (!names.empty()) {
+    notes.push_back(grouped(names.size()) + (names.size() == 1 ? " texture was" : " textures were") +
+                    " found under other names: " + list +
+                    (names.size() > shown ? " and " + grouped(names.size() - shown) + " more" : ""));
+  }
+}
+
 /// With the textures of those that are used, which the scene is given; what cannot be had is added to `missing`.
-std::vector<MeshMaterial> materials_of(const aiScene& file, const Placements& placements, core::Scene& scene,
+std::vector<MeshMaterial> materials_of(const ImportedFile& imported, const Placements& placements, MeshFile& result,
                                        std::vector<std::string>& missing) {
-  TextureReader textures(file, scene.name, scene.textures);
+  const aiScene& file = *imported.scene;
+  TextureReader textures(file, result.scene.name, result.scene.textures);
   const std::vector<bool> used = used_materials(file, placements);
   std::vector<MeshMaterial> materials;
   for (std::size_t i = 0; i < file.mNumMaterials; ++i) {
@@ -60,12 +75,14 @@ std::vector<MeshMaterial> materials_of(const aiScene& file, const Placements& pl
     if (const auto texture = use ? textures.find(*use) : std::nullopt) {
       material.material.texture = *texture;
       material.coordinates = use->coordinates;
+      material.place = i < imported.texture_places.size() ? imported.texture_places[i] : TexturePlace{};
     }
     materials.push_back(material);
   }
   for (const std::string& texture : textures.missing()) {
     missing.push_back(texture);
   }
+  note_other_names(textures.other_names(), result.notes);
   return materials;
 }
 
@@ -144,7 +161,7 @@ std::string text_of(const core::Vec3d& point) { return rounded(point.x) + "," + 
 
 /// The whole in view; says how, as a start for a camera of one's own.
 core::View plain_view(const Bounds& bounds, const MeshOptions& options, std::vector<std::string>& notes) {
-  const core::View view = whole_view(bounds, options.up.value_or(1));
+  const core::View view = whole_view(bounds, options.up.value_or(UpAxis{}));
   notes.push_back("the whole is in view, as by --camera=" + text_of(view.from) + "/" + text_of(view.at) + "/" + text_of(view.up));
   return view;
 }
@@ -187,7 +204,8 @@ MeshFile read(const std::string& path, const MeshOptions& options, bool shows_pr
   check_size(size);
   reserve(result.scene, size);
   note_features(*file.scene, placements, result.notes);
-  const std::vector<MeshMaterial> materials = materials_of(*file.scene, placements, result.scene, missing);
+  result.notes.insert(result.notes.end(), file.notes.begin(), file.notes.end());
+  const std::vector<MeshMaterial> materials = materials_of(file, placements, result, missing);
   add_textures(result.scene, result.opened);
   judge_missing(missing, options, result.notes);
   add_geometry(result.scene, *file.scene, placements, materials, options);

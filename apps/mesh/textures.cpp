@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstddef>
 #include <span>
-#include <system_error>
 #include <utility>
 
+#include "apps/mesh/named_file.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -38,33 +37,6 @@ std::optional<TextureUse> texture_of(const aiMaterial& source, aiTextureType typ
   return use;
 }
 
-/// "%20" as a blank: glTF names files by addresses.
-std::string decoded_address(const std::string& text) {
-  std::string decoded;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    unsigned letter = 0;
-    const char* const digits = text.data() + i + 1;
-    const bool is_coded =
-        text[i] == '%' && i + 2 < text.size() && std::from_chars(digits, digits + 2, letter, 16).ptr == digits + 2;
-    decoded += is_coded ? static_cast<char>(letter) : text[i];
-    i += is_coded ? 2 : 0;
-  }
-  return decoded;
-}
-
-/// The file that a mesh file at `mesh` names: as it stands, decoded, or, where neither exists, by its last part beside the mesh.
-fs::path resolved(const fs::path& mesh, std::string name) {
-  std::replace(name.begin(), name.end(), '\\', '/');
-  const fs::path folder = mesh.parent_path(), plain = folder / name;
-  std::error_code error;
-  for (const fs::path& candidate : {plain, folder / decoded_address(name), folder / fs::path(name).filename()}) {
-    if (fs::is_regular_file(candidate, error)) {
-      return candidate;
-    }
-  }
-  return plain;
-}
-
 /// Texels that the file holds ready, as bytes.
 core::Texture from_texels(const aiTexture& source, const std::string& name, const TextureEdges& edges) {
   check_texture_size(name, source.pcData == nullptr ? 0 : source.mWidth, source.mHeight);
@@ -85,10 +57,19 @@ std::optional<TextureUse> colour_texture(const aiMaterial& source) {
   return base ? base : texture_of(source, aiTextureType_DIFFUSE);
 }
 
-core::Texture TextureReader::read(const TextureUse& use) const {
+fs::path TextureReader::file_of(const std::string& name) {
+  const fs::path folder = path_.parent_path();
+  const std::vector<fs::path> files = files_meant(folder, name);
+  if (!files.empty() && is_under_other_name(folder, name, files.front())) {
+    other_names_.insert(files.front().lexically_relative(folder.empty() ? fs::path(".") : folder).string() + " for " + name);
+  }
+  return files.empty() ? folder / name : files.front();
+}
+
+core::Texture TextureReader::read(const TextureUse& use) {
   const aiTexture* const within = file_.GetEmbeddedTexture(use.path.c_str());
   if (within == nullptr) {
-    return read_texture(resolved(path_, use.path), use.edges);
+    return read_texture(file_of(use.path), use.edges);
   }
   const std::string name = path_.string() + ", texture " + use.path;
   if (within->mHeight > 0) {

@@ -40,14 +40,19 @@ class TextureReader {
   /// "a.png: ...": what could not be had and why, once each, in the order of their names.
   std::vector<std::string> missing() const { return {missing_.begin(), missing_.end()}; }
 
+  /// "wood.PNG for C:\art\wood.png": what was found elsewhere than the file says.
+  std::vector<std::string> other_names() const { return {other_names_.begin(), other_names_.end()}; }
+
  private:
-  core::Texture read(const TextureUse& use) const;
+  core::Texture read(const TextureUse& use);
+  /// That is meant by this name (apps/mesh/named_file.h).
+  std::filesystem::path file_of(const std::string& name);
 
   const aiScene& file_;
   std::filesystem::path path_;
   std::vector<core::Texture>& textures_;
   std::map<std::string, std::optional<std::uint32_t>> known_;  ///< by path and edges
-  std::set<std::string> missing_;
+  std::set<std::string> missing_, other_names_;
 };
 
 }  // namespace dmpc::apps
