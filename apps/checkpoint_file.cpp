@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -135,6 +136,14 @@ class Reader {
       fail(path_, "this checkpoint is damaged or cut short: start again without --resume, when it is removed");
     }
   }
+  void refuse(const std::string& impossible) const {
+    fail(path_, "this checkpoint is damaged, it tells of " + impossible + ": start again without --resume, when it is removed");
+  }
+  /// A number that has more room in the file than it can need.
+  std::uint32_t narrow(std::uint64_t number) const {
+    check(number <= std::numeric_limits<std::uint32_t>::max());
+    return static_cast<std::uint32_t>(number);
+  }
 
  private:
   /// The next line, without its end; with it, it is added to `head`, which a file of something else must not fill for ever.
@@ -159,7 +168,7 @@ void take_pixels(Reader& reader, core::Film& film) {
     reader.take(std::span(block));
     for (std::uint32_t i = 0; i < block.size(); ++i) {
       film.deposit(first + i, block[i].sums);
-      film.add_samples(first + i, static_cast<std::uint32_t>(block[i].samples));
+      film.add_samples(first + i, reader.narrow(block[i].samples));
     }
   }
 }
@@ -185,23 +194,27 @@ void write_checkpoint(const fs::path& path, const PictureIdentity& identity, con
 
 core::PartialPicture read_checkpoint(const fs::path& path, const PictureIdentity& identity) {
   Reader reader(path);
-  if (const std::string difference = difference_text(reader.take_head(), identity.facts); !difference.empty()) {
+  const std::vector<PictureFact> facts = reader.take_head();
+  if (const std::string difference = difference_text(facts, identity.facts); !difference.empty()) {
     fail(path, "this is the checkpoint of another picture: " + difference);
   }
+  reader.check(facts == identity.facts);
   PassRecord pass;
   reader.take(std::span(&pass, 1));
-  reader.check(pass.number > 0 && pass.samples > 0);
   const auto pixel_count = static_cast<std::uint32_t>(identity.width) * static_cast<std::uint32_t>(identity.height);
   core::PixelMask pixels(pixel_count), done(pixel_count);
   reader.take(pixels.words());
   reader.take(done.words());
   core::PartialPicture picture{core::Film(identity.width, identity.height),
-                               static_cast<std::uint32_t>(pass.number),
-                               {static_cast<std::uint32_t>(pass.first_sample), static_cast<std::uint32_t>(pass.samples)},
+                               reader.narrow(pass.number),
+                               {reader.narrow(pass.first_sample), reader.narrow(pass.samples)},
                                pixels,
                                done};
   take_pixels(reader, picture.film);
   reader.take_end();
+  if (const char* const fault = core::fault_of(picture, identity.terms)) {
+    reader.refuse(fault);
+  }
   return picture;
 }
 

@@ -22,8 +22,9 @@ inline std::filesystem::path next_checkpoint(const std::filesystem::path& path) 
 void write_checkpoint(const std::filesystem::path& path, const PictureIdentity& identity, const core::Film& film,
                       const core::Refinement& pass, const core::PixelMask& done);
 
-/// Throws core::InputError if the file cannot be read, is no checkpoint, is damaged, or is one of another picture: then it says
-/// what differs.
+/// Throws core::InputError if the file cannot be read, is no checkpoint, is damaged, is one of another picture (then it says what
+/// differs), or tells of what cannot be (core::fault_of()). The digest tells accidents: whoever forges a checkpoint that could
+/// have come about, with other light, gets another film.
 core::PartialPicture read_checkpoint(const std::filesystem::path& path, const PictureIdentity& identity);
 
 }  // namespace dmpc::apps

@@ -11,6 +11,7 @@
 #include "apps/image_file.h"
 #include "apps/output_file.h"
 #include "apps/picture_error.h"
+#include "apps/shown_text.h"
 
 namespace dmpc::apps {
 namespace {
@@ -32,7 +33,7 @@ void check_outputs(const CompareOptions& options) {
 void print_text(std::ostream& output, const CompareOptions& options, const PictureError& error) {
   const double share =
       100 * static_cast<double>(error.differing_pixels) / static_cast<double>(std::max<std::uint64_t>(error.pixels, 1));
-  output << "A " << options.picture.string() << "\nB " << options.reference.string() << " (the reference)\n"
+  output << "A " << shown(options.picture.string()) << "\nB " << shown(options.reference.string()) << " (the reference)\n"
          << "root mean square error  " << error.root_mean_square << "\n"
          << "largest error           " << error.largest << "\n"
          << "99th percentile         " << error.percentile_99 << "\n"

@@ -1,5 +1,6 @@
 #include "apps/figures.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -12,12 +13,26 @@
 
 namespace dmpc::apps {
 
-std::string grouped(std::uint64_t value) {
-  std::string text = std::to_string(value);
-  for (std::size_t place = text.size(); place > 3; place -= 3) {
+namespace {
+
+/// Commas between each three of the first `count` digits.
+std::string with_commas(std::string text, std::size_t count) {
+  for (std::size_t place = count; place > 3; place -= 3) {
     text.insert(place - 3, 1, ',');
   }
   return text;
+}
+
+}  // namespace
+
+std::string grouped(std::uint64_t value) {
+  const std::string text = std::to_string(value);
+  return with_commas(text, text.size());
+}
+
+std::string grouped(double value, int digits) {
+  const std::string text = fixed(std::abs(value), digits);
+  return (value < 0 ? "-" : "") + with_commas(text, std::min(text.size(), text.find('.')));
 }
 
 std::string shortest(double value) {

@@ -11,6 +11,8 @@ namespace dmpc::apps {
 
 /// 1234567 as 1,234,567.
 std::string grouped(std::uint64_t value);
+/// With so many digits after the point: 1,234.5.
+std::string grouped(double value, int digits);
 /// The shortest text that reads back as the same number.
 std::string shortest(double value);
 /// To six significant digits.

@@ -5,8 +5,10 @@
 
 #include <array>
 #include <csignal>
+#include <cstring>
 #include <memory>
 #include <string>
+#include <system_error>
 
 #include "core/expect.h"
 
@@ -33,15 +35,18 @@ constexpr std::size_t slot_count = 40;
 /// Whoever takes a path out owns it.
 std::array<std::atomic<std::string*>, slot_count> files_to_remove{};
 
-void remove_files() {
+/// Where no memory may be left.
+void say(const char* words) { static_cast<void>(!::write(STDERR_FILENO, words, std::strlen(words))); }
+
+}  // namespace
+
+void remove_files_under_way() {
   for (std::atomic<std::string*>& slot : files_to_remove) {
     if (const std::unique_ptr<std::string> path{slot.exchange(nullptr)}) {
       ::unlink(path->c_str());
     }
   }
 }
-
-}  // namespace
 
 RemovedAtOnce::RemovedAtOnce(const std::filesystem::path& path) : slot_(0) {
   auto owned = std::make_unique<std::string>(path.string());
@@ -56,7 +61,13 @@ RemovedAtOnce::~RemovedAtOnce() { std::unique_ptr<std::string>(files_to_remove[s
 
 Interrupt::Interrupt() {
   change_mask(SIG_BLOCK);
-  waiter_ = std::jthread([this](const std::stop_token& closing) { wait_for_signals(closing); });
+  try {
+    waiter_ = std::jthread([this](const std::stop_token& closing) { wait_for_signals(closing); });
+  } catch (const std::system_error&) {
+    throw core::RoomError(
+        "dmpc takes a thread that waits for signals, and this computer lets it start none: ask for a higher limit (ulimit -u, "
+        "pids.max of a container)");
+  }
 }
 
 Interrupt::~Interrupt() {
@@ -92,9 +103,10 @@ void Interrupt::wait_for_signals(const std::stop_token& closing) {
 }
 
 void Interrupt::end_now() const {
-  remove_files();
-  const std::string message = std::string("\ndmpc: interrupted, ") + consequence() + "\n";
-  static_cast<void>(!::write(STDERR_FILENO, message.data(), message.size()));
+  remove_files_under_way();
+  say("\ndmpc: interrupted, ");
+  say(consequence());
+  say("\n");
   ::_exit(interrupted_status);
 }
 

@@ -76,4 +76,7 @@ class RemovedAtOnce {
   std::size_t slot_;
 };
 
+/// Removes all files that are RemovedAtOnce, for an end without destructors. Takes no memory.
+void remove_files_under_way();
+
 }  // namespace dmpc::apps

@@ -26,6 +26,15 @@ void say_once(const std::vector<std::string>& notes) {
   }
 }
 
+/// Of pictures that are black, or nothing but background, because the scene is.
+void say_what_is_missing(const core::Scene& scene) {
+  if (scene.objects.empty()) {
+    say_once({scene.name + ": there is nothing in it: the picture shows the background alone"});
+  } else if (scene.lights.empty()) {
+    say_once({scene.name + ": no light is in it: what reflects none is black; --light=X,Y,Z adds one"});
+  }
+}
+
 core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadNotes notes, OpenedFiles& opened) {
   const bool says = notes == LoadNotes::said;
   MeshFile file = read_mesh_file(path, options, says && stderr_is_terminal());
@@ -87,13 +96,19 @@ void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs) {
 
 core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFiles* opened) {
   check_mesh_options(picture.scene, picture.staging.mesh);
+  MeshOptions mesh = picture.staging.mesh;
+  mesh.is_seen_otherwise = picture.staging.camera.has_value();
+  mesh.is_lit_otherwise = !picture.staging.lights.empty();
   OpenedFiles read;
-  core::Scene scene = load_any(picture.scene, picture.staging.mesh,
+  core::Scene scene = load_any(picture.scene, mesh,
                                picture.resolution ? std::numeric_limits<std::int64_t>::max() : picture_pixels_max, notes, read);
   if (opened != nullptr) {
     opened->add(read);
   }
   apply(picture.staging, scene);
+  if (notes == LoadNotes::said) {
+    say_what_is_missing(scene);
+  }
   return scene;
 }
 

@@ -1,10 +1,15 @@
 // The program: reads the command line, calls one command, and turns what went wrong into an exit status.
 //   0 done    1 bad input    2 wrong usage    3 an internal check failed    4 no room    130 interrupted
 
+#include <unistd.h>
+
 #include <exception>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <variant>
 #include <vector>
 
@@ -15,13 +20,16 @@
 #include "apps/exit_status.h"
 #include "apps/info/command.h"
 #include "apps/interrupt.h"
+#include "apps/last_words.h"
 #include "apps/machine.h"
+#include "apps/memory_room.h"
 #include "apps/options.h"
 #include "apps/output_file.h"
 #include "apps/progress.h"
 #include "apps/render.h"
 #include "apps/scale/command.h"
 #include "apps/scene.h"
+#include "apps/shown_text.h"
 #include "apps/speed/command.h"
 #include "apps/stability/command.h"
 #include "apps/study.h"
@@ -69,8 +77,27 @@ int complain(const std::string& message, int status) {
   return status;
 }
 
-int run(const std::vector<std::string>& arguments) {
-  Interrupt interrupt;
+/// As the standard library tells it, or oneTBB.
+bool is_lack_of_threads(const std::exception& error) {
+  const auto* const system = dynamic_cast<const std::system_error*>(&error);
+  return system != nullptr ? system->code() == std::errc::resource_unavailable_try_again
+                           : std::string_view(error.what()).starts_with("pthread_create has failed");
+}
+
+int complain_of_bug(const std::exception& error) {
+  if (memory_has_run_out()) {
+    return complain_of_memory();
+  }
+  if (is_lack_of_threads(error)) {
+    return complain(
+        "building and reading take a thread for each processor, and this computer lets dmpc start no further one: ask for "
+        "a higher limit (ulimit -u, pids.max of a container)",
+        no_room_status);
+  }
+  return complain(std::string("this is a bug in dmpc, please report it: ") + error.what(), internal_status);
+}
+
+int run(const std::vector<std::string>& arguments, Interrupt& interrupt) {
   try {
     const Command command = parse_command_line(arguments);
     std::visit(obey_quiet, command);
@@ -84,14 +111,38 @@ int run(const std::vector<std::string>& arguments) {
   } catch (const core::UsageError& error) {
     return complain(error.what(), usage_status);
   } catch (const std::bad_alloc&) {
-    return complain("this computer has not enough memory for that: try a smaller scene or --resolution", no_room_status);
+    return complain_of_memory();
   } catch (const std::exception& error) {
-    return complain(std::string("this is a bug in dmpc, please report it: ") + error.what(), internal_status);
+    return complain_of_bug(error);
   }
+}
+
+/// Where not even a complaint may find memory.
+int run_within_memory(int count, char** values) {
+#if !defined(__SANITIZE_ADDRESS__)  // whose shadow is larger than any memory
+  bound_memory();
+#endif
+  Interrupt interrupt;
+  return run(std::vector<std::string>(values + 1, values + count), interrupt);
 }
 
 }  // namespace
 
 }  // namespace dmpc::apps
 
-int main(int count, char** values) { return dmpc::apps::run(std::vector<std::string>(values + 1, values + count)); }
+int main(int count, char** values) {
+  using namespace dmpc;
+  apps::end_without_abort();
+  const apps::ShownOutput errors(std::cerr);
+  std::optional<apps::ShownOutput> output;
+  if (::isatty(STDOUT_FILENO) == 1) {
+    output.emplace(std::cout);
+  }
+  try {
+    return apps::run_within_memory(count, values);
+  } catch (const std::bad_alloc&) {
+    return apps::complain_of_memory();
+  } catch (const core::RoomError& error) {
+    return apps::complain(error.what(), apps::no_room_status);
+  }
+}

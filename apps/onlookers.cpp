@@ -9,9 +9,7 @@ namespace dmpc::apps {
 
 namespace {
 
-/// Of all nodes: 16 MB.
-constexpr std::size_t references_max = std::size_t{1} << 22U;
-/// Of one node, however many there are.
+/// References of one node, however many there are.
 constexpr std::size_t references_least = 1024;
 
 /// Whether the nodes' pagers have that to do already.
@@ -27,7 +25,7 @@ double MissEstimate::misses(std::uint32_t cache_pages) const {
   return static_cast<double>(curve.misses(cache_pages / every)) * every;
 }
 
-Onlookers::Onlookers(const RenderOptions& options, std::uint32_t page_count) {
+Onlookers::Onlookers(const RenderOptions& options, std::uint32_t page_count, std::size_t references_max) {
   const std::uint32_t node_count = options.computer.node_count;
   std::vector<nodes::Observer*> members;
   if (options.trace.path) {

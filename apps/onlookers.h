@@ -1,6 +1,7 @@
 // Who looks on at a render, as its options ask for.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -23,8 +24,8 @@ struct Sights {
 /// Instruments beside one run, whose memory is no node's. Thread safety: as an Observer; take() when the run is over.
 class Onlookers {
  public:
-  /// `page_count`: of the database.
-  Onlookers(const RenderOptions& options, std::uint32_t page_count);
+  /// `page_count`: of the database. `references_max`: of all nodes together that are kept, about.
+  Onlookers(const RenderOptions& options, std::uint32_t page_count, std::size_t references_max = std::size_t{1} << 22U);
   Onlookers(const Onlookers&) = delete;
   Onlookers& operator=(const Onlookers&) = delete;
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "apps/html/sweep_page.h"
+#include "apps/origin.h"
 #include "apps/output_file.h"
 #include "apps/paper_data.h"
 #include "apps/paper_plots.h"
@@ -114,7 +116,7 @@ std::string page_of(const PaperReport& report, std::ostream& complaints) {
   for (const NamedTable& named : report.tables) {
     parts.push_back({named.table.title(), named.table, plots_of(named.name)});
   }
-  return html::sweep_page(title, introduction(report), parts, complaints);
+  return html::sweep_page({title, introduction(report), std::move(parts)}, this_origin(), complaints);
 }
 
 }  // namespace dmpc::apps

@@ -125,7 +125,7 @@ std::string difference_text(const std::string& name, const PictureFact* other, c
 PictureIdentity identity_of(const RenderOptions& options, const core::Scene& scene) {
   const PictureOptions& picture = options.picture;
   const Resolution size = picture.resolution.value_or(Resolution{scene.view.width, scene.view.height});
-  PictureIdentity identity{size.width, size.height, {}};
+  PictureIdentity identity{size.width, size.height, {}, {}};
   std::vector<PictureFact>& facts = identity.facts;
   facts = {{"version of dmpc", DMPC_VERSION},
            {"resolution", std::to_string(size.width) + "x" + std::to_string(size.height)},
@@ -140,7 +140,19 @@ PictureIdentity identity_of(const RenderOptions& options, const core::Scene& sce
            {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
            {"grid-axes", name_of(options.database.axes)}};
   add_samples(facts, picture);
+  // A ray from the eye is like one that is reflected, one hit earlier.
+  identity.terms = {static_cast<std::uint32_t>(picture.samples), picture.refinement,
+                    core::radiance_bound(scene, picture.depth + 1)};
   return identity;
+}
+
+std::uint64_t scene_digest(const core::Scene& scene) {
+  Digest digest;
+  for (const std::string& text :
+       {objects_text(scene), materials_text(scene), textures_text(scene), lights_text(scene), view_text(scene.view)}) {
+    digest.add(text);
+  }
+  return digest.value();
 }
 
 std::string difference_text(const std::vector<PictureFact>& other, const std::vector<PictureFact>& here) {

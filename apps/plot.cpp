@@ -2,43 +2,31 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <iomanip>
-#include <sstream>
+#include <cstdint>
 
+#include "apps/plot_axis.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
+
+/// M. Okabe and K. Ito, "Color Universal Design", 2008, with a brown for their yellow, which is faint on white.
+const std::array<const char*, 8> plot_colors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                "#E69F00", "#56B4E9", "#000000", "#8C6D46"};
+
 namespace {
 
-/// M. Okabe and K. Ito, "Color Universal Design", 2008, without their yellow, which is faint on white.
-constexpr std::array<const char*, plot_color_count> colors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                                              "#E69F00", "#56B4E9", "#000000", "#999999"};
 /// gnuplot's numbers of filled and open shapes.
-constexpr std::array<int, plot_color_count> shapes = {7, 5, 9, 13, 11, 15, 6, 4};
+constexpr std::array<int, plot_color_count> shapes = {7, 5, 9, 13, 11, 15, 6, 4, 8, 12, 10, 14};
+/// And of hatches that look unlike.
+constexpr std::array<int, 4> hatches = {4, 5, 2, 7};
 
+/// Names of places along x that are so short stand upright.
+constexpr std::size_t upright_letters_max = 3;
 /// Names of places along x that can be told apart, where there is little room.
 constexpr std::size_t small_names_max = 24;
 
 /// Between the bars of one place and those of the next, in places.
 constexpr double gap = 0.2;
-
-/// Without more digits than it needs.
-std::string shortest(double number) {
-  std::ostringstream text;
-  text << std::setprecision(4) << number;
-  return text.str();
-}
-
-/// A text as gnuplot reads it, on one line.
-std::string quoted(const std::string& text) {
-  std::string safe = "'";
-  for (const char character : text) {
-    const bool is_control = std::iscntrl(static_cast<unsigned char>(character)) != 0;
-    safe += character == '\'' ? "''" : std::string(1, is_control ? ' ' : character);
-  }
-  return safe + "'";
-}
 
 std::size_t number_of_column(const Table& table, const std::string& name) {
   const auto& columns = table.columns();
@@ -64,24 +52,26 @@ class Script {
     is_bars_ = std::any_of(plot.series.begin(), plot.series.end(), [](const auto& one) { return one.mark == PlotMark::bars; });
     for (const PlotSeries& series : plot.series) {
       core::expect((series.mark == PlotMark::bars) == is_bars_, "the series of a plot are all bars, or none is");
-      core::expect(series.color < colors.size(), "a plot has eight colours");
+      core::expect(series.color < plot_color_count, "a plot has so many colours");
       if (std::any_of(table.rows().begin(), table.rows().end(), [&](const auto& row) { return is_meant(series, row); })) {
         drawn_.push_back(&series);
       }
     }
     for (const std::vector<Cell>& row : table.rows()) {
-      if (is_bars_ && std::any_of(drawn_.begin(), drawn_.end(), [&](const auto* series) { return is_meant(*series, row); })) {
+      if (has_places() && std::any_of(drawn_.begin(), drawn_.end(), [&](const auto* series) { return is_meant(*series, row); })) {
         add_place(row);
       }
     }
-    core::expect(is_bars_ || plot.places.size() == 1, "a curve has one column along x");
+    core::expect(has_places() || plot.places.size() == 1, "numbers along x are of one column");
   }
 
   std::optional<std::string> text() const {
     if (drawn_.empty()) {
       return std::nullopt;
     }
-    return head() + axis("x", plot_.x) + axis("y", plot_.y) + (is_bars_ ? places() : "") + curves();
+    return head() +
+           (has_places() ? axis_lines("x", plot_.x) : axis_lines("x", plot_.x, span_of_x(), unit_of(plot_.places.front()))) +
+           axis_lines("y", plot_.y, span_of_y(), unit_of(drawn_.front()->column)) + bars() + curves();
   }
 
  private:
@@ -110,6 +100,44 @@ class Script {
     }
   }
 
+  /// Bars at places that have names.
+  bool has_places() const { return is_bars_ && !plot_.bar_width; }
+
+  const std::string& unit_of(const std::string& column) const { return table_.columns()[number_of_column(table_, column)].unit; }
+
+  static double number_of(const Cell& cell) {
+    const double* const real = std::get_if<double>(&cell);
+    const std::uint64_t* const whole = std::get_if<std::uint64_t>(&cell);
+    return real != nullptr ? *real : whole != nullptr ? static_cast<double>(*whole) : 0;
+  }
+
+  PlotExtent span_of_x() const {
+    PlotExtent extent;
+    for (const std::vector<Cell>& row : table_.rows()) {
+      if (std::any_of(drawn_.begin(), drawn_.end(), [&](const auto* series) { return is_meant(*series, row); })) {
+        const double x = number_of(row[number_of_column(table_, plot_.places.front())]);
+        extent.add(x);
+        extent.add(x + plot_.bar_width.value_or(0));
+      }
+    }
+    return extent;
+  }
+
+  PlotExtent span_of_y() const {
+    PlotExtent extent;
+    for (const std::vector<Cell>& row : table_.rows()) {
+      double sum = 0;
+      for (const PlotSeries* series : drawn_) {
+        if (is_meant(*series, row)) {
+          const double value = number_of(row[number_of_column(table_, series->column)]);
+          sum = plot_.is_stacked ? sum + value : value;
+          extent.add(sum);
+        }
+      }
+    }
+    return extent;
+  }
+
   bool is_small() const { return plot_.size == PlotSize::small; }
 
   std::string head() const {
@@ -124,9 +152,10 @@ class Script {
                        : "960,600 noenhanced font 'sans-serif,14'") +
            " background '#ffffff'\n"
            "set output " +
-           quoted(plot_.name + ".svg") + "\nset title " + quoted(plot_.title) + "\nset key " + key() +
+           gnuplot_text(plot_.name + ".svg") + "\nset title " + gnuplot_text(plot_.title) + "\nset key " + key() +
            "\n"
-           "set grid ytics linecolor '#dddddd'\n";
+           "set border 3\nset tics nomirror\nset grid ytics linecolor '#dddddd'\n" +
+           (is_small() ? "set xlabel offset 0,0.5\n" : "");
   }
 
   /// So high that legend and names below leave the plot its room.
@@ -148,39 +177,55 @@ class Script {
     return needs_none ? "off" : is_small() ? "bmargin center horizontal Left reverse" : "outside right top Left reverse";
   }
 
-  static std::string axis(const std::string& name, const PlotAxis& axis) {
-    const auto end = [](const std::optional<double>& limit) { return limit ? shortest(*limit) : "*"; };
-    const std::string base = axis.scale == PlotScale::powers_of_2 ? " 2" : " 10";
-    return "set " + name + "label " + quoted(axis.label) + "\nset " + name + "range [" + end(axis.least) + ":" + end(axis.most) +
-           "]\n" + (axis.scale == PlotScale::linear ? "" : "set logscale " + name + base + "\n");
+  std::string bars() const {
+    return is_bars_ ? (has_places() ? places() : "") + "set style fill solid\nset boxwidth " + gnuplot_number(bar_width()) + "\n"
+                    : "";
   }
 
-  /// Those of bars, from 1 on; where there is little room for names, every so many is named.
-  std::string places() const {
-    const std::string count = std::to_string(places_.size());
-    const std::size_t step = is_small() ? (places_.size() + small_names_max - 1) / small_names_max : 1;
-    std::string names, tics;
-    for (std::size_t place = 0; place < places_.size(); ++place) {
-      names += (place == 0 ? "" : ", ") + quoted(places_[place]);
-      if (place % step == 0) {
-        tics += (place == 0 ? "" : ", ") + quoted(places_[place]) + " " + std::to_string(place + 1);
+  /// 1, 2 or 5 times a power of ten, so that there is room for the name of each so many-th place; all names are shown in a
+  /// picture by itself.
+  std::size_t name_step() const {
+    for (std::size_t power = 1; is_small(); power *= 10) {
+      for (const std::size_t digit : {1, 2, 5}) {
+        if (places_.size() <= digit * power * small_names_max) {
+          return digit * power;
+        }
       }
     }
-    return "array names[" + count + "] = [" + names + "]\nplace_of(name) = sum [i = 1:" + count +
-           "] (name eq names[i] ? i : 0)\nset xtics rotate by 60 right nomirror (" + tics + ")\nset xrange [0.4:" + count +
-           ".6]\nset style fill solid\nset boxwidth " + shortest(bar_width()) + "\n";
+    return 1;
   }
 
-  double bar_width() const { return (1 - gap) / static_cast<double>(plot_.is_stacked ? 1 : drawn_.size()); }
+  /// Those of bars, from 1 on.
+  std::string places() const {
+    const std::string count = std::to_string(places_.size());
+    const std::size_t step = name_step();
+    std::string names, tics;
+    std::size_t longest = 0;
+    for (std::size_t place = 0; place < places_.size(); ++place) {
+      names += (place == 0 ? "" : ", ") + gnuplot_text(places_[place]);
+      if (place % step == 0) {
+        tics += (place == 0 ? "" : ", ") + gnuplot_text(places_[place]) + " " + std::to_string(place + 1);
+      }
+      longest = std::max(longest, places_[place].size());
+    }
+    return "array names[" + count + "] = [" + names + "]\nplace_of(name) = sum [i = 1:" + count +
+           "] (name eq names[i] ? i : 0)\nset xtics " + (longest > upright_letters_max ? "rotate by 60 right " : "") +
+           "nomirror (" + tics + ")\nset xrange [0.4:" + count + ".6]\n";
+  }
+
+  double bar_width() const {
+    return plot_.bar_width ? *plot_.bar_width : (1 - gap) / static_cast<double>(plot_.is_stacked ? 1 : drawn_.size());
+  }
 
   std::string column(const std::string& name) const {
     const Column& column = table_.columns()[number_of_column(table_, name)];
-    return quoted(header_of(column));
+    return gnuplot_text(header_of(column));
   }
 
   std::string x_of(std::size_t series) const {
-    if (!is_bars_) {
-      return "column(" + column(plot_.places.front()) + ")";
+    if (!has_places()) {
+      const std::string x = "column(" + column(plot_.places.front()) + ")";
+      return plot_.bar_width ? x + " + " + gnuplot_number(*plot_.bar_width / 2) : x;
     }
     std::string name;
     for (const std::string& place : plot_.places) {
@@ -188,7 +233,7 @@ class Script {
     }
     const double middle = (static_cast<double>(drawn_.size()) - 1) / 2;
     const double shift = plot_.is_stacked ? 0 : (static_cast<double>(series) - middle) * bar_width();
-    return "place_of(" + name + ")" + (shift == 0 ? "" : " + " + shortest(shift));
+    return "place_of(" + name + ")" + (shift == 0 ? "" : " + " + gnuplot_number(shift));
   }
 
   /// Its own column, with those below it if they are stacked.
@@ -199,21 +244,23 @@ class Script {
     }
     std::string condition;
     for (const auto& [name, text] : drawn_[series]->where) {
-      condition += (condition.empty() ? "" : " && ") + ("stringcolumn(" + column(name) + ") eq " + quoted(text));
+      condition += (condition.empty() ? "" : " && ") + ("stringcolumn(" + column(name) + ") eq " + gnuplot_text(text));
     }
     return condition.empty() ? sum : condition + " ? " + sum + " : NaN";
   }
 
   std::string style_of(const PlotSeries& series) const {
-    const std::string color = " linecolor '" + std::string(colors[series.color]) + "'";
+    const bool is_again = series.color >= plot_colors.size();
+    const std::size_t color_number = series.color % plot_colors.size();
+    const std::string color = " linecolor '" + std::string(plot_colors[color_number]) + "'";
     const std::string shape = " pointtype " + std::to_string(shapes[series.color]);
     switch (series.mark) {
       case PlotMark::bars:
-        return "boxes" + color;
+        return "boxes" + color + (is_again ? " fillstyle pattern " + std::to_string(hatches[color_number]) : "");
       case PlotMark::points:
         return "points" + shape + " pointsize 1.1" + color;
       default:
-        return "linespoints linewidth 2" + shape + " pointsize 0.4" + color;
+        return "linespoints linewidth 2" + std::string(is_again ? " dashtype 2" : "") + shape + " pointsize 0.4" + color;
     }
   }
 
@@ -222,9 +269,9 @@ class Script {
     std::string text = "plot ";
     for (std::size_t drawn = 0; drawn < drawn_.size(); ++drawn) {
       const std::size_t series = plot_.is_stacked ? drawn_.size() - 1 - drawn : drawn;
-      text += (drawn == 0 ? "" : ", \\\n  ") + quoted(data_) + " using (" + x_of(series) + "):(" + y_of(series) + ")" +
+      text += (drawn == 0 ? "" : ", \\\n  ") + gnuplot_text(data_) + " using (" + x_of(series) + "):(" + y_of(series) + ")" +
               (drawn_[series]->mark == PlotMark::line ? " smooth unique" : "") + " with " + style_of(*drawn_[series]) +
-              " title " + quoted(drawn_[series]->title);
+              " title " + gnuplot_text(drawn_[series]->title);
     }
     return text + "\n";
   }

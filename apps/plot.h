@@ -1,6 +1,7 @@
 // A picture of a table: curves or bars of named columns, drawn by gnuplot from the table's CSV file.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -15,8 +16,11 @@ namespace dmpc::apps {
 /// How a series is drawn: what was computed as a line from left to right, what it is held against as points.
 enum class PlotMark : std::uint8_t { line, points, bars };
 
-/// Colours that people who are colour-blind can tell apart.
-inline constexpr std::size_t plot_color_count = 8;
+/// Looks that people who are colour-blind can tell apart: eight colours, then the first four of them again, dashed or hatched.
+inline constexpr std::size_t plot_color_count = 12;
+
+/// The colours as #rrggbb. They are legible on white and on black, but for black, which a page in the dark makes white.
+extern const std::array<const char*, 8> plot_colors;
 
 /// One column, or those of its rows that are meant.
 struct PlotSeries {
@@ -31,7 +35,7 @@ struct PlotSeries {
 enum class PlotScale : std::uint8_t { linear, powers_of_2, powers_of_10 };
 
 struct PlotAxis {
-  std::string label;  ///< with its unit
+  std::string label;  ///< with its unit, unless the ticks name that: of bytes, bytes/s, KiB and times
   PlotScale scale = PlotScale::linear;
   std::optional<double> least = std::nullopt, most = std::nullopt;  ///< nothing: as the figures ask for
 };
@@ -48,7 +52,8 @@ struct Plot {
   std::vector<std::string> places;
   PlotAxis x, y;
   std::vector<PlotSeries> series;
-  bool is_stacked = false;  ///< bars upon one another, the first at the bottom
+  std::optional<double> bar_width = {};  ///< of bars that stand at numbers along x, each to the right of its own
+  bool is_stacked = false;               ///< bars upon one another, the first at the bottom
   PlotSize size = PlotSize::large;
 };
 

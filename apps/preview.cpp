@@ -1,6 +1,7 @@
 #include "apps/preview.h"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 #include "core/units.h"
@@ -30,18 +31,19 @@ void add_pixel(std::vector<float>& rgb, const core::PixelSums& sums, std::uint32
 }  // namespace
 
 std::unique_ptr<Preview> Preview::to_viewer(const ViewerAddress& address, const std::string& picture, int width, int height,
-                                            const core::PartialPicture* start, std::stop_token stop) {
-  std::unique_ptr<Preview> preview(new Preview(address, picture, width, height, start, std::move(stop)));
+                                            const core::PartialPicture* start, std::stop_token stop, TilePacket tile_packet) {
+  std::unique_ptr<Preview> preview(new Preview(address, picture, width, height, start, std::move(stop), std::move(tile_packet)));
   return preview->connection_.is_open() ? std::move(preview) : nullptr;
 }
 
 Preview::Preview(const ViewerAddress& address, std::string picture, int width, int height, const core::PartialPicture* start,
-                 std::stop_token stop)
+                 std::stop_token stop, TilePacket tile_packet)
     : connection_(address, patience,
                   [this, stop = std::move(stop)] {
                     return stop.stop_requested() || Clock::now() >= deadline_.load(std::memory_order_relaxed);
                   }),
       picture_(std::move(picture)),
+      tile_packet_(std::move(tile_packet)),
       width_(static_cast<std::uint32_t>(width)),
       height_(static_cast<std::uint32_t>(height)),
       columns_(core::ceil_divide(width_, tile_side)),
@@ -108,7 +110,17 @@ PictureTile Preview::tile_of(const core::Film& film, std::uint32_t index) const 
   return tile;
 }
 
+/// Nobody would catch what leaves the thread: the picture goes on without a viewer.
 void Preview::run_sender(const std::stop_token& stop) {
+  try {
+    send_tiles(stop);
+  } catch (const std::exception&) {
+    connection_.close();
+    is_gone_.store(true, std::memory_order_relaxed);
+  }
+}
+
+void Preview::send_tiles(const std::stop_token& stop) {
   connection_.send(create_packet(picture_, static_cast<std::int32_t>(width_), static_cast<std::int32_t>(height_)));
   std::unique_lock lock(mutex_);
   while (handed_over_.wait(lock, stop, [this] { return !tiles_.empty(); })) {
@@ -116,7 +128,7 @@ void Preview::run_sender(const std::stop_token& stop) {
     is_sending_ = true;
     lock.unlock();
     for (const PictureTile& tile : tiles) {
-      connection_.send(update_packet(picture_, tile));
+      connection_.send(tile_packet_(picture_, tile));
     }
     is_gone_.store(!connection_.is_open(), std::memory_order_relaxed);
     lock.lock();
@@ -130,7 +142,7 @@ void Preview::finish(const core::Film& film) {
   sender_.join();
   is_lit_ = core::PixelMask(width_ * height_);  // all samples are counted on the film
   for (std::uint32_t tile = 0; tile < is_dirty_.size() && connection_.is_open(); ++tile) {
-    connection_.send(update_packet(picture_, tile_of(film, tile)));
+    connection_.send(tile_packet_(picture_, tile_of(film, tile)));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <stop_token>
@@ -24,13 +25,19 @@ namespace dmpc::apps {
 /// sending; the host's thread copies tiles only while that has nothing to send, so it never waits. A viewer that goes away is
 /// left alone.
 ///
+/// What goes wrong on that thread, memory that is short above all, ends the preview and nothing else.
+///
 /// Thread safety: made, finished and destroyed by one thread; in between one other thread, the host's, calls watch().
 class Preview {
  public:
+  /// How a viewer is told of a tile; it may throw.
+  using TilePacket = std::function<std::string(const std::string& picture, const PictureTile& tile)>;
+
   /// Nothing, if no viewer listens at `address`. `picture` is what the viewer is to call it; `start`: what is done before, if
   /// anything. Once `stop` is requested nothing more is sent.
   static std::unique_ptr<Preview> to_viewer(const ViewerAddress& address, const std::string& picture, int width, int height,
-                                            const core::PartialPicture* start = nullptr, std::stop_token stop = {});
+                                            const core::PartialPicture* start = nullptr, std::stop_token stop = {},
+                                            TilePacket tile_packet = update_packet);
   Preview(const Preview&) = delete;
   Preview& operator=(const Preview&) = delete;
 
@@ -44,15 +51,17 @@ class Preview {
   using Clock = std::chrono::steady_clock;
 
   Preview(const ViewerAddress& address, std::string picture, int width, int height, const core::PartialPicture* start,
-          std::stop_token stop);
+          std::stop_token stop, TilePacket tile_packet);
 
   PictureTile tile_of(const core::Film& film, std::uint32_t index) const;
   void hand_over(const core::Film& film);
   void run_sender(const std::stop_token& stop);
+  void send_tiles(const std::stop_token& stop);
 
   std::atomic<Clock::time_point> deadline_ = Clock::time_point::max();
   ViewerConnection connection_;  ///< the sender's
   std::string picture_;
+  TilePacket tile_packet_;
   std::uint32_t width_, height_, columns_;
   std::vector<std::uint8_t> is_dirty_;  ///< tile by tile: to be sent
   core::PixelMask is_lit_;              ///< in the pass under way

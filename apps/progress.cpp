@@ -9,14 +9,14 @@
 #include <sstream>
 #include <utility>
 
+#include "apps/shown_text.h"
+
 namespace dmpc::apps {
 
 namespace {
 
 constexpr std::uint64_t bar_width = 30;
 bool is_silenced = false;
-
-constexpr const char* back_and_clear = "\r\x1b[K";
 
 std::string bar(std::uint64_t done, std::uint64_t total) {
   const auto full = static_cast<std::size_t>(bar_width * done / total);
@@ -65,13 +65,13 @@ Progress::Progress(std::ostream& output, bool shown, std::string label, std::str
       start_(Clock::now()),
       next_(start_) {
   if (shown_ && !label_.empty()) {
-    output_ << back_and_clear << label_ << std::flush;
+    output_ << clear_line << label_ << std::flush;
   }
 }
 
 Progress::~Progress() {
   if (shown_) {
-    output_ << back_and_clear << std::flush;
+    output_ << clear_line << std::flush;
   }
 }
 
@@ -87,7 +87,7 @@ void Progress::update(std::uint64_t done, std::uint64_t total) {
   start_ = done < done_ ? now : start_;
   done_ = done;
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  output_ << back_and_clear << label_ << progress_line(done, total, seconds, unit_) << std::flush;
+  output_ << clear_line << label_ << progress_line(done, total, seconds, unit_) << std::flush;
 }
 
 }  // namespace dmpc::apps

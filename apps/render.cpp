@@ -17,6 +17,7 @@
 #include "apps/load_scene.h"
 #include "apps/machines.h"
 #include "apps/onlookers.h"
+#include "apps/origin.h"
 #include "apps/output_file.h"
 #include "apps/preview.h"
 #include "apps/progress.h"
@@ -83,21 +84,28 @@ std::optional<FileLock> check_outputs(const RenderOptions& options) {
   return claim_checkpoint(options.checkpoint);
 }
 
+/// What is rendered, and the digest of its scene if a page tells it.
+struct Loaded {
+  Subject subject;
+  std::optional<std::uint64_t> scene_digest;
+};
+
 /// Reads and builds, and makes `checkpoints` if some are asked for; a signal ends the process here and now.
-Subject load(const RenderOptions& options, std::optional<Checkpoints>& checkpoints, Interrupt& interrupt, Seconds& seconds) {
+Loaded load(const RenderOptions& options, std::optional<Checkpoints>& checkpoints, Interrupt& interrupt, Seconds& seconds) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   Stopwatch stopwatch;
   core::Scene scene = load_scene(options.picture, options.quiet ? LoadNotes::silent : LoadNotes::said);
   if (options.checkpoint.file) {
     checkpoints.emplace(options.checkpoint, identity_of(options, scene), std::cerr, options.quiet, interrupt.token());
   }
+  const auto digest = options.report ? std::optional(scene_digest(scene)) : std::nullopt;
   seconds.load = stopwatch.lap();
   Subject subject = build_subject(std::move(scene), options.picture, options.database, true);
   if (options.tracer != TracerChoice::embree) {
     subject.database.forget_primitives();
   }
   seconds.build = stopwatch.lap();
-  return subject;
+  return {std::move(subject), digest};
 }
 
 /// Where the nodes' meters write; nothing if nobody wants to know.
@@ -234,7 +242,7 @@ void print_closing(const RenderRecord& record, const std::string& counters, std:
 void write_outputs(RenderRecord record, Interrupt& interrupt, std::ostream& output) {
   std::signal(SIGPIPE, SIG_IGN);  // a pipe that nobody reads is an error to report, and no reason to leave temporary files
   interrupt.set_consequence("the picture was not written");
-  Texts texts{.page = record.options.report ? html::render_page(record, std::cerr) : ""};
+  Texts texts{.page = record.options.report ? html::render_page(record, this_origin(record.scene_digest), std::cerr) : ""};
   interrupt.check();
   const Interrupt::EndAtOnce end_at_once(interrupt);
   Stopwatch stopwatch;
@@ -274,7 +282,8 @@ int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostrea
   choose_machine(options);
   Seconds seconds;
   std::optional<Checkpoints> checkpoints;
-  Subject subject = load(options, checkpoints, interrupt, seconds);
+  Loaded loaded = load(options, checkpoints, interrupt, seconds);
+  Subject& subject = loaded.subject;
   std::optional<nodes::HeatMap> heat = make_heat_map(options, subject.settings.camera);
   Onlookers onlookers(options, static_cast<std::uint32_t>(subject.database.page_count()));
   const std::unique_ptr<Preview> preview =
@@ -291,7 +300,7 @@ int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostrea
   const Report report = run_timed(options, run, interrupt, seconds);
   const Sights sights = take_sights(options, onlookers);
   write_outputs({options, subject.database, report, seconds, heat ? &*heat : nullptr, sights.trace ? &*sights.trace : nullptr,
-                 sights.view ? &*sights.view : nullptr, checkpoints ? checkpoints->samples_found_done() : 0},
+                 sights.view ? &*sights.view : nullptr, checkpoints ? checkpoints->samples_found_done() : 0, loaded.scene_digest},
                 interrupt, output);
   if (checkpoints) {
     checkpoints->finish();

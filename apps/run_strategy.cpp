@@ -3,7 +3,9 @@
 #include <memory>
 #include <utility>
 
+#include "apps/figures.h"
 #include "apps/machine_file.h"
+#include "apps/memory_room.h"
 #include "apps/oracle.h"
 #include "core/expect.h"
 #include "core/records.h"
@@ -59,6 +61,16 @@ void tie(RunOptions& run, const RunTies& ties) {
   run.continuation = ties.continuation;
 }
 
+/// The nodes' memories are touched before a run begins.
+template <class Plan>
+void check_room(const Plan& plan, std::uint32_t node_count) {
+  std::uint64_t bytes = plan.host_memory().total();
+  for (std::uint32_t node = 0; node < node_count; ++node) {
+    bytes += plan.node_memory(node).total();
+  }
+  check_memory_room(bytes, counted(node_count, "node") + " and the host");
+}
+
 /// svm and replicated.
 ReadyRun ready_with_pages(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
                           const RunTies& ties) {
@@ -77,7 +89,9 @@ ReadyRun ready_with_pages(const StrategyOptions& options, const core::Database& 
                  : svm::run_replicated(database, settings, watched, std::move(stop));
   };
   const auto strategy = paged ? svm::Strategy::svm : svm::Strategy::replicated;
-  return {svm::plan_of(strategy, database, settings, run).notes, start};
+  const svm::Plan plan = svm::plan_of(strategy, database, settings, run);
+  check_room(plan, run.node_count);
+  return {plan.notes, start};
 }
 
 ReadyRun ready_with_rays(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
@@ -85,6 +99,7 @@ ReadyRun ready_with_rays(const StrategyOptions& options, const core::Database& d
   dataflow::RunOptions run = dataflow_options(options);
   tie(run, ties);
   const auto prepared = std::make_shared<dataflow::Prepared>(dataflow::prepare(database, settings, run, stop));
+  check_room(prepared->plan, run.node_count);
   if (ties.distributed) {
     ties.distributed();
     run.distributed = [prepared] { prepared->distribution.forget_records(); };

@@ -12,7 +12,19 @@ namespace dmpc::apps {
 
 namespace {
 
+/// What would not be read by its ending as what it is.
+void check_ending(const core::SceneName& name, const std::filesystem::path& path) {
+  const std::string ending = path.extension().string();
+  if (!ending.empty() && ending != ".nff" && ending != ".NFF") {
+    throw core::UsageError(
+        "-o " + path.string() + ": " + name.text() +
+        " is written as NFF: expected a name that ends in .nff, or has no ending (only landscapes are written " +
+        "as .gltf: dmpc scene landscape-10 -o land.gltf)");
+  }
+}
+
 void write_file(const core::SceneName& name, const std::filesystem::path& path, Interrupt& interrupt) {
+  check_ending(name, path);
   check_output_path(path, "-o");
   if (is_special(path)) {
     interrupt.set_consequence("the output is incomplete");

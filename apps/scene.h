@@ -21,7 +21,8 @@ void add_options(OptionSet options, SceneOptions& scene);
 
 /// Writes to the file asked for (whole or not at all), else to `output`. A signal ends the process. Returns the exit status 0.
 /// Throws core::InputError for an unknown name or if writing fails,
-/// core::UsageError for a landscape without an -o that ends in .gltf, Interrupted if a signal came before.
+/// core::UsageError for a landscape without an -o that ends in .gltf or another scene with one that ends in anything but .nff,
+/// Interrupted if a signal came before.
 int scene_command(const SceneOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

@@ -128,9 +128,8 @@ void add_options(OptionSet options, Staging& staging) {
       "--scale", "S [1]", [&staging](const std::string& text) { staging.mesh.scale = parse_scale(text); },
       "Mesh files: multiply all coordinates by S");
   options.add_words(
-      "--up", {"x", "y", "z"},
-      [&staging](const std::string& text) { staging.mesh.up = static_cast<std::size_t>(text.front() - 'x'); },
-      "Mesh files: the axis that points up, for the view where the file has none; y if not given");
+      "--up", {"x", "y", "z", "-x", "-y", "-z"}, [&staging](const std::string& text) { staging.mesh.up = up_axis_of(text); },
+      "Mesh files: the axis that points up, such as --up=-z, for the view where the file has none; y if not given");
   options.add_text(
       "--smooth", "DEGREES [the file's normals]",
       [&staging](const std::string& text) { staging.mesh.smooth_degrees = parse_smooth(text); },

@@ -209,7 +209,7 @@ void add_staging(Json& options, const Staging& staging) {
     options["light"].push_back(text_of(light));
   }
   options["scale"] = mesh.scale ? Json(*mesh.scale) : Json();
-  options["up"] = mesh.up ? Json(std::string(1, "xyz"[*mesh.up])) : Json();
+  options["up"] = mesh.up ? Json(text_of(*mesh.up)) : Json();
   options["smooth"] = mesh.smooth_degrees ? Json(*mesh.smooth_degrees) : Json();
   options["missing"] = mesh.allows_missing ? Json("plain") : Json();
 }
@@ -331,7 +331,7 @@ std::string stats_json(const RenderRecord& record) {
   all["heat_maps"] = heat_maps_json(record);
   all["nodes"] = nodes_json(account, special, timed);
   all["host"] = host_json(record, account, special.host, timed.host);
-  return all.dump(2) + "\n";
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names of files may be no UTF-8
 }
 
 }  // namespace dmpc::apps

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "apps/render_options.h"
@@ -30,10 +31,11 @@ struct RenderRecord {
   const core::Database& database;
   const Report& report;
   Seconds seconds;
-  const nodes::HeatMap* heat = nullptr;  ///< what options.heat_maps ask for
-  const nodes::Trace* trace = nullptr;   ///< what options.trace asks for
-  const RunView* view = nullptr;         ///< what options.report asks for
-  std::uint64_t samples_found_done = 0;  ///< of all pixels, in the checkpoint that the run went on from
+  const nodes::HeatMap* heat = nullptr;            ///< what options.heat_maps ask for
+  const nodes::Trace* trace = nullptr;             ///< what options.trace asks for
+  const RunView* view = nullptr;                   ///< what options.report asks for
+  std::uint64_t samples_found_done = 0;            ///< of all pixels, in the checkpoint that the run went on from
+  std::optional<std::uint64_t> scene_digest = {};  ///< what options.report asks for
 };
 
 /// One JSON object, indented, with a line end. The keys are an interface; what does not apply is null, and no number is NaN or

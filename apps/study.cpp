@@ -13,10 +13,13 @@
 #include "apps/html/sweep_page.h"
 #include "apps/load_scene.h"
 #include "apps/machines.h"
+#include "apps/origin.h"
 #include "apps/output_file.h"
+#include "apps/picture_identity.h"
 #include "apps/plot_folder.h"
 #include "apps/progress.h"
 #include "apps/stats.h"
+#include "apps/study_conclusions.h"
 #include "apps/study_runs.h"
 #include "apps/subject.h"
 #include "core/scenes.h"
@@ -66,10 +69,12 @@ void check_output(const StudyOptions& options) {
   }
 }
 
-/// A signal ends the process here and now.
-Subject load(const StudyOptions& options, Interrupt& interrupt) {
+/// A signal ends the process here and now. `digest`: becomes the scene's.
+Subject load(const StudyOptions& options, std::uint64_t& digest, Interrupt& interrupt) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
-  return build_subject(load_scene(options.picture), options.picture, options.database, true);
+  core::Scene scene = load_scene(options.picture);
+  digest = scene_digest(scene);
+  return build_subject(std::move(scene), options.picture, options.database, true);
 }
 
 std::string samples_text(const PictureOptions& picture) {
@@ -96,14 +101,22 @@ std::string film_note(const StudyRuns& runs) {
   return "Film of every run, " + std::to_string(runs.count()) + " in all: " + hash_text(*runs.film_hash()) + ".";
 }
 
+/// By which another study is known to be of the same.
+struct Marks {
+  std::uint64_t scene_digest;
+  std::optional<std::uint64_t> film_hash;
+};
+
 /// Of --report; empty without.
 template <class OneStudy>
-std::string page_of(const OneStudy& study, const Table& table, const StudyOptions& options) {
+std::string page_of(const OneStudy& study, const Table& table, const StudyOptions& options, const Marks& marks) {
   if (!options.report) {
     return "";
   }
-  const html::SweepPart part{"", table, study.plots()};
-  return html::sweep_page("Study " + std::string(OneStudy::name) + " of " + options.picture.scene, {}, {&part, 1}, std::cerr);
+  const html::SweepPart part{"", table, study.plots(), conclusion_of(study, table)};
+  const html::Facts results = marks.film_hash ? html::Facts{{"film", hash_text(*marks.film_hash)}} : html::Facts{};
+  return html::sweep_page({"Study " + std::string(OneStudy::name) + " of " + options.picture.scene, {}, {part}, results},
+                          this_origin(marks.scene_digest), std::cerr);
 }
 
 template <class OneStudy>
@@ -146,7 +159,8 @@ std::exception_ptr measure(const OneStudy& study, StudyRuns& runs, Table& table)
 
 template <class OneStudy>
 void carry_out(const OneStudy& study, const StudyOptions& options, Interrupt& interrupt, std::ostream& output) {
-  const Subject subject = load(options, interrupt);
+  std::uint64_t digest = 0;
+  const Subject subject = load(options, digest, interrupt);
   Table table = empty_table(study, options, subject);
   StudyRuns runs(subject.database, subject.settings, {std::cerr, stderr_is_terminal(), study.run_count()}, interrupt);
   const std::exception_ptr failure = measure(study, runs, table);
@@ -155,7 +169,8 @@ void carry_out(const OneStudy& study, const StudyOptions& options, Interrupt& in
                               : options.output ? "nothing was written"
                                                : "the table is incomplete");
     table.add_note(film_note(runs));
-    const std::string page = page_of(study, table, options);  // its temporary files are gone before a signal ends all at once
+    const std::string page = page_of(
+        study, table, options, {digest, runs.film_hash()});  // its temporary files are gone before a signal ends all at once
     std::optional<Interrupt::EndAtOnce> end_at_once;
     if (!failure) {
       end_at_once.emplace(interrupt);

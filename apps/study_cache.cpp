@@ -246,7 +246,7 @@ std::vector<Column> CacheStudy::columns() const {
 
 std::vector<Plot> CacheStudy::plots() const {
   const PlotAxis sizes{.label = "cache of a node (pages)", .scale = PlotScale::powers_of_10};
-  const PlotAxis count{.label = "faults", .scale = PlotScale::powers_of_10}, rate{.label = "bytes/s", .least = 0};
+  const PlotAxis count{.label = "faults", .scale = PlotScale::powers_of_10}, rate{.label = "", .least = 0};
   std::vector<PlotSeries> policies = {{"lru", "faults lru"}};
   for (const Replacement policy : run_policies) {
     const std::string policy_name(svm::name_of(policy));

@@ -71,7 +71,7 @@ std::vector<Column> TrafficStudy::columns() const {
 }
 
 std::vector<Plot> TrafficStudy::plots() const {
-  const PlotAxis bytes{.label = "bytes", .scale = PlotScale::powers_of_10};
+  const PlotAxis bytes{.label = "", .scale = PlotScale::powers_of_10};
   return {curves("traffic_bytes", "Bytes that travel", "nodes", node_axis(), bytes,
                  {{.title = "rays travel", .column = "ray traffic", .color = 1}, {"pages travel", "page traffic"}}),
           curves("traffic_memory", "Memory of the fullest node", "nodes", node_axis(), bytes,

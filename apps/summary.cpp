@@ -7,6 +7,7 @@
 #include "apps/figures.h"
 #include "apps/machines.h"
 #include "apps/ray_hops.h"
+#include "apps/shown_text.h"
 #include "apps/time_parts.h"
 #include "nodes/size_text.h"
 
@@ -133,13 +134,14 @@ std::string computer_text(const RenderRecord& record) {
 void print_summary(std::ostream& output, const RenderRecord& record) {
   const Account account = account_of(record.report);
   const StrategyLines special = std::visit([&](const auto& report) { return lines_of(record.options, report); }, record.report);
-  output << "scene    " << record.options.picture.scene << ", " << counted(record.database.header().primitive_count, "primitive")
-         << " in " << counted(record.database.page_count(), "page") << " of " << nodes::size_text(record.database.page_size())
+  output << "scene    " << shown(record.options.picture.scene) << ", "
+         << counted(record.database.header().primitive_count, "primitive") << " in "
+         << counted(record.database.page_count(), "page") << " of " << nodes::size_text(record.database.page_size())
          << "\ncomputer " << counted(account.nodes.size(), "node") << ", " << name_of(record.options.strategy) << ", "
          << special.computer << "\nmemory   " << memory_text(account) << "\nrays     "
          << rays_text(account.operations, record.seconds.render) << '\n'
          << sampling_line(record.options, account) << special.figures << virtual_lines(account, record.options.computer.machine)
-         << "time     " << time_text(record.seconds) << "\npicture  " << record.options.image.string() << ", "
+         << "time     " << time_text(record.seconds) << "\npicture  " << shown(record.options.image.string()) << ", "
          << account.film.width() << "x" << account.film.height() << ", film " << hash_text(account.film.hash()) << '\n';
 }
 

@@ -30,12 +30,13 @@ class ViewerConnection {
   bool is_open() const { return socket_ >= 0; }
   /// Sends all, or closes: for good, since what follows half a packet would be misunderstood.
   void send(std::string_view bytes);
+  /// For good.
+  void close();
 
  private:
   bool connects(int socket, const void* address, std::size_t address_bytes) const;
   bool waits_for_room(int socket) const;
   bool has_given_up() const { return gives_up_ && gives_up_(); }
-  void close();
 
   std::chrono::milliseconds patience_;
   std::function<bool()> gives_up_;

@@ -27,13 +27,16 @@ Bounds bounds_of_vertices(const core::Scene& scene) {
   return bounds;
 }
 
-core::View whole_view(const Bounds& bounds, std::size_t up) {
+core::View whole_view(const Bounds& bounds, const UpAxis& up) {
   struct Frame {
     Vec3d right, up, front;
   };
   static constexpr std::array<Frame, 3> frames = {
       {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}}};
-  const Frame& frame = frames[up];
+  Frame frame = frames[up.axis];
+  if (up.is_negative) {  // half a turn about the way to the front
+    frame = {Vec3d{} - frame.right, Vec3d{} - frame.up, frame.front};
+  }
   core::View view{.at = bounds.center, .up = frame.up};
   const Vec3d towards_eye = normalize(frame.right * 0.6 + frame.up * 0.5 + frame.front);
   view.from = bounds.center + towards_eye * (bounds.radius / core::sin_degrees(view.angle_degrees / 2));

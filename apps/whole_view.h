@@ -1,9 +1,9 @@
 // A view, lights and a background for what comes without them.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
+#include "apps/up_axis.h"
 #include "core/scene.h"
 #include "core/vec.h"
 
@@ -20,9 +20,8 @@ Bounds bounds_of_vertices(const core::Scene& scene);
 /// Light grey-blue, linear: dark and bright surfaces stand out from it.
 inline constexpr core::Vec3d plain_background{0.45, 0.55, 0.7};
 
-/// The whole sphere in a picture of 512x512 over 45 degrees, from a direction between front, right and above; `up` is the axis
-/// that points up: 0 x, 1 y, 2 z.
-core::View whole_view(const Bounds& bounds, std::size_t up);
+/// The whole sphere in a picture of 512x512 over 45 degrees, from a direction between front, right and above.
+core::View whole_view(const Bounds& bounds, const UpAxis& up);
 
 /// Two white lights: the key light 1,000 radii away, above and to the right of the eye, and a weak fill in the eye, so that
 /// nothing in view is black.

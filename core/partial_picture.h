@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 
 #include "core/film.h"
 #include "core/refinement.h"
@@ -23,6 +24,17 @@ struct PartialPicture {
   /// Of all pixels, in passes that have ended and in the one under way.
   std::uint64_t samples_done() const { return film.samples() + std::uint64_t{done.count()} * samples.count; }
 };
+
+/// What decides which partial pictures there can be.
+struct PictureTerms {
+  std::uint32_t samples = 1;                                      ///< of every pixel, in the first pass
+  RefinementOptions refinement;                                   ///< what of the others
+  double radiance_max = std::numeric_limits<double>::infinity();  ///< of a sample, in any channel, but for rounding
+};
+
+/// What the picture says that cannot be, as a part of a sentence; nullptr if it could have come about. It looks at passes, masks,
+/// samples and the light that these can have brought, not at whether it is the light of this scene or the right choice of pixels.
+const char* fault_of(const PartialPicture& picture, const PictureTerms& terms);
 
 /// How a run goes on from another, lets others go on from it, and lets somebody look on. Called on the host's thread; if a
 /// function throws, the run ends with that.

@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <ctime>
 
 namespace dmpc::nodes {
 
@@ -23,9 +25,11 @@ struct SystemAtomics {
                 "the progress guarantees need atomic words without a hidden lock");
   static_assert(sizeof(std::atomic<std::uint32_t>) == sizeof(std::uint32_t), "a futex is a plain word of 32 bits");
 
-  /// Blocks the calling thread while `word` is `value`, until wake(); may also return without a reason, so look again.
-  static void sleep(const Atomic<std::uint32_t>& word, std::uint32_t value) {
-    syscall(SYS_futex, &word, FUTEX_WAIT_PRIVATE, value, nullptr, nullptr, 0);
+  /// Blocks the calling thread while `word` is `value`, until wake() or for `most`; may also return without a reason, so look
+  /// again.
+  static void sleep(const Atomic<std::uint32_t>& word, std::uint32_t value, std::chrono::milliseconds most) {
+    const timespec time_out{.tv_sec = most.count() / 1000, .tv_nsec = most.count() % 1000 * 1'000'000};
+    syscall(SYS_futex, &word, FUTEX_WAIT_PRIVATE, value, &time_out, nullptr, 0);
   }
   /// Ends the sleep() of the one thread that sleeps on `word`, if there is one. Never blocks.
   static void wake(const Atomic<std::uint32_t>& word) { syscall(SYS_futex, &word, FUTEX_WAKE_PRIVATE, 1, nullptr, nullptr, 0); }

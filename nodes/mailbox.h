@@ -8,12 +8,13 @@
 // receiver.
 //
 // Progress: push() is lock-free: its three loops (take a slot, put it on the inbox, and the receiver's give in
-// between) repeat only because another thread has succeeded. Who may stall whom: nobody. A sender stopped before its
-// packet is on the inbox is invisible to all; it keeps one slot, which its credit has paid for. One stopped after
-// that is done, but may owe a wake-up to a receiver that was asleep: then this receiver, and nobody else, waits for
-// that sender's next step (no packet is lost, the others go on sending to it and cannot run out of slots but by their
-// own credits). The receiver stopped half-way holds what it took; senders go on while they have credits. drain() is
-// wait-free but for give(), which is lock-free.
+// between) repeat only because another thread has succeeded. Who may stall whom: nobody for ever. A sender stopped
+// before its packet is on the inbox is invisible to all; it keeps one slot, which its credit has paid for. One stopped
+// after that is done, but may owe a wake-up to a receiver that was asleep: that can be had by no order of the two, as
+// the system wakes only who sleeps on a word that has changed. So a sleeper looks for itself at times, and finds the
+// packet: a wake-up owed makes it sleep as long again as it has slept, 16 ms at least and a second at most. The
+// receiver stopped half-way holds what it took; senders go on while they have credits. drain() is wait-free but for
+// give(), which is lock-free.
 //
 // Invariants
 // (1) The inbox word is EMPTY, ASLEEP, or the index of the slot pushed last. Only the receiver writes ASLEEP, and
@@ -24,8 +25,12 @@
 // (3) A slot is on the free list, with one sender, on the inbox, or with the receiver. The receiver gives a slot back
 //     as soon as its packet has been received, before it receives the next: at most one slot is held beyond those
 //     that credits account for. That is the one spare slot a class has above its capacity.
+// (4) What senders of small, senders of bulk and sleepers change lies on different cache lines: the inbox, the two heads,
+//     the links of the two classes, the slots. The links of 16 slots of one class share a line.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -61,7 +66,7 @@ class BasicMailbox {
         inbox_(&memory.allocate<Inbox>(Category::mailbox, 1).front().word),
         links_(memory.allocate<Atomic<SlotIndex>>(Category::mailbox, link_count(capacity))),
         small_(make_pool(memory, 0, capacity.small_slots, small_slot_bytes)),
-        bulk_(make_pool(memory, small_slots_, capacity.bulk_slots, bulk_slot_bytes(capacity))) {}
+        bulk_(make_pool(memory, first_bulk(capacity), capacity.bulk_slots, bulk_slot_bytes(capacity))) {}
 
   /// Copies the packet in, wakes the receiver if it sleeps, and returns true; false if the class has no free slot (then nothing
   /// has happened). A payload of at most small_payload_bytes takes a small slot, a longer one a bulk slot; expects that it fits.
@@ -116,11 +121,11 @@ class BasicMailbox {
     return inbox_->compare_exchange_strong(expected, asleep, std::memory_order_acquire, std::memory_order_relaxed);
   }
 
-  /// After fall_asleep() returned true: blocks until a push() or a rouse() has replaced ASLEEP. Orders nothing: drain() and
-  /// fall_asleep() do.
+  /// After fall_asleep() returned true: blocks until a push() or a rouse() has replaced ASLEEP, and little longer if that thread
+  /// then stops before it wakes this one. Orders nothing: drain() and fall_asleep() do.
   void wait() const {
-    while (inbox_->load(std::memory_order_relaxed) == asleep) {
-      Atomics::sleep(*inbox_, asleep);
+    for (auto most = look_first; inbox_->load(std::memory_order_relaxed) == asleep; most = std::min(2 * most, look_last)) {
+      Atomics::sleep(*inbox_, asleep, most);
     }
   }
 
@@ -156,14 +161,25 @@ class BasicMailbox {
   struct alignas(cache_line_bytes) Inbox {
     Atomic<SlotIndex> word{empty};
   };
+  /// On a line, at most: a link is that large, or larger.
+  static constexpr SlotIndex links_a_line = cache_line_bytes / sizeof(SlotIndex);
   static_assert(small_slot_bytes % cache_line_bytes == 0, "two packets never share a cache line");
   static_assert(LocalMemory::alignment % cache_line_bytes == 0, "local memory hands out whole cache lines");
-  static_assert(sizeof(Inbox) % cache_line_bytes == 0 && sizeof(Head) % cache_line_bytes == 0,
-                "senders of small, senders of bulk and the inbox disturb each other only where they must");
+  static_assert(sizeof(Inbox) % cache_line_bytes == 0 && sizeof(Head) % cache_line_bytes == 0 &&
+                    links_a_line * sizeof(Atomic<SlotIndex>) % cache_line_bytes == 0,
+                "invariant (4)");
+
+  /// A sleeper's first look for itself, and its last: few nodes sleep so long that it costs them anything, and 4096 that sleep
+  /// for good take some hundredths of a core.
+  static constexpr std::chrono::milliseconds look_first{16}, look_last{1000};
 
   static SlotIndex slot_count(std::uint32_t capacity) { return capacity == 0 ? 0 : capacity + 1; }
+  /// The first bulk slot's number, and place among the links: behind the small ones', on a line of its own.
+  static SlotIndex first_bulk(const MailboxCapacity& capacity) {
+    return core::round_up(slot_count(capacity.small_slots), links_a_line);
+  }
   static std::size_t link_count(const MailboxCapacity& capacity) {
-    return std::size_t{slot_count(capacity.small_slots)} + slot_count(capacity.bulk_slots);
+    return std::size_t{first_bulk(capacity)} + slot_count(capacity.bulk_slots);
   }
   static std::size_t bulk_slot_bytes(const MailboxCapacity& capacity) {
     return core::round_up(sizeof(PacketHeader) + capacity.bulk_payload_bytes, cache_line_bytes);

@@ -193,9 +193,17 @@ struct ThreadsRunner::Implementation final : Network {
         starts_.push_back({this, processor.get()});
         processor->thread.start(processor->memory.plan()[Category::reserve], enter, &starts_.back());
       }
+    } catch (const core::RoomError&) {
+      fail(std::make_exception_ptr(core::RoomError(too_few_threads(starts_.size() - 1))));
     } catch (...) {
       fail(std::current_exception());
     }
+  }
+
+  std::string too_few_threads(std::size_t started) const {
+    return "a computer of " + std::to_string(processors_.size() - 1) + " nodes takes " + std::to_string(processors_.size()) +
+           " threads, and this one lets dmpc start but " + std::to_string(started) +
+           ": ask for fewer --nodes, or for a higher limit (ulimit -u, pids.max of a container)";
   }
 
   static void enter(void* start) {

@@ -9,12 +9,12 @@ namespace dmpc::svm {
 using nodes::Category;
 using nodes::LocalMemory;
 
-Faults::Faults(LocalMemory& memory, std::uint32_t slot_count)
-    : faults_(memory.allocate<Fault>(Category::queues, slot_count)),
+Faults::Faults(LocalMemory& memory, std::uint32_t slot_count, std::uint32_t faults_max)
+    : faults_(memory.allocate<Fault>(Category::queues, faults_max)),
       next_(memory.allocate<std::uint32_t>(Category::queues, slot_count)) {}
 
-void Faults::add_needs(nodes::MemoryPlan& plan, std::uint32_t slot_count) {
-  plan[Category::queues] += LocalMemory::bytes_for<Fault>(slot_count);
+void Faults::add_needs(nodes::MemoryPlan& plan, std::uint32_t slot_count, std::uint32_t faults_max) {
+  plan[Category::queues] += LocalMemory::bytes_for<Fault>(faults_max);
   plan[Category::queues] += LocalMemory::bytes_for<std::uint32_t>(slot_count);
 }
 
@@ -25,7 +25,7 @@ Faults::Fault* Faults::park(std::uint32_t slot, PageId page, std::uint32_t home)
     fault->last = slot;
     return nullptr;
   }
-  core::expect(count_ < faults_.size(), "there are never more faults than pixels in flight");
+  core::expect(count_ < faults_.size(), "there are never more faults than pixels in flight, nor than pages that live elsewhere");
   Fault& fault = faults_[count_++];
   fault = {page, home, slot, slot, false};
   return &fault;

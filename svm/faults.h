@@ -1,7 +1,8 @@
 // Pages that are on their way to a node, and which of its pixels wait for each.
 //
-// Invariants: (1) a page has at most one fault, so at most one request is under way for it; (2) a slot waits for at most one
-// page, so there are never more faults than slots; (3) faults stand in the order in which they arose.
+// Invariants: (1) a page has at most one fault, so at most one request is under way for it, and there are never more faults than
+// pages that live elsewhere; (2) a slot waits for at most one page, so there are never more faults than slots; (3) faults stand
+// in the order in which they arose.
 #pragma once
 
 #include <cstdint>
@@ -24,10 +25,10 @@ class Faults {
     bool requested = false;                         ///< false: the request was refused and waits for a credit
   };
 
-  /// Room for slots 0 .. slot_count - 1, each waiting for another page.
-  Faults(nodes::LocalMemory& memory, std::uint32_t slot_count);
+  /// Room for slots 0 .. slot_count - 1, which wait for up to `faults_max` pages.
+  Faults(nodes::LocalMemory& memory, std::uint32_t slot_count, std::uint32_t faults_max);
   /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t slot_count);
+  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t slot_count, std::uint32_t faults_max);
 
   /// `slot` waits for `page`. Returns the new fault if nobody waited for that page before, else nullptr.
   Fault* park(std::uint32_t slot, PageId page, std::uint32_t home);

@@ -12,6 +12,7 @@
 #include "nodes/atomics.h"
 #include "svm/home.h"
 #include "svm/packets.h"
+#include "svm/share.h"
 
 namespace dmpc::svm {
 
@@ -24,7 +25,7 @@ constexpr std::size_t log_max_least = 64;
 struct Name {
   std::uint32_t asker = 0, home = 0, ordinal = 0;
 
-  std::uint64_t hash() const { return core::mix(core::mix(std::uint64_t{asker} << 32U | home) + ordinal); }
+  std::uint64_t key() const { return core::mix(std::uint64_t{asker} << 32U | home) + ordinal; }
   auto operator<=>(const Name&) const = default;
 };
 
@@ -41,9 +42,8 @@ struct End {
 /// Ends of fetches that are chosen, and those under way.
 class Ends {
  public:
-  bool chooses(const Name& name) const { return (name.hash() & (every_ - 1)) == 0; }
   void open(const End& end) {
-    if (chooses(end.name)) {
+    if (share_.has(end.name.key())) {
       open_[end.name] = end;
     }
   }
@@ -56,26 +56,25 @@ class Ends {
   void close(const Name& name, std::size_t count_max) {
     closed_.push_back(open_.at(name));
     open_.erase(name);
-    while (closed_.size() > count_max) {
-      every_ *= 2;
-      thin_out();
+    while (closed_.size() > count_max && !share_.is_least()) {
+      thin_out(2 * share_.every());
     }
   }
-  std::uint32_t every() const { return every_; }
+  std::uint32_t every() const { return share_.every(); }
   /// Those of one of `every`, sorted.
   std::vector<End> take(std::uint32_t every) {
-    every_ = every;
-    thin_out();
+    thin_out(every);
     std::sort(closed_.begin(), closed_.end(), [](const End& a, const End& b) { return a.name < b.name; });
     return std::move(closed_);
   }
 
  private:
-  void thin_out() {
-    std::erase_if(closed_, [&](const End& end) { return !chooses(end.name); });
+  void thin_out(std::uint32_t every) {
+    share_.shrink_to(every);
+    std::erase_if(closed_, [&](const End& end) { return !share_.has(end.name.key()); });
   }
 
-  std::uint32_t every_ = 1;
+  Share share_;
   std::map<Name, End> open_;  ///< as many as requests are under way
   std::vector<End> closed_;
 };

@@ -17,12 +17,13 @@ std::size_t home_bytes(std::uint32_t page_count, std::size_t page_size_bytes) {
 
 }  // namespace
 
-void Pager::add_needs(nodes::MemoryPlan& plan, std::uint32_t home_page_count, const CacheShape& cache, std::uint32_t in_flight) {
-  plan[Category::home_pages] += LocalMemory::bytes_for<std::byte>(home_bytes(home_page_count, cache.page_size_bytes));
-  plan[Category::queues] += LocalMemory::bytes_for<std::byte>(sizeof(PageReplyHeader) + cache.page_size_bytes);
-  plan[Category::page_table] += LocalMemory::bytes_for<Translation>(translation_count);
-  Cache::add_needs(plan, cache);
-  Faults::add_needs(plan, in_flight);
+void Pager::add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index) {
+  const std::size_t page_size_bytes = plan.request.page_size_bytes;
+  memory[Category::home_pages] += LocalMemory::bytes_for<std::byte>(home_bytes(plan.pages_at(index), page_size_bytes));
+  memory[Category::queues] += LocalMemory::bytes_for<std::byte>(sizeof(PageReplyHeader) + page_size_bytes);
+  memory[Category::page_table] += LocalMemory::bytes_for<Translation>(translation_count);
+  Cache::add_needs(memory, plan.cache());
+  Faults::add_needs(memory, plan.in_flight, plan.faults_max());
 }
 
 Pager::Pager(nodes::Node& node, const Plan& plan, std::span<const std::byte> database)
@@ -33,7 +34,7 @@ Pager::Pager(nodes::Node& node, const Plan& plan, std::span<const std::byte> dat
       home_bytes_(node.memory().allocate<std::byte>(
           Category::home_pages, home_bytes(plan.pages_at(nodes::index_of(node.id())), plan.request.page_size_bytes))),
       cache_(node.memory(), plan.cache(), self_),
-      faults_(node.memory(), plan.in_flight),
+      faults_(node.memory(), plan.in_flight, plan.faults_max()),
       node_(&node),
       reply_(node.memory().allocate<std::byte>(Category::queues, sizeof(PageReplyHeader) + plan.request.page_size_bytes)),
       home_page_count_(plan.pages_at(nodes::index_of(node.id()))) {

@@ -26,8 +26,8 @@ class Pager {
 
   /// Copies the node's home pages from `database` into its local memory and takes the credits for its requests.
   Pager(nodes::Node& node, const Plan& plan, std::span<const std::byte> database);
-  /// Adds to `plan` exactly what the constructor takes at a node with `home_page_count` pages.
-  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t home_page_count, const CacheShape& cache, std::uint32_t in_flight);
+  /// Adds to `memory` exactly what the constructor takes at node `index`.
+  static void add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index);
 
   /// One reference. The pointer is valid until the next call of install(). Repeated references of one page, the usual case,
   /// do not change the order of use, so they cost a comparison.

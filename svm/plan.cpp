@@ -13,6 +13,7 @@
 #include "svm/packets.h"
 #include "svm/pager.h"
 #include "svm/slots.h"
+#include "svm/work_items.h"
 #include "svm/work_source.h"
 
 namespace dmpc::svm {
@@ -40,12 +41,28 @@ std::uint32_t foreign_pages_max(const PlanRequest& request) {
   return pages_travel(request) ? request.page_count - request.page_count / request.node_count : 0;
 }
 
-/// At least one for each home, so that every fault can be requested in the end; no more than pixels that can fault.
-std::uint32_t request_credits_of(const PlanRequest& request, std::uint32_t in_flight) {
+/// The most pixels that are ever under way on a node: all of the picture where work moves, else the largest submap's. A node may
+/// have none, but has a place for one.
+std::uint64_t node_pixels_max(const PlanRequest& request) {
+  const PixelRectangle image{0, 0, request.width, request.height};
+  if (request.work_item_side > 0) {
+    return image.pixel_count();
+  }
+  std::uint64_t most = 1;
+  for (std::uint32_t index = 0; index < request.node_count; ++index) {
+    most = std::max(most, submap_of(image, index, request.node_count).pixel_count());
+  }
+  return most;
+}
+
+/// At least one for each home, so that every fault can be requested in the end; no more than faults, nor than pages at a home,
+/// each of which has one fault at most.
+std::uint32_t request_credits_of(const PlanRequest& request, std::uint32_t faults_max) {
   if (!pages_travel(request)) {
     return 0;
   }
-  return std::min(in_flight, std::clamp(request_slots_wanted / (request.node_count - 1), 1U, request_credits_max));
+  return std::min({faults_max, core::ceil_divide(request.page_count, request.node_count),
+                   std::clamp(request_slots_wanted / (request.node_count - 1), 1U, request_credits_max)});
 }
 
 std::uint32_t film_entries_of(const PlanRequest& request) {
@@ -55,7 +72,7 @@ std::uint32_t film_entries_of(const PlanRequest& request) {
 
 /// What a node's mailbox must be able to hold, whoever sends when; the mailbox itself adds the slot of the packet being
 /// received.
-nodes::MailboxCapacity node_mailbox_of(const PlanRequest& request, std::uint32_t in_flight, std::uint32_t request_credits) {
+nodes::MailboxCapacity node_mailbox_of(const PlanRequest& request, std::uint32_t faults_max, std::uint32_t request_credits) {
   const std::uint32_t others = request.node_count - 1;
   const bool ring = request.work_item_side > 0;
   nodes::MailboxCapacity capacity;
@@ -70,8 +87,7 @@ nodes::MailboxCapacity node_mailbox_of(const PlanRequest& request, std::uint32_t
     capacity.bulk_payload_bytes = sizeof(MaskPart);
   }
   if (pages_travel(request)) {
-    // Replies: one for each fault under way; a fault has at least one pixel in flight, and a pixel waits for one page.
-    capacity.bulk_slots += in_flight;
+    capacity.bulk_slots += faults_max;  // page replies: one for each fault under way
     capacity.bulk_payload_bytes = std::max(capacity.bulk_payload_bytes, sizeof(PageReplyHeader) + request.page_size_bytes);
   }
   return capacity;
@@ -99,10 +115,10 @@ Plan plan_with(const PlanRequest& request, std::uint32_t frames, std::uint32_t i
   plan.request = request;
   plan.frames = frames;
   plan.in_flight = in_flight;
-  plan.request_credits = request_credits_of(request, in_flight);
+  plan.request_credits = request_credits_of(request, plan.faults_max());
   plan.film_credits = film_credits;
   plan.film_entries = film_entries_of(request);
-  plan.node_mailbox = node_mailbox_of(request, in_flight, plan.request_credits);
+  plan.node_mailbox = node_mailbox_of(request, plan.faults_max(), plan.request_credits);
   plan.host_mailbox = host_mailbox_of(request, plan.film_entries);
   if (request.chaos) {
     plan_chaos(plan, *request.chaos);
@@ -153,9 +169,10 @@ void check(const PlanRequest& request) {
                "what is gone on with is of the same picture");
 }
 
-/// What the user asked for, or our choice, before the memory is looked at.
+/// What the user asked for, or our choice, as far as there are pixels, before the memory is looked at.
 std::uint32_t wanted_in_flight(const PlanRequest& request) {
-  return request.in_flight.value_or(request.strategy == Strategy::svm ? default_in_flight : 1);
+  const std::uint32_t asked = request.in_flight.value_or(request.strategy == Strategy::svm ? default_in_flight : 1);
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(asked, node_pixels_max(request)));
 }
 
 /// The fewest frames that this request can do with.
@@ -224,9 +241,14 @@ PlanRequest with_small_items(PlanRequest request) {
 
 void note_reductions(Plan& plan) {
   const PlanRequest& request = plan.request;
-  if (plan.in_flight < wanted_in_flight(request)) {
-    plan.notes.push_back("in-flight reduced from " + std::to_string(wanted_in_flight(request)) + " to " +
-                         std::to_string(plan.in_flight) + " to fit " + size_text(*request.node_memory_bytes));
+  const std::uint32_t wanted = wanted_in_flight(request);
+  if (request.in_flight && wanted < *request.in_flight) {
+    plan.notes.push_back("in-flight reduced from " + std::to_string(*request.in_flight) + " to " + std::to_string(wanted) +
+                         (wanted == 1 ? " pixel" : " pixels") + ": no node ever has more");
+  }
+  if (plan.in_flight < wanted) {
+    plan.notes.push_back("in-flight reduced from " + std::to_string(wanted) + " to " + std::to_string(plan.in_flight) +
+                         " to fit " + size_text(*request.node_memory_bytes));
   }
   if (request.cache_pages && plan.frames < *request.cache_pages) {
     plan.notes.push_back("cache reduced from " + std::to_string(*request.cache_pages) + " to " + std::to_string(plan.frames) +
@@ -236,6 +258,8 @@ void note_reductions(Plan& plan) {
 
 }  // namespace
 
+std::uint32_t Plan::faults_max() const { return std::min(in_flight, foreign_pages_max(request)); }
+
 std::uint32_t Plan::pages_at(std::uint32_t node) const {
   return request.strategy == Strategy::replicated ? request.page_count
                                                   : Homes(request.node_count).count_at(node, request.page_count);
@@ -244,7 +268,7 @@ std::uint32_t Plan::pages_at(std::uint32_t node) const {
 nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
   nodes::MemoryPlan plan;
   if (request.strategy == Strategy::svm) {
-    Pager::add_needs(plan, pages_at(index), cache(), in_flight);
+    Pager::add_needs(plan, *this, index);
   } else {
     LocalCopy::add_needs(plan, request.page_count * request.page_size_bytes);
   }

@@ -65,7 +65,7 @@ inline constexpr std::uint32_t in_flight_max = 4096;
 struct Plan {
   PlanRequest request;
   std::uint32_t frames = 0;           ///< of each node's cache
-  std::uint32_t in_flight = 1;        ///< pixels under way, after reduction
+  std::uint32_t in_flight = 1;        ///< pixels under way, after reduction; no more than a node ever has
   std::uint32_t request_credits = 0;  ///< page requests that one node may have under way to one home
   std::uint32_t film_credits = 0;     ///< film packets that one node may have under way to the host
   std::uint32_t film_entries = 0;     ///< pixels in a full film packet
@@ -82,6 +82,9 @@ struct Plan {
   CacheShape cache() const { return {frames, request.page_size_bytes, request.replacement}; }
 
   std::uint32_t pages_at(std::uint32_t node) const;
+  /// Faults under way at a node: a fault has at least one pixel in flight, a pixel waits for one page, and a page that is not at
+  /// home has one fault at most.
+  std::uint32_t faults_max() const;
 };
 
 /// Throws core::UsageError for a value out of range or a wrong combination, and core::RoomError if the memory is too small;

@@ -1,21 +1,24 @@
 // The pages of other homes that a node references, in order: an instrument, not a part of the computer.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
-#include "core/sampling.h"
 #include "svm/page.h"
+#include "svm/share.h"
 
 namespace dmpc::svm {
 
-/// Repeats of the page noted last are left out: they are page hits in any cache and change no replacement policy's mind. Lies in
-/// memory that is no node's. With a bound, references of ever fewer pages are kept, those of one page of every(), chosen by a
-/// hash of its number: what a cache would do with them is what it would do with all of them, every() times smaller (C. A.
-/// Waldspurger, N. Park, A. Garthwaite, I. Ahmad, "Efficient MRC Construction with SHARDS", 2015). Thread safety: none.
+/// Repeats of the page kept last are left out: they are page hits in any cache and change no replacement policy's mind. Lies in
+/// memory that is no node's. With a bound, references of ever fewer pages are kept, those of a share of them: what a cache would
+/// do with them is what it would do with all, every() times smaller (C. A. Waldspurger, N. Park, A. Garthwaite, I. Ahmad,
+/// "Efficient MRC Construction with SHARDS", 2015). A page alone takes one place, however often it is referenced, so a share
+/// that is small enough fits, and tells nothing of caches below some multiple of every() pages. If more than one page is in the
+/// least share, which is of 2^31 pages, what does not fit is not kept. Thread safety: none.
 class ReferenceLog {
  public:
   /// Keeps all.
@@ -32,26 +35,27 @@ class ReferenceLog {
   /// Of the pages that are kept, in order.
   std::span<const PageId> pages() const { return pages_; }
   /// A power of two.
-  std::uint32_t every() const { return every_; }
+  std::uint32_t every() const { return share_.every(); }
   /// Keeps those of one page of `every`, a power of two that is at least every().
   void thin_out(std::uint32_t every) {
-    every_ = every;
-    std::erase_if(pages_, [this](PageId page) { return !is_chosen(page); });
+    share_.shrink_to(every);
+    std::erase_if(pages_, [this](PageId page) { return !share_.has(index_of(page)); });
+    pages_.erase(std::unique(pages_.begin(), pages_.end()), pages_.end());
   }
 
  private:
-  bool is_chosen(PageId page) const { return (core::mix(index_of(page)) & (every_ - 1)) == 0; }
   void keep(PageId page) {
-    if (is_chosen(page)) {
+    while (wants(page) && pages_.size() == references_max_ && !share_.is_least()) {
+      thin_out(2 * share_.every());
+    }
+    if (wants(page) && pages_.size() < references_max_) {
       pages_.push_back(page);
-      while (pages_.size() > references_max_) {
-        thin_out(2 * every_);
-      }
     }
   }
+  bool wants(PageId page) const { return share_.has(index_of(page)) && (pages_.empty() || pages_.back() != page); }
 
   PageId last_ = no_page;
-  std::uint32_t every_ = 1;
+  Share share_;
   std::size_t references_max_ = std::numeric_limits<std::size_t>::max();
   std::vector<PageId> pages_;
 };

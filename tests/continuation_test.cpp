@@ -80,6 +80,12 @@ class Keeper {
   std::stop_source stop_;
 };
 
+core::PictureTerms terms_of(const Subject& subject) {
+  const core::RenderSettings& settings = subject.settings();
+  return {static_cast<std::uint32_t>(settings.camera.samples()), settings.refinement,
+          core::radiance_bound(tests::mirrors_and_glass(), settings.shade.depth_max + 1)};
+}
+
 /// Runs one after the other, each from what the one before has kept, until one comes to the end. Their strategies, nodes and
 /// schedules change from run to run.
 struct Relay {
@@ -94,12 +100,14 @@ struct Relay {
                      .work_item_side = runs % 4};
       last.emplace(run(subject, next, keeper.token()));
       start = keeper.last() ? keeper.last() : start;
+      has_fault = has_fault || (start && core::fault_of(*start, terms_of(subject)) != nullptr);
       ++runs;
     }
   }
 
   std::optional<Part> last;
   std::uint32_t runs = 0;
+  bool has_fault = false;  ///< of what was kept
 };
 
 void check_relays(const core::Scene& scene, const Subject::Size& size, std::uint32_t runs_least) {
@@ -110,6 +118,7 @@ void check_relays(const core::Scene& scene, const Subject::Size& size, std::uint
     CAPTURE(seed);
     const Relay relay(subject, seed);
     CHECK(relay.runs >= runs_least);
+    CHECK_FALSE(relay.has_fault);
     CHECK(relay.last->film.hash() == whole.film.hash());
     CHECK(relay.last->film.samples() == whole.film.samples());
     CHECK(relay.last->refinement.passes == whole.refinement.passes);

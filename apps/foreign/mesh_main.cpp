@@ -20,12 +20,20 @@ std::optional<T> take_choice(Unpacker& fields) {
   return has_value ? std::optional<T>(static_cast<T>(value)) : std::nullopt;
 }
 
+std::optional<UpAxis> take_up(Unpacker& fields) {
+  const std::optional<std::size_t> axis = take_choice<std::size_t>(fields);
+  const bool is_negative = fields.take_flag();
+  return axis ? std::optional(UpAxis{*axis, is_negative}) : std::nullopt;
+}
+
 MeshOptions take_options(Unpacker& fields) {
   MeshOptions options;
   options.scale = take_choice<double>(fields);
-  options.up = take_choice<std::size_t>(fields);
+  options.up = take_up(fields);
   options.smooth_degrees = take_choice<double>(fields);
   options.allows_missing = fields.take_flag();
+  options.is_seen_otherwise = fields.take_flag();
+  options.is_lit_otherwise = fields.take_flag();
   return options;
 }
 

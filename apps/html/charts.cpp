@@ -23,13 +23,13 @@ constexpr const char* style =
 
 Charts::Charts(std::ostream& complaints, std::string program) : complaints_(complaints), program_(std::move(program)) {}
 
-std::string Charts::url_of(Plot plot, const Table& table) {
+Chart Charts::draw(Plot plot, const Table& table) {
   plot.size = PlotSize::small;
   const std::string data_file = plot.name + ".csv";
   write_file(folder_ / data_file, text_of(table, TableFormat::csv));
-  const std::optional<PlotOutcome> outcome = draw(plot, table, folder_ / "", data_file, program_);
+  const std::optional<PlotOutcome> outcome = apps::draw(plot, table, folder_ / "", data_file, program_);
   if (!outcome) {
-    return "";
+    return {};
   }
   if (!outcome->is_drawn) {
     const std::string sentence = outcome->is_program_missing
@@ -38,9 +38,10 @@ std::string Charts::url_of(Plot plot, const Table& table) {
     if (told_.insert(sentence).second) {
       complaints_ << "dmpc: " << sentence << std::endl;
     }
-    return "";
+    return {};
   }
-  return data_url("image/svg+xml", themed(file_bytes(folder_ / (plot.name + ".svg"))));
+  const std::string svg = file_bytes(folder_ / (plot.name + ".svg"));
+  return {data_url("image/svg+xml", themed(svg)), data_url("image/svg+xml", svg)};
 }
 
 std::string themed(std::string svg) {

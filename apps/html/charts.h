@@ -11,6 +11,12 @@
 
 namespace dmpc::apps::html {
 
+/// A plot as URLs of its own bytes; empty if it has nothing to show, or cannot be drawn.
+struct Chart {
+  std::string url;          ///< to be shown in a page, light or dark as that is
+  std::string url_to_save;  ///< to be shown by itself, dark on white
+};
+
 /// Draws one after the other. Not thread-safe.
 class Charts {
  public:
@@ -18,9 +24,8 @@ class Charts {
   /// looked for as draw() does.
   explicit Charts(std::ostream& complaints, std::string program = "gnuplot");
 
-  /// The plot as a URL of its own bytes; empty if it has nothing to show, or cannot be drawn. Throws core::InputError if no
-  /// temporary file can be written.
-  std::string url_of(Plot plot, const Table& table);
+  /// Throws core::InputError if no temporary file can be written.
+  Chart draw(Plot plot, const Table& table);
 
  private:
   std::ostream& complaints_;

@@ -1,13 +1,16 @@
 #include "apps/html/render_page.h"
 
-#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string>
 #include <variant>
 #include <vector>
 
+#include "apps/amount.h"
 #include "apps/figures.h"
 #include "apps/heat_field.h"
 #include "apps/heat_picture.h"
+#include "apps/html/conclusions.h"
 #include "apps/html/page.h"
 #include "apps/html/render_tables.h"
 #include "apps/html/view_tables.h"
@@ -19,22 +22,36 @@ namespace dmpc::apps::html {
 
 namespace {
 
+std::string runner_text(const RenderOptions& options) {
+  return options.computer.machine ? "virtual, in the time of a modelled " + options.computer.machine->name
+                                  : "threads, one a node, by the wall clock";
+}
+
+/// By which another run is known to be the same.
+Facts results_of(const Account& account) {
+  Facts results = {{"film", hash_text(account.film.hash())}};
+  if (account.virtual_time) {
+    results.emplace_back("run", hash_text(account.virtual_time->run_hash(account.film.hash())));
+  }
+  return results;
+}
+
 Facts facts_of(const RenderRecord& record, const Account& account) {
   const RenderOptions& options = record.options;
   Facts facts = {
       {"Scene", options.picture.scene + ", " + counted(record.database.header().primitive_count, "primitive")},
       {"Database", counted(record.database.page_count(), "page") + " of " + nodes::size_text(record.database.page_size())},
       {"Computer", computer_text(record)},
+      {"Runner", runner_text(options)},
       {"Memory of the fullest node", bytes_text(account.node_memory_max_bytes)},
       {"Rays shot", grouped(account.operations.ray_count())},
-      {"Packets sent", grouped(nodes::total(account.sent).packets) + ", " + bytes_text(nodes::total(account.sent).bytes)},
+      {"Packets sent", grouped(nodes::total(account.sent).packets) + ", " +
+                           amount_text(static_cast<double>(nodes::total(account.sent).bytes), "bytes")},
       {"Rendering took", seconds_text(record.seconds.render) + " by the wall clock, " +
                              seconds_text(record.seconds.render_user + record.seconds.render_system) + " of processors"}};
   if (account.virtual_time) {
-    facts.push_back({"Virtual time", fixed(static_cast<double>(account.virtual_time->total_ns) / 1e9, 6) + " s"});
-    facts.push_back({"Run", hash_text(account.virtual_time->run_hash(account.film.hash()))});
+    facts.push_back({"Virtual time", amount_text(static_cast<double>(account.virtual_time->total_ns), "ns")});
   }
-  facts.push_back({"Film", hash_text(account.film.hash())});
   return facts;
 }
 
@@ -50,9 +67,10 @@ void add_pictures(Page& page, const RenderRecord& record, const Account& account
     if (const auto kind = static_cast<nodes::HeatKind>(number); record.heat->has(kind)) {
       const HeatField field = heat_field(kind, record);
       const std::string name(nodes::name_of(kind));
+      page.add_conclusion(heat_conclusion(field));
       page.add_picture(heat_picture(field, record.options.picture.scene + ", " + computer_text(record)), "Heat map of " + name,
-                       name + ": " + field.meaning + ", least " + rounded(field.least()) + ", largest " +
-                           rounded(field.largest()) + " " + field.unit + ".");
+                       name + ": " + field.meaning + ", least " + amount_text(field.least(), field.unit) + ", largest " +
+                           amount_text(field.largest(), field.unit) + ".");
     }
   }
 }
@@ -62,29 +80,32 @@ void add_time(Page& page, const RunView& view) {
     return;
   }
   page.begin_section("Over time");
+  page.add_conclusion(time_conclusion(view.steps));
   const Table table = step_table(view.steps);
-  page.add_plot(step_plot(), table);
-  page.add_picture(step_picture(view.steps), "How busy each node was over time",
-                   "How busy each node was: time from left to right, nodes from node 0 at the top down. Dark: not at all.",
-                   PictureSize::wide);
+  page.add_plot(step_plot(view.steps), table);
+  page.add_map(step_map(view.steps), "Each row is a node, each column a step of time. Dark: the node had nothing to do.");
   page.add_table(table);
 }
 
-/// Who asks, from the top down, of whom, from left to right.
+/// From the nodes in rows to those in columns.
 template <class Count>
-void add_matrix(Page& page, const std::vector<Count>& counts, const std::string& what) {
+NumberMap matrix(const std::vector<Count>& counts, const std::string& title, const std::string& row_label,
+                 const std::string& column_label, const std::string& value_label) {
   const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(counts.size())) + 0.5);
-  const auto largest = std::max_element(counts.begin(), counts.end());
-  const auto at = static_cast<std::size_t>(largest - counts.begin());
-  page.add_picture(number_picture(std::vector<double>(counts.begin(), counts.end()), side, side), what,
-                   what + ", from node 0 on. Dark: 0; lightest: " + grouped(*largest) + ", from node " +
-                       std::to_string(at / side) + " to node " + std::to_string(at % side) + ".",
-                   PictureSize::wide);
+  return {.title = title,
+          .row_label = row_label,
+          .column_label = column_label,
+          .value_label = value_label,
+          .unit = {},
+          .rows = side,
+          .columns = side,
+          .values = std::vector<double>(counts.begin(), counts.end())};
 }
 
 void add_misses(Page& page, const RenderRecord& record, const MissEstimate& misses) {
   const auto& report = std::get<svm::Report>(record.report);
   const svm::PageCounters pages = report.pages();
+  page.add_conclusion(cache_conclusion(misses, report.plan.frames, static_cast<std::uint32_t>(record.database.page_count())));
   const Table table = miss_table(misses, static_cast<std::uint32_t>(record.database.page_count()), pages.references,
                                  report.plan.frames, pages.faults);
   page.add_plot(miss_plot(), table);
@@ -93,6 +114,7 @@ void add_misses(Page& page, const RenderRecord& record, const MissEstimate& miss
 
 void add_fetches(Page& page, const svm::Fetches& fetches) {
   page.begin_section("Fetching a page");
+  page.add_conclusion(fetch_conclusion(fetches));
   const Table table = fetch_table(fetches);
   page.add_plot(fetch_plot(fetches), table);
   page.add_table(table);
@@ -101,11 +123,12 @@ void add_fetches(Page& page, const svm::Fetches& fetches) {
 
 void add_pages(Page& page, const RenderRecord& record, const svm::Fetches& fetches) {
   page.begin_section("Pages");
-  if (std::get<svm::Report>(record.report).pages().faults == 0) {
-    page.add_text("No page was fetched.");
+  const svm::PageCounters pages = std::get<svm::Report>(record.report).pages();
+  page.add_conclusion(page_conclusion(pages, fetches));
+  if (pages.faults == 0) {
     return;
   }
-  add_matrix(page, fetches.by_pair, "Fetches: who asks, from the top down, and the page's home, from left to right");
+  page.add_map(matrix(fetches.by_pair, "Who fetched pages from whom", "node that asks", "home of the page", "fetches"), "");
   page.add_plot(page_share_plot(), page_share_table(fetches));
   page.add_table(page_table(fetches));
   add_fetches(page, fetches);
@@ -115,8 +138,18 @@ void add_pages(Page& page, const RenderRecord& record, const svm::Fetches& fetch
   }
 }
 
+void add_rays(Page& page, const dataflow::Report& report, const Account& account) {
+  page.begin_section("Rays between nodes");
+  const std::vector<std::uint64_t> rays = report.ray_matrix();
+  page.add_conclusion(ray_conclusion(rays, account.operations.ray_count()));
+  if (account.nodes.size() > 1) {
+    page.add_map(matrix(rays, "Who sent rays to whom", "node that sends", "owner that receives", "rays"), "");
+  }
+}
+
 void add_nodes(Page& page, const RenderRecord& record) {
   page.begin_section("Nodes");
+  page.add_conclusion(node_conclusion(account_of(record.report)));
   const Table table = node_table(record);
   for (const Plot& plot : node_plots(record)) {
     page.add_plot(plot, table);
@@ -126,6 +159,7 @@ void add_nodes(Page& page, const RenderRecord& record) {
 
 void add_losses(Page& page, const Account& account) {
   page.begin_section("Where the time went");
+  page.add_conclusion(loss_conclusion(account));
   const Table table = loss_table(account);
   page.add_plot(loss_plot(account), table);
   page.add_table(table);
@@ -133,6 +167,7 @@ void add_losses(Page& page, const Account& account) {
 
 void add_traffic(Page& page, const Account& account) {
   page.begin_section("Traffic");
+  page.add_conclusion(traffic_conclusion(account));
   page.add_table(packet_table(account));
   if (!account.virtual_time) {
     return;
@@ -146,8 +181,9 @@ void add_traffic(Page& page, const Account& account) {
   page.add_table(table);
 }
 
-void add_memory(Page& page, const Account& account) {
+void add_memory(Page& page, const Account& account, std::size_t database_bytes) {
   page.begin_section("Memory");
+  page.add_conclusion(memory_conclusion(account, database_bytes));
   const Table table = memory_table(account);
   page.add_plot(memory_plot(account), table);
   page.add_table(table);
@@ -155,9 +191,10 @@ void add_memory(Page& page, const Account& account) {
 
 }  // namespace
 
-std::string render_page(const RenderRecord& record, std::ostream& complaints) {
+std::string render_page(const RenderRecord& record, const Origin& origin, std::ostream& complaints) {
   const Account account = account_of(record.report);
   Page page("Render of " + record.options.picture.scene, complaints);
+  page.add_text(origin.program + ", " + origin.date);
   page.add_facts(facts_of(record, account));
   add_pictures(page, record, account);
   add_losses(page, account);
@@ -168,12 +205,12 @@ std::string render_page(const RenderRecord& record, std::ostream& complaints) {
     add_pages(page, record, *record.view->fetches);
   }
   if (const auto* const report = std::get_if<dataflow::Report>(&record.report)) {
-    page.begin_section("Rays between nodes");
-    add_matrix(page, report->ray_matrix(), "Rays: their sender, from the top down, and their owner, from left to right");
+    add_rays(page, *report, account);
   }
   add_nodes(page, record);
   add_traffic(page, account);
-  add_memory(page, account);
+  add_memory(page, account, record.database.page_count() * record.database.page_size());
+  page.add_origin(origin, results_of(account));
   return page.text();
 }
 

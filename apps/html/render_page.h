@@ -4,12 +4,13 @@
 #include <iosfwd>
 #include <string>
 
+#include "apps/origin.h"
 #include "apps/stats.h"
 
 namespace dmpc::apps::html {
 
 /// The whole document. What could not be drawn is told to `complaints`. Throws core::InputError if no temporary file can be
 /// written.
-std::string render_page(const RenderRecord& record, std::ostream& complaints);
+std::string render_page(const RenderRecord& record, const Origin& origin, std::ostream& complaints);
 
 }  // namespace dmpc::apps::html

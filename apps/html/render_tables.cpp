@@ -228,11 +228,11 @@ Table memory_table(const Account& account) {
 }
 
 Plot memory_plot(const Account& account) {
-  return bars_by_node("memory", "Memory of each node", {.label = "KiB", .least = 0}, series_of(memory_columns(account)), true);
+  return bars_by_node("memory", "Memory of each node", {.label = "", .least = 0}, series_of(memory_columns(account)), true);
 }
 
 Table packet_table(const Account& account) {
-  Table table("Packets by kind", {{"kind", "", 0}, {"packets", "", 0}, {"bytes", "", 0}, {"of all bytes", "%", 1}});
+  Table table("Packets by kind", {{"kind", "", 0}, {"packets", "", 0}, {"carried", "bytes", 0}, {"of all bytes", "%", 1}});
   std::vector<std::uint64_t> bytes;
   for (const nodes::Traffic& traffic : account.sent) {
     bytes.push_back(traffic.bytes);
@@ -251,7 +251,7 @@ Table packet_table(const Account& account) {
 Table link_table(const nodes::VirtualReport& report) {
   Table table("The busiest links", {{"link", "", 0},
                                     {"messages", "", 0},
-                                    {"bytes", "", 0},
+                                    {"carried", "bytes", 0},
                                     {"held", "ms", 3},
                                     {"held in all", "%", 1},
                                     {"waited for", "ms", 3}});
@@ -270,7 +270,7 @@ Table link_table(const nodes::VirtualReport& report) {
 }
 
 Plot link_plot() {
-  Plot plot = bars_by_node("links", "Traffic of the busiest links", {.label = "bytes", .least = 0}, {{"bytes", "bytes"}}, false);
+  Plot plot = bars_by_node("links", "Traffic of the busiest links", {.label = "", .least = 0}, {{"carried", "carried"}}, false);
   plot.places = {"link"};
   plot.x = {};
   return plot;

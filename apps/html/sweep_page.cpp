@@ -4,21 +4,23 @@
 
 namespace dmpc::apps::html {
 
-std::string sweep_page(const std::string& title, const std::vector<std::string>& texts, std::span<const SweepPart> parts,
-                       std::ostream& complaints) {
-  Page page(title, complaints);
-  for (const std::string& text : texts) {
+std::string sweep_page(const Sweep& sweep, const Origin& origin, std::ostream& complaints) {
+  Page page(sweep.title, complaints);
+  page.add_text(origin.program + ", " + origin.date);
+  for (const std::string& text : sweep.texts) {
     page.add_text(text);
   }
-  for (const SweepPart& part : parts) {
+  for (const SweepPart& part : sweep.parts) {
     if (!part.heading.empty()) {
       page.begin_section(part.heading);
     }
+    page.add_conclusion(part.conclusion);
     for (const Plot& plot : part.plots) {
       page.add_plot(plot, part.table);
     }
     page.add_table(part.table);
   }
+  page.add_origin(origin, sweep.results);
   return page.text();
 }
 

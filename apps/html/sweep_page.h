@@ -2,10 +2,11 @@
 #pragma once
 
 #include <iosfwd>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "apps/html/page.h"
+#include "apps/origin.h"
 #include "apps/plot.h"
 #include "apps/study_table.h"
 
@@ -16,11 +17,19 @@ struct SweepPart {
   std::string heading;  ///< of its section; empty: none
   const Table& table;   ///< outlives this
   std::vector<Plot> plots;
+  std::string conclusion = {};  ///< a sentence; empty: none
+};
+
+/// What a page tells.
+struct Sweep {
+  std::string title;
+  std::vector<std::string> texts;  ///< paragraphs
+  std::vector<SweepPart> parts;
+  Facts results = {};  ///< by which another run is known to be the same
 };
 
 /// The whole document. What could not be drawn is told to `complaints`. Throws core::InputError if no temporary file can be
 /// written.
-std::string sweep_page(const std::string& title, const std::vector<std::string>& texts, std::span<const SweepPart> parts,
-                       std::ostream& complaints);
+std::string sweep_page(const Sweep& sweep, const Origin& origin, std::ostream& complaints);
 
 }  // namespace dmpc::apps::html

@@ -6,11 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "apps/color_map.h"
 #include "apps/figures.h"
-#include "apps/glyphs.h"
 #include "apps/study_cache.h"
-#include "core/expect.h"
 
 namespace dmpc::apps::html {
 
@@ -23,9 +20,6 @@ constexpr std::size_t pages_listed = 20;
 /// Pages of a sample that a cache has to hold for the sample to tell something of it.
 constexpr std::uint32_t sampled_pages_least = 4;
 constexpr std::size_t part_count = svm::fetch_part_names.size();
-
-/// Rows of a picture with few of them are so many pixels high that it is no mere line.
-constexpr int step_picture_height_min = 64;
 
 double percent_of(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
 
@@ -129,27 +123,16 @@ double total_fetches(const Fetches& fetches) {
 
 }  // namespace
 
-Image number_picture(std::span<const double> values, std::size_t rows, std::size_t columns, int cell_height) {
-  core::expect(values.size() == rows * columns, "a picture of numbers has one for each place");
-  const double largest = values.empty() ? 0 : *std::max_element(values.begin(), values.end());
-  Image image(static_cast<int>(columns), static_cast<int>(rows) * cell_height);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto x = static_cast<int>(i % columns), y = static_cast<int>(i / columns) * cell_height;
-    fill(image, x, y, 1, cell_height, color_map(largest > 0 ? values[i] / largest : 0));
-  }
-  return image;
-}
-
 Table step_table(const nodes::ActivitySteps& steps) {
-  std::vector<Column> columns = {{"since the start", "ms", 3}};
+  const int digits = steps.step_ns < 10'000 ? 3 : steps.step_ns < 100'000 ? 2 : steps.step_ns < 1'000'000 ? 1 : 0;
+  std::vector<Column> columns = {{"since the start", "ms", digits}};
   for (const std::string_view name : nodes::work_names) {
     columns.push_back({std::string(name), "%", 1});
   }
   Table table("What the nodes were busy with over time", std::move(columns));
-  const int digits = steps.step_ns < 10'000 ? 3 : steps.step_ns < 100'000 ? 2 : steps.step_ns < 1'000'000 ? 1 : 0;
   const double whole_ns = static_cast<double>(steps.step_ns) * static_cast<double>(node_count_of(steps));
   for (std::size_t step = 0; step < step_count_of(steps); ++step) {
-    std::vector<Cell> row = {fixed(static_cast<double>(step * steps.step_ns) / 1e6, digits)};
+    std::vector<Cell> row = {static_cast<double>(step * steps.step_ns) / 1e6};
     for (std::size_t work = 0; work < nodes::work_names.size(); ++work) {
       std::uint64_t sum_ns = 0;
       for (std::size_t node = 0; node < node_count_of(steps); ++node) {
@@ -165,25 +148,34 @@ Table step_table(const nodes::ActivitySteps& steps) {
   return table;
 }
 
-Plot step_plot() {
-  Plot plot = curves("steps", "What the nodes were busy with over time", "since the start", {.label = "since the start (ms)"},
+Plot step_plot(const nodes::ActivitySteps& steps) {
+  Plot plot = curves("steps", "What the nodes were busy with over time", "since the start", {.label = "since the start"},
                      {.label = "of the nodes' time (%)", .least = 0}, {});
   for (const std::string_view name : nodes::work_names) {
     plot.series.push_back({std::string(name), std::string(name), {}, PlotMark::bars, plot.series.size()});
   }
+  plot.bar_width = static_cast<double>(steps.step_ns) / 1e6;
   plot.is_stacked = true;
   return plot;
 }
 
-Image step_picture(const nodes::ActivitySteps& steps) {
-  const std::size_t rows = node_count_of(steps), columns = step_count_of(steps);
-  std::vector<double> values;
-  for (std::size_t node = 0; node < rows; ++node) {
+NumberMap step_map(const nodes::ActivitySteps& steps) {
+  NumberMap map{.title = "How busy each node was over time",
+                .row_label = "node",
+                .column_label = "since the start",
+                .value_label = "busy (%)",
+                .unit = "%",
+                .rows = node_count_of(steps),
+                .columns = step_count_of(steps),
+                .column_ns = static_cast<double>(steps.step_ns),
+                .most = 100};
+  for (std::size_t node = 0; node < map.rows; ++node) {
     for (const nodes::WorkTimes& times : steps.nodes[node]) {
-      values.push_back(static_cast<double>(std::accumulate(times.begin(), times.end(), std::uint64_t{0})));
+      const auto busy_ns = static_cast<double>(std::accumulate(times.begin(), times.end(), std::uint64_t{0}));
+      map.values.push_back(percent_of(busy_ns, static_cast<double>(steps.step_ns)));
     }
   }
-  return number_picture(values, rows, columns, std::max(1, step_picture_height_min / static_cast<int>(rows)));
+  return map;
 }
 
 Table fetch_table(const Fetches& fetches) {
@@ -208,7 +200,7 @@ Table fetch_table(const Fetches& fetches) {
 }
 
 Plot fetch_plot(const Fetches& fetches) {
-  Plot plot = curves("fetches", "What fetching a page takes", "fetches", {}, {.label = "us", .least = 0}, {});
+  Plot plot = curves("fetches", "What fetching a page takes", "fetches", {}, {.label = "", .least = 0}, {});
   for (const std::size_t part : parts_found(fetches)) {
     const std::string name(svm::fetch_part_names[part]);
     plot.series.push_back({name, name, {}, PlotMark::bars, part});
@@ -286,8 +278,12 @@ Table miss_table(const MissEstimate& estimate, std::uint32_t page_count, std::ui
   sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
   for (const std::uint32_t size : sizes) {
     const double whole = static_cast<double>(references), misses = std::min(estimate.misses(size), whole);
-    std::vector<Cell> row = {std::uint64_t{size}, static_cast<std::uint64_t>(misses), percent_of(misses, whole)};
+    std::vector<Cell> row = {std::uint64_t{size}};
     row.resize(table.columns().size());
+    if (size >= size_min) {
+      row[1] = static_cast<std::uint64_t>(misses);
+      row[2] = percent_of(misses, whole);
+    }
     if (size == cache_pages) {
       row.back() = percent_of(static_cast<double>(faults), whole);
     }

@@ -2,24 +2,20 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 
-#include "apps/image_file.h"
+#include "apps/html/number_map.h"
 #include "apps/plot.h"
 #include "apps/run_view.h"
 #include "apps/study_table.h"
 
 namespace dmpc::apps::html {
 
-/// A square of colour for each number, row by row, from dark (0) to light (the largest). Requires rows * columns numbers.
-Image number_picture(std::span<const double> values, std::size_t rows, std::size_t columns, int cell_height = 1);
-
 /// A row for each step of time: what all nodes but the host were busy with, in percent of their time.
 Table step_table(const nodes::ActivitySteps& steps);
-Plot step_plot();
+Plot step_plot(const nodes::ActivitySteps& steps);
 /// A row for each node but the host, a column for each step: its share of the time in which it was busy.
-Image step_picture(const nodes::ActivitySteps& steps);
+NumberMap step_map(const nodes::ActivitySteps& steps);
 
 /// Fetches as long as half of all, as one of twenty and as one of a hundred, and all of them on average: each with its parts,
 /// which add up to the whole.

@@ -75,6 +75,7 @@ InfoRecord find_out(const InfoOptions& options) {
   record.database = figures_of(subject.database, record.scene);
   record.width = subject.settings.camera.width();
   record.height = subject.settings.camera.height();
+  record.room = memory_room();
   record.forecast = forecast_for(options, subject);
   return record;
 }

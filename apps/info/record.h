@@ -6,6 +6,7 @@
 #include "apps/info/database_figures.h"
 #include "apps/info/forecast.h"
 #include "apps/info/scene_figures.h"
+#include "apps/memory_room.h"
 
 namespace dmpc::apps {
 
@@ -14,6 +15,7 @@ struct InfoRecord {
   DatabaseFigures database;
   Forecast forecast;
   std::uint64_t build_peak_bytes = 0;          ///< the most that this process held until the database was built
+  MemoryRoom room;                             ///< for a render here
   int width = 1, height = 1;                   ///< of the picture, in pixels
   double load_seconds = 0, build_seconds = 0;  ///< by the wall clock
 };

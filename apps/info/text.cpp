@@ -6,6 +6,7 @@
 #include "apps/figures.h"
 #include "apps/info/record.h"
 #include "apps/region_options.h"
+#include "apps/shown_text.h"
 #include "apps/staging.h"
 #include "apps/study_table.h"
 #include "apps/subject.h"
@@ -84,6 +85,22 @@ std::string grid_text(const DatabaseFigures& database) {
 std::string process_text(const InfoRecord& record) {
   return bytes_text(record.build_peak_bytes) +
          " held until the database was built; a render holds more than this, and more than its nodes take";
+}
+
+/// With the computers that a render would refuse.
+std::string room_text(const InfoRecord& record) {
+  std::string too_large;
+  for (const ComputerForecast& computer : record.forecast.computers) {
+    using Choice = std::pair<const char*, std::optional<MemoryForecast>>;
+    for (const auto& [name, memory] :
+         {Choice("svm", computer.svm), Choice("dataflow", computer.dataflow), Choice("replicated", computer.replicated)}) {
+      if (memory && memory->all_bytes > record.room.bytes) {
+        too_large +=
+            (too_large.empty() ? "; too little for " : ", ") + std::string(name) + " on " + std::to_string(computer.nodes);
+      }
+    }
+  }
+  return bytes_text(record.room.bytes) + ", " + record.room.source + too_large;
 }
 
 std::string time_text(const InfoRecord& record) {
@@ -170,10 +187,11 @@ std::string info_text(const InfoRecord& record) {
                             "\ndatabase   " + database_text(record.database) +         //
                             "\ngrid       " + grid_text(record.database) +             //
                             "\nprocess    " + process_text(record) +                   //
+                            "\nroom       " + room_text(record) +                      //
                             "\ntime       " + time_text(record) + "\n\n" +             //
                             text_of(records_table(record.database), TableFormat::markdown) + "\n";
   const std::string textures = scene.textures.empty() ? "" : text_of(textures_table(scene), TableFormat::markdown) + "\n";
-  return lines + textures + text_of(memory_table(record.forecast), TableFormat::markdown);
+  return shown(lines + textures + text_of(memory_table(record.forecast), TableFormat::markdown));
 }
 
 }  // namespace dmpc::apps

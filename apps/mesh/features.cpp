@@ -54,6 +54,7 @@ void note_materials(const std::set<const aiMaterial*>& materials, std::vector<st
     list_textures(*material, textures);
   }
   note(notes, "textures not used, since they are not of a surface's colour", textures.size());
+  note(notes, "materials whose texture is moved, turned or scaled, shown without that", count(materials, has_moved_texture));
   note(notes, "materials that emit light, shown without it", count(materials, is_emissive));
   note(notes, "materials with an alpha mask, shown opaque", count(materials, has_alpha_mask));
   note(notes, "materials with a clear coat, shown without it", count(materials, has_clear_coat));

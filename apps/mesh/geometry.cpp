@@ -84,10 +84,10 @@ core::Material GeometryWriter::material_for(const aiMesh& mesh, std::size_t inde
     throw core::InputError(name_of(mesh, index) + " has material " + std::to_string(mesh.mMaterialIndex) +
                            ", and there are but " + std::to_string(materials_.size()));
   }
-  auto [material, coordinates] = materials_[mesh.mMaterialIndex];
+  auto [material, coordinates, place] = materials_[mesh.mMaterialIndex];
   places_.clear();
   if (material.texture != core::Material::no_texture && mesh.HasTextureCoords(coordinates)) {
-    read_places(mesh, coordinates);
+    read_places(mesh, coordinates, place);
   } else {
     material.texture = core::Material::no_texture;
   }
@@ -95,10 +95,13 @@ core::Material GeometryWriter::material_for(const aiMesh& mesh, std::size_t inde
 }
 
 /// A file's t grows upwards.
-void GeometryWriter::read_places(const aiMesh& mesh, unsigned coordinates) {
+void GeometryWriter::read_places(const aiMesh& mesh, unsigned coordinates, const TexturePlace& place) {
+  const bool is_plain = place.is_plain();
   for (std::size_t i = 0; i < mesh.mNumVertices; ++i) {
-    const aiVector3D& place = mesh.mTextureCoords[coordinates][i];
-    places_.push_back({place.x, 1 - place.y});
+    const aiVector3D& source = mesh.mTextureCoords[coordinates][i];
+    const std::array<float, 2> plain = {source.x, 1 - source.y};
+    const auto [s, t] = place(double{plain[0]}, double{plain[1]});
+    places_.push_back(is_plain ? plain : std::array<float, 2>{static_cast<float>(s), static_cast<float>(t)});
   }
 }
 

@@ -12,6 +12,7 @@
 
 #include "apps/mesh/placement.h"
 #include "apps/mesh/smooth.h"
+#include "apps/mesh/texture_place.h"
 #include "core/scene.h"
 
 namespace dmpc::apps {
@@ -33,6 +34,7 @@ std::string name_of(const aiMesh& mesh, std::size_t index);
 struct MeshMaterial {
   core::Material material;
   unsigned coordinates = 0;  ///< which of a mesh's texture coordinates its texture goes by
+  TexturePlace place{};      ///< where on its texture they lie
 };
 
 /// Adds meshes to a scene, which has been given the textures of `materials` before. Faces become polygons, or patches where they
@@ -55,7 +57,7 @@ class GeometryWriter {
   void read_vertices(const aiMesh& mesh, std::size_t index, const Transform& world);
   void read_faces(const aiMesh& mesh, std::size_t index, bool is_mirrored);
   void read_normals(const aiMesh& mesh, const Transform& world);
-  void read_places(const aiMesh& mesh, unsigned coordinates);
+  void read_places(const aiMesh& mesh, unsigned coordinates, const TexturePlace& place);
   core::Material material_for(const aiMesh& mesh, std::size_t index);
   /// The face of these corners.
   void add_face(std::size_t first, std::size_t end);

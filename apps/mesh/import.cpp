@@ -8,13 +8,21 @@
 #include <assimp/Importer.hpp>
 #include <assimp/ProgressHandler.hpp>
 #include <cctype>
+#include <cstddef>
 #include <cstring>
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <optional>
 #include <set>
+#include <span>
+#include <string_view>
 #include <utility>
 
+#include "apps/gltf/reader.h"
+#include "apps/mesh/obj_check.h"
+#include "apps/mesh/ply_check.h"
+#include "apps/mesh/stl_check.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -128,20 +136,73 @@ void rethrow_end_of_memory(const std::exception_ptr& caught) {
   }
 }
 
+/// What Assimp takes for a scene, or for ever to read, although something of it is missing.
+void check_is_whole(const std::string& path, const std::string& ending, SceneFiles& files) {
+  const auto check = ending == "ply" ? check_ply : ending == "stl" ? check_stl : ending == "obj" ? check_obj : nullptr;
+  if (check != nullptr) {
+    const std::unique_ptr<FileBytes> file = files.open(path);
+    check({reinterpret_cast<const char*>(file->bytes().data()), file->bytes().size()});
+  }
+}
+
+std::vector<std::byte> bytes_of_file(const std::string& path, SceneFiles& files) {
+  const std::unique_ptr<FileBytes> file = files.open(path);
+  return {file->bytes().begin(), file->bytes().end()};
+}
+
+/// Nothing for version 1, which is left to Assimp.
+std::optional<ImportedFile> import_gltf(const std::string& path, SceneFiles& files) {
+  const std::unique_ptr<FileBytes> file = files.open(path);
+  const gltf::Document document = gltf::parse_document(file->bytes());
+  if (document.version == 1) {
+    return std::nullopt;
+  }
+  const auto open = [&](const std::string& name) {
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    const auto found = files.meant(folder, name);
+    return bytes_of_file((found.empty() ? folder / name : found.front()).string(), files);
+  };
+  return gltf::read_gltf(document, open);
+}
+
+/// Whether Assimp has put a figure of its own in place of the meshes that the file does not have: one for its tree of nodes.
+bool is_figure_of_nodes(const aiScene& scene) {
+  const auto is_named_so = [](const aiMaterial* material) {
+    return std::string(material->GetName().C_Str()) == "SkeletonMaterial";
+  };
+  return (scene.mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0 &&
+         std::any_of(scene.mMaterials, scene.mMaterials + scene.mNumMaterials, is_named_so);
+}
+
+void check_has_mesh(const aiScene& scene) {
+  if (scene.mNumMeshes == 0 || is_figure_of_nodes(scene)) {
+    throw core::InputError(
+        "there is no mesh in it, and so no triangle that has an area; expected a mesh of triangles or polygons");
+  }
+}
+
 }  // namespace
 
 void prepare_import() { static_cast<void>(Assimp::Importer().GetImporterCount()); }
 
 ImportedFile import_file(const std::string& path, SceneFiles& files) {
+  const std::string ending = ending_of(path);
+  if (ending == "gltf" || ending == "glb") {
+    if (auto file = import_gltf(path, files)) {
+      return *std::move(file);
+    }
+  }
+  check_is_whole(path, ending, files);
   ImportedFile file;
   Assimp::Importer importer;
-  keep_readers_of(ending_of(path), importer);
+  keep_readers_of(ending, importer);
   importer.SetIOHandler(new Files(files, file.missing));  // is the importer's from now on, and so is the next
   importer.SetProgressHandler(new LoadProgress(files));
   if (importer.ReadFile(path, 0) == nullptr) {
     rethrow_end_of_memory(importer.GetException());
     throw core::InputError(importer.GetErrorString());
   }
+  check_has_mesh(*importer.GetScene());
   file.scene.reset(importer.GetOrphanedScene());
   return file;
 }

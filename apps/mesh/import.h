@@ -1,4 +1,4 @@
-// Reads a file by Assimp.
+// Reads a file by Assimp, or glTF 2 by a reader of our own.
 #pragma once
 
 #include <assimp/scene.h>
@@ -8,19 +8,23 @@
 #include <vector>
 
 #include "apps/mesh/scene_files.h"
+#include "apps/mesh/texture_place.h"
 
 namespace dmpc::apps {
 
 struct ImportedFile {
   std::unique_ptr<aiScene> scene;
-  std::vector<std::string> missing;  ///< sentences: which files it refers to cannot be had, in order, each once
+  std::vector<TexturePlace> texture_places;  ///< of each material's colour texture; none where all are plain
+  std::vector<std::string> notes;            ///< what of the file is not shown as it is, a sentence each
+  std::vector<std::string> missing;          ///< sentences: which files it refers to cannot be had, in order, each once
 };
 
 /// Makes the library ready, after which it opens nothing but through SceneFiles.
 void prepare_import();
 
 /// Reads meshes, materials, lights and cameras as the file has them, by a reader for files that end as it does. Throws
-/// core::InputError with Assimp's own words if it cannot read the file, std::bad_alloc if memory ends.
+/// core::InputError with Assimp's own words if it cannot read the file, or if there is no mesh in it, std::bad_alloc if memory
+/// ends.
 ImportedFile import_file(const std::string& path, SceneFiles& files);
 
 }  // namespace dmpc::apps

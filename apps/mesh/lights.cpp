@@ -9,6 +9,7 @@
 #include <map>
 
 #include "apps/figures.h"
+#include "apps/gltf/reader.h"
 #include "apps/mesh/placement.h"
 #include "apps/view_faults.h"
 #include "core/elementary.h"
@@ -81,20 +82,21 @@ double narrowed(double angle, double share) {
   return result;
 }
 
-/// Assimp before 5.3 gives a glTF camera yfov times its aspect as the horizontal angle, and repeats its node's translation, which
-/// is in the node's transform already, as its position.
-bool has_early_gltf_cameras(const aiScene& scene) {
+/// glTF has cameras with a vertical angle; our reader of it, as Assimp before 5.3, gives that times the aspect as the horizontal
+/// one. Such an Assimp repeats the node's translation, which is in the node's transform already, as the camera's position, too.
+bool has_vertical_angles(const aiScene& scene) {
   aiString format;
   const bool is_gltf = scene.mMetaData != nullptr && scene.mMetaData->Get(AI_METADATA_SOURCE_FORMAT, format) &&
                        std::string(format.C_Str()).find("glTF") != std::string::npos;
-  return is_gltf && aiGetVersionMajor() * 100 + aiGetVersionMinor() < 503;
+  const bool is_ours = is_gltf && std::string(format.C_Str()) == gltf::source_format;
+  return is_ours || (is_gltf && aiGetVersionMajor() * 100 + aiGetVersionMinor() < 503);
 }
 
 /// Half of what is seen along the shorter side of a picture whose width is `aspect` times its height, in degrees.
 double half_degrees(const aiScene& scene, const aiCamera& camera, double aspect) {
   constexpr double degrees_of_radian = 57.295779513082320877;
   const double half = 0.5 * double{camera.mHorizontalFOV};
-  if (has_early_gltf_cameras(scene)) {
+  if (has_vertical_angles(scene)) {
     const double vertical = camera.mAspect > 0 ? half / double{camera.mAspect} : half;
     return degrees_of_radian * (aspect < 1 ? narrowed(vertical, aspect) : vertical);
   }
@@ -105,7 +107,7 @@ core::View view_of(const aiScene& scene, const aiCamera& camera, const Transform
   const bool has_aspect = std::isfinite(camera.mAspect) && camera.mAspect > 0;
   const double aspect = has_aspect ? std::clamp(double{camera.mAspect}, 1 / aspect_max, aspect_max) : 1;
   core::View view;
-  view.from = world.point(has_early_gltf_cameras(scene) ? Vec3d{} : to_vec(camera.mPosition));
+  view.from = world.point(has_vertical_angles(scene) ? Vec3d{} : to_vec(camera.mPosition));
   view.at = view.from + world.direction(to_vec(camera.mLookAt));
   view.up = world.direction(to_vec(camera.mUp));
   view.width = static_cast<int>(std::lround(shorter_side * std::max(aspect, 1.0)));

@@ -141,6 +141,16 @@ bool is_emissive(const aiMaterial& source) { return color(source, {AI_MATKEY_COL
 
 bool has_alpha_mask(const aiMaterial& source) { return alpha_mode(source) == "MASK"; }
 
+bool has_moved_texture(const aiMaterial& source) {
+  const auto is_moved = [&](aiTextureType type) {
+    aiUVTransform transform;
+    const bool has_one = source.Get(AI_MATKEY_UVTRANSFORM(type, 0), transform) == aiReturn_SUCCESS;
+    return has_one && (transform.mTranslation != aiVector2D(0, 0) || transform.mScaling != aiVector2D(1, 1) ||
+                       transform.mRotation < 0 || transform.mRotation > 0);
+  };
+  return is_moved(aiTextureType_BASE_COLOR) || is_moved(aiTextureType_DIFFUSE);
+}
+
 bool has_clear_coat(const aiMaterial& source) { return share(source, {AI_MATKEY_CLEARCOAT_FACTOR}, 0) > 0; }
 
 }  // namespace dmpc::apps

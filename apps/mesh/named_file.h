@@ -1,4 +1,4 @@
-// The file that is meant by a name in another one.
+// Files that a scene refers to, found as other programs find them.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,16 @@
 
 namespace dmpc::apps {
 
-/// What there is of it: `name` in `folder` as it stands, with "%20" decoded, or, where neither exists, its last part in the
-/// folder. The first is meant.
+/// The regular files that may be meant by `name` in a scene's file that lies in `folder`, the likeliest first: the file of this
+/// name, the same with "%20" for a blank, in other letters' case, with a Windows path's backslashes and drive, then its last part
+/// alone in `folder` and in a folder "textures" there. Only folders in or below `folder` are looked through; what a name says
+/// outright may lie anywhere.
 std::vector<std::filesystem::path> files_meant(const std::filesystem::path& folder, const std::string& name);
+
+/// Whether `path` is another file than the one that `name` says outright, in glTF's spelling or plainly.
+bool is_under_other_name(const std::filesystem::path& folder, const std::string& name, const std::filesystem::path& path);
+
+/// "%20" as a blank: glTF names files by addresses.
+std::string decoded_address(const std::string& text);
 
 }  // namespace dmpc::apps

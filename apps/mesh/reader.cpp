@@ -32,10 +32,25 @@ std::vector<bool> used_materials(const aiScene& file, const Placements& placemen
   return used;
 }
 
+/// One line for all textures that are not where the file says.
+void note_other_names(const std::vector<std::string>& names, std::vector<std::string>& notes) {
+  constexpr std::size_t shown = 4;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), shown); ++i) {
+    list += (i > 0 ? ", " : "") + names[i];
+  }
+  if (!names.empty()) {
+    notes.push_back(grouped(names.size()) + (names.size() == 1 ? " texture was" : " textures were") +
+                    " found under other names: " + list +
+                    (names.size() > shown ? " and " + grouped(names.size() - shown) + " more" : ""));
+  }
+}
+
 /// With the textures of those that are used, which the scene is given; what cannot be had is added to `missing`.
-std::vector<MeshMaterial> materials_of(const aiScene& file, const Placements& placements, SceneFiles& files, core::Scene& scene,
-                                       std::vector<std::string>& missing) {
-  TextureReader textures(file, scene.name, files, scene.textures);
+std::vector<MeshMaterial> materials_of(const ImportedFile& imported, const Placements& placements, SceneFiles& files,
+                                       MeshScene& result, std::vector<std::string>& missing) {
+  const aiScene& file = *imported.scene;
+  TextureReader textures(file, result.scene.name, files, result.scene.textures);
   const std::vector<bool> used = used_materials(file, placements);
   std::vector<MeshMaterial> materials;
   for (std::size_t i = 0; i < file.mNumMaterials; ++i) {
@@ -44,12 +59,14 @@ std::vector<MeshMaterial> materials_of(const aiScene& file, const Placements& pl
     if (const auto texture = use ? textures.find(*use) : std::nullopt) {
       material.material.texture = *texture;
       material.coordinates = use->coordinates;
+      material.place = i < imported.texture_places.size() ? imported.texture_places[i] : TexturePlace{};
     }
     materials.push_back(material);
   }
   for (const std::string& texture : textures.missing()) {
     missing.push_back(texture);
   }
+  note_other_names(textures.other_names(), result.notes);
   return materials;
 }
 
@@ -128,7 +145,7 @@ std::string text_of(const core::Vec3d& point) { return rounded(point.x) + "," + 
 
 /// The whole in view; says how, as a start for a camera of one's own.
 core::View plain_view(const Bounds& bounds, const MeshOptions& options, std::vector<std::string>& notes) {
-  const core::View view = whole_view(bounds, options.up.value_or(1));
+  const core::View view = whole_view(bounds, options.up.value_or(UpAxis{}));
   notes.push_back("the whole is in view, as by --camera=" + text_of(view.from) + "/" + text_of(view.at) + "/" + text_of(view.up));
   return view;
 }
@@ -137,9 +154,12 @@ void add_surroundings(core::Scene& scene, const aiScene& file, const MeshOptions
   const double scale = options.scale.value_or(1);
   const Bounds bounds = bounds_of_vertices(scene);
   scene.background = plain_background;
-  const auto camera = camera_of(file, scale, notes);
-  scene.view = camera ? *camera : plain_view(bounds, options, notes);
-  scene.lights = lights_of(file, bounds, scale, notes);
+  // What is said of a view or of lights that others are put in place of would be untrue.
+  std::vector<std::string> unsaid;
+  std::vector<std::string>& view_notes = options.is_seen_otherwise ? unsaid : notes;
+  const auto camera = camera_of(file, scale, view_notes);
+  scene.view = camera ? *camera : plain_view(bounds, options, view_notes);
+  scene.lights = lights_of(file, bounds, scale, options.is_lit_otherwise ? unsaid : notes);
   if (scene.lights.empty()) {
     scene.lights = plain_lights(bounds, scene.view);
   }
@@ -154,7 +174,8 @@ MeshScene read(const std::string& path, const MeshOptions& options, SceneFiles& 
   check_size(size);
   reserve(result.scene, size);
   note_features(*file.scene, placements, result.notes);
-  const std::vector<MeshMaterial> materials = materials_of(*file.scene, placements, files, result.scene, missing);
+  result.notes.insert(result.notes.end(), file.notes.begin(), file.notes.end());
+  const std::vector<MeshMaterial> materials = materials_of(file, placements, files, result, missing);
   judge_missing(missing, options, result.notes);
   add_geometry(result.scene, *file.scene, placements, materials, options);
   add_surroundings(result.scene, *file.scene, options, result.notes);

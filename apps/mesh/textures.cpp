@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "apps/mesh/named_file.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -52,9 +53,12 @@ std::optional<TextureUse> colour_texture(const aiMaterial& source) {
   return base ? base : texture_of(source, aiTextureType_DIFFUSE);
 }
 
-std::string TextureReader::file_of(const std::string& name) const {
+std::string TextureReader::file_of(const std::string& name) {
   const fs::path folder = path_.parent_path();
   const std::vector<fs::path> files = files_.meant(folder, name);
+  if (!files.empty() && is_under_other_name(folder, name, files.front())) {
+    other_names_.insert(files.front().lexically_relative(folder.empty() ? fs::path(".") : folder).string() + " for " + name);
+  }
   return (files.empty() ? folder / name : files.front()).string();
 }
 

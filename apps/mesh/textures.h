@@ -41,18 +41,21 @@ class TextureReader {
   /// "a.png: ...": what could not be had and why, once each, in the order of their names.
   std::vector<std::string> missing() const { return {missing_.begin(), missing_.end()}; }
 
+  /// "wood.PNG for C:\art\wood.png": what was found elsewhere than the file says.
+  std::vector<std::string> other_names() const { return {other_names_.begin(), other_names_.end()}; }
+
  private:
   /// As the scene's next texture.
   void read(const TextureUse& use);
   /// That is meant by this name (apps/mesh/named_file.h).
-  std::string file_of(const std::string& name) const;
+  std::string file_of(const std::string& name);
 
   const aiScene& file_;
   std::filesystem::path path_;
   SceneFiles& files_;
   std::vector<core::Texture>& textures_;
   std::map<std::string, std::optional<std::uint32_t>> known_;  ///< by path and edges
-  std::set<std::string> missing_;
+  std::set<std::string> missing_, other_names_;
 };
 
 }  // namespace dmpc::apps

@@ -97,9 +97,13 @@ void MeshSession::ask() {
   Packer fields;
   fields.add_text(path_);
   add(fields, options_.scale, options_.scale.value_or(1));
-  add(fields, options_.up, static_cast<double>(options_.up.value_or(1)));
+  const UpAxis up = options_.up.value_or(UpAxis{});
+  add(fields, options_.up, static_cast<double>(up.axis));
+  fields.add(static_cast<std::uint8_t>(up.is_negative));
   add(fields, options_.smooth_degrees, options_.smooth_degrees.value_or(0));
-  fields.add(static_cast<std::uint8_t>(options_.allows_missing));
+  for (const bool flag : {options_.allows_missing, options_.is_seen_otherwise, options_.is_lit_otherwise}) {
+    fields.add(static_cast<std::uint8_t>(flag));
+  }
   process_.send(Saying::read_mesh, fields);
 }
 

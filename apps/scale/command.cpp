@@ -11,6 +11,7 @@
 #include "apps/html/sweep_page.h"
 #include "apps/machine_load.h"
 #include "apps/option_values.h"
+#include "apps/origin.h"
 #include "apps/output_file.h"
 #include "apps/plot_folder.h"
 #include "apps/scale/measure.h"
@@ -59,7 +60,7 @@ void publish(const std::vector<ScaleResult>& results, bool is_complete, double l
   write_to(options.output, text_of(table, options.format), output, "the table");
   if (options.report) {
     const html::SweepPart part{"", table, scale_plots(options.settings)};
-    write_file(*options.report, html::sweep_page("Study scale", {}, {&part, 1}, std::cerr));
+    write_file(*options.report, html::sweep_page({"Study scale", {}, {part}}, this_origin(), std::cerr));
   }
   if (options.plots) {
     PlotFolder(*options.plots, std::cerr).add(table, data_file, scale_plots(options.settings));

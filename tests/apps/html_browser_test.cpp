@@ -42,7 +42,7 @@ std::string window_around(const std::string& file, int width) {
 /// A page of a modelled machine with all that a page can have but heat maps.
 std::string page_text() {
   std::ostringstream complaints;
-  return render_page(Watched(starved(modelled())).record(), complaints);
+  return render_page(Watched(starved(modelled())).record(), {.command = "dmpc render " + std::string(300, 'x')}, complaints);
 }
 
 /// What the browser shows of the page in a window of so many pixels.

@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "apps/html/data_url.h"
 #include "tests/support/text.h"
 
 namespace dmpc::apps::html {
@@ -109,9 +110,11 @@ TEST_CASE("elements that are opened are closed") {
     page.add_facts({{"a", "b"}});
     page.add_picture(Image(1, 1), "", "c");
     page.add_table(table_of(20));
+    page.add_conclusion("d");
+    page.add_origin({.command = "dmpc", .program = "dmpc 1", .date = "2026-11-22", .computer = "one"}, {{"film", "e"}});
   });
   for (const std::string name :
-       {"main", "nav", "dl", "div", "figure", "table", "details", "summary", "thead", "tbody", "tr", "style"}) {
+       {"main", "nav", "dl", "div", "figure", "table", "details", "summary", "thead", "tbody", "tr", "style", "pre", "a", "p"}) {
     CHECK_MESSAGE(count_of(text, "<" + name + " ") + count_of(text, "<" + name + ">") == count_of(text, "</" + name + ">"), name);
   }
 }
@@ -134,6 +137,55 @@ TEST_CASE("a page says that it shows a picture smaller than it is") {
   CHECK(contains(with_side(1024), "width=\"1024\" height=\"1\""));
   CHECK(contains(with_side(1025), "width=\"513\" height=\"1\""));
   CHECK(contains(with_side(1025), "Black. Shown smaller than it is: 1025x1 pixels."));
+}
+
+TEST_CASE("what is between backticks is code, in paragraphs, cells and notes") {
+  const std::string text = page_with([](Page& page) {
+    page.add_text("as `dmpc <b>` does");
+    Table table("Table", {{"a"}});
+    table.add_row({"`x`"});
+    table.add_note("`y`");
+    page.add_table(table);
+  });
+  CHECK(contains(text, "<p>as <code>dmpc &lt;b&gt;</code> does</p>"));
+  CHECK(contains(text, "<td class=\"text\"><code>x</code></td>"));
+  CHECK(contains(text, "<li><code>y</code></li>"));
+  CHECK_FALSE(contains(text, "`"));
+}
+
+TEST_CASE("pictures and tables can be saved, whole and without a script") {
+  const std::string text = page_with([](Page& page) {
+    page.add_picture(Image(1025, 1), "The picture of <x>", "Black.");
+    page.add_table(table_of(1));
+  });
+  CHECK(contains(text, "download=\"the-picture-of-x.png\" href=\"" + data_url(Image(1025, 1)) + "\""));
+  CHECK(contains(text, "download=\"ta-ble.csv\" href=\"data:text/csv;base64,"));
+  CHECK(contains(text, data_url("text/csv", "na<me,time (s),count\na<b,0.125,1234567\n")));
+}
+
+TEST_CASE("a page says how it came about and how it is cited, with all that tells its run from others") {
+  const std::string text = page_with([](Page& page) {
+    page.add_origin({.command = "dmpc render '<a>.nff'",
+                     .program = "dmpc 1.2 (release build)",
+                     .date = "2026-11-22 21:40 UTC",
+                     .computer = "2 processors",
+                     .scene_digest = 0xabc},
+                    {{"film", "1daa"}});
+  });
+  CHECK(contains(text, "<pre class=\"copy\">dmpc render &#39;&lt;a&gt;.nff&#39;</pre>"));
+  CHECK(contains(text, "<dt>Film</dt>\n<dd>1daa</dd>"));
+  CHECK(contains(text, "A &lt;title&gt;. dmpc 1.2, 2026-11-22, scene 0000000000000abc, film 1daa."));
+}
+
+TEST_CASE("words that occur on a page are explained at its end, and no others") {
+  const std::string text = page_with([](Page& page) {
+    page.begin_section("Faults");
+    page.add_text("Stolen time.");
+  });
+  CHECK(contains(text, "What the words mean</h2>"));
+  CHECK(contains(text, "<dt>fault</dt>"));
+  CHECK(contains(text, "<dt>stolen</dt>"));
+  CHECK_FALSE(contains(text, "<dt>lent</dt>"));
 }
 
 }  // namespace dmpc::apps::html

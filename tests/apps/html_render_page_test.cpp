@@ -11,9 +11,13 @@ namespace dmpc::apps::html {
 
 namespace {
 
+Origin origin() {
+  return {.command = "dmpc render x", .program = "dmpc 1.2", .date = "2026-11-22 21:40 UTC", .computer = "2 processors"};
+}
+
 std::string page_of(const RenderOptions& options) {
   std::ostringstream complaints;
-  std::string text = render_page(Rendered(options).record(), complaints);
+  std::string text = render_page(Rendered(options).record(), origin(), complaints);
   CHECK(complaints.str().empty());
   return text;
 }
@@ -23,8 +27,9 @@ std::string page_of(const RenderOptions& options) {
 TEST_CASE("the page of a render has its picture, losses, nodes, traffic and memory") {
   for (const RenderOptions& options : {small(), modelled(Strategy::dataflow), small(Strategy::replicated)}) {
     const std::string text = page_of(options);
-    for (const char* const part : {"Render of balls-1", "16x12 pixels", "Where each node&#39;s time went", "What each node did",
-                                   "Packets by kind", "Memory of each node", "data:image/png", "data:image/svg+xml"}) {
+    for (const char* const part :
+         {"Render of balls-1", "16x12 pixels", "Where each node&#39;s time went", "What each node did", "Packets by kind",
+          "Memory of each node", "data:image/png", "data:image/svg+xml", "dmpc render x", "dmpc 1.2, 2026-11-22, film "}) {
       CHECK_MESSAGE(contains(text, part), part);
     }
     CHECK_FALSE(contains(text, "What each pixel took"));
@@ -48,14 +53,15 @@ TEST_CASE("heat maps are shown if they are asked for") {
 
 TEST_CASE("what onlookers have seen is shown") {
   std::ostringstream complaints;
-  const std::string text = render_page(Watched(starved(modelled())).record(), complaints);
-  for (const char* const part : {"Over time", "Fetches: who asks", "The hottest pages", "What fetching a page takes",
-                                 "Misses by the size of the caches", "Plot: What the nodes were busy with over time"}) {
+  const std::string text = render_page(Watched(starved(modelled())).record(), origin(), complaints);
+  for (const char* const part :
+       {"Over time", "Who fetched pages from whom", "How busy each node was over time", "The hottest pages",
+        "What fetching a page takes", "Misses by the size of the caches", "Plot: What the nodes were busy with over time"}) {
     CHECK_MESSAGE(contains(text, part), part);
   }
   CHECK(complaints.str().empty());
-  const std::string rays = render_page(Watched(small(Strategy::dataflow)).record(), complaints);
-  CHECK(contains(rays, "Rays: their sender"));
+  const std::string rays = render_page(Watched(small(Strategy::dataflow)).record(), origin(), complaints);
+  CHECK(contains(rays, "Who sent rays to whom"));
   CHECK_FALSE(contains(rays, "The hottest pages"));
 }
 
@@ -63,8 +69,8 @@ TEST_CASE("a page of a node that fetches nothing says so") {
   RenderOptions options = modelled();
   options.computer.node_count = 1;
   std::ostringstream complaints;
-  const std::string text = render_page(Watched(options).record(), complaints);
-  CHECK(contains(text, "No page was fetched."));
+  const std::string text = render_page(Watched(options).record(), origin(), complaints);
+  CHECK(contains(text, "No page was fetched: each node found all that it looked up at home."));
   CHECK_FALSE(contains(text, "Fetching a page"));
 }
 
@@ -72,7 +78,7 @@ TEST_CASE("a scene's name is no markup") {
   Rendered rendered(small());
   rendered.options.picture.scene = "<script>alert(1)</script>.nff";
   std::ostringstream complaints;
-  const std::string text = render_page(rendered.record(), complaints);
+  const std::string text = render_page(rendered.record(), origin(), complaints);
   CHECK_FALSE(contains(text, "<script"));
   CHECK(contains(text, "&lt;script&gt;alert(1)"));
 }

@@ -100,7 +100,7 @@ TEST_CASE("links are listed, the busiest first, with what they carried") {
   const nodes::VirtualReport& report = *account_of(*rendered.report).virtual_time;
   const Table table = link_table(report);
   CHECK(table.rows().size() == report.links_used);
-  CHECK(sum(table, "bytes") == report.links.bytes);
+  CHECK(sum(table, "carried") == report.links.bytes);
   CHECK(std::get<double>(cell(table, 0, "held")) >= std::get<double>(cell(table, 1, "held")));
 }
 

@@ -25,10 +25,11 @@ Table sweep_table() {
 TEST_CASE("a page of a sweep has its texts, plots, tables and notes") {
   std::ostringstream complaints;
   const Table table = sweep_table();
-  const SweepPart part{"Growth", table, {curves("time", "Time", "nodes", node_axis(), {}, {{"time", "time"}})}};
-  const std::string text = sweep_page("Sweep", {"A text."}, {&part, 1}, complaints);
-  for (const char* const word : {"<h1>Sweep</h1>", "<p>A text.</p>", "Growth</h2>", "alt=\"Plot: Time\" src=\"data:image/svg+xml",
-                                 "<td>8.0</td>", "<li>A note.</li>"}) {
+  const SweepPart part{"Growth", table, {curves("time", "Time", "nodes", node_axis(), {}, {{"time", "time"}})}, "It grows."};
+  const std::string text = sweep_page({"Sweep", {"A text."}, {part}, {{"film", "1daa"}}}, {.program = "dmpc 1"}, complaints);
+  for (const char* const word :
+       {"<h1>Sweep</h1>", "<p>A text.</p>", "Growth</h2>", "alt=\"Plot: Time\" src=\"data:image/svg+xml", "<td>8.0</td>",
+        "<li>A note.</li>", "<p class=\"conclusion\">It grows.</p>", "dmpc 1, , film 1daa."}) {
     CHECK_MESSAGE(contains(text, word), word);
   }
   CHECK(complaints.str().empty());
@@ -38,8 +39,8 @@ TEST_CASE("a part without a heading is no section, and no parts are a page all t
   std::ostringstream complaints;
   const Table table = sweep_table();
   const SweepPart part{"", table, {}};
-  CHECK_FALSE(contains(sweep_page("Sweep", {}, {&part, 1}, complaints), "<h2"));
-  CHECK(contains(sweep_page("Sweep", {}, {}, complaints), "<h1>Sweep</h1>"));
+  CHECK_FALSE(contains(sweep_page({"Sweep", {}, {part}}, {}, complaints), "</h2>\n<div"));
+  CHECK(contains(sweep_page({"Sweep", {}, {}}, {}, complaints), "<h1>Sweep</h1>"));
 }
 
 }  // namespace dmpc::apps::html

@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "apps/color_map.h"
 #include "tests/apps/watched.h"
 
 namespace dmpc::apps::html {
@@ -32,16 +31,6 @@ svm::Fetches fetches_up_to(std::uint64_t count) {
 }
 
 }  // namespace
-
-TEST_CASE("a picture of numbers goes from dark to light") {
-  const Image image = number_picture(std::vector<double>{0, 1, 2, 4}, 2, 2, 3);
-  CHECK(image.width == 2);
-  CHECK(image.height == 6);
-  CHECK(image.rgb[0] == static_cast<float>(color_map(0)[0]));
-  CHECK(image.rgb[3] == static_cast<float>(color_map(0.25)[0]));
-  CHECK(image.rgb.back() == static_cast<float>(color_map(1)[2]));
-  CHECK(number_picture(std::vector<double>{0}, 1, 1).rgb[0] == static_cast<float>(color_map(0)[0]));
-}
 
 TEST_CASE("fetches of every length have parts that add up") {
   const Table table = fetch_table(fetches_up_to(1000));
@@ -90,13 +79,21 @@ TEST_CASE("steps have the nodes' time without the host's") {
   CHECK(real(table.rows()[0][1]) == 25);
   CHECK(real(table.rows()[0][2]) == 12.5);
   CHECK(real(table.rows()[0][3]) == 0);
-  CHECK(step_picture(steps).height == 64);
+  CHECK(real(table.rows()[0][0]) == 0);
+  const NumberMap map = step_map(steps);
+  CHECK(map.values == std::vector<double>{50, 25});
+  CHECK(map.most == 100);
+  CHECK(step_plot(steps).bar_width == 0.001);
 }
 
 TEST_CASE("a sample tells nothing of caches that would hold next to nothing of it") {
   const MissEstimate estimate{.every = 8};
-  const Table table = miss_table(estimate, 1000, 10, 100, 1);
-  CHECK(std::get<std::uint64_t>(table.rows().front()[0]) >= 32);
+  const Table table = miss_table(estimate, 1000, 10, 20, 1);
+  CHECK(std::get<std::uint64_t>(table.rows()[0][0]) == 20);
+  CHECK(std::holds_alternative<std::monostate>(table.rows()[0][1]));
+  CHECK(std::holds_alternative<std::monostate>(table.rows()[0][2]));
+  CHECK(std::get<double>(table.rows()[0][3]) == 10);
+  CHECK(std::get<std::uint64_t>(table.rows()[1][0]) >= 32);
   CHECK(std::get<std::uint64_t>(table.rows().back()[0]) == 1000);
 }
 

@@ -76,6 +76,18 @@ TEST_CASE("without a bound a render takes what is forecast") {
   }
 }
 
+TEST_CASE("what two pixels take is forecast to the byte") {
+  RenderOptions options = small(Strategy::svm);
+  options.picture.resolution = {2, 1};
+  options.database.page_size_bytes = 65536;
+  const MemoryForecast memory = forecast_for(options).svm;
+  const Rendered rendered(options);
+  const Account account = account_of(*rendered.report);
+  CHECK(memory.usual_bytes == account.nodes.front().memory_planned.total());
+  CHECK(refusal(options, memory.least_bytes).empty());
+  CHECK_FALSE(refusal(options, memory.least_bytes - 1).empty());
+}
+
 TEST_CASE("every computer is forecast, and dataflow as far as it goes") {
   const RenderOptions options = small();
   const Subject subject = build_subject(load_scene(options.picture), options.picture);

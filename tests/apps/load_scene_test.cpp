@@ -71,7 +71,7 @@ TEST_CASE("a mesh file is a scene, seen and lit as the options say") {
 }
 
 TEST_CASE("the options of mesh files go with no other scene") {
-  const std::vector<MeshOptions> all = {{.scale = 1}, {.up = 1}, {.smooth_degrees = 60}, {.allows_missing = true}};
+  const std::vector<MeshOptions> all = {{.scale = 1}, {.up = UpAxis{1}}, {.smooth_degrees = 60}, {.allows_missing = true}};
   for (const MeshOptions& mesh : all) {
     PictureOptions picture{.scene = "tetra-1"};
     picture.staging.mesh = mesh;

@@ -18,13 +18,13 @@ using doctest::Approx;
 namespace {
 
 /// The triangle, and a node (of `placed`) with the first of `lights`.
-MeshFile lit(const std::string& lights, const std::string& placed = R"("translation":[0,0,7])") {
+MeshFile lit(const std::string& lights, const std::string& placed = R"("translation":[0,0,7])", const MeshOptions& options = {}) {
   const tests::TemporaryFolder folder;
   tests::Gltf gltf{.nodes = R"([{"mesh":0},{"extensions":{"KHR_lights_punctual":{"light":0}},)" + placed + "}]",
                    .roots = "[0,1]"};
   gltf.more = R"("extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":)" + lights + "}}";
   tests::write_text(folder / "a.gltf", gltf.text());
-  return read_mesh_file(folder / "a.gltf");
+  return read_mesh_file(folder / "a.gltf", options);
 }
 
 /// The triangle seen by the first of `cameras`.
@@ -71,6 +71,13 @@ TEST_CASE("a spot is taken for a point light, and that is said") {
   const MeshFile file = lit(R"([{"type":"spot","spot":{"outerConeAngle":0.5}}])");
   CHECK(file.scene.lights.at(0).position == Vec3d{0, 0, 7});
   CHECK(says(file, "spot lights taken for point lights without fall-off: 1"));
+}
+
+TEST_CASE("nothing is said of a file's lights where others take their place, nor of its view") {
+  const std::string lamp = R"([{"type":"point","color":[0.5,0.25,0],"intensity":1}])", place = R"("translation":[0,0,7])";
+  CHECK(lit(lamp, place, {.is_seen_otherwise = true}).notes.size() == 1);
+  CHECK(lit(lamp, place, {.is_lit_otherwise = true}).notes.size() == 1);
+  CHECK(lit(lamp, place, {.is_seen_otherwise = true, .is_lit_otherwise = true}).notes.empty());
 }
 
 TEST_CASE("a light that is dark does not count") { CHECK(lit(R"([{"type":"point","intensity":0}])").scene.lights.size() == 2); }

@@ -141,7 +141,7 @@ TEST_CASE("the scale multiplies vertices, cameras and lights") {
 
 TEST_CASE("without a camera the whole scene is in view, with the axis up that was asked for") {
   for (const std::size_t up : {0U, 1U, 2U}) {
-    const Scene scene = read("a.obj", tests::triangle_obj, {.up = up}).scene;
+    const Scene scene = read("a.obj", tests::triangle_obj, {.up = UpAxis{up}}).scene;
     CHECK(scene.view.up[up] == 1);
     CHECK(scene.view.from[up] > scene.view.at[up]);
     for (const Vec3d& vertex : scene.vertices) {
@@ -152,7 +152,7 @@ TEST_CASE("without a camera the whole scene is in view, with the axis up that wa
 }
 
 TEST_CASE("the camera that is said for the whole gives the same view again") {
-  const MeshFile file = read("a.obj", "v 10 20 30\nv 14 20 30\nv 12 23 30\nf 1 2 3\n", {.up = 2});
+  const MeshFile file = read("a.obj", "v 10 20 30\nv 14 20 30\nv 12 23 30\nf 1 2 3\n", {.up = UpAxis{2}});
   const CameraChoice camera = parse_camera(file.notes.at(0).substr(file.notes[0].find('=') + 1));
   CHECK(length(camera.from - file.scene.view.from) < 1e-3);
   CHECK(length(camera.at - file.scene.view.at) < 1e-3);

@@ -78,6 +78,17 @@ TEST_CASE("where the order of references is fixed, the estimate is what the run 
   CHECK(watched.view().misses->misses(4) == static_cast<double>(std::get<svm::Report>(*watched.report).pages().faults));
 }
 
+TEST_CASE("a run with more references than are kept ends, by threads and in virtual time, and its estimate is of a share") {
+  for (const RenderOptions& options : {starved(small()), starved(modelled())}) {
+    const Watched watched(options, 1);
+    const MissEstimate& estimate = *watched.view().misses;
+    CHECK(std::get<svm::Report>(*watched.report).pages().references > 10'000);
+    CHECK(estimate.every > 1);
+    CHECK(estimate.every < 1024);
+    CHECK(estimate.misses(estimate.every) > 0);
+  }
+}
+
 TEST_CASE("pages are not looked at where there are none, nor their references where they are counted otherwise") {
   CHECK_FALSE(Watched(small(Strategy::dataflow)).view().fetches);
   CHECK_FALSE(Watched(small(Strategy::replicated)).view().misses);

@@ -2,7 +2,13 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "core/expect.h"
 #include "tests/support/text.h"
@@ -50,7 +56,7 @@ TEST_CASE("a script names its files, its axes and their scales") {
   CHECK(contains(text, "set output 'times.svg'"));
   CHECK(contains(text, "background '#ffffff'"));
   CHECK(contains(text, "set xlabel 'nodes'\nset xrange [0.9:72]\nset logscale x 2\n"));
-  CHECK(contains(text, "set ylabel 'time (s)'\nset yrange [*:*]\n"));
+  CHECK(contains(text, "set ylabel 'time (s)'\nset yrange [*:8.12]\nset ytics ('5 s' 5, '6 s' 6, '7 s' 7, '8 s' 8)\n"));
   CHECK_FALSE(contains(text, "logscale y"));
   CHECK(contains(text,
                  "'t.csv' using (column('nodes')):(stringcolumn('scene') eq 'a' ? column('time (s)') : NaN) smooth unique with "
@@ -110,7 +116,7 @@ TEST_CASE("a plot of what the table has not, of too many colours, or of bars and
   plot.series[0].column = "speed";
   is_refused(plot);
   plot = curves();
-  plot.series[0].color = 8;
+  plot.series[0].color = 12;
   is_refused(plot);
   plot = curves();
   plot.series[0].mark = PlotMark::bars;
@@ -143,6 +149,126 @@ TEST_CASE("a small plot of many bars names every so many") {
   CHECK(contains(script(plot, table), "'28' 29, '29' 30)"));
   plot.size = PlotSize::small;
   CHECK(contains(script(plot, table), "'26' 27, '28' 29)"));
+}
+
+TEST_CASE("a small plot of few short names has them upright, at round numbers") {
+  Table table("Many", {{"node"}, {"time", "s", 1}});
+  for (std::uint64_t node = 0; node < 64; ++node) {
+    table.add_row({node, 1.0});
+  }
+  Plot plot = apps::curves("many", "Many", "node", {}, {}, {{.title = "time", .column = "time", .mark = PlotMark::bars}});
+  plot.size = PlotSize::small;
+  const std::string text = script(plot, table);
+  CHECK(contains(text, "set xtics nomirror ('0' 1, '5' 6, '10' 11,"));
+  CHECK(contains(text, "'60' 61)"));
+}
+
+TEST_CASE("axes have round ticks in units that people read") {
+  Table table("Sizes", {{"nodes"}, {"sent", "bytes"}});
+  table.add_row({std::uint64_t{1}, std::uint64_t{105'000'000}});
+  table.add_row({std::uint64_t{1500}, std::uint64_t{1'200'000}});
+  const Plot plot = apps::curves("sizes", "Sizes", "nodes", {}, {.label = "", .least = 0}, {{"sent", "sent"}});
+  const std::string text = script(plot, table);
+  CHECK(contains(text, "set yrange [0:1.092e+08]\nset ytics ('0' 0, '20 MB' 20000000, '40 MB' 40000000"));
+  CHECK(contains(text, "set xtics ('500' 500, '1,000' 1000, '1,500' 1500)"));
+}
+
+TEST_CASE("bars over time stand at their numbers, each to the right of its own") {
+  Table table("Steps", {{"start", "ms", 1}, {"work", "%", 1}});
+  for (const double start : {0.0, 2.5, 5.0}) {
+    table.add_row({start, 50.0});
+  }
+  Plot plot = apps::curves("steps", "Steps", "start", {}, {.label = "%", .least = 0},
+                           {{.title = "work", .column = "work", .mark = PlotMark::bars}});
+  plot.bar_width = 2.5;
+  const std::string text = script(plot, table);
+  CHECK(contains(text, "using (column('start (ms)') + 1.25):"));
+  CHECK(contains(text, "set boxwidth 2.5\n"));
+  CHECK(contains(text, "set xtics ('0' 0, '2 ms' 2, '4 ms' 4, '6 ms' 6)"));
+}
+
+TEST_CASE("twelve series look unlike: in colour, or dashed, or hatched") {
+  std::vector<Column> columns = {{"x"}};
+  std::vector<Cell> row = {std::uint64_t{1}};
+  std::vector<PlotSeries> lines, blocks;
+  for (std::size_t i = 0; i < plot_color_count; ++i) {
+    columns.push_back({"y" + std::to_string(i)});
+    row.emplace_back(1.0);
+    lines.push_back({.title = "same", .column = columns.back().name, .color = i});
+    blocks.push_back({.title = "same", .column = columns.back().name, .mark = PlotMark::bars, .color = i});
+  }
+  Table wide("Wide", columns);
+  wide.add_row(row);
+  for (const std::vector<PlotSeries>& series : {lines, blocks}) {
+    std::set<std::string> looks;
+    std::istringstream text(script(apps::curves("wide", "Wide", "x", {}, {}, series), wide));
+    for (std::string line; std::getline(text, line);) {
+      if (const std::size_t at = line.find(" with "); at != std::string::npos) {
+        looks.insert(line.substr(at, line.find(" title ") - at));
+      }
+    }
+    CHECK(looks.size() == plot_color_count);
+  }
+}
+
+namespace {
+
+using Light = std::array<double, 3>;
+
+/// Of "#rrggbb".
+Light linear_light(const std::string& color) {
+  Light light{};
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    const double value = std::stoi(color.substr(1 + 2 * channel, 2), nullptr, 16) / 255.0;
+    light[channel] = value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+  }
+  return light;
+}
+
+Light seen_by(const std::array<Light, 3>& matrix, const Light& light) {
+  Light product{};
+  for (std::size_t row = 0; row < 3; ++row) {
+    product[row] = matrix[row][0] * light[0] + matrix[row][1] * light[1] + matrix[row][2] * light[2];
+  }
+  return product;
+}
+
+/// CIE 1976 L*a*b* under D65.
+Light lab(Light light) {
+  for (double& value : light) {
+    value = std::clamp(value, 0.0, 1.0);
+  }
+  Light xyz = seen_by({{{0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}}}, light);
+  xyz[0] /= 0.9505;
+  xyz[2] /= 1.089;
+  const auto curve = [](double value) { return value > 0.008856 ? std::cbrt(value) : 7.787 * value + 16.0 / 116; };
+  return {116 * curve(xyz[1]) - 16, 500 * (curve(xyz[0]) - curve(xyz[1])), 200 * (curve(xyz[1]) - curve(xyz[2]))};
+}
+
+double color_distance(const Light& a, const Light& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+
+}  // namespace
+
+// The matrices of G. Machado, M. Oliveira, L. Fernandes, "A Physiologically-based Model for Simulation of Color Vision
+// Deficiency" (2009), for the strongest degree of each.
+TEST_CASE("people who lack one kind of cones can tell the colours of plots apart") {
+  constexpr double clearly_apart = 15;  // a difference of 2.3 is just seen
+  const std::array<std::array<Light, 3>, 4> eyes = {{
+      {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+      {{{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}},
+      {{{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}},
+      {{{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.303900}}},
+  }};
+  for (const auto& eye : eyes) {
+    for (std::size_t a = 0; a < plot_colors.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        CAPTURE(plot_colors[a]);
+        CAPTURE(plot_colors[b]);
+        CHECK(color_distance(lab(seen_by(eye, linear_light(plot_colors[a]))), lab(seen_by(eye, linear_light(plot_colors[b])))) >
+              clearly_apart);
+      }
+    }
+  }
 }
 
 }  // namespace dmpc::tests

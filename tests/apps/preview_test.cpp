@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
+#include <new>
 #include <string>
 #include <thread>
 #include <vector>
@@ -84,6 +85,20 @@ TEST_CASE("a viewer sees pixels as they come, with the light of the samples that
   CHECK(shown.packets == 1 + 1);
   CHECK(small.value(shown, 63) == 63);
   CHECK(small.value(shown, 163) == 0);
+}
+
+TEST_CASE("what goes wrong while tiles are sent ends the preview, and nothing else") {
+  LoopbackListener listener;
+  SmallFilm small;
+  {
+    const auto preview =
+        Preview::to_viewer({"127.0.0.1", listener.port()}, "a", 100, 70, nullptr, {},
+                           [](const std::string&, const PictureTile&) -> std::string { throw std::bad_alloc(); });
+    REQUIRE(preview != nullptr);
+    light_all(small, *preview);
+    preview->finish(small.film);
+  }
+  CHECK(ShownPicture(listener.received()).packets == 1);
 }
 
 TEST_CASE("every tile has its turn, however many change all the time") {

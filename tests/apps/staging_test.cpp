@@ -80,7 +80,8 @@ TEST_CASE("the options of a mesh and of the stage are read") {
       staged({"--light=1,2,3", "--light=4,5,6/1,1,1", "--scale=0.5", "--up=z", "--smooth=30", "--missing=plain"});
   CHECK(staging.lights.size() == 2);
   CHECK(staging.mesh.scale == 0.5);
-  CHECK(staging.mesh.up == 2U);
+  CHECK(staging.mesh.up == UpAxis{2});
+  CHECK(staged({"--up=-x"}).mesh.up == UpAxis{0, true});
   CHECK(staging.mesh.smooth_degrees == 30);
   CHECK(staging.mesh.allows_missing);
   CHECK_FALSE(staged({"--missing=error"}).mesh.allows_missing);
@@ -89,8 +90,9 @@ TEST_CASE("the options of a mesh and of the stage are read") {
 }
 
 TEST_CASE("scales, axes and angles out of range are refused") {
-  for (const char* option : {"--scale=0", "--scale=-1", "--scale=inf", "--scale=x", "--scale=1e31", "--light=1e31,0,0", "--up=w",
-                             "--smooth=-1", "--smooth=181", "--smooth=", "--missing=no", "--camera=1", "--light=1"}) {
+  for (const char* option :
+       {"--scale=0", "--scale=-1", "--scale=inf", "--scale=x", "--scale=1e31", "--light=1e31,0,0", "--up=w", "--up=-", "--up=--z",
+        "--up=x,y", "--smooth=-1", "--smooth=181", "--smooth=", "--missing=no", "--camera=1", "--light=1"}) {
     CAPTURE(option);
     CHECK_THROWS_AS(staged({option}), UsageError);
   }

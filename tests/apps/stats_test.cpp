@@ -97,12 +97,12 @@ TEST_CASE("how the scene is placed, seen and lit is told where the command line 
   options.picture.scene = folder / "a.obj";
   options.picture.staging = {.camera = parse_camera("0,0,9/0,0,0/0,1,0"),
                              .lights = {parse_light("1,2,3"), parse_light("4,5,6/1,1,1")},
-                             .mesh = {.scale = 2, .up = 2, .smooth_degrees = 30, .allows_missing = true}};
+                             .mesh = {.scale = 2, .up = UpAxis{2, true}, .smooth_degrees = 30, .allows_missing = true}};
   const auto told = nlohmann::json::parse(Rendered(options).json())["options"];
   CHECK(told["camera"] == "0,0,9/0,0,0/0,1,0");
   CHECK(told["light"] == nlohmann::json({"1,2,3", "4,5,6/1,1,1"}));
   CHECK(told["scale"] == 2);
-  CHECK(told["up"] == "z");
+  CHECK(told["up"] == "-z");
   CHECK(told["smooth"] == 30);
   CHECK(told["missing"] == "plain");
 }

@@ -1,6 +1,7 @@
 // Small renders with all that looks on for a page.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -12,11 +13,11 @@ namespace dmpc::apps {
 
 /// A render with --report, and what its onlookers have seen.
 struct Watched {
-  explicit Watched(RenderOptions given) : options(std::move(given)) {
+  explicit Watched(RenderOptions given, std::size_t references_max = 1'000'000) : options(std::move(given)) {
     options.report = "page.html";
     Subject subject = build_subject(load_scene(options.picture), options.picture, options.database);
     database = std::move(subject.database);
-    Onlookers onlookers(options, static_cast<std::uint32_t>(database.page_count()));
+    Onlookers onlookers(options, static_cast<std::uint32_t>(database.page_count()), references_max);
     const RunTies ties{.observer = onlookers.observer(), .reference_logs = onlookers.reference_logs()};
     report = make_ready(options, database, subject.settings, {}, ties).start({}, {});
     sights = onlookers.take();

@@ -39,7 +39,40 @@ void check_program(const fs::path& program, const fs::path& folder) {
   CHECK(fs::file_size(folder / "tetra.png") > 0);
 }
 
+/// What apps/dmpc has ninja build when it is called for the first time: with words in place of the tools that it calls.
+std::string targets_of_first_call(const TemporaryFolder& folder) {
+  const fs::path apps = folder / "root/apps", tools = folder / "tools";
+  fs::create_directories(apps);
+  fs::create_directories(tools);
+  fs::copy_file(DMPC_SOURCE_DIR "/apps/dmpc", apps / "dmpc");
+  write_text(apps / "install_packages", "#!/bin/sh\n");
+  write_text(tools / "cmake", "#!/bin/sh\n");
+  write_text(tools / "ninja", "#!/bin/sh\nshift 4\necho \"$@\" > '" + (folder / "targets").string() + "'\n");
+  for (const fs::path& file : {apps / "install_packages", tools / "cmake", tools / "ninja"}) {
+    fs::permissions(file, fs::perms::owner_all);
+  }
+  run({"env", "PATH=" + tools.string() + ":/usr/bin:/bin", "bash", apps / "dmpc"});
+  return file_text(folder / "targets");
+}
+
 }  // namespace
+
+TEST_CASE("the first call of apps/dmpc builds all that is installed") {
+  const TemporaryFolder folder;
+  const std::string targets = targets_of_first_call(folder);
+  CHECK(contains(targets, "dmpc"));
+  const Said inputs = run({"sh", "-c", "ninja -C '" DMPC_BUILD_DIR "' -t inputs " + targets});
+  REQUIRE(inputs.status == 0);
+  const std::string script = file_text(DMPC_BUILD_DIR "/apps/cmake_install.cmake"), build = DMPC_BUILD_DIR "/";
+  std::size_t files = 0;
+  for (std::size_t at = script.find("FILES \"" + build); at != std::string::npos; at = script.find("FILES \"" + build, at + 1)) {
+    const std::size_t begin = at + 7 + build.size();
+    const std::string file = script.substr(begin, script.find('"', begin) - begin);
+    CHECK_MESSAGE(contains("\n" + inputs.output, "\n" + file + "\n"), file);
+    ++files;
+  }
+  CHECK(files >= 5);
+}
 
 TEST_CASE("what cmake installs below a folder is complete and works there") {
   const TemporaryFolder folder;

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <limits>
 #include <source_location>
@@ -219,7 +220,8 @@ struct ExploredAtomics {
     mutable History history_;
   };
 
-  static void sleep(const Atomic<std::uint32_t>& word, std::uint32_t value) {
+  /// Without a time-out: no wake-up may be missing.
+  static void sleep(const Atomic<std::uint32_t>& word, std::uint32_t value, std::chrono::milliseconds /*most*/) {
     Explorer::current().step();
     if (word.newest() == value) {
       Explorer::current().block(&word);

@@ -2,7 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstdint>
+#include <thread>
 #include <vector>
 
 namespace dmpc::nodes {
@@ -180,6 +183,38 @@ TEST_CASE("a packet to a sleeper counts it as awake and ends its sleep") {
   CHECK(box.take() == Taken{{1, 1}});
   CHECK_FALSE(box.awake.leave());
   CHECK(box.awake.leave());
+}
+
+/// As in real runs, but whoever has put a packet into a mailbox is stopped for ever before the wake-up.
+struct StoppedSenders : SystemAtomics {
+  static void wake(const Atomic<std::uint32_t>& /*word*/) {}
+};
+
+TEST_CASE("a sleeper finds a packet whose sender stopped before the wake-up") {
+  const MailboxCapacity capacity{.small_slots = 1};
+  LocalMemory memory(OneMailbox::plan_for(capacity));
+  BasicMailbox<StoppedSenders> mailbox(capacity, memory);
+  BasicAwakeCount<StoppedSenders> awake(2);
+  REQUIRE(mailbox.fall_asleep());
+  std::atomic<bool> has_ended = false;
+  std::thread receiver([&] {
+    mailbox.wait();
+    has_ended = true;
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));  // the receiver most probably sleeps
+  CHECK(mailbox.push({}, {}, awake));
+  for (int i = 0; i < 1000 && !has_ended; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  CHECK(has_ended);
+  has_ended ? receiver.join() : receiver.detach();
+  CHECK(mailbox.has_packets());
+}
+
+TEST_CASE("the links of small and of bulk slots lie on different cache lines") {
+  // The inbox, two heads, two slots of each class; and the links.
+  CHECK(MailboxCapacity{1, 1, 56}.bytes() == (1 + 2 + 2 + 2) * 64 + 2 * 64);
+  CHECK(MailboxCapacity{16, 1, 56}.bytes() == (1 + 2 + 17 + 2) * 64 + 3 * 64);
 }
 
 TEST_CASE("a roused sleeper finds nothing and is not counted") {

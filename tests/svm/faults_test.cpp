@@ -13,10 +13,10 @@ using svm::PageId;
 namespace {
 
 struct SmallFaults {
-  explicit SmallFaults(std::uint32_t slots) : memory(needs(slots)), faults(memory, slots) {}
+  explicit SmallFaults(std::uint32_t slots) : memory(needs(slots)), faults(memory, slots, slots) {}
   static nodes::MemoryPlan needs(std::uint32_t slots) {
     nodes::MemoryPlan plan;
-    Faults::add_needs(plan, slots);
+    Faults::add_needs(plan, slots, slots);
     return plan;
   }
   /// Parks and requests; returns whether the fault is new.

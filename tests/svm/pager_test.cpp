@@ -23,7 +23,7 @@ svm::Plan plan_with(std::uint32_t nodes, std::uint32_t cache_pages, std::uint32_
                          .node_count = nodes,
                          .cache_pages = cache_pages,
                          .in_flight = in_flight,
-                         .width = 1,
+                         .width = 64,
                          .height = 1});
 }
 

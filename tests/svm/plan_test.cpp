@@ -175,6 +175,55 @@ TEST_CASE("a mailbox has room for everything that may be under way to it") {
   CHECK(plan.host_mailbox.bulk_payload_bytes <= 1024);
 }
 
+TEST_CASE("no node plans for more pixels in flight than it ever has") {
+  PlanRequest request = request_with(4, 5000);
+  request.in_flight = 4096;
+  request.width = 7;
+  request.height = 3;
+  const svm::Plan plan = make_plan(request);
+  CHECK(plan.in_flight == 21);
+  CHECK(plan.node_mailbox.bulk_slots == 21);
+  REQUIRE(plan.notes.size() == 1);
+  CHECK(plan.notes[0] == "in-flight reduced from 4096 to 21 pixels: no node ever has more");
+  request.work_item_side = 0;
+  CHECK(make_plan(request).in_flight == 6);
+  request.strategy = svm::Strategy::replicated;
+  CHECK(make_plan(request).in_flight == 6);
+  request.width = request.height = 1;
+  CHECK(make_plan(request).in_flight == 1);
+  request.in_flight.reset();
+  CHECK(make_plan(request).notes.empty());
+}
+
+TEST_CASE("a node has no more faults than pages that live elsewhere, nor requests to a home than it has pages") {
+  PlanRequest request = request_with(4, 10);
+  request.in_flight = 64;
+  const svm::Plan plan = make_plan(request);
+  CHECK(plan.in_flight == 64);
+  CHECK(plan.faults_max() == 8);
+  CHECK(plan.node_mailbox.bulk_slots == 8);
+  CHECK(plan.request_credits == 3);
+  request.page_count = 3;
+  CHECK(make_plan(request).faults_max() == 3);
+  CHECK(make_plan(request).request_credits == 1);
+  request.node_count = 1;
+  CHECK(make_plan(request).faults_max() == 0);
+}
+
+TEST_CASE("two pixels take room for two replies, however many were asked for") {
+  PlanRequest request = request_with(8, 5000);
+  request.page_size_bytes = 64_KiB;
+  request.cache_pages = 1;
+  request.width = 2;
+  request.height = 1;
+  request.in_flight = 2;
+  const nodes::MemoryPlan two = make_plan(request).node_memory(0);
+  request.in_flight = svm::in_flight_max;
+  const nodes::MemoryPlan many = make_plan(request).node_memory(0);
+  CHECK(many.total() == two.total());
+  CHECK(many[nodes::Category::mailbox] < 3 * (64_KiB + 64) + 8_KiB);
+}
+
 TEST_CASE("a node of replicated keeps no room for pages of others") {
   PlanRequest request = request_with(5, 100);
   request.strategy = svm::Strategy::replicated;
@@ -187,8 +236,8 @@ TEST_CASE("a node of replicated keeps no room for pages of others") {
 
 TEST_CASE("request credits shrink as the nodes grow in number, but each home keeps one") {
   CHECK(make_plan(request_with(2, 100)).request_credits == 4);
-  CHECK(make_plan(request_with(65, 100)).request_credits == 4);
-  CHECK(make_plan(request_with(129, 100)).request_credits == 2);
+  CHECK(make_plan(request_with(65, 1000)).request_credits == 4);
+  CHECK(make_plan(request_with(129, 1000)).request_credits == 2);
   CHECK(make_plan(request_with(4096, 100)).request_credits == 1);
 }
 

@@ -1,0 +1,15 @@
+// Bytes that stand in a text.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace dmpc::apps {
+
+/// The bytes of RFC 4648's base 64, in its alphabet or that for addresses; blanks and ends of lines are passed over, the padding
+/// may be missing. Nothing if another character stands in it.
+std::optional<std::vector<std::byte>> bytes_of_base64(std::string_view text);
+
+}  // namespace dmpc::apps

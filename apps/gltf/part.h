@@ -1,0 +1,57 @@
+// A part of a glTF document's JSON that knows where it stands.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dmpc::apps::gltf {
+
+/// Looks at a document, which outlives it. What is not as it must be is a core::InputError "meshes[0].primitives[1].mode: ...".
+class Part {
+ public:
+  explicit Part(const nlohmann::json& value, std::string where = "") : value_(&value), where_(std::move(where)) {}
+
+  /// "meshes[0].primitives[1]"; nothing for the whole.
+  const std::string& where() const { return where_; }
+  [[noreturn]] void fail(const std::string& what) const;
+
+  /// The member of this name, if there is one.
+  std::optional<Part> find(const std::string& key) const;
+  Part get(const std::string& key) const;
+  /// extensions.NAME, if there is one.
+  std::optional<Part> extension(const std::string& name) const;
+
+  /// The entries of the list of this name; none if it is not there.
+  std::vector<Part> list(const std::string& key) const;
+  /// Names and values of an object's members.
+  std::vector<std::pair<std::string, Part>> members() const;
+
+  /// Values of members; `fallback` where there is no such member.
+  std::uint64_t whole(const std::string& key, std::uint64_t fallback) const;
+  double number(const std::string& key, double fallback) const;
+  std::string text(const std::string& key, const std::string& fallback) const;
+  bool flag(const std::string& key) const;
+  /// As many numbers as the fallback has.
+  std::vector<double> numbers(const std::string& key, std::vector<double> fallback) const;
+  /// A place in a list with `count` entries that is called `list`; the second form has to be there.
+  std::optional<std::size_t> index(const std::string& key, std::size_t count, const std::string& list) const;
+  std::size_t required_index(const std::string& key, std::size_t count, const std::string& list) const;
+
+  bool is_number() const { return value_->is_number(); }
+  /// The value itself.
+  std::uint64_t as_whole() const;
+  double as_number() const;
+  std::string as_text() const;
+  std::size_t as_index(std::size_t count, const std::string& list) const;
+
+ private:
+  const nlohmann::json* value_;
+  std::string where_;
+};
+
+}  // namespace dmpc::apps::gltf

@@ -1,0 +1,71 @@
+#include "apps/last_words.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <cstring>
+#include <exception>
+#include <initializer_list>
+#include <new>
+
+#include "apps/exit_status.h"
+#include "apps/interrupt.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+std::atomic<bool> has_run_out = false;
+
+/// As without a handler, but noted.
+void note_end_of_memory() {
+  has_run_out = true;
+  throw std::bad_alloc();
+}
+
+/// By no stream, whose state is not known here.
+void say(std::initializer_list<const char*> words) {
+  for (const char* const word : words) {
+    static_cast<void>(!::write(STDERR_FILENO, word, std::strlen(word)));
+  }
+}
+
+int complain_of(const std::exception_ptr& thrown) {
+  if (memory_has_run_out()) {
+    return complain_of_memory();
+  }
+  try {
+    if (thrown) {
+      std::rethrow_exception(thrown);
+    }
+    say({"dmpc: this is a bug in dmpc, please report it: it was ended\n"});
+  } catch (const std::bad_alloc&) {
+    return complain_of_memory();
+  } catch (const std::exception& error) {
+    say({"dmpc: this is a bug in dmpc, please report it: ", error.what(), "\n"});
+  } catch (...) {
+    say({"dmpc: this is a bug in dmpc, please report it: what was thrown is no exception\n"});
+  }
+  return internal_status;
+}
+
+}  // namespace
+
+bool memory_has_run_out() { return has_run_out; }
+
+int complain_of_memory() {
+  say(
+      {"dmpc: this computer has not enough memory for that: ask for less of it (a smaller scene or picture, fewer nodes), or run "
+       "it where there is more\n"});
+  return no_room_status;
+}
+
+void end_without_abort() {
+  std::set_new_handler(note_end_of_memory);
+  std::set_terminate([] {
+    remove_files_under_way();
+    ::_exit(complain_of(std::current_exception()));
+  });
+}
+
+}  // namespace dmpc::apps

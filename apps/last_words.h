@@ -1,0 +1,16 @@
+// How the program ends where nothing can be allocated any more, or nobody is left to catch what was thrown.
+#pragma once
+
+namespace dmpc::apps {
+
+/// Says that memory has run out, which takes none; returns the exit status.
+int complain_of_memory();
+
+/// An allocation has failed since end_without_abort(): what seems to be a bug may come of that.
+bool memory_has_run_out();
+
+/// From now on std::terminate() removes the files under way, says why, and ends the process with the status of what was thrown,
+/// rather than to abort it: libraries call it where memory runs out.
+void end_without_abort();
+
+}  // namespace dmpc::apps

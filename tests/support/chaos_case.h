@@ -1,0 +1,109 @@
+// What a seed of chaos stands for: a picture, a computer, and the bounds of its nodes, starved or ample.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <iterator>
+#include <optional>
+#include <ostream>
+
+#include "core/sampling.h"
+#include "dataflow/run.h"
+#include "nodes/chaos.h"
+#include "nodes/machine.h"
+#include "svm/run.h"
+#include "tests/support/chaos_subjects.h"
+
+namespace dmpc::tests {
+
+/// All draws of a seed, in a fixed order: what all strategies have alike.
+class ChaosCase {
+ public:
+  explicit ChaosCase(std::uint64_t seed)
+      : seed_(seed),
+        draws_(core::mix(seed + 1)),
+        subject_(draws_.below(static_cast<std::uint32_t>(chaos_subjects().size()))),
+        nodes_(one_of({1U, 2U, 2U, 3U, 3U, 5U, 5U, 8U, 8U, 13U, 17U, 33U, 64U})),
+        is_modelled_(draws_.chance(20)),
+        is_in_parts_(draws_.chance(20)),
+        part_(1 + draws_.below(40)) {}
+
+  std::uint64_t seed() const { return seed_; }
+  const Subject& subject() const { return chaos_subject(subject_); }
+  /// Rendered in parts, each of which keeps something and is then stopped.
+  bool is_in_parts() const { return is_in_parts_ && !is_modelled_; }
+  /// How often light comes in a part until it is kept.
+  std::uint32_t part() const { return part_; }
+
+  /// Of svm; replicated has no cache. `round` tells the parts of one picture apart.
+  svm::RunOptions page_options(svm::Strategy strategy, std::uint32_t round = 0) {
+    svm::RunOptions options{.node_count = nodes_};
+    options.in_flight = one_of<std::optional<std::uint32_t>>({1, 1, 2, 3, 5, 8, 64, 4096, std::nullopt});
+    options.work_item_side = one_of({0U, 1U, 2U, 3U, 3U, 7U, 100U});
+    if (strategy == svm::Strategy::svm) {
+      options.cache_pages = one_of<std::optional<std::uint32_t>>({1, 1, 2, 3, 16, std::nullopt});
+      options.replacement = one_of({svm::Replacement::lru, svm::Replacement::lru, svm::Replacement::clock, svm::Replacement::fifo,
+                                    svm::Replacement::random});
+      options.count_pages = draws_.chance(10) && !subject().settings().refinement.is_wanted();
+    }
+    disturb(options, round);
+    return options;
+  }
+
+  dataflow::RunOptions ray_options(std::uint32_t round = 0) {
+    dataflow::RunOptions options{.node_count = nodes_};
+    options.ray_batch = one_of<std::optional<std::uint32_t>>({1, 1, 2, 5, 10, 40, std::nullopt});
+    options.ray_credits = one_of<std::optional<std::uint32_t>>({0, 1, 1, 2, std::nullopt});
+    options.queue_packets = one_of<std::optional<std::uint32_t>>({0, 1, 2, 7, std::nullopt});
+    options.balance = {.balance = draws_.chance(50) ? dataflow::Balance::subsampled : dataflow::Balance::equal_size,
+                       .subsample = 4};
+    options.topology =
+        one_of<std::optional<nodes::TopologyKind>>({std::nullopt, nodes::TopologyKind::hypercube, nodes::TopologyKind::mesh});
+    disturb(options, round);
+    return options;
+  }
+
+  friend std::ostream& operator<<(std::ostream& out, const ChaosCase& one) {
+    return out << chaos_subjects().at(one.subject_).name << " on " << one.nodes_ << " nodes, "
+               << (one.is_modelled_ ? "modelled" : "threads") << (one.is_in_parts() ? ", in parts" : "");
+  }
+
+ private:
+  template <class T>
+  T one_of(std::initializer_list<T> values) {
+    return values.begin()[draws_.below(static_cast<std::uint32_t>(values.size()))];
+  }
+
+  /// Threads by chaos, modelled machines by their own slowness.
+  template <class Options>
+  void disturb(Options& options, std::uint32_t round) {
+    if (!is_modelled_) {
+      options.chaos = nodes::chaos_of(core::mix(seed_) + round);
+      return;
+    }
+    nodes::Machine machine{.topology = one_of({nodes::TopologyKind::crossbar, nodes::TopologyKind::mesh,
+                                               nodes::TopologyKind::hypercube, nodes::TopologyKind::fat_tree})};
+    for (nodes::MessageCost* const cost : {&machine.short_message, &machine.long_message}) {
+      *cost = {.send_ns = draws_.below(100'000),
+               .latency_ns = draws_.below(1'000'000),
+               .receive_ns = draws_.below(100'000),
+               .byte_ps = draws_.below(1'000'000)};
+    }
+    for (std::uint64_t& cost_ps : machine.cost_ps) {
+      cost_ps = draws_.below(100'000'000);
+    }
+    machine.has_contention = draws_.chance(50);
+    machine.has_memory_port = draws_.chance(30);
+    options.machine = machine;
+  }
+
+  std::uint64_t seed_;
+  nodes::ChaosStream draws_;
+  std::size_t subject_;
+  std::uint32_t nodes_;
+  bool is_modelled_, is_in_parts_;
+  std::uint32_t part_;
+};
+
+}  // namespace dmpc::tests
