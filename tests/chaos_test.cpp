@@ -26,9 +26,9 @@ namespace dmpc::tests {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::uint64_t seeds_by_default = 30;
+constexpr std::uint64_t seeds_by_default = 20;
 #else
-constexpr std::uint64_t seeds_by_default = 200;
+constexpr std::uint64_t seeds_by_default = 140;
 #endif
 
 /// A whole number from the environment, or `standard`.
