@@ -1,5 +1,6 @@
 #include "apps/last_words.h"
 
+#include <execinfo.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -61,6 +62,8 @@ int complain_of_memory() {
 }
 
 void end_without_abort() {
+  void* frame = nullptr;
+  ::backtrace(&frame, 1);  // loads what ends threads, where the C library would abort for want of memory when it is needed
   std::set_new_handler(note_end_of_memory);
   std::set_terminate([] {
     remove_files_under_way();

@@ -59,7 +59,7 @@ const std::vector<Foreign> foreign = {
     // Threads are the computer's; the edge has one that waits for signals, one that sends to a viewer, those on which rays are
     // timed, and runs side by side that share their progress.
     {"thread", {"nodes/", "tests/", "apps/interrupt.", "apps/preview.", "apps/speed/crew."}},
-    {"atomic", {"nodes/", "tests/", "apps/interrupt.", "apps/preview."}},
+    {"atomic", {"nodes/", "tests/", "apps/interrupt.", "apps/last_words.", "apps/preview."}},
     {"mutex", {"nodes/", "tests/", "apps/preview.", "apps/study_runs.cpp", "core/parallel.cpp"}},
     {"shared_mutex", {"nodes/", "tests/"}},
     {"condition_variable", {"nodes/", "tests/", "apps/preview."}},

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 std::size_t tries_of_each() {
   const char* const text = std::getenv("DMPC_FAILING_CALLS");
-  return text == nullptr ? 8 : std::stoull(text);
+  return text == nullptr ? 4 : std::stoull(text);
 }
 
 /// A line of what tests/failing_allocation/preload.cpp says.

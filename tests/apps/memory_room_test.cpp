@@ -95,7 +95,8 @@ TEST_CASE("a render with less memory than its nodes take is refused before it be
     tests::ChildProcess process({"/bin/sh", "-c",
                                  "ulimit " + limit + "; exec " DMPC_PROGRAM " render tetra-7 --resolution=16x16 --nodes=" +
                                      nodes + " --strategy=replicated --quiet -o " + (folder / "a.png").string()});
-    return std::pair(process.status(), process.errors());
+    const int status = process.status();
+    return std::pair(status, process.errors());
   };
   const auto [status, errors] = limited("-v 1000000", "1000");
   CHECK(status == 4);
