@@ -127,9 +127,12 @@ void add_options(OptionSet options, Staging& staging) {
   options.add_text(
       "--scale", "S [1]", [&staging](const std::string& text) { staging.mesh.scale = parse_scale(text); },
       "Mesh files: multiply all coordinates by S");
-  options.add_words(
-      "--up", {"x", "y", "z", "-x", "-y", "-z"}, [&staging](const std::string& text) { staging.mesh.up = up_axis_of(text); },
-      "Mesh files: the axis that points up, such as --up=-z, for the view where the file has none; y if not given");
+  OptionSet::Choices<UpAxis> axes;
+  for (const char* const word : {"x", "y", "z", "-x", "-y", "-z"}) {
+    axes.emplace_back(word, up_axis_of(word));
+  }
+  options.add_choice("--up", staging.mesh.up, axes, "y",
+                     "Mesh files: the axis that points up, such as --up=-z, for the view where the file has none");
   options.add_text(
       "--smooth", "DEGREES [the file's normals]",
       [&staging](const std::string& text) { staging.mesh.smooth_degrees = parse_smooth(text); },

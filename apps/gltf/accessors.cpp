@@ -105,11 +105,11 @@ Row row_of(Buffers& buffers, const Part& part, std::uint64_t count, std::size_t 
   return {view.bytes.subspan(count > 0 ? offset : 0), stride};
 }
 
-/// Zeros without a view; so many that a file of any size could mean them would be a call for memory.
+/// An accessor without a view means zeros; a file of any size could ask for so many that there is no memory for them.
 void check_count(const Part& accessor, std::uint64_t count) {
-  constexpr std::uint64_t most = std::uint64_t{1} << 32U;
-  if (count > most) {
-    accessor.fail("a count of " + std::to_string(count) + ", expected at most " + std::to_string(most));
+  constexpr std::uint64_t most = std::uint64_t{1} << 24U;
+  if (!accessor.find("bufferView") && count > most) {
+    accessor.fail("has a count of " + std::to_string(count) + " and no bufferView, expected at most " + std::to_string(most));
   }
 }
 

@@ -17,9 +17,14 @@ std::string in_small_letters(std::string text) {
   return text;
 }
 
-/// "C:\art\wood.png" as "/art/wood.png".
-fs::path without_windows(std::string name) {
+std::string with_slashes(std::string name) {
   std::replace(name.begin(), name.end(), '\\', '/');
+  return name;
+}
+
+/// "C:\art\wood.png" as "/art/wood.png".
+fs::path without_windows(const std::string& windows_name) {
+  const std::string name = with_slashes(windows_name);
   const bool has_drive = name.size() > 1 && name[1] == ':' && std::isalpha(static_cast<unsigned char>(name[0])) != 0;
   return has_drive ? name.substr(2) : name;
 }
@@ -87,8 +92,8 @@ std::vector<fs::path> files_meant(const fs::path& folder, const std::string& nam
 }
 
 bool is_under_other_name(const fs::path& folder, const std::string& name, const fs::path& path) {
-  const fs::path normal = path.lexically_normal();
-  return normal != (folder / name).lexically_normal() && normal != (folder / decoded_address(name)).lexically_normal();
+  const auto is_said = [&](const fs::path& said) { return path.lexically_normal() == (folder / said).lexically_normal(); };
+  return !is_said(name) && !is_said(decoded_address(name)) && !is_said(with_slashes(name));
 }
 
 std::string decoded_address(const std::string& text) {

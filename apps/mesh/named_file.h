@@ -13,7 +13,8 @@ namespace dmpc::apps {
 /// outright may lie anywhere.
 std::vector<std::filesystem::path> files_meant(const std::filesystem::path& folder, const std::string& name);
 
-/// Whether `path` is another file than the one that `name` says outright, in glTF's spelling or plainly.
+/// Whether `path` is another file than the one that `name` says outright, with whatever strokes between its parts, in glTF's
+/// spelling or plainly.
 bool is_under_other_name(const std::filesystem::path& folder, const std::string& name, const std::filesystem::path& path);
 
 /// "%20" as a blank: glTF names files by addresses.

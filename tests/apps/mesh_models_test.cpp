@@ -28,9 +28,9 @@ const std::map<std::string, std::string> refused = {
     {"OBJ/point_cloud.obj", "no triangle"},
     {"OBJ/testline.obj", "no triangle"},
     {"OBJ/testpoints.obj", "no triangle"},
-    {"PLY/issue623.ply", "no triangle"},  // vertices alone, as the next two
-    {"PLY/points.ply", "no triangle"},
-    {"PLY/pond.0.ply", "no triangle"},
+    {"PLY/issue623.ply", "expected the length of a list"},  // faces' indices among the vertices' properties
+    {"PLY/points.ply", "no triangle"},                      // vertices alone
+    {"PLY/pond.0.ply", "it ends within element 'vertex' 70049 of 70051"},
     {"glTF/BoxTextured-glTF-Binary/BoxTextured.glb", "of another version"},  // glTF 1 in binary
     {"glTF2/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb", "not a number, infinite"},
     {"glTF2/IndexOutOfRange/AllIndicesOutOfRange.gltf", "does not exist: there are 24"},
@@ -57,8 +57,8 @@ const std::map<std::string, std::string> refused = {
     {"glTF2/wrongTypes/badString.gltf", "not of type"},
     {"glTF2/wrongTypes/badUint.gltf", "not of type"},
     {"invalid/empty.obj", "too small"},
-    {"invalid/empty.ply", "is empty"},
-    {"invalid/malformed.obj", "Invalid face index"},
+    {"invalid/empty.ply", "the file ends within its header"},
+    {"invalid/malformed.obj", "line 23: the face has vertex 12, which does not exist: there are 8"},
 };
 
 std::vector<std::string> models() {

@@ -54,6 +54,7 @@ TEST_CASE("a file is found in other letters' case, by a Windows path, and by its
   CHECK(meant(folder, "/home/somebody/grass.png") == "Textures/grass.png");
   CHECK(meant(folder, "a%20b.png") == "a b.png");
   CHECK_FALSE(is_under_other_name(folder.path(), "a%20b.png", folder / "a b.png"));
+  CHECK_FALSE(is_under_other_name(folder.path(), ".\\Maps\\Wood.PNG", folder / "Maps/Wood.PNG"));
   CHECK(is_under_other_name(folder.path(), "maps/wood.png", folder / "Maps/Wood.PNG"));
 }
 
