@@ -97,6 +97,16 @@ TEST_CASE("a table has its numbers as people read them") {
   CHECK(contains(text, "<li>No&lt;te.</li>"));
 }
 
+TEST_CASE("a table that is named by its section is not named again") {
+  const std::string text = page_with([](Page& page) {
+    page.begin_section("Ta<ble");
+    page.add_table(table_of(1));
+    page.begin_section("Other");
+    page.add_table(table_of(1));
+  });
+  CHECK(count_of(text, "<caption>") == 1);
+}
+
 TEST_CASE("long tables are folded") {
   const auto with_rows = [](std::size_t rows) { return page_with([&](Page& page) { page.add_table(table_of(rows)); }); };
   CHECK_FALSE(contains(with_rows(0), "<details>"));

@@ -204,12 +204,21 @@ TEST_CASE("twelve series look unlike: in colour, or dashed, or hatched") {
     std::set<std::string> looks;
     std::istringstream text(script(apps::curves("wide", "Wide", "x", {}, {}, series), wide));
     for (std::string line; std::getline(text, line);) {
-      if (const std::size_t at = line.find(" with "); at != std::string::npos) {
+      if (const std::size_t at = line.find(" with "); at != std::string::npos && !contains(line, "notitle")) {
         looks.insert(line.substr(at, line.find(" title ") - at));
       }
     }
     CHECK(looks.size() == plot_color_count);
   }
+}
+
+TEST_CASE("a hatched bar hides what lies under it") {
+  Plot plot = bars(true);
+  plot.series[1].color = 8;
+  const std::string text = script(plot);
+  const std::size_t ground = text.find("with boxes linecolor '#eeeeee' notitle");
+  CHECK(ground < text.find("with boxes linecolor '#0072B2' fillstyle pattern 4 title 'loss'"));
+  CHECK(text.find("fillstyle pattern 4") < text.find("title 'time'"));
 }
 
 namespace {
