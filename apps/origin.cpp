@@ -1,6 +1,7 @@
 #include "apps/origin.h"
 
 #include <sys/utsname.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -12,7 +13,6 @@
 #include <iomanip>
 #include <sstream>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 #include "apps/figures.h"
@@ -47,6 +47,8 @@ std::vector<std::string> own_words() {
   return words;
 }
 
+std::uint64_t processor_count() { return static_cast<std::uint64_t>(std::max(1L, ::sysconf(_SC_NPROCESSORS_ONLN))); }
+
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {
@@ -77,7 +79,7 @@ Origin this_origin(std::optional<std::uint64_t> scene_digest) {
   return {.command = command_text(own_words()),
           .program = "dmpc " DMPC_VERSION " (" + build_text() + ")",
           .date = date_text(std::getenv("SOURCE_DATE_EPOCH"), std::time(nullptr)),
-          .computer = counted(std::max(1U, std::thread::hardware_concurrency()), "processor") + ", " + processor_name(),
+          .computer = counted(processor_count(), "processor") + ", " + processor_name(),
           .scene_digest = scene_digest};
 }
 

@@ -20,6 +20,11 @@ constexpr std::array<int, plot_color_count> shapes = {7, 5, 9, 13, 11, 15, 6, 4,
 /// And of hatches that look unlike.
 constexpr std::array<int, 4> hatches = {4, 5, 2, 7};
 
+/// Under a hatch: light enough for each of their colours.
+constexpr const char* hatch_ground = "#eeeeee";
+
+constexpr const char* next_line = ", \\\n  ";
+
 /// Names of places along x that are so short stand upright.
 constexpr std::size_t upright_letters_max = 3;
 /// Names of places along x that can be told apart, where there is little room.
@@ -249,6 +254,8 @@ class Script {
     return condition.empty() ? sum : condition + " ? " + sum + " : NaN";
   }
 
+  static bool is_hatched(const PlotSeries& series) { return series.mark == PlotMark::bars && series.color >= plot_colors.size(); }
+
   std::string style_of(const PlotSeries& series) const {
     const bool is_again = series.color >= plot_colors.size();
     const std::size_t color_number = series.color % plot_colors.size();
@@ -264,14 +271,21 @@ class Script {
     }
   }
 
+  /// What is drawn of a series, one upon another: a hatch lets through what lies under it, and so needs a ground.
+  std::string elements(std::size_t series) const {
+    const PlotSeries& drawn = *drawn_[series];
+    const std::string numbers = gnuplot_text(data_) + " using (" + x_of(series) + "):(" + y_of(series) + ")" +
+                                (drawn.mark == PlotMark::line ? " smooth unique" : "") + " with ";
+    const std::string ground = "boxes linecolor '" + std::string(hatch_ground) + "' notitle";
+    return (is_hatched(drawn) ? numbers + ground + next_line : "") + numbers + style_of(drawn) + " title " +
+           gnuplot_text(drawn.title);
+  }
+
   /// Stacked bars are drawn from the top down, so that each covers what is not its own.
   std::string curves() const {
     std::string text = "plot ";
     for (std::size_t drawn = 0; drawn < drawn_.size(); ++drawn) {
-      const std::size_t series = plot_.is_stacked ? drawn_.size() - 1 - drawn : drawn;
-      text += (drawn == 0 ? "" : ", \\\n  ") + gnuplot_text(data_) + " using (" + x_of(series) + "):(" + y_of(series) + ")" +
-              (drawn_[series]->mark == PlotMark::line ? " smooth unique" : "") + " with " + style_of(*drawn_[series]) +
-              " title " + gnuplot_text(drawn_[series]->title);
+      text += (drawn == 0 ? "" : next_line) + elements(plot_.is_stacked ? drawn_.size() - 1 - drawn : drawn);
     }
     return text + "\n";
   }

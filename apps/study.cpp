@@ -91,7 +91,7 @@ std::string title_of(const std::string& study, const StudyOptions& options, cons
          std::to_string(camera.height()) + " pixels, " + samples_text(picture) + ", depth " + std::to_string(picture.depth) +
          ", convention " + (picture.convention == core::Convention::haines ? "haines" : "paper") + ", grid axes " +
          name_of(options.database.axes) + ", record order " + name_of(options.database.record_order) + ", " +
-         std::to_string(subject.database.header().primitive_count) + " primitives";
+         counted(subject.database.header().primitive_count, "primitive");
 }
 
 std::string film_note(const StudyRuns& runs) {

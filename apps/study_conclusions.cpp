@@ -103,7 +103,7 @@ std::string conclusion_of(const SpeedupStudy&, const Table& table) {
   }
   std::string text = "On " + nodes_text(table, *last) + " the speedup is " + fixed(*number(table, *last, "speedup"), 1) +
                      ", an efficiency of " + percent_text(*number(table, *last, "efficiency"));
-  const char* largest = nullptr;
+  std::string largest;
   double share = 0;
   for (const char* const part : time_part_names) {
     const double percent = number(table, *last, part).value_or(0);
@@ -112,9 +112,9 @@ std::string conclusion_of(const SpeedupStudy&, const Table& table) {
       share = percent;
     }
   }
-  return text + (largest == nullptr
-                     ? "."
-                     : "; the largest loss is " + std::string(largest) + ", " + percent_text(share) + " of the nodes' time.");
+  std::replace(largest.begin(), largest.end(), '_', ' ');
+  return text +
+         (largest.empty() ? "." : "; the largest loss is " + largest + ", " + percent_text(share) + " of the nodes' time.");
 }
 
 std::string conclusion_of(const CacheStudy&, const Table& table) {

@@ -1,5 +1,6 @@
 #include "apps/study_speedup.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -106,7 +107,9 @@ std::vector<Plot> SpeedupStudy::plots() const {
   Plot losses = curves("speedup_losses", "Where the nodes' time goes", "nodes", {}, percent_axis("of the nodes' time"), {});
   losses.is_stacked = true;
   for (const char* part : time_part_names) {
-    losses.series.push_back({part, part, {}, PlotMark::bars, losses.series.size()});
+    std::string title = part;
+    std::replace(title.begin(), title.end(), '_', ' ');
+    losses.series.push_back({std::move(title), part, {}, PlotMark::bars, losses.series.size()});
   }
   return {curves("speedup", "Speedup", "nodes", node_axis(), times, {{who, "speedup"}}),
           curves("speedup_efficiency", "Efficiency", "nodes", node_axis(), percent_axis("efficiency"), {{who, "efficiency"}}),

@@ -184,8 +184,8 @@ std::string fetch_conclusion(const svm::Fetches& fetches) {
   }
   const std::size_t part = largest_at(parts);
   return "A fetch takes " + amount_text(whole / static_cast<double>(totals.size()), "ns") +
-         " on average; the largest part of it, " + share_text(parts[part] / whole) + ", is " +
-         std::string(svm::fetch_part_names[part]) + ".";
+         " on average; the largest part of it, " + share_text(parts[part] / whole) + ", is \"" +
+         std::string(svm::fetch_part_names[part]) + "\".";
 }
 
 std::string cache_conclusion(const MissEstimate& misses, std::uint32_t cache_pages, std::uint32_t page_count) {

@@ -157,7 +157,7 @@ class Field {
       const double y = top + height_ * (1 - (most_ > 0 ? tick.position / most_ : 0)), end = scale_left + scale_width;
       text += line({end, y}, {end + 4, y}) + text_at({end + 7, y + 4}, tick.text, "");
     }
-    return text + text_at({width - 4, top - 6}, map_.value_label, "text-anchor=\"end\"");
+    return text + text_at({width - 4, top - 12}, map_.value_label, "text-anchor=\"end\"");
   }
 
   const NumberMap& map_;

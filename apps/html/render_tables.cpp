@@ -172,11 +172,12 @@ Table node_table(const RenderRecord& record) {
 std::vector<Plot> node_plots(const RenderRecord& record) {
   const PlotAxis from_0{.label = "", .least = 0};
   std::vector<Plot> plots = {bars_by_node("node_rays", "Rays shot by each node", from_0, {{"rays shot", "rays shot"}}, false)};
-  if (record.options.strategy == Strategy::svm) {
+  if (record.options.strategy == Strategy::svm && std::get<svm::Report>(record.report).pages().faults > 0) {
     plots.push_back(bars_by_node("node_faults", "Pages asked for and served", from_0,
                                  {{"faults", "faults"}, {.title = "pages served", .column = "pages served", .color = 1}}, false));
   }
-  if (record.options.strategy == Strategy::dataflow) {
+  const auto* const travels = std::get_if<dataflow::Report>(&record.report);
+  if (travels != nullptr && travels->messages_per_ray() > 0) {
     plots.push_back(bars_by_node("node_travel", "Rays that came and went", from_0,
                                  {{"rays in", "rays in"}, {.title = "rays out", .column = "rays out", .color = 1}}, false));
   }

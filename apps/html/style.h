@@ -36,6 +36,8 @@ caption{text-align:left;font-weight:600;padding:0 0 4px}
 th,td{padding:3px 9px;text-align:right;border-bottom:1px solid var(--line);white-space:nowrap}
 th{color:var(--faint);font-weight:600;vertical-align:bottom;white-space:normal}
 .text{text-align:left}
+.dense{font-size:.76rem}
+.dense th,.dense td{padding:3px 5px}
 details{margin:.8em 0}
 summary{cursor:pointer;font-weight:600;font-size:.9rem}
 .notes{color:var(--faint);font-size:.85rem;padding-left:1.2em;max-width:54em}

@@ -16,6 +16,9 @@ namespace dmpc::apps::html {
 
 namespace {
 
+/// A table with more columns has less room for each.
+constexpr std::size_t dense_columns = 11;
+
 std::optional<double> number_of(const Cell& cell) {
   if (const auto* const whole = std::get_if<std::uint64_t>(&cell)) {
     return static_cast<double>(*whole);
@@ -84,7 +87,9 @@ std::vector<ColumnStyle> styles_of(const Table& table) {
 
 std::string head_of(const Column& column, const ColumnStyle& style) {
   const std::string unit = style.has_own_units ? "" : style.is_rescaled ? style.unit.name : column.unit;
-  return escaped(header_of({column.name, unit}));
+  std::string name = column.name;  // some are keys of JSON
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return escaped(header_of({name, unit}));
 }
 
 std::string heads_of(const Table& table, const std::vector<ColumnStyle>& styles) {
@@ -144,7 +149,9 @@ std::string file_stem(const std::string& title) {
 
 std::string table_element(const Table& table, bool has_caption) {
   const std::vector<ColumnStyle> styles = styles_of(table);
-  return "<table>\n" + (has_caption ? "<caption>" + escaped(table.title()) + "</caption>\n" : "") + "<thead>" +
+  const bool is_dense = table.columns().size() > dense_columns;
+  return (is_dense ? "<table class=\"dense\">\n" : "<table>\n") +
+         std::string(has_caption ? "<caption>" + escaped(table.title()) + "</caption>\n" : "") + "<thead>" +
          heads_of(table, styles) + "</thead>\n<tbody>\n" + rows_of(table, styles) + "</tbody>\n</table>\n";
 }
 

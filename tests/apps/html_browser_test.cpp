@@ -28,7 +28,8 @@ constexpr const char* telling_script =
     "<script>addEventListener('load',()=>{const all=[...document.images];"
     "parent.postMessage(`width ${document.documentElement.scrollWidth} of ${innerWidth}, shown "
     "${all.filter(i=>i.complete&&i.naturalWidth>0).length} of ${all.length}, asked for "
-    "${performance.getEntriesByType('resource').filter(e=>!e.name.startsWith('data:')).length}, dark "
+    "${performance.getEntriesByType('resource').filter(e=>!e.name.startsWith('data:')).length}, tables cut "
+    "${[...document.querySelectorAll('.scroll')].filter(e=>e.scrollWidth>e.clientWidth).length}, dark "
     "${matchMedia('(prefers-color-scheme:dark)').matches}`,'*')})</script>";
 
 /// A window with a page so many pixels wide, since no window of the browser's is as narrow as a telephone. Its title says what
@@ -100,6 +101,7 @@ TEST_CASE("a browser shows the page whole, on a screen and on a telephone, light
       const std::string wide = std::to_string(width);
       CHECK(contains(found.title, "width " + wide + " of " + wide));
       CHECK(contains(found.title, "shown " + pictures + " of " + pictures + ", asked for 0"));
+      CHECK((width < 1280 || contains(found.title, "tables cut 0,")));
       CHECK(contains(found.title, is_dark ? "dark true" : "dark false"));
       REQUIRE(found.picture.width == width);
       CHECK(is_dark == (brightness(found.picture, 2) < 0.1));

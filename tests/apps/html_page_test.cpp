@@ -80,7 +80,7 @@ TEST_CASE("texts are shown as they are") {
   CHECK(contains(text, "<p>1 &lt; 2</p>"));
   CHECK(contains(text, "<dt>na&lt;me</dt>\n<dd>va&gt;lue</dd>"));
   CHECK(contains(text, "alt=\"a &quot;picture&quot;\""));
-  CHECK(contains(text, "<figcaption>&lt;i&gt;</figcaption>"));
+  CHECK(contains(text, "<figcaption>&lt;i&gt; <a "));
 }
 
 TEST_CASE("a table has its numbers as people read them") {
@@ -95,6 +95,16 @@ TEST_CASE("a table has its numbers as people read them") {
   CHECK(contains(text, "<tr><td class=\"text\">a&lt;b</td><td>0.12</td><td>1,234,567</td></tr>"));
   CHECK(contains(text, "<tr><td></td><td></td><td></td></tr>"));
   CHECK(contains(text, "<li>No&lt;te.</li>"));
+}
+
+TEST_CASE("a table that is named by its section is not named again") {
+  const std::string text = page_with([](Page& page) {
+    page.begin_section("Ta<ble");
+    page.add_table(table_of(1));
+    page.begin_section("Other");
+    page.add_table(table_of(1));
+  });
+  CHECK(count_of(text, "<caption>") == 1);
 }
 
 TEST_CASE("long tables are folded") {

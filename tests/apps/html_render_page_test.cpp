@@ -36,6 +36,20 @@ TEST_CASE("the page of a render has its picture, losses, nodes, traffic and memo
   }
 }
 
+TEST_CASE("pictures and tables of a page can be saved, and each section but the picture's says what it comes to") {
+  const std::string text = page_of(modelled());
+  const auto count = [&](const std::string& part) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+      ++found;
+    }
+    return found;
+  };
+  CHECK(count("class=\"save\"") == count("<img ") + count("<table"));
+  CHECK(count("class=\"conclusion\"") == 4);  // losses, nodes, traffic, memory
+  CHECK(contains(text, "The busiest link, from "));
+}
+
 TEST_CASE("links and the run's hash are shown of modelled machines alone") {
   CHECK(contains(page_of(modelled()), "The busiest links"));
   CHECK(contains(page_of(modelled()), "<dt>Run</dt>"));

@@ -2,9 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <set>
 #include <string>
 
-#include "tests/apps/rendered.h"
+#include "tests/apps/watched.h"
 
 namespace dmpc::apps::html {
 
@@ -87,6 +89,26 @@ TEST_CASE("the categories of a node's memory add up to what it uses") {
     CHECK(total == doctest::Approx(std::get<double>(row[row.size() - 2])));
     CHECK(std::get<double>(row[row.size() - 2]) <= std::get<double>(row.back()));
   }
+}
+
+TEST_CASE("each part of a stack has a look of its own") {
+  const Rendered rendered(starved(modelled()));
+  const Account account = account_of(*rendered.report);
+  for (const Plot& plot : {memory_plot(account), loss_plot(account)}) {
+    std::set<std::size_t> looks;
+    for (const PlotSeries& series : plot.series) {
+      looks.insert(series.color);
+    }
+    CHECK(looks.size() == plot.series.size());
+  }
+  CHECK(memory_plot(account).series.size() > 8);
+}
+
+TEST_CASE("what no node has is not plotted") {
+  RenderOptions alone = modelled();
+  alone.computer.node_count = 1;
+  CHECK(node_plots(Rendered(alone).record()).size() == 1);
+  CHECK(node_plots(Rendered(starved(modelled())).record()).size() == 2);
 }
 
 TEST_CASE("packets of all kinds that were sent are listed") {

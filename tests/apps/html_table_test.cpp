@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <string>
+#include <vector>
+
 #include "tests/support/text.h"
 
 namespace dmpc::apps::html {
@@ -34,6 +37,15 @@ TEST_CASE("small amounts stay in the unit that they were counted in") {
   const std::string text = table_element(table, false);
   CHECK(contains(text, "<td>0.248</td><td>1,081.4</td><td>800</td>"));
   CHECK(contains(text, "time (s)</th>"));
+}
+
+TEST_CASE("a head has no underscores, and many columns have less room") {
+  std::vector<Column> columns = {{"data_wait", "%", 1}};
+  CHECK(contains(table_element(Table("Few", columns), false), "<table>\n<thead><tr><th scope=\"col\">data wait (%)</th>"));
+  for (int i = 0; i < 11; ++i) {
+    columns.push_back({std::to_string(i)});
+  }
+  CHECK(contains(table_element(Table("Many", columns), false), "<table class=\"dense\">"));
 }
 
 TEST_CASE("the words of a table are its title, columns, texts and notes") {

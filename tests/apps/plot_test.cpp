@@ -56,7 +56,8 @@ TEST_CASE("a script names its files, its axes and their scales") {
   CHECK(contains(text, "set output 'times.svg'"));
   CHECK(contains(text, "background '#ffffff'"));
   CHECK(contains(text, "set xlabel 'nodes'\nset xrange [0.9:72]\nset logscale x 2\n"));
-  CHECK(contains(text, "set ylabel 'time (s)'\nset yrange [*:8.12]\nset ytics ('5 s' 5, '6 s' 6, '7 s' 7, '8 s' 8)\n"));
+  CHECK(contains(text,
+                 "set ylabel 'time (s)'\nset yrange [*:20.8]\nset ytics ('0' 0, '5 s' 5, '10 s' 10, '15 s' 15, '20 s' 20)\n"));
   CHECK_FALSE(contains(text, "logscale y"));
   CHECK(contains(text,
                  "'t.csv' using (column('nodes')):(stringcolumn('scene') eq 'a' ? column('time (s)') : NaN) smooth unique with "
@@ -169,7 +170,7 @@ TEST_CASE("axes have round ticks in units that people read") {
   table.add_row({std::uint64_t{1500}, std::uint64_t{1'200'000}});
   const Plot plot = apps::curves("sizes", "Sizes", "nodes", {}, {.label = "", .least = 0}, {{"sent", "sent"}});
   const std::string text = script(plot, table);
-  CHECK(contains(text, "set yrange [0:1.092e+08]\nset ytics ('0' 0, '20 MB' 20000000, '40 MB' 40000000"));
+  CHECK(contains(text, "set yrange [0:1.092e+08]\nset ytics ('0' 0, '20 MB' 2e+07, '40 MB' 4e+07"));
   CHECK(contains(text, "set xtics ('500' 500, '1,000' 1000, '1,500' 1500)"));
 }
 
@@ -203,12 +204,21 @@ TEST_CASE("twelve series look unlike: in colour, or dashed, or hatched") {
     std::set<std::string> looks;
     std::istringstream text(script(apps::curves("wide", "Wide", "x", {}, {}, series), wide));
     for (std::string line; std::getline(text, line);) {
-      if (const std::size_t at = line.find(" with "); at != std::string::npos) {
+      if (const std::size_t at = line.find(" with "); at != std::string::npos && !contains(line, "notitle")) {
         looks.insert(line.substr(at, line.find(" title ") - at));
       }
     }
     CHECK(looks.size() == plot_color_count);
   }
+}
+
+TEST_CASE("a hatched bar hides what lies under it") {
+  Plot plot = bars(true);
+  plot.series[1].color = 8;
+  const std::string text = script(plot);
+  const std::size_t ground = text.find("with boxes linecolor '#eeeeee' notitle");
+  CHECK(ground < text.find("with boxes linecolor '#0072B2' fillstyle pattern 4 title 'loss'"));
+  CHECK(text.find("fillstyle pattern 4") < text.find("title 'time'"));
 }
 
 namespace {

@@ -59,7 +59,7 @@ TEST_CASE("speedup is concluded with the last row that has figures, and its larg
                                                    {"data_wait", 20.0}},
                                                   {{"nodes", std::uint64_t{64}}}});
   CHECK(conclusion_of(SpeedupStudy{}, table) ==
-        "On 32 nodes the speedup is 24.0, an efficiency of 75.0 %; the largest loss is data_wait, 20.0 % of the nodes' time.");
+        "On 32 nodes the speedup is 24.0, an efficiency of 75.0 %; the largest loss is data wait, 20.0 % of the nodes' time.");
 }
 
 TEST_CASE("caches are concluded with the size from which lru is good") {
