@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/expect.h"
+#include "core/nearest_word.h"
 #include "nodes/topology.h"
 
 namespace dmpc::apps {
@@ -239,6 +240,15 @@ Json parse_json(std::string_view text, const std::string& file) {
   }
 }
 
+/// " Did you mean ipsc2?"; empty if no machine's name is near.
+std::string name_meant(const std::string& typed) {
+  std::vector<std::string> names;
+  for (const MachineDescription& preset : machine_presets()) {
+    names.push_back(preset.machine.name);
+  }
+  return core::did_you_mean(typed, names);
+}
+
 std::string read_text(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   std::string text(file_bytes_max + 1, '\0');
@@ -247,8 +257,9 @@ std::string read_text(const std::string& path) {
     throw core::InputError(path + ": a machine file has 1 MiB at most");
   }
   if (!stream.eof()) {
+    const std::string reason = std::strerror(errno), meant = name_meant(path);
     throw core::InputError(path + ": this is neither a machine (" + machine_preset_names() +
-                           ") nor a file that can be read: " + std::strerror(errno));
+                           ") nor a file that can be read: " + reason + (meant.empty() ? "" : ".") + meant);
   }
   text.resize(static_cast<std::size_t>(stream.gcount()));
   return text;

@@ -13,6 +13,8 @@ namespace dmpc::apps {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f";
+/// Some editors of text in UTF-8 begin a file by it.
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 bool looks_like_number(std::string_view token) {
   const std::size_t sign = token.starts_with('-') || token.starts_with('+') ? 1 : 0;
@@ -58,7 +60,7 @@ bool NffTokens::read_line() {
   }
   ++line_;
   bytes_read_ += text_.size() + 1;
-  position_ = 0;
+  position_ = line_ == 1 && text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
   return true;
 }
 
