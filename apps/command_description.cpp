@@ -32,6 +32,7 @@ Suggestion suggestion_for(const std::string& shown, const Suggestions& known) {
       all.words.insert(all.words.end(), more.words.begin(), more.words.end());
       all.files = all.files || more.files;
       all.folders = all.folders || more.folders;
+      all.endings.insert(all.endings.end(), more.endings.begin(), more.endings.end());
     } else if (is_literal(word)) {
       all.words.push_back(word);
     }
@@ -50,6 +51,13 @@ std::vector<std::string> typed_names(const CLI::Option& option) {
   return names;
 }
 
+/// A flag stands for "true" unless it was declared with a text.
+bool has_optional_value(const CLI::Option& option) {
+  const bool is_flag = option.get_items_expected_min() == 0 && !option.get_lnames().empty();
+  const std::string name = is_flag ? option.get_lnames().front() : "";
+  return is_flag && name != "help" && name != "version" && option.get_flag_value(name, "") != "true";
+}
+
 OptionDescription described(const CLI::Option& option, const Suggestions& known) {
   const bool is_argument = option.get_positional();
   const std::string value = is_argument ? option.get_name(true) : option.get_option_text();
@@ -58,6 +66,8 @@ OptionDescription described(const CLI::Option& option, const Suggestions& known)
           .text = option.get_description(),
           .group = option.get_group(),
           .is_required = option.get_required(),
+          .has_optional_value = has_optional_value(option),
+          .is_repeatable = option.get_items_expected_max() != 1,
           .is_list = option.get_items_expected_max() > 1 || value.substr(0, value.find(" [")).find(',') != std::string::npos,
           .suggestion = suggestion_for(value, known)};
 }

@@ -13,9 +13,10 @@ namespace dmpc::apps {
 
 /// What a shell may offer for a value. Nothing at all: a number or a text that only the user knows.
 struct Suggestion {
-  std::vector<std::string> words;
+  std::vector<std::string> words;  ///< one that ends in a colon is followed by a file
   bool files = false;
   bool folders = false;
+  std::vector<std::string> endings;  ///< of the files; none: all files
 };
 
 /// An option, or an argument, which has no names.
@@ -25,7 +26,9 @@ struct OptionDescription {
   std::string text;                ///< what it does; may have several lines
   std::string group;               ///< the title below which help lists it
   bool is_required = false;
-  bool is_list = false;  ///< several values: with commas between, of an argument as words of their own
+  bool has_optional_value = false;  ///< a flag that may have one, behind an =
+  bool is_repeatable = false;       ///< may be given several times, or is a flag
+  bool is_list = false;             ///< several values: with commas between, of an argument as words of their own
   Suggestion suggestion;
 
   friend bool operator==(const OptionDescription& a, const OptionDescription& b) {

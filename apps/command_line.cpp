@@ -2,25 +2,19 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <sstream>
 
+#include "apps/usage/typed_line.h"
 #include "apps/words.h"
 #include "core/expect.h"
+#include "core/nearest_word.h"
 
 namespace dmpc::apps {
 
 namespace {
 
 using core::UsageError;
-
-/// "a", "a or b", "a, b or c".
-std::string listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
-  }
-  return text;
-}
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
@@ -30,33 +24,44 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-/// Two commands, one in the other.
-std::string joined(const std::string& outer, const std::string& inner) {
-  return outer + (outer.empty() || inner.empty() ? "" : " ") + inner;
+/// "--nodes", of "-n,--nodes".
+std::string long_name(const std::string& names) { return names.substr(names.find(',') + 1); }
+
+bool is_among(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// The commands given, outermost first: "study balance"; empty if none was understood.
-std::string command_given(const CLI::App& app) {
-  const auto commands = app.get_subcommands();
-  return commands.empty() ? "" : joined(commands.front()->get_name(), command_given(*commands.front()));
+[[noreturn]] void refuse_word(const std::string& option, const std::string& word, const std::vector<std::string>& words,
+                              const std::string& more = "") {
+  const std::string advice = core::did_you_mean(word, words);
+  throw UsageError(option + "=" + word + ": expected " + listed(words) + more + (advice.empty() ? "" : ".") + advice);
 }
 
-std::string hint(const std::string& command) { return "\nTry: " + joined(joined("dmpc", command), "--help"); }
+/// The whole number that the text is, from `least` to `most`.
+std::int64_t whole_number(const std::string& option, const std::string& text, std::int64_t least, std::int64_t most) {
+  std::int64_t number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || rest != end || number < least || number > most) {
+    throw UsageError(option + "=" + text + ": expected a whole number from " + std::to_string(least) + " to " +
+                     std::to_string(most));
+  }
+  return number;
+}
 
-/// CLI11 would only say that a command is missing. `outer` is the command that `app` is.
-void check_command_name(CLI::App& app, std::span<const std::string> arguments, const std::string& outer) {
-  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
-  if (arguments.empty() || arguments.front().rfind('-', 0) == 0 || commands.empty()) {
-    return;
+/// What CLI11 says of help or the version; nothing if it was asked for neither. It takes words from the back.
+std::optional<std::string> parse_by(CLI::App& app, const std::vector<std::string>& words) {
+  try {
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    return std::nullopt;
+  } catch (const CLI::Success& asked) {
+    std::ostringstream output, errors;
+    app.exit(asked, output, errors);
+    return output.str();
+  } catch (const CLI::ParseError& error) {
+    core::expect(false, "a line that was read has the form of a command");
+    throw;
   }
-  std::vector<std::string> names;
-  for (CLI::App* const command : commands) {
-    if (command->get_name() == arguments.front()) {
-      return check_command_name(*command, arguments.subspan(1), joined(outer, command->get_name()));
-    }
-    names.push_back(command->get_name());
-  }
-  throw UsageError(arguments.front() + " is no command: expected " + listed(names) + hint(outer));
 }
 
 std::function<void(const std::vector<std::string>&)> one_by_one(const OptionSet::TakeText& take) {
@@ -131,10 +136,10 @@ void OptionSet::add_quiet(bool& quiet) { add_flag("--quiet", quiet, "No progress
 
 void OptionSet::add_words(const std::string& name, const std::vector<std::string>& words, const TakeText& take,
                           const std::string& description) {
-  const auto take_list = [name, words, take](const std::string& text) {
-    for (const std::string& word : words_between_commas(text, name)) {
-      if (std::find(words.begin(), words.end(), word) == words.end()) {
-        throw core::UsageError(name + "=" + word + ": expected " + joined(words) + ", with commas between");
+  const auto take_list = [option = long_name(name), words, take](const std::string& text) {
+    for (const std::string& word : words_between_commas(text, option)) {
+      if (!is_among(words, word)) {
+        refuse_word(option, word, words, ", with commas between");
       }
       take(word);
     }
@@ -147,17 +152,21 @@ void OptionSet::add_words(const std::string& name, const std::vector<std::string
 
 void OptionSet::add_words_as(const std::string& name, const std::vector<std::string>& words, const std::string& shown_default,
                              const TakeText& take, const std::string& description) {
-  app_->add_option_function<std::string>(name, take, description)
-      ->check(CLI::IsMember(words))
-      ->type_name("")
-      ->option_text(joined(words) + " [" + shown_default + "]");
+  const auto take_word = [option = long_name(name), words, take](const std::string& word) {
+    if (!is_among(words, word)) {
+      refuse_word(option, word, words);
+    }
+    take(word);
+  };
+  add_text(name, joined(words) + " [" + shown_default + "]", take_word, description);
 }
 
 void OptionSet::add_number_as(const std::string& name, std::int64_t least, std::int64_t most, const std::string& shown_default,
                               const TakeNumber& take, const std::string& description) {
-  app_->add_option_function<std::int64_t>(name, take, description)
-      ->check(CLI::Range(least, most))
-      ->option_text(std::to_string(least) + ".." + std::to_string(most) + " [" + shown_default + "]");
+  const auto take_number = [option = long_name(name), least, most, take](const std::string& text) {
+    take(whole_number(option, text, least, most));
+  };
+  add_text(name, std::to_string(least) + ".." + std::to_string(most) + " [" + shown_default + "]", take_number, description);
 }
 
 void OptionSet::set_examples(const std::string& text) { app_->footer(text); }
@@ -183,19 +192,22 @@ OptionSet CommandLine::add_command(const std::string& name, const std::string& d
 }
 
 std::variant<HelpText, std::string> CommandLine::parse(std::span<const std::string> arguments) {
-  check_command_name(*app_, arguments, "");
-  try {
-    app_->parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them from the back
-    return command_given(*app_);
-  } catch (const CLI::Success& asked) {
-    std::ostringstream output, errors;
-    app_->exit(asked, output, errors);
-    return HelpText{output.str()};
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what() + hint(command_given(*app_)));
-  } catch (const UsageError& error) {
-    throw UsageError(error.what() + hint(command_given(*app_)));
+  const TypedLine line = read_line(describe(), arguments);
+  if (line.asks_for_help) {
+    return HelpText{help(words_between(line.command, ' '))};
   }
+  try {
+    const std::optional<std::string> version = parse_by(*app_, line.words);
+    return version ? std::variant<HelpText, std::string>(HelpText{*version}) : line.command;
+  } catch (const UsageError& error) {
+    throw UsageError(error.what() + hint_at_help(line.command));
+  }
+}
+
+std::string CommandLine::help(std::vector<std::string> command) {
+  std::erase(command, "");
+  command.emplace_back("--help");
+  return *parse_by(*app_, command);
 }
 
 void CommandLine::suggest(const std::string& name, const Suggestion& suggestion) { suggestions_[name] = suggestion; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/expect.h"
+#include "core/nearest_word.h"
 
 namespace dmpc::apps {
 
@@ -19,6 +20,12 @@ std::string all_kinds() {
   return text;
 }
 
+/// " Did you mean faults?"; empty if no kind is near.
+std::string kind_meant(const std::string& typed) {
+  const std::vector<std::string> names(nodes::heat_kind_names.begin(), nodes::heat_kind_names.end());
+  return core::did_you_mean(typed, names);
+}
+
 bool is_of_pages(HeatKind kind) { return kind == HeatKind::faults || kind == HeatKind::references || kind == HeatKind::pages; }
 
 const char* reason_without_pages(Strategy strategy) {
@@ -33,7 +40,9 @@ HeatRequest parse_heat_request(const std::string& text) {
   const auto& names = nodes::heat_kind_names;
   const auto name = std::find(names.begin(), names.end(), text.substr(0, colon));
   if (colon == std::string::npos || name == names.end()) {
-    throw UsageError("--heatmap=" + text + ": expected " + all_kinds() + ", a colon and a file, such as rays:rays.png");
+    const std::string meant = name == names.end() ? kind_meant(text.substr(0, colon)) : "";
+    throw UsageError("--heatmap=" + text + ": expected " + all_kinds() + ", a colon and a file, such as rays:rays.png" +
+                     (meant.empty() ? "" : ".") + meant);
   }
   const HeatRequest request{static_cast<HeatKind>(name - names.begin()), text.substr(colon + 1)};
   if (!holds_numbers(request) && request.path.extension() != ".png") {

@@ -9,6 +9,7 @@
 
 #include "apps/text_input.h"
 #include "core/expect.h"
+#include "core/nearest_word.h"
 #include "nodes/topology.h"
 
 namespace dmpc::apps {
@@ -237,6 +238,15 @@ Json parse_json(std::string_view text, const std::string& file) {
   }
 }
 
+/// " Did you mean ipsc2?"; empty if no machine's name is near.
+std::string name_meant(const std::string& typed) {
+  std::vector<std::string> names;
+  for (const MachineDescription& preset : machine_presets()) {
+    names.push_back(preset.machine.name);
+  }
+  return core::did_you_mean(typed, names);
+}
+
 std::string read_text(const std::string& path) {
   std::string text(file_bytes_max + 1, '\0');
   try {
@@ -244,8 +254,9 @@ std::string read_text(const std::string& path) {
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(stream.gcount()));
   } catch (const core::InputError& error) {
+    const std::string meant = name_meant(path);
     throw core::InputError(path + ": this is neither a machine (" + machine_preset_names() +
-                           ") nor a file that can be read: it " + error.what());
+                           ") nor a file that can be read: it " + error.what() + (meant.empty() ? "" : ".") + meant);
   }
   if (text.size() > file_bytes_max) {
     throw core::InputError(path + ": a machine file has 1 MiB at most");

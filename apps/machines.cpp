@@ -21,6 +21,7 @@ struct Figure {
 
 struct Preset {
   const char* name;
+  const char* title;
   Figure<TopologyKind> topology;
   Figure<std::uint64_t> short_bytes_max = {0, "one class of messages"};
   Figure<MessageCost> short_message = {{}, "as a long message"};
@@ -44,6 +45,7 @@ constexpr std::uint64_t ipsc860_slowdown = ipsc2_slowdown / 7;
 // others, "LogP: Towards a Realistic Model of Parallel Computation", 1993, and later measurements in its terms.
 constexpr Preset presets[] = {
     {.name = "ipsc2",
+     .title = "Intel iPSC/2 of 1988: 80386 processors, hypercube; the machine of the 1994 article",
      .topology = {TopologyKind::hypercube,
                   "circuit-switched hypercube: S. Nugent, The iPSC/2 Direct-Connect Communications Technology, 1988, high; "
                   "e-cube routing: quoted, high"},
@@ -65,6 +67,7 @@ constexpr Preset presets[] = {
           "one message in and one out at a time whatever the number of channels: quoted, low; off, since no figure "
           "of the 1994 paper can tell"}},
     {.name = "ipsc860",
+     .title = "Intel iPSC/860 of 1990: i860 processors on the hypercube of the iPSC/2",
      .topology = {TopologyKind::hypercube, "hypercube and routers of the iPSC/2: quoted, high"},
      .short_bytes_max = {100, "as the iPSC/2: quoted, high"},
      .short_message = {{.send_ns = 30'000, .latency_ns = 10'000, .receive_ns = 30'000, .byte_ps = 380'000},
@@ -78,6 +81,7 @@ constexpr Preset presets[] = {
      .slowdown = {ipsc860_slowdown, "i860 at 40 MHz, 7 times the iPSC/2's node: the 1994 paper, medium"},
      .has_memory_port = {false, "as the iPSC/2: quoted, low; off"}},
     {.name = "paragon",
+     .title = "Intel Paragon of 1993: i860XP processors, two-dimensional mesh",
      .topology = {TopologyKind::mesh, "two-dimensional mesh, wormhole routing along x, then y: quoted, high"},
      .long_message =
          {{.send_ns = 20'000, .latency_ns = 30'000, .receive_ns = 20'000, .byte_ps = 5'882},
@@ -87,6 +91,7 @@ constexpr Preset presets[] = {
      .slowdown = {ipsc860_slowdown * 40 / 50,
                   "i860XP at 50 MHz (TOP500 report of 1994) by its clock against the i860 at 40 MHz, medium"}},
     {.name = "cm5",
+     .title = "Thinking Machines CM-5 of 1992: SPARC processors, fat tree",
      .topology = {TopologyKind::fat_tree, "fat tree with four children a switch: TOP500 report of 1994, high"},
      .long_message = {{.send_ns = 40'000, .latency_ns = 10'000, .receive_ns = 40'000, .byte_ps = 124'000},
                       "88 to 95 us in all with CMMD: quoted, medium; 8.06 MB/s: The Performance of PVM on MPP Systems, high; 10 "
@@ -95,6 +100,7 @@ constexpr Preset presets[] = {
      .service_ns = {40'000, "assumed, low"},
      .slowdown = {ipsc2_slowdown / 5, "SPARC at 32 MHz without its vector units, 5 times the iPSC/2's node: assumed, low"}},
     {.name = "cs2",
+     .title = "Meiko CS-2 of 1993: SuperSPARC processors, fat tree",
      .topology = {TopologyKind::fat_tree, "multistage crossbar, a fat tree: Overview of Recent Supercomputers, medium"},
      .long_message = {{.send_ns = 30'000, .latency_ns = 25'000, .receive_ns = 30'000, .byte_ps = 24'100},
                       "83 to 87 us in all and 40 to 43 MB/s with MPI: quoted, medium; the 30 us of each processor: assumed, low"},
@@ -102,6 +108,7 @@ constexpr Preset presets[] = {
      .service_ns = {20'000, "assumed, low"},
      .slowdown = {ipsc2_slowdown / 15, "SuperSPARC of 40 MFLOPS, 15 times the iPSC/2's node: assumed, low"}},
     {.name = "gigabit",
+     .title = "a cluster of today on gigabit Ethernet",
      .topology = {TopologyKind::fat_tree, "star or Clos network of switches, medium"},
      .long_message =
          {{.send_ns = 5'000, .latency_ns = 35'000, .receive_ns = 5'000, .byte_ps = 8'772},
@@ -111,6 +118,7 @@ constexpr Preset presets[] = {
      .service_ns = {5'000, "assumed, low"},
      .slowdown = {1, "a node is one core as that on which the operations were measured, medium"}},
     {.name = "hdr",
+     .title = "a cluster of today on HDR InfiniBand, 200 Gbit/s",
      .topology = {TopologyKind::fat_tree, "HDR InfiniBand as a fat tree: quoted, medium"},
      .long_message = {{.send_ns = 300, .latency_ns = 550, .receive_ns = 300, .byte_ps = 42},
                       "1.0 to 1.3 us in all with MPI, 0.2 to 0.4 us of them on each processor, and 24 GB/s: quoted, medium"},
@@ -147,7 +155,8 @@ MachineDescription description_of(const Preset& preset) {
                   .service_ns = preset.service_ns.value,
                   .cost_ps = operation_costs_ps(preset.slowdown.value),
                   .has_memory_port = preset.has_memory_port.value},
-      .sources = {}};
+      .sources = {},
+      .title = preset.title};
   for (std::size_t i = 0; i < sourced_keys.size(); ++i) {
     description.sources.emplace_back(sourced_keys[i], sources[i]);
   }

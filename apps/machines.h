@@ -23,6 +23,7 @@ struct MachineDescription {
   nodes::Machine machine;
   /// Some of sourced_keys, each with a sentence on its source and certainty.
   std::vector<std::pair<std::string, std::string>> sources;
+  std::string title = {};  ///< what it is, in a line; empty of a machine of one's own
 };
 
 /// ipsc2, ipsc860, paragon, cm5, cs2, gigabit and hdr. Thread-safe.

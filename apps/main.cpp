@@ -33,6 +33,7 @@
 #include "apps/speed/command.h"
 #include "apps/stability/command.h"
 #include "apps/study.h"
+#include "apps/usage/list_command.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -54,6 +55,7 @@ struct Execute {
   int operator()(const CheckOptions& options) const { return check_command(options, interrupt); }
   int operator()(const CompareOptions& options) const { return compare_command(options, interrupt, std::cout); }
   int operator()(const MachineOptions& options) const { return machine_command(options, std::cout); }
+  int operator()(const ListOptions& options) const { return list_command(options, std::cout); }
   int operator()(const PaperStudyOptions& options) const { return study_paper_command(options, interrupt, std::cout); }
   int operator()(const ScaleOptions& options) const { return study_scale_command(options, interrupt, std::cout); }
   int operator()(const ErrorOptions& options) const { return bench_error_command(options, interrupt, std::cout); }

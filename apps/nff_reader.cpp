@@ -62,12 +62,14 @@ class NffReader {
 
   Vec3d vector(const char* entity, const char* what);
   std::size_t vertex_count(const char* entity);
+  core::SceneBuilder& objects();
   void forbid_second(std::size_t& line, const char* keyword);
   void expect_range(double value, double low, double high, const char* what);
 
   NffTokens tokens_;
   core::SceneBuilder builder_;
   std::int64_t pixels_max_;
+  bool has_material_ = false;
   std::size_t view_line_ = 0, background_line_ = 0;  ///< 0: not read yet
   std::vector<Vec3d> vertices_, normals_;
 };
@@ -233,6 +235,18 @@ void NffReader::read_material() {
   check_material(material);
   tokens_.skip_numbers_on_line();
   builder_.material(material);
+  has_material_ = true;
+}
+
+/// The builder, which has a material for what comes.
+core::SceneBuilder& NffReader::objects() {
+  if (!has_material_) {
+    core::Material plain;
+    plain.color = plain_color;
+    builder_.material(plain);
+    has_material_ = true;
+  }
+  return builder_;
 }
 
 void NffReader::check_material(const core::Material& material) {
@@ -251,7 +265,7 @@ void NffReader::check_material(const core::Material& material) {
 
 void NffReader::read_sphere() {
   const Vec3d center = vector("s (sphere)", "a coordinate of the centre");
-  builder_.sphere(center, tokens_.number("s (sphere)", "the radius"));
+  objects().sphere(center, tokens_.number("s (sphere)", "the radius"));
 }
 
 void NffReader::read_cone() {
@@ -265,7 +279,7 @@ void NffReader::read_cone() {
         "found radii " + number_text(base_radius) + " and " + number_text(apex_radius) +
         " of c (cone or cylinder), expected both 0 or more (outside visible) or both 0 or less (inside visible); change a sign");
   }
-  builder_.cone(base, base_radius, apex, apex_radius);
+  objects().cone(base, base_radius, apex, apex_radius);
 }
 
 std::size_t NffReader::vertex_count(const char* entity) {
@@ -279,7 +293,7 @@ void NffReader::read_polygon() {
   while (vertices_.size() < count) {
     vertices_.push_back(vector(entity, "a coordinate of a vertex"));
   }
-  builder_.polygon(vertices_);
+  objects().polygon(vertices_);
 }
 
 void NffReader::read_patch() {
@@ -291,7 +305,7 @@ void NffReader::read_patch() {
     vertices_.push_back(vector(entity, "a coordinate of a vertex"));
     normals_.push_back(vector(entity, "a component of a normal"));
   }
-  builder_.patch(vertices_, normals_);
+  objects().patch(vertices_, normals_);
 }
 
 std::unique_ptr<TextInput> open(const std::string& path) {

@@ -13,6 +13,8 @@ namespace dmpc::apps {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f";
+/// Some editors of text in UTF-8 begin a file by it.
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 /// Of one line; a polygon of the most corners has a third of that. And of what may stand between two tokens.
 constexpr std::size_t line_bytes_max = std::size_t{16} << 20U, blank_bytes_max = std::size_t{64} << 20U;
@@ -74,6 +76,7 @@ bool NffTokens::read_line() {
     throw core::InputError(name_ + ":" + std::to_string(line_) + ": found nothing but blanks and comments for " +
                            mebibytes(blank_bytes_max) + ", expected an NFF scene");
   }
+  position_ = line_ == 1 && text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
   return true;
 }
 

@@ -2,9 +2,19 @@
 
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "apps/glossary.h"
 #include "apps/machines.h"
+#include "apps/mesh/reader.h"
+#include "apps/usage/choices.h"
+#include "apps/usage/typed_line.h"
+#include "apps/words.h"
+#include "core/expect.h"
+#include "core/nearest_word.h"
 #include "core/scenes.h"
+#include "nodes/heat_map.h"
 
 namespace dmpc::apps {
 
@@ -25,14 +35,31 @@ class Commands {
 
   CommandLine& line() { return line_; }
 
+  /// What `dmpc help` with the words given prints. Throws core::UsageError for a topic that there is none.
+  static HelpText help_about(std::vector<std::string> topic) {
+    static const std::vector<std::string> words_topic = {"glossary"};
+    if (topic == words_topic) {
+      return {glossary_text()};
+    }
+    if (const std::string meant = core::did_you_mean(topic.empty() ? "" : topic.front(), words_topic); !meant.empty()) {
+      throw core::UsageError("there is no help about " + topic.front() + "." + meant + hint_at_help("help"));
+    }
+    topic.emplace_back("--help");
+    return std::get<HelpText>(Commands().line().parse(topic));
+  }
+
   /// What was set for the command that the line names.
   Command named(const std::string& name) const {
+    if (name == "help") {
+      return help_about(topic_);
+    }
     const std::map<std::string, Command> commands = {{"render", render_},
                                                      {"info", info_},
                                                      {"scene", scene_},
                                                      {"check", check_},
                                                      {"compare", compare_},
                                                      {"machine", machine_},
+                                                     {"list", list_},
                                                      {"study balance", balance_},
                                                      {"study traffic", traffic_},
                                                      {"study cache", cache_},
@@ -55,6 +82,16 @@ class Commands {
                 check_);
     add_options(line_.add_command("compare", "Measure how far two pictures lie apart"), compare_);
     add_options(line_.add_command("machine", "Print a machine's figures as JSON, to read or to start from"), machine_);
+    add_options(line_.add_command("list", "Tell what scenes, machines, policies and others there are"), list_);
+    declare_help();
+  }
+
+  void declare_help() {
+    OptionSet help = line_.add_command("help", "Explain a command, or what dmpc's words mean");
+    help.add_arguments(
+        "TOPIC", [this](const std::string& word) { topic_.push_back(word); },
+        "A command, such as render or study cache; or glossary, the list of dmpc's words");
+    help.set_examples("Examples:\n  dmpc help render\n  dmpc help study cache\n  dmpc help glossary");
   }
 
   void declare_studies() {
@@ -78,18 +115,31 @@ class Commands {
   }
 
   void declare_values() {
-    Suggestion scenes{.files = true}, families, machines{.files = true};
+    Suggestion scenes{.files = true, .endings = {"nff"}}, families, machines{.files = true}, kinds, heats;
     for (const core::SceneName& scene : core::default_scenes()) {
       scenes.words.push_back(scene.text());
       families.words.push_back(scene.family);
     }
     families.words.emplace_back("landscape");
+    for (const std::string& ending : words_between(known_mesh_formats(), ',')) {
+      scenes.endings.push_back(ending.substr(ending.find_first_not_of(' ')));
+    }
+    for (const ChoiceList& list : all_choices()) {
+      kinds.words.push_back(list.kind);
+    }
+    for (const std::string_view heat : nodes::heat_kind_names) {
+      heats.words.push_back(std::string(heat) + ":");
+    }
     for (const MachineDescription& preset : machine_presets()) {
       machines.words.push_back(preset.machine.name);
     }
     line_.suggest("SCENE", scenes);
     line_.suggest("FAMILY", families);
     line_.suggest("MACHINE", machines);
+    line_.suggest("TOPIC",
+                  {.words = {"render", "info", "scene", "check", "compare", "machine", "list", "study", "bench", "glossary"}});
+    line_.suggest("KIND", kinds);
+    line_.suggest("KIND:FILE", heats);
     line_.suggest("FOLDER", {.folders = true});
     for (const char* const name : {"FILE", "IMAGE", "A", "B"}) {
       line_.suggest(name, {.files = true});
@@ -97,13 +147,16 @@ class Commands {
   }
 
   CommandLine line_{"dmpc: a distributed-memory parallel computer on one machine, for ray tracing", "dmpc " DMPC_VERSION,
-                    "dmpc COMMAND --help says more, with examples.\nStart with: dmpc render teapot-12 --nodes=8 -o teapot.png"};
+                    "dmpc COMMAND --help says more, with examples; dmpc list what there is, dmpc help glossary what words "
+                    "mean.\nStart with: dmpc render teapot-12 --nodes=8 -o teapot.png"};
   RenderOptions render_;
   InfoOptions info_;
   SceneOptions scene_;
   CheckOptions check_;
   CompareOptions compare_;
   MachineOptions machine_;
+  ListOptions list_;
+  std::vector<std::string> topic_;  ///< of `help`
   StudyOptions balance_{.study = BalanceStudy()}, traffic_{.study = TrafficStudy()}, cache_{.study = CacheStudy()},
       speedup_{.study = SpeedupStudy()};
   PaperStudyOptions paper_;

@@ -19,12 +19,13 @@
 #include "apps/stability/command.h"
 #include "apps/study_options.h"
 #include "apps/study_paper.h"
+#include "apps/usage/list_command.h"
 
 namespace dmpc::apps {
 
 using Command =
     std::variant<HelpText, RenderOptions, InfoOptions, SceneOptions, CheckOptions, CompareOptions, MachineOptions, StudyOptions,
-                 PaperStudyOptions, ScaleOptions, StabilityOptions, PrecisionOptions, ErrorOptions, SpeedOptions>;
+                 PaperStudyOptions, ScaleOptions, StabilityOptions, PrecisionOptions, ErrorOptions, SpeedOptions, ListOptions>;
 
 /// `arguments` without the program's name. Throws core::UsageError, whose message ends with a hint at the right --help, for
 /// anything wrong that can be seen without reading a file.

@@ -9,6 +9,9 @@
 #include <vector>
 
 #include "apps/distinct_files.h"
+#include "apps/effort/effort.h"
+#include "apps/effort/last_row.h"
+#include "apps/effort/study_effort.h"
 #include "apps/figures.h"
 #include "apps/html/sweep_page.h"
 #include "apps/load_scene.h"
@@ -157,11 +160,29 @@ std::exception_ptr measure(const OneStudy& study, StudyRuns& runs, Table& table)
   }
 }
 
+/// Rows are shown as they come to who waits for the table at a terminal.
+bool shows_rows(const StudyOptions& options) {
+  return !options.quiet && !options.output && options.format == TableFormat::markdown && stderr_is_terminal();
+}
+
+/// A signal ends the process here and now.
+void announce_effort(const StudyOptions& options, const Subject& subject, Interrupt& interrupt) {
+  if (!options.quiet && stderr_is_terminal()) {
+    const Interrupt::EndAtOnce end_at_once(interrupt);
+    const std::vector<PlannedRun> runs = planned_runs(options.study);
+    announce("about " + counted(runs.size(), "run"), effort_of(runs, subject), options.quiet, std::cerr);
+  }
+}
+
 template <class OneStudy>
 void carry_out(const OneStudy& study, const StudyOptions& options, Interrupt& interrupt, std::ostream& output) {
   std::uint64_t digest = 0;
   const Subject subject = load(options, digest, interrupt);
+  announce_effort(options, subject, interrupt);
   Table table = empty_table(study, options, subject);
+  if (shows_rows(options)) {
+    table.set_listener([](const Table& rows) { show_last_row(rows, std::cerr); });
+  }
   StudyRuns runs(subject.database, subject.settings, {std::cerr, stderr_is_terminal(), study.run_count()}, interrupt);
   const std::exception_ptr failure = measure(study, runs, table);
   if (!failure || !table.rows().empty()) {

@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/effort/effort.h"
+#include "apps/figures.h"
+#include "apps/machine_load.h"
 #include "apps/output_file.h"
 #include "apps/paper_calibration.h"
 #include "apps/paper_catalogue.h"
@@ -74,6 +77,13 @@ void publish(const PaperReport& report, const PaperStudyOptions& options, std::o
   finish_output(output, "the report");
 }
 
+/// By processor time of a server's core in November 2026.
+Effort effort_of(const Catalogue& catalogue) {
+  constexpr double pixel_seconds = 6e-6;
+  const double pixels = static_cast<double>(catalogue.resolution) * catalogue.resolution;
+  return {.seconds = pixel_seconds * pixels * static_cast<double>(catalogue.runs.size()) / core_count()};
+}
+
 }  // namespace
 
 void add_options(OptionSet options, PaperStudyOptions& paper) {
@@ -100,6 +110,7 @@ int study_paper_command(const PaperStudyOptions& options, Interrupt& interrupt, 
   }
   Catalogue catalogue = catalogue_of(options.resolution);
   const std::vector<VariedRuns> varied = options.has_sensitivity ? add_variations(catalogue) : std::vector<VariedRuns>();
+  announce("study paper, " + counted(catalogue.runs.size(), "run"), effort_of(catalogue), options.quiet, std::cerr);
   study_catalogue(catalogue, varied, options, interrupt, output);
   return 0;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -14,6 +15,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Line = std::vector<std::string>;
+
+/// Letters of a row that is shown by itself; a terminal's line is at least so long.
+constexpr std::size_t row_text_max = 79;
 
 /// A text that cannot end its cell.
 std::string escaped(const std::string& text) {
@@ -67,29 +71,101 @@ std::vector<Layout> layouts_of(const Table& table, const std::vector<Line>& line
   return layouts;
 }
 
-std::string markdown_line(const Line& line, const std::vector<Layout>& layouts) {
+/// Columns that stand side by side, by their indices.
+using Fold = std::vector<std::size_t>;
+
+/// Of a cell with its bars and blanks.
+std::size_t width_of(const Layout& layout) { return layout.width + 3; }
+
+/// So many columns from the left.
+Fold first(std::size_t count) {
+  Fold fold(count);
+  std::iota(fold.begin(), fold.end(), std::size_t{0});
+  return fold;
+}
+
+std::size_t width_of(const Fold& fold, const std::vector<Layout>& layouts) {
+  return std::accumulate(fold.begin(), fold.end(), std::size_t{1},
+                         [&](std::size_t sum, std::size_t column) { return sum + width_of(layouts[column]); });
+}
+
+bool is_wide(const std::vector<Layout>& layouts) { return width_of(first(layouts.size()), layouts) > markdown_width_max; }
+
+/// The fewest columns from the left by which all rows differ; all columns if none do.
+std::size_t key_count(const std::vector<Line>& lines) {
+  for (std::size_t count = 1; count < lines[0].size(); ++count) {
+    std::set<Line> keys;
+    for (const Line& line : lines) {
+      keys.insert({line.begin(), line.begin() + static_cast<std::ptrdiff_t>(count)});
+    }
+    if (keys.size() == lines.size()) {
+      return count;
+    }
+  }
+  return lines[0].size();
+}
+
+/// A first column with the numbers of the rows, to tell them apart.
+void number_rows(std::vector<Line>& lines) {
+  lines[0].insert(lines[0].begin(), "row");
+  for (std::size_t row = 1; row < lines.size(); ++row) {
+    lines[row].insert(lines[row].begin(), std::to_string(row));
+  }
+}
+
+/// Whether the columns that tell the rows apart would fill most of each line.
+bool has_wide_key(const std::vector<Line>& lines, const std::vector<Layout>& layouts) {
+  return width_of(first(key_count(lines)), layouts) > markdown_width_max / 2;
+}
+
+/// The columns cut into pieces that fit a line, each with the columns that tell its rows apart before them.
+std::vector<Fold> folds_of(const std::vector<Line>& lines, const std::vector<Layout>& layouts) {
+  if (!is_wide(layouts)) {
+    return {first(layouts.size())};
+  }
+  const Fold key = first(key_count(lines));
+  std::vector<Fold> folds = {key};
+  for (std::size_t column = key.size(); column < layouts.size(); ++column) {
+    if (folds.back().size() > key.size() && width_of(folds.back(), layouts) + width_of(layouts[column]) > markdown_width_max) {
+      folds.push_back(key);
+    }
+    folds.back().push_back(column);
+  }
+  return folds;
+}
+
+std::string markdown_line(const Line& line, const std::vector<Layout>& layouts, const Fold& fold) {
   std::string text = "|";
-  for (std::size_t column = 0; column < line.size(); ++column) {
+  for (const std::size_t column : fold) {
     const std::string padding(layouts[column].width - line[column].size(), ' ');
     text += " " + (layouts[column].is_text ? line[column] + padding : padding + line[column]) + " |";
   }
   return text + "\n";
 }
 
-std::string markdown_rule(const std::vector<Layout>& layouts) {
+std::string markdown_rule(const std::vector<Layout>& layouts, const Fold& fold) {
   std::string text = "|";
-  for (const Layout& layout : layouts) {
-    text += std::string(layout.width + 1, '-') + (layout.is_text ? "-|" : ":|");
+  for (const std::size_t column : fold) {
+    text += std::string(layouts[column].width + 1, '-') + (layouts[column].is_text ? "-|" : ":|");
   }
   return text + "\n";
 }
 
 std::string markdown(const Table& table) {
-  const std::vector<Line> lines = markdown_cells(table);
-  const std::vector<Layout> layouts = layouts_of(table, lines);
-  std::string text = "**" + table.title() + "**\n\n" + markdown_line(lines[0], layouts) + markdown_rule(layouts);
-  for (std::size_t row = 1; row < lines.size(); ++row) {
-    text += markdown_line(lines[row], layouts);
+  std::vector<Line> lines = markdown_cells(table);
+  std::vector<Layout> layouts = layouts_of(table, lines);
+  if (is_wide(layouts) && has_wide_key(lines, layouts)) {
+    number_rows(lines);
+    std::vector<Layout> numbered(1, Layout{std::max(lines.front().front().size(), lines.back().front().size()), false});
+    numbered.insert(numbered.end(), layouts.begin(), layouts.end());
+    layouts = std::move(numbered);
+  }
+  std::string text = "**" + table.title() + "**\n";
+  for (const Fold& fold : folds_of(lines, layouts)) {
+    text += "\n" + markdown_line(lines[0], layouts, fold) + markdown_rule(layouts, fold);
+    for (std::size_t row = 1; row < lines.size(); ++row) {
+      text += markdown_line(lines[row], layouts, fold);
+    }
   }
   text += table.notes().empty() ? "" : "\n";
   for (const std::string& note : table.notes()) {
@@ -185,6 +261,22 @@ void Table::add_row(std::vector<Cell> row) {
     core::expect(number == nullptr || std::isfinite(*number), "a table's numbers are finite");
   }
   rows_.push_back(std::move(row));
+  if (told_) {
+    told_(*this);
+  }
+}
+
+std::string last_row_text(const Table& table) {
+  std::string text;
+  for (std::size_t column = 0; column < table.columns().size(); ++column) {
+    const std::string cell = std::visit(MarkdownCell{table.columns()[column].digits}, table.rows().back()[column]);
+    const std::string more = (text.empty() ? "" : ", ") + header_of(table.columns()[column]) + " " + cell;
+    if (cell.empty() || text.size() + more.size() > row_text_max) {
+      continue;
+    }
+    text += more;
+  }
+  return text;
 }
 
 std::string text_of(const Table& table, TableFormat format) {

@@ -1,9 +1,12 @@
 // What a study finds: rows of figures under named columns, written as Markdown, CSV or JSON.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -31,6 +34,8 @@ class Table {
 
   /// Expects as many cells as columns, and real numbers that are finite.
   void add_row(std::vector<Cell> row);
+  /// `told` hears of the table after each row that is added from now on.
+  void set_listener(std::function<void(const Table&)> told) { told_ = std::move(told); }
   /// A sentence to stand under the table.
   void add_note(std::string note) { notes_.push_back(std::move(note)); }
 
@@ -44,10 +49,18 @@ class Table {
   std::vector<Column> columns_;
   std::vector<std::vector<Cell>> rows_;
   std::vector<std::string> notes_;
+  std::function<void(const Table&)> told_;
 };
 
+/// Letters in a line of a terminal, and of a page to be read.
+inline constexpr std::size_t markdown_width_max = 120;
+
+/// The names and cells of the last row, "nodes 4, virtual time (s) 3.142", as many as fit a line; a table with rows.
+std::string last_row_text(const Table& table);
+
 /// The whole table with a line end.
-///   markdown   the title in bold, the table with its columns in line, the notes as a list
+///   markdown   the title in bold, the table with its columns in line, the notes as a list; a table that is wider than
+///              markdown_width_max stands in pieces, each with the columns on the left that tell the rows apart
 ///   csv        a line of column names with their units, then a line a row as RFC 4180 quotes it; neither title nor notes
 ///   json       {"title", "columns": [{"name", "unit"}], "rows": [{by name}], "notes": [...]}; names with underscores for spaces,
 ///              units null where there are none

@@ -1,10 +1,12 @@
 #include "core/scenes.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <functional>
 
 #include "core/expect.h"
+#include "core/nearest_word.h"
 #include "core/scenes/families.h"
 #include "core/scenes/rounding.h"
 #include "core/scenes/tessellation.h"
@@ -109,9 +111,23 @@ std::string family_list() {
   return list;
 }
 
+/// " Did you mean teapot-12?" for teapt-12: the family that is near, with the rest as it stands.
+std::string family_meant(std::string_view text) {
+  std::vector<std::string> names;
+  for (const Family& family : families) {
+    names.emplace_back(family.name);
+  }
+  const std::size_t end = std::min(text.find_first_of("-0123456789"), text.size());
+  const std::optional<std::string> name = nearest_word(text.substr(0, end), names);
+  const std::string hyphen = end < text.size() && text[end] != '-' ? "-" : "";
+  return name ? " Did you mean " + *name + hyphen + std::string(text.substr(end)) + "?" : "";
+}
+
 [[noreturn]] void fail_on_family(std::string_view text) {
+  const std::string meant = family_meant(text);
   throw InputError("there is no built-in scene '" + std::string(text) +
-                   "'; expected FAMILY-SIZE[-tTESSELLATION], for example rings-4-t1; " + "the families are " + family_list());
+                   "'; expected FAMILY-SIZE[-tTESSELLATION], for example rings-4-t1; " + "the families are " + family_list() +
+                   (meant.empty() ? "" : ".") + meant);
 }
 
 const Family& family_of(const SceneName& name) {

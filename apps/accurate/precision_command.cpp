@@ -6,6 +6,7 @@
 
 #include "apps/accurate/precision.h"
 #include "apps/distinct_files.h"
+#include "apps/effort/effort.h"
 #include "apps/load_scene.h"
 #include "apps/output_file.h"
 #include "apps/progress.h"
@@ -89,6 +90,13 @@ void describe_errors(const std::string& scene, const Precision& precision, Table
   }
 }
 
+/// By processor time of a server's core in November 2026.
+Effort effort_of(const PrecisionOptions& options, std::size_t scene_count) {
+  constexpr double pixel_seconds = 5e-6;
+  const double pixels = static_cast<double>(options.resolution.width) * options.resolution.height;
+  return {.seconds = pixel_seconds * pixels * static_cast<double>(scene_count)};
+}
+
 Precision measure(const PrecisionOptions& options, const std::string& name, Interrupt& interrupt) {
   PictureOptions picture{.scene = name, .resolution = options.resolution, .depth = options.depth};
   const core::Scene scene = load_scene(picture);
@@ -123,7 +131,9 @@ int bench_precision_command(const PrecisionOptions& options, Interrupt& interrup
   check_files(options);
   Table table = empty_table(options);
   bool is_explained = true;
-  for (const std::string& scene : options.scenes.empty() ? all_families() : options.scenes) {
+  const std::vector<std::string> scenes = options.scenes.empty() ? all_families() : options.scenes;
+  announce("bench precision", effort_of(options, scenes.size()), options.quiet, std::cerr);
+  for (const std::string& scene : scenes) {
     interrupt.check();
     const Precision precision = measure(options, scene, interrupt);
     table.add_row(row_of(scene, precision));

@@ -24,6 +24,9 @@ namespace dmpc::apps {
 namespace {
 
 constexpr std::uint32_t default_reference_side = 32;
+/// A quick bench is to end within half a minute on two cores.
+constexpr std::uint32_t quick_reference_side = 16;
+constexpr Resolution quick_resolution{192, 192};
 
 /// An even number: the reference has two halves.
 std::uint32_t parse_reference_side(const std::string& text) {
@@ -148,6 +151,17 @@ bool has_measurements(const SceneResult& result) {
   return std::any_of(result.measurements.begin(), result.measurements.end(), [](const auto& one) { return one.is_done(); });
 }
 
+/// What the user says otherwise stands.
+void choose_quick(const OptionSet& set, MeasureOptions& measure) {
+  if (!set.is_given("--resolution")) {
+    measure.picture.resolution = quick_resolution;
+  }
+  measure.rounds = set.is_given("--repeat") ? measure.rounds : 1;
+  if (!set.is_given("--reference-samples")) {
+    measure.reference.samples_a_side = quick_reference_side;
+  }
+}
+
 }  // namespace
 
 ErrorOptions::ErrorOptions() {
@@ -174,7 +188,10 @@ void add_options(OptionSet set, ErrorOptions& options) {
       "default); adaptive with "
       "cutoff "
       "or depth together as well");
-  set.add_flag("--quick", measure.is_quick, "Fewer positions of each knob");
+  set.add_flag(
+      "--quick", measure.is_quick,
+      "Fewer positions of each knob, and, where nothing else is said, 192x192 pixels, one round and 16 x 16 rays through "
+      "each pixel of the reference: half a minute");
   set.add_number("--repeat", measure.rounds, 1, 1000, "3", "Rounds in which everything is rendered and timed");
   set.add_number("--samples", measure.picture.samples, 2, 4096, std::to_string(measure.picture.samples),
                  "Rays through each pixel where they are not what is turned");
@@ -196,11 +213,15 @@ void add_options(OptionSet set, ErrorOptions& options) {
   set.add_quiet(options.quiet);
   set.set_examples(
       "Examples:\n"
-      "  dmpc bench error teapot-12 --quick --resolution=256x256\n"
+      "  dmpc bench error teapot-12 --quick\n"
       "  dmpc bench error rings-3 balls-3 --knobs=samples,adaptive --plots=plots -o error.md\n"
       "  dmpc bench error shells-3 --knobs=depth,cutoff --repeat=1 --pictures=errors --format=csv -o shells.csv\n"
       "The reference and the base point have the depth given; the other depths are below it.");
   set.check_in_the_end([set, &options] {
+    options.measure.is_quiet = options.quiet;
+    if (options.measure.is_quick) {
+      choose_quick(set, options.measure);
+    }
     check_scenes(options);
     check_together(set, options.measure.strategy);
     check_node_count(options.measure.strategy.strategy, options.measure.strategy.computer.node_count);

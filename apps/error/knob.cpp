@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "apps/words.h"
 #include "core/expect.h"
+#include "core/nearest_word.h"
 
 namespace dmpc::apps {
 namespace {
@@ -19,9 +21,12 @@ Knob knob_of(const std::string& word, const std::string& text) {
   const auto* const end = names.begin() + single_count;
   const auto* const found = std::find(names.begin(), end, word);
   if (found == end) {
+    const std::vector<std::string> all(names.begin(), end);
+    const std::string meant = core::did_you_mean(word, all);
     throw core::UsageError(
         "--knobs=" + text +
-        ": expected some of samples,adaptive,cutoff,depth,tessellation,arithmetic,quality with commas between them");
+        ": expected some of samples,adaptive,cutoff,depth,tessellation,arithmetic,quality with commas between them" +
+        (meant.empty() ? "" : ".") + meant);
   }
   return static_cast<Knob>(found - names.begin());
 }

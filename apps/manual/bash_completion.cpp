@@ -6,10 +6,10 @@ namespace dmpc::apps {
 namespace {
 
 constexpr const char* head = R"(# Completion of dmpc in bash, written from the declarations of its options.
-# Sets words, files, folders and is_list to what may stand for an argument or, if there is a $2, for the value of this option of
+# Sets words, files, endings (of files), folders and is_list to what may stand for an argument or, if there is a $2, for the value of this option of
 # command $1.
 _dmpc_value() {
-  words="" files="" folders="" is_list=""
+  words="" files="" endings="" folders="" is_list=""
   case "$1:$2" in
 )";
 
@@ -25,36 +25,53 @@ _dmpc_declared() {
 constexpr const char* engine = R"(  esac
 }
 
+# Prints the files that go on from $1, with $2 before them: folders, and what has one of the endings set, if any are.
+_dmpc_files() {
+  compgen -P "$2" -d -- "$1"
+  compgen -P "$2" -f -- "$1" | while read -r file; do
+    local ending=${file##*.}
+    [[ -d ${file#"$2"} || " $endings " != *" ${ending,,} "* ]] || echo "$file"
+  done
+}
+
 # Completes $1 from the words, files and folders set; $2 stands before what bash is to put in place.
 _dmpc_offer() {
   local typed=$1 before=$2 last=$1
+  if [[ $typed == *:* && " $words " == *" ${typed%%:*}: "* ]]; then  # behind such a word there is a file
+    before+=${typed%%:*}:
+    [[ $COMP_WORDBREAKS == *:* ]] && before=""
+    last=${typed#*:} words="" files=1
+  fi
   if [[ -n $is_list ]]; then
     last=${typed##*,}
     before+=${typed%"$last"}
   fi
   mapfile -t COMPREPLY < <(compgen -P "$before" -W "$words" -- "$last")
   local found=()
-  [[ -n $files ]] && mapfile -t found < <(compgen -P "$before" -f -- "$last")
+  [[ -n $files && -z $endings ]] && mapfile -t found < <(compgen -P "$before" -f -- "$last")
+  [[ -n $files && -n $endings ]] && mapfile -t found < <(_dmpc_files "$last" "$before")
   [[ -n $folders ]] && mapfile -t found < <(compgen -P "$before" -d -- "$last")
   if ((${#found[@]})); then
     COMPREPLY+=("${found[@]}")
     compopt -o filenames 2>/dev/null
   fi
+  [[ ${#COMPREPLY[@]} == 1 && ${COMPREPLY[0]} == *: ]] && compopt -o nospace 2>/dev/null
   return 0
 }
 
 _dmpc() {
   COMPREPLY=()
   local line=() word n
-  for ((n = 1; n <= COMP_CWORD; n++)); do  # bash cuts --option=value into three words
+  for ((n = 1; n <= COMP_CWORD; n++)); do  # bash cuts --option=value into three words, and at colons
     word=${COMP_WORDS[n]}
-    if ((${#line[@]})) && [[ ($word == = && ${line[-1]} == --*) || (${COMP_WORDS[n - 1]} == = && ${line[-1]} == --*=) ]]; then
+    if ((${#line[@]})) && [[ ($word == = && ${line[-1]} == --*) || (${COMP_WORDS[n - 1]} == = && ${line[-1]} == --*=) ||
+      ($word == : && ${line[-1]} == --*=*) || (${COMP_WORDS[n - 1]} == : && ${line[-1]} == --*=*:) ]]; then
       line[-1]+=$word
     else
       line+=("$word")
     fi
   done
-  local current=${line[-1]} command="" previous="" commands options valued words files folders is_list
+  local current=${line[-1]} command="" previous="" commands options valued words files endings folders is_list
   _dmpc_declared ""
   for word in "${line[@]:0:${#line[@]}-1}"; do
     if [[ " $commands " == *" $word "* ]]; then
@@ -92,6 +109,7 @@ std::string assignment(const std::string& name, const std::string& value) {
 
 std::string value_case(const std::string& pattern, const Suggestion& suggestion, bool is_list) {
   const std::string all = assignment("words", with_blanks(suggestion.words)) + assignment("files", suggestion.files ? "1" : "") +
+                          assignment("endings", with_blanks(suggestion.endings)) +
                           assignment("folders", suggestion.folders ? "1" : "");
   return all.empty() ? "" : "    " + pattern + ")" + all + assignment("is_list", is_list ? "1" : "") + " ;;\n";
 }

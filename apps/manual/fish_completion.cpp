@@ -19,6 +19,11 @@ constexpr const char* engine = R"(        set path (string trim "$path $word")
   test "$path" = "$argv"
 end
 
+# The files that have one of these endings, and folders.
+function __dmpc_files
+  __fish_complete_path (commandline -ct) | string match -rie '(/|\.('(string join '|' $argv)'))(\t|$)'
+end
+
 complete -c dmpc -f
 )";
 
@@ -49,7 +54,11 @@ std::string offers(const Suggestion& suggestion, bool is_list) {
   if (suggestion.folders) {
     words += std::string(words.empty() ? "" : " ") + "(__fish_complete_directories (commandline -ct))";
   }
-  return (suggestion.files ? " -F" : " -f") + (words.empty() ? "" : " -a " + fish_quoted(words));
+  if (!suggestion.endings.empty()) {
+    words += std::string(words.empty() ? "" : " ") + "(__dmpc_files " + with_blanks(suggestion.endings) + ")";
+  }
+  const bool has_all_files = has_colons(suggestion) || (suggestion.files && suggestion.endings.empty());
+  return (has_all_files ? " -F" : " -f") + (words.empty() ? "" : " -a " + fish_quoted(words));
 }
 
 std::string line_for(const std::string& path, const std::string& rest) {

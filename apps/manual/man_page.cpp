@@ -8,6 +8,7 @@
 #include "apps/manual/leaves.h"
 #include "apps/manual/lines.h"
 #include "apps/manual/roff.h"
+#include "apps/usage/typed_line.h"
 
 namespace dmpc::apps {
 
@@ -45,9 +46,6 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
   }
   return text;
 }
-
-/// What help shows of an option's value, without its default.
-std::string value_alone(const OptionDescription& option) { return option.value.substr(0, option.value.find(" [")); }
 
 bool is_help(const OptionDescription& option) { return option.names.back() == "--help"; }
 

@@ -1,6 +1,7 @@
 // What the completion scripts of all shells are made from.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,14 @@ inline Suggestion suggestion_of(const std::vector<OptionDescription>& arguments)
     all.words.insert(all.words.end(), one.words.begin(), one.words.end());
     all.files = all.files || one.files;
     all.folders = all.folders || one.folders;
+    all.endings.insert(all.endings.end(), one.endings.begin(), one.endings.end());
   }
   return all;
+}
+
+/// Whether files follow some words (Suggestion::words).
+inline bool has_colons(const Suggestion& suggestion) {
+  return std::any_of(suggestion.words.begin(), suggestion.words.end(), [](const std::string& word) { return word.back() == ':'; });
 }
 
 inline std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }

@@ -24,10 +24,23 @@ std::string function_of(const std::string& path) {
   return name;
 }
 
+/// What offers files, or folders, between double quotation marks; empty for neither.
+std::string files_action(const Suggestion& suggestion) {
+  std::string endings;
+  for (const std::string& ending : suggestion.endings) {
+    endings += (endings.empty() ? "" : "|") + ending;
+  }
+  const std::string pattern = endings.empty() ? "" : " -g \\\"*.(#i)(" + endings + ")\\\"";
+  return suggestion.files ? "_files" + pattern : suggestion.folders ? "_files -/" : "";
+}
+
 /// The action of _arguments that offers a value.
 std::string action(const Suggestion& suggestion, bool is_list) {
   const std::string words = with_blanks(suggestion.words);
-  const std::string files = suggestion.files ? "_files" : suggestion.folders ? "_files -/" : "";
+  if (has_colons(suggestion)) {
+    return "{compset -P '*:' && _files || compadd -S '' - " + words + "}";
+  }
+  const std::string files = files_action(suggestion);
   if (words.empty()) {
     return files.empty() ? " " : files;
   }

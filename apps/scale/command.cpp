@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "apps/distinct_files.h"
+#include "apps/effort/effort.h"
+#include "apps/figures.h"
 #include "apps/html/sweep_page.h"
 #include "apps/machine_load.h"
 #include "apps/option_values.h"
@@ -18,6 +20,7 @@
 #include "apps/scale/table.h"
 #include "apps/table_options.h"
 #include "core/expect.h"
+#include "core/scenes.h"
 #include "dataflow/bsp.h"
 
 namespace dmpc::apps {
@@ -134,6 +137,22 @@ void add_computer(OptionSet& set, ScaleSettings& settings) {
   set.add_number("--repeat", settings.rounds, 1, 1000, "1", "Runs of each row, of which it has the medians");
 }
 
+/// By processor time of a server's core in November 2026: what a primitive takes to be built, and a pixel to be rendered. The
+/// largest scene says how much memory is needed.
+Effort effort_of(const std::vector<ScaleRun>& runs, const ScaleSettings& settings) {
+  constexpr double primitive_seconds = 3e-6, pixel_seconds = 8e-6;
+  constexpr std::uint64_t primitive_bytes = 360;
+  const double pixels = static_cast<double>(settings.resolution.width) * settings.resolution.height;
+  double seconds = 0;
+  std::uint64_t most = 0;
+  for (const ScaleRun& run : runs) {
+    const std::uint64_t primitives = core::primitive_count(run.scene);
+    most = std::max(most, primitives);
+    seconds += primitive_seconds * static_cast<double>(primitives) + pixel_seconds * pixels;
+  }
+  return {static_cast<double>(settings.rounds) * seconds / core_count(), static_cast<std::size_t>(most * primitive_bytes)};
+}
+
 }  // namespace
 
 void add_options(OptionSet set, ScaleOptions& options) {
@@ -155,6 +174,7 @@ void add_options(OptionSet set, ScaleOptions& options) {
 int study_scale_command(const ScaleOptions& options, Interrupt& interrupt, std::ostream& output) {
   const std::vector<ScaleRun> runs = scale_runs(options.settings);
   check_files(options);
+  announce("study scale, " + counted(runs.size(), "run"), effort_of(runs, options.settings), options.quiet, std::cerr);
   const double load = machine_load();
   std::vector<ScaleResult> results;
   std::exception_ptr failure;

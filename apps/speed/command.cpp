@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/distinct_files.h"
+#include "apps/effort/effort.h"
 #include "apps/load_scene.h"
 #include "apps/machine_load.h"
 #include "apps/oracle.h"
@@ -18,6 +19,7 @@
 #include "apps/speed/build_part.h"
 #include "apps/speed/comparison.h"
 #include "apps/speed/emulation_part.h"
+#include "apps/speed/headline.h"
 #include "apps/speed/kernel_means.h"
 #include "apps/speed/kernel_part.h"
 #include "apps/speed/memory_part.h"
@@ -132,15 +134,12 @@ const char* explanation_of(SpeedPart part) {
   return "";
 }
 
-Table table_of(const Results& results, bool is_ablation) {
-  return is_ablation ? table_of(results.ablations, "Pictures without skips; ratios are medians over rounds, without over with")
-                     : table_of(results.comparisons,
-                                std::string("Speed beside Embree ") + embree_version() +
-                                    " and of emulated computers; ratios are medians over rounds, subject over rival");
+std::string title() {
+  return std::string("Speed beside Embree ") + embree_version() +
+         " and of emulated computers; ratios are medians over rounds, subject over rival";
 }
 
-Table finished_table(const SpeedOptions& options, const Results& results, double load) {
-  Table table = table_of(results, options.is_ablation);
+void add_notes(const SpeedOptions& options, const Results& results, double load, bool is_whole, Table& table) {
   for (const SpeedPart part : options.parts) {
     table.add_note(explanation_of(part));
   }
@@ -153,7 +152,47 @@ Table finished_table(const SpeedOptions& options, const Results& results, double
     table.add_note(std::move(sentence));
   }
   table.add_note(load_note(load));
-  return table;
+  if (!is_whole) {
+    table.add_note("Ended before its time: parts or rounds are missing.");
+  }
+}
+
+/// What is to be read first, then all, if that is asked for or goes to a file.
+std::string comparisons_text(const SpeedOptions& options, const Results& results, double load, bool is_whole) {
+  Table details = table_of(results.comparisons, title());
+  if (options.format != TableFormat::markdown) {
+    add_notes(options, results, load, is_whole, details);
+    return text_of(details, options.format);
+  }
+  Table headline = headline_of(results.comparisons, title() + ", geometric means over scenes and kinds");
+  add_notes(options, results, load, is_whole, headline);
+  const bool has_details = options.has_details || options.output;
+  if (!has_details) {
+    headline.add_note("--details, or a file (-o), has all " + std::to_string(details.rows().size()) + " comparisons.");
+  }
+  return text_of(headline, options.format) + (has_details ? "\n" + text_of(details, options.format) : "");
+}
+
+std::string text_of_all(const SpeedOptions& options, const Results& results, double load, bool is_whole) {
+  if (!options.is_ablation) {
+    return comparisons_text(options, results, load, is_whole);
+  }
+  Table table = table_of(results.ablations, "Pictures without skips; ratios are medians over rounds, without over with");
+  add_notes(options, results, load, is_whole, table);
+  return text_of(table, options.format);
+}
+
+/// By processor time of a server's core in November 2026 with the default scenes and parts. A bench that is not quick shoots ten
+/// times the rays, renders sixteen times the pixels, and takes more than twice the rounds.
+Effort effort_of(const SpeedOptions& options) {
+  constexpr double quick_seconds = 12, quick_ablation_seconds = 19, quick_factor = 25, standard_scenes = 4;
+  constexpr std::size_t with_embree_bytes = std::size_t{1300} << 20U;
+  const double scenes =
+      options.settings.scenes.empty() ? 1 : static_cast<double>(options.settings.scenes.size()) / standard_scenes;
+  const double parts = static_cast<double>(options.parts.size()) / static_cast<double>(all_speed_parts().size());
+  const double quick = scenes * (options.is_ablation ? quick_ablation_seconds : parts * quick_seconds);
+  return {.seconds = options.settings.is_quick ? quick : quick_factor * quick,
+          .bytes = options.is_ablation || !options.settings.scenes.empty() ? 0 : with_embree_bytes};
 }
 
 void draw_plots(const SpeedOptions& options, const Results& results) {
@@ -171,7 +210,7 @@ void choose_ablation(const OptionSet& set, SpeedOptions& options) {
   if (!options.is_ablation) {
     return;
   }
-  for (const char* other : {"--parts", "--threads"}) {
+  for (const char* other : {"--parts", "--threads", "--details"}) {
     if (set.is_given(other)) {
       throw core::UsageError(std::string("--ablation does not go with ") + other);
     }
@@ -206,6 +245,7 @@ void add_options(OptionSet set, SpeedOptions& options) {
       [&settings](const std::string& text) { settings.resolution = parse_resolution(text); }, "Pixels of the pictures");
   set.add_path("--plots", "FOLDER", options.plots,
                "Where pictures by gnuplot go, with their scripts and what they are drawn from");
+  set.add_flag("--details", options.has_details, "Print every comparison, too, not the means of them alone");
   add_format_option(set, options.format);
   set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
   set.add_quiet(options.quiet);
@@ -220,16 +260,13 @@ void add_options(OptionSet set, SpeedOptions& options) {
 
 int bench_speed_command(const SpeedOptions& options, Interrupt& interrupt, std::ostream& output) {
   check_files(options);
+  announce("bench speed", effort_of(options), options.quiet, std::cerr);
   const double load = machine_load();
   Results results;
   const std::exception_ptr failure = measure_all(options, interrupt, results);
   if (!failure || results.has_figures()) {
     interrupt.set_consequence("the table has what was measured before");
-    Table table = finished_table(options, results, load);
-    if (failure) {
-      table.add_note("Ended before its time: parts or rounds are missing.");
-    }
-    write_to(options.output, text_of(table, options.format), output, "the table");
+    write_to(options.output, text_of_all(options, results, load, !failure), output, "the table");
     if (options.plots) {
       draw_plots(options, results);
     }

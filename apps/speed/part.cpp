@@ -8,6 +8,7 @@
 #include "apps/paper_data.h"
 #include "apps/words.h"
 #include "core/expect.h"
+#include "core/nearest_word.h"
 
 namespace dmpc::apps {
 namespace {
@@ -22,8 +23,11 @@ constexpr const char* big_scene = "tetra-10";
 SpeedPart parse_part(const std::string& word) {
   const auto end = names.begin() + comparing_count, found = std::find(names.begin(), end, word);
   if (found == end) {
+    const std::vector<std::string> all(names.begin(), end);
+    const std::string meant = core::did_you_mean(word, all);
     throw core::UsageError("--parts=" + word +
-                           ": expected kernel, picture, emulation, build, memory, pages, with commas between");
+                           ": expected kernel, picture, emulation, build, memory, pages, with commas between" +
+                           (meant.empty() ? "" : ".") + meant);
   }
   return SpeedPart{static_cast<std::uint8_t>(found - names.begin())};
 }

@@ -66,9 +66,29 @@ TEST_CASE("bench speed measures all its parts and holds them against what is to 
 TEST_CASE("bench speed holds a scene of the article against its table") {
   SpeedOptions options = tiny_speed({"--parts=pages"});
   options.settings.scenes = {"mount-6-t6", "tetra-2"};
+  options.has_details = true;
   const std::string table = output_of(options);
+  CHECK(contains(table, "| pages | database "));
   CHECK(contains(table, "| pages | mount-6-t6 | database "));
   CHECK(contains(table, "Distinct pages a pixel over the article's (worst of 1)"));
+}
+
+TEST_CASE("bench speed prints its means first, and every comparison if asked or into a file") {
+  const TemporaryFolder folder;
+  SpeedOptions options = tiny_speed({"--parts=pages"});
+  options.settings.scenes = {"mount-6-t6"};
+  const std::string means = output_of(options);
+  CHECK(contains(means, "geometric means over scenes and kinds"));
+  CHECK(contains(means, "--details, or a file (-o), has all "));
+  CHECK_FALSE(contains(means, "largest ratio"));
+  options.output = folder / "speed.md";
+  CHECK(output_of(options).empty());
+  const std::string file = file_text(folder / "speed.md");
+  CHECK(file.find("geometric means") < file.find("largest ratio"));
+  std::istringstream lines(file);
+  for (std::string line; std::getline(lines, line);) {
+    CHECK((line.size() <= 120 || !line.starts_with("|")));
+  }
 }
 
 TEST_CASE("the kernel is measured for all classes, queries and threads, all in each round") {

@@ -49,6 +49,15 @@ std::string machine_complaint_with(const std::string& from, const std::string& t
 
 }  // namespace
 
+TEST_CASE("a machine file may begin with a byte order mark") {
+  const MachineDescription plain = load_machine("paragon");
+  CHECK(parse_machine("\xef\xbb\xbf" + machine_text(plain), "m.json").machine.digest() == plain.machine.digest());
+}
+
+TEST_CASE("a machine's name that is nearly right is suggested") {
+  CHECK_THROWS_WITH_AS(load_machine("ipsc3"), doctest::Contains("Did you mean ipsc2?"), core::InputError);
+}
+
 TEST_CASE("what is printed of a machine reads back as the same") {
   for (const MachineDescription& preset : machine_presets()) {
     CAPTURE(preset.machine.name);

@@ -120,9 +120,17 @@ TEST_CASE("surplus numbers after a material or a light's colour are ignored to t
   check_refused("f 1 1 1 1 0 0 0 0\n0.5", "found '0.5', expected one of the keywords", "a.nff:9: ");
 }
 
+TEST_CASE("a byte order mark at the beginning of a file is skipped, and nowhere else") {
+  const std::string mark = "\xef\xbb\xbf";
+  CHECK(read_text(mark + view + "s 0 0 0 1\n").objects.size() == 1);
+  check_refused(mark + "s 0 0 0 1\n", "found '???s'");
+}
+
 TEST_CASE("objects before the first material get the default material") {
   const core::Scene scene = read_text("s 0 0 0 1\n" + view);
-  CHECK(scene.materials.at(scene.objects.at(0).material) == core::Material{});
+  core::Material plain;
+  plain.color = apps::plain_color;
+  CHECK(scene.materials.at(scene.objects.at(0).material) == plain);
 }
 
 TEST_CASE("an unknown keyword is refused with its line") {

@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <limits>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "core/expect.h"
 
@@ -42,6 +44,48 @@ TEST_CASE("a text cannot end its cell or its row in Markdown") {
   Table table("title", {{"a"}});
   table.add_row({"x|y\nz"});
   CHECK(text_of(table, TableFormat::markdown).find("| x\\|y z |\n") != std::string::npos);
+}
+
+TEST_CASE("a wide table stands in pieces of 120 letters at most, each with the columns that tell its rows apart") {
+  std::vector<Column> columns = {{"scene"}, {"nodes"}};
+  for (int i = 0; i < 12; ++i) {
+    columns.push_back({"a figure with a long name " + std::to_string(i)});
+  }
+  Table table("wide", columns);
+  for (const std::uint64_t nodes : {1, 2}) {
+    std::vector<Cell> row = {"teapot", nodes};
+    row.resize(columns.size(), std::uint64_t{7});
+    table.add_row(row);
+  }
+  std::istringstream lines(text_of(table, TableFormat::markdown));
+  std::size_t pieces = 0;
+  std::string all;
+  for (std::string line; std::getline(lines, line); all += line) {
+    CHECK(line.size() <= markdown_width_max);
+    pieces += line.starts_with("| scene  | nodes | a figure") ? 1 : 0;
+  }
+  CHECK(pieces == 4);
+  for (const Column& column : columns) {
+    CHECK(all.find(" " + column.name + " ") != std::string::npos);
+  }
+}
+
+TEST_CASE("the pieces of a wide table have numbered rows where much would be needed to tell them apart") {
+  Table table("alike", {{std::string(80, 'a')}, {std::string(80, 'b')}});
+  table.add_row({"x", "y"});
+  table.add_row({"x", "y"});
+  const std::string text = text_of(table, TableFormat::markdown);
+  CHECK(text.find("| row | " + std::string(80, 'a') + " |\n") != std::string::npos);
+  CHECK(text.find("|   2 | y ") != std::string::npos);
+}
+
+TEST_CASE("a row that is added is told of, as much as fits a line") {
+  Table table("two runs", {{"nodes"}, {"kind"}, {"average load", "%", 1}, {std::string(80, 'x')}});
+  std::vector<std::string> told;
+  table.set_listener([&told](const Table& rows) { told.push_back(last_row_text(rows)); });
+  table.add_row({std::uint64_t{4}, "plain", 82.46, "far away"});
+  table.add_row({std::uint64_t{8}, "missing", {}, {}});
+  CHECK(told == std::vector<std::string>{"nodes 4, kind plain, average load (%) 82.5", "nodes 8, kind missing"});
 }
 
 TEST_CASE("CSV has every digit, nothing for what is missing, and neither title nor notes") {

@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <set>
+#include <sstream>
+
 #include "apps/manual/leaves.h"
 #include "apps/options.h"
 #include "tests/manual/painter.h"
@@ -21,6 +24,7 @@ class Desk {
   explicit Desk(const std::string& script) {
     tests::write_text(folder_ / "script", script);
     tests::write_text(folder_ / "hoard.nff", "");
+    tests::write_text(folder_ / "hoard.png", "");
     std::filesystem::create_directory(folder_ / "stable");
   }
 
@@ -60,6 +64,20 @@ const CommandDescription& program() {
   return painter;
 }
 
+/// Files come in the order of their folder.
+std::string in_order(const std::string& offered) {
+  std::istringstream stream(offered);
+  std::set<std::string> words;
+  for (std::string word; stream >> word;) {
+    words.insert(word);
+  }
+  std::string text;
+  for (const std::string& word : words) {
+    text += (text.empty() ? "" : " ") + word;
+  }
+  return text;
+}
+
 bool can(const char* shell) {
   if (tests::is_installed(shell)) {
     return true;
@@ -81,7 +99,7 @@ TEST_CASE("bash completes commands, and commands of commands") {
 
 TEST_CASE("bash completes the options of the command given") {
   const Desk desk(bash_completion(program()));
-  CHECK(desk.by_bash("dmpc paint --") == "--help --colour= --spare= --coats= --wet");
+  CHECK(desk.by_bash("dmpc paint --") == "--help --colour= --spare= --coats= --wet --frame=");
   CHECK(desk.by_bash("dmpc mix oil --w") == "--wet");
   CHECK(desk.by_bash("dmpc mix water --w").empty());
 }
@@ -104,8 +122,22 @@ TEST_CASE("bash completes arguments by words and files, whatever options stand b
   const Desk desk(bash_completion(program()));
   CHECK(desk.by_bash("dmpc paint ho") == "house horse hoard.nff");
   CHECK(desk.by_bash("dmpc paint --coats 3 --wet hou") == "house");
-  CHECK(desk.by_bash("dmpc mix water -o ho") == "hoard.nff");
+  CHECK(in_order(desk.by_bash("dmpc mix water -o ho")) == "hoard.nff hoard.png");
   CHECK(desk.by_bash("dmpc mix water ho").empty());
+}
+
+TEST_CASE("bash completes an argument by files that can be one, and by folders") {
+  const Desk desk(bash_completion(program()));
+  CHECK(desk.by_bash("dmpc paint hoa") == "hoard.nff");
+  CHECK(desk.by_bash("dmpc paint st") == "stable");
+}
+
+TEST_CASE("bash completes a word, and behind its colon a file") {
+  const Desk desk(bash_completion(program()));
+  CHECK(desk.by_bash("dmpc paint --frame = o") == "oak:");
+  CHECK(in_order(desk.by_bash("dmpc paint --frame = oak : ho")) == "hoard.nff hoard.png");
+  CHECK(in_order(desk.by_bash("dmpc paint --frame = oak :")) == "hoard.nff hoard.png script stable");
+  CHECK(desk.by_bash("dmpc paint --frame = ash : ho").empty());
 }
 
 TEST_CASE("fish completes commands, options and values of the command given") {
@@ -122,6 +154,8 @@ TEST_CASE("fish completes commands, options and values of the command given") {
   CHECK(desk.by_fish("dmpc paint --spare=door,s") == "--spare=door,sill");
   CHECK(desk.by_fish("dmpc paint hou") == "house");
   CHECK(desk.by_fish("dmpc paint hoa") == "hoard.nff");
+  CHECK(desk.by_fish("dmpc paint st") == "stable/");
+  CHECK(desk.by_fish("dmpc paint --frame=o") == "--frame=oak:");
 }
 
 TEST_CASE("zsh is told the options and arguments of every command") {
@@ -130,9 +164,11 @@ TEST_CASE("zsh is told the options and arguments of every command") {
   }
   const Desk desk(zsh_completion(program()));
   const std::string paint = desk.by_zsh("_dmpc_paint");
-  for (const char* const line : {"--colour=[Which]:value:(red green dusk)", "(-c --coats)-c+[How many]:1..5: ",
-                                 "--spare=[What to leave]:value:{_sequence compadd - door sill}", "--wet[On wet ground]",
-                                 ":PICTURE:{_alternative \"words:word:(house horse)\" \"files:file:_files\"}"}) {
+  for (const char* const line :
+       {"--colour=[Which]:value:(red green dusk)",
+        "(-c --coats)-c+[How many]:1..5: ", "--spare=[What to leave]:value:{_sequence compadd - door sill}",
+        "--wet[On wet ground]", "--frame=[Which and where from]:value:{compset -P '*:' && _files || compadd -S '' - oak: elm:}",
+        ":PICTURE:{_alternative \"words:word:(house horse)\" \"files:file:_files -g \\\"*.(#i)(nff|obj)\\\"\"}"}) {
     CHECK_MESSAGE(("\n" + paint + "\n").find("\n" + std::string(line) + "\n") != std::string::npos, line << " in\n" << paint);
   }
   CHECK(desk.by_zsh("_dmpc_mix_water").find("-o+[Where it goes]:FILE.pot:_files") != std::string::npos);

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "apps/options.h"
 #include "tests/manual/painter.h"
 
@@ -23,7 +25,7 @@ TEST_CASE("a description has commands, arguments and options in the order of the
   CHECK(program.commands[1].commands[1].name == "water");
   REQUIRE(program.commands[0].arguments.size() == 1);
   CHECK(program.commands[0].arguments[0].is_required);
-  REQUIRE(program.commands[0].options.size() == 5);
+  REQUIRE(program.commands[0].options.size() == 6);
   CHECK(program.commands[0].options[0].names == Words{"-h", "--help"});
   CHECK(program.commands[0].options[3].names == Words{"-c", "--coats"});
   CHECK(program.commands[0].options[3].value == "1..5 [2]");
@@ -60,7 +62,26 @@ TEST_CASE("the program's description has built-in scenes, machines, files and fo
       CHECK(option.suggestion.words.front() == "ipsc2");
       CHECK(option.suggestion.files);
     }
+    if (option.names.back() == "--heatmap") {
+      CHECK(option.suggestion.words.front() == "faults:");
+    }
   }
+  const Words endings = render.arguments.front().suggestion.endings;
+  CHECK(std::count(endings.begin(), endings.end(), "nff") == 1);
+  CHECK(std::count(endings.begin(), endings.end(), "glb") == 1);
+  CHECK(std::count(endings.begin(), endings.end(), "png") == 0);
+}
+
+TEST_CASE("help is offered about every command, and about words") {
+  const CommandDescription program = describe_command_line();
+  const auto help = std::find_if(program.commands.begin(), program.commands.end(),
+                                 [](const CommandDescription& command) { return command.name == "help"; });
+  REQUIRE(help != program.commands.end());
+  const Words topics = help->arguments.front().suggestion.words;
+  for (const CommandDescription& command : program.commands) {
+    CHECK_MESSAGE((command.name == "help" || std::count(topics.begin(), topics.end(), command.name) == 1), command.name);
+  }
+  CHECK(std::count(topics.begin(), topics.end(), "glossary") == 1);
 }
 
 }  // namespace dmpc::apps

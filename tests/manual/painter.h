@@ -23,7 +23,10 @@ struct Painter {
     apps::OptionSet mix = line.add_command("mix", "Mixes");
     mix.add_command("oil", "Slowly").add_flag("--wet", is_wet, "On wet ground");
     mix.add_command("water", "Quickly").add_path("-o,--output", "FILE.pot [stdout]", pot, "Where it goes");
-    line.suggest("PICTURE", {.words = {"house", "horse"}, .files = true});
+    paint.add_text(
+        "--frame", "WOOD:FILE", [](const std::string&) {}, "Which and where from");
+    line.suggest("WOOD:FILE", {.words = {"oak:", "elm:"}});
+    line.suggest("PICTURE", {.words = {"house", "horse"}, .files = true, .endings = {"nff", "obj"}});
     line.suggest("SHADE", {.words = {"dusk"}});
     line.suggest("FILE", {.files = true});
   }

@@ -1,0 +1,48 @@
+#include "apps/effort/effort.h"
+
+#include <cmath>
+#include <ostream>
+
+#include "apps/figures.h"
+#include "apps/progress.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// What takes less is over before one has read of it.
+constexpr double short_seconds = 5;
+constexpr std::size_t small_bytes = std::size_t{256} << 20U;
+
+/// To one significant digit, two from ten on: more would promise too much.
+double coarse(double value) { return value < 10 ? std::round(value) : 5 * std::round(value / 5); }
+
+std::string memory_text(std::size_t bytes) {
+  constexpr std::size_t gibibyte = std::size_t{1} << 30U;
+  return bytes < gibibyte ? bytes_text(bytes) : fixed(static_cast<double>(bytes) / gibibyte, 1) + " GiB";
+}
+
+std::string duration_text(double seconds) {
+  if (seconds < short_seconds) {
+    return "some seconds";
+  }
+  if (seconds < 90) {
+    return "about " + fixed(coarse(seconds), 0) + " seconds";
+  }
+  return seconds < 90 * 60 ? "about " + fixed(coarse(seconds / 60), 0) + " minutes"
+                           : "about " + fixed(coarse(seconds / 3600), 0) + " hours";
+}
+
+}  // namespace
+
+std::string text_of(const Effort& effort) {
+  return duration_text(effort.seconds) + (effort.bytes >= small_bytes ? " and " + memory_text(effort.bytes) + " of memory" : "");
+}
+
+void announce(const std::string& what, const Effort& effort, bool quiet, std::ostream& messages) {
+  const bool is_worth_saying = effort.seconds >= short_seconds || effort.bytes >= small_bytes;
+  if (is_worth_saying && !quiet && stderr_is_terminal()) {
+    messages << "dmpc: " << what << ": " << text_of(effort) << std::endl;
+  }
+}
+
+}  // namespace dmpc::apps

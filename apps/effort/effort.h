@@ -1,0 +1,23 @@
+// How long something will take, and how much memory: said before it begins.
+#pragma once
+
+#include <cstddef>
+#include <iosfwd>
+#include <string>
+
+namespace dmpc::apps {
+
+/// Of the real computer. A guess: good to a factor of two or so on a computer that does nothing else.
+struct Effort {
+  double seconds = 0;     ///< by the wall clock
+  std::size_t bytes = 0;  ///< of memory; 0: little, or not known
+};
+
+/// "some seconds", "about 4 minutes and 1.5 GiB of memory"; memory is left out below 256 MiB.
+std::string text_of(const Effort& effort);
+
+/// Writes "dmpc: WHAT: " and the effort as a line if stderr is a terminal and `quiet` is not set, and the effort is more than
+/// some seconds.
+void announce(const std::string& what, const Effort& effort, bool quiet, std::ostream& messages);
+
+}  // namespace dmpc::apps
