@@ -7,6 +7,7 @@
 #include <csignal>
 #include <memory>
 #include <string>
+#include <system_error>
 
 #include "core/expect.h"
 
@@ -14,12 +15,21 @@ namespace dmpc::apps {
 
 namespace {
 
+constexpr std::array stopping = {SIGINT, SIGTERM, SIGHUP};
+
 sigset_t stop_signals() {
   sigset_t set;
   sigemptyset(&set);
-  sigaddset(&set, SIGINT);
-  sigaddset(&set, SIGTERM);
+  for (const int signal : stopping) {
+    sigaddset(&set, signal);
+  }
   return set;
+}
+
+/// Whoever started us wants it ignored, as nohup does.
+bool is_ignored(int signal) {
+  struct sigaction action {};
+  return ::sigaction(signal, nullptr, &action) == 0 && (action.sa_flags & SA_SIGINFO) == 0 && action.sa_handler == SIG_IGN;
 }
 
 void change_mask(int how) {
@@ -33,10 +43,17 @@ constexpr std::size_t slot_count = 40;
 /// Whoever takes a path out owns it.
 std::array<std::atomic<std::string*>, slot_count> files_to_remove{};
 
+/// A folder that another thread still writes into is not empty at once.
+void remove_whole(const std::string& path) {
+  std::error_code error;
+  for (int tries = 0; tries < 100 && std::filesystem::remove_all(path, error) != 0; ++tries) {
+  }
+}
+
 void remove_files() {
   for (std::atomic<std::string*>& slot : files_to_remove) {
     if (const std::unique_ptr<std::string> path{slot.exchange(nullptr)}) {
-      ::unlink(path->c_str());
+      remove_whole(*path);
     }
   }
 }
@@ -84,8 +101,7 @@ void Interrupt::wait_for_signals(const std::stop_token& closing) {
   const sigset_t set = stop_signals();
   int signal = 0;
   while (sigwait(&set, &signal) == 0 && !closing.stop_requested()) {
-    const bool is_first = source_.request_stop();
-    if (!is_first || end_at_once_) {
+    if (!is_ignored(signal) && (!source_.request_stop() || end_at_once_)) {
       end_now();
     }
   }

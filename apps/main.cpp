@@ -25,6 +25,7 @@
 #include "apps/speed/command.h"
 #include "apps/stability/command.h"
 #include "apps/study.h"
+#include "apps/system/surroundings.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -69,7 +70,8 @@ int complain(const std::string& message, int status) {
   return status;
 }
 
-int run(const std::vector<std::string>& arguments) {
+/// `has_broken_pipe` becomes true if nobody reads any more what was to be said.
+int run(const std::vector<std::string>& arguments, bool& has_broken_pipe) {
   Interrupt interrupt;
   try {
     const Command command = parse_command_line(arguments);
@@ -77,6 +79,9 @@ int run(const std::vector<std::string>& arguments) {
     return std::visit(Execute{interrupt}, command);
   } catch (const Interrupted&) {
     return complain(std::string("interrupted, ") + interrupt.consequence(), interrupted_status);
+  } catch (const BrokenPipe&) {
+    has_broken_pipe = true;
+    return input_status;
   } catch (const core::RoomError& error) {
     return complain(error.what(), no_room_status);
   } catch (const core::InputError& error) {
@@ -94,4 +99,12 @@ int run(const std::vector<std::string>& arguments) {
 
 }  // namespace dmpc::apps
 
-int main(int count, char** values) { return dmpc::apps::run(std::vector<std::string>(values + 1, values + count)); }
+int main(int count, char** values) {
+  dmpc::apps::settle_in();
+  bool has_broken_pipe = false;
+  const int status = dmpc::apps::run(std::vector<std::string>(values + 1, values + count), has_broken_pipe);
+  if (has_broken_pipe) {
+    dmpc::apps::end_by_broken_pipe();
+  }
+  return status;
+}
