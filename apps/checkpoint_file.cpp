@@ -1,8 +1,5 @@
 #include "apps/checkpoint_file.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -54,22 +51,19 @@ std::string head_of(const PictureIdentity& identity) {
 /// Bytes to a file and a digest of them.
 class Writer {
  public:
-  explicit Writer(const fs::path& path) : stream_(path, std::ios::binary) {}
+  explicit Writer(std::ostream& stream) : stream_(stream) {}
 
   void put(std::span<const std::byte> bytes) {
     digest_.add(bytes);
     stream_.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   }
-  /// Whether all has been written.
-  bool close() {
+  void put_end() {
     const std::uint64_t digest = digest_.value();
     put(std::as_bytes(std::span(&digest, 1)));
-    stream_.close();
-    return bool{stream_};
   }
 
  private:
-  std::ofstream stream_;
+  std::ostream& stream_;
   Digest digest_;
 };
 
@@ -83,16 +77,6 @@ void put_pixels(Writer& writer, const core::Film& film) {
     }
     writer.put(std::as_bytes(std::span(block)));
   }
-}
-
-/// So that the name is given to bytes that are on the disk.
-bool sync_file(const fs::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool is_synced = file >= 0 && ::fsync(file) == 0;
-  if (file >= 0) {
-    ::close(file);
-  }
-  return is_synced;
 }
 
 /// Bytes from a file, and whether they are those that were written.
@@ -176,9 +160,9 @@ void take_pixels(Reader& reader, core::Film& film) {
 }  // namespace
 
 void write_checkpoint(const fs::path& path, const PictureIdentity& identity, const core::Film& film, const core::Refinement& pass,
-                      const core::PixelMask& done) {
-  OutputFile file(path, TemporaryName::of_target);
-  Writer writer(file.temporary());
+                      const core::PixelMask& done, Files& files) {
+  OutputFile file(path, {.name = TemporaryName::of_target, .option = "--checkpoint"}, files);
+  Writer writer(file.stream());
   const std::string head = head_of(identity);
   const PassRecord record{pass.result().passes, pass.samples().first, pass.samples().count};
   writer.put(std::as_bytes(std::span(head)));
@@ -186,9 +170,7 @@ void write_checkpoint(const fs::path& path, const PictureIdentity& identity, con
   writer.put(std::as_bytes(pass.pixels().words()));
   writer.put(std::as_bytes(done.words()));
   put_pixels(writer, film);
-  if (!writer.close() || !sync_file(file.temporary())) {
-    fail(path, std::string("cannot be written: ") + std::strerror(errno));
-  }
+  writer.put_end();
   file.commit();
 }
 

@@ -13,14 +13,10 @@
 
 namespace dmpc::apps {
 
-/// The name under which a checkpoint is written before it replaces the one at `path`, which is no symbolic link.
-inline std::filesystem::path next_checkpoint(const std::filesystem::path& path) {
-  return temporary_name(path, TemporaryName::of_target);
-}
-
-/// Writes it whole, as far as the disk, or leaves what there was. Throws core::InputError if that fails.
+/// Writes it whole, as far as the disk, or leaves what there was. Requires that no other process does so. Throws core::InputError
+/// if that fails.
 void write_checkpoint(const std::filesystem::path& path, const PictureIdentity& identity, const core::Film& film,
-                      const core::Refinement& pass, const core::PixelMask& done);
+                      const core::Refinement& pass, const core::PixelMask& done, Files& files = real_files());
 
 /// Throws core::InputError if the file cannot be read, is no checkpoint, is damaged, is one of another picture (then it says what
 /// differs), or tells of what cannot be (core::fault_of()). The digest tells accidents: whoever forges a checkpoint that could

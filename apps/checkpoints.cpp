@@ -31,12 +31,13 @@ bool is_there(const fs::path& file) {
 }  // namespace
 
 Checkpoints::Checkpoints(const CheckpointOptions& options, PictureIdentity identity, std::ostream& messages, bool is_quiet,
-                         std::stop_token stop)
+                         std::stop_token stop, Files& files)
     : options_(options),
       file_(file_behind(*options.file)),
       identity_(std::move(identity)),
       messages_(messages),
-      stop_(std::move(stop)) {
+      stop_(std::move(stop)),
+      files_(files) {
   const fs::path& file = *options.file;
   if (options.resumes && is_there(file_)) {
     start_.emplace(read_checkpoint(file_, identity_));
@@ -60,7 +61,7 @@ void Checkpoints::wait_for_next() {
 
 void Checkpoints::keep(const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) {
   try {
-    write_checkpoint(file_, identity_, film, pass, done);
+    write_checkpoint(file_, identity_, film, pass, done, files_);
     has_one_ = true;
   } catch (const core::InputError& error) {
     messages_ << "\ndmpc: " << error.what() << (stop_.stop_requested() ? "" : "; the render goes on") << std::endl;
@@ -70,9 +71,8 @@ void Checkpoints::keep(const core::Film& film, const core::Refinement& pass, con
 
 void Checkpoints::finish() const {
   if (!options_.stays) {
-    std::error_code error;
-    fs::remove(file_, error);
-    fs::remove(next_checkpoint(file_), error);
+    files_.remove(file_);
+    files_.remove(next_name(file_));  // of a process that was killed
   }
 }
 
@@ -81,10 +81,10 @@ std::optional<FileLock> claim_checkpoint(const CheckpointOptions& options) {
     return std::nullopt;
   }
   const std::string what = "--checkpoint " + options.file->string() + ": ";
-  check_output_path(*options.file, "--checkpoint");
-  if (is_special(*options.file)) {
+  if (is_special(*options.file) && !fs::is_directory(*options.file)) {
     throw core::InputError(what + "this is a pipe or device, from which nothing can be resumed");
   }
+  check_output_path(*options.file, "--checkpoint");
   std::optional<FileLock> lock = FileLock::try_lock(hidden_name(file_behind(*options.file), "lock"));
   if (!lock) {
     throw core::InputError(what + "another dmpc keeps its checkpoint there");

@@ -9,6 +9,7 @@
 #include "apps/checkpoint_options.h"
 #include "apps/file_lock.h"
 #include "apps/picture_identity.h"
+#include "apps/system/files.h"
 #include "core/partial_picture.h"
 
 namespace dmpc::apps {
@@ -17,9 +18,9 @@ namespace dmpc::apps {
 class Checkpoints {
  public:
   /// Reads the file if that is asked for, and says on `messages` what it has, unless `is_quiet`. Requires options.file. Throws
-  /// core::InputError as read_checkpoint() does. `messages` outlives it. `stop` is that of the run.
+  /// core::InputError as read_checkpoint() does. `messages` and `files` outlive it. `stop` is that of the run.
   Checkpoints(const CheckpointOptions& options, PictureIdentity identity, std::ostream& messages, bool is_quiet,
-              std::stop_token stop = {});
+              std::stop_token stop = {}, Files& files = real_files());
 
   /// For a run, which it outlives. What cannot be written is a warning on `messages`; the last checkpoint stays.
   core::Continuation continuation();
@@ -43,6 +44,7 @@ class Checkpoints {
   PictureIdentity identity_;
   std::ostream& messages_;
   std::stop_token stop_;
+  Files& files_;
   std::optional<core::PartialPicture> start_;
   bool has_one_ = false;
   Clock::time_point next_;

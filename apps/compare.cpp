@@ -68,7 +68,7 @@ void print_json(std::ostream& output, const CompareOptions& options, const Pictu
 
 void write_picture(const std::filesystem::path& path, const Image& image, Interrupt& interrupt) {
   OutputFile file(path);
-  write_image(path, image, file);
+  file.write(encoded_picture(path, image));
   interrupt.set_consequence("the output may be incomplete");
   file.commit();
 }

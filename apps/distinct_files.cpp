@@ -46,4 +46,12 @@ void check_distinct(const std::vector<NamedFile>& inputs, const std::vector<Name
   }
 }
 
+void check_not_read(const OpenedFiles& inputs, const std::vector<NamedFile>& outputs) {
+  for (const NamedFile& output : outputs) {
+    for (const fs::path& input : inputs.paths()) {
+      expect_apart(output, {"the scene's", input});
+    }
+  }
+}
+
 }  // namespace dmpc::apps

@@ -16,7 +16,7 @@ namespace dmpc::apps {
 namespace {
 
 int open_lock(const std::filesystem::path& path) {
-  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (file < 0) {
     throw core::InputError(path.string() + ": cannot be made: " + std::strerror(errno));
   }

@@ -15,7 +15,7 @@ namespace dmpc::apps {
 class FileLock {
  public:
   /// Nothing, if another has it. Where the file system knows no locks everybody gets one. Throws core::InputError if the file
-  /// cannot be made.
+  /// cannot be made, or is a symbolic link, which is not followed.
   static std::optional<FileLock> try_lock(const std::filesystem::path& path);
   FileLock(FileLock&& other) noexcept;
   FileLock(const FileLock&) = delete;

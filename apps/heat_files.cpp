@@ -28,27 +28,13 @@ Channel channel_of(const HeatField& field, const RenderRecord& record) {
   return channel;
 }
 
-void write(const HeatRequest& request, const RenderRecord& record, const OutputFile& file) {
-  const HeatField field = heat_field(request.kind, record);
-  if (holds_numbers(request)) {
-    write_channel(request.path, channel_of(field, record), file);
-  } else {
-    write_image(request.path, heat_picture(field, record.options.picture.scene + ", " + computer_text(record)), file);
-  }
-}
-
 }  // namespace
 
-HeatFiles::HeatFiles(const RenderRecord& record) {
-  for (const HeatRequest& request : record.options.heat_maps) {
-    write(request, record, files_.emplace_back(request.path));
-  }
-}
-
-void HeatFiles::commit() {
-  for (OutputFile& file : files_) {
-    file.commit();
-  }
+std::string heat_file(const HeatRequest& request, const RenderRecord& record) {
+  const HeatField field = heat_field(request.kind, record);
+  return holds_numbers(request)
+             ? encoded_picture(request.path, channel_of(field, record))
+             : encoded_picture(request.path, heat_picture(field, record.options.picture.scene + ", " + computer_text(record)));
 }
 
 }  // namespace dmpc::apps

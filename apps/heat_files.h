@@ -1,24 +1,14 @@
-// The files of --heatmap: all written before any gets its name.
+// What stands in the files of --heatmap.
 #pragma once
 
-#include <list>
+#include <string>
 
-#include "apps/output_file.h"
+#include "apps/heat_options.h"
 #include "apps/stats.h"
 
 namespace dmpc::apps {
 
-/// Removed again unless they are committed. Not thread-safe.
-class HeatFiles {
- public:
-  /// Writes what record.options ask for; record.heat has their kinds. Throws core::InputError if that fails.
-  explicit HeatFiles(const RenderRecord& record);
-
-  /// Gives the files their names. Throws core::InputError if that fails.
-  void commit();
-
- private:
-  std::list<OutputFile> files_;  // which cannot be moved
-};
+/// All bytes of the file that is asked for; record.heat has its kind. Throws core::InputError if its format cannot hold it.
+std::string heat_file(const HeatRequest& request, const RenderRecord& record);
 
 }  // namespace dmpc::apps

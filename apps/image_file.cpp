@@ -1,5 +1,6 @@
 #include "apps/image_file.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -8,7 +9,9 @@
 #include <memory>
 #include <string>
 
+#include "apps/output_file.h"
 #include "apps/reader/picture_reader.h"
+#include "apps/system/memory_file.h"
 #include "core/expect.h"
 #include "core/srgb.h"
 
@@ -88,19 +91,20 @@ OIIO::ImageSpec specification(const Channel& channel) {
   return spec;
 }
 
-/// Writes to `file` in the format that `path` asks for; write_all(output) returns whether its writing succeeded.
+/// What a file in the format that `path` asks for has in it; write_all(output) returns whether its writing succeeded.
 template <class WriteAll>
-void write_to(const fs::path& file, const fs::path& path, const OIIO::ImageSpec& spec, const WriteAll& write_all) {
+std::string file_of(const fs::path& path, const OIIO::ImageSpec& spec, const WriteAll& write_all) {
   const std::unique_ptr<OIIO::ImageOutput> output = create_output(path);
-  const bool written = output->open(file.string(), spec) && write_all(*output) && output->close();
-  std::error_code error;
-  if (!written || !fs::exists(file, error)) {
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput into_bytes(bytes);
+  const MemoryFile file;
+  const bool takes_bytes = output->supports("ioproxy") && output->set_ioproxy(&into_bytes);
+  const bool is_written = output->open(takes_bytes ? path.string() : file.path(), spec) && write_all(*output) && output->close();
+  std::string text = takes_bytes ? std::string(bytes.begin(), bytes.end()) : file.bytes();
+  if (!is_written || text.empty()) {
     throw core::InputError(path.string() + ": cannot be written: " + output->geterror());
   }
-}
-
-void write_to(const fs::path& file, const fs::path& path, const Image& image) {
-  write_to(file, path, specification(path, image), [&](OIIO::ImageOutput& output) { return write_pixels(output, path, image); });
+  return text;
 }
 
 }  // namespace
@@ -113,27 +117,22 @@ void check_image_path(const fs::path& path, std::string_view option) {
         std::string(option) + " " + path.string() +
         ": this is no ordinary file, and a picture is not written from front to back; give the name of a file");
   }
-  const OutputFile probe(path);
-  write_to(probe.temporary(), path, Image(1, 1));
+  static_cast<void>(encoded_picture(path, Image(1, 1)));
 }
 
-void write_image(const fs::path& path, const Image& image) {
-  OutputFile file(path);
-  write_image(path, image, file);
-  file.commit();
-}
-
-void write_image(const fs::path& path, const Image& image, const OutputFile& file) {
+std::string encoded_picture(const fs::path& path, const Image& image) {
   core::expect(image.width > 0 && image.height > 0, "a picture to be written has at least one pixel");
-  write_to(file.temporary(), path, image);
+  return file_of(path, specification(path, image), [&](OIIO::ImageOutput& output) { return write_pixels(output, path, image); });
 }
 
-void write_channel(const fs::path& path, const Channel& channel, const OutputFile& file) {
+std::string encoded_picture(const fs::path& path, const Channel& channel) {
   core::expect(channel.values.size() == static_cast<std::size_t>(channel.width) * static_cast<std::size_t>(channel.height),
                "a channel has a number for each pixel");
-  write_to(file.temporary(), path, specification(channel),
-           [&](OIIO::ImageOutput& output) { return output.write_image(OIIO::TypeDesc::FLOAT, channel.values.data()); });
+  return file_of(path, specification(channel),
+                 [&](OIIO::ImageOutput& output) { return output.write_image(OIIO::TypeDesc::FLOAT, channel.values.data()); });
 }
+
+void write_image(const fs::path& path, const Image& image) { write_file(path, encoded_picture(path, image)); }
 
 Image read_image(const fs::path& path) { return PictureReader().read_image(open_picture(path)); }
 

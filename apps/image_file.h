@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "apps/output_file.h"
-
 namespace dmpc::apps {
 
 /// Linear RGB radiance, row by row from the top left, three floats a pixel.
@@ -35,19 +33,19 @@ struct Channel {
 };
 
 /// Throws core::InputError unless a picture can be written at `path`: the extension is one that OpenImageIO writes, `path` is no
-/// pipe or device, the folder is there, and a picture of one pixel can be written in it (it is removed again). `option` names the
-/// option that gave it, for the message.
+/// pipe or device, a file can be made there as check_output_path() says, and the format holds a picture of one pixel. `option`
+/// names the option that gave it, for the message.
 void check_image_path(const std::filesystem::path& path, std::string_view option);
 
 /// Writes the picture whole or not at all. EXR, TIFF and HDR get 32-bit linear floats (HDR its own shared exponents); every other
 /// format gets 8 bits, clamped to 0..1, with the sRGB curve. Throws core::InputError if that fails.
 void write_image(const std::filesystem::path& path, const Image& image);
 
-/// The same up to the commit, which is left to the caller: `file` is what becomes `path`.
-void write_image(const std::filesystem::path& path, const Image& image, const OutputFile& file);
+/// What write_image() would write to `path`, which is not touched.
+std::string encoded_picture(const std::filesystem::path& path, const Image& image);
 
-/// Writes the channel alone, as 32-bit floats, up to the commit. Requires a path that ends in .exr, and a number for each pixel.
-void write_channel(const std::filesystem::path& path, const Channel& channel, const OutputFile& file);
+/// The same for the channel alone, as 32-bit floats. Requires a path that ends in .exr, and a number for each pixel.
+std::string encoded_picture(const std::filesystem::path& path, const Channel& channel);
 
 /// Reads the first three channels (one channel is taken thrice). Floats are taken as linear radiance; integers as sRGB and made
 /// linear. Throws core::InputError if there is no such picture.

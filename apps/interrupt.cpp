@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstring>
 #include <memory>
+#include <new>
 #include <string>
 #include <system_error>
 
@@ -16,12 +17,21 @@ namespace dmpc::apps {
 
 namespace {
 
+constexpr std::array stopping = {SIGINT, SIGTERM, SIGHUP};
+
 sigset_t stop_signals() {
   sigset_t set;
   sigemptyset(&set);
-  sigaddset(&set, SIGINT);
-  sigaddset(&set, SIGTERM);
+  for (const int signal : stopping) {
+    sigaddset(&set, signal);
+  }
   return set;
+}
+
+/// Whoever started us wants it ignored, as nohup does.
+bool is_ignored(int signal) {
+  struct sigaction action {};
+  return ::sigaction(signal, nullptr, &action) == 0 && (action.sa_flags & SA_SIGINFO) == 0 && action.sa_handler == SIG_IGN;
 }
 
 void change_mask(int how) {
@@ -38,12 +48,25 @@ std::array<std::atomic<std::string*>, slot_count> files_to_remove{};
 /// Where no memory may be left.
 void say(const char* words) { static_cast<void>(!::write(STDERR_FILENO, words, std::strlen(words))); }
 
+/// A folder that another thread still writes into is not empty at once. Of a file it takes no memory.
+void remove_whole(const std::string& path) {
+  if (::unlink(path.c_str()) == 0) {
+    return;
+  }
+  try {
+    std::error_code error;
+    for (int tries = 0; tries < 100 && std::filesystem::remove_all(path, error) != 0; ++tries) {
+    }
+  } catch (const std::bad_alloc&) {  // the folder stays
+  }
+}
+
 }  // namespace
 
 void remove_files_under_way() {
   for (std::atomic<std::string*>& slot : files_to_remove) {
     if (const std::unique_ptr<std::string> path{slot.exchange(nullptr)}) {
-      ::unlink(path->c_str());
+      remove_whole(*path);
     }
   }
 }
@@ -95,8 +118,7 @@ void Interrupt::wait_for_signals(const std::stop_token& closing) {
   const sigset_t set = stop_signals();
   int signal = 0;
   while (sigwait(&set, &signal) == 0 && !closing.stop_requested()) {
-    const bool is_first = source_.request_stop();
-    if (!is_first || end_at_once_) {
+    if (!is_ignored(signal) && (!source_.request_stop() || end_at_once_)) {
       end_now();
     }
   }

@@ -1,4 +1,4 @@
-// Ctrl-C and SIGTERM as a stop token, or as the end at once.
+// Ctrl-C, SIGTERM and SIGHUP as a stop token, or as the end at once.
 #pragma once
 
 #include <atomic>
@@ -14,9 +14,10 @@ namespace dmpc::apps {
 /// Thrown by a command that was stopped by a signal, after it has cleaned up. Exit status 130.
 struct Interrupted {};
 
-/// While it lives, SIGINT and SIGTERM are blocked in the thread that made it and in all threads that this one starts afterwards;
-/// a thread of its own waits for them. So nothing of ours ever runs inside a signal handler. The first signal requests a stop,
-/// the second ends the process at once with status 130. At most one at a time, made before any other thread.
+/// While it lives, SIGINT, SIGTERM and SIGHUP are blocked in the thread that made it and in all threads that this one starts
+/// afterwards; a thread of its own waits for them. So nothing of ours ever runs inside a signal handler. The first signal
+/// requests a stop, the second ends the process at once with status 130. One that was ignored when the process started, as SIGHUP
+/// is under nohup, still is. At most one at a time, made before any other thread.
 ///
 /// Thread safety: token(), requested() and set_consequence() from any thread, the rest from the thread that made it.
 class Interrupt {
@@ -61,7 +62,8 @@ class Interrupt {
   std::jthread waiter_;
 };
 
-/// While it lives, an end at once removes the file at `path` if there is one. There are few at a time, which is asserted.
+/// While it lives, an end at once removes the file at `path` if there is one, or the folder with all in it. There are few at a
+/// time, which is asserted.
 ///
 /// Thread safety: none needed; the thread that ends the process takes the path out of its slot, and so does the destructor: only
 /// one of them gets it.

@@ -33,6 +33,7 @@
 #include "apps/speed/command.h"
 #include "apps/stability/command.h"
 #include "apps/study.h"
+#include "apps/system/surroundings.h"
 #include "apps/usage/list_command.h"
 #include "core/expect.h"
 
@@ -99,13 +100,17 @@ int complain_of_bug(const std::exception& error) {
   return complain(std::string("this is a bug in dmpc, please report it: ") + error.what(), internal_status);
 }
 
-int run(const std::vector<std::string>& arguments, Interrupt& interrupt) {
+/// `has_broken_pipe` becomes true if nobody reads any more what was to be said.
+int run(const std::vector<std::string>& arguments, Interrupt& interrupt, bool& has_broken_pipe) {
   try {
     const Command command = parse_command_line(arguments);
     std::visit(obey_quiet, command);
     return std::visit(Execute{interrupt}, command);
   } catch (const Interrupted&) {
     return complain(std::string("interrupted, ") + interrupt.consequence(), interrupted_status);
+  } catch (const BrokenPipe&) {
+    has_broken_pipe = true;
+    return input_status;
   } catch (const core::RoomError& error) {
     return complain(error.what(), no_room_status);
   } catch (const core::InputError& error) {
@@ -120,12 +125,12 @@ int run(const std::vector<std::string>& arguments, Interrupt& interrupt) {
 }
 
 /// Where not even a complaint may find memory.
-int run_within_memory(int count, char** values) {
+int run_within_memory(int count, char** values, bool& has_broken_pipe) {
 #if !defined(__SANITIZE_ADDRESS__)  // whose shadow is larger than any memory
   bound_memory();
 #endif
   Interrupt interrupt;
-  return run(std::vector<std::string>(values + 1, values + count), interrupt);
+  return run(std::vector<std::string>(values + 1, values + count), interrupt, has_broken_pipe);
 }
 
 }  // namespace
@@ -135,13 +140,19 @@ int run_within_memory(int count, char** values) {
 int main(int count, char** values) {
   using namespace dmpc;
   apps::end_without_abort();
+  apps::settle_in();
   const apps::ShownOutput errors(std::cerr);
   std::optional<apps::ShownOutput> output;
   if (::isatty(STDOUT_FILENO) == 1) {
     output.emplace(std::cout);
   }
+  bool has_broken_pipe = false;
   try {
-    return apps::run_within_memory(count, values);
+    const int status = apps::run_within_memory(count, values, has_broken_pipe);
+    if (has_broken_pipe) {
+      apps::end_by_broken_pipe();
+    }
+    return status;
   } catch (const std::bad_alloc&) {
     return apps::complain_of_memory();
   } catch (const core::RoomError& error) {

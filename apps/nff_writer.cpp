@@ -122,16 +122,8 @@ void NffWriter::cone(const core::Vec3d& base, double base_radius, const core::Ve
 
 void write_nff_file(const std::string& path, const std::function<void(core::SceneSink&)>& produce) {
   OutputFile file(path);
-  std::ofstream stream(file.temporary(), std::ios::binary);
-  if (!stream) {
-    throw core::InputError(path + ": cannot be written: " + std::strerror(errno));
-  }
-  NffWriter writer(stream);
+  NffWriter writer(file.stream());
   produce(writer);
-  stream.close();
-  if (!stream) {
-    throw core::InputError(path + ": could not be written to the end: " + std::strerror(errno));
-  }
   file.commit();
 }
 

@@ -17,10 +17,10 @@ namespace {
 /// Of a table, by its name: links to them in Markdown.
 using Pictures = std::map<std::string, std::string>;
 
-void write_tables(const std::vector<NamedTable>& tables, const std::filesystem::path& folder) {
+void write_tables(const std::vector<NamedTable>& tables, const std::filesystem::path& folder, Attempts& attempts) {
   for (const NamedTable& named : tables) {
-    write_file(folder / (named.name + ".csv"), text_of(named.table, TableFormat::csv));
-    write_file(folder / (named.name + ".json"), text_of(named.table, TableFormat::json));
+    attempts.make([&] { write_file(folder / (named.name + ".csv"), text_of(named.table, TableFormat::csv)); });
+    attempts.make([&] { write_file(folder / (named.name + ".json"), text_of(named.table, TableFormat::json)); });
   }
 }
 
@@ -32,7 +32,7 @@ void complain(std::vector<std::string>& complaints, const PlotOutcome& outcome) 
   }
 }
 
-Pictures draw_all(const std::vector<NamedTable>& tables, const std::filesystem::path& folder,
+Pictures draw_all(const std::vector<NamedTable>& tables, const std::filesystem::path& folder, Attempts& attempts,
                   std::vector<std::string>& complaints) {
   Pictures pictures;
   for (const PaperPlot& of_table : paper_plots()) {
@@ -40,7 +40,8 @@ Pictures draw_all(const std::vector<NamedTable>& tables, const std::filesystem::
     if (named == tables.end()) {
       continue;
     }
-    const auto outcome = draw(of_table.plot, named->table, folder, named->name + ".csv");
+    std::optional<PlotOutcome> outcome;
+    attempts.make([&] { outcome = draw(of_table.plot, named->table, folder, named->name + ".csv"); });
     if (outcome && outcome->is_drawn) {
       pictures[named->name] += "\n![" + of_table.plot.title + "](" + of_table.plot.name + ".svg)\n";
     } else if (outcome) {
@@ -103,11 +104,11 @@ std::string text_with(const PaperReport& report, const Pictures& pictures, const
 
 std::string text_of(const PaperReport& report) { return text_with(report, {}, {}); }
 
-std::vector<std::string> write_report(const PaperReport& report, const std::filesystem::path& folder) {
+std::vector<std::string> write_report(const PaperReport& report, const std::filesystem::path& folder, Attempts& attempts) {
   std::vector<std::string> complaints;
-  write_tables(report.tables, folder);
-  const Pictures pictures = draw_all(report.tables, folder, complaints);
-  write_file(folder / "report.md", text_with(report, pictures, complaints));
+  write_tables(report.tables, folder, attempts);
+  const Pictures pictures = draw_all(report.tables, folder, attempts, complaints);
+  attempts.make([&] { write_file(folder / "report.md", text_with(report, pictures, complaints)); });
   return complaints;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/study_table.h"
+#include "apps/system/attempts.h"
 
 namespace dmpc::apps {
 
@@ -28,8 +29,8 @@ std::string text_of(const PaperReport& report);
 
 /// Writes to a folder each table as CSV and JSON, a gnuplot script for each picture, the pictures that gnuplot makes of them, and
 /// as report.md the text with links to the pictures. Returns sentences about pictures that could not be drawn, which stand in
-/// report.md, too. Throws core::InputError for what cannot be written.
-std::vector<std::string> write_report(const PaperReport& report, const std::filesystem::path& folder);
+/// report.md, too. Each file is one of the attempts.
+std::vector<std::string> write_report(const PaperReport& report, const std::filesystem::path& folder, Attempts& attempts);
 
 /// The same as a page. What could not be drawn is told to `complaints`. Throws core::InputError if no temporary file can be
 /// written.

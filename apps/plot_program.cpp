@@ -30,7 +30,11 @@ constexpr std::size_t words_bytes_max = 2000;
 /// Both ends are closed in the end, unless before.
 class Pipe {
  public:
-  Pipe() { core::expect(::pipe2(ends_.data(), O_CLOEXEC) == 0, "a pipe can be made"); }
+  Pipe() {
+    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) {
+      throw core::InputError(std::string("no pipe to a program can be made: ") + std::strerror(errno));
+    }
+  }
   ~Pipe() {
     close_writing();
     ::close(ends_[0]);
@@ -76,7 +80,11 @@ class Surroundings {
     sigset_t none;
     sigemptyset(&none);
     posix_spawnattr_setsigmask(&attributes_, &none);
-    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK);
+    sigset_t ignored = none;
+    sigaddset(&ignored, SIGPIPE);
+    sigaddset(&ignored, SIGXFSZ);
+    posix_spawnattr_setsigdefault(&attributes_, &ignored);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   }
   ~Surroundings() {
     posix_spawnattr_destroy(&attributes_);
@@ -154,7 +162,7 @@ std::optional<PlotOutcome> draw(const Plot& plot, const Table& table, const fs::
     fs::remove(script_path, ignored);
     return std::nullopt;
   }
-  write_file(script_path, *script);
+  write_file(script_path, *script, Durability::until_power_loss);
   PlotOutcome outcome = run_script(folder, plot.name, program);
   if (!outcome.is_drawn) {
     fs::remove(picture_path, ignored);

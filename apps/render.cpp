@@ -2,7 +2,6 @@
 
 #include <sys/resource.h>
 
-#include <csignal>
 #include <cstdint>
 #include <iostream>
 #include <memory>
@@ -11,21 +10,18 @@
 #include <utility>
 
 #include "apps/checkpoints.h"
-#include "apps/distinct_files.h"
-#include "apps/heat_files.h"
-#include "apps/html/render_page.h"
 #include "apps/load_scene.h"
-#include "apps/machines.h"
 #include "apps/onlookers.h"
-#include "apps/origin.h"
 #include "apps/output_file.h"
 #include "apps/preview.h"
 #include "apps/progress.h"
+#include "apps/render_outputs.h"
 #include "apps/run_strategy.h"
 #include "apps/stats.h"
 #include "apps/stopwatch.h"
 #include "apps/subject.h"
 #include "apps/summary.h"
+#include "apps/system/attempts.h"
 #include "apps/trace_file.h"
 
 namespace dmpc::apps {
@@ -45,45 +41,6 @@ ProcessorTime processor_time() {
   return {seconds(usage.ru_utime), seconds(usage.ru_stime)};
 }
 
-/// Returns what keeps others off the checkpoint, if there is to be one.
-std::optional<FileLock> check_outputs(const RenderOptions& options) {
-  std::vector<NamedFile> inputs, outputs = {{"-o", options.image}};
-  add_scene_file(options.picture.scene, inputs);
-  if (options.computer.runner == RunnerKind::virtual_time && find_machine_preset(options.computer.machine_name) == nullptr) {
-    inputs.push_back({"--machine", options.computer.machine_name});
-  }
-  if (options.stats) {
-    outputs.push_back({"--stats", *options.stats});
-  }
-  if (options.trace.path) {
-    outputs.push_back({"--trace", *options.trace.path});
-  }
-  if (options.report) {
-    outputs.push_back({"--report", *options.report});
-  }
-  for (const HeatRequest& request : options.heat_maps) {
-    outputs.push_back({"--heatmap", request.path});
-  }
-  if (options.checkpoint.file) {
-    outputs.push_back({"--checkpoint", *options.checkpoint.file});
-  }
-  check_distinct(inputs, outputs);
-  check_image_path(options.image, "-o");
-  if (options.stats) {
-    check_output_path(*options.stats, "--stats");
-  }
-  if (options.trace.path) {
-    check_output_path(*options.trace.path, "--trace");
-  }
-  if (options.report) {
-    check_output_path(*options.report, "--report");
-  }
-  for (const HeatRequest& request : options.heat_maps) {
-    check_image_path(request.path, "--heatmap");
-  }
-  return claim_checkpoint(options.checkpoint);
-}
-
 /// What is rendered, and the digest of its scene if a page tells it.
 struct Loaded {
   Subject subject;
@@ -91,12 +48,15 @@ struct Loaded {
 };
 
 /// Reads and builds, and makes `checkpoints` if some are asked for; a signal ends the process here and now.
-Loaded load(const RenderOptions& options, std::optional<Checkpoints>& checkpoints, Interrupt& interrupt, Seconds& seconds) {
+Loaded load(const RenderOptions& options, const OutputSet<RenderRecord>& outputs, Files& files,
+            std::optional<Checkpoints>& checkpoints, Interrupt& interrupt, Seconds& seconds) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   Stopwatch stopwatch;
-  core::Scene scene = load_scene(options.picture, options.quiet ? LoadNotes::silent : LoadNotes::said);
+  OpenedFiles opened;
+  core::Scene scene = load_scene(options.picture, options.quiet ? LoadNotes::silent : LoadNotes::said, &opened);
+  check_not_read(opened, files_of(outputs.names()));
   if (options.checkpoint.file) {
-    checkpoints.emplace(options.checkpoint, identity_of(options, scene), std::cerr, options.quiet, interrupt.token());
+    checkpoints.emplace(options.checkpoint, identity_of(options, scene), std::cerr, options.quiet, interrupt.token(), files);
   }
   const auto digest = options.report ? std::optional(scene_digest(scene)) : std::nullopt;
   seconds.load = stopwatch.lap();
@@ -193,74 +153,38 @@ Report run_timed(const RenderOptions& options, const ReadyRun& run, const Interr
   return report;
 }
 
-/// A file of text, as far as there is a text.
-class TextFile {
- public:
-  TextFile(const std::optional<std::filesystem::path>& path, const std::string& text) {
-    if (!text.empty()) {
-      file_.emplace(*path).write(text);
-    }
-  }
-  void commit() {
-    if (file_) {
-      file_->commit();
-    }
-  }
-
- private:
-  std::optional<OutputFile> file_;
-};
-
-/// What is written of a run beside its picture.
-struct Texts {
-  std::string counters;  ///< for --stats
-  std::string page;      ///< for --report
-};
-
-/// Writes all files before any gets its name, so that a failure leaves none of them.
-void write_files(const RenderRecord& record, OutputFile& picture, const Texts& texts, Interrupt& interrupt) {
-  HeatFiles heat_maps(record);
-  TraceFile trace(record);
-  TextFile stats(record.options.stats, texts.counters), page(record.options.report, texts.page);
-  interrupt.set_consequence("perhaps not all outputs were written");
+/// Before all else that is to be done, so that nothing that fails takes it away.
+void write_picture(const RenderOptions& options, const core::Film& film, Files& files, Interrupt& interrupt, Seconds& seconds) {
+  interrupt.set_consequence("the picture was not written");
+  const Interrupt::EndAtOnce end_at_once(interrupt);
+  Stopwatch stopwatch;
+  OutputFile picture(options.image, {.option = "-o"}, files);
+  picture.write(encoded_picture(options.image, image_of(film)));
+  interrupt.set_consequence("perhaps the picture was not written");
   picture.commit();
-  heat_maps.commit();
-  trace.commit();
-  stats.commit();
-  page.commit();
+  interrupt.set_consequence("the picture was written, what follows it is incomplete");
+  seconds.write = stopwatch.lap();
 }
 
 /// What goes to the standard output: counters if they were asked for there, then the closing lines.
-void print_closing(const RenderRecord& record, const std::string& counters, std::ostream& output) {
-  output << counters;
+void print_closing(const RenderRecord& record, std::ostream& output) {
+  if (has_counters_on_standard_output(record.options)) {
+    output << stats_json(record);
+  }
   if (!record.options.quiet) {
     print_summary(output, record);
   }
-  finish_output(output, "the picture was written, but what follows it");
+  finish_output(output, "what follows the picture");
 }
 
-void write_outputs(RenderRecord record, Interrupt& interrupt, std::ostream& output) {
-  std::signal(SIGPIPE, SIG_IGN);  // a pipe that nobody reads is an error to report, and no reason to leave temporary files
-  interrupt.set_consequence("the picture was not written");
-  Texts texts{.page = record.options.report ? html::render_page(record, this_origin(record.scene_digest), std::cerr) : ""};
-  interrupt.check();
+void write_others(RenderRecord record, const OutputSet<RenderRecord>& outputs, Files& files, Interrupt& interrupt,
+                  Attempts& attempts, std::ostream& output) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
-  Stopwatch stopwatch;
-  const RenderOptions& options = record.options;
-  OutputFile picture(options.image);
-  write_image(options.image, image_of(account_of(record.report).film), picture);
-  record.seconds.write = stopwatch.lap();
   const ProcessorTime all = processor_time();
   record.seconds.user = all.user;
   record.seconds.system = all.system;
-  std::string counters = options.stats ? stats_json(record) : "";
-  const bool to_standard_output = options.stats && is_standard_output(*options.stats);
-  if (!to_standard_output) {
-    texts.counters.swap(counters);
-  }
-  write_files(record, picture, texts, interrupt);
-  interrupt.set_consequence("the picture was written, what follows it is incomplete");
-  print_closing(record, counters, output);
+  outputs.write(record, attempts, files);
+  attempts.make([&] { print_closing(record, output); });
 }
 
 }  // namespace
@@ -276,13 +200,15 @@ Image image_of(const core::Film& film) {
   return image;
 }
 
-int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostream& output) {
-  const std::optional<FileLock> lock = check_outputs(asked);
+int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostream& output, Files& files) {
+  const OutputSet<RenderRecord> outputs = outputs_of(asked);
+  check_outputs(asked, outputs);
+  const std::optional<FileLock> lock = claim_checkpoint(asked.checkpoint);
   RenderOptions options = asked;
   choose_machine(options);
   Seconds seconds;
   std::optional<Checkpoints> checkpoints;
-  Loaded loaded = load(options, checkpoints, interrupt, seconds);
+  Loaded loaded = load(options, outputs, files, checkpoints, interrupt, seconds);
   Subject& subject = loaded.subject;
   std::optional<nodes::HeatMap> heat = make_heat_map(options, subject.settings.camera);
   Onlookers onlookers(options, static_cast<std::uint32_t>(subject.database.page_count()));
@@ -298,17 +224,19 @@ int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostrea
     interrupt.set_consequence(consequence_of(*checkpoints));
   }
   const Report report = run_timed(options, run, interrupt, seconds);
-  const Sights sights = take_sights(options, onlookers);
-  write_outputs({options, subject.database, report, seconds, heat ? &*heat : nullptr, sights.trace ? &*sights.trace : nullptr,
-                 sights.view ? &*sights.view : nullptr, checkpoints ? checkpoints->samples_found_done() : 0, loaded.scene_digest},
-                interrupt, output);
-  if (checkpoints) {
+  const core::Film& film = account_of(report).film;
+  Attempts attempts(std::cerr);
+  if (attempts.make([&] { write_picture(options, film, files, interrupt, seconds); }) && checkpoints) {
     checkpoints->finish();
   }
+  const Sights sights = take_sights(options, onlookers);
+  write_others({options, subject.database, report, seconds, heat ? &*heat : nullptr, sights.trace ? &*sights.trace : nullptr,
+                sights.view ? &*sights.view : nullptr, checkpoints ? checkpoints->samples_found_done() : 0, loaded.scene_digest},
+               outputs, files, interrupt, attempts, output);
   if (preview) {
-    preview->finish(account_of(report).film);
+    preview->finish(film);
   }
-  return 0;
+  return attempts.status();
 }
 
 }  // namespace dmpc::apps

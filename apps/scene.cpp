@@ -36,8 +36,14 @@ void write_file(const core::SceneName& name, const std::filesystem::path& path, 
 void write_output(const core::SceneName& name, Interrupt& interrupt, std::ostream& output) {
   interrupt.set_consequence("the output is incomplete");
   const Interrupt::EndAtOnce end_at_once(interrupt);
-  NffWriter writer(output);
-  core::generate_scene(name, writer);
+  output.exceptions(std::ostream::badbit);  // so that nothing is made that nobody reads any more
+  try {
+    NffWriter writer(output);
+    core::generate_scene(name, writer);
+    output.flush();
+  } catch (const std::ostream::failure&) {
+    output.exceptions(std::ostream::goodbit);
+  }
   finish_output(output, "the scene");
 }
 

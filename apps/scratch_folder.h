@@ -4,13 +4,16 @@
 #include <stdlib.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
+#include "apps/interrupt.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
 
-/// Made where the system keeps temporary files; gone with everything in it in the end. Throws core::InputError if none can be
+/// Made where the system keeps temporary files; gone with everything in it in the end, an
+/// Interrupt's end at once included. Throws core::InputError if none can be
 /// made.
 class ScratchFolder {
  public:
@@ -22,6 +25,7 @@ class ScratchFolder {
       throw core::InputError("no temporary folder can be made as " + name + ": set TMPDIR to a folder that can be written to");
     }
     path_ = name;
+    removed_at_once_.emplace(path_);
   }
   ~ScratchFolder() {
     std::error_code ignored;
@@ -34,6 +38,7 @@ class ScratchFolder {
 
  private:
   std::filesystem::path path_;
+  std::optional<RemovedAtOnce> removed_at_once_;
 };
 
 }  // namespace dmpc::apps

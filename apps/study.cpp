@@ -21,10 +21,13 @@
 #include "apps/picture_identity.h"
 #include "apps/plot_folder.h"
 #include "apps/progress.h"
+#include "apps/scratch_folder.h"
 #include "apps/stats.h"
 #include "apps/study_conclusions.h"
 #include "apps/study_runs.h"
 #include "apps/subject.h"
+#include "apps/system/attempts.h"
+#include "apps/system/output_set.h"
 #include "core/scenes.h"
 
 namespace dmpc::apps {
@@ -47,7 +50,8 @@ void add_plot_files(const StudyOptions& options, std::vector<NamedFile>& outputs
       options.study);
 }
 
-void check_output(const StudyOptions& options) {
+/// Returns the outputs.
+std::vector<NamedFile> check_output(const StudyOptions& options) {
   std::vector<NamedFile> inputs;
   add_scene_file(options.picture.scene, inputs);
   if (!options.machine_name.empty() && find_machine_preset(options.machine_name) == nullptr) {
@@ -69,13 +73,18 @@ void check_output(const StudyOptions& options) {
   }
   if (options.report) {
     check_output_path(*options.report, "--report");
+    const ScratchFolder probe;
   }
+  check_open_files();
+  return outputs;
 }
 
 /// A signal ends the process here and now. `digest`: becomes the scene's.
-Subject load(const StudyOptions& options, std::uint64_t& digest, Interrupt& interrupt) {
+Subject load(const StudyOptions& options, const std::vector<NamedFile>& outputs, std::uint64_t& digest, Interrupt& interrupt) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
-  core::Scene scene = load_scene(options.picture);
+  OpenedFiles opened;
+  core::Scene scene = load_scene(options.picture, LoadNotes::said, &opened);
+  check_not_read(opened, outputs);
   digest = scene_digest(scene);
   return build_subject(std::move(scene), options.picture, options.database, true);
 }
@@ -110,27 +119,25 @@ struct Marks {
   std::optional<std::uint64_t> film_hash;
 };
 
-/// Of --report; empty without.
+/// For --report.
 template <class OneStudy>
 std::string page_of(const OneStudy& study, const Table& table, const StudyOptions& options, const Marks& marks) {
-  if (!options.report) {
-    return "";
-  }
   const html::SweepPart part{"", table, study.plots(), conclusion_of(study, table)};
   const html::Facts results = marks.film_hash ? html::Facts{{"film", hash_text(*marks.film_hash)}} : html::Facts{};
   return html::sweep_page({"Study " + std::string(OneStudy::name) + " of " + options.picture.scene, {}, {part}, results},
                           this_origin(marks.scene_digest), std::cerr);
 }
 
+/// The table before all else.
 template <class OneStudy>
-void write(const OneStudy& study, const Table& table, const std::string& page, const StudyOptions& options,
-           std::ostream& output) {
-  write_to(options.output, text_of(table, options.format), output, "the table");
+void write(const OneStudy& study, const Table& table, const Marks& marks, const StudyOptions& options, std::ostream& output,
+           Attempts& attempts) {
+  attempts.make([&] { write_to(options.output, text_of(table, options.format), output, "the table"); });
   if (options.report) {
-    write_file(*options.report, page);
+    attempts.make([&] { write_file(*options.report, page_of(study, table, options, marks)); });
   }
   if (options.plots) {
-    PlotFolder(*options.plots, std::cerr).add(table, data_file_of(OneStudy::name), study.plots());
+    attempts.make([&] { PlotFolder(*options.plots, std::cerr).add(table, data_file_of(OneStudy::name), study.plots()); });
   }
 }
 
@@ -174,10 +181,12 @@ void announce_effort(const StudyOptions& options, const Subject& subject, Interr
   }
 }
 
+/// Returns the exit status.
 template <class OneStudy>
-void carry_out(const OneStudy& study, const StudyOptions& options, Interrupt& interrupt, std::ostream& output) {
+int carry_out(const OneStudy& study, const StudyOptions& options, const std::vector<NamedFile>& outputs, Interrupt& interrupt,
+              std::ostream& output) {
   std::uint64_t digest = 0;
-  const Subject subject = load(options, digest, interrupt);
+  const Subject subject = load(options, outputs, digest, interrupt);
   announce_effort(options, subject, interrupt);
   Table table = empty_table(study, options, subject);
   if (shows_rows(options)) {
@@ -185,30 +194,29 @@ void carry_out(const OneStudy& study, const StudyOptions& options, Interrupt& in
   }
   StudyRuns runs(subject.database, subject.settings, {std::cerr, stderr_is_terminal(), study.run_count()}, interrupt);
   const std::exception_ptr failure = measure(study, runs, table);
+  Attempts attempts(std::cerr);
   if (!failure || !table.rows().empty()) {
     interrupt.set_consequence(failure          ? "the table has the rows finished before"
                               : options.output ? "nothing was written"
                                                : "the table is incomplete");
     table.add_note(film_note(runs));
-    const std::string page = page_of(
-        study, table, options, {digest, runs.film_hash()});  // its temporary files are gone before a signal ends all at once
     std::optional<Interrupt::EndAtOnce> end_at_once;
     if (!failure) {
       end_at_once.emplace(interrupt);
     }
-    write(study, table, page, options, output);
+    write(study, table, {digest, runs.film_hash()}, options, output, attempts);
   }
   if (failure) {
     std::rethrow_exception(failure);
   }
+  return attempts.status();
 }
 
 }  // namespace
 
 int study_command(const StudyOptions& options, Interrupt& interrupt, std::ostream& output) {
-  check_output(options);
-  std::visit([&](const auto& study) { carry_out(study, options, interrupt, output); }, options.study);
-  return 0;
+  const std::vector<NamedFile> outputs = check_output(options);
+  return std::visit([&](const auto& study) { return carry_out(study, options, outputs, interrupt, output); }, options.study);
 }
 
 }  // namespace dmpc::apps

@@ -18,6 +18,8 @@
 #include "apps/paper_runs.h"
 #include "apps/paper_sensitivity.h"
 #include "apps/paper_tables.h"
+#include "apps/scratch_folder.h"
+#include "apps/system/attempts.h"
 #include "apps/table_options.h"
 #include "core/expect.h"
 
@@ -64,17 +66,17 @@ PaperReport report_of(const Catalogue& catalogue, const std::vector<VariedRuns>&
 }
 
 /// Writes what is known: to `output` before the folder, so that a file in the way there loses nothing.
-void publish(const PaperReport& report, const PaperStudyOptions& options, std::ostream& output) {
+void publish(const PaperReport& report, const PaperStudyOptions& options, std::ostream& output, Attempts& attempts) {
   output << text_of(report) << std::flush;
   if (options.output) {
-    for (const std::string& complaint : write_report(report, *options.output)) {
+    for (const std::string& complaint : write_report(report, *options.output, attempts)) {
       std::cerr << "dmpc: " << complaint << std::endl;
     }
   }
   if (options.report) {
-    write_file(*options.report, page_of(report, std::cerr));
+    attempts.make([&] { write_file(*options.report, page_of(report, std::cerr)); });
   }
-  finish_output(output, "the report");
+  attempts.make([&] { finish_output(output, "the report"); });
 }
 
 /// By processor time of a server's core in November 2026.
@@ -107,25 +109,26 @@ int study_paper_command(const PaperStudyOptions& options, Interrupt& interrupt, 
   }
   if (options.report) {
     check_output_path(*options.report, "--report");
+    const ScratchFolder probe;
   }
   Catalogue catalogue = catalogue_of(options.resolution);
   const std::vector<VariedRuns> varied = options.has_sensitivity ? add_variations(catalogue) : std::vector<VariedRuns>();
   announce("study paper, " + counted(catalogue.runs.size(), "run"), effort_of(catalogue), options.quiet, std::cerr);
-  study_catalogue(catalogue, varied, options, interrupt, output);
-  return 0;
+  return study_catalogue(catalogue, varied, options, interrupt, output);
 }
 
-void study_catalogue(const Catalogue& catalogue, const std::vector<VariedRuns>& varied, const PaperStudyOptions& options,
-                     Interrupt& interrupt, std::ostream& output) {
+int study_catalogue(const Catalogue& catalogue, const std::vector<VariedRuns>& varied, const PaperStudyOptions& options,
+                    Interrupt& interrupt, std::ostream& output) {
   const std::vector<PaperSubject> subjects = [&] {
     const Interrupt::EndAtOnce end_at_once(interrupt);
     return paper_subjects(catalogue.runs);
   }();
   PaperResults results(catalogue.runs.size());
+  Attempts attempts(std::cerr);
   const auto publish_results = [&] {
     const PaperReport report = report_of(catalogue, varied, results, subjects);
     interrupt.set_consequence(report.is_complete ? "the report is complete" : "the report has the rows finished before");
-    publish(report, options, output);
+    publish(report, options, output, attempts);
   };
   try {
     carry_out(catalogue.runs, subjects, interrupt, results);
@@ -135,6 +138,7 @@ void study_catalogue(const Catalogue& catalogue, const std::vector<VariedRuns>& 
   }
   publish_results();
   interrupt.check();
+  return attempts.status();
 }
 
 }  // namespace dmpc::apps

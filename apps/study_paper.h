@@ -26,8 +26,8 @@ struct PaperStudyOptions {
 /// Declares them.
 void add_options(OptionSet options, PaperStudyOptions& paper);
 
-/// Renders some hundred pictures in virtual time, with the sensitivity two hundred and fifty more. Returns 0. Throws
-/// core::InputError for a folder that cannot be written, and what study_catalogue() throws.
+/// Renders some hundred pictures in virtual time, with the sensitivity two hundred and fifty more. Returns the exit status.
+/// Throws core::InputError for a folder that cannot be written, and what study_catalogue() throws.
 int study_paper_command(const PaperStudyOptions& options, Interrupt& interrupt, std::ostream& output);
 
 /// Carries out the catalogue's runs, as many at once as there are cores, and writes the report as Markdown to `output`; then,
@@ -35,9 +35,9 @@ int study_paper_command(const PaperStudyOptions& options, Interrupt& interrupt, 
 /// options.report a page. Without varied
 /// runs there is no table of the sensitivity. Progress goes to stderr if that is a terminal; a sentence on pictures that could
 /// not be drawn goes there always. After a signal, or whatever a run throws, all of this has the rows that are known and says how
-/// many are missing; then throws Interrupted, or rethrows. Throws core::InputError for what cannot be written,
-/// core::InternalError if two runs of a scene give different films.
-void study_catalogue(const Catalogue& catalogue, const std::vector<VariedRuns>& varied, const PaperStudyOptions& options,
-                     Interrupt& interrupt, std::ostream& output);
+/// many are missing; then throws Interrupted, or rethrows. What cannot be written is said on stderr and costs nothing else:
+/// the exit status, which is returned, tells. Throws core::InternalError if two runs of a scene give different films.
+int study_catalogue(const Catalogue& catalogue, const std::vector<VariedRuns>& varied, const PaperStudyOptions& options,
+                    Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

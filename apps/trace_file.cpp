@@ -1,9 +1,7 @@
 #include "apps/trace_file.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <ostream>
 #include <utility>
 
 #include "apps/figures.h"
@@ -67,29 +65,12 @@ TraceView view_of(const RenderRecord& record) {
   return view;
 }
 
-void write(const RenderRecord& record, const OutputFile& file) {
-  std::ofstream stream(file.temporary(), std::ios::binary);
-  const TraceView view = view_of(record);
-  record.options.trace.path->extension() == ".paje" ? write_paje(view, stream) : write_chrome(view, stream);
-  stream.close();
-  if (!stream) {
-    throw core::InputError(record.options.trace.path->string() + ": cannot be written: " + std::strerror(errno));
-  }
-}
-
 }  // namespace
 
-TraceFile::TraceFile(const RenderRecord& record) {
-  if (record.options.trace.path) {
-    core::expect(record.trace != nullptr, "a trace that is written was recorded");
-    write(record, file_.emplace(*record.options.trace.path));
-  }
-}
-
-void TraceFile::commit() {
-  if (file_) {
-    file_->commit();
-  }
+void write_trace(const RenderRecord& record, std::ostream& stream) {
+  core::expect(record.trace != nullptr, "a trace that is written was recorded");
+  const TraceView view = view_of(record);
+  record.options.trace.path->extension() == ".paje" ? write_paje(view, stream) : write_chrome(view, stream);
 }
 
 std::string loss_note(const nodes::Trace& trace, const TraceOptions& options) {

@@ -1,28 +1,16 @@
-// The file of --trace: written before it gets its name.
+// What stands in the file of --trace.
 #pragma once
 
-#include <memory>
-#include <optional>
+#include <iosfwd>
 #include <string>
 
-#include "apps/output_file.h"
 #include "apps/stats.h"
 #include "apps/trace_options.h"
 
 namespace dmpc::apps {
 
-/// Writes what the record's options ask for of its trace, if they do; removed again unless it is committed. Not thread-safe.
-class TraceFile {
- public:
-  /// Throws core::InputError if that fails.
-  explicit TraceFile(const RenderRecord& record);
-
-  /// Gives the file its name. Throws core::InputError if that fails.
-  void commit();
-
- private:
-  std::optional<OutputFile> file_;
-};
+/// What the record's options ask for of its trace. Requires that they do, and that it has one.
+void write_trace(const RenderRecord& record, std::ostream& stream);
 
 /// A sentence on what was lost of a trace with these options, and which others leave room; empty if nothing was lost.
 std::string loss_note(const nodes::Trace& trace, const TraceOptions& options);

@@ -73,9 +73,10 @@ void make_reference_folder(const fs::path& folder) {
   make_output_folder(folder, "the folder of references");
 }
 
-void save_reference(const fs::path& folder, const std::string& key, const Reference& reference) {
-  write_image(picture_file(folder, key), reference.picture);
-  write_file(figures_file(folder, key), figures_of(key, reference).dump(2) + "\n");
+void save_reference(const fs::path& folder, const std::string& key, const Reference& reference, Files& files) {
+  const fs::path picture = picture_file(folder, key);
+  write_file(picture, encoded_picture(picture, reference.picture), Durability::on_disk, files);
+  write_file(figures_file(folder, key), figures_of(key, reference).dump(2) + "\n", Durability::on_disk, files);
 }
 
 }  // namespace dmpc::apps

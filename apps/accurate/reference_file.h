@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/accurate/reference.h"
+#include "apps/system/files.h"
 
 namespace dmpc::apps {
 
@@ -17,6 +18,7 @@ std::optional<Reference> load_reference(const std::filesystem::path& folder, con
 void make_reference_folder(const std::filesystem::path& folder);
 
 /// Each file whole or not at all. Throws core::InputError if that fails.
-void save_reference(const std::filesystem::path& folder, const std::string& key, const Reference& reference);
+void save_reference(const std::filesystem::path& folder, const std::string& key, const Reference& reference,
+                    Files& files = real_files());
 
 }  // namespace dmpc::apps

@@ -16,6 +16,7 @@
 #include "apps/machine_load.h"
 #include "apps/output_file.h"
 #include "apps/plot_folder.h"
+#include "apps/system/attempts.h"
 #include "apps/table_options.h"
 #include "core/expect.h"
 #include "svm/plan.h"
@@ -128,10 +129,11 @@ Table finished_table(const ErrorOptions& options, std::span<const SceneResult> r
   return table;
 }
 
-void draw_plots(const ErrorOptions& options, std::span<const SceneResult> results) {
+void draw_plots(const ErrorOptions& options, std::span<const SceneResult> results, Attempts& attempts) {
   PlotFolder plots(*options.plots, std::cerr);
   for (const SceneResult& result : results) {
-    plots.add(plotted_table(result), data_file_of(result.scene), plots_of(result, plot_name_of(result.scene)));
+    attempts.make(
+        [&] { plots.add(plotted_table(result), data_file_of(result.scene), plots_of(result, plot_name_of(result.scene))); });
   }
 }
 
@@ -233,21 +235,22 @@ int bench_error_command(const ErrorOptions& options, Interrupt& interrupt, std::
   const double load = machine_load();
   std::vector<SceneResult> results;
   const std::exception_ptr failure = measure_all(options, interrupt, results);
+  Attempts attempts(std::cerr);
   if (!failure || std::any_of(results.begin(), results.end(), has_measurements)) {
     interrupt.set_consequence("the table has the points measured before");
     Table table = finished_table(options, results, load);
     if (failure) {
       table.add_note("Ended before its time: points or rounds are missing.");
     }
-    write_to(options.output, text_of(table, options.format), output, "the table");
+    attempts.make([&] { write_to(options.output, text_of(table, options.format), output, "the table"); });
     if (options.plots) {
-      draw_plots(options, results);
+      draw_plots(options, results, attempts);
     }
   }
   if (failure) {
     std::rethrow_exception(failure);
   }
-  return 0;
+  return attempts.status();
 }
 
 }  // namespace dmpc::apps

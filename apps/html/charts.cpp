@@ -26,7 +26,7 @@ Charts::Charts(std::ostream& complaints, std::string program) : complaints_(comp
 Chart Charts::draw(Plot plot, const Table& table) {
   plot.size = PlotSize::small;
   const std::string data_file = plot.name + ".csv";
-  write_file(folder_ / data_file, text_of(table, TableFormat::csv));
+  write_file(folder_ / data_file, text_of(table, TableFormat::csv), Durability::until_power_loss);
   const std::optional<PlotOutcome> outcome = apps::draw(plot, table, folder_ / "", data_file, program_);
   if (!outcome) {
     return {};

@@ -4,9 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "apps/html/file_bytes.h"
-#include "apps/scratch_folder.h"
-
 namespace dmpc::apps::html {
 
 namespace {
@@ -36,10 +33,6 @@ std::string data_url(std::string_view type, std::string_view bytes) {
   return url;
 }
 
-std::string data_url(const Image& image) {
-  const ScratchFolder folder;
-  write_image(folder / "picture.png", image);
-  return data_url("image/png", file_bytes(folder / "picture.png"));
-}
+std::string data_url(const Image& image) { return data_url("image/png", encoded_picture("picture.png", image)); }
 
 }  // namespace dmpc::apps::html

@@ -60,13 +60,13 @@ void write_landscape(int size, const fs::path& gltf) {
   fs::path numbers = gltf, picture = gltf;
   numbers.replace_extension(".bin");
   picture.replace_filename(gltf.stem().string() + "-ground.png");  // so that a render to FILE.png leaves it alone
-  OutputFile json_file(gltf), numbers_file(numbers), picture_file(picture);
+  OutputFile json_file(gltf), numbers_file(numbers), ground_file(picture);
   const LandscapeGltf text =
       landscape_gltf(ground_mesh(size), lake_mesh(), numbers.filename().string(), picture.filename().string());
   numbers_file.write(text.numbers);
-  write_image(picture, ground_picture(std::min(picture_side_max, 4 << size)), picture_file);
+  ground_file.write(encoded_picture(picture, ground_picture(std::min(picture_side_max, 4 << size))));
   json_file.write(text.json);
-  picture_file.commit();
+  ground_file.commit();
   numbers_file.commit();
   json_file.commit();
 }

@@ -18,6 +18,8 @@
 #include "apps/plot_folder.h"
 #include "apps/scale/measure.h"
 #include "apps/scale/table.h"
+#include "apps/scratch_folder.h"
+#include "apps/system/attempts.h"
 #include "apps/table_options.h"
 #include "core/expect.h"
 #include "core/scenes.h"
@@ -50,23 +52,25 @@ void check_files(const ScaleOptions& options) {
   }
   if (options.report) {
     check_output_path(*options.report, "--report");
+    const ScratchFolder probe;
   }
 }
 
+/// The table before all else.
 void publish(const std::vector<ScaleResult>& results, bool is_complete, double load, const ScaleOptions& options,
-             std::ostream& output) {
+             std::ostream& output, Attempts& attempts) {
   Table table = scale_table(results, options.settings);
   if (!is_complete) {
     table.add_note("Ended before its time: rows are missing.");
   }
   table.add_note(load_note(load));
-  write_to(options.output, text_of(table, options.format), output, "the table");
+  attempts.make([&] { write_to(options.output, text_of(table, options.format), output, "the table"); });
   if (options.report) {
     const html::SweepPart part{"", table, scale_plots(options.settings)};
-    write_file(*options.report, html::sweep_page({"Study scale", {}, {part}}, this_origin(), std::cerr));
+    attempts.make([&] { write_file(*options.report, html::sweep_page({"Study scale", {}, {part}}, this_origin(), std::cerr)); });
   }
   if (options.plots) {
-    PlotFolder(*options.plots, std::cerr).add(table, data_file, scale_plots(options.settings));
+    attempts.make([&] { PlotFolder(*options.plots, std::cerr).add(table, data_file, scale_plots(options.settings)); });
   }
 }
 
@@ -178,6 +182,7 @@ int study_scale_command(const ScaleOptions& options, Interrupt& interrupt, std::
   const double load = machine_load();
   std::vector<ScaleResult> results;
   std::exception_ptr failure;
+  Attempts attempts(std::cerr);
   try {
     measure_scale(runs, options.settings, interrupt, [&](ScaleResult result) { results.push_back(std::move(result)); });
   } catch (...) {
@@ -185,13 +190,13 @@ int study_scale_command(const ScaleOptions& options, Interrupt& interrupt, std::
   }
   if (!results.empty()) {
     interrupt.set_consequence("the table has the rows finished before");
-    publish(results, !failure, load, options, output);
+    publish(results, !failure, load, options, output, attempts);
   }
   if (failure) {
     std::rethrow_exception(failure);
   }
   check_any_fits(results);
-  return 0;
+  return attempts.status();
 }
 
 }  // namespace dmpc::apps

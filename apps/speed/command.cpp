@@ -27,6 +27,7 @@
 #include "apps/speed/picture_part.h"
 #include "apps/speed/table.h"
 #include "apps/speed/target.h"
+#include "apps/system/attempts.h"
 #include "apps/table_options.h"
 #include "core/expect.h"
 
@@ -195,13 +196,13 @@ Effort effort_of(const SpeedOptions& options) {
           .bytes = options.is_ablation || !options.settings.scenes.empty() ? 0 : with_embree_bytes};
 }
 
-void draw_plots(const SpeedOptions& options, const Results& results) {
+void draw_plots(const SpeedOptions& options, const Results& results, Attempts& attempts) {
   PlotFolder plots(*options.plots, std::cerr);
   for (const SpeedPart part : options.parts) {
     const bool is_ablation = part == SpeedPart::ablation;
     const Table table = is_ablation ? plotted_table(results.ablations) : plotted_table(part, results.comparisons);
     const Plot plot = is_ablation ? plot_of_ablation(table, plot_name_of(part)) : plot_of(part, table, plot_name_of(part));
-    plots.add(table, data_file_of(part), {&plot, 1});
+    attempts.make([&] { plots.add(table, data_file_of(part), {&plot, 1}); });
   }
 }
 
@@ -264,17 +265,18 @@ int bench_speed_command(const SpeedOptions& options, Interrupt& interrupt, std::
   const double load = machine_load();
   Results results;
   const std::exception_ptr failure = measure_all(options, interrupt, results);
+  Attempts attempts(std::cerr);
   if (!failure || results.has_figures()) {
     interrupt.set_consequence("the table has what was measured before");
-    write_to(options.output, text_of_all(options, results, load, !failure), output, "the table");
+    attempts.make([&] { write_to(options.output, text_of_all(options, results, load, !failure), output, "the table"); });
     if (options.plots) {
-      draw_plots(options, results);
+      draw_plots(options, results, attempts);
     }
   }
   if (failure) {
     std::rethrow_exception(failure);
   }
-  return 0;
+  return attempts.status();
 }
 
 }  // namespace dmpc::apps

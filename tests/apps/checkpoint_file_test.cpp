@@ -65,7 +65,7 @@ TEST_CASE("a checkpoint replaces the one before, and a file that a killed proces
   const TemporaryFolder folder;
   SmallPicture small;
   small.write(folder / "a");
-  write_text(next_checkpoint(folder / "a"), "half");
+  write_text(next_name(folder / "a"), "half");
   small.done.add(1);
   small.write(folder / "a");
   CHECK(read_checkpoint(folder / "a", identity).done == small.done);
@@ -122,7 +122,7 @@ TEST_CASE("where there is no room for a checkpoint that is said, and the old one
                        core::InputError);
   const TemporaryFolder folder;
   small.write(folder / "a");
-  std::filesystem::create_directory(next_checkpoint(folder / "a"));
+  std::filesystem::create_directory(next_name(folder / "a"));
   CHECK_THROWS_AS(small.write(folder / "a"), core::InputError);
   CHECK(read_checkpoint(folder / "a", identity).done == small.done);
 }

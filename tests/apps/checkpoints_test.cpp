@@ -121,7 +121,7 @@ TEST_CASE("in the end the checkpoint is removed, with what a killed process has 
   for (const bool stays : {true, false}) {
     Checkpoints checkpoints({.file = folder / "a", .stays = stays}, small_identity, messages, false);
     keep(checkpoints.continuation(), 1);
-    write_text(next_checkpoint(folder / "a"), "half");
+    write_text(next_name(folder / "a"), "half");
     checkpoints.finish();
     CHECK(folder.entry_count() == (stays ? 2 : 0));
   }
@@ -240,14 +240,16 @@ TEST_CASE("a render that is interrupted before its first checkpoint does not spe
   CHECK(folder.entry_count() == 0);
 }
 
-TEST_CASE("a render that is interrupted says how to go on") {
-  const TemporaryFolder folder;
-  ChildProcess process(render(folder, {"--samples=4096"}));
-  REQUIRE(waits_for_checkpoint(folder));
-  process.send(SIGINT);
-  CHECK(process.status() == 130);
-  CHECK(contains(process.errors(), "interrupted, no picture was written; --resume goes on from the checkpoint"));
-  CHECK(folder.entry_count() == 1);
+TEST_CASE("a render that is interrupted, or whose terminal is closed, keeps a checkpoint and says how to go on") {
+  for (const int signal : {SIGINT, SIGHUP}) {
+    const TemporaryFolder folder;
+    ChildProcess process(render(folder, {"--samples=4096"}));
+    REQUIRE(waits_for_checkpoint(folder));
+    process.send(signal);
+    CHECK(process.status() == 130);
+    CHECK(contains(process.errors(), "interrupted, no picture was written; --resume goes on from the checkpoint"));
+    CHECK(folder.entry_count() == 1);
+  }
 }
 
 TEST_CASE("a checkpoint of other settings is refused by the program, which says what differs") {

@@ -7,7 +7,6 @@
 
 #include "apps/heat_field.h"
 #include "apps/image_file.h"
-#include "core/expect.h"
 #include "tests/apps/rendered.h"
 #include "tests/support/temporary_folder.h"
 
@@ -15,6 +14,7 @@ namespace dmpc::apps {
 
 using nodes::HeatKind;
 using tests::TemporaryFolder;
+using tests::write_text;
 
 namespace {
 
@@ -28,7 +28,8 @@ RenderOptions with(const std::vector<HeatRequest>& requests, RenderOptions optio
 TEST_CASE("numbers are read back from the EXR file as they were counted") {
   const TemporaryFolder folder;
   const Rendered rendered(with({{HeatKind::references, folder / "a.exr"}, {HeatKind::references, folder / "a.png"}}));
-  HeatFiles(rendered.record()).commit();
+  write_text(folder / "a.exr", heat_file({HeatKind::references, "a.exr"}, rendered.record()));
+  write_text(folder / "a.png", heat_file({HeatKind::references, "a.png"}, rendered.record()));
   const Image image = read_image(folder / "a.exr");
   const HeatField field = heat_field(HeatKind::references, rendered.record());
   CHECK(image.width == 16);
@@ -43,33 +44,13 @@ TEST_CASE("numbers are read back from the EXR file as they were counted") {
 }
 
 TEST_CASE("repeatable heat maps are the same files again, byte for byte") {
-  const TemporaryFolder folder;
-  const std::vector<HeatRequest> requests = {{HeatKind::time, folder / "a.exr"}, {HeatKind::faults, folder / "a.png"}};
+  const std::vector<HeatRequest> requests = {{HeatKind::time, "a.exr"}, {HeatKind::faults, "a.png"}};
   std::vector<std::string> texts;
   for (int run = 0; run < 2; ++run) {
-    HeatFiles(Rendered(with(requests, modelled())).record()).commit();
-    texts.push_back(tests::file_text(folder / "a.exr") + tests::file_text(folder / "a.png"));
+    const Rendered rendered(with(requests, modelled()));
+    texts.push_back(heat_file(requests[0], rendered.record()) + heat_file(requests[1], rendered.record()));
   }
   CHECK(texts[0] == texts[1]);
-}
-
-TEST_CASE("files that are not committed leave nothing behind, nor do those that cannot all be written") {
-  const TemporaryFolder folder;
-  const Rendered rendered(with({{HeatKind::rays, folder / "a.exr"}, {HeatKind::rays, folder / "b.png"}}));
-  {
-    const HeatFiles files(rendered.record());
-    CHECK(folder.entry_count() == 2);
-  }
-  CHECK(folder.entry_count() == 0);
-  const Rendered wrong(with({{HeatKind::rays, folder / "a.exr"}, {HeatKind::rays, folder / "none/b.png"}}));
-  CHECK_THROWS_AS(HeatFiles(wrong.record()), core::InputError);
-  CHECK(folder.entry_count() == 0);
-}
-
-TEST_CASE("without requests there are no files") {
-  const Rendered rendered(small());
-  HeatFiles(rendered.record()).commit();
-  CHECK(contains(rendered.json(), "\"heat_maps\": null"));
 }
 
 TEST_CASE("the counters list the heat maps") {

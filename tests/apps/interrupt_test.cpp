@@ -1,7 +1,6 @@
 #include "apps/interrupt.h"
 
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -10,7 +9,7 @@
 #include <mutex>
 #include <string>
 
-#include "core/expect.h"
+#include "tests/support/forked_process.h"
 #include "tests/support/temporary_folder.h"
 
 namespace dmpc::apps {
@@ -18,16 +17,7 @@ namespace dmpc::apps {
 namespace {
 
 /// What `body` returns, as the exit status of a process of its own: signals must find no other threads than Interrupt's.
-int in_child(int (*body)()) {
-  const pid_t child = ::fork();
-  if (child == 0) {
-    ::close(STDERR_FILENO);
-    ::_exit(body());
-  }
-  int status = 0;
-  core::expect(::waitpid(child, &status, 0) == child, "a child can be waited for");
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
-}
+int in_child(int (*body)()) { return tests::ForkedProcess(body).status(); }
 
 /// Sends the signal and waits until a stop was requested, ten seconds at most.
 bool stops_after(const Interrupt& interrupt, int signal) {
@@ -57,15 +47,26 @@ TEST_CASE("without a signal nothing is requested") {
   CHECK_NOTHROW(interrupt.check());
 }
 
-TEST_CASE("Ctrl-C and SIGTERM request a stop and end nothing") {
+TEST_CASE("Ctrl-C, SIGTERM and SIGHUP request a stop and end nothing") {
   CHECK(in_child([] {
-          for (const int signal : {SIGINT, SIGTERM}) {
+          for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
             const Interrupt interrupt;
             if (!stops_after(interrupt, signal) || !is_interrupted([&] { interrupt.check(); })) {
               return 1;
             }
           }
           return 0;
+        }) == 0);
+}
+
+TEST_CASE("a signal that was ignored before stays ignored") {
+  CHECK(in_child([] {
+          std::signal(SIGHUP, SIG_IGN);
+          Interrupt interrupt;
+          const Interrupt::EndAtOnce end_at_once(interrupt);
+          ::kill(::getpid(), SIGHUP);
+          ::usleep(100'000);
+          return interrupt.requested() ? 1 : 0;
         }) == 0);
 }
 

@@ -146,7 +146,7 @@ TEST_CASE("a file that cannot be written is refused by name") {
 TEST_CASE("a full disk is an error") {
   if (std::filesystem::exists("/dev/full")) {
     const auto produce = [](core::SceneSink& sink) { core::generate_scene(core::parse_scene_name("tetra-4"), sink); };
-    CHECK_THROWS_WITH_AS(apps::write_nff_file("/dev/full", produce), doctest::Contains("could not be written to the end"),
-                         core::InputError);
+    CHECK_THROWS_WITH_AS(apps::write_nff_file("/dev/full", produce),
+                         doctest::Contains("/dev/full: cannot be written: No space left"), core::InputError);
   }
 }

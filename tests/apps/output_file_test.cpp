@@ -36,7 +36,7 @@ TEST_CASE("a written file has its name and nothing else is left in the folder") 
 TEST_CASE("a file that is not committed leaves nothing behind") {
   const TemporaryFolder folder;
   {
-    const OutputFile file(folder / "a.png");
+    OutputFile file(folder / "a.png");
     file.write("half");
     CHECK(folder.entry_count() == 1);
   }
@@ -47,18 +47,49 @@ TEST_CASE("an older file stays whole until the new one is committed") {
   const TemporaryFolder folder;
   write_text(folder / "a.txt", "old");
   OutputFile file(folder / "a.txt");
-  write_text(file.temporary(), "new");
+  file.write("new");
   CHECK(file_text(folder / "a.txt") == "old");
   file.commit();
   CHECK(file_text(folder / "a.txt") == "new");
   CHECK(folder.entry_count() == 1);
 }
 
-TEST_CASE("the temporary name lies in the same folder and keeps the extension") {
+TEST_CASE("a stream of any length arrives as it was written") {
   const TemporaryFolder folder;
-  const OutputFile file(folder / "a.exr");
-  CHECK(file.temporary().parent_path() == folder.path());
-  CHECK(file.temporary().extension() == ".exr");
+  OutputFile file(folder / "a.txt");
+  std::string expected;
+  for (const std::size_t length : {0, 1, 70'000, 65'536, 3, 200'000}) {
+    const std::string part(length, static_cast<char>('a' + length % 26));
+    file.stream() << part << static_cast<char>(length % 7) << length;
+    expected += part + static_cast<char>(length % 7) + std::to_string(length);
+  }
+  file.commit();
+  CHECK(file_text(folder / "a.txt") == expected);
+}
+
+TEST_CASE("two processes with one number, in two containers, write one file without a clash") {
+  const TemporaryFolder folder;
+  OutputFile first(folder / "a.txt"), second(folder / "a.txt");
+  first.write("first");
+  second.write("second");
+  first.commit();
+  CHECK(file_text(folder / "a.txt") == "first");
+  second.commit();
+  CHECK(file_text(folder / "a.txt") == "second");
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("what somebody has put where a file is made is neither opened nor followed") {
+  const TemporaryFolder folder;
+  write_text(folder / "precious", "old");
+  std::filesystem::create_symlink(folder / "precious", next_name(folder / "a"));
+  OutputFile file(folder / "a", {.name = TemporaryName::of_target});
+  file.write("new");
+  file.commit();
+  CHECK(file_text(folder / "precious") == "old");
+  CHECK_FALSE(std::filesystem::is_symlink(folder / "a"));
+  CHECK(file_text(folder / "a") == "new");
+  CHECK(folder.entry_count() == 2);
 }
 
 TEST_CASE("a symbolic link stays and the file behind it is replaced") {
@@ -71,8 +102,10 @@ TEST_CASE("a symbolic link stays and the file behind it is replaced") {
 }
 
 TEST_CASE("what is no ordinary file is written to directly and never renamed over") {
-  const OutputFile file("/dev/null");
-  CHECK(file.temporary() == "/dev/null");
+  OutputFile file("/dev/null");
+  file.write("text");
+  file.commit();
+  CHECK(std::filesystem::is_character_file("/dev/null"));
 }
 
 TEST_CASE("a path into a missing folder is refused with the folder's name") {
@@ -121,10 +154,37 @@ TEST_CASE("an output that does not arrive is an error") {
   CHECK_THROWS_WITH_AS(finish_output(full, "the text"), "the text could not be written to the standard output", core::InputError);
 }
 
-TEST_CASE("a write that fails says so and leaves nothing") {
+TEST_CASE("a name that is as long as names can be will do, and a longer one is said") {
   const TemporaryFolder folder;
-  OutputFile file(folder / "gone/a.json");
-  CHECK_THROWS_AS(file.write("{}"), core::InputError);
+  const std::filesystem::path longest = folder / std::string(255, 'a');
+  check_output_path(longest, "-o");
+  write_whole(longest, "text");
+  CHECK(file_text(longest) == "text");
+  CHECK_THROWS_WITH_AS(check_output_path(folder / std::string(256, 'a'), "--stats"), doctest::Contains("this name is too long"),
+                       core::InputError);
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("a device that takes nothing is known before anything is written, one that takes all will do") {
+  CHECK_THROWS_WITH_AS(check_output_path("/dev/full", "--stats"),
+                       "--stats /dev/full: this device takes nothing: No space left on device; give another name",
+                       core::InputError);
+  CHECK_NOTHROW(check_output_path("/dev/null", "--stats"));
+}
+
+TEST_CASE("trying whether a file can be made leaves nothing, and an older one as it was") {
+  const TemporaryFolder folder;
+  write_text(folder / "a", "old");
+  check_output_path(folder / "a", "-o");
+  CHECK(file_text(folder / "a") == "old");
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("a write that fails says so, with the option, and leaves nothing") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH_AS(OutputFile(folder / "gone/a.json", {.option = "--stats"}), doctest::Contains("--stats "),
+                       core::InputError);
+  CHECK_THROWS_AS(write_whole("/dev/full", "text"), core::InputError);
   CHECK(folder.entry_count() == 0);
 }
 

@@ -36,6 +36,15 @@ class OnlyPath {
   std::string before_ = std::getenv("PATH");
 };
 
+/// Writes it and returns what is said of its pictures.
+std::vector<std::string> written(const PaperReport& report, const TemporaryFolder& folder) {
+  std::ostringstream messages;
+  Attempts attempts(messages);
+  std::vector<std::string> complaints = write_report(report, folder.path(), attempts);
+  CHECK(attempts.status() == 0);
+  return complaints;
+}
+
 }  // namespace
 
 TEST_CASE("a report as a text has all tables and no pictures") {
@@ -56,7 +65,7 @@ TEST_CASE("only a report of pictures that prices are not fitted to says so") {
 
 TEST_CASE("a report in a folder has each table twice, each picture with its script, and links to the pictures") {
   const TemporaryFolder folder;
-  CHECK(write_report(report_of(16), folder.path()).empty());
+  CHECK(written(report_of(16), folder).empty());
   CHECK(folder.entry_count() == 9);
   const std::string text = file_text(folder / "report.md");
   for (const std::string name : {"table_3", "losses"}) {
@@ -79,7 +88,7 @@ TEST_CASE("a page of the report has a section for each table, with its pictures"
 TEST_CASE("without gnuplot the report is complete but for the pictures, and one sentence says so") {
   const TemporaryFolder folder, empty;
   const OnlyPath path(empty.path());
-  const std::vector<std::string> complaints = write_report(report_of(16), folder.path());
+  const std::vector<std::string> complaints = written(report_of(16), folder);
   REQUIRE(complaints.size() == 1);
   CHECK(contains(complaints[0], "the plots are not drawn: gnuplot cannot be started"));
   const std::string text = file_text(folder / "report.md");
@@ -93,7 +102,7 @@ TEST_CASE("a gnuplot that fails is quoted once for each picture, and the report 
   write_text(bin / "gnuplot", "#!/bin/sh\necho >&2 unknown terminal svg\nexit 1\n");
   std::filesystem::permissions(bin / "gnuplot", std::filesystem::perms::owner_all);
   const OnlyPath path(bin.path());
-  const std::vector<std::string> complaints = write_report(report_of(16), folder.path());
+  const std::vector<std::string> complaints = written(report_of(16), folder);
   REQUIRE(complaints.size() == 2);
   CHECK(contains(complaints[0], "gnuplot could not draw table_3.svg, its exit status is 1: unknown terminal svg"));
   CHECK(contains(file_text(folder / "report.md"), "**Where the nodes' time goes"));
@@ -104,7 +113,7 @@ TEST_CASE("an unfinished report says so, and empty tables have no picture") {
   const Catalogue catalogue = catalogue_of(16);
   const PaperResults none(catalogue.runs.size());
   const PaperReport report{.tables = {{"table_3", table_3(catalogue, none)}}, .resolution = 16, .is_complete = false};
-  CHECK(write_report(report, folder.path()).empty());
+  CHECK(written(report, folder).empty());
   CHECK(file_text(folder / "report.md") == text_of(report));
   CHECK(contains(text_of(report), "Unfinished: rows are missing."));
   CHECK(contains(text_of(report), "Unfinished: 24 of 24 rows are missing."));

@@ -5,38 +5,12 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "core/expect.h"
 #include "tests/apps/traced.h"
 #include "tests/support/text.h"
 
 namespace dmpc::apps {
 
 using tests::contains;
-using tests::TemporaryFolder;
-
-TEST_CASE("a trace's file has its name when it is committed, and else is gone") {
-  const TemporaryFolder folder;
-  Traced traced(to_trace(Strategy::svm, RunnerKind::virtual_time));
-  traced.options.trace.path = folder / "a.json";
-  const RenderRecord record{traced.options, traced.database, traced.report, {}, nullptr, &traced.trace};
-  { const TraceFile file(record); }
-  CHECK(folder.entry_count() == 0);
-  TraceFile file(record);
-  file.commit();
-  CHECK(std::filesystem::exists(folder / "a.json"));
-  CHECK(folder.entry_count() == 1);
-}
-
-TEST_CASE("a trace that nobody asked for is no file, and one that cannot be written is an error") {
-  Traced traced(to_trace(Strategy::svm, RunnerKind::virtual_time));
-  const RenderRecord record{traced.options, traced.database, traced.report, {}, nullptr, &traced.trace};
-  TraceFile nothing(record);
-  nothing.commit();
-  const TemporaryFolder folder;
-  traced.options.trace.path = folder / "full.json";
-  std::filesystem::create_symlink("/dev/full", folder / "full.json");
-  CHECK_THROWS_AS(TraceFile{record}, core::InputError);
-}
 
 TEST_CASE("a trace's file says which time and nodes it holds") {
   Traced traced(to_trace(Strategy::svm, RunnerKind::virtual_time));

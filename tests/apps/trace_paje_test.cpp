@@ -20,7 +20,7 @@ using tests::TemporaryFolder;
 /// What pajeng's reader makes of a text, a line for each state, link and value; its status stands in front.
 std::string dump(const std::string& text) {
   const TemporaryFolder folder;
-  write_file(folder / "a.paje", text);
+  tests::write_text(folder / "a.paje", text);
   ChildProcess reader({"/usr/bin/pj_dump", "--float-precision=9", (folder / "a.paje").string()});
   const int status = reader.status();
   return std::to_string(status) + "\n" + reader.output();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,7 +14,6 @@
 #include "apps/subject.h"
 #include "apps/trace_file.h"
 #include "nodes/trace.h"
-#include "tests/support/temporary_folder.h"
 
 namespace dmpc::apps {
 
@@ -40,11 +40,10 @@ struct Traced {
 
   /// What is written to a file with this ending.
   std::string text(const std::string& ending) {
-    const tests::TemporaryFolder folder;
-    options.trace.path = folder / ("trace" + ending);
-    TraceFile file({options, database, report, {}, nullptr, &trace});
-    file.commit();
-    return tests::file_text(*options.trace.path);
+    options.trace.path = "trace" + ending;
+    std::ostringstream stream;
+    write_trace({options, database, report, {}, nullptr, &trace}, stream);
+    return stream.str();
   }
 
   RenderOptions options;

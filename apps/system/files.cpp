@@ -1,0 +1,31 @@
+#include "apps/system/files.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace dmpc::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class RealFiles final : public Files {
+ public:
+  int open(const fs::path& path, int flags) override { return ::open(path.c_str(), flags | O_CLOEXEC, 0666); }
+  ssize_t write(int file, std::string_view bytes) override { return ::write(file, bytes.data(), bytes.size()); }
+  int sync(int file) override { return ::fsync(file); }
+  int close(int file) override { return ::close(file); }
+  int rename(const fs::path& from, const fs::path& to) override { return ::rename(from.c_str(), to.c_str()); }
+  int remove(const fs::path& path) override { return ::unlink(path.c_str()); }
+};
+
+}  // namespace
+
+Files& real_files() {
+  static RealFiles files;
+  return files;
+}
+
+}  // namespace dmpc::apps

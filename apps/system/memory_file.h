@@ -1,0 +1,26 @@
+// A file that is nowhere but in memory, for libraries that write to names alone.
+#pragma once
+
+#include <string>
+
+namespace dmpc::apps {
+
+/// Gone in the end, whatever ends the process. Not thread-safe.
+class MemoryFile {
+ public:
+  /// Throws core::InputError if there is no room for one more file.
+  MemoryFile();
+  ~MemoryFile();
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  /// A name that this process can open it by.
+  std::string path() const;
+  /// All that has been written to it.
+  std::string bytes() const;
+
+ private:
+  int file_;
+};
+
+}  // namespace dmpc::apps

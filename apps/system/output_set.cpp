@@ -1,0 +1,61 @@
+#include "apps/system/output_set.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "apps/image_file.h"
+#include "core/expect.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+/// A file and its folder, a picture in memory, and of a program that draws, the ends of a pipe; all with room to spare.
+constexpr std::size_t open_files_needed = 16;
+
+}  // namespace
+
+std::vector<NamedFile> files_of(const std::vector<OutputName>& outputs) {
+  std::vector<NamedFile> files;
+  for (const OutputName& output : outputs) {
+    files.push_back(output.file);
+  }
+  return files;
+}
+
+void check_outputs(const std::vector<NamedFile>& inputs, const std::vector<OutputName>& outputs) {
+  check_distinct(inputs, files_of(outputs));
+  for (const OutputName& output : outputs) {
+    const auto check = output.kind == OutputKind::picture ? check_image_path : check_output_path;
+    check(output.file.path, output.file.name);
+  }
+}
+
+void check_standard_output() {
+  const bool is_taken = ::write(STDOUT_FILENO, "", 0) == 0;
+  if (!is_taken) {
+    throw core::InputError(std::string("what follows the picture could not be written to the standard output: ") +
+                           std::strerror(errno) + "; --quiet says nothing there");
+  }
+}
+
+void check_open_files() {
+  std::array<int, open_files_needed> files{};
+  for (int& file : files) {
+    file = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  }
+  const bool are_open = files.back() >= 0;
+  for (const int file : files) {
+    ::close(file);
+  }
+  if (!are_open) {
+    throw core::InputError("no " + std::to_string(open_files_needed) +
+                           " files more can be open at a time, which outputs take: raise the limit (ulimit -n)");
+  }
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,31 @@
+// A body of code in a process of its own, in which signals find no threads of the tests.
+#pragma once
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/expect.h"
+
+namespace dmpc::tests {
+
+/// Not with a body that needs more of this process than its memory.
+class ForkedProcess {
+ public:
+  /// What `body` returns is the exit status. What it says on stderr nobody sees.
+  explicit ForkedProcess(int (*body)()) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      ::close(STDERR_FILENO);
+      ::_exit(body());
+    }
+    core::expect(::waitpid(child, &status_, 0) == child, "a child can be waited for");
+  }
+
+  /// The exit status, or 1000 + signal if a signal ended it.
+  int status() const { return WIFEXITED(status_) ? WEXITSTATUS(status_) : 1000 + WTERMSIG(status_); }
+
+ private:
+  int status_ = 0;
+};
+
+}  // namespace dmpc::tests
