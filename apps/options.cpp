@@ -7,7 +7,7 @@
 
 #include "apps/glossary.h"
 #include "apps/machines.h"
-#include "apps/mesh/reader.h"
+#include "apps/mesh_file.h"
 #include "apps/usage/choices.h"
 #include "apps/usage/typed_line.h"
 #include "apps/words.h"

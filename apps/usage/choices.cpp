@@ -4,7 +4,7 @@
 
 #include "apps/figures.h"
 #include "apps/machines.h"
-#include "apps/mesh/reader.h"
+#include "apps/mesh_file.h"
 #include "apps/strategy_options.h"
 #include "apps/words.h"
 #include "core/scenes.h"
