@@ -20,6 +20,9 @@ constexpr double busy_share = 0.5;
 /// Of a run: a shorter tail is not worth a sentence.
 constexpr double tail_share_min = 0.02;
 
+/// A change that two digits do not show.
+constexpr double hardly_less = 0.995;
+
 double share_of(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
 /// "41 %", "0.3 %", "less than 0.1 %".
@@ -27,6 +30,9 @@ std::string share_text(double share) {
   const double percent = 100 * share;
   if (percent > 0 && percent < 0.1) {
     return "less than 0.1 %";
+  }
+  if (percent > 99.9 && percent < 100) {
+    return "more than 99.9 %";
   }
   const bool is_whole = percent >= 10 || percent == 0;
   return (percent < 100 && percent >= 99.5 ? fixed(percent, 1) : fixed(percent, is_whole ? 0 : 1)) + " %";
@@ -197,8 +203,8 @@ std::string cache_conclusion(const MissEstimate& misses, std::uint32_t cache_pag
   const std::string cold_text = share_text(share_of(cold, own)) +
                                 " of the misses are of pages that a node looks up for the first time, "
                                 "which no cache saves.";
-  if (2 * cache_pages >= page_count || twice == own) {
-    return "A larger cache would save nothing that this one does not: " + cold_text;
+  if (2 * cache_pages >= page_count || twice > hardly_less * own) {
+    return "A larger cache would save next to nothing: " + cold_text;
   }
   return "Caches of twice as many pages would miss " + times_text(twice / own) + " as often; " + cold_text;
 }

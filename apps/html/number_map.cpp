@@ -1,6 +1,7 @@
 #include "apps/html/number_map.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "apps/amount.h"
 #include "apps/color_map.h"
@@ -154,6 +155,9 @@ class Field {
     std::string text = picture(number_picture(steps, scale_steps, 1, static_cast<double>(scale_steps - 1)), {scale_left, top},
                                {scale_width, height_});
     for (const Tick& tick : amount_ticks(0, most_, false, map_.unit)) {
+      if (map_.unit.empty() && tick.position != std::floor(tick.position)) {
+        continue;  // there is no half of a thing that is counted
+      }
       const double y = top + height_ * (1 - (most_ > 0 ? tick.position / most_ : 0)), end = scale_left + scale_width;
       text += line({end, y}, {end + 4, y}) + text_at({end + 7, y + 4}, tick.text, "");
     }

@@ -83,7 +83,7 @@ void add_time(Page& page, const RunView& view) {
   page.add_conclusion(time_conclusion(view.steps));
   const Table table = step_table(view.steps);
   page.add_plot(step_plot(view.steps), table);
-  page.add_map(step_map(view.steps), "Each row is a node, each column a step of time. Dark: the node had nothing to do.");
+  page.add_map(step_map(view.steps), "Each row is a node, each column a step of time: the darker, the less it did.");
   page.add_table(table);
 }
 

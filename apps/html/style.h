@@ -46,8 +46,8 @@ summary{cursor:pointer;font-weight:600;font-size:.9rem}
 @media print{:root{color-scheme:light;--ink:#000;--faint:#444;--paper:#fff;--card:#fff;--line:#bbb;--link:#000}
 body{font-size:10pt}main{max-width:none;padding:0}nav,.save{display:none}
 figure,tr,dl div,pre{break-inside:avoid}h2,caption,.conclusion{break-after:avoid}thead{display:table-header-group}
-img.plot{width:8.2cm}.scroll{overflow:visible;background:none}table{font-size:7.5pt}th,td{padding:1px 4px}
-details::details-content{content-visibility:visible;block-size:auto}}
+img.plot{width:8.2cm}.scroll{overflow:visible;background:none}table,.dense{font-size:7.5pt}th,td,.dense th,.dense td{padding:1px 4px}
+}
 )";
 
 }  // namespace dmpc::apps::html

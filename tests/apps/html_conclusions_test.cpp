@@ -79,7 +79,7 @@ TEST_CASE("a cache is concluded with what twice as many pages would do") {
         "Caches of twice as many pages would miss 0.50 times as often; 50 % of the misses are of pages that a node looks up for "
         "the "
         "first time, which no cache saves.");
-  CHECK(cache_conclusion(misses, 2, 100).starts_with("A larger cache would save nothing that this one does not: 100 %"));
+  CHECK(cache_conclusion(misses, 2, 100).starts_with("A larger cache would save next to nothing: 100 %"));
   CHECK(cache_conclusion({}, 2, 100).empty());
 }
 

@@ -55,6 +55,15 @@ TEST_CASE("few squares have their numbers in them, many have none") {
   CHECK_FALSE(contains(svg_of(map_of(12, 12)), "class=\"in"));
 }
 
+TEST_CASE("a scale of counts has no halves") {
+  NumberMap map = map_of(1, 2);
+  map.most = 2;
+  CHECK(contains(svg_of(map), ">2</text>"));
+  CHECK_FALSE(contains(svg_of(map), ">0.5</text>"));
+  map.unit = "%";
+  CHECK(contains(svg_of(map), ">0.5</text>"));
+}
+
 TEST_CASE("columns of time have a tick at round times") {
   NumberMap map = map_of(1, 10);
   map.column_ns = 2'500'000;

@@ -27,7 +27,8 @@ TEST_CASE("a page's date is that of SOURCE_DATE_EPOCH, or now where this is no n
 
 TEST_CASE("a process knows its command, its version and its computer") {
   const Origin origin = this_origin(7);
-  CHECK(origin.command.starts_with("apps_tests"));
+  CHECK_FALSE(origin.command.empty());
+  CHECK(origin.command.substr(0, origin.command.find(' ')).find('/') == std::string::npos);
   CHECK(tests::contains(origin.program, "dmpc 0."));
   CHECK(tests::contains(origin.program, " build, "));
   CHECK(tests::contains(origin.computer, "processor"));
