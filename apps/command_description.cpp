@@ -17,10 +17,12 @@ std::vector<std::string> alternatives(const std::string& shown) {
   return found;
 }
 
-/// A word that is typed as it stands; names of values have capitals, ranges begin with digits.
+/// A word that is typed as it stands, perhaps with a sign; names of values have capitals, ranges begin with digits.
 bool is_literal(const std::string& word) {
-  return !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos &&
-         word.front() >= 'a';
+  const std::string unsigned_word = word.substr(word.empty() || word.front() != '-' ? 0 : 1);
+  return !unsigned_word.empty() &&
+         unsigned_word.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos &&
+         unsigned_word.front() >= 'a';
 }
 
 Suggestion suggestion_for(const std::string& shown, const Suggestions& known) {

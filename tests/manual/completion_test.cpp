@@ -174,6 +174,11 @@ TEST_CASE("zsh is told the options and arguments of every command") {
   CHECK(desk.by_zsh("_dmpc_mix_water").find("-o+[Where it goes]:FILE.pot:_files") != std::string::npos);
 }
 
+TEST_CASE("bash completes a value that has a sign") {
+  const Desk desk(bash_completion(describe_command_line()));
+  CHECK(desk.by_bash("dmpc render --up = -") == "-x -y -z");
+}
+
 TEST_CASE("bash knows all of dmpc's commands and options") {
   const CommandDescription dmpc = describe_command_line();
   const Desk desk(bash_completion(dmpc));

@@ -58,6 +58,9 @@ TEST_CASE("the program's description has built-in scenes, machines, files and fo
   CHECK(render.arguments.front().suggestion.files);
   for (const OptionDescription& option : render.options) {
     CHECK_FALSE(option.text.empty());
+    if (option.names.back() == "--up") {
+      CHECK(option.suggestion.words == Words{"x", "y", "z", "-x", "-y", "-z"});
+    }
     if (option.names.back() == "--machine") {
       CHECK(option.suggestion.words.front() == "ipsc2");
       CHECK(option.suggestion.files);
