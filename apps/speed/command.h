@@ -29,8 +29,9 @@ void add_options(OptionSet set, SpeedOptions& options);
 
 /// Measures part by part, and writes the table to the file asked for (whole or not at all), else to `output`, with the plots
 /// asked for; progress goes to stderr if that is a terminal. After a signal or an error what is measured is written before it
-/// goes on. Returns the exit status 0, whatever the figures are. Throws core::UsageError for outputs that clash, core::InputError
-/// for a scene that will not do or files that cannot be written, Interrupted after a signal.
+/// goes on. What cannot be written is said on stderr and keeps nothing else from being written. Returns the exit status, 1 then,
+/// and else 0 whatever the figures are. Throws core::UsageError for outputs that clash, core::InputError for a scene that will
+/// not do or outputs that cannot be made, Interrupted after a signal.
 int bench_speed_command(const SpeedOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

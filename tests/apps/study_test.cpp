@@ -29,10 +29,10 @@ StudyOptions small_study(const std::string& scene = "balls-1") {
 }
 
 /// What the command writes to the standard output.
-std::string output_of(const StudyOptions& options) {
+std::string output_of(const StudyOptions& options, int status = 0) {
   apps::Interrupt interrupt;
   std::ostringstream output;
-  CHECK(apps::study_command(options, interrupt, output) == 0);
+  CHECK(apps::study_command(options, interrupt, output) == status);
   return output.str();
 }
 
@@ -157,14 +157,16 @@ TEST_CASE("a table may lie in the folder of its pictures, but not in place of on
   CHECK_THROWS_AS(output_of(options), core::InputError);
 }
 
-TEST_CASE("what is in the way of pictures does not lose the table") {
+TEST_CASE("what is in the way of pictures loses neither the table nor the page") {
   const TemporaryFolder folder;
   StudyOptions options = small_study();
   options.plots = folder / "plots";
+  options.report = folder / "page.html";
   options.output = folder / "table.md";
   std::filesystem::create_directories(folder / "plots" / "traffic.csv" / "full");
-  CHECK_THROWS_AS(output_of(options), core::InputError);
+  CHECK(output_of(options, 1).empty());
   CHECK(contains(file_text(*options.output), "Film of every run"));
+  CHECK(contains(file_text(*options.report), "</html>"));
 }
 
 TEST_CASE("every study's pictures show columns that its table has, under names of their own") {
