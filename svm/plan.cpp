@@ -241,14 +241,12 @@ PlanRequest with_small_items(PlanRequest request) {
 
 void note_reductions(Plan& plan) {
   const PlanRequest& request = plan.request;
-  const std::uint32_t wanted = wanted_in_flight(request);
-  if (request.in_flight && wanted < *request.in_flight) {
-    plan.notes.push_back("in-flight reduced from " + std::to_string(*request.in_flight) + " to " + std::to_string(wanted) +
-                         (wanted == 1 ? " pixel" : " pixels") + ": no node ever has more");
-  }
+  const std::uint32_t wanted = wanted_in_flight(request), asked = request.in_flight.value_or(wanted);
+  const std::string reduced = "in-flight reduced from " + std::to_string(asked) + " to " + std::to_string(plan.in_flight);
   if (plan.in_flight < wanted) {
-    plan.notes.push_back("in-flight reduced from " + std::to_string(wanted) + " to " + std::to_string(plan.in_flight) +
-                         " to fit " + size_text(*request.node_memory_bytes));
+    plan.notes.push_back(reduced + " to fit " + size_text(*request.node_memory_bytes));
+  } else if (wanted < asked) {
+    plan.notes.push_back(reduced + (wanted == 1 ? " pixel" : " pixels") + ": no node ever has more");
   }
   if (request.cache_pages && plan.frames < *request.cache_pages) {
     plan.notes.push_back("cache reduced from " + std::to_string(*request.cache_pages) + " to " + std::to_string(plan.frames) +

@@ -191,6 +191,7 @@ TEST_CASE("no node plans for more pixels in flight than it ever has") {
   CHECK(make_plan(request).in_flight == 6);
   request.width = request.height = 1;
   CHECK(make_plan(request).in_flight == 1);
+  CHECK(make_plan(request).notes.at(0) == "in-flight reduced from 4096 to 1 pixel: no node ever has more");
   request.in_flight.reset();
   CHECK(make_plan(request).notes.empty());
 }
