@@ -15,14 +15,12 @@ namespace dmpc::apps {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
 std::uint64_t sum(std::uint64_t a, std::uint64_t b) { return a > unlimited - b ? unlimited : a + b; }
 
 /// A number alone in its file; nothing without one, as where it says "max".
-std::optional<std::uint64_t> number_in(const fs::path& file) {
+std::optional<std::uint64_t> number_in(const std::string& file) {
   std::uint64_t number = 0;
   return std::ifstream(file) >> number ? std::optional(number) : std::nullopt;
 }
@@ -62,42 +60,52 @@ void add_process_limits(Least& least) {
   }
 }
 
-/// A group and its parents, up to the root of where they are mounted; in a container that may be all there is of the path.
-void add_groups(Least& least, const fs::path& mount, fs::path group, const char* limit, const char* swap_limit,
-                std::uint64_t swap) {
-  for (group = group.relative_path();; group = group.parent_path()) {
-    if (const auto bytes = number_in(mount / group / limit)) {
-      const std::uint64_t swap_bytes = std::min(swap, number_in(mount / group / swap_limit).value_or(swap));
-      least.add(sum(*bytes, swap_bytes), "the limit of its control group (" + (mount / group / limit).string() + ")");
+/// How one version of control groups calls its files; without a name nothing is said of swap.
+struct GroupFiles {
+  const char* limit;
+  const char* swap_limit;
+};
+constexpr GroupFiles version_1{"/memory.limit_in_bytes", nullptr}, version_2{"/memory.max", "/memory.swap.max"};
+
+/// A group ("/a/b", "/") and its parents, up to the root of where they are mounted; in a container that may be all there is.
+void add_groups(Least& least, const std::string& mount, std::string group, const GroupFiles& files, std::uint64_t swap) {
+  for (bool is_root = false; !is_root;) {
+    group.resize(group.find_last_not_of('/') + 1);  // nothing if there is nothing else
+    is_root = group.empty();
+    const std::string folder = mount + group;
+    if (const auto bytes = number_in(folder + files.limit)) {
+      const auto swap_bytes = files.swap_limit == nullptr ? std::nullopt : number_in(folder + files.swap_limit);
+      least.add(sum(*bytes, std::min(swap, swap_bytes.value_or(swap))),
+                "the limit of its control group (" + folder + files.limit + ")");
     }
-    if (group.empty()) {
-      return;
-    }
+    const std::size_t parent = group.rfind('/');
+    group.resize(parent == std::string::npos ? 0 : parent);
   }
 }
 
+/// Paths are texts here: where memory runs out, GCC 12's std::filesystem::path frees what it has freed.
 /// Each line of the file: a number, names of what is controlled (none: all, by version 2), and the group, with colons between.
-void add_control_groups(Least& least, const fs::path& root, std::uint64_t swap) {
-  std::ifstream groups(root / "proc/self/cgroup");
+void add_control_groups(Least& least, const std::string& root, std::uint64_t swap) {
+  std::ifstream groups(root + "/proc/self/cgroup");
   for (std::string line; std::getline(groups, line);) {
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (first == std::string::npos || second == std::string::npos) {
       continue;
     }
     const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",", group = line.substr(second + 1);
-    const fs::path mount = root / "sys/fs/cgroup";
+    const std::string mount = root + "/sys/fs/cgroup";
     if (controllers == ",,") {
-      add_groups(least, mount, group, "memory.max", "memory.swap.max", swap);
-      add_groups(least, mount / "unified", group, "memory.max", "memory.swap.max", swap);
+      add_groups(least, mount, group, version_2, swap);
+      add_groups(least, mount + "/unified", group, version_2, swap);
     } else if (controllers.find(",memory,") != std::string::npos) {
-      add_groups(least, mount / "memory", group, "memory.limit_in_bytes", "", swap);
+      add_groups(least, mount + "/memory", group, version_1, swap);
     }
   }
 }
 
 }  // namespace
 
-MemoryRoom memory_room(const fs::path& root) {
+MemoryRoom memory_room(const std::string& root) {
   std::uint64_t swap = 0;
   Least least(computer_room(swap));
   add_process_limits(least);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 
 namespace dmpc::apps {
@@ -13,9 +12,9 @@ struct MemoryRoom {
 };
 
 /// The least of this computer's memory, the limits of this process's address space and data (ulimit -v, -d), and those of its
-/// control groups (memory.max, memory.limit_in_bytes) and their parents. Swap counts, as far as it is allowed. `root` stands in
-/// for "/" where files are read. What cannot be read is no limit.
-MemoryRoom memory_room(const std::filesystem::path& root = "/");
+/// control groups (memory.max, memory.limit_in_bytes) and their parents. Swap counts, as far as it is allowed. `root` stands
+/// before the names of the files that are read. What cannot be read is no limit.
+MemoryRoom memory_room(const std::string& root = "");
 
 /// Throws core::RoomError if `bytes` for `what` ("64 nodes") are more than there is room for.
 void check_memory_room(std::uint64_t bytes, const std::string& what, const MemoryRoom& room = memory_room());

@@ -32,7 +32,7 @@ struct FakeRoot {
     fs::create_directories(path.parent_path());
     write_text(path, text + "\n");
   }
-  MemoryRoom room() const { return memory_room(folder.path()); }
+  MemoryRoom room() const { return memory_room(folder.path().string()); }
 
   TemporaryFolder folder;
 };
@@ -40,7 +40,7 @@ struct FakeRoot {
 }  // namespace
 
 TEST_CASE("without control groups there is at most this computer's memory") {
-  const MemoryRoom room = memory_room(TemporaryFolder().path());
+  const MemoryRoom room = memory_room(TemporaryFolder().path().string());
   CHECK(room.bytes > 1'000'000);
   CHECK_FALSE(room.source.empty());
 }
