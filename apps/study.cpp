@@ -177,7 +177,8 @@ void announce_effort(const StudyOptions& options, const Subject& subject, Interr
   if (!options.quiet && stderr_is_terminal()) {
     const Interrupt::EndAtOnce end_at_once(interrupt);
     const std::vector<PlannedRun> runs = planned_runs(options.study);
-    announce("about " + counted(runs.size(), "run"), effort_of(runs, subject), options.quiet, std::cerr);
+    const std::string name = std::visit([](const auto& study) { return std::string(study.name); }, options.study);
+    announce("study " + name + ", " + counted(runs.size(), "run"), effort_of(runs, subject), options.quiet, std::cerr);
   }
 }
 

@@ -35,7 +35,8 @@ std::string duration_text(double seconds) {
 }  // namespace
 
 std::string text_of(const Effort& effort) {
-  return duration_text(effort.seconds) + (effort.bytes >= small_bytes ? " and " + memory_text(effort.bytes) + " of memory" : "");
+  return duration_text(effort.seconds) +
+         (effort.bytes >= small_bytes ? " and up to " + memory_text(effort.bytes) + " of memory" : "");
 }
 
 void announce(const std::string& what, const Effort& effort, bool quiet, std::ostream& messages) {

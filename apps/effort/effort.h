@@ -10,10 +10,10 @@ namespace dmpc::apps {
 /// Of the real computer. A guess: good to a factor of two or so on a computer that does nothing else.
 struct Effort {
   double seconds = 0;     ///< by the wall clock
-  std::size_t bytes = 0;  ///< of memory; 0: little, or not known
+  std::size_t bytes = 0;  ///< of memory, at most; 0: little, or not known
 };
 
-/// "some seconds", "about 4 minutes and 1.5 GiB of memory"; memory is left out below 256 MiB.
+/// "some seconds", "about 4 minutes and up to 1.5 GiB of memory"; memory is left out below 256 MiB.
 std::string text_of(const Effort& effort);
 
 /// Writes "dmpc: WHAT: " and the effort as a line if stderr is a terminal and `quiet` is not set, and the effort is more than

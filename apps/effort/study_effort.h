@@ -14,7 +14,8 @@ namespace dmpc::apps {
 struct PlannedRun {
   Strategy strategy = Strategy::svm;
   std::uint32_t node_count = 1;
-  bool is_virtual = false;  ///< as many at a time as there are cores; else one, by threads
+  bool is_virtual = false;  ///< as many at a time as there are cores, each on one; else one at a time, by threads
+  double times = 1;         ///< as long as usual
 };
 
 /// In their order; of a study whose runs depend on the first one about as many.

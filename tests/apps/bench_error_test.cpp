@@ -107,6 +107,19 @@ TEST_CASE("an interrupted bench error writes nothing before anything is measured
   CHECK_FALSE(std::filesystem::exists(folder / "table.md"));
 }
 
+TEST_CASE("a quick bench error is small, but for what is said otherwise") {
+  const ErrorOptions quick = error_options({"teapot-12", "--quick"});
+  CHECK(quick.measure.picture.resolution->width == 192);
+  CHECK(quick.measure.rounds == 1);
+  CHECK(quick.measure.reference.samples_a_side == 16);
+  const ErrorOptions own =
+      error_options({"teapot-12", "--quick", "--resolution=300x200", "--repeat=2", "--reference-samples=20"});
+  CHECK(own.measure.picture.resolution->width == 300);
+  CHECK(own.measure.rounds == 2);
+  CHECK(own.measure.reference.samples_a_side == 20);
+  CHECK_FALSE(error_options({"teapot-12"}).measure.picture.resolution);
+}
+
 TEST_CASE("bench error refuses what makes no sense before it begins") {
   for (const Words& words : {Words{},
                              {"tetra-2", "--knobs=sample"},

@@ -27,7 +27,7 @@ TEST_CASE("an effort is told in words that promise no more than is known") {
   CHECK(text_of(Effort{.seconds = 33.1}) == "about 35 seconds");
   CHECK(text_of(Effort{.seconds = 234}) == "about 4 minutes");
   CHECK(text_of(Effort{.seconds = 4 * 3600.0}) == "about 4 hours");
-  CHECK(text_of(Effort{.seconds = 234, .bytes = 1536U << 20U}) == "about 4 minutes and 1.5 GiB of memory");
+  CHECK(text_of(Effort{.seconds = 234, .bytes = 1536U << 20U}) == "about 4 minutes and up to 1.5 GiB of memory");
   CHECK(text_of(Effort{.seconds = 234, .bytes = 1U << 20U}) == "about 4 minutes");
 }
 
@@ -65,6 +65,9 @@ TEST_CASE("more nodes take longer and more memory") {
   const Effort many = effort_of({{Strategy::dataflow, 64, true}}, subject);
   CHECK(many.seconds > few.seconds);
   CHECK(many.bytes > few.bytes);
+  const Effort both = effort_of({{Strategy::dataflow, 2, true}, {Strategy::dataflow, 64, true}}, subject);
+  CHECK(both.seconds > 0.5 * many.seconds);
+  CHECK(both.bytes >= many.bytes);
 }
 
 }  // namespace dmpc::apps
