@@ -15,7 +15,7 @@ namespace dmpc::apps {
 struct ReaderLimits {
   std::uint64_t seconds = 10;              ///< of processor time
   std::uint64_t bytes_a_second = 500'000;  ///< so many more bytes of files, one more second
-  std::uint64_t wall_factor = 8;  ///< so many times the processor time may pass on the wall: others want the processor, too
+  std::uint64_t wall_factor = 30;  ///< so many times the processor time may pass on the wall: others want the processor, too
 };
 
 /// It has ended before its time: by a signal, by a limit, or by saying nonsense. The text goes on "the reader of PLY files ...".

@@ -21,6 +21,8 @@ using core::Vec3d;
 
 constexpr double coordinate_max = 1e30;
 constexpr std::size_t lights_a_message = 1000;
+/// So much room is made for what is announced before it comes.
+constexpr std::uint64_t believed_bytes_max = std::uint64_t{64} << 20U;
 
 template <class T>
 bool send_block(std::vector<T>& pool, Saying saying, Line& line) {
@@ -85,19 +87,19 @@ bool SceneReceiver::take(const Message& message) {
       take_lights(Unpacker(message.bytes));
       return true;
     case Saying::materials:
-      append(scene_.materials, message.bytes);
+      append(scene_.materials, announced_.materials, message.bytes);
       return true;
     case Saying::objects:
-      append(scene_.objects, message.bytes);
+      append(scene_.objects, announced_.objects, message.bytes);
       return true;
     case Saying::vertices:
-      append(scene_.vertices, message.bytes);
+      append(scene_.vertices, announced_.vertices, message.bytes);
       return true;
     case Saying::normals:
-      append(scene_.normals, message.bytes);
+      append(scene_.normals, announced_.normals, message.bytes);
       return true;
     case Saying::corners:
-      append(scene_.corners, message.bytes);
+      append(scene_.corners, announced_.corners, message.bytes);
       return true;
     default:
       return false;
@@ -111,13 +113,14 @@ void SceneReceiver::take_head(Unpacker fields) {
   const auto reserve = [&fields](auto& pool) {
     const auto count = fields.take<std::uint64_t>();
     Unpacker::require(count < std::numeric_limits<std::uint32_t>::max());
-    pool.reserve(count);
+    pool.reserve(std::min(count, believed_bytes_max / sizeof(pool[0])));
+    return count;
   };
-  reserve(scene_.materials);
-  reserve(scene_.objects);
-  reserve(scene_.vertices);
-  reserve(scene_.normals);
-  reserve(scene_.corners);
+  announced_.materials = reserve(scene_.materials);
+  announced_.objects = reserve(scene_.objects);
+  announced_.vertices = reserve(scene_.vertices);
+  announced_.normals = reserve(scene_.normals);
+  announced_.corners = reserve(scene_.corners);
   fields.finish();
 }
 
@@ -131,11 +134,11 @@ void SceneReceiver::take_lights(Unpacker fields) {
   fields.finish();
 }
 
-/// Within what was announced, which has its room.
+/// Within what was announced.
 template <class T>
-void SceneReceiver::append(std::vector<T>& pool, const std::string& bytes) const {
+void SceneReceiver::append(std::vector<T>& pool, std::uint64_t announced, const std::string& bytes) {
   const std::size_t count = bytes.size() / sizeof(T), before = pool.size();
-  Unpacker::require(bytes.size() % sizeof(T) == 0 && count <= pool.capacity() - before);
+  Unpacker::require(count > 0 && bytes.size() % sizeof(T) == 0 && count <= announced - before);
   pool.resize(before + count);
   std::memcpy(static_cast<void*>(pool.data() + before), bytes.data(), bytes.size());
 }

@@ -1,6 +1,7 @@
 // A scene of polygons and patches as messages, and back: whoever receives it believes nothing.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,12 +27,18 @@ class SceneReceiver {
  private:
   void take_head(Unpacker fields);
   void take_lights(Unpacker fields);
+  /// How many entries there will be of each pool.
+  struct Announced {
+    std::uint64_t materials = 0, objects = 0, vertices = 0, normals = 0, corners = 0;
+  };
+
   template <class T>
-  void append(std::vector<T>& pool, const std::string& bytes) const;
+  static void append(std::vector<T>& pool, std::uint64_t announced, const std::string& bytes);
   void check_object(const core::Object& object) const;
   void check_material(const core::Material& material) const;
 
   core::Scene scene_;
+  Announced announced_;
   bool has_head_ = false;
 };
 

@@ -126,6 +126,15 @@ TEST_CASE("a reader that never ends is ended, and its file named") {
   CHECK(says(text, "t.ply: "));
 }
 
+TEST_CASE("a reader's crash is an error of the file, which is named") {
+  const TemporaryFolder folder;
+  write_textured_triangle(folder, "");
+  write_text(folder / "a.mtl", "Ns 10\n");  // of no material
+  const std::string text = mesh_complaint(folder / "a.obj");
+  CHECK(says(text, "a.obj: "));
+  CHECK((says(text, "the reader of OBJ files crashed (signal 11") || says(text, "a.mtl")));
+}
+
 TEST_CASE("a file is read as what its ending says, and by no reader of other files") {
   const TemporaryFolder folder;
   for (const std::string beginning : {"IDPO", "IDP2", "MDL7", "MDL5"}) {
