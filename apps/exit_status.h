@@ -14,7 +14,7 @@ struct ExitStatus {
 /// All of them.
 inline constexpr ExitStatus exit_statuses[] = {
     {0, "The job is done."},
-    {input_status, "Bad input: the message says what, where, and what would do."},
+    {input_status, "Bad input, or an output that cannot be written: the message says what, where, and what would do."},
     {usage_status, "Wrong usage: the message ends with the right --help."},
     {internal_status, "An error of dmpc's own, or a difference that check cannot explain."},
     {no_room_status, "There is no room for the input, on this computer or in the nodes' memory."},

@@ -226,8 +226,11 @@ int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostrea
   const Report report = run_timed(options, run, interrupt, seconds);
   const core::Film& film = account_of(report).film;
   Attempts attempts(std::cerr);
-  if (attempts.make([&] { write_picture(options, film, files, interrupt, seconds); }) && checkpoints) {
+  const bool is_written = attempts.make([&] { write_picture(options, film, files, interrupt, seconds); });
+  if (checkpoints && is_written) {
     checkpoints->finish();
+  } else if (checkpoints && checkpoints->has_one()) {
+    std::cerr << "dmpc: the checkpoint stays, --resume goes on from it\n";
   }
   const Sights sights = take_sights(options, onlookers);
   write_others({options, subject.database, report, seconds, heat ? &*heat : nullptr, sights.trace ? &*sights.trace : nullptr,

@@ -14,8 +14,8 @@ namespace dmpc::apps {
 
 namespace {
 
-/// A file and its folder, a picture in memory, and of a program that draws, the ends of a pipe; all with room to spare.
-constexpr std::size_t open_files_needed = 16;
+/// An output, its folder, and a picture in memory; of a program that draws, a scratch file and the ends of a pipe; two to spare.
+constexpr std::size_t open_files_needed = 8;
 
 }  // namespace
 

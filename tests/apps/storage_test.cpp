@@ -64,6 +64,7 @@ apps::RenderOptions storage_options(const TemporaryFolder& folder, std::uint64_t
   options.picture.samples = 1 + static_cast<int>(seed % 2);
   options.quiet = true;
   options.image = folder / "picture/a.exr";
+  options.stats = folder / "picture/s.json";
   options.checkpoint = {.file = folder / "kept/c", .every_seconds = 1e-9, .resumes = true};
   options.strategy = seed % 3 == 0 ? apps::Strategy::svm : seed % 3 == 1 ? apps::Strategy::dataflow : apps::Strategy::replicated;
   options.computer.node_count = 2;
@@ -139,7 +140,7 @@ class Storage {
 
   /// It is whole if it is there, and there if it was said to be.
   void check_picture(bool is_certain) {
-    CHECK((!is_certain || fs::exists(options_.image)));
+    CHECK((!is_certain || (fs::exists(options_.image) && contains(file_text(*options_.stats), "film_hash"))));
     if (fs::exists(options_.image)) {
       const auto& versions = files_.versions(options_.image);
       CHECK(std::find(versions.begin(), versions.end(), file_text(options_.image)) != versions.end());
