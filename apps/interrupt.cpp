@@ -42,8 +42,8 @@ void say(const char* words) { static_cast<void>(!::write(STDERR_FILENO, words, s
 
 void remove_files_under_way() {
   for (std::atomic<std::string*>& slot : files_to_remove) {
-    if (const std::unique_ptr<std::string> path{slot.exchange(nullptr)}) {
-      ::unlink(path->c_str());
+    if (const std::string* const path = slot.exchange(nullptr)) {
+      ::unlink(path->c_str());  // nothing is freed: the heap may be what has failed
     }
   }
 }
