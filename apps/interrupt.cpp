@@ -7,7 +7,6 @@
 #include <csignal>
 #include <cstring>
 #include <memory>
-#include <new>
 #include <string>
 #include <system_error>
 
@@ -48,16 +47,14 @@ std::array<std::atomic<std::string*>, slot_count> files_to_remove{};
 /// Where no memory may be left.
 void say(const char* words) { static_cast<void>(!::write(STDERR_FILENO, words, std::strlen(words))); }
 
-/// A folder that another thread still writes into is not empty at once. Of a file it takes no memory.
-void remove_whole(const std::string& path) {
-  if (::unlink(path.c_str()) == 0) {
-    return;
-  }
-  try {
-    std::error_code error;
-    for (int tries = 0; tries < 100 && std::filesystem::remove_all(path, error) != 0; ++tries) {
+/// Folders, too. One that another thread still writes into is not empty at once.
+void remove_all_under_way() {
+  for (std::atomic<std::string*>& slot : files_to_remove) {
+    if (const std::unique_ptr<std::string> path{slot.exchange(nullptr)}) {
+      std::error_code error;
+      for (int tries = 0; tries < 100 && std::filesystem::remove_all(*path, error) != 0; ++tries) {
+      }
     }
-  } catch (const std::bad_alloc&) {  // the folder stays
   }
 }
 
@@ -65,8 +62,8 @@ void remove_whole(const std::string& path) {
 
 void remove_files_under_way() {
   for (std::atomic<std::string*>& slot : files_to_remove) {
-    if (const std::unique_ptr<std::string> path{slot.exchange(nullptr)}) {
-      remove_whole(*path);
+    if (const std::string* const path = slot.exchange(nullptr)) {
+      ::unlink(path->c_str());  // nothing is freed: the heap may be what has failed
     }
   }
 }
@@ -125,7 +122,7 @@ void Interrupt::wait_for_signals(const std::stop_token& closing) {
 }
 
 void Interrupt::end_now() const {
-  remove_files_under_way();
+  remove_all_under_way();
   say("\ndmpc: interrupted, ");
   say(consequence());
   say("\n");

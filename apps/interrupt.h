@@ -15,7 +15,7 @@ namespace dmpc::apps {
 struct Interrupted {};
 
 /// While it lives, SIGINT, SIGTERM and SIGHUP are blocked in the thread that made it and in all threads that this one starts
-/// afterwards; a thread of its own waits for them. So nothing of ours ever runs inside a signal handler. The first signal
+/// afterwards; a thread of its own waits for them. So none of these ever runs inside a signal handler. The first signal
 /// requests a stop, the second ends the process at once with status 130. One that was ignored when the process started, as SIGHUP
 /// is under nohup, still is. At most one at a time, made before any other thread.
 ///
@@ -78,7 +78,7 @@ class RemovedAtOnce {
   std::size_t slot_;
 };
 
-/// Removes all files that are RemovedAtOnce, for an end without destructors. Takes no memory.
+/// Removes all files that are RemovedAtOnce, for an end without destructors, also by abort(). Takes and frees no memory.
 void remove_files_under_way();
 
 }  // namespace dmpc::apps

@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <exception>
 #include <initializer_list>
@@ -50,6 +52,15 @@ int complain_of(const std::exception_ptr& thrown) {
   return internal_status;
 }
 
+/// The C library aborts where it needs memory and may not fail. What is no want of memory stays an abort.
+void end_abort(int) {
+  const bool is_for_want_of_memory = errno == ENOMEM || memory_has_run_out();
+  remove_files_under_way();
+  if (is_for_want_of_memory) {
+    ::_exit(complain_of_memory());
+  }
+}
+
 }  // namespace
 
 bool memory_has_run_out() { return has_run_out; }
@@ -62,6 +73,10 @@ int complain_of_memory() {
 }
 
 void end_without_abort() {
+  struct sigaction action {};
+  action.sa_handler = end_abort;
+  action.sa_flags = SA_RESETHAND;
+  ::sigaction(SIGABRT, &action, nullptr);
   void* frame = nullptr;
   ::backtrace(&frame, 1);  // loads what ends threads, where the C library would abort for want of memory when it is needed
   std::set_new_handler(note_end_of_memory);
