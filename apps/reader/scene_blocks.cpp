@@ -22,7 +22,7 @@ using core::Vec3d;
 constexpr double coordinate_max = 1e30;
 constexpr std::size_t lights_a_message = 1000;
 /// So much room is made for what is announced before it comes.
-constexpr std::uint64_t believed_bytes_max = std::uint64_t{64} << 20U;
+constexpr std::uint64_t believed_bytes_max = std::uint64_t{16} << 20U;
 
 template <class T>
 bool send_block(std::vector<T>& pool, Saying saying, Line& line) {

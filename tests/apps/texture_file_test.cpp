@@ -125,7 +125,7 @@ TEST_CASE("what is no picture is refused by its name") {
   CHECK_THROWS_AS(read_texture(folder / "text.png", {}), core::InputError);
   const std::string nothing;
   CHECK_THROWS_WITH_AS(read_texture(std::as_bytes(std::span(nothing)), "model.glb, texture 0", "", {}),
-                       doctest::Contains("model.glb, texture 0: cannot be read"), core::InputError);
+                       doctest::Contains("model.glb, texture 0: is no picture that is read"), core::InputError);
 }
 
 }  // namespace dmpc::tests

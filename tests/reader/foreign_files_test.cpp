@@ -129,10 +129,11 @@ TEST_CASE("a reader that never ends is ended, and its file named") {
 TEST_CASE("a reader's crash is an error of the file, which is named") {
   const TemporaryFolder folder;
   write_textured_triangle(folder, "");
-  write_text(folder / "a.mtl", "Ns 10\n");  // of no material
+  write_text(folder / "a.mtl", "Ns 10\nmap_Kd -s 1 1 1 -o 0 0 a\nd 0.5\nillum 2\n");  // of no material
   const std::string text = mesh_complaint(folder / "a.obj");
   CHECK(says(text, "a.obj: "));
-  CHECK((says(text, "the reader of OBJ files crashed (signal 11") || says(text, "a.mtl")));
+  CHECK(says(text, "the reader of OBJ files crashed (signal 11"));
+  CHECK(says(text, "a.mtl"));
 }
 
 TEST_CASE("a file is read as what its ending says, and by no reader of other files") {
@@ -141,7 +142,7 @@ TEST_CASE("a file is read as what its ending says, and by no reader of other fil
     CAPTURE(beginning);
     write_text(folder / "a.gltf", beginning + std::string(400, '\1'));
     CHECK(says(mesh_complaint(folder / "a.gltf"), "a.gltf: "));
-    CHECK_FALSE(says(mesh_complaint(folder / "a.gltf"), "crashed"));
+    CHECK(mesh_complaint(folder / "a.gltf").find("crashed") == std::string::npos);
   }
 }
 
