@@ -77,9 +77,11 @@ void end_without_abort() {
   struct sigaction action {};
   action.sa_handler = end_crash;
   action.sa_flags = SA_RESETHAND;
+#if !defined(__SANITIZE_ADDRESS__)  // which tells more of a crash
   for (const int signal : {SIGABRT, SIGSEGV, SIGBUS}) {
     ::sigaction(signal, &action, nullptr);
   }
+#endif
   void* frame = nullptr;
   ::backtrace(&frame, 1);  // loads what ends threads, where the C library would abort for want of memory when it is needed
   std::set_new_handler(note_end_of_memory);
