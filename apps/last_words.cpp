@@ -54,7 +54,7 @@ int complain_of(const std::exception_ptr& thrown) {
 
 /// The C library aborts where it needs memory and may not fail, and libraries use what they have not got. What does not come of
 /// a want of memory goes on to end the process as it would have.
-void end_crash(int) {
+[[maybe_unused]] void end_crash(int) {
   const bool is_for_want_of_memory = errno == ENOMEM || memory_has_run_out();
   remove_files_under_way();
   if (is_for_want_of_memory) {
@@ -74,7 +74,7 @@ int complain_of_memory() {
 }
 
 void end_without_abort() {
-  struct sigaction action {};
+  [[maybe_unused]] struct sigaction action {};
   action.sa_handler = end_crash;
   action.sa_flags = SA_RESETHAND;
 #if !defined(__SANITIZE_ADDRESS__)  // which tells more of a crash
