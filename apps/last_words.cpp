@@ -52,8 +52,9 @@ int complain_of(const std::exception_ptr& thrown) {
   return internal_status;
 }
 
-/// The C library aborts where it needs memory and may not fail. What is no want of memory stays an abort.
-void end_abort(int) {
+/// The C library aborts where it needs memory and may not fail, and libraries use what they have not got. What does not come of
+/// a want of memory goes on to end the process as it would have.
+[[maybe_unused]] void end_crash(int) {
   const bool is_for_want_of_memory = errno == ENOMEM || memory_has_run_out();
   remove_files_under_way();
   if (is_for_want_of_memory) {
@@ -73,10 +74,14 @@ int complain_of_memory() {
 }
 
 void end_without_abort() {
-  struct sigaction action {};
-  action.sa_handler = end_abort;
+  [[maybe_unused]] struct sigaction action {};
+  action.sa_handler = end_crash;
   action.sa_flags = SA_RESETHAND;
-  ::sigaction(SIGABRT, &action, nullptr);
+#if !defined(__SANITIZE_ADDRESS__)  // which tells more of a crash
+  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS}) {
+    ::sigaction(signal, &action, nullptr);
+  }
+#endif
   void* frame = nullptr;
   ::backtrace(&frame, 1);  // loads what ends threads, where the C library would abort for want of memory when it is needed
   std::set_new_handler(note_end_of_memory);

@@ -10,7 +10,7 @@ int complain_of_memory();
 bool memory_has_run_out();
 
 /// From now on std::terminate() removes the files under way, says why, and ends the process with the status of what was thrown,
-/// rather than to abort it: libraries call it where memory runs out. So does an abort() of the C library's for want of memory.
+/// rather than to abort it: libraries call it where memory runs out. So does a crash for want of memory; any other stays a crash.
 void end_without_abort();
 
 }  // namespace dmpc::apps
