@@ -115,9 +115,9 @@ MemoryRoom memory_room(const std::string& root) {
 
 void check_memory_room(std::uint64_t bytes, const std::string& what, const MemoryRoom& room) {
   if (bytes > room.bytes) {
-    throw core::RoomError("there is no room for " + what + ": they take " + bytes_text(bytes) + " of memory together, and " +
-                          room.source + " is " + bytes_text(room.bytes) +
-                          "; ask for fewer nodes (--nodes) or less memory a node (--node-memory)");
+    throw ComputerRoomError("this computer has no room for " + what + ": they take " + bytes_text(bytes) +
+                            " of memory together, and " + room.source + " is " + bytes_text(room.bytes) +
+                            "; ask for fewer nodes (--nodes) or less memory a node (--node-memory)");
   }
 }
 

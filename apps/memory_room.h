@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "core/expect.h"
+
 namespace dmpc::apps {
 
 struct MemoryRoom {
@@ -16,7 +18,12 @@ struct MemoryRoom {
 /// before the names of the files that are read. What cannot be read is no limit.
 MemoryRoom memory_room(const std::string& root = "");
 
-/// Throws core::RoomError if `bytes` for `what` ("64 nodes") are more than there is room for.
+/// The input would do on a computer with more memory.
+struct ComputerRoomError : core::RoomError {
+  using core::RoomError::RoomError;
+};
+
+/// Throws ComputerRoomError if `bytes` for `what` ("64 nodes") are more than there is room for.
 void check_memory_room(std::uint64_t bytes, const std::string& what, const MemoryRoom& room = memory_room());
 
 /// From now on an allocation that goes beyond the room fails, and can be spoken of, where else the system would kill some

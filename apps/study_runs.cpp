@@ -5,6 +5,7 @@
 #include <mutex>
 #include <utility>
 
+#include "apps/memory_room.h"
 #include "apps/progress.h"
 #include "apps/run_strategy.h"
 #include "apps/side_by_side.h"
@@ -82,6 +83,8 @@ std::optional<StudyOutcome> StudyRuns::outcome_of(const StrategyOptions& run,
   ReadyRun ready;
   try {
     ready = make_ready(run, database_, settings_, interrupt_.token());
+  } catch (const ComputerRoomError&) {
+    throw;
   } catch (const core::InputError& error) {
     outcome.misfit = error.what();
   }

@@ -41,7 +41,8 @@ inline Suggestion suggestion_of(const std::vector<OptionDescription>& arguments)
 
 /// Whether files follow some words (Suggestion::words).
 inline bool has_colons(const Suggestion& suggestion) {
-  return std::any_of(suggestion.words.begin(), suggestion.words.end(), [](const std::string& word) { return word.back() == ':'; });
+  return std::any_of(suggestion.words.begin(), suggestion.words.end(),
+                     [](const std::string& word) { return word.back() == ':'; });
 }
 
 inline std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }

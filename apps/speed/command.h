@@ -18,7 +18,7 @@ struct SpeedOptions {
   bool is_ablation = false;  ///< then that is the only part
   std::set<SpeedPart> parts = all_speed_parts();
   TableFormat format = TableFormat::markdown;
-  bool has_details = false;  ///< every comparison is printed, too; a file has them anyway
+  bool has_details = false;                     ///< every comparison is printed, too; a file has them anyway
   std::optional<std::filesystem::path> output;  ///< stdout if not given
   std::optional<std::filesystem::path> plots;   ///< a folder for pictures by gnuplot and what they are drawn from
   bool quiet = false;                           ///< no progress

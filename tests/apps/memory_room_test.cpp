@@ -100,7 +100,7 @@ TEST_CASE("a render with less memory than its nodes take is refused before it be
   };
   const auto [status, errors] = limited("-v 1000000", "1000");
   CHECK(status == 4);
-  CHECK(contains(errors, "there is no room for 1,000 nodes and the host: they take "));
+  CHECK(contains(errors, "this computer has no room for 1,000 nodes and the host: they take "));
   CHECK(contains(errors, "this shell's limit (ulimit -v) is 976.56 MiB"));
   CHECK(folder.entry_count() == 0);
   CHECK(limited("-d 300000", "2").first == 0);

@@ -183,7 +183,8 @@ TEST_CASE("what cannot be read is refused, by the file's name") {
   CHECK_THROWS_WITH_AS(read_mesh_file(folder.path()), doctest::Contains("is a folder"), core::InputError);
   CHECK(contains(complaint("a.obj", ""), "a.obj: "));
   CHECK(contains(complaint("a.gltf", "{\"asset\""), "a.gltf: "));
-  CHECK(contains(complaint("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n"), "line 4: the face has vertex 7, which does not exist"));
+  CHECK(contains(complaint("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n"),
+                 "line 4: the face has vertex 7, which does not exist"));
 }
 
 TEST_CASE("a missing buffer is named") { CHECK(contains(complaint("a.gltf", Gltf{}.json("wheels.bin")), "wheels.bin")); }

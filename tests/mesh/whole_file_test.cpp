@@ -9,8 +9,8 @@
 
 #include "apps/mesh/obj_check.h"
 #include "apps/mesh/ply_check.h"
-#include "apps/mesh_file.h"
 #include "apps/mesh/stl_check.h"
+#include "apps/mesh_file.h"
 #include "core/expect.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"

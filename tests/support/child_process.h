@@ -56,6 +56,7 @@ class ChildProcess {
     }
     return false;
   }
+  pid_t id() const { return id_; }
   void send(int signal) const { ::kill(id_, signal); }
   /// Waits for the end; the exit status, or 1000 + signal if a signal ended it.
   int status() {
