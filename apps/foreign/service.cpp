@@ -23,7 +23,11 @@ void get_ready(Line& line) {
   if (!message || message->saying != Saying::limits) {
     ::_exit(failed_status);
   }
+#if defined(__SANITIZE_ADDRESS__)  // which takes calls of its own, and address space beyond any limit
+  const bool is_filtered = false;
+#else
   const bool is_filtered = enter_sandbox(Unpacker(message->bytes).take<std::uint64_t>());
+#endif
   line.send(Saying::ready, Packer().add(protocol).add(static_cast<std::uint8_t>(is_filtered)));
 }
 
