@@ -54,12 +54,13 @@ int complain_of(const std::exception_ptr& thrown) {
 
 /// The C library aborts where it needs memory and may not fail, and libraries use what they have not got. What does not come of
 /// a want of memory goes on to end the process as it would have.
-[[maybe_unused]] void end_crash(int) {
+[[maybe_unused]] void end_crash(int signal) {
   const bool is_for_want_of_memory = errno == ENOMEM || memory_has_run_out();
   remove_files_under_way();
   if (is_for_want_of_memory) {
     ::_exit(complain_of_memory());
   }
+  ::raise(signal);  // one that was sent does not come again by itself
 }
 
 }  // namespace

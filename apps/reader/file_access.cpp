@@ -14,8 +14,9 @@ namespace {
 /// "http://...": what some programs would fetch.
 bool is_address(const std::string& name) { return name.find("://") != std::string::npos; }
 
+/// Nothing is below a folder whose name cannot be told.
 bool is_below(const fs::path& path, const fs::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+  return !folder.empty() && std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
 }  // namespace

@@ -43,6 +43,9 @@ InputFile find_input_file(const fs::path& path) {
   }
   std::error_code error;
   file.resolved = fs::read_symlink(link_of(file.descriptor), error);
+  if (error) {
+    throw core::InputError("lies so deep in folders that its name cannot be told; move it");
+  }
   file.bytes = static_cast<std::uint64_t>(status.st_size);
   return file;
 }

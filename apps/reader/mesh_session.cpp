@@ -149,9 +149,11 @@ bool MeshSession::answer(const Message& message) {
 
 void MeshSession::answer_open(const std::string& path) {
   try {
+    const std::size_t known = access_.opened().paths().size();
     const InputFile file = access_.open(path);
+    const bool is_new = access_.opened().paths().size() > known;  // else it would get time for each of a thousand mentions
     current_ = path;
-    process_.send(Saying::file, Packer().add(file.bytes), &file.descriptor, file.bytes);
+    process_.send(Saying::file, Packer().add(file.bytes), &file.descriptor, is_new ? file.bytes : 0);
   } catch (const ReaderDeath&) {
     throw;
   } catch (const core::InputError& error) {

@@ -30,7 +30,8 @@ PictureFile picture_of(std::span<const std::byte> bytes, const std::string& name
 /// Keeps its process from one picture to the next, as long as that lives. All throw core::InputError "NAME: ...".
 class PictureReader {
  public:
-  explicit PictureReader(const ReaderLimits& limits = {}) : limits_(limits) {}
+  /// Each picture has its own time, whatever `limits` say.
+  explicit PictureReader(const ReaderLimits& limits = {}) : limits_(limits) { limits_.each_file = true; }
 
   /// As apps/texture_file.h says.
   core::Texture read_texture(const PictureFile& file, const TextureEdges& edges);

@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <utility>
 
 #include "apps/reader/program_path.h"
@@ -97,12 +98,23 @@ void ReaderProcess::start(const std::string& program, const Descriptor& its_end)
   }
 }
 
+std::uint64_t ReaderProcess::seconds_taken() const {
+  clockid_t clock{};
+  timespec taken{};
+  const bool is_known = ::clock_getcpuclockid(id_, &clock) == 0 && ::clock_gettime(clock, &taken) == 0;
+  return is_known ? static_cast<std::uint64_t>(taken.tv_sec) + 1 : 0;
+}
+
 void ReaderProcess::allow(std::uint64_t file_bytes) {
+  if (limits_.each_file && file_bytes > 0) {
+    file_bytes_ = 0;
+    seconds_before_ = seconds_taken();
+  }
   file_bytes_ += file_bytes;
   seconds_ = limits_.seconds + file_bytes_ / std::max<std::uint64_t>(limits_.bytes_a_second, 1);
   rlimit limit{};
   ::prlimit(id_, RLIMIT_CPU, nullptr, &limit);
-  limit.rlim_cur = std::min<rlim_t>(seconds_, limit.rlim_max);
+  limit.rlim_cur = std::min<rlim_t>(seconds_before_ + seconds_, limit.rlim_max);
   ::prlimit(id_, RLIMIT_CPU, &limit, nullptr);  // where that is refused, the wall's clock is left
   deadline_ = Clock::now() + std::chrono::seconds(seconds_ * limits_.wall_factor);
 }

@@ -15,6 +15,7 @@ namespace dmpc::apps {
 struct ReaderLimits {
   std::uint64_t seconds = 10;              ///< of processor time
   std::uint64_t bytes_a_second = 500'000;  ///< so many more bytes of files, one more second
+  bool each_file = false;                  ///< all that is for each file anew, else for all files together
   std::uint64_t wall_factor = 30;  ///< so many times the processor time may pass on the wall: others want the processor, too
 };
 
@@ -46,6 +47,8 @@ class ReaderProcess {
 
   void start(const std::string& program, const Descriptor& its_end);
   void allow(std::uint64_t file_bytes);
+  /// Of processor time, rounded up.
+  std::uint64_t seconds_taken() const;
   void wait_for_message();
   [[noreturn]] void end(const char* unless_by_signal);
 
@@ -53,7 +56,7 @@ class ReaderProcess {
   std::uint64_t memory_bytes_;
   pid_t id_ = -1;
   Line line_;
-  std::uint64_t seconds_ = 0, file_bytes_ = 0;
+  std::uint64_t seconds_ = 0, file_bytes_ = 0, seconds_before_ = 0;
   Clock::time_point deadline_;
   bool is_filtered_ = false;
 };

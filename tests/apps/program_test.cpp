@@ -479,6 +479,13 @@ TEST_CASE("a signal while a scene is written to the standard output ends with st
   CHECK(contains(process.errors(), "interrupted, the output is incomplete"));
 }
 
+TEST_CASE("an abort that is sent ends dmpc by that signal") {
+  ChildProcess process(dmpc({"scene", "tetra-12"}));
+  CHECK(until([&] { return !process.output().empty(); }));
+  process.send(SIGABRT);
+  CHECK(process.status() == 1000 + SIGABRT);
+}
+
 /// Of the process that is a child of `parent`; 0 if there is none.
 int child_of(int parent) {
   const std::string id = std::to_string(parent), children = file_text("/proc/" + id + "/task/" + id + "/children");
