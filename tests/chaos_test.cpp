@@ -19,6 +19,7 @@
 #include "nodes/chaos.h"
 #include "svm/run.h"
 #include "tests/support/chaos_case.h"
+#include "tests/support/environment.h"
 #include "tests/support/subject.h"
 
 namespace dmpc::tests {
@@ -30,12 +31,6 @@ constexpr std::uint64_t seeds_by_default = 20;
 #else
 constexpr std::uint64_t seeds_by_default = 140;
 #endif
-
-/// A whole number from the environment, or `standard`.
-std::uint64_t from_environment(const char* name, std::uint64_t standard) {
-  const char* const text = std::getenv(name);
-  return text == nullptr ? standard : std::stoull(text);
-}
 
 /// Small enough to render hundreds of times.
 const Subject& subject() { return chaos_subject(0); }
@@ -122,8 +117,8 @@ void check_parts(ChaosCase& one, Damage& damage, const MakeOptions& options_of, 
 /// `run` renders what a seed stands for.
 template <class MakeOptions, class Run>
 void check_seeds(const MakeOptions& options_of, const Run& run) {
-  const std::uint64_t first = from_environment("DMPC_CHAOS_FIRST", 1);
-  const std::uint64_t count = from_environment("DMPC_CHAOS_SEEDS", seeds_by_default);
+  const std::uint64_t first = number_from_environment("DMPC_CHAOS_FIRST", 1);
+  const std::uint64_t count = number_from_environment("DMPC_CHAOS_SEEDS", seeds_by_default);
   Damage damage;
   for (std::uint64_t seed = first; seed - first < count; ++seed) {
     CAPTURE(seed);

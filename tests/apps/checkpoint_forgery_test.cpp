@@ -16,6 +16,7 @@
 #include "apps/digest.h"
 #include "core/expect.h"
 #include "core/shade.h"
+#include "tests/support/environment.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"
 #include "tests/support/temporary_folder.h"
@@ -33,10 +34,7 @@ namespace {
 constexpr std::size_t word_bytes = sizeof(std::uint64_t);
 constexpr std::size_t pass_bytes = 3 * word_bytes, pixel_bytes = 7 * word_bytes;
 
-std::size_t forgery_count() {
-  const char* const text = std::getenv("DMPC_FORGERIES");
-  return text == nullptr ? 300 : std::stoull(text);
-}
+std::size_t forgery_count() { return tests::number_from_environment("DMPC_FORGERIES", 300); }
 
 /// A render that stops when it has kept the picture, and what it kept.
 struct Forged {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "tests/support/child_process.h"
+#include "tests/support/environment.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -23,10 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::size_t tries_of_each() {
-  const char* const text = std::getenv("DMPC_FAILING_CALLS");
-  return text == nullptr ? 4 : std::stoull(text);
-}
+std::size_t tries_of_each() { return tests::number_from_environment("DMPC_FAILING_CALLS", 4); }
 
 /// A line of what tests/failing_allocation/preload.cpp says.
 struct FailedCall {

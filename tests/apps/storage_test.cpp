@@ -20,6 +20,7 @@
 #include "apps/machines.h"
 #include "apps/render.h"
 #include "core/expect.h"
+#include "tests/support/environment.h"
 #include "tests/support/simulated_files.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
@@ -35,11 +36,6 @@ constexpr std::uint64_t storage_seeds_by_default = 20;
 #else
 constexpr std::uint64_t storage_seeds_by_default = 200;
 #endif
-
-std::uint64_t number_from_environment(const char* name, std::uint64_t standard) {
-  const char* const text = std::getenv(name);
-  return text == nullptr ? standard : std::stoull(text);
-}
 
 /// What is said on stderr while it lives.
 class Overheard {
