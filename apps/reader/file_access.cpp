@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "apps/system/shortage.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -49,6 +50,8 @@ InputFile FileAccess::open(const fs::path& path) {
     open_input_file(file);
     opened_.add(file.resolved);
     return file;
+  } catch (const ComputerRoomError&) {
+    throw;
   } catch (const core::InputError& error_found) {
     throw core::InputError(path.string() + " " + error_found.what());
   }

@@ -156,6 +156,8 @@ void MeshSession::answer_open(const std::string& path) {
     process_.send(Saying::file, Packer().add(file.bytes), &file.descriptor, is_new ? file.bytes : 0);
   } catch (const ReaderDeath&) {
     throw;
+  } catch (const core::RoomError&) {
+    throw;
   } catch (const core::InputError& error) {
     process_.send(Saying::no, Packer().add_text(error.what()));
   }
@@ -176,6 +178,8 @@ void MeshSession::answer_texture(const Message& message) {
   try {
     receiver_.add(texture_of(message));
   } catch (const Nonsense&) {
+    throw;
+  } catch (const core::RoomError&) {  // nothing is missing
     throw;
   } catch (const core::InputError& error) {
     bytes_.clear();

@@ -11,6 +11,7 @@
 #include "apps/reader/input_file.h"
 #include "apps/reader/memory.h"
 #include "apps/reader/picture_format.h"
+#include "apps/system/shortage.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -32,6 +33,12 @@ std::string format_text(const PictureFile& file) {
   return *format;
 }
 
+[[noreturn]] void fail_to_copy(const std::string& name, int error) {
+  const std::string what = name + ": no copy of it can be made in memory";
+  throw_if_short(error, what);
+  throw core::InputError(what + ": " + std::strerror(error));
+}
+
 }  // namespace
 
 PictureFile open_picture(const std::filesystem::path& path) {
@@ -41,6 +48,8 @@ PictureFile open_picture(const std::filesystem::path& path) {
     std::string ending = path.extension().string();
     ending.erase(0, 1);
     return {std::move(file.descriptor), file.bytes, path.string(), ending};
+  } catch (const ComputerRoomError&) {
+    throw;
   } catch (const core::InputError& error) {
     throw core::InputError(path.string() + ": " + error.what());
   }
@@ -48,10 +57,13 @@ PictureFile open_picture(const std::filesystem::path& path) {
 
 PictureFile picture_of(std::span<const std::byte> bytes, const std::string& name, const std::string& ending) {
   PictureFile file{Descriptor(::memfd_create("picture", MFD_CLOEXEC)), bytes.size(), name, ending};
+  if (!file.descriptor.is_open()) {
+    fail_to_copy(name, errno);
+  }
   while (!bytes.empty()) {
     const ssize_t count = ::write(file.descriptor.number(), bytes.data(), bytes.size());
     if (count < 0 && errno != EINTR) {
-      throw core::InputError(name + ": no copy of it can be made in memory: " + std::strerror(errno));
+      fail_to_copy(name, errno);
     }
     bytes = bytes.subspan(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
   }
@@ -94,6 +106,9 @@ void PictureReader::read(const PictureFile& file, Saying request, const Take& ta
     process_.reset();
     throw core::InputError(file.name + ": the reader of " + format + " " + death.what() +
                            ": the file is damaged; write it anew, or as another format");
+  } catch (const ComputerRoomError& error) {
+    process_.reset();
+    throw ComputerRoomError(file.name + ": " + error.what());
   } catch (const core::RoomError& error) {
     process_.reset();
     const std::string text = file.name + ": the reader of " + format + " " + error.what();

@@ -16,6 +16,8 @@
 #include <utility>
 
 #include "apps/reader/program_path.h"
+#include "apps/system/memory_file.h"
+#include "apps/system/shortage.h"
 #include "core/expect.h"
 
 // NOLINTNEXTLINE(readability-redundant-declaration): POSIX leaves its declaration to the program
@@ -38,15 +40,15 @@ void set_signals(posix_spawnattr_t& attributes) {
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
 }
 
-int spawn(pid_t& id, const std::string& program, int line) {
+/// Its errors go where they are told from if it does not get ready.
+int spawn(pid_t& id, const std::string& program, int line, int errors) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
   posix_spawn_file_actions_adddup2(&actions, line, line_number);
   posix_spawn_file_actions_addclosefrom_np(&actions, line_number + 1);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  // What libraries say of a file may be what the file has them say.
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   set_signals(attributes);
@@ -56,6 +58,13 @@ int spawn(pid_t& id, const std::string& program, int line) {
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   return error;
+}
+
+/// Libraries that get ready start threads, and abort where they cannot.
+[[noreturn]] void fail_to_start(const std::string& program, const std::string& how, const std::string& complaint) {
+  const std::string what = program + ", which reads foreign files for dmpc, cannot be started";
+  throw_if_short(complaint, what);
+  throw core::InternalError(what + ": it " + how + (complaint.empty() ? "" : ", saying: " + complaint));
 }
 
 std::string seconds_text(std::uint64_t seconds) { return std::to_string(seconds) + (seconds == 1 ? " second" : " seconds"); }
@@ -69,17 +78,15 @@ ReaderProcess::ReaderProcess(const std::string& program, std::uint64_t memory_by
   const std::string path = reader_program(program).string();
   auto [ours, its] = make_ends();
   line_ = Line(std::move(ours));
-  start(path, its);
+  const MemoryFile errors;
+  start(path, its, errors.descriptor());
   its = Descriptor();  // else its death would not close the line
   allow(0);
-  send(Saying::limits, Packer().add(memory_bytes));
   try {
-    const Message message = receive();
-    Unpacker fields(message.bytes);
-    Unpacker::require(message.saying == Saying::ready && fields.take<std::uint32_t>() == protocol);
-    is_filtered_ = fields.take_flag();
+    send(Saying::limits, Packer().add(memory_bytes));
+    hear_that_it_is_ready();
   } catch (const core::InputError& error) {
-    throw core::InternalError(path + ", which reads foreign files for dmpc, does not start: it " + error.what());
+    fail_to_start(path, error.what(), errors.bytes());
   }
 }
 
@@ -90,12 +97,19 @@ ReaderProcess::~ReaderProcess() {
   }
 }
 
-void ReaderProcess::start(const std::string& program, const Descriptor& its_end) {
-  const int error = spawn(id_, program, its_end.number());
+void ReaderProcess::start(const std::string& program, const Descriptor& its_end, int errors) {
+  const int error = spawn(id_, program, its_end.number(), errors);
   if (error != 0) {
     id_ = -1;
-    throw core::InputError(program + ", which reads foreign files for dmpc, cannot be started: " + std::strerror(error));
+    fail_to_start(program, "does not begin", std::strerror(error));
   }
+}
+
+void ReaderProcess::hear_that_it_is_ready() {
+  const Message message = receive();
+  Unpacker fields(message.bytes);
+  Unpacker::require(message.saying == Saying::ready && fields.take<std::uint32_t>() == protocol);
+  is_filtered_ = fields.take_flag();
 }
 
 std::uint64_t ReaderProcess::seconds_taken() const {

@@ -28,7 +28,7 @@ struct ReaderDeath : core::InputError {
 class ReaderProcess {
  public:
   /// Starts the program and waits until it is ready; it may take so much memory beside what it has at the start. Throws
-  /// core::InternalError if there is no such program or if it does not get ready.
+  /// core::InternalError if there is no such program or if it does not get ready, ComputerRoomError if this computer lets it not.
   ReaderProcess(const std::string& program, std::uint64_t memory_bytes, const ReaderLimits& limits);
   ~ReaderProcess();
   ReaderProcess(const ReaderProcess&) = delete;
@@ -45,7 +45,8 @@ class ReaderProcess {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void start(const std::string& program, const Descriptor& its_end);
+  void start(const std::string& program, const Descriptor& its_end, int errors);
+  void hear_that_it_is_ready();
   void allow(std::uint64_t file_bytes);
   /// Of processor time, rounded up.
   std::uint64_t seconds_taken() const;

@@ -61,7 +61,6 @@ TEST_CASE("what is known beforehand is said before the render, and nothing is le
   const TemporaryFolder folder;
   const std::vector<std::vector<std::string>> lines = {
       {"TMPDIR=$folder/none exec $dmpc render tetra-1 --report=$folder/r.html -o $folder/a.png", "set TMPDIR"},
-      {"ulimit -n 10; exec $dmpc render tetra-1 -o $folder/a.png", "raise the limit (ulimit -n)"},
       {"exec $dmpc render tetra-1 -o $folder/a.png >&-", "standard output"},
       {"exec $dmpc render tetra-1 --stats=$folder/$(printf '%256s' | tr ' ' a) -o $folder/a.png", "this name is too long"}};
   for (const std::vector<std::string>& line : lines) {
