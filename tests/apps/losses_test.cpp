@@ -72,6 +72,20 @@ TEST_CASE("what is known beforehand is said before the render, and nothing is le
   }
 }
 
+#ifdef DMPC_LATE_SIGNAL
+TEST_CASE("a signal behind the last pixel takes what follows the picture, and not the picture") {
+  const TemporaryFolder folder;
+  ChildProcess process =
+      in_bash("LD_PRELOAD=" DMPC_LATE_SIGNAL
+              " exec $dmpc render tetra-1 --resolution=8x8 --checkpoint=$folder/c --stats=$folder/s.json -o $folder/a.exr",
+              folder);
+  CHECK(process.status() == 130);
+  CHECK_MESSAGE(contains(process.errors(), "the picture was written, what follows it is incomplete"), process.errors());
+  CHECK(apps::read_image(folder / "a.exr").width == 8);
+  CHECK(folder.entry_count() == 1);
+}
+#endif
+
 TEST_CASE("with the standard streams closed nothing that is said gets into a picture") {
   const TemporaryFolder folder;
   ChildProcess process = in_bash("exec $dmpc render tetra-1 --resolution=8x8 --quiet -o $folder/a.exr <&- >&- 2>&-", folder);
