@@ -33,6 +33,12 @@ bool FileAccess::allows(const fs::path& resolved) const {
          std::any_of(folders_.begin(), folders_.end(), [&](const fs::path& folder) { return is_below(resolved, folder); });
 }
 
+bool FileAccess::has(const fs::path& path) const {
+  std::error_code error;
+  const fs::path resolved = fs::canonical(path, error);
+  return !error && is_ordinary_file(path) && (path == scene_ || allows(resolved));
+}
+
 InputFile FileAccess::open(const fs::path& path) {
   if (is_address(path.string()) && !is_ordinary_file(path)) {
     throw core::InputError(path.string() + " is an address, and only files are read");

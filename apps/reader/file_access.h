@@ -21,6 +21,9 @@ class FileAccess {
   /// no further file can be open.
   InputFile open(const std::filesystem::path& path);
 
+  /// Whether open() would find an ordinary file there; nothing is told of what may not be opened.
+  bool has(const std::filesystem::path& path) const;
+
   const OpenedFiles& opened() const { return opened_; }
   const std::filesystem::path& scene() const { return scene_; }
 

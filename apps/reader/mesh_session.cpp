@@ -117,7 +117,7 @@ bool MeshSession::answer(const Message& message) {
       answer_open(fields.take_text());
       return false;
     case Saying::exists:
-      process_.send(is_ordinary_file(fields.take_text()) ? Saying::yes : Saying::no);
+      process_.send(access_.has(fields.take_text()) ? Saying::yes : Saying::no);
       return false;
     case Saying::meant:
       answer_meant(fields);
@@ -167,7 +167,7 @@ void MeshSession::answer_meant(Unpacker fields) {
   const std::string folder = fields.take_text();
   Packer names;
   for (const fs::path& path : files_meant(folder, fields.take_text())) {
-    if (names.bytes().size() + path.string().size() + sizeof(std::uint32_t) < message_bytes_max) {
+    if (access_.has(path) && names.bytes().size() + path.string().size() + sizeof(std::uint32_t) < message_bytes_max) {
       names.add_text(path.string());
     }
   }

@@ -20,6 +20,9 @@ namespace {
 /// Beside what a picture becomes: libraries' own, and the file itself.
 constexpr std::uint64_t spare_bytes = std::uint64_t{512} << 20U;
 
+/// So much room is made for what is announced before it comes.
+constexpr std::uint64_t believed_bytes_max = std::uint64_t{16} << 20U;
+
 /// The values as they are decoded, as they are wanted, and what a library keeps of them.
 std::uint64_t memory_bytes_for(std::uint64_t file_bytes) {
   return std::min(spare_bytes + 2 * decoded_bytes_max(file_bytes) + file_bytes, reader_memory_bytes_max());
@@ -158,15 +161,18 @@ PictureReader::Head PictureReader::receive_head(const PictureFile& file) {
   return head;
 }
 
+/// Believes no more of what was announced than what comes.
 template <class T>
 std::vector<T> PictureReader::receive_values(std::uint64_t count) {
-  std::vector<T> values(count);
-  auto left = std::as_writable_bytes(std::span(values));
-  while (!left.empty()) {
+  std::vector<T> values;
+  values.reserve(std::min<std::uint64_t>(count, believed_bytes_max / sizeof(T)));
+  while (values.size() < count) {
     const Message message = receive();
-    Unpacker::require(message.saying == Saying::bytes && !message.bytes.empty() && message.bytes.size() <= left.size());
-    std::memcpy(left.data(), message.bytes.data(), message.bytes.size());
-    left = left.subspan(message.bytes.size());
+    const std::size_t more = message.bytes.size() / sizeof(T), before = values.size();
+    Unpacker::require(message.saying == Saying::bytes && more > 0 && message.bytes.size() % sizeof(T) == 0 &&
+                      more <= count - before);
+    values.resize(before + more);
+    std::memcpy(values.data() + before, message.bytes.data(), message.bytes.size());
   }
   return values;
 }

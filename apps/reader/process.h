@@ -45,6 +45,8 @@ class ReaderProcess {
  private:
   using Clock = std::chrono::steady_clock;
 
+  Clock::duration wall_time() const { return std::chrono::seconds(seconds_ * limits_.wall_factor); }
+
   void start(const std::string& program, const Descriptor& its_end, int errors);
   void hear_that_it_is_ready();
   void allow(std::uint64_t file_bytes);
@@ -58,7 +60,7 @@ class ReaderProcess {
   pid_t id_ = -1;
   Line line_;
   std::uint64_t seconds_ = 0, file_bytes_ = 0, seconds_before_ = 0;
-  Clock::time_point deadline_;
+  Clock::duration waited_{};  ///< for its messages; what dmpc does meanwhile is not its time
   bool is_filtered_ = false;
 };
 
