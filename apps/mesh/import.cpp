@@ -128,17 +128,6 @@ bool reads(Assimp::BaseImporter& reader, const std::string& ending) {
   return endings.contains(ending);
 }
 
-/// Assimp else asks all of them, whatever the file's ending, whether they know its first bytes.
-void keep_readers_of(const std::string& ending, Assimp::Importer& importer) {
-  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
-    Assimp::BaseImporter* const reader = importer.GetImporter(i);
-    if (!reads(*reader, ending)) {
-      importer.UnregisterLoader(reader);
-      delete reader;
-    }
-  }
-}
-
 /// What Assimp has caught on its way out, if that was the end of memory.
 void rethrow_end_of_memory(const std::exception_ptr& caught) {
   try {
@@ -207,6 +196,16 @@ std::string what_assimp_says(const Assimp::Importer& importer, std::string endin
 }  // namespace
 
 void prepare_import() { static_cast<void>(Assimp::Importer().GetImporterCount()); }
+
+void keep_readers_of(const std::string& ending, Assimp::Importer& importer) {
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    Assimp::BaseImporter* const reader = importer.GetImporter(i);
+    if (!reads(*reader, ending)) {
+      importer.UnregisterLoader(reader);
+      delete reader;
+    }
+  }
+}
 
 ImportedFile import_file(const std::string& path, SceneFiles& files) {
   const std::string ending = ending_of(path);
