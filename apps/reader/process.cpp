@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -71,12 +70,11 @@ int spawn(pid_t& id, const std::string& program, int line, int errors) {
 
 /// Once.
 void say_that_none_is_filtered() {
-  static std::atomic_flag is_said = ATOMIC_FLAG_INIT;
-  if (!is_said.test_and_set()) {
-    std::cerr
-        << "dmpc: this computer does not confine the processes that read foreign files as it should (seccomp, limits): read "
-           "none that you do not trust\n";
-  }
+  [[maybe_unused]] static const bool is_said = [] {
+    std::cerr << "dmpc: this computer does not confine the processes that read foreign files as it should (seccomp, limits): "
+                 "read none that you do not trust\n";
+    return true;
+  }();
 }
 
 std::string seconds_text(std::uint64_t seconds) { return std::to_string(seconds) + (seconds == 1 ? " second" : " seconds"); }
