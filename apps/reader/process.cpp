@@ -69,7 +69,7 @@ int spawn(pid_t& id, const std::string& program, int line, int errors) {
 }
 
 /// Once.
-void say_that_none_is_filtered() {
+[[maybe_unused]] void say_that_none_is_filtered() {
   [[maybe_unused]] static const bool is_said = [] {
     std::cerr << "dmpc: this computer does not confine the processes that read foreign files as it should (seccomp, limits): "
                  "read none that you do not trust\n";
