@@ -14,7 +14,7 @@ namespace {
 /// Where `path` leads, even if there is nothing yet.
 fs::path resolve(const fs::path& path) {
   std::error_code error;
-  const fs::path resolved = fs::weakly_canonical(fs::absolute(path, error), error);
+  const fs::path resolved = fs::weakly_canonical(fs::absolute(file_behind(path), error), error);
   return error ? path : resolved;
 }
 

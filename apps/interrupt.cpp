@@ -16,7 +16,8 @@ namespace dmpc::apps {
 
 namespace {
 
-constexpr std::array stopping = {SIGINT, SIGTERM, SIGHUP};
+/// All that end a process unless it says otherwise, but for crashes and those that cannot be kept waiting.
+constexpr std::array stopping = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGALRM, SIGUSR1, SIGUSR2};
 
 sigset_t stop_signals() {
   sigset_t set;
@@ -38,22 +39,32 @@ void change_mask(int how) {
   core::expect(pthread_sigmask(how, &set, nullptr) == 0, "the signal mask can be changed");
 }
 
+struct UnderWay {
+  std::string path;
+  bool is_folder;
+};
+
 /// A render has a picture, counters, a trace, a page, a checkpoint, its lock, and up to 32 heat maps under way, no command more.
 constexpr std::size_t slot_count = 40;
 
-/// Whoever takes a path out owns it.
-std::array<std::atomic<std::string*>, slot_count> files_to_remove{};
+/// Whoever takes one out of its slot owns it.
+std::array<std::atomic<UnderWay*>, slot_count> to_remove{};
 
 /// Where no memory may be left.
 void say(const char* words) { static_cast<void>(!::write(STDERR_FILENO, words, std::strlen(words))); }
 
-/// Folders, too. One that another thread still writes into is not empty at once.
+/// One that another thread still writes into is not empty at once.
+void remove_folder(const std::string& path) {
+  std::error_code error;
+  for (int tries = 0; tries < 100 && std::filesystem::remove_all(path, error) != 0; ++tries) {
+  }
+}
+
+/// Where a file was, a folder that somebody has put there since is left alone.
 void remove_all_under_way() {
-  for (std::atomic<std::string*>& slot : files_to_remove) {
-    if (const std::unique_ptr<std::string> path{slot.exchange(nullptr)}) {
-      std::error_code error;
-      for (int tries = 0; tries < 100 && std::filesystem::remove_all(*path, error) != 0; ++tries) {
-      }
+  for (std::atomic<UnderWay*>& slot : to_remove) {
+    if (const std::unique_ptr<UnderWay> found{slot.exchange(nullptr)}) {
+      found->is_folder ? remove_folder(found->path) : static_cast<void>(::unlink(found->path.c_str()));
     }
   }
 }
@@ -61,23 +72,23 @@ void remove_all_under_way() {
 }  // namespace
 
 void remove_files_under_way() {
-  for (std::atomic<std::string*>& slot : files_to_remove) {
-    if (const std::string* const path = slot.exchange(nullptr)) {
-      ::unlink(path->c_str());  // nothing is freed: the heap may be what has failed
+  for (std::atomic<UnderWay*>& slot : to_remove) {
+    if (const UnderWay* const found = slot.exchange(nullptr)) {
+      ::unlink(found->path.c_str());  // nothing is freed: the heap may be what has failed
     }
   }
 }
 
-RemovedAtOnce::RemovedAtOnce(const std::filesystem::path& path) : slot_(0) {
-  auto owned = std::make_unique<std::string>(path.string());
-  for (std::string* free = nullptr; !files_to_remove[slot_].compare_exchange_strong(free, owned.get()); free = nullptr) {
+RemovedAtOnce::RemovedAtOnce(const std::filesystem::path& path, Kind kind) : slot_(0) {
+  auto owned = std::make_unique<UnderWay>(UnderWay{path.string(), kind == Kind::folder});
+  for (UnderWay* free = nullptr; !to_remove[slot_].compare_exchange_strong(free, owned.get()); free = nullptr) {
     ++slot_;
     core::expect(slot_ < slot_count, "few files are under way at a time");
   }
   static_cast<void>(owned.release());
 }
 
-RemovedAtOnce::~RemovedAtOnce() { std::unique_ptr<std::string>(files_to_remove[slot_].exchange(nullptr)).reset(); }
+RemovedAtOnce::~RemovedAtOnce() { std::unique_ptr<UnderWay>(to_remove[slot_].exchange(nullptr)).reset(); }
 
 Interrupt::Interrupt() {
   change_mask(SIG_BLOCK);
@@ -103,9 +114,9 @@ void Interrupt::check() const {
   }
 }
 
-Interrupt::EndAtOnce::EndAtOnce(Interrupt& interrupt) : interrupt_(interrupt) {
+Interrupt::EndAtOnce::EndAtOnce(Interrupt& interrupt, Before before) : interrupt_(interrupt) {
   interrupt_.end_at_once_ = true;
-  if (interrupt_.requested()) {
+  if (before == Before::counts && interrupt_.requested()) {
     interrupt_.end_at_once_ = false;
     throw Interrupted{};
   }

@@ -1,4 +1,4 @@
-// Ctrl-C, SIGTERM and SIGHUP as a stop token, or as the end at once.
+// Ctrl-C, SIGTERM and other signals that end a process as a stop token, or as the end at once.
 #pragma once
 
 #include <atomic>
@@ -14,10 +14,10 @@ namespace dmpc::apps {
 /// Thrown by a command that was stopped by a signal, after it has cleaned up. Exit status 130.
 struct Interrupted {};
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP are blocked in the thread that made it and in all threads that this one starts
-/// afterwards; a thread of its own waits for them. So none of these ever runs inside a signal handler. The first signal
-/// requests a stop, the second ends the process at once with status 130. One that was ignored when the process started, as SIGHUP
-/// is under nohup, still is. At most one at a time, made before any other thread.
+/// While it lives, SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGALRM, SIGUSR1 and SIGUSR2 are blocked in the thread that made it
+/// and in all threads that this one starts afterwards; a thread of its own waits for them. So none of these ever runs inside a
+/// signal handler. The first signal requests a stop, the second ends the process at once with status 130. One that was ignored
+/// when the process started, as SIGHUP is under nohup, still is. At most one at a time, made before any other thread.
 ///
 /// Thread safety: token(), requested() and set_consequence() from any thread, the rest from the thread that made it.
 class Interrupt {
@@ -40,10 +40,11 @@ class Interrupt {
 
   /// A scope in which the first signal, too, ends the process at once, saying so, with status 130: for long steps that look at
   /// no token and have nothing to clean up but files that are RemovedAtOnce. Making one throws Interrupted if a signal has come
-  /// before.
+  /// before, unless that is to be passed over: then only a further one ends the process.
   class EndAtOnce {
    public:
-    explicit EndAtOnce(Interrupt& interrupt);
+    enum class Before { counts, is_passed_over };
+    explicit EndAtOnce(Interrupt& interrupt, Before before = Before::counts);
     ~EndAtOnce() { interrupt_.end_at_once_ = false; }
     EndAtOnce(const EndAtOnce&) = delete;
     EndAtOnce& operator=(const EndAtOnce&) = delete;
@@ -62,14 +63,16 @@ class Interrupt {
   std::jthread waiter_;
 };
 
-/// While it lives, an end at once removes the file at `path` if there is one, or the folder with all in it. There are few at a
+/// While it lives, an end at once removes the file at `path` if there is one, or the folder with all in it if it is one's own.
+/// There are few at a
 /// time, which is asserted.
 ///
 /// Thread safety: none needed; the thread that ends the process takes the path out of its slot, and so does the destructor: only
 /// one of them gets it.
 class RemovedAtOnce {
  public:
-  explicit RemovedAtOnce(const std::filesystem::path& path);
+  enum class Kind { file, folder };
+  explicit RemovedAtOnce(const std::filesystem::path& path, Kind kind = Kind::file);
   ~RemovedAtOnce();
   RemovedAtOnce(const RemovedAtOnce&) = delete;
   RemovedAtOnce& operator=(const RemovedAtOnce&) = delete;

@@ -52,10 +52,14 @@ int complain_of(const std::exception_ptr& thrown) {
   return internal_status;
 }
 
+/// Else a fault, or our own abort().
+bool is_sent_by_another(const siginfo_t& info) { return info.si_code <= 0 && info.si_pid != ::getpid(); }
+
 /// The C library aborts where it needs memory and may not fail, and libraries use what they have not got. What does not come of
-/// a want of memory goes on to end the process as it would have.
-[[maybe_unused]] void end_crash(int signal) {
-  const bool is_for_want_of_memory = errno == ENOMEM || memory_has_run_out();
+/// a want of memory goes on to end the process as it would have; what crashes long after one, and not for it, cannot be told from
+/// it.
+[[maybe_unused]] void end_crash(int signal, siginfo_t* info, void* /*context*/) {
+  const bool is_for_want_of_memory = (errno == ENOMEM || memory_has_run_out()) && !is_sent_by_another(*info);
   remove_files_under_way();
   if (is_for_want_of_memory) {
     ::_exit(complain_of_memory());
@@ -76,8 +80,8 @@ int complain_of_memory() {
 
 void end_without_abort() {
   [[maybe_unused]] struct sigaction action {};
-  action.sa_handler = end_crash;
-  action.sa_flags = SA_RESETHAND;
+  action.sa_sigaction = end_crash;
+  action.sa_flags = SA_RESETHAND | SA_SIGINFO;
 #if !defined(__SANITIZE_ADDRESS__)  // which tells more of a crash
   for (const int signal : {SIGABRT, SIGSEGV, SIGBUS}) {
     ::sigaction(signal, &action, nullptr);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/expect.h"
+#include "apps/system/shortage.h"
 
 namespace dmpc::apps {
 
@@ -17,11 +17,6 @@ struct MemoryRoom {
 /// control groups (memory.max, memory.limit_in_bytes) and their parents. Swap counts, as far as it is allowed. `root` stands
 /// before the names of the files that are read. What cannot be read is no limit.
 MemoryRoom memory_room(const std::string& root = "");
-
-/// The input would do on a computer with more memory.
-struct ComputerRoomError : core::RoomError {
-  using core::RoomError::RoomError;
-};
 
 /// Throws ComputerRoomError if `bytes` for `what` ("64 nodes") are more than there is room for.
 void check_memory_room(std::uint64_t bytes, const std::string& what, const MemoryRoom& room = memory_room());

@@ -1,6 +1,8 @@
 #include "apps/options.h"
 
+#include <algorithm>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +40,7 @@ class Commands {
   /// What `dmpc help` with the words given prints. Throws core::UsageError for a topic that there is none.
   static HelpText help_about(std::vector<std::string> topic) {
     static const std::vector<std::string> words_topic = {"glossary"};
+    check_is_one_topic(topic, words_topic.front());
     if (topic == words_topic) {
       return {glossary_text()};
     }
@@ -74,6 +77,26 @@ class Commands {
   }
 
  private:
+  /// Throws core::UsageError for words behind the glossary, or behind a command that has none within it.
+  static void check_is_one_topic(std::span<const std::string> topic, const std::string& glossary) {
+    const CommandDescription program = Commands().line().describe();
+    const CommandDescription* here = &program;
+    std::string known;
+    for (const std::string& word : topic) {
+      const auto inner = std::find_if(here->commands.begin(), here->commands.end(),
+                                      [&word](const CommandDescription& command) { return command.name == word; });
+      if (known == glossary || (!known.empty() && here->commands.empty())) {
+        throw core::UsageError("there is no help about '" + word + "' of " + known + ": expected dmpc help " + known +
+                               hint_at_help("help"));
+      }
+      if (inner == here->commands.end() && word != glossary) {
+        return;  // whoever reads the line knows better what to say of it
+      }
+      here = inner == here->commands.end() ? here : &*inner;
+      known += (known.empty() ? "" : " ") + word;
+    }
+  }
+
   void declare_simple_commands() {
     add_options(line_.add_command("render", "Render a scene on N nodes"), render_);
     add_options(line_.add_command("info", "Tell what a scene is, and what a render of it would take"), info_);

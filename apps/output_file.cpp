@@ -70,6 +70,17 @@ void ask_device(const fs::path& path, const std::string& what) {
   }
 }
 
+/// Where a program that opens a link for writing would make the file, since there is none. Of `links_max` no path has more.
+fs::path end_of_links(fs::path path) {
+  constexpr int links_max = 40;
+  std::error_code error;
+  for (int links = 0; links < links_max && fs::is_symlink(path, error); ++links) {
+    path = folder_of(path) / fs::read_symlink(path, error);
+  }
+  const fs::path folder = fs::canonical(folder_of(path), error);
+  return error ? path : folder / path.filename();
+}
+
 }  // namespace
 
 fs::path hidden_name(const fs::path& target, const std::string& who) {
@@ -83,10 +94,16 @@ fs::path file_behind(const fs::path& path) {
   if (!fs::is_symlink(path, error)) {
     return path;
   }
-  static_cast<void>(fs::status(path, error));
+  const fs::file_status status = fs::status(path, error);
   if (error == std::errc::permission_denied) {
     throw core::InputError(path.string() +
                            ": this is a symbolic link that may not be followed, give the name of the file itself");
+  }
+  if (error == std::errc::too_many_symbolic_link_levels) {
+    throw core::InputError(path.string() + ": this symbolic link leads round in a circle, remove it or give another name");
+  }
+  if (!fs::exists(status)) {
+    return end_of_links(path);
   }
   fs::path resolved = fs::weakly_canonical(path, error);
   return error ? path : resolved;
@@ -169,6 +186,8 @@ void OutputFile::open() {
   }
 }
 
+/// A file without a name (O_TMPFILE) would leave nothing after a SIGKILL, but no call gives one a name that is taken: it would
+/// need a temporary name, too, if for a shorter time, and another way to write where the file system has no such files.
 void OutputFile::make(const fs::path& temporary) {
   temporary_ = temporary;
   removed_at_once_.reset();
@@ -177,6 +196,9 @@ void OutputFile::make(const fs::path& temporary) {
     files_.remove(temporary_);  // of a process that was killed
   }
   file_ = open_patiently(files_, temporary_, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
+  if (file_ >= 0) {
+    files_.take_mode(file_, target_);
+  }
 }
 
 OutputFile::~OutputFile() {

@@ -44,8 +44,9 @@ std::filesystem::path hidden_name(const std::filesystem::path& target, const std
 /// What `target`, which is no symbolic link, is called before it is whole, as TemporaryName::of_target says.
 std::filesystem::path next_name(const std::filesystem::path& target);
 
-/// The file behind a chain of symbolic links; `path` itself if there is none or if it leads nowhere. Throws core::InputError if
-/// the system does not let us follow them: links of others in a folder where all may write.
+/// The file behind a chain of symbolic links, also if it is not there yet; `path` itself if there is none. Throws
+/// core::InputError if they lead round in a circle, or if the system does not let us follow them: links of others in a folder
+/// where all may write.
 std::filesystem::path file_behind(const std::filesystem::path& path);
 
 /// One output under way. Whatever ends its life before commit() removes the temporary file, an Interrupt's end at once included.
@@ -60,7 +61,8 @@ class OutputFile {
 
   /// Makes a new file with a hidden name in the target's folder: no file that is there, and no link, is ever opened. If the
   /// target exists and is no ordinary file (/dev/stdout, a pipe), which cannot be renamed over, it is written itself. A symbolic
-  /// link is followed, so that the file behind it is replaced. Throws core::InputError if that fails. `files` outlives it.
+  /// link is followed, so that the file behind it is replaced. A file that is replaced keeps its mode. Throws core::InputError if
+  /// that fails. `files` outlives it.
   explicit OutputFile(const std::filesystem::path& path);
   OutputFile(const std::filesystem::path& path, const Settings& settings, Files& files = real_files());
   ~OutputFile();

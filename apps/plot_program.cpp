@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "apps/output_file.h"
+#include "apps/system/shortage.h"
 #include "core/expect.h"
 
 // NOLINTNEXTLINE(readability-redundant-declaration): POSIX leaves its declaration to the program
@@ -32,7 +33,9 @@ class Pipe {
  public:
   Pipe() {
     if (::pipe2(ends_.data(), O_CLOEXEC) != 0) {
-      throw core::InputError(std::string("no pipe to a program can be made: ") + std::strerror(errno));
+      const int error = errno;
+      throw_if_short(error, "no pipe to a program can be made");
+      throw core::InternalError(std::string("no pipe to a program can be made: ") + std::strerror(error));
     }
   }
   ~Pipe() {

@@ -25,7 +25,7 @@ class ScratchFolder {
       throw core::InputError("no temporary folder can be made as " + name + ": set TMPDIR to a folder that can be written to");
     }
     path_ = name;
-    removed_at_once_.emplace(path_);
+    removed_at_once_.emplace(path_, RemovedAtOnce::Kind::folder);
   }
   ~ScratchFolder() {
     std::error_code ignored;

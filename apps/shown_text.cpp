@@ -1,5 +1,6 @@
 #include "apps/shown_text.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include "apps/utf8.h"
@@ -115,6 +116,12 @@ std::string shown(std::string_view text) {
     stream << text;
   }
   return stream.str();
+}
+
+std::string clipped(std::string_view text, std::size_t bytes_max) {
+  std::string line = shown(text.substr(0, bytes_max));
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  return line + (text.size() > bytes_max ? " ... (" + std::to_string(text.size()) + " bytes)" : "");
 }
 
 std::ostream& clear_line(std::ostream& stream) {

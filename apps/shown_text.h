@@ -55,6 +55,9 @@ class ShownOutput {
 /// The same for a text.
 std::string shown(std::string_view text);
 
+/// A text of strangers as a part of a line: what is longer is cut off, which is said, and all is shown so, line ends too.
+std::string clipped(std::string_view text, std::size_t bytes_max = 300);
+
 /// A manipulator: back to the begin of the line, which is cleared.
 std::ostream& clear_line(std::ostream& stream);
 

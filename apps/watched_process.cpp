@@ -2,13 +2,10 @@
 
 #include <fcntl.h>
 #include <spawn.h>
-#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <charconv>
 #include <csignal>
 #include <cstring>
@@ -17,6 +14,8 @@
 #include <optional>
 #include <sstream>
 
+#include "apps/system/memory_file.h"
+#include "apps/system/shortage.h"
 #include "core/expect.h"
 
 // NOLINTNEXTLINE(readability-redundant-declaration): POSIX leaves its declaration to the program
@@ -27,39 +26,13 @@ namespace {
 
 constexpr useconds_t pause_microseconds = 1000;
 
-/// A file in memory for what a process has to say, without a name.
-class Hearing {
- public:
-  Hearing() : file_(::memfd_create("errors", MFD_CLOEXEC)) {
-    if (file_ < 0) {
-      throw core::InputError(std::string("no file can be made in memory: ") + std::strerror(errno));
-    }
-  }
-  ~Hearing() { ::close(file_); }
-  Hearing(const Hearing&) = delete;
-  Hearing& operator=(const Hearing&) = delete;
-
-  int file() const { return file_; }
-  std::string text() const {
-    std::string text;
-    std::array<char, 4096> part{};
-    for (ssize_t size = 0; (size = ::pread(file_, part.data(), part.size(), static_cast<off_t>(text.size()))) > 0;) {
-      text.append(part.data(), static_cast<std::size_t>(size));
-    }
-    return text;
-  }
-
- private:
-  int file_;
-};
-
 /// Without the terminal's Ctrl-C, so that whoever waits for it decides.
-int spawn(pid_t& id, const std::filesystem::path& program, std::vector<std::string>& words, const Hearing& errors) {
+int spawn(pid_t& id, const std::filesystem::path& program, std::vector<std::string>& words, const MemoryFile& errors) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, errors.file(), STDERR_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, errors.descriptor(), STDERR_FILENO);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
@@ -75,9 +48,10 @@ int spawn(pid_t& id, const std::filesystem::path& program, std::vector<std::stri
 /// Ended and waited for in the end, unless before.
 class Process {
  public:
-  Process(const std::filesystem::path& program, std::vector<std::string>& words, const Hearing& errors) {
+  Process(const std::filesystem::path& program, std::vector<std::string>& words, const MemoryFile& errors) {
     const int error = spawn(id_, program, words, errors);
     if (error != 0) {
+      throw_if_short(error, program.string() + " cannot be started");
       throw core::InputError(program.string() + " cannot be started: " + std::strerror(error));
     }
   }
@@ -132,7 +106,7 @@ WatchedProcess watch_process(const std::filesystem::path& program, const std::ve
   const std::filesystem::path found = std::filesystem::canonical(program, unknown), path = unknown ? program : found;
   std::vector<std::string> words{path.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  const Hearing errors;
+  const MemoryFile errors;
   Process process(path, words, errors);
   WatchedProcess watched;
   std::optional<int> status;
@@ -144,7 +118,7 @@ WatchedProcess watch_process(const std::filesystem::path& program, const std::ve
     ::usleep(pause_microseconds);
   }
   watched.status = *status;
-  watched.complaint = errors.text();
+  watched.complaint = errors.bytes();
   return watched;
 }
 

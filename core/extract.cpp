@@ -35,6 +35,7 @@ class Extractor {
     copy_directory();
     copy_textures();
     part_.bytes = std::move(writer_).finish();
+    part_.record_bytes = part_.bytes.size() - overread_bytes;
     return std::move(part_);
   }
 

@@ -16,10 +16,8 @@ namespace dmpc::core {
 struct DatabasePart {
   DatabaseHeader header;               ///< header.region is the region
   std::vector<std::byte> bytes;        ///< overread_bytes more than the records take
+  std::size_t record_bytes = 0;        ///< the size of the records alone, also when `bytes` are forgotten
   std::uint64_t primitive_copies = 0;  ///< lanes of its blocks: summed over all parts and divided by the whole's, the duplication
-
-  /// The size of the records alone.
-  std::size_t record_bytes() const { return bytes.size() - overread_bytes; }
 };
 
 /// Copies the directory's entries, bricks, blocks and normals that cells in `region` need, all materials and lights, and of

@@ -16,7 +16,7 @@ bool fits(PlanRequest& request, std::uint32_t node_count, const MakeShares& make
 std::vector<Share> Distribution::shares() const {
   std::vector<Share> shares;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    shares.push_back({parts[i].record_bytes(), primaries[i].size()});
+    shares.push_back({parts[i].record_bytes, primaries[i].size()});
   }
   return shares;
 }
@@ -30,16 +30,19 @@ double Distribution::duplication(const core::Database& database) const {
 }
 
 Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Bsp& bsp,
-                        const std::stop_token& stop, bool deals_primaries) {
+                        const std::stop_token& stop, const Dealing& dealing) {
   Distribution distribution{bsp, {}, {}};
   for (std::uint32_t node = 0; node < bsp.region_count(); ++node) {
     distribution.parts.push_back(core::extract(database, bsp.region_of(nodes::NodeId{node})));
+    if (!dealing.records) {
+      core::forget(distribution.parts.back().bytes);
+    }
     if (settings.skips.empty_regions && distribution.parts.back().primitive_copies == 0) {
       distribution.bsp.mark_empty(bsp.region_index_of(nodes::NodeId{node}));
     }
   }
   distribution.primaries = deal_primaries(settings, distribution.bsp, settings.first_samples(),
-                                          core::PixelMask(settings.camera.pixel_count(), deals_primaries), stop);
+                                          core::PixelMask(settings.camera.pixel_count(), dealing.primaries), stop);
   return distribution;
 }
 

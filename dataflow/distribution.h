@@ -41,10 +41,16 @@ struct Distribution {
   }
 };
 
+/// What is dealt: without primary rays these wait, without records only their bytes are counted.
+struct Dealing {
+  bool primaries = true;
+  bool records = true;
+};
+
 /// Cuts the database up; values keep their bits. Marks the regions that hold nothing, if they are to be skipped. After a stop is
-/// requested some primary rays are dealt to nobody; without `deals_primaries` none is.
+/// requested some primary rays are dealt to nobody.
 Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Bsp& bsp,
-                        const std::stop_token& stop = {}, bool deals_primaries = true);
+                        const std::stop_token& stop = {}, const Dealing& dealing = {});
 
 /// The smallest number of nodes above the request's with which make_plan() succeeds under the request's memory bound, as far as
 /// halving the interval finds it: more nodes need less for their parts but more for their queues.

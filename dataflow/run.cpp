@@ -66,7 +66,8 @@ Plan plan_for(const Distribution& distribution, const core::Database& database, 
   const PlanRequest request = request_of(distribution, settings, options);
   const MakeShares make_shares = [&](std::uint32_t node_count) {
     const Regions regions = regions_for(node_count, loads, settings, options);
-    return distribute(database, settings, regions.bsp, stop, !is_dealt_on_the_way(options)).shares();
+    return distribute(database, settings, regions.bsp, stop, {.primaries = !is_dealt_on_the_way(options), .records = false})
+        .shares();
   };
   return make_plan(request, [&] { return smallest_node_count(request, make_shares); });
 }
@@ -240,11 +241,12 @@ nodes::Traffic ray_traffic(const TrafficByKind& by_kind) {
 }
 
 Prepared prepare(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
-                 const std::stop_token& stop) {
+                 const std::stop_token& stop, bool with_records) {
   const ColumnLoads loads = column_loads(database, settings, options.balance, stop);
   Regions regions = regions_for(options.node_count, loads, settings, options);
-  Prepared prepared{.distribution = distribute(database, settings, regions.bsp, stop, !is_dealt_on_the_way(options)),
-                    .predicted = std::move(regions.predicted)};
+  Prepared prepared{
+      .distribution = distribute(database, settings, regions.bsp, stop, {!is_dealt_on_the_way(options), with_records}),
+      .predicted = std::move(regions.predicted)};
   prepared.duplication = prepared.distribution.duplication(database);
   prepared.plan = plan_for(prepared.distribution, database, loads, settings, options, stop);
   return prepared;

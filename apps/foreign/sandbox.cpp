@@ -1,11 +1,14 @@
 #include "apps/foreign/sandbox.h"
 
+#include <linux/landlock.h>
 #include <seccomp.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -19,9 +22,14 @@ namespace {
 /// The line, the three that each process has, and files that are handed over, one at a time.
 constexpr rlim_t files_max = 64;
 
-void limit(__rlimit_resource_t resource, rlim_t most) {
-  const rlimit limits{most, most};
-  ::setrlimit(resource, &limits);
+/// Never more than before, which only a superuser might set.
+bool limit(__rlimit_resource_t resource, rlim_t most) {
+  rlimit limits{};
+  if (::getrlimit(resource, &limits) != 0) {
+    return false;
+  }
+  limits.rlim_cur = limits.rlim_max = std::min(most, limits.rlim_max);
+  return ::setrlimit(resource, &limits) == 0;
 }
 
 std::uint64_t address_space_bytes() {
@@ -63,33 +71,27 @@ constexpr std::array calls{SCMP_SYS(read),
 
 using Filter = std::unique_ptr<void, void (*)(scmp_filter_ctx)>;
 
-void allow(const Filter& filter, int call) { seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, call, 0); }
+bool allows(const Filter& filter, int call) { return seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, call, 0) == 0; }
 
-/// No memory that can be run.
-void allow_unless_executable(const Filter& filter, int call) {
-  const scmp_arg_cmp plain{2, SCMP_CMP_MASKED_EQ, PROT_EXEC, 0};
-  seccomp_rule_add_array(filter.get(), SCMP_ACT_ALLOW, call, 1, &plain);
+bool allows_if(const Filter& filter, int call, const scmp_arg_cmp& condition) {
+  return seccomp_rule_add_array(filter.get(), SCMP_ACT_ALLOW, call, 1, &condition) == 0;
 }
 
-void allow_own_end(const Filter& filter) {
-  const scmp_arg_cmp own{0, SCMP_CMP_EQ, static_cast<scmp_datum_t>(::getpid()), 0};
-  seccomp_rule_add_array(filter.get(), SCMP_ACT_ALLOW, SCMP_SYS(tgkill), 1, &own);
-}
-
-/// Anything else fails, as it does for want of rights.
+/// Anything else fails, as it does for want of rights. No memory can be run, and no process ended but this one.
 bool filter_calls() {
   const Filter filter(seccomp_init(SCMP_ACT_ERRNO(EPERM)), seccomp_release);
-  if (!filter) {
-    return false;
-  }
-  for (const int call : calls) {
-    allow(filter, call);
-  }
-  allow_unless_executable(filter, SCMP_SYS(mmap));
-  allow_unless_executable(filter, SCMP_SYS(mprotect));
-  allow_own_end(filter);
-  seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1);
-  return seccomp_load(filter.get()) == 0;
+  const scmp_arg_cmp plain{2, SCMP_CMP_MASKED_EQ, PROT_EXEC, 0}, own{0, SCMP_CMP_EQ, static_cast<scmp_datum_t>(::getpid()), 0};
+  return filter && std::all_of(calls.begin(), calls.end(), [&](int call) { return allows(filter, call); }) &&
+         allows_if(filter, SCMP_SYS(mmap), plain) && allows_if(filter, SCMP_SYS(mprotect), plain) &&
+         allows_if(filter, SCMP_SYS(tgkill), own) && seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1) == 0 &&
+         seccomp_load(filter.get()) == 0;
+}
+
+bool limit_all(std::uint64_t memory_bytes) {
+  const std::uint64_t most = std::numeric_limits<rlim_t>::max() / 2, taken = address_space_bytes();
+  const bool is_memory_limited = limit(RLIMIT_AS, memory_bytes < most - taken ? taken + memory_bytes : RLIM_INFINITY);
+  const bool are_files_limited = limit(RLIMIT_CORE, 0) && limit(RLIMIT_FSIZE, 0) && limit(RLIMIT_NOFILE, files_max);
+  return is_memory_limited && are_files_limited && limit(RLIMIT_NPROC, 0);
 }
 
 }  // namespace
@@ -99,15 +101,28 @@ void tie_to_parent() {
   std::ofstream("/proc/self/oom_score_adj") << 1000;
 }
 
+/// By Landlock, of kernel 5.13 and later; its later versions know of more that can be done to a file.
+bool forbid_files() {
+  const long version = ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
+  if (version < 1) {
+    return false;
+  }
+  const int kinds = version == 1 ? 13 : version == 2 ? 14 : 15;
+  const landlock_ruleset_attr nothing{.handled_access_fs = (std::uint64_t{1} << kinds) - 1};
+  const long rules = ::syscall(SYS_landlock_create_ruleset, &nothing, sizeof(nothing.handled_access_fs), 0);
+  const bool is_forbidden =
+      rules >= 0 && ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && ::syscall(SYS_landlock_restrict_self, rules, 0) == 0;
+  if (rules >= 0) {
+    ::close(static_cast<int>(rules));
+  }
+  return is_forbidden;
+}
+
 bool enter_sandbox(std::uint64_t memory_bytes) {
-  const std::uint64_t most = std::numeric_limits<rlim_t>::max() / 2, taken = address_space_bytes();
-  limit(RLIMIT_AS, memory_bytes < most - taken ? taken + memory_bytes : RLIM_INFINITY);
-  limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_FSIZE, 0);
-  limit(RLIMIT_NOFILE, files_max);
-  limit(RLIMIT_NPROC, 0);
+  const bool is_limited = limit_all(memory_bytes);
   ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-  return filter_calls();
+  forbid_files();  // a second wall, where there is one
+  return filter_calls() && is_limited;
 }
 
 }  // namespace dmpc::apps

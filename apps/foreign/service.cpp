@@ -19,6 +19,7 @@ constexpr int failed_status = 70;
 
 void get_ready(Line& line) {
   tie_to_parent();
+  ::dup2(STDOUT_FILENO, STDERR_FILENO);  // what libraries say of a file may be what the file has them say
   const std::optional<Message> message = line.receive(false);
   if (!message || message->saying != Saying::limits) {
     ::_exit(failed_status);

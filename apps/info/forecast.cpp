@@ -55,7 +55,7 @@ class Forecaster {
     stopwatch_.lap();
     dataflow::RunOptions run{.node_count = result.nodes, .balance = {.balance = dataflow::Balance::equal_size}};
     run.make_bsp = [&](std::uint32_t count) { return regions(count); };
-    const dataflow::Prepared prepared = dataflow::prepare(database_, settings_, run);
+    const dataflow::Prepared prepared = dataflow::prepare(database_, settings_, run, {}, false);
     result.dataflow = forecast_of(prepared.plan, result.nodes);
     result.dataflow_copies = prepared.duplication;
     region_seconds_ += stopwatch_.lap();

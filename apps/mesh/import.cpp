@@ -20,9 +20,11 @@
 #include <utility>
 
 #include "apps/gltf/reader.h"
+#include "apps/mesh/mtl_check.h"
 #include "apps/mesh/obj_check.h"
 #include "apps/mesh/ply_check.h"
 #include "apps/mesh/stl_check.h"
+#include "apps/shown_text.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -61,28 +63,47 @@ class Stream final : public Assimp::IOStream {
   std::size_t position_ = 0;
 };
 
-/// With a list of what was asked for in vain.
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending.empty() ? ending : ending.substr(1);
+}
+
+std::string_view text_of(const FileBytes& file) {
+  return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
+}
+
+/// Notes what was asked for in vain, and what Assimp passes over.
 class Files final : public Assimp::IOSystem {
  public:
-  Files(SceneFiles& files, std::vector<std::string>& missing) : files_(files), missing_(missing) {}
+  Files(SceneFiles& files, ImportedFile& found) : files_(files), found_(found) {}
 
   bool Exists(const char* path) const override { return files_.exists(path); }
   char getOsSeparator() const override { return '/'; }
   Assimp::IOStream* Open(const char* path, const char* /*mode*/) override {
     try {
-      return new Stream(files_.open(path));
-    } catch (const core::InputError& error) {
-      if (std::find(missing_.begin(), missing_.end(), error.what()) == missing_.end()) {
-        missing_.emplace_back(error.what());
+      std::unique_ptr<FileBytes> file = files_.open(path);
+      if (ending_of(path) == "mtl") {
+        note_once(found_.notes, check_mtl(path, text_of(*file)));
       }
+      return new Stream(std::move(file));
+    } catch (const core::InputError& error) {
+      note_once(found_.missing, error.what());
       return nullptr;
     }
   }
   void Close(Assimp::IOStream* stream) override { delete stream; }
 
  private:
+  /// Assimp may open a file again and again.
+  static void note_once(std::vector<std::string>& notes, const std::string& note) {
+    if (!note.empty() && std::find(notes.begin(), notes.end(), note) == notes.end()) {
+      notes.push_back(note);
+    }
+  }
+
   SceneFiles& files_;
-  std::vector<std::string>& missing_;
+  ImportedFile& found_;
 };
 
 class LoadProgress final : public Assimp::ProgressHandler {
@@ -101,27 +122,10 @@ class LoadProgress final : public Assimp::ProgressHandler {
   SceneFiles& files_;
 };
 
-std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending.empty() ? ending : ending.substr(1);
-}
-
 bool reads(Assimp::BaseImporter& reader, const std::string& ending) {
   std::set<std::string> endings;
   reader.GetExtensionList(endings);
   return endings.contains(ending);
-}
-
-/// Assimp else asks all of them, whatever the file's ending, whether they know its first bytes.
-void keep_readers_of(const std::string& ending, Assimp::Importer& importer) {
-  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
-    Assimp::BaseImporter* const reader = importer.GetImporter(i);
-    if (!reads(*reader, ending)) {
-      importer.UnregisterLoader(reader);
-      delete reader;
-    }
-  }
 }
 
 /// What Assimp has caught on its way out, if that was the end of memory.
@@ -141,7 +145,7 @@ void check_is_whole(const std::string& path, const std::string& ending, SceneFil
   const auto check = ending == "ply" ? check_ply : ending == "stl" ? check_stl : ending == "obj" ? check_obj : nullptr;
   if (check != nullptr) {
     const std::unique_ptr<FileBytes> file = files.open(path);
-    check({reinterpret_cast<const char*>(file->bytes().data()), file->bytes().size()});
+    check(text_of(*file));
   }
 }
 
@@ -181,9 +185,27 @@ void check_has_mesh(const aiScene& scene) {
   }
 }
 
+/// Which may quote the file.
+std::string what_assimp_says(const Assimp::Importer& importer, std::string ending) {
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::toupper(c); });
+  std::string words = clipped(importer.GetErrorString());
+  words.erase(words.find_last_not_of(". ") + 1);
+  return "cannot be read as " + ending + ": " + words + ": write it anew, or as another format";
+}
+
 }  // namespace
 
 void prepare_import() { static_cast<void>(Assimp::Importer().GetImporterCount()); }
+
+void keep_readers_of(const std::string& ending, Assimp::Importer& importer) {
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    Assimp::BaseImporter* const reader = importer.GetImporter(i);
+    if (!reads(*reader, ending)) {
+      importer.UnregisterLoader(reader);
+      delete reader;
+    }
+  }
+}
 
 ImportedFile import_file(const std::string& path, SceneFiles& files) {
   const std::string ending = ending_of(path);
@@ -196,11 +218,11 @@ ImportedFile import_file(const std::string& path, SceneFiles& files) {
   ImportedFile file;
   Assimp::Importer importer;
   keep_readers_of(ending, importer);
-  importer.SetIOHandler(new Files(files, file.missing));  // is the importer's from now on, and so is the next
+  importer.SetIOHandler(new Files(files, file));  // is the importer's from now on, and so is the next
   importer.SetProgressHandler(new LoadProgress(files));
   if (importer.ReadFile(path, 0) == nullptr) {
     rethrow_end_of_memory(importer.GetException());
-    throw core::InputError(importer.GetErrorString());
+    throw core::InputError(what_assimp_says(importer, ending));
   }
   check_has_mesh(*importer.GetScene());
   file.scene.reset(importer.GetOrphanedScene());

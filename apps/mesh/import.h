@@ -10,6 +10,10 @@
 #include "apps/mesh/scene_files.h"
 #include "apps/mesh/texture_place.h"
 
+namespace Assimp {
+class Importer;
+}
+
 namespace dmpc::apps {
 
 struct ImportedFile {
@@ -21,6 +25,10 @@ struct ImportedFile {
 
 /// Makes the library ready, after which it opens nothing but through SceneFiles.
 void prepare_import();
+
+/// Leaves only readers of files with this ending, in small letters: where none of these takes a file, Assimp else asks all of
+/// them whether they know its first bytes.
+void keep_readers_of(const std::string& ending, Assimp::Importer& importer);
 
 /// Reads meshes, materials, lights and cameras as the file has them, by a reader for files that end as it does. Throws
 /// core::InputError with Assimp's own words if it cannot read the file, or if there is no mesh in it, std::bad_alloc if memory

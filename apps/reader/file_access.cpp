@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "apps/system/shortage.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -32,6 +33,12 @@ bool FileAccess::allows(const fs::path& resolved) const {
          std::any_of(folders_.begin(), folders_.end(), [&](const fs::path& folder) { return is_below(resolved, folder); });
 }
 
+bool FileAccess::has(const fs::path& path) const {
+  std::error_code error;
+  const fs::path resolved = fs::canonical(path, error);
+  return !error && is_ordinary_file(path) && (path == scene_ || allows(resolved));
+}
+
 InputFile FileAccess::open(const fs::path& path) {
   if (is_address(path.string()) && !is_ordinary_file(path)) {
     throw core::InputError(path.string() + " is an address, and only files are read");
@@ -49,6 +56,8 @@ InputFile FileAccess::open(const fs::path& path) {
     open_input_file(file);
     opened_.add(file.resolved);
     return file;
+  } catch (const ComputerRoomError&) {
+    throw;
   } catch (const core::InputError& error_found) {
     throw core::InputError(path.string() + " " + error_found.what());
   }

@@ -17,8 +17,12 @@ class FileAccess {
   /// Finds the scene's file. Throws core::InputError, a sentence that goes on "SCENE: ...", if there is none.
   FileAccess(const std::filesystem::path& scene, bool anywhere);
 
-  /// Throws core::InputError, a whole sentence, if there is no such file, or if it may not be opened.
+  /// Throws core::InputError, a whole sentence, if there is no such file, or if it may not be opened; ComputerRoomError if
+  /// no further file can be open.
   InputFile open(const std::filesystem::path& path);
+
+  /// Whether open() would find an ordinary file there; nothing is told of what may not be opened.
+  bool has(const std::filesystem::path& path) const;
 
   const OpenedFiles& opened() const { return opened_; }
   const std::filesystem::path& scene() const { return scene_; }

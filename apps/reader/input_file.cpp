@@ -8,6 +8,7 @@
 #include <string>
 #include <system_error>
 
+#include "apps/system/shortage.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -19,7 +20,11 @@ namespace {
 /// What leads to an open file whatever becomes of its name.
 fs::path link_of(const Descriptor& descriptor) { return "/proc/self/fd/" + std::to_string(descriptor.number()); }
 
-[[noreturn]] void fail_to_open() { throw core::InputError(std::string("cannot be opened: ") + std::strerror(errno)); }
+[[noreturn]] void fail_to_open() {
+  const int error = errno;
+  throw_if_short(error, "no further file can be opened");
+  throw core::InputError(std::string("cannot be opened: ") + std::strerror(error));
+}
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "apps/system/shortage.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -84,7 +85,10 @@ std::optional<Message> Line::receive(bool takes_file) {
 std::pair<Descriptor, Descriptor> make_ends() {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-    throw core::InputError(std::string("no line to a process that reads files can be made: ") + std::strerror(errno));
+    const int error = errno;
+    const std::string what = "no line to a process that reads files can be made";
+    throw_if_short(error, what);
+    throw core::InternalError(what + ": " + std::strerror(error));
   }
   return {Descriptor(ends[0]), Descriptor(ends[1])};
 }

@@ -40,7 +40,7 @@ class Line {
   std::string buffer_;
 };
 
-/// Both ends; closed when another program is started. Throws core::InputError if none can be had.
+/// Both ends; closed when another program is started. Throws ComputerRoomError if none can be had.
 std::pair<Descriptor, Descriptor> make_ends();
 
 }  // namespace dmpc::apps

@@ -117,7 +117,7 @@ bool MeshSession::answer(const Message& message) {
       answer_open(fields.take_text());
       return false;
     case Saying::exists:
-      process_.send(is_ordinary_file(fields.take_text()) ? Saying::yes : Saying::no);
+      process_.send(access_.has(fields.take_text()) ? Saying::yes : Saying::no);
       return false;
     case Saying::meant:
       answer_meant(fields);
@@ -156,6 +156,8 @@ void MeshSession::answer_open(const std::string& path) {
     process_.send(Saying::file, Packer().add(file.bytes), &file.descriptor, is_new ? file.bytes : 0);
   } catch (const ReaderDeath&) {
     throw;
+  } catch (const core::RoomError&) {
+    throw;
   } catch (const core::InputError& error) {
     process_.send(Saying::no, Packer().add_text(error.what()));
   }
@@ -165,7 +167,7 @@ void MeshSession::answer_meant(Unpacker fields) {
   const std::string folder = fields.take_text();
   Packer names;
   for (const fs::path& path : files_meant(folder, fields.take_text())) {
-    if (names.bytes().size() + path.string().size() + sizeof(std::uint32_t) < message_bytes_max) {
+    if (access_.has(path) && names.bytes().size() + path.string().size() + sizeof(std::uint32_t) < message_bytes_max) {
       names.add_text(path.string());
     }
   }
@@ -176,6 +178,8 @@ void MeshSession::answer_texture(const Message& message) {
   try {
     receiver_.add(texture_of(message));
   } catch (const Nonsense&) {
+    throw;
+  } catch (const core::RoomError&) {  // nothing is missing
     throw;
   } catch (const core::InputError& error) {
     bytes_.clear();

@@ -11,6 +11,7 @@
 #include "apps/reader/input_file.h"
 #include "apps/reader/memory.h"
 #include "apps/reader/picture_format.h"
+#include "apps/system/shortage.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -18,6 +19,9 @@ namespace {
 
 /// Beside what a picture becomes: libraries' own, and the file itself.
 constexpr std::uint64_t spare_bytes = std::uint64_t{512} << 20U;
+
+/// So much room is made for what is announced before it comes.
+constexpr std::uint64_t believed_bytes_max = std::uint64_t{16} << 20U;
 
 /// The values as they are decoded, as they are wanted, and what a library keeps of them.
 std::uint64_t memory_bytes_for(std::uint64_t file_bytes) {
@@ -32,6 +36,12 @@ std::string format_text(const PictureFile& file) {
   return *format;
 }
 
+[[noreturn]] void fail_to_copy(const std::string& name, int error) {
+  const std::string what = name + ": no copy of it can be made in memory";
+  throw_if_short(error, what);
+  throw core::InputError(what + ": " + std::strerror(error));
+}
+
 }  // namespace
 
 PictureFile open_picture(const std::filesystem::path& path) {
@@ -41,6 +51,8 @@ PictureFile open_picture(const std::filesystem::path& path) {
     std::string ending = path.extension().string();
     ending.erase(0, 1);
     return {std::move(file.descriptor), file.bytes, path.string(), ending};
+  } catch (const ComputerRoomError&) {
+    throw;
   } catch (const core::InputError& error) {
     throw core::InputError(path.string() + ": " + error.what());
   }
@@ -48,10 +60,13 @@ PictureFile open_picture(const std::filesystem::path& path) {
 
 PictureFile picture_of(std::span<const std::byte> bytes, const std::string& name, const std::string& ending) {
   PictureFile file{Descriptor(::memfd_create("picture", MFD_CLOEXEC)), bytes.size(), name, ending};
+  if (!file.descriptor.is_open()) {
+    fail_to_copy(name, errno);
+  }
   while (!bytes.empty()) {
     const ssize_t count = ::write(file.descriptor.number(), bytes.data(), bytes.size());
     if (count < 0 && errno != EINTR) {
-      throw core::InputError(name + ": no copy of it can be made in memory: " + std::strerror(errno));
+      fail_to_copy(name, errno);
     }
     bytes = bytes.subspan(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
   }
@@ -94,6 +109,9 @@ void PictureReader::read(const PictureFile& file, Saying request, const Take& ta
     process_.reset();
     throw core::InputError(file.name + ": the reader of " + format + " " + death.what() +
                            ": the file is damaged; write it anew, or as another format");
+  } catch (const ComputerRoomError& error) {
+    process_.reset();
+    throw ComputerRoomError(file.name + ": " + error.what());
   } catch (const core::RoomError& error) {
     process_.reset();
     const std::string text = file.name + ": the reader of " + format + " " + error.what();
@@ -143,15 +161,18 @@ PictureReader::Head PictureReader::receive_head(const PictureFile& file) {
   return head;
 }
 
+/// Believes no more of what was announced than what comes.
 template <class T>
 std::vector<T> PictureReader::receive_values(std::uint64_t count) {
-  std::vector<T> values(count);
-  auto left = std::as_writable_bytes(std::span(values));
-  while (!left.empty()) {
+  std::vector<T> values;
+  values.reserve(std::min<std::uint64_t>(count, believed_bytes_max / sizeof(T)));
+  while (values.size() < count) {
     const Message message = receive();
-    Unpacker::require(message.saying == Saying::bytes && !message.bytes.empty() && message.bytes.size() <= left.size());
-    std::memcpy(left.data(), message.bytes.data(), message.bytes.size());
-    left = left.subspan(message.bytes.size());
+    const std::size_t more = message.bytes.size() / sizeof(T), before = values.size();
+    Unpacker::require(message.saying == Saying::bytes && more > 0 && message.bytes.size() % sizeof(T) == 0 &&
+                      more <= count - before);
+    values.resize(before + more);
+    std::memcpy(values.data() + before, message.bytes.data(), message.bytes.size());
   }
   return values;
 }

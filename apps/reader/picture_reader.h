@@ -27,7 +27,8 @@ PictureFile open_picture(const std::filesystem::path& path);
 /// A copy in memory of what lies there.
 PictureFile picture_of(std::span<const std::byte> bytes, const std::string& name, const std::string& ending);
 
-/// Keeps its process from one picture to the next, as long as that lives. All throw core::InputError "NAME: ...".
+/// Keeps its process from one picture to the next, as long as that lives. All throw core::InputError "NAME: ...", and
+/// core::RoomError, which says so, if this computer has no room for the process or for the picture.
 class PictureReader {
  public:
   /// Each picture has its own time, whatever `limits` say.

@@ -13,9 +13,12 @@
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <iostream>
 #include <utility>
 
 #include "apps/reader/program_path.h"
+#include "apps/system/memory_file.h"
+#include "apps/system/shortage.h"
 #include "core/expect.h"
 
 // NOLINTNEXTLINE(readability-redundant-declaration): POSIX leaves its declaration to the program
@@ -31,22 +34,22 @@ constexpr int line_number = 3;
 void set_signals(posix_spawnattr_t& attributes) {
   sigset_t blocked;
   sigemptyset(&blocked);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
     sigaddset(&blocked, signal);
   }
   posix_spawnattr_setsigmask(&attributes, &blocked);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
 }
 
-int spawn(pid_t& id, const std::string& program, int line) {
+/// Its errors go where they are told from if it does not get ready.
+int spawn(pid_t& id, const std::string& program, int line, int errors) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
   posix_spawn_file_actions_adddup2(&actions, line, line_number);
   posix_spawn_file_actions_addclosefrom_np(&actions, line_number + 1);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  // What libraries say of a file may be what the file has them say.
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   set_signals(attributes);
@@ -58,6 +61,22 @@ int spawn(pid_t& id, const std::string& program, int line) {
   return error;
 }
 
+/// Libraries that get ready start threads, and abort where they cannot.
+[[noreturn]] void fail_to_start(const std::string& program, const std::string& how, const std::string& complaint) {
+  const std::string what = program + ", which reads foreign files for dmpc, cannot be started";
+  throw_if_short(complaint, what);
+  throw core::InternalError(what + ": it " + how + (complaint.empty() ? "" : ", saying: " + complaint));
+}
+
+/// Once.
+[[maybe_unused]] void say_that_none_is_filtered() {
+  [[maybe_unused]] static const bool is_said = [] {
+    std::cerr << "dmpc: this computer does not confine the processes that read foreign files as it should (seccomp, limits): "
+                 "read none that you do not trust\n";
+    return true;
+  }();
+}
+
 std::string seconds_text(std::uint64_t seconds) { return std::to_string(seconds) + (seconds == 1 ? " second" : " seconds"); }
 
 std::string mebibytes_text(std::uint64_t bytes) { return std::to_string(bytes >> 20U) + " MiB"; }
@@ -65,22 +84,23 @@ std::string mebibytes_text(std::uint64_t bytes) { return std::to_string(bytes >>
 }  // namespace
 
 ReaderProcess::ReaderProcess(const std::string& program, std::uint64_t memory_bytes, const ReaderLimits& limits)
-    : limits_(limits), memory_bytes_(memory_bytes), line_(Descriptor()) {
+    : memory_bytes_(memory_bytes), line_(Descriptor()) {
   const std::string path = reader_program(program).string();
   auto [ours, its] = make_ends();
   line_ = Line(std::move(ours));
-  start(path, its);
+  const MemoryFile errors;
+  start(path, its, errors.descriptor());
   its = Descriptor();  // else its death would not close the line
   allow(0);
-  send(Saying::limits, Packer().add(memory_bytes));
   try {
-    const Message message = receive();
-    Unpacker fields(message.bytes);
-    Unpacker::require(message.saying == Saying::ready && fields.take<std::uint32_t>() == protocol);
-    is_filtered_ = fields.take_flag();
+    send(Saying::limits, Packer().add(memory_bytes));
+    hear_that_it_is_ready();
   } catch (const core::InputError& error) {
-    throw core::InternalError(path + ", which reads foreign files for dmpc, does not start: it " + error.what());
+    fail_to_start(path, error.what(), errors.bytes());
   }
+  limits_ = limits;  // to get ready takes as long as the computer is busy, whatever the files may take
+  waited_ = {};
+  allow(0);
 }
 
 ReaderProcess::~ReaderProcess() {
@@ -90,12 +110,24 @@ ReaderProcess::~ReaderProcess() {
   }
 }
 
-void ReaderProcess::start(const std::string& program, const Descriptor& its_end) {
-  const int error = spawn(id_, program, its_end.number());
+void ReaderProcess::start(const std::string& program, const Descriptor& its_end, int errors) {
+  const int error = spawn(id_, program, its_end.number(), errors);
   if (error != 0) {
     id_ = -1;
-    throw core::InputError(program + ", which reads foreign files for dmpc, cannot be started: " + std::strerror(error));
+    fail_to_start(program, "does not begin", std::strerror(error));
   }
+}
+
+void ReaderProcess::hear_that_it_is_ready() {
+  const Message message = receive();
+  Unpacker fields(message.bytes);
+  Unpacker::require(message.saying == Saying::ready && fields.take<std::uint32_t>() == protocol);
+  is_filtered_ = fields.take_flag();
+#if !defined(__SANITIZE_ADDRESS__)  // under which none is
+  if (!is_filtered_) {
+    say_that_none_is_filtered();
+  }
+#endif
 }
 
 std::uint64_t ReaderProcess::seconds_taken() const {
@@ -108,6 +140,7 @@ std::uint64_t ReaderProcess::seconds_taken() const {
 void ReaderProcess::allow(std::uint64_t file_bytes) {
   if (limits_.each_file && file_bytes > 0) {
     file_bytes_ = 0;
+    waited_ = {};
     seconds_before_ = seconds_taken();
   }
   file_bytes_ += file_bytes;
@@ -116,7 +149,6 @@ void ReaderProcess::allow(std::uint64_t file_bytes) {
   ::prlimit(id_, RLIMIT_CPU, nullptr, &limit);
   limit.rlim_cur = std::min<rlim_t>(seconds_before_ + seconds_, limit.rlim_max);
   ::prlimit(id_, RLIMIT_CPU, &limit, nullptr);  // where that is refused, the wall's clock is left
-  deadline_ = Clock::now() + std::chrono::seconds(seconds_ * limits_.wall_factor);
 }
 
 void ReaderProcess::send(Saying saying, const Packer& fields, const Descriptor* file, std::uint64_t file_bytes) {
@@ -126,17 +158,17 @@ void ReaderProcess::send(Saying saying, const Packer& fields, const Descriptor* 
   }
 }
 
+/// All waiting together is bounded: messages, however many, renew nothing.
 void ReaderProcess::wait_for_message() {
   pollfd entry{.fd = line_.descriptor(), .events = POLLIN, .revents = 0};
-  while (true) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - Clock::now()).count();
-    const int ready = left <= 0 ? 0 : ::poll(&entry, 1, static_cast<int>(std::min<std::int64_t>(left, 1'000'000)));
-    if (ready > 0) {
-      return;
-    }
+  for (int ready = 0; ready <= 0;) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(wall_time() - waited_).count();
     if (left <= 0) {
       end("took too long");
     }
+    const Clock::time_point begin = Clock::now();
+    ready = ::poll(&entry, 1, static_cast<int>(std::min<std::int64_t>(left, 1'000'000)));
+    waited_ += Clock::now() - begin;
   }
 }
 
@@ -156,7 +188,7 @@ void ReaderProcess::end(const char* unless_by_signal) {
   ::kill(id_, SIGKILL);  // changes nothing of an end that has begun
   int status = 0;
   ::waitpid(std::exchange(id_, -1), &status, 0);
-  const bool is_over = Clock::now() >= deadline_;
+  const bool is_over = wall_time() - waited_ < std::chrono::milliseconds(1);
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
     throw ReaderDeath("took more than " + seconds_text(seconds_) + " of processor time");
   }

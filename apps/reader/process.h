@@ -28,7 +28,7 @@ struct ReaderDeath : core::InputError {
 class ReaderProcess {
  public:
   /// Starts the program and waits until it is ready; it may take so much memory beside what it has at the start. Throws
-  /// core::InternalError if there is no such program or if it does not get ready.
+  /// core::InternalError if there is no such program or if it does not get ready, ComputerRoomError if this computer lets it not.
   ReaderProcess(const std::string& program, std::uint64_t memory_bytes, const ReaderLimits& limits);
   ~ReaderProcess();
   ReaderProcess(const ReaderProcess&) = delete;
@@ -45,7 +45,10 @@ class ReaderProcess {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void start(const std::string& program, const Descriptor& its_end);
+  Clock::duration wall_time() const { return std::chrono::seconds(seconds_ * limits_.wall_factor); }
+
+  void start(const std::string& program, const Descriptor& its_end, int errors);
+  void hear_that_it_is_ready();
   void allow(std::uint64_t file_bytes);
   /// Of processor time, rounded up.
   std::uint64_t seconds_taken() const;
@@ -57,7 +60,7 @@ class ReaderProcess {
   pid_t id_ = -1;
   Line line_;
   std::uint64_t seconds_ = 0, file_bytes_ = 0, seconds_before_ = 0;
-  Clock::time_point deadline_;
+  Clock::duration waited_{};  ///< for its messages; what dmpc does meanwhile is not its time
   bool is_filtered_ = false;
 };
 

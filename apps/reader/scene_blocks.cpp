@@ -21,6 +21,9 @@ using core::Vec3d;
 
 constexpr double coordinate_max = 1e30;
 constexpr std::size_t lights_a_message = 1000;
+/// More than any scene has: whoever sends more wants nothing but our memory.
+constexpr std::size_t lights_max = std::size_t{1} << 20U, textures_max = std::size_t{1} << 16U;
+constexpr std::uint64_t materials_max = std::uint64_t{1} << 24U;
 /// So much room is made for what is announced before it comes.
 constexpr std::uint64_t believed_bytes_max = std::uint64_t{16} << 20U;
 
@@ -106,6 +109,11 @@ bool SceneReceiver::take(const Message& message) {
   }
 }
 
+void SceneReceiver::add(core::Texture texture) {
+  Unpacker::require(scene_.textures.size() < textures_max);
+  scene_.textures.push_back(std::move(texture));
+}
+
 void SceneReceiver::take_head(Unpacker fields) {
   Unpacker::require(!std::exchange(has_head_, true));
   scene_.view = fields.take<core::View>();
@@ -117,6 +125,7 @@ void SceneReceiver::take_head(Unpacker fields) {
     return count;
   };
   announced_.materials = reserve(scene_.materials);
+  Unpacker::require(announced_.materials <= materials_max);
   announced_.objects = reserve(scene_.objects);
   announced_.vertices = reserve(scene_.vertices);
   announced_.normals = reserve(scene_.normals);
@@ -128,7 +137,7 @@ void SceneReceiver::take_lights(Unpacker fields) {
   for (std::size_t i = 0; i < lights_a_message && !fields.is_empty(); ++i) {
     core::PointLight light{.position = fields.take<Vec3d>(), .color = fields.take<Vec3d>()};
     light.has_color = fields.take_flag();
-    Unpacker::require(is_point(light.position) && is_light(light.color));
+    Unpacker::require(is_point(light.position) && is_light(light.color) && scene_.lights.size() < lights_max);
     scene_.lights.push_back(light);
   }
   fields.finish();

@@ -19,7 +19,8 @@ class SceneReceiver {
  public:
   /// Whether the message is one of a scene's, and was taken.
   bool take(const Message& message);
-  void add(core::Texture texture) { scene_.textures.push_back(std::move(texture)); }
+  /// Throws Nonsense if there are too many.
+  void add(core::Texture texture);
 
   /// The whole, which is left empty. Requires the last message.
   core::Scene finish();

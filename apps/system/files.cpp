@@ -1,6 +1,7 @@
 #include "apps/system/files.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -19,6 +20,12 @@ class RealFiles final : public Files {
   int close(int file) override { return ::close(file); }
   int rename(const fs::path& from, const fs::path& to) override { return ::rename(from.c_str(), to.c_str()); }
   int remove(const fs::path& path) override { return ::unlink(path.c_str()); }
+  void take_mode(int file, const fs::path& like) override {
+    struct stat status {};
+    if (::stat(like.c_str(), &status) == 0 && S_ISREG(status.st_mode)) {
+      static_cast<void>(!!::fchmod(file, status.st_mode & 0777U));
+    }
+  }
 };
 
 }  // namespace

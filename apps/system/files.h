@@ -26,6 +26,9 @@ class Files {
   virtual int close(int file) = 0;
   virtual int rename(const std::filesystem::path& from, const std::filesystem::path& to) = 0;
   virtual int remove(const std::filesystem::path& path) = 0;
+  /// Lets those read and write the file whom the ordinary file at `like`, if there is one, lets. What fails here is no failure:
+  /// file systems without modes.
+  virtual void take_mode(int /*file*/, const std::filesystem::path& /*like*/) {}
 };
 
 /// Those of this computer.

@@ -7,13 +7,16 @@
 #include <cerrno>
 #include <cstring>
 
+#include "apps/system/shortage.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
 
 MemoryFile::MemoryFile() : file_(::memfd_create("dmpc", MFD_CLOEXEC)) {
   if (file_ < 0) {
-    throw core::InputError(std::string("no file in memory can be made: ") + std::strerror(errno));
+    const int error = errno;
+    throw_if_short(error, "no file in memory can be made");
+    throw core::InternalError(std::string("no file in memory can be made: ") + std::strerror(error));
   }
 }
 

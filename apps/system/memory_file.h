@@ -8,12 +8,13 @@ namespace dmpc::apps {
 /// Gone in the end, whatever ends the process. Not thread-safe.
 class MemoryFile {
  public:
-  /// Throws core::InputError if there is no room for one more file.
+  /// Throws ComputerRoomError if there is no room for one more file.
   MemoryFile();
   ~MemoryFile();
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;
 
+  int descriptor() const { return file_; }
   /// A name that this process can open it by.
   std::string path() const;
   /// All that has been written to it.

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "apps/image_file.h"
+#include "apps/system/shortage.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -53,8 +54,8 @@ void check_open_files() {
     ::close(file);
   }
   if (!are_open) {
-    throw core::InputError("no " + std::to_string(open_files_needed) +
-                           " files more can be open at a time, which outputs take: raise the limit (ulimit -n)");
+    throw ComputerRoomError("no " + std::to_string(open_files_needed) +
+                            " files more can be open at a time, which outputs take: raise the limit (ulimit -n)");
   }
 }
 

@@ -32,7 +32,7 @@ std::vector<NamedFile> files_of(const std::vector<OutputName>& outputs);
 /// Throws core::InputError if the standard output takes nothing.
 void check_standard_output();
 
-/// Throws core::InputError unless as many files can be open at a time as writing them takes.
+/// Throws ComputerRoomError unless as many files can be open at a time as writing them takes.
 void check_open_files();
 
 /// Files that are written from a Result. Not thread-safe.

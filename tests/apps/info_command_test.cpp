@@ -147,4 +147,14 @@ TEST_CASE("info prints to the standard output, and fails as render does") {
                  "2 dmpc: --scale, --up, --smooth, --missing=plain and --files=anywhere go with mesh files"));
 }
 
+#if !defined(__SANITIZE_ADDRESS__)  // which reserves more than any limit
+TEST_CASE("what 256 nodes would take of a texture is told without taking it") {
+  const tests::TemporaryFolder folder;
+  const std::string scene = tests::write_painted_square(folder, 512);
+  tests::ChildProcess process({"/bin/sh", "-c", "ulimit -d 400000; exec " DMPC_PROGRAM " info --nodes=256 " + scene});
+  const int status = process.status();
+  CHECK_MESSAGE(status == 0, process.errors());
+}
+#endif
+
 }  // namespace dmpc::apps

@@ -47,9 +47,9 @@ TEST_CASE("without a signal nothing is requested") {
   CHECK_NOTHROW(interrupt.check());
 }
 
-TEST_CASE("Ctrl-C, SIGTERM and SIGHUP request a stop and end nothing") {
+TEST_CASE("signals that would end a process request a stop and end nothing") {
   CHECK(in_child([] {
-          for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+          for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGALRM, SIGUSR1, SIGUSR2}) {
             const Interrupt interrupt;
             if (!stops_after(interrupt, signal) || !is_interrupted([&] { interrupt.check(); })) {
               return 1;
@@ -79,6 +79,19 @@ TEST_CASE("a scope that would end the process at once is not entered after a sig
           }
           return is_interrupted([&] { const Interrupt::EndAtOnce end_at_once(interrupt); }) ? 0 : 2;
         }) == 0);
+}
+
+TEST_CASE("a scope that passes over what came before is ended by what comes then") {
+  CHECK(in_child([] {
+          Interrupt interrupt;
+          if (!stops_after(interrupt, SIGINT)) {
+            return 1;
+          }
+          const Interrupt::EndAtOnce end_at_once(interrupt, Interrupt::EndAtOnce::Before::is_passed_over);
+          ::kill(::getpid(), SIGINT);
+          ::sleep(10);
+          return 2;
+        }) == interrupted_status);
 }
 
 TEST_CASE("in such a scope a signal ends the process with status 130") {
@@ -120,6 +133,21 @@ TEST_CASE("an end at once removes the files that ask for it, and those only") {
   CHECK(folder.entry_count() == 2);
   CHECK(tests::file_text(folder / "early") == "some");
   CHECK(tests::file_text(folder / "kept") == "some");
+}
+
+TEST_CASE("where a file was, an end at once leaves a folder alone that somebody has put there") {
+  static const tests::TemporaryFolder folder;
+  CHECK(in_child([] {
+          Interrupt interrupt;
+          const Interrupt::EndAtOnce end_at_once(interrupt);
+          const RemovedAtOnce file(folder / "swapped");
+          std::filesystem::create_directory(folder / "swapped");
+          tests::write_text(folder / "swapped/dear", "some");
+          ::kill(::getpid(), SIGTERM);
+          ::sleep(10);
+          return 0;
+        }) == interrupted_status);
+  CHECK(tests::file_text(folder / "swapped/dear") == "some");
 }
 
 TEST_CASE("what an interruption means for the outputs can be said, and is nothing at first") {

@@ -61,7 +61,6 @@ TEST_CASE("what is known beforehand is said before the render, and nothing is le
   const TemporaryFolder folder;
   const std::vector<std::vector<std::string>> lines = {
       {"TMPDIR=$folder/none exec $dmpc render tetra-1 --report=$folder/r.html -o $folder/a.png", "set TMPDIR"},
-      {"ulimit -n 10; exec $dmpc render tetra-1 -o $folder/a.png", "raise the limit (ulimit -n)"},
       {"exec $dmpc render tetra-1 -o $folder/a.png >&-", "standard output"},
       {"exec $dmpc render tetra-1 --stats=$folder/$(printf '%256s' | tr ' ' a) -o $folder/a.png", "this name is too long"}};
   for (const std::vector<std::string>& line : lines) {
@@ -72,6 +71,20 @@ TEST_CASE("what is known beforehand is said before the render, and nothing is le
     CHECK(folder.entry_count() == 0);
   }
 }
+
+#ifdef DMPC_LATE_SIGNAL
+TEST_CASE("a signal behind the last pixel takes what follows the picture, and not the picture") {
+  const TemporaryFolder folder;
+  ChildProcess process =
+      in_bash("LD_PRELOAD=" DMPC_LATE_SIGNAL
+              " exec $dmpc render tetra-1 --resolution=8x8 --checkpoint=$folder/c --stats=$folder/s.json -o $folder/a.exr",
+              folder);
+  CHECK(process.status() == 130);
+  CHECK_MESSAGE(contains(process.errors(), "the picture was written, what follows it is incomplete"), process.errors());
+  CHECK(apps::read_image(folder / "a.exr").width == 8);
+  CHECK(folder.entry_count() == 1);
+}
+#endif
 
 TEST_CASE("with the standard streams closed nothing that is said gets into a picture") {
   const TemporaryFolder folder;

@@ -61,6 +61,17 @@ TEST_CASE("help shows examples and every command") {
 
 TEST_CASE("the version can be asked for") { CHECK(std::get<HelpText>(parse({"--version"})).text.find("dmpc ") == 0); }
 
+TEST_CASE("help is given about one thing, and words that are none of it are refused") {
+  CHECK(contains(command_complaint({"help", "render", "x", "y"}),
+                 "there is no help about 'x' of render: expected dmpc help render"));
+  CHECK(contains(command_complaint({"help", "study", "cache", "x"}), "'x' of study cache"));
+  CHECK(contains(command_complaint({"help", "glossary", "page"}), "there is no help about 'page' of glossary"));
+  CHECK(contains(command_complaint({"help", "study", "x"}), "x is no command"));
+  CHECK_NOTHROW(parse({"help", "study", "cache"}));
+  CHECK_NOTHROW(parse({"help", "study"}));
+  CHECK_NOTHROW(parse({"help"}));
+}
+
 TEST_CASE("wrong usage ends with a hint at the command's help") {
   CHECK(contains(command_complaint({}), "Try: dmpc --help"));
   CHECK(contains(command_complaint({"draw"}), "draw is no command"));

@@ -101,6 +101,39 @@ TEST_CASE("a symbolic link stays and the file behind it is replaced") {
   CHECK(file_text(folder / "real.txt") == "new");
 }
 
+TEST_CASE("a symbolic link to a file that is not there has it made, and stays") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "far");
+  std::filesystem::create_symlink("far/real.txt", folder / "near.txt");
+  std::filesystem::create_symlink("near.txt", folder / "link.txt");
+  check_output_path(folder / "link.txt", "-o");
+  write_whole(folder / "link.txt", "new");
+  CHECK(std::filesystem::is_symlink(folder / "link.txt"));
+  CHECK(std::filesystem::is_symlink(folder / "near.txt"));
+  CHECK(file_text(folder / "far/real.txt") == "new");
+}
+
+TEST_CASE("a symbolic link into a missing folder is refused with the folder's name, and one to itself by its own") {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("nowhere/real.txt", folder / "link.txt");
+  std::filesystem::create_symlink("self.txt", folder / "self.txt");
+  CHECK_THROWS_WITH_AS(check_output_path(folder / "link.txt", "-o"), doctest::Contains("nowhere, make it first"),
+                       core::InputError);
+  CHECK_THROWS_WITH_AS(check_output_path(folder / "self.txt", "-o"),
+                       doctest::Contains("self.txt: this symbolic link leads round in a circle"), core::InputError);
+  CHECK(std::filesystem::is_symlink(folder / "self.txt"));
+}
+
+TEST_CASE("a file that is replaced keeps who may read and write it") {
+  const TemporaryFolder folder;
+  write_text(folder / "a.txt", "old");
+  for (const std::filesystem::perms mode : {std::filesystem::perms{0600}, std::filesystem::perms{0664}}) {
+    std::filesystem::permissions(folder / "a.txt", mode);
+    write_whole(folder / "a.txt", "new");
+    CHECK(std::filesystem::status(folder / "a.txt").permissions() == mode);
+  }
+}
+
 TEST_CASE("what is no ordinary file is written to directly and never renamed over") {
   OutputFile file("/dev/null");
   file.write("text");

@@ -7,7 +7,9 @@
 
 #include <chrono>
 #include <csignal>
+#include <iterator>
 #include <set>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
@@ -15,6 +17,7 @@
 
 #include "apps/image_file.h"
 #include "tests/support/child_process.h"
+#include "tests/support/hostile_files.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -486,10 +489,17 @@ TEST_CASE("an abort that is sent ends dmpc by that signal") {
   CHECK(process.status() == 1000 + SIGABRT);
 }
 
-/// Of the process that is a child of `parent`; 0 if there is none.
+/// Of the processes that are children of `parent`, as they were started.
+std::vector<int> children_of(int parent) {
+  const std::string id = std::to_string(parent);
+  std::istringstream list(file_text("/proc/" + id + "/task/" + id + "/children"));
+  return {std::istream_iterator<int>(list), {}};
+}
+
+/// 0 if there is none.
 int child_of(int parent) {
-  const std::string id = std::to_string(parent), children = file_text("/proc/" + id + "/task/" + id + "/children");
-  return children.empty() ? 0 : std::stoi(children);
+  const std::vector<int> children = children_of(parent);
+  return children.empty() ? 0 : children.front();
 }
 
 TEST_CASE("a signal while compare reads ends with status 130") {
@@ -504,6 +514,21 @@ TEST_CASE("a signal while compare reads ends with status 130") {
   CHECK(process.status() == 130);
   CHECK(contains(process.errors(), "interrupted, nothing was written"));
   CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("a signal while textures are read ends with status 130 and leaves nothing, no process either") {
+  const TemporaryFolder folder;
+  const std::string scene = write_textured_triangle(folder, "t.png"), checkpoint = folder / "c";
+  apps::write_image(folder / "t.png", apps::Image(8, 8));
+  ChildProcess process(dmpc({"render", scene, "--checkpoint=" + checkpoint, "-o", folder / "a.png"}));
+  std::vector<int> readers;
+  REQUIRE(until([&] { return (readers = children_of(process.id())).size() == 2; }));
+  process.send(SIGINT);  // before the second one is ready
+  CHECK(process.status() == 130);
+  CHECK(contains(process.errors(), "interrupted, nothing was written"));
+  CHECK(folder.entry_count() == 3);
+  const auto has_ended = [](int reader) { return file_text("/proc/" + std::to_string(reader) + "/cmdline").empty(); };
+  CHECK(until([&] { return has_ended(readers.front()) && has_ended(readers.back()); }));
 }
 
 TEST_CASE("a signal while a render writes its counters ends with status 130, and the picture is there") {

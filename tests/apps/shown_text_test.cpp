@@ -63,4 +63,11 @@ TEST_CASE("a stream that takes no more is bad through it, too") {
   CHECK_FALSE(refusing.good());
 }
 
+TEST_CASE("a text of strangers becomes a part of a line of a length that one can read") {
+  CHECK(apps::clipped("plain") == "plain");
+  CHECK(apps::clipped("a\x1b[31m\nb") == "a\\x1b[31m b");
+  CHECK(apps::clipped(std::string(1000, 'x'), 10) == "xxxxxxxxxx ... (1000 bytes)");
+  CHECK(apps::clipped("\xc3\xa4\xc3\xa4", 3) == "\xc3\xa4\\xc3 ... (4 bytes)");
+}
+
 }  // namespace dmpc::apps

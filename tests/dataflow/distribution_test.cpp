@@ -72,8 +72,20 @@ TEST_CASE("shares say what each node's part and list of primary rays take") {
   const std::vector<dataflow::Share> shares = distribution.shares();
   REQUIRE(shares.size() == 3);
   for (std::size_t node = 0; node < 3; ++node) {
-    CHECK(shares[node].part_bytes == distribution.parts[node].record_bytes());
+    CHECK(shares[node].part_bytes == distribution.parts[node].record_bytes);
     CHECK(shares[node].primary_runs == distribution.primaries[node].size());
+  }
+}
+
+TEST_CASE("parts may be measured without being kept") {
+  const Subject subject(tests::built_in("teapot-4"), {8, 8});
+  const Distribution kept = dealt(subject, 3);
+  const Distribution measured =
+      dataflow::distribute(subject.database(), subject.settings(), equal_regions(subject, 3), {}, {.records = false});
+  for (std::size_t node = 0; node < 3; ++node) {
+    CHECK(measured.parts[node].bytes.capacity() == 0);
+    CHECK(measured.shares()[node].part_bytes == kept.shares()[node].part_bytes);
+    CHECK(measured.shares()[node].primary_runs == kept.shares()[node].primary_runs);
   }
 }
 

@@ -179,7 +179,7 @@ TEST_CASE("what is prepared is what runs, as often as one likes") {
     CHECK(report.predicted == prepared.predicted);
     CHECK(report.duplication == prepared.duplication);
     for (std::uint32_t node = 0; node < 3; ++node) {
-      CHECK(report.nodes[node].part_bytes == prepared.distribution.parts[node].record_bytes());
+      CHECK(report.nodes[node].part_bytes == prepared.distribution.parts[node].record_bytes);
       CHECK(report.nodes[node].memory_used.bytes == prepared.plan.node_memory(node).bytes);
     }
   }
@@ -189,7 +189,7 @@ TEST_CASE("the host may forget the parts once they are distributed, and the outc
   const Subject subject(tests::mirrors_and_glass(), {12, 12});
   RunOptions options{.node_count = 3};
   dataflow::Prepared prepared = dataflow::prepare(subject.database(), subject.settings(), options);
-  const std::size_t part_bytes = prepared.distribution.parts[1].record_bytes();
+  const std::size_t part_bytes = prepared.distribution.parts[1].record_bytes;
   int times = 0;
   options.distributed = [&] {
     ++times;

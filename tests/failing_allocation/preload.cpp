@@ -14,6 +14,7 @@
 #include <pthread.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -113,7 +114,8 @@ int run_all(int count, char** values, char** environment) {
     if (process == 0) {
       send_errors_to(orders.folder, run);
       enter(orders.folder, run);
-      ::alarm(60);
+      const itimerval alarms{{1, 0}, {60, 0}};  // the first asks it to stop, the second ends it
+      ::setitimer(ITIMER_REAL, &alarms, nullptr);
       fails_at = at;
       mode = std::strcmp(orders.mode, "all") == 0       ? Mode::all
              : std::strcmp(orders.mode, "threads") == 0 ? Mode::threads

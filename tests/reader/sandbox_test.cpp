@@ -57,4 +57,15 @@ TEST_CASE("a reader gets the memory that it may have, and no more") {
   CHECK(status_within([&] { return allocates(2 * may); }, may) == 0);
 }
 
+TEST_CASE("without files a process opens none, where the kernel knows how") {
+  const pid_t id = ::fork();
+  if (id == 0) {
+    const bool opened_before = ::open("/etc/passwd", O_RDONLY) >= 0, is_forbidden = apps::forbid_files();
+    ::_exit(!is_forbidden ? 0 : opened_before && ::open("/etc/passwd", O_RDONLY) < 0 ? 0 : 1);
+  }
+  int status = 0;
+  ::waitpid(id, &status, 0);
+  CHECK(status == 0);
+}
+
 }  // namespace dmpc::tests

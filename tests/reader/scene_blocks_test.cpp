@@ -112,4 +112,22 @@ TEST_CASE("more than was announced, and parts of an entry, are refused") {
   CHECK_THROWS_AS(receiver.take({Saying::scene, head.bytes(), Descriptor()}), Nonsense);
 }
 
+TEST_CASE("more lights, textures and materials than any scene has are refused before they take memory") {
+  SceneReceiver receiver;
+  const core::Scene scene;
+  Packer head;
+  head.add(scene.view).add(scene.background).add(std::uint64_t{1} << 30U);
+  for (int pool = 0; pool < 4; ++pool) {
+    head.add(std::uint64_t{1});
+  }
+  CHECK_THROWS_AS(receiver.take({Saying::scene, head.bytes(), Descriptor()}), Nonsense);
+  SceneReceiver other;
+  const auto add_all = [&other] {
+    for (int i = 0; i < 70'000; ++i) {
+      other.add(core::Texture{});
+    }
+  };
+  CHECK_THROWS_AS(add_all(), Nonsense);
+}
+
 }  // namespace dmpc::apps
