@@ -47,7 +47,7 @@ InputFile FileAccess::open(const fs::path& path) {
                              "; put it there, or allow every place by --files=anywhere");
     }
     open_input_file(file);
-    opened_.add(file.resolved);
+    opened_.add_resolved(file.resolved);
     return file;
   } catch (const core::InputError& error_found) {
     throw core::InputError(path.string() + " " + error_found.what());
