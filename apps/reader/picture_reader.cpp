@@ -11,6 +11,7 @@
 #include "apps/reader/input_file.h"
 #include "apps/reader/memory.h"
 #include "apps/reader/picture_format.h"
+#include "apps/texture_size.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
