@@ -1,15 +1,14 @@
 #include "apps/checkpoint_file.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "apps/digest.h"
+#include "apps/system/file_source.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -82,15 +81,13 @@ void put_pixels(Writer& writer, const core::Film& film) {
 /// Bytes from a file, and whether they are those that were written.
 class Reader {
  public:
-  explicit Reader(const fs::path& path) : path_(path), stream_(path, std::ios::binary) {
-    if (!stream_) {
-      fail(path, std::string("cannot be read: ") + std::strerror(errno));
-    }
-  }
+  Reader(const fs::path& path, Files& files) : path_(path), stream_(path, files) { check_read(); }
 
   std::vector<PictureFact> take_head() {
     std::string head(first_line.size() + 1, ' ');
-    if (!stream_.read(head.data(), static_cast<std::streamsize>(head.size())) || head != std::string(first_line) + "\n") {
+    stream_.read(head.data(), static_cast<std::streamsize>(head.size()));
+    check_read();
+    if (!stream_ || head != std::string(first_line) + "\n") {
       fail(path_, "this is no checkpoint of this version of dmpc");
     }
     std::vector<PictureFact> facts;
@@ -113,9 +110,11 @@ class Reader {
     const std::uint64_t expected = digest_.value();
     std::uint64_t digest = 0;
     take(std::span(&digest, 1));
-    check(digest == expected && stream_.peek() == std::ifstream::traits_type::eof());
+    check(digest == expected && stream_.peek() == std::istream::traits_type::eof());
+    check_read();
   }
   void check(bool is_whole) const {
+    check_read();
     if (!is_whole) {
       fail(path_, "this checkpoint is damaged or cut short: start again without --resume, when it is removed");
     }
@@ -130,6 +129,12 @@ class Reader {
   }
 
  private:
+  /// The file may be whole, and the disk at fault.
+  void check_read() const {
+    if (stream_.error() != 0) {
+      fail(path_, std::string("cannot be read: ") + std::strerror(stream_.error()));
+    }
+  }
   /// The next line, without its end; with it, it is added to `head`, which a file of something else must not fill for ever.
   std::string take_line(std::string& head) {
     const std::size_t begin = head.size();
@@ -140,7 +145,7 @@ class Reader {
   }
 
   fs::path path_;
-  std::ifstream stream_;
+  FileSource stream_;
   Digest digest_;
 };
 
@@ -174,8 +179,8 @@ void write_checkpoint(const fs::path& path, const PictureIdentity& identity, con
   file.commit();
 }
 
-core::PartialPicture read_checkpoint(const fs::path& path, const PictureIdentity& identity) {
-  Reader reader(path);
+core::PartialPicture read_checkpoint(const fs::path& path, const PictureIdentity& identity, Files& files) {
+  Reader reader(path, files);
   const std::vector<PictureFact> facts = reader.take_head();
   if (const std::string difference = difference_text(facts, identity.facts); !difference.empty()) {
     fail(path, "this is the checkpoint of another picture: " + difference);

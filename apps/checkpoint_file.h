@@ -21,6 +21,7 @@ void write_checkpoint(const std::filesystem::path& path, const PictureIdentity& 
 /// Throws core::InputError if the file cannot be read, is no checkpoint, is damaged, is one of another picture (then it says what
 /// differs), or tells of what cannot be (core::fault_of()). The digest tells accidents: whoever forges a checkpoint that could
 /// have come about, with other light, gets another film.
-core::PartialPicture read_checkpoint(const std::filesystem::path& path, const PictureIdentity& identity);
+core::PartialPicture read_checkpoint(const std::filesystem::path& path, const PictureIdentity& identity,
+                                     Files& files = real_files());
 
 }  // namespace dmpc::apps

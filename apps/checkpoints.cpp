@@ -40,7 +40,7 @@ Checkpoints::Checkpoints(const CheckpointOptions& options, PictureIdentity ident
       files_(files) {
   const fs::path& file = *options.file;
   if (options.resumes && is_there(file_)) {
-    start_.emplace(read_checkpoint(file_, identity_));
+    start_.emplace(read_checkpoint(file_, identity_, files_));
     has_one_ = true;
   }
   if (options.resumes && !is_quiet) {

@@ -64,6 +64,8 @@ std::string bytes_text(std::size_t bytes) {
   return bytes < (std::size_t{1} << 20U) ? fixed(value / 1024, 1) + " KiB" : fixed(value / 1048576, 2) + " MiB";
 }
 
+std::string mebibytes_text(std::uint64_t bytes) { return std::to_string(bytes >> 20U) + " MiB"; }
+
 std::string percent(std::uint64_t part, std::uint64_t whole) {
   return fixed(whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole), 2) + " %";
 }

@@ -23,6 +23,8 @@ std::string fixed(double value, int digits);
 std::string seconds_text(double seconds);
 /// Rounded: "300 B", "1.5 KiB", "3.21 MiB".
 std::string bytes_text(std::size_t bytes);
+/// Whole ones, rounded down: "16 MiB".
+std::string mebibytes_text(std::uint64_t bytes);
 /// "12.34 %"; 0 of 0 is "0.00 %".
 std::string percent(std::uint64_t part, std::uint64_t whole);
 /// What each part is of the whole, in percent with one decimal place: rounded so that they add up to 100 as they stand. All 0 if

@@ -7,19 +7,20 @@
 #include <istream>
 #include <optional>
 
+#include "apps/byte_order_mark.h"
+#include "apps/figures.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f";
-/// Some editors of text in UTF-8 begin a file by it.
-constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 /// Of one line; a polygon of the most corners has a third of that. And of what may stand between two tokens.
 constexpr std::size_t line_bytes_max = std::size_t{16} << 20U, blank_bytes_max = std::size_t{64} << 20U;
 
-std::string mebibytes(std::size_t bytes) { return std::to_string(bytes >> 20U) + " MiB"; }
+/// Most lines are much shorter.
+constexpr std::size_t first_room_bytes = 4096;
 
 bool looks_like_number(std::string_view token) {
   const std::size_t sign = token.starts_with('-') || token.starts_with('+') ? 1 : 0;
@@ -41,7 +42,10 @@ std::optional<double> number_from(std::string_view token) {
 }  // namespace
 
 NffTokens::NffTokens(std::istream& input, const std::string& name)
-    : input_(input), name_(name), room_(std::make_unique_for_overwrite<char[]>(line_bytes_max + 1)) {}
+    : input_(input),
+      name_(name),
+      room_bytes_(first_room_bytes),
+      room_(std::make_unique_for_overwrite<char[]>(first_room_bytes)) {}
 
 std::string quoted(std::string_view token) {
   constexpr std::size_t shown_max = 32;
@@ -60,35 +64,53 @@ std::string number_text(double value) {
 bool NffTokens::read_line() {
   position_ = 0;
   text_ = {};
-  get_line();
-  const auto size = static_cast<std::size_t>(input_.gcount());
+  const std::size_t size = get_line();
   if (size == 0) {
     return false;
   }
   ++line_;
   if (size >= line_bytes_max && !input_.eof()) {
-    throw core::InputError(name_ + ":" + std::to_string(line_) + ": found a line of more than " + mebibytes(line_bytes_max) +
+    throw core::InputError(name_ + ":" + std::to_string(line_) + ": found a line of more than " + mebibytes_text(line_bytes_max) +
                            ", expected an NFF scene");
   }
   text_ = {room_.get(), input_.eof() ? size : size - 1};
   bytes_read_ += text_.size() + 1;
   if (bytes_read_ > token_bytes_ + blank_bytes_max) {
     throw core::InputError(name_ + ":" + std::to_string(line_) + ": found nothing but blanks and comments for " +
-                           mebibytes(blank_bytes_max) + ", expected an NFF scene");
+                           mebibytes_text(blank_bytes_max) + ", expected an NFF scene");
   }
   position_ = line_ == 1 && text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
   return true;
 }
 
-void NffTokens::get_line() {
+std::size_t NffTokens::get_line() {
+  std::size_t size = get_part(0);
+  while (size + 1 == room_bytes_ && input_.fail() && !input_.eof() && room_bytes_ <= line_bytes_max) {
+    grow_room();
+    input_.clear(input_.rdstate() & ~std::ios::failbit);
+    size += get_part(size);
+  }
+  return size;
+}
+
+std::size_t NffTokens::get_part(std::size_t size) {
   try {
-    input_.getline(room_.get(), line_bytes_max + 1);
+    input_.getline(room_.get() + size, static_cast<std::streamsize>(room_bytes_ - size));
   } catch (const core::InputError& error) {
     throw core::InputError(name_ + ": " + error.what());
   }
   if (input_.bad()) {
     throw core::InputError(name_ + ": reading failed after line " + std::to_string(line_));
   }
+  return static_cast<std::size_t>(input_.gcount());
+}
+
+void NffTokens::grow_room() {
+  const std::size_t bytes = std::min(2 * room_bytes_, line_bytes_max + 1);
+  auto room = std::make_unique_for_overwrite<char[]>(bytes);
+  std::copy_n(room_.get(), room_bytes_, room.get());
+  room_ = std::move(room);
+  room_bytes_ = bytes;
 }
 
 std::string_view NffTokens::peek() {

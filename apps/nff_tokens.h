@@ -43,11 +43,15 @@ class NffTokens {
 
  private:
   bool read_line();
-  void get_line();
+  /// The bytes of the next line with its end; one part of it, behind `size` bytes of the room.
+  std::size_t get_line();
+  std::size_t get_part(std::size_t size);
+  void grow_room();
 
   std::istream& input_;
   const std::string& name_;
-  std::unique_ptr<char[]> room_;                    ///< for a line
+  std::size_t room_bytes_;
+  std::unique_ptr<char[]> room_;                    ///< for a line; grows with the longest
   std::string_view text_;                           ///< the current line
   std::string_view token_;                          ///< in text_; empty if it is not cut yet
   std::size_t position_ = 0;                        ///< in text_, behind token_

@@ -15,6 +15,7 @@ class OpenedFiles {
     const std::filesystem::path resolved = std::filesystem::canonical(path, error);
     paths_.insert(error ? path : resolved);
   }
+  void add_resolved(const std::filesystem::path& path) { paths_.insert(path); }
   void add(const OpenedFiles& others) { paths_.insert(others.paths_.begin(), others.paths_.end()); }
 
   const std::set<std::filesystem::path>& paths() const { return paths_; }

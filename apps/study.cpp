@@ -79,14 +79,20 @@ std::vector<NamedFile> check_output(const StudyOptions& options) {
   return outputs;
 }
 
-/// A signal ends the process here and now. `digest`: becomes the scene's.
-Subject load(const StudyOptions& options, const std::vector<NamedFile>& outputs, std::uint64_t& digest, Interrupt& interrupt) {
+/// What is studied, and the digest of its scene if a page tells it.
+struct Loaded {
+  Subject subject;
+  std::optional<std::uint64_t> scene_digest;
+};
+
+/// A signal ends the process here and now.
+Loaded load(const StudyOptions& options, const std::vector<NamedFile>& outputs, Interrupt& interrupt) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   OpenedFiles opened;
   core::Scene scene = load_scene(options.picture, LoadNotes::said, &opened);
   check_not_read(opened, outputs);
-  digest = scene_digest(scene);
-  return build_subject(std::move(scene), options.picture, options.database, true);
+  const auto digest = options.report ? std::optional(scene_digest(scene)) : std::nullopt;
+  return {build_subject(std::move(scene), options.picture, options.database, true), digest};
 }
 
 std::string samples_text(const PictureOptions& picture) {
@@ -115,7 +121,7 @@ std::string film_note(const StudyRuns& runs) {
 
 /// By which another study is known to be of the same.
 struct Marks {
-  std::uint64_t scene_digest;
+  std::optional<std::uint64_t> scene_digest;
   std::optional<std::uint64_t> film_hash;
 };
 
@@ -186,8 +192,7 @@ void announce_effort(const StudyOptions& options, const Subject& subject, Interr
 template <class OneStudy>
 int carry_out(const OneStudy& study, const StudyOptions& options, const std::vector<NamedFile>& outputs, Interrupt& interrupt,
               std::ostream& output) {
-  std::uint64_t digest = 0;
-  const Subject subject = load(options, outputs, digest, interrupt);
+  const auto [subject, digest] = load(options, outputs, interrupt);
   announce_effort(options, subject, interrupt);
   Table table = empty_table(study, options, subject);
   if (shows_rows(options)) {

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <string>
 
+#include "apps/figures.h"
 #include "apps/reader/memory.h"
 #include "core/expect.h"
 
@@ -64,8 +65,8 @@ std::streambuf::int_type TextInput::underflow() {
   const std::size_t count = is_pipe_ ? read_pipe() : read_some(descriptor_, buffer_);
   bytes_read_ += count;
   if (is_pipe_ && bytes_read_ > pipe_bytes_max()) {
-    throw core::InputError("this pipe has given " + std::to_string(bytes_read_ >> 20U) +
-                           " MiB and does not end, more than there is memory for; write it into a file");
+    throw core::InputError("this pipe has given " + mebibytes_text(bytes_read_) +
+                           " and does not end, more than there is memory for; write it into a file");
   }
   setg(buffer_.data(), buffer_.data(), buffer_.data() + count);
   return count == 0 ? Traits::eof() : Traits::to_int_type(*gptr());

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -15,9 +14,6 @@ namespace dmpc::apps {
 struct TextureEdges {
   core::TextureWrap s = core::TextureWrap::repeat, t = core::TextureWrap::repeat;
 };
-
-/// Throws core::InputError "NAME: ..." for a texture that has no texels, or more than core::Texture::size_max along a side.
-void check_texture_size(const std::string& name, std::int64_t width, std::int64_t height);
 
 /// Reads the first three channels (one or two: the first is taken thrice) of the first picture in the file, and makes its smaller
 /// levels. Alpha is left out, and the colours are as they are without it. Pictures of 8 bits that are not said to be linear keep

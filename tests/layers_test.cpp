@@ -36,7 +36,7 @@ struct Foreign {
 const std::vector<Foreign> foreign = {
     {"embree", {"apps/embree.h"}},
     {"OpenImageIO/",
-     {"apps/image_file.cpp", "apps/foreign/picture_decoder.cpp", "tests/apps/texture_file_test.cpp",
+     {"apps/image_file.cpp", "apps/foreign/picture_decoder.cpp", "tests/apps/texture_file_test.cpp", "tests/fuzz/picture.cpp",
       "tests/oracle/texture_lookup_test.cpp"}},
     {"assimp/", {"apps/mesh/", "apps/gltf/", "tests/reader/import_test.cpp"}},
     {"meshoptimizer.h", {"apps/gltf/meshopt.cpp", "tests/mesh/"}},

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "apps/reader/picture_format.h"
-#include "apps/texture_file.h"
+#include "apps/texture_size.h"
 #include "core/expect.h"
 #include "core/record_writer.h"
 #include "core/srgb.h"
@@ -42,6 +42,10 @@ struct Input {
 void check_declared(const EncodedPicture& picture, const OIIO::ImageSpec& spec) {
   const auto width = static_cast<std::uint64_t>(std::max(spec.width, 0)),
              height = static_cast<std::uint64_t>(std::max(spec.height, 0));
+  if (width == 0 || height == 0) {
+    throw core::InputError(picture.name + ": says that it has " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
+                           " pixels, expected at least one: it is damaged");
+  }
   if (width > picture_side_max || height > picture_side_max ||
       decoded_bytes(width, height, spec.format.basesize()) > decoded_bytes_max(picture.bytes.size())) {
     throw core::InputError(picture.name + ": says that it has " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +

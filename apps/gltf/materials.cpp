@@ -29,8 +29,8 @@ class Writer {
   void add_texture(const Part& use, aiMaterial& target, aiTextureType type, unsigned number);
   void add_colour_texture(const Part& use, aiMaterial& target, TexturePlace& place);
   void add_edges(const Part& texture, aiMaterial& target);
-  /// All but that of the colour, at any depth.
-  void add_others(const Part& source, aiMaterial& target, unsigned& number);
+  /// All but that of the colour, at any depth that makes sense.
+  void add_others(const Part& source, aiMaterial& target, unsigned& number, int level = 0);
   std::optional<std::size_t> image_of(const Part& texture) const;
 
   Part root_;
@@ -153,7 +153,11 @@ void Writer::add_colour_texture(const Part& use, aiMaterial& target, TexturePlac
   target.AddProperty(&set, 1, AI_MATKEY_UVWSRC(aiTextureType_BASE_COLOR, 0));
 }
 
-void Writer::add_others(const Part& source, aiMaterial& target, unsigned& number) {
+void Writer::add_others(const Part& source, aiMaterial& target, unsigned& number, int level) {
+  constexpr int levels_max = 16;
+  if (level > levels_max) {
+    source.fail("extensions within each other more than 16 deep, expected one or two");
+  }
   for (const auto& [key, part] : source.members()) {
     if (key == "baseColorTexture" || key == "diffuseTexture") {
       continue;
@@ -162,7 +166,7 @@ void Writer::add_others(const Part& source, aiMaterial& target, unsigned& number
       add_texture(part, target, aiTextureType_UNKNOWN, number);
       ++number;
     } else if (key == "extensions" || key == "pbrMetallicRoughness" || key.substr(0, 4) == "KHR_") {
-      add_others(part, target, number);
+      add_others(part, target, number, level + 1);
     }
   }
 }

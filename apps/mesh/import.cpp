@@ -19,8 +19,12 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/byte_order_mark.h"
+#include "apps/figures.h"
 #include "apps/gltf/reader.h"
+#include "apps/mesh/material.h"
 #include "apps/mesh/mtl_check.h"
+#include "apps/mesh/mtl_text.h"
 #include "apps/mesh/obj_check.h"
 #include "apps/mesh/ply_check.h"
 #include "apps/mesh/stl_check.h"
@@ -73,28 +77,84 @@ std::string_view text_of(const FileBytes& file) {
   return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
 }
 
-/// Notes what was asked for in vain, and what Assimp passes over.
+/// A part of another file's bytes.
+class LaterBytes final : public FileBytes {
+ public:
+  LaterBytes(std::unique_ptr<FileBytes> whole, std::size_t begin) : whole_(std::move(whole)), begin_(begin) {}
+  std::span<const std::byte> bytes() const override { return whole_->bytes().subspan(begin_); }
+
+ private:
+  std::unique_ptr<FileBytes> whole_;
+  std::size_t begin_;
+};
+
+class TextBytes final : public FileBytes {
+ public:
+  explicit TextBytes(std::string text) : text_(std::move(text)) {}
+  std::span<const std::byte> bytes() const override { return std::as_bytes(std::span(text_)); }
+
+ private:
+  std::string text_;
+};
+
+/// A scene's file, from where readers for files that end so look for their first word.
+std::unique_ptr<FileBytes> open_scene(const std::string& path, const std::string& ending, SceneFiles& files) {
+  std::unique_ptr<FileBytes> file = files.open(path);
+  const std::string_view text = text_of(*file);
+  const std::string_view rest = ending == "ply" || ending == "obj" ? without_mark(text)
+                                : ending == "stl"                  ? stl_without_mark(text)
+                                                                   : text;
+  const std::size_t begin = text.size() - rest.size();
+  return begin == 0 ? std::move(file) : std::make_unique<LaterBytes>(std::move(file), begin);
+}
+
+/// As a reader of Assimp's sees them, with a list of what was asked for in vain.
 class Files final : public Assimp::IOSystem {
  public:
-  Files(SceneFiles& files, ImportedFile& found) : files_(files), found_(found) {}
+  Files(const std::string& scene, SceneFiles& files, ImportedFile& result, MtlTextures& textures)
+      : scene_(scene), files_(files), result_(result), textures_(textures) {}
 
   bool Exists(const char* path) const override { return files_.exists(path); }
   char getOsSeparator() const override { return '/'; }
   Assimp::IOStream* Open(const char* path, const char* /*mode*/) override {
     try {
-      std::unique_ptr<FileBytes> file = files_.open(path);
-      if (ending_of(path) == "mtl") {
-        note_once(found_.notes, check_mtl(path, text_of(*file)));
-      }
-      return new Stream(std::move(file));
+      return new Stream(opened(path));
     } catch (const core::InputError& error) {
-      note_once(found_.missing, error.what());
+      note_once(result_.missing, error.what());
       return nullptr;
     }
   }
   void Close(Assimp::IOStream* stream) override { delete stream; }
 
  private:
+  std::unique_ptr<FileBytes> opened(const std::string& path) {
+    if (path == scene_) {
+      return open_scene(path, ending_of(path), files_);
+    }
+    return ending_of(path) == "mtl" ? materials(path) : files_.open(path);
+  }
+  std::unique_ptr<FileBytes> materials(const std::string& path) {
+    const std::unique_ptr<FileBytes> file = library(path);
+    note_once(result_.notes, check_mtl(path, text_of(*file)));
+    return std::make_unique<TextBytes>(plain_mtl(text_of(*file), textures_));
+  }
+  /// A library of materials, which may be called otherwise than the scene says.
+  std::unique_ptr<FileBytes> library(const std::string& path) {
+    try {
+      return files_.open(path);
+    } catch (const core::InputError&) {
+      const std::filesystem::path folder = std::filesystem::path(scene_).parent_path();
+      const std::string name = path.substr(folder.empty() ? 0 : std::min(path.size(), folder.string().size() + 1));
+      const std::vector<std::filesystem::path> found = files_.meant(folder, name);
+      if (found.empty()) {
+        throw;
+      }
+      note_once(result_.notes,
+                "a file of materials was found under another name: " + found.front().filename().string() + " for " + name);
+      return files_.open(found.front().string());
+    }
+  }
+
   /// Assimp may open a file again and again.
   static void note_once(std::vector<std::string>& notes, const std::string& note) {
     if (!note.empty() && std::find(notes.begin(), notes.end(), note) == notes.end()) {
@@ -102,8 +162,10 @@ class Files final : public Assimp::IOSystem {
     }
   }
 
+  std::string scene_;
   SceneFiles& files_;
-  ImportedFile& found_;
+  ImportedFile& result_;
+  MtlTextures& textures_;
 };
 
 class LoadProgress final : public Assimp::ProgressHandler {
@@ -144,8 +206,7 @@ void rethrow_end_of_memory(const std::exception_ptr& caught) {
 void check_is_whole(const std::string& path, const std::string& ending, SceneFiles& files) {
   const auto check = ending == "ply" ? check_ply : ending == "stl" ? check_stl : ending == "obj" ? check_obj : nullptr;
   if (check != nullptr) {
-    const std::unique_ptr<FileBytes> file = files.open(path);
-    check(text_of(*file));
+    check(text_of(*open_scene(path, ending, files)));
   }
 }
 
@@ -176,6 +237,36 @@ bool is_figure_of_nodes(const aiScene& scene) {
   };
   return (scene.mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0 &&
          std::any_of(scene.mMaterials, scene.mMaterials + scene.mNumMaterials, is_named_so);
+}
+
+/// Of a scene that Assimp paints white where the file says nothing of colours.
+bool says_no_colour(const std::string& path, const std::string& ending, SceneFiles& files) {
+  if (ending != "ply" && ending != "stl") {
+    return false;
+  }
+  const std::unique_ptr<FileBytes> file = open_scene(path, ending, files);
+  return ending == "ply" ? !has_ply_material(text_of(*file)) : !has_stl_colour(text_of(*file));
+}
+
+/// But a texture's colours stay as they are.
+void make_plain(aiScene& scene) {
+  const aiColor3D grey(static_cast<ai_real>(plain_grey));
+  for (aiMaterial* const material : std::span(scene.mMaterials, scene.mNumMaterials)) {
+    if (material->GetTextureCount(aiTextureType_DIFFUSE) == 0) {
+      material->RemoveProperty(AI_MATKEY_COLOR_DIFFUSE);
+      material->AddProperty(&grey, 1, AI_MATKEY_COLOR_DIFFUSE);
+    }
+  }
+}
+
+void take_over(const MtlTextures& textures, ImportedFile& file) {
+  for (const aiMaterial* const material : std::span(file.scene->mMaterials, file.scene->mNumMaterials)) {
+    const auto place = textures.places.find(material->GetName().C_Str());
+    file.texture_places.push_back(place == textures.places.end() ? TexturePlace{} : place->second);
+  }
+  for (const auto& [option, count] : textures.left_out) {
+    file.notes.push_back("textures' option " + option + ", which is not followed: " + grouped(count));
+  }
 }
 
 void check_has_mesh(const aiScene& scene) {
@@ -218,7 +309,8 @@ ImportedFile import_file(const std::string& path, SceneFiles& files) {
   ImportedFile file;
   Assimp::Importer importer;
   keep_readers_of(ending, importer);
-  importer.SetIOHandler(new Files(files, file));  // is the importer's from now on, and so is the next
+  MtlTextures textures;
+  importer.SetIOHandler(new Files(path, files, file, textures));  // is the importer's from now on, and so is the next
   importer.SetProgressHandler(new LoadProgress(files));
   if (importer.ReadFile(path, 0) == nullptr) {
     rethrow_end_of_memory(importer.GetException());
@@ -226,6 +318,10 @@ ImportedFile import_file(const std::string& path, SceneFiles& files) {
   }
   check_has_mesh(*importer.GetScene());
   file.scene.reset(importer.GetOrphanedScene());
+  take_over(textures, file);
+  if (says_no_colour(path, ending, files)) {
+    make_plain(*file.scene);
+  }
   return file;
 }
 

@@ -99,7 +99,7 @@ Material from_phong(const aiMaterial& source) {
   const double index = number(source, {AI_MATKEY_REFRACTI}).value_or(1);
   const double shine = number(source, {AI_MATKEY_SHININESS}).value_or(0);
   Material material;
-  material.color = color(source, {AI_MATKEY_COLOR_DIFFUSE}).value_or(Vec3d{0.6, 0.6, 0.6});
+  material.color = color(source, {AI_MATKEY_COLOR_DIFFUSE}).value_or(Vec3d{plain_grey, plain_grey, plain_grey});
   material.specular = phong_specular(source, shine, index);
   material.shine = shine > 0 ? std::min(shine, 10'000.0) : sharp;
   const double sum = std::max({material.color.x, material.color.y, material.color.z}) + material.specular;

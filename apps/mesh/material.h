@@ -11,6 +11,9 @@
 
 namespace dmpc::apps {
 
+/// Of each channel of a surface of which a file says no colour.
+inline constexpr double plain_grey = 0.6;
+
 /// By the table in ARCHITECTURE.md. Colours are linear. Reflects and transmits no more light than arrives, in any channel.
 core::Material material_of(const aiMaterial& source);
 

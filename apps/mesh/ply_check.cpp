@@ -217,6 +217,11 @@ void Reader::check_body(const Header& header) {
 
 }  // namespace
 
+bool has_ply_material(std::string_view file) {
+  const std::vector<Element> elements = Reader(file).header().elements;
+  return std::any_of(elements.begin(), elements.end(), [](const Element& element) { return element.name == "material"; });
+}
+
 void check_ply(std::string_view file) {
   Reader reader(file);
   reader.check_body(reader.header());

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <string>
 
+#include "apps/byte_order_mark.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -41,6 +42,15 @@ void check_binary(std::string_view file) {
 }
 
 }  // namespace
+
+std::string_view stl_without_mark(std::string_view file) {
+  const std::string_view rest = without_mark(file);
+  return is_text(rest) ? rest : file;
+}
+
+bool has_stl_colour(std::string_view file) {
+  return !is_text(file) && file.substr(0, header_bytes).find("COLOR=") != std::string_view::npos;
+}
 
 void check_stl(std::string_view file) { is_text(file) ? check_text(file) : check_binary(file); }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "apps/mesh/named_file.h"
+#include "apps/texture_size.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {

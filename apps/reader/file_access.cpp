@@ -54,7 +54,7 @@ InputFile FileAccess::open(const fs::path& path) {
                              "; put it there, or allow every place by --files=anywhere");
     }
     open_input_file(file);
-    opened_.add(file.resolved);
+    opened_.add_resolved(file.resolved);
     return file;
   } catch (const ComputerRoomError&) {
     throw;

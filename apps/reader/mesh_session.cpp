@@ -11,6 +11,7 @@
 
 #include "apps/mesh/named_file.h"
 #include "apps/reader/memory.h"
+#include "apps/texture_size.h"
 #include "core/expect.h"
 #include "core/texture.h"
 

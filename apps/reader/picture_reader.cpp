@@ -12,6 +12,7 @@
 #include "apps/reader/memory.h"
 #include "apps/reader/picture_format.h"
 #include "apps/system/shortage.h"
+#include "apps/texture_size.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {

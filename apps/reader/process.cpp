@@ -16,6 +16,7 @@
 #include <iostream>
 #include <utility>
 
+#include "apps/figures.h"
 #include "apps/reader/program_path.h"
 #include "apps/system/memory_file.h"
 #include "apps/system/shortage.h"
@@ -76,10 +77,6 @@ int spawn(pid_t& id, const std::string& program, int line, int errors) {
     return true;
   }();
 }
-
-std::string seconds_text(std::uint64_t seconds) { return std::to_string(seconds) + (seconds == 1 ? " second" : " seconds"); }
-
-std::string mebibytes_text(std::uint64_t bytes) { return std::to_string(bytes >> 20U) + " MiB"; }
 
 }  // namespace
 
@@ -190,7 +187,7 @@ void ReaderProcess::end(const char* unless_by_signal) {
   ::waitpid(std::exchange(id_, -1), &status, 0);
   const bool is_over = wall_time() - waited_ < std::chrono::milliseconds(1);
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
-    throw ReaderDeath("took more than " + seconds_text(seconds_) + " of processor time");
+    throw ReaderDeath("took more than " + counted(seconds_, "second") + " of processor time");
   }
   if (WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL) {
     throw ReaderDeath("crashed (signal " + std::to_string(WTERMSIG(status)) + ", " + ::strsignal(WTERMSIG(status)) + ")");
@@ -198,7 +195,7 @@ void ReaderProcess::end(const char* unless_by_signal) {
   if (WIFEXITED(status) && WEXITSTATUS(status) != 0) {
     throw ReaderDeath("ended with status " + std::to_string(WEXITSTATUS(status)));
   }
-  throw ReaderDeath(is_over ? "took more than " + seconds_text(seconds_ * limits_.wall_factor) : unless_by_signal);
+  throw ReaderDeath(is_over ? "took more than " + counted(seconds_ * limits_.wall_factor, "second") : unless_by_signal);
 }
 
 }  // namespace dmpc::apps

@@ -1,9 +1,10 @@
 #include "apps/stability/state.h"
 
-#include <fstream>
+#include <cstring>
 #include <sstream>
 
 #include "apps/output_file.h"
+#include "apps/system/file_source.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -23,6 +24,19 @@ std::istream& operator>>(std::istream& text, StabilityCounts& counts) {
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why) {
   throw core::InputError("--resume=" + path.string() + ": " + why);
+}
+
+/// States have less than a KiB for each kernel; other files may have any number.
+std::string whole_text(const std::filesystem::path& path, Files& files) {
+  constexpr std::size_t bytes_max = std::size_t{1} << 20U;
+  FileSource source(path, files);
+  std::string text(bytes_max, ' ');
+  source.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(source.gcount()));
+  if (source.error() != 0) {
+    refuse(path, std::string("cannot be read: ") + std::strerror(source.error()));
+  }
+  return text;
 }
 
 /// Reads the lines behind the first two; false if they are damaged.
@@ -61,15 +75,16 @@ std::string text_of(const StabilityState& state, const std::string& options) {
   return text.str() + lines.str();
 }
 
-void save_state(const std::filesystem::path& path, const StabilityState& state, const std::string& options) {
-  write_file(path, text_of(state, options));
+void save_state(const std::filesystem::path& path, const StabilityState& state, const std::string& options, Files& files) {
+  write_file(path, text_of(state, options), Durability::on_disk, files);
 }
 
-void load_state(const std::filesystem::path& path, StabilityState& state, const std::string& options) {
+void load_state(const std::filesystem::path& path, StabilityState& state, const std::string& options, Files& files) {
   if (!std::filesystem::exists(path)) {
     return;
   }
-  std::ifstream text(path);
+  const std::string whole = whole_text(path, files);
+  std::istringstream text(whole);
   std::string kind, theirs;
   if (!std::getline(text, kind) || kind != first_line || !std::getline(text, theirs)) {
     refuse(path, "this is no state of `dmpc bench stability`, expected one or a file that is not there yet");
@@ -77,7 +92,8 @@ void load_state(const std::filesystem::path& path, StabilityState& state, const 
   if (theirs != options) {
     refuse(path, "this is the state of a run with other options (" + theirs + "), expected " + options);
   }
-  if (!read_counts(text, state)) {
+  // A last number that is cut short would be another number.
+  if (!whole.ends_with('\n') || !read_counts(text, state)) {
     refuse(path, "this state is damaged, remove it and start again");
   }
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/stability/run.h"
+#include "apps/system/files.h"
 
 namespace dmpc::apps {
 
@@ -13,10 +14,12 @@ namespace dmpc::apps {
 std::string text_of(const StabilityState& state, const std::string& options);
 
 /// Writes it whole or not at all. Throws core::InputError if that fails.
-void save_state(const std::filesystem::path& path, const StabilityState& state, const std::string& options);
+void save_state(const std::filesystem::path& path, const StabilityState& state, const std::string& options,
+                Files& files = real_files());
 
 /// Reads it into `state`, whose rows are those of the run that is to go on. If there is no file, nothing changes. Throws
-/// core::InputError if the file is none of ours, or the state of a run with other options.
-void load_state(const std::filesystem::path& path, StabilityState& state, const std::string& options);
+/// core::InputError if the file cannot be read, is none of ours, is cut short, or is the state of a run with other options.
+void load_state(const std::filesystem::path& path, StabilityState& state, const std::string& options,
+                Files& files = real_files());
 
 }  // namespace dmpc::apps

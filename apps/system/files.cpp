@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 class RealFiles final : public Files {
  public:
   int open(const fs::path& path, int flags) override { return ::open(path.c_str(), flags | O_CLOEXEC, 0666); }
+  ssize_t read(int file, std::span<char> room) override { return ::read(file, room.data(), room.size()); }
   ssize_t write(int file, std::string_view bytes) override { return ::write(file, bytes.data(), bytes.size()); }
   int sync(int file) override { return ::fsync(file); }
   int close(int file) override { return ::close(file); }

@@ -1,9 +1,11 @@
-// What is asked of the file system to keep a file, so that tests can have each call fail and the computer lose its power.
+// What is asked of the file system to keep a file and to read it back, so that tests can have each call fail and the computer
+// lose its power.
 #pragma once
 
 #include <sys/types.h>
 
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 namespace dmpc::apps {
@@ -19,6 +21,8 @@ class Files {
 
   /// A descriptor, which a program that is started does not get. What O_CREAT makes, all may read and write whom the mask lets.
   virtual int open(const std::filesystem::path& path, int flags) = 0;
+  /// How many bytes there were, up to the room for them: perhaps not all; 0 at the end.
+  virtual ssize_t read(int file, std::span<char> room) = 0;
   /// How many bytes were taken: perhaps not all.
   virtual ssize_t write(int file, std::string_view bytes) = 0;
   /// Waits until the file is on the disk; a folder's are its names.

@@ -125,6 +125,8 @@ TEST_CASE("what is no picture cannot be read") {
   CHECK_THROWS_AS(read_image(folder / "a.png"), core::InputError);
   CHECK_THROWS_AS(read_image(folder / "missing.exr"), core::InputError);
   CHECK_THROWS_AS(read_image(folder.path()), core::InputError);
+  tests::write_text(folder / "a.pfm", "PF -5 2\n-1 1 2 3");
+  CHECK_THROWS_WITH_AS(read_image(folder / "a.pfm"), doctest::Contains("says that it has -5x2 pixels"), core::InputError);
 }
 
 }  // namespace dmpc::apps

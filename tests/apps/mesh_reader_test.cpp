@@ -65,6 +65,32 @@ TEST_CASE("a triangle is the same in every format") {
   }
 }
 
+TEST_CASE("what says nothing of its colour is grey in every format, but for glTF, which says that it is white") {
+  const Vec3d grey{0.6, 0.6, 0.6};
+  for (const MeshFile& file :
+       {read("a.obj", tests::triangle_obj), read("a.ply", tests::triangle_ply), read("a.stl", tests::triangle_stl),
+        read("b.stl", tests::triangle_binary_stl()), read("a.off", "OFF\n3 1 0\n0 0 0\n2 0 0\n0 1 0\n3 0 1 2\n")}) {
+    CAPTURE(file.scene.name);
+    const Vec3d color = file.scene.materials[file.scene.objects.at(0).material].color;
+    CHECK(length(color - grey) < 1e-6);
+  }
+  const Scene gltf = read(Gltf{}).scene;
+  CHECK(gltf.materials[gltf.objects.at(0).material].color == Vec3d{1, 1, 1});
+}
+
+TEST_CASE("a colour that a PLY or STL file says is kept, be it white") {
+  const std::string material =
+      "element material 1\nproperty uchar diffuse_red\nproperty uchar diffuse_green\nproperty uchar diffuse_blue\nend_header\n";
+  std::string ply = tests::triangle_ply + "255 255 255\n";
+  ply.replace(ply.find("end_header\n"), 11, material);
+  std::string stl = tests::triangle_binary_stl();
+  stl.replace(0, 10, "COLOR=\xff\xff\xff\xff");
+  for (const Scene& scene : {read("a.ply", ply).scene, read("a.stl", stl).scene}) {
+    CAPTURE(scene.name);
+    CHECK(scene.materials[scene.objects.at(0).material].color == Vec3d{1, 1, 1});
+  }
+}
+
 TEST_CASE("a path is a mesh file's by its ending, in small letters or large") {
   CHECK(is_mesh_path("a/b.obj"));
   CHECK(is_mesh_path("A.GLB"));

@@ -1,6 +1,7 @@
 #include "apps/nff_reader.h"
 
 #include <doctest/doctest.h>
+#include <malloc.h>
 
 #include <cmath>
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/nff_tokens.h"
 #include "core/expect.h"
 
 using namespace dmpc;
@@ -118,6 +120,30 @@ TEST_CASE("surplus numbers after a material or a light's colour are ignored to t
   CHECK(scene.lights.size() == 1);
   CHECK(scene.objects.size() == 1);
   check_refused("f 1 1 1 1 0 0 0 0\n0.5", "found '0.5', expected one of the keywords", "a.nff:9: ");
+}
+
+TEST_CASE("a line is read whole, however long, and the next one is counted as such") {
+  for (const std::size_t length : {4088U, 4093U, 4094U, 4095U, 4096U, 4097U, 8190U, 8191U, 8192U, 100'000U}) {
+    CAPTURE(length);
+    const std::string line = "b 0.25 0.5" + std::string(length, ' ') + "0.75";
+    const core::Vec3d color{0.25, 0.5, 0.75};
+    CHECK(read_text(view + line).background == color);
+    CHECK(read_text(view + line + "\n").background == color);
+    check_refused(line + "\nwrong", "'wrong'", "a.nff:9: ");
+  }
+}
+
+TEST_CASE("reading a short file takes little memory") {
+  std::istringstream input(view);
+  const std::string name = "a.nff";
+  const auto allocated = [] {
+    const struct mallinfo2 info = ::mallinfo2();
+    return info.uordblks + info.hblkhd;
+  };
+  const std::size_t before = allocated();
+  apps::NffTokens tokens(input, name);
+  CHECK(tokens.take() == "v");
+  CHECK(allocated() < before + 100'000);
 }
 
 TEST_CASE("a byte order mark at the beginning of a file is skipped, and nowhere else") {

@@ -60,9 +60,9 @@ TEST_CASE("a file that is no state or a damaged one is refused") {
   const TemporaryFolder folder;
   const std::string good = apps::text_of(half_done(), "seed 1");
   const std::string head = good.substr(0, good.find("3 2048"));
-  for (const std::string& text :
-       {std::string(), std::string("nff\nv\n"), head, head + "x 0 0\n", head + "0 0 1\n9 0 1 0 0 0 0 0 0\n",
-        head + "0 0 1\n0 99 1 0 0 0 0 0 0\n", head + "0 0 2\n0 0 1 0 0 0 0 0 0\n", good + "more"}) {
+  for (const std::string& text : {std::string(), std::string("nff\nv\n"), head, head + "x 0 0\n",
+                                  head + "0 0 1\n9 0 1 0 0 0 0 0 0\n", head + "0 0 1\n0 99 1 0 0 0 0 0 0\n",
+                                  head + "0 0 1\n0 0 1 0 0 0 0 0 12", head + "0 0 2\n0 0 1 0 0 0 0 0 0\n", good + "more"}) {
     CAPTURE(text);
     write(folder / "state", text);
     StabilityState state = two_rows();

@@ -17,8 +17,12 @@
 #include <vector>
 
 #include "apps/accurate/reference_file.h"
+#include "apps/checkpoint_file.h"
+#include "apps/machine_file.h"
 #include "apps/machines.h"
+#include "apps/nff_reader.h"
 #include "apps/render.h"
+#include "apps/stability/state.h"
 #include "core/expect.h"
 #include "tests/support/environment.h"
 #include "tests/support/simulated_files.h"
@@ -34,7 +38,7 @@ namespace fs = std::filesystem;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr std::uint64_t storage_seeds_by_default = 20;
 #else
-constexpr std::uint64_t storage_seeds_by_default = 200;
+constexpr std::uint64_t storage_seeds_by_default = 170;
 #endif
 
 /// What is said on stderr while it lives.
@@ -52,7 +56,8 @@ class Overheard {
   std::streambuf* before_;
 };
 
-/// A picture of 6x6 pixels with a checkpoint wherever there can be one, by the strategy that the seed says.
+/// A picture of 6x6 pixels with a checkpoint wherever there can be one, by the strategy that the seed says, and with it maps, a
+/// trace or, seldom, since gnuplot takes its time, a page.
 apps::RenderOptions storage_options(const TemporaryFolder& folder, std::uint64_t seed) {
   apps::RenderOptions options;
   options.picture.scene = "balls-1";
@@ -66,7 +71,30 @@ apps::RenderOptions storage_options(const TemporaryFolder& folder, std::uint64_t
   options.computer.node_count = 2;
   options.computer.runner = apps::RunnerKind::virtual_time;
   options.computer.machine_name = "ipsc2";
+  if (seed % 4 == 1) {
+    options.heat_maps = {{nodes::HeatKind::rays, folder / "picture/h.png"}, {nodes::HeatKind::time, folder / "picture/h.exr"}};
+  }
+  if (seed % 4 == 2) {
+    options.trace.path = folder / (seed % 8 == 2 ? "picture/t.json" : "picture/t.paje");
+  }
+  if (seed % 50 == 3) {
+    options.report = folder / "picture/r.html";
+  }
   return options;
+}
+
+/// All but the checkpoint.
+std::vector<fs::path> output_paths(const apps::RenderOptions& options) {
+  std::vector<fs::path> paths{options.image, *options.stats};
+  for (const apps::HeatRequest& request : options.heat_maps) {
+    paths.push_back(request.path);
+  }
+  for (const std::optional<fs::path>& path : {options.trace.path, options.report}) {
+    if (path) {
+      paths.push_back(*path);
+    }
+  }
+  return paths;
 }
 
 /// The disk on which a picture is made, as it is between two starts of the program.
@@ -83,17 +111,24 @@ class Storage {
     std::ostringstream output;
     apps::Interrupt interrupt;
     const std::uint64_t errors = files_.errors();
-    status_ = apps::render_command(options_, interrupt, output, files_);
+    std::string complaint;
+    try {
+      status_ = apps::render_command(options_, interrupt, output, files_);
+    } catch (const core::InputError& error) {  // the checkpoint could not be read
+      status_ = 1;
+      complaint = error.what();
+    }
     const bool had_power = files_.has_power();
     CHECK((status_ == 0 || status_ == 1));
     CHECK((status_ == 0 || !had_power || files_.errors() > errors));
-    CHECK_MESSAGE(
-        (status_ == 0 || contains(overheard.text(), "cannot be written") || contains(overheard.text(), "loss of power")),
-        overheard.text());
+    CHECK_MESSAGE((status_ == 0 || contains(complaint, "cannot be read: Input/output error") ||
+                   contains(complaint, "cannot be read: Too many open files") ||
+                   contains(overheard.text(), "cannot be written") || contains(overheard.text(), "loss of power")),
+                  overheard.text(), complaint);
     files_.lose_power();
     show();
     check_checkpoint();
-    check_picture(status_ == 0 && had_power);
+    check_outputs(status_ == 0 && had_power);
   }
 
   SimulatedFiles::Faults draw_faults() {
@@ -134,13 +169,17 @@ class Storage {
     CHECK(std::find(first, versions.end(), text) != versions.end());
   }
 
-  /// It is whole if it is there, and there if it was said to be.
-  void check_picture(bool is_certain) {
-    CHECK((!is_certain || (fs::exists(options_.image) && contains(file_text(*options_.stats), "film_hash"))));
-    if (fs::exists(options_.image)) {
-      const auto& versions = files_.versions(options_.image);
-      CHECK(std::find(versions.begin(), versions.end(), file_text(options_.image)) != versions.end());
+  /// Each is whole if it is there, and there if all were said to be.
+  void check_outputs(bool are_certain) {
+    for (const fs::path& path : output_paths(options_)) {
+      CAPTURE(path);
+      CHECK((!are_certain || fs::exists(path)));
+      if (fs::exists(path)) {
+        const auto& versions = files_.versions(path);
+        CHECK(std::find(versions.begin(), versions.end(), file_text(path)) != versions.end());
+      }
     }
+    CHECK((!are_certain || contains(file_text(*options_.stats), "film_hash")));
   }
 
   TemporaryFolder folder_;
@@ -205,6 +244,67 @@ TEST_CASE("storage: a reference that was kept is whole or not there, and there i
     const std::optional<apps::Reference> read = apps::load_reference(folder.path(), "key");
     CHECK((read.has_value() || !is_certain));
     CHECK((!read || (read->own_error == 0.25 && read->picture.width == 3)));
+  }
+}
+
+TEST_CASE("storage: a state of the stability bench is the last that was kept, and who cannot read it is told so") {
+  const std::uint64_t first = number_from_environment("DMPC_STORAGE_FIRST", 1);
+  const std::uint64_t count = number_from_environment("DMPC_STORAGE_SEEDS", storage_seeds_by_default);
+  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+    CAPTURE(seed);
+    const TemporaryFolder folder;
+    SimulatedFiles files(seed);
+    apps::StabilityState state;
+    state.rows = {{"R1 one"}, {"R2 two"}};
+    files.begin({.power_lasts_calls = seed % 48,
+                 .error_every = static_cast<std::uint32_t>(seed % 5 * 8),
+                 .short_every = static_cast<std::uint32_t>(seed % 3)});
+    std::uint64_t certain = 0;
+    for (state.rays_done = 1; state.rays_done <= 8; ++state.rays_done) {
+      state.rows[1].counts[2].tried = state.rays_done * 1000;
+      try {
+        apps::save_state(folder / "state", state, "seed 1", files);
+        certain = files.has_power() ? state.rays_done : certain;
+      } catch (const core::InputError& error) {
+        CHECK((contains(error.what(), "cannot be written") || contains(error.what(), "loss of power")));
+      }
+    }
+    files.lose_power();
+    for (const auto& [path, bytes] : files.contents()) {
+      write_text(path, bytes);
+    }
+    files.begin({.error_every = static_cast<std::uint32_t>(seed % 4), .short_every = static_cast<std::uint32_t>(seed % 3)});
+    apps::StabilityState read = state;
+    read.rays_done = 0;
+    try {
+      apps::load_state(folder / "state", read, "seed 1", files);
+      CHECK(read.rays_done >= certain);
+      CHECK((read.rays_done == 0 || read.rows[1].counts[2].tried == read.rays_done * 1000));
+    } catch (const core::InputError& error) {
+      CHECK(contains(error.what(), "cannot be read: "));
+      CHECK(files.errors() > 0);
+    }
+  }
+}
+
+TEST_CASE("storage: a disk that fails to read is told from a file that is damaged") {
+  const fs::path failing = "/proc/self/mem";  // ordinary to look at, and its first byte cannot be read
+  const auto complaint_of = [](const auto& read) -> std::string {
+    try {
+      read();
+    } catch (const core::InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  apps::StabilityState state;
+  for (const std::string& complaint :
+       {complaint_of([&] {
+          apps::read_checkpoint(failing, {1, 1, {}, {}});
+        }),
+        complaint_of([&] { apps::load_state(failing, state, "seed 1"); }), complaint_of([&] { apps::read_nff_file(failing); }),
+        complaint_of([&] { apps::load_machine(failing); })}) {
+    CHECK_MESSAGE(contains(complaint, "cannot be read: Input/output error"), complaint);
   }
 }
 

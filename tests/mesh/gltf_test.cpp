@@ -291,6 +291,16 @@ TEST_CASE("what reaches beyond its bytes or does not exist is refused, with its 
   }
 }
 
+TEST_CASE("extensions within each other are refused soon, however many") {
+  std::string nested = "{}";
+  for (int i = 0; i < 2000; ++i) {
+    nested = R"({"extensions":)" + nested + "}";
+  }
+  tests::Gltf gltf;
+  gltf.materials = "[" + nested + "]";
+  CHECK(tests::contains(complaint_about(gltf.text()), "within each other more than 16 deep"));
+}
+
 TEST_CASE("packed bytes that are damaged are refused") {
   const auto complaint = [](const std::string& bytes, std::size_t stride, std::size_t count, const std::string& mode,
                             const std::string& filter = "NONE") {

@@ -75,6 +75,16 @@ TEST_CASE("an STL file cut short is refused, in text and in binary") {
   CHECK(tests::contains(refusal_of("a.stl", binary.substr(0, 50)), "is no STL"));
 }
 
+TEST_CASE("text of PLY, STL, OBJ and MTL may begin with a byte order mark") {
+  const std::string mark = "\xef\xbb\xbf";
+  for (const auto& [name, text] :
+       {std::pair{"a.ply", tests::triangle_ply}, {"a.stl", tests::triangle_stl}, {"a.obj", tests::triangle_obj}}) {
+    CAPTURE(name);
+    CHECK(refusal_of(name, text) == "");
+    CHECK(refusal_of(name, mark + text) == "");
+  }
+}
+
 TEST_CASE("an OBJ file with an index of nothing is refused, be it of a vertex, a place or a normal") {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
   CHECK(refusal_of("a.obj", vertices + "f 1/1/1 2/1/1 3/1/1\n").empty());

@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ class SimulatedFiles final : public apps::Files {
   struct Faults {
     std::uint64_t power_lasts_calls = UINT64_MAX;  ///< then the power is lost, before or after what the call does
     std::uint32_t error_every = 0;                 ///< one call of so many fails; 0: none
-    std::uint32_t short_every = 0;                 ///< one write of so many takes a part; 0: none
+    std::uint32_t short_every = 0;                 ///< one write or read of so many takes a part; 0: none
   };
 
   explicit SimulatedFiles(std::uint64_t seed) : random_(seed) {}
@@ -49,6 +50,7 @@ class SimulatedFiles final : public apps::Files {
   std::size_t certain(const std::filesystem::path& path) { return certain_[path]; }
 
   int open(const std::filesystem::path& path, int flags) override;
+  ssize_t read(int file, std::span<char> room) override;
   ssize_t write(int file, std::string_view bytes) override;
   int sync(int file) override;
   int close(int file) override;
@@ -59,6 +61,11 @@ class SimulatedFiles final : public apps::Files {
   struct File {
     std::string bytes, synced;
     bool is_spoilt = false;  ///< a sync failed: what was not on the disk then never will be
+  };
+  /// A file that is read, and where.
+  struct Reading {
+    std::shared_ptr<File> file;
+    std::size_t at = 0;
   };
   using Names = std::map<std::filesystem::path, std::shared_ptr<File>>;
   /// What one call did to names.
@@ -82,6 +89,7 @@ class SimulatedFiles final : public apps::Files {
   int next_descriptor_ = 1000;
   std::map<std::filesystem::path, Folder> folders_;
   std::map<int, std::shared_ptr<File>> open_files_;
+  std::map<int, Reading> readings_;
   std::map<int, std::filesystem::path> open_folders_;
   std::map<std::filesystem::path, std::vector<std::string>> versions_;
   std::map<std::filesystem::path, std::size_t> certain_;
@@ -129,8 +137,13 @@ inline int SimulatedFiles::open(const std::filesystem::path& path, int flags) {
   if ((flags & O_DIRECTORY) != 0) {
     return goes_on({EINTR, EIO, EMFILE}, [&] { open_folders_[descriptor] = path; }) ? descriptor : -1;
   }
-  if (folders_[path.parent_path()].names.count(path) != 0) {
-    errno = EEXIST;
+  const Names& names = folders_[path.parent_path()].names;
+  const auto found = names.find(path);
+  if ((flags & O_CREAT) == 0 && found != names.end()) {
+    return goes_on({EINTR, EIO, EMFILE}, [&] { readings_[descriptor].file = found->second; }) ? descriptor : -1;
+  }
+  if ((flags & O_CREAT) == 0 || found != names.end()) {
+    errno = found == names.end() ? ENOENT : EEXIST;
     return -1;
   }
   const auto make = [&] {
@@ -139,6 +152,19 @@ inline int SimulatedFiles::open(const std::filesystem::path& path, int flags) {
     open_files_[descriptor] = file;
   };
   return goes_on({EINTR, ENOSPC, EIO, EMFILE}, make) ? descriptor : -1;
+}
+
+inline ssize_t SimulatedFiles::read(int file, std::span<char> room) {
+  Reading& reading = readings_.at(file);
+  std::size_t count = std::min(room.size(), reading.file->bytes.size() - reading.at);
+  if (count > 0 && is_one_of(faults_.short_every)) {
+    count = 1 + random_() % count;
+  }
+  const auto take = [&] {
+    reading.file->bytes.copy(room.data(), count, reading.at);
+    reading.at += count;
+  };
+  return goes_on({EINTR, EIO}, take) ? static_cast<ssize_t>(count) : -1;
 }
 
 inline ssize_t SimulatedFiles::write(int file, std::string_view bytes) {
@@ -172,6 +198,7 @@ inline int SimulatedFiles::sync(int descriptor) {
 
 inline int SimulatedFiles::close(int file) {
   open_files_.erase(file);
+  readings_.erase(file);
   open_folders_.erase(file);
   return goes_on({}, [] {}) ? 0 : -1;
 }
@@ -231,6 +258,7 @@ inline void SimulatedFiles::lose_power() {
     folder.synced = folder.names;
   }
   open_files_.clear();
+  readings_.clear();
   open_folders_.clear();
   has_power_ = true;
 }

@@ -1,0 +1,106 @@
+// Any bytes as a .gltf or .glb of version 2, by our own reader: refused with core::InputError, or a scene that is built and
+// rendered.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <new>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "apps/gltf/document.h"
+#include "apps/mesh/reader.h"
+#include "core/expect.h"
+#include "tests/fuzz/small_picture.h"
+
+using namespace dmpc;
+
+namespace {
+
+using Bytes = std::span<const std::byte>;
+
+class InputBytes final : public apps::FileBytes {
+ public:
+  explicit InputBytes(Bytes bytes) : bytes_(bytes) {}
+  Bytes bytes() const override { return bytes_; }
+
+ private:
+  Bytes bytes_;
+};
+
+/// The input is the only file; a picture within it is taken for one.
+class InputFiles final : public apps::SceneFiles {
+ public:
+  explicit InputFiles(Bytes input) : input_(input) {}
+
+  std::unique_ptr<apps::FileBytes> open(const std::string& path) override {
+    if (path != name) {
+      throw core::InputError(path + ": is not there");
+    }
+    return std::make_unique<InputBytes>(input_);
+  }
+  bool exists(const std::string& path) override { return path == name; }
+  std::vector<std::filesystem::path> meant(const std::filesystem::path& /*folder*/, const std::string& /*name*/) override {
+    return {};
+  }
+  void add_texture(const std::string& path, const apps::TextureEdges& /*edges*/) override {
+    throw core::InputError(path + ": is not there");
+  }
+  void add_texture(Bytes /*file*/, const std::string& /*name*/, const std::string& /*format_hint*/,
+                   const apps::TextureEdges& /*edges*/) override {}
+  void add_texture(std::span<const std::uint32_t> /*texels*/, std::uint32_t /*width*/, std::uint32_t /*height*/,
+                   const std::string& /*name*/, const apps::TextureEdges& /*edges*/) override {}
+  void show_progress(float /*share*/) override {}
+
+  static constexpr const char* name = "input.gltf";
+
+ private:
+  Bytes input_;
+};
+
+/// Whether our reader gets it, and gets through it soon: what has no bytes in the file may be said to be as large as memory.
+bool is_of_interest(Bytes input) {
+  constexpr std::uint64_t most = 4096;
+  try {
+    const apps::gltf::Document document = apps::gltf::parse_document(input);
+    for (const apps::gltf::Part& accessor : document.root().list("accessors")) {
+      if (accessor.whole("count", 0) > most) {
+        return false;
+      }
+    }
+    return document.version == 2;
+  } catch (const core::InputError&) {
+    return true;
+  }
+}
+
+std::optional<core::Scene> read(Bytes input) {
+  InputFiles files(input);
+  try {
+    return apps::read_mesh(InputFiles::name, {.allows_missing = true}, files).scene;
+  } catch (const core::InputError& error) {
+    core::expect(!std::string_view(error.what()).empty(), "who refuses says why");
+  } catch (const core::RoomError&) {
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const Bytes input = std::as_bytes(std::span(data, size));
+  if (!is_of_interest(input)) {
+    return 0;
+  }
+  if (std::optional<core::Scene> scene = read(input)) {
+    tests::check_scene(*scene);
+    for (core::Texture& texture : scene->textures) {
+      texture.levels = {{2, 2, {0x102030, 0xffffff, 0, 0x808080}}};
+      core::add_levels(texture);
+    }
+    tests::render_small(*scene);
+  }
+  return 0;
+}

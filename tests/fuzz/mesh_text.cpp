@@ -1,0 +1,57 @@
+// Any bytes as a file in the formats that Assimp reads and we look through beforehand: refused with core::InputError, or let
+// pass; MTL is made plain, once for all. The first byte says which.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "apps/byte_order_mark.h"
+#include "apps/mesh/mtl_text.h"
+#include "apps/mesh/obj_check.h"
+#include "apps/mesh/ply_check.h"
+#include "apps/mesh/stl_check.h"
+#include "core/expect.h"
+
+using namespace dmpc;
+
+namespace {
+
+using Check = void (*)(std::string_view file);
+
+void check_mtl(std::string_view file) {
+  apps::MtlTextures textures, none;
+  const std::string plain = apps::plain_mtl(file, textures);
+  core::expect(plain.size() <= file.size() + 1, "options are left out");
+  const bool is_marked = plain.starts_with(apps::byte_order_mark);
+  core::expect(is_marked || apps::plain_mtl(plain, none) == plain, "what is plain stays so");
+  core::expect(is_marked || none.left_out.empty(), "what is plain has no option but -clamp");
+}
+
+void check_stl(std::string_view file) {
+  const std::string_view rest = apps::stl_without_mark(file);
+  apps::check_stl(rest);
+  apps::has_stl_colour(rest);
+}
+
+void check_ply(std::string_view file) {
+  apps::check_ply(file);
+  apps::has_ply_material(file);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  constexpr std::array<Check, 4> checks{check_ply, check_stl, apps::check_obj, check_mtl};
+  if (size == 0) {
+    return 0;
+  }
+  const std::string_view file(reinterpret_cast<const char*>(data) + 1, size - 1);
+  try {
+    checks[data[0] % checks.size()](file);
+  } catch (const core::InputError& error) {
+    core::expect(!std::string_view(error.what()).empty(), "who refuses says why");
+  }
+  return 0;
+}

@@ -1,0 +1,89 @@
+// Any bytes as a picture, by the first byte in a file that ends with .tga or with nothing: no format that is known, refused with
+// core::InputError, or a texture and an image of the size that the file says. Of OpenImageIO's readers those are left out that
+// are known to fail themselves, which is what readers are processes of their own for.
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "apps/foreign/picture_decoder.h"
+#include "apps/reader/picture_format.h"
+#include "core/expect.h"
+
+using namespace dmpc;
+
+namespace {
+
+using core::expect;
+
+constexpr std::array<std::string_view, 3> formats_held{"png", "hdr", "pnm"};
+/// Larger ones are slow, and find nothing new.
+constexpr std::uint64_t pixels_max = 4096;
+
+/// What the file says of its size: nothing if it is too large to be tried.
+bool is_small(const apps::EncodedPicture& picture) {
+  OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(picture.bytes.data()), picture.bytes.size());
+  OIIO::ImageSpec spec, config;
+  void* const proxy = &memory;
+  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  const auto image = OIIO::ImageInput::create(picture.format, false, nullptr, nullptr, "");
+  return !image->open(picture.name, spec, config) || spec.width > static_cast<int>(apps::picture_side_max) ||
+         std::uint64_t(std::max(spec.width, 0)) * std::uint64_t(std::max(spec.height, 0)) <= pixels_max;
+}
+
+template <class Decode>
+auto decoded(const apps::EncodedPicture& picture, const Decode& decode) -> std::optional<decltype(decode(picture))> {
+  try {
+    return decode(picture);
+  } catch (const core::InputError& error) {
+    expect(std::string_view(error.what()).starts_with("input: "), "who refuses says what");
+    return std::nullopt;
+  }
+}
+
+void try_picture(const apps::EncodedPicture& picture) {
+  if (const auto texture = decoded(picture, apps::decode_texture)) {
+    expect(texture->levels.size() == 1, "the finest level alone is decoded");
+    const core::TextureLevel& level = texture->levels.front();
+    expect(level.texels.size() == std::uint64_t{level.width} * level.height && !level.texels.empty(), "every texel is there");
+  }
+  if (const auto image = decoded(picture, apps::decode_image)) {
+    expect(image->rgb.size() == std::size_t{3} * static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height),
+           "every pixel is there");
+  }
+}
+
+}  // namespace
+
+/// libpng leaves by longjmp, past what OpenImageIO has to give back.
+extern "C" const char* __asan_default_options() { return "detect_leaks=0"; }
+
+extern "C" int LLVMFuzzerInitialize(int* /*argument_count*/, char*** /*arguments*/) {
+  apps::prepare_decoders();
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) {
+    return 0;
+  }
+  const auto bytes = std::as_bytes(std::span(data, size)).subspan(1);
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const auto format = apps::picture_format(text, data[0] % 2 == 1 ? "TGA" : "");
+  if (format && std::find(formats_held.begin(), formats_held.end(), *format) != formats_held.end()) {
+    const apps::EncodedPicture picture{bytes, "input", *format};
+    if (is_small(picture)) {
+      try_picture(picture);
+    }
+  }
+  return 0;
+}

@@ -1,0 +1,46 @@
+// A scene that was accepted, built and rendered in a few pixels: nothing may fail but for want of room.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "core/camera.h"
+#include "core/database.h"
+#include "core/expect.h"
+#include "core/render.h"
+#include "core/scene.h"
+
+namespace dmpc::tests {
+
+/// What readers of files promise of any scene.
+inline void check_scene(const core::Scene& scene) {
+  using core::expect;
+  for (const core::Object& object : scene.objects) {
+    expect(object.kind <= core::ObjectKind::textured && object.material < scene.materials.size(), "an object is one");
+    expect(object.first + std::uint64_t{object.vertex_count} <= scene.vertices.size(), "an object's vertices are there");
+  }
+  for (const core::Vec3d& vertex : scene.vertices) {
+    expect(is_finite(vertex), "every vertex is somewhere");
+  }
+}
+
+/// Scenes with more lights or objects make an input slow and find nothing new.
+inline void render_small(const core::Scene& scene) {
+  constexpr std::size_t lights_max = 16, objects_max = 200;
+  constexpr int picture_side = 4, depth_max = 4;
+  if (scene.lights.size() > lights_max || scene.objects.size() > objects_max) {
+    return;
+  }
+  try {
+    const core::Database database = core::build_database(scene, {});
+    core::LocalRecords records(database.bytes());
+    core::GridTracer tracer(records, database.header(), {});
+    const core::Camera camera(scene.view, database.header().frame, picture_side, picture_side, 1);
+    core::Operations operations;
+    const core::Film film = core::render(tracer, {database.header(), camera, {.depth_max = depth_max}}, operations);
+    core::expect(film.pixels().size() == picture_side * picture_side, "every pixel is there");
+  } catch (const core::InputError&) {  // a scene without room, or too large to be reckoned with
+  }
+}
+
+}  // namespace dmpc::tests
