@@ -20,6 +20,7 @@
 #include "apps/paper_tables.h"
 #include "apps/scratch_folder.h"
 #include "apps/system/attempts.h"
+#include "apps/system/output_set.h"
 #include "apps/table_options.h"
 #include "core/expect.h"
 
@@ -65,9 +66,38 @@ PaperReport report_of(const Catalogue& catalogue, const std::vector<VariedRuns>&
   return report;
 }
 
+/// Every table's name, in their order; the last one only where the machine is varied.
+std::vector<std::string> table_names(bool has_sensitivity) {
+  std::vector<std::string> names = {"table_2",  "table_3", "calibration", "law",    "against_law",
+                                    "memories", "losses",  "algorithms",  "caches", "claims"};
+  if (has_sensitivity) {
+    names.emplace_back("sensitivity");
+  }
+  return names;
+}
+
+/// Throws core::UsageError or core::InputError unless all outputs can be made, as far as can be known beforehand.
+void check_files(const PaperStudyOptions& options) {
+  std::vector<OutputName> outputs;
+  if (options.output) {
+    make_output_folder(*options.output, "-o");
+    outputs = report_files(table_names(options.has_sensitivity), *options.output, "-o");
+  }
+  if (options.report) {
+    outputs.push_back({{"--report", *options.report}});
+    const ScratchFolder probe;
+  }
+  check_outputs({}, outputs);
+  check_standard_output("the report", "redirect it elsewhere");
+  check_open_files();
+}
+
 /// Writes what is known: to `output` before the folder, so that a file in the way there loses nothing.
 void publish(const PaperReport& report, const PaperStudyOptions& options, std::ostream& output, Attempts& attempts) {
-  output << text_of(report) << std::flush;
+  attempts.make([&] {
+    output << text_of(report);
+    finish_output(output, "the report");
+  });
   if (options.output) {
     for (const std::string& complaint : write_report(report, *options.output, attempts)) {
       std::cerr << "dmpc: " << complaint << std::endl;
@@ -76,7 +106,6 @@ void publish(const PaperReport& report, const PaperStudyOptions& options, std::o
   if (options.report) {
     attempts.make([&] { write_file(*options.report, page_of(report, std::cerr)); });
   }
-  attempts.make([&] { finish_output(output, "the report"); });
 }
 
 /// By processor time of a server's core in November 2026.
@@ -104,13 +133,7 @@ void add_options(OptionSet options, PaperStudyOptions& paper) {
 }
 
 int study_paper_command(const PaperStudyOptions& options, Interrupt& interrupt, std::ostream& output) {
-  if (options.output) {
-    make_output_folder(*options.output, "-o");
-  }
-  if (options.report) {
-    check_output_path(*options.report, "--report");
-    const ScratchFolder probe;
-  }
+  check_files(options);
   Catalogue catalogue = catalogue_of(options.resolution);
   const std::vector<VariedRuns> varied = options.has_sensitivity ? add_variations(catalogue) : std::vector<VariedRuns>();
   announce("study paper, " + counted(catalogue.runs.size(), "run"), effort_of(catalogue), options.quiet, std::cerr);

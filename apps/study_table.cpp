@@ -50,10 +50,7 @@ std::vector<Line> markdown_cells(const Table& table) {
     lines[0].push_back(escaped(header_of(column)));
   }
   for (const std::vector<Cell>& row : table.rows()) {
-    Line& line = lines.emplace_back();
-    for (std::size_t column = 0; column < row.size(); ++column) {
-      line.push_back(std::visit(MarkdownCell{table.columns()[column].digits}, row[column]));
-    }
+    lines.push_back(texts_of(table, row));
   }
   return lines;
 }
@@ -266,15 +263,22 @@ void Table::add_row(std::vector<Cell> row) {
   }
 }
 
-std::string last_row_text(const Table& table) {
+std::vector<std::string> texts_of(const Table& table, const std::vector<Cell>& row) {
+  std::vector<std::string> texts;
+  for (std::size_t column = 0; column < row.size(); ++column) {
+    texts.push_back(std::visit(MarkdownCell{table.columns()[column].digits}, row[column]));
+  }
+  return texts;
+}
+
+std::string row_text(const Table& table, const std::vector<Cell>& row) {
+  const std::vector<std::string> cells = texts_of(table, row);
   std::string text;
-  for (std::size_t column = 0; column < table.columns().size(); ++column) {
-    const std::string cell = std::visit(MarkdownCell{table.columns()[column].digits}, table.rows().back()[column]);
-    const std::string more = (text.empty() ? "" : ", ") + header_of(table.columns()[column]) + " " + cell;
-    if (cell.empty() || text.size() + more.size() > row_text_max) {
-      continue;
+  for (std::size_t column = 0; column < cells.size(); ++column) {
+    const std::string more = (text.empty() ? "" : ", ") + header_of(table.columns()[column]) + " " + cells[column];
+    if (!cells[column].empty() && text.size() + more.size() <= row_text_max) {
+      text += more;
     }
-    text += more;
   }
   return text;
 }

@@ -55,8 +55,11 @@ class Table {
 /// Letters in a line of a terminal, and of a page to be read.
 inline constexpr std::size_t markdown_width_max = 120;
 
-/// The names and cells of the last row, "nodes 4, virtual time (s) 3.142", as many as fit a line; a table with rows.
-std::string last_row_text(const Table& table);
+/// A row's cells as Markdown has them.
+std::vector<std::string> texts_of(const Table& table, const std::vector<Cell>& row);
+
+/// The names and cells of a row, "nodes 4, virtual time (s) 3.142", as many as fit a line.
+std::string row_text(const Table& table, const std::vector<Cell>& row);
 
 /// The whole table with a line end.
 ///   markdown   the title in bold, the table with its columns in line, the notes as a list; a table that is wider than

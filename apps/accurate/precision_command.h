@@ -1,16 +1,14 @@
 // The command `bench precision`: the product's pictures in float against double precision, pixel by pixel.
 #pragma once
 
-#include <filesystem>
 #include <iosfwd>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/command_line.h"
 #include "apps/interrupt.h"
 #include "apps/picture_options.h"
-#include "apps/study_table.h"
+#include "apps/table_options.h"
 
 namespace dmpc::apps {
 
@@ -18,9 +16,8 @@ struct PrecisionOptions {
   std::vector<std::string> scenes;  ///< NFF files or built-in names; none: every family in its own size
   Resolution resolution{256, 256};
   int depth = 5;
-  TableFormat format = TableFormat::markdown;
-  std::optional<std::filesystem::path> output;  ///< stdout if not given
-  bool quiet = false;                           ///< no progress
+  TableOutput table;   ///< without a page and plots
+  bool quiet = false;  ///< no progress
 };
 
 /// Declares them.

@@ -228,6 +228,12 @@ void add_plots(const Pictures& pictures, std::vector<Plot>& plots) {
 
 }  // namespace
 
+Table scale_rows(const std::vector<ScaleResult>& results, const ScaleSettings& settings) {
+  Table table("", columns());
+  add_rows(results, settings, table);
+  return table;
+}
+
 Table scale_table(const std::vector<ScaleResult>& results, const ScaleSettings& settings) {
   Table table("Study scale: " + std::to_string(settings.resolution.width) + "x" + std::to_string(settings.resolution.height) +
                   " pixels, part sizes on " + counted(settings.node_count, "node"),

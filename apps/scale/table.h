@@ -16,6 +16,9 @@ namespace dmpc::apps {
 /// in words.
 Table scale_table(const std::vector<ScaleResult>& results, const ScaleSettings& settings);
 
+/// The results' rows alone.
+Table scale_rows(const std::vector<ScaleResult>& results, const ScaleSettings& settings);
+
 /// Pictures of such a table, logarithmic on both axes.
 std::vector<Plot> scale_plots(const ScaleSettings& settings);
 

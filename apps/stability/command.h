@@ -10,7 +10,7 @@
 
 #include "apps/command_line.h"
 #include "apps/interrupt.h"
-#include "apps/study_table.h"
+#include "apps/table_options.h"
 
 namespace dmpc::apps {
 
@@ -21,8 +21,7 @@ struct StabilityOptions {
   bool quick = false, is_long = false;  ///< the command line's words for quick_rays and 0; `rays` says it
   std::vector<std::string> tests;       ///< "R1", "quadrics"; none: all
   std::uint64_t seed = 1;
-  TableFormat format = TableFormat::markdown;
-  std::optional<std::filesystem::path> output;  ///< stdout if not given
+  TableOutput table;                            ///< without a page and plots
   std::optional<std::filesystem::path> resume;  ///< where the run's state is kept, and gone on from
   bool quiet = false;                           ///< no progress
 };

@@ -81,7 +81,7 @@ TEST_CASE("bench speed prints its means first, and every comparison if asked or 
   CHECK(contains(means, "geometric means over scenes and kinds"));
   CHECK(contains(means, "--details, or a file (-o), has all "));
   CHECK_FALSE(contains(means, "largest ratio"));
-  options.output = folder / "speed.md";
+  options.table.file = folder / "speed.md";
   CHECK(output_of(options).empty());
   const std::string file = file_text(folder / "speed.md");
   CHECK(file.find("geometric means") < file.find("largest ratio"));
@@ -161,7 +161,7 @@ TEST_CASE("bench speed writes what was measured before an error ended it") {
 TEST_CASE("an interrupted bench speed writes nothing before anything is measured") {
   const TemporaryFolder folder;
   SpeedOptions options = tiny_speed();
-  options.output = folder / "table.md";
+  options.table.file = folder / "table.md";
   apps::Interrupt interrupt;
   ::kill(::getpid(), SIGINT);
   while (!interrupt.requested()) {

@@ -44,7 +44,7 @@ TEST_CASE("bench stability writes its table and its state, and goes on from the 
   StabilityOptions options = stability_options({"--tests=R5", "--rays=2000", "--resume=" + (folder / "state").string()});
   const std::string first = output_of(options);
   CHECK(std::filesystem::exists(folder / "state"));
-  options.output = folder / "table.md";
+  options.table.file = folder / "table.md";
   CHECK(output_of(options).empty());
   CHECK(std::filesystem::file_size(folder / "table.md") == first.size());
   options.seed = 2;
