@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/effort/effort.h"
+#include "apps/effort/shown_rows.h"
 #include "apps/figures.h"
 #include "apps/machine_load.h"
 #include "apps/output_file.h"
@@ -108,6 +109,16 @@ void publish(const PaperReport& report, const PaperStudyOptions& options, std::o
   }
 }
 
+/// Rows of the tables whose rows need a run or two, as they come.
+void show_rows(const Catalogue& catalogue, const PaperResults& results, ShownRows& shown) {
+  constexpr std::size_t key_count = 2;  // a scene, and nodes or a size
+  if (shown.is_shown()) {
+    shown.show(table_3(catalogue, results), key_count);
+    shown.show(algorithms(catalogue, results), key_count);
+    shown.show(caches(catalogue, results), key_count);
+  }
+}
+
 /// By processor time of a server's core in November 2026.
 Effort effort_of(const Catalogue& catalogue) {
   constexpr double pixel_seconds = 6e-6;
@@ -147,6 +158,7 @@ int study_catalogue(const Catalogue& catalogue, const std::vector<VariedRuns>& v
     return paper_subjects(catalogue.runs);
   }();
   PaperResults results(catalogue.runs.size());
+  ShownRows shown(shows_rows({}, options.quiet), std::cerr);
   Attempts attempts(std::cerr);
   const auto publish_results = [&] {
     const PaperReport report = report_of(catalogue, varied, results, subjects);
@@ -154,7 +166,7 @@ int study_catalogue(const Catalogue& catalogue, const std::vector<VariedRuns>& v
     publish(report, options, output, attempts);
   };
   try {
-    carry_out(catalogue.runs, subjects, interrupt, results);
+    carry_out(catalogue.runs, subjects, interrupt, results, [&] { show_rows(catalogue, results, shown); });
   } catch (...) {
     publish_results();
     throw;

@@ -39,6 +39,11 @@ std::string text_of(const Effort& effort) {
          (effort.bytes >= small_bytes ? " and up to " + memory_text(effort.bytes) + " of memory" : "");
 }
 
+bool is_long(const Effort& effort) {
+  constexpr double long_seconds = 30;
+  return effort.seconds >= long_seconds;
+}
+
 void announce(const std::string& what, const Effort& effort, bool quiet, std::ostream& messages) {
   const bool is_worth_saying = effort.seconds >= short_seconds || effort.bytes >= small_bytes;
   if (is_worth_saying && !quiet && stderr_is_terminal()) {

@@ -16,6 +16,9 @@ struct Effort {
 /// "some seconds", "about 4 minutes and up to 1.5 GiB of memory"; memory is left out below 256 MiB.
 std::string text_of(const Effort& effort);
 
+/// Whether one would rather know of it before a single render: half a minute or more.
+bool is_long(const Effort& effort);
+
 /// Writes "dmpc: WHAT: " and the effort as a line if stderr is a terminal and `quiet` is not set, and the effort is more than
 /// some seconds.
 void announce(const std::string& what, const Effort& effort, bool quiet, std::ostream& messages);

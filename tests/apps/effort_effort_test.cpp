@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "apps/effort/pilot.h"
+#include "apps/effort/render_effort.h"
 #include "apps/effort/study_effort.h"
 #include "apps/load_scene.h"
 
@@ -42,6 +43,21 @@ TEST_CASE("a larger picture of the same scene takes longer") {
   const double few = picture_seconds(small.database, small.settings), many = picture_seconds(large.database, large.settings);
   CHECK(few > 0);
   CHECK(many > 20 * few);
+}
+
+TEST_CASE("a render of half a minute is long, one of less is not") {
+  CHECK(is_long({.seconds = 31}));
+  CHECK_FALSE(is_long({.seconds = 29}));
+}
+
+TEST_CASE("more pixels, a machine's model and a check take longer") {
+  const Subject small = small_subject("tetra-3", 64), large = small_subject("tetra-3", 512);
+  StrategyOptions threads, model;
+  model.computer.runner = RunnerKind::virtual_time;
+  model.computer.node_count = 64;
+  CHECK(render_effort(threads, large).seconds > 4 * render_effort(threads, small).seconds);
+  CHECK(render_effort(model, small).seconds > 0.1);  // nodes take time, too
+  CHECK(check_effort(large).seconds > 4 * check_effort(small).seconds);
 }
 
 TEST_CASE("every run of a study is planned") {
