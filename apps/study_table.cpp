@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "apps/figures.h"
+#include "apps/folded_text.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -157,7 +158,7 @@ std::string markdown(const Table& table) {
     numbered.insert(numbered.end(), layouts.begin(), layouts.end());
     layouts = std::move(numbered);
   }
-  std::string text = "**" + table.title() + "**\n";
+  std::string text = folded("**" + table.title() + "**", markdown_width_max, "  ") + "\n";
   for (const Fold& fold : folds_of(lines, layouts)) {
     text += "\n" + markdown_line(lines[0], layouts, fold) + markdown_rule(layouts, fold);
     for (std::size_t row = 1; row < lines.size(); ++row) {
@@ -166,7 +167,7 @@ std::string markdown(const Table& table) {
   }
   text += table.notes().empty() ? "" : "\n";
   for (const std::string& note : table.notes()) {
-    text += "- " + note + "\n";
+    text += folded("- " + note, markdown_width_max, "  ") + "\n";
   }
   return text;
 }
@@ -269,6 +270,20 @@ std::vector<std::string> texts_of(const Table& table, const std::vector<Cell>& r
     texts.push_back(std::visit(MarkdownCell{table.columns()[column].digits}, row[column]));
   }
   return texts;
+}
+
+std::optional<double> number_in(const Table& table, const std::vector<Cell>& row, std::string_view column) {
+  const auto& columns = table.columns();
+  const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& one) { return one.name == column; });
+  if (found == columns.end()) {
+    return std::nullopt;
+  }
+  const Cell& cell = row[static_cast<std::size_t>(found - columns.begin())];
+  if (const auto* const whole = std::get_if<std::uint64_t>(&cell)) {
+    return static_cast<double>(*whole);
+  }
+  const auto* const real = std::get_if<double>(&cell);
+  return real == nullptr ? std::nullopt : std::optional(*real);
 }
 
 std::string row_text(const Table& table, const std::vector<Cell>& row) {

@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "apps/progress.h"
+#include "apps/shown_text.h"
 
 namespace dmpc::apps {
 
@@ -12,7 +13,6 @@ bool shows_rows(const TableOutput& output, bool quiet) {
 }
 
 void ShownRows::show(const Table& table, std::size_t key_count) {
-  constexpr const char* back_and_clear = "\r\x1b[K";
   if (!is_shown_) {
     return;
   }
@@ -21,7 +21,7 @@ void ShownRows::show(const Table& table, std::size_t key_count) {
     key.resize(std::min(key_count, key.size()));
     key.push_back(table.title());
     if (shown_.insert(std::move(key)).second) {
-      messages_ << back_and_clear << row_text(table, row) << std::endl;
+      messages_ << clear_line << row_text(table, row) << std::endl;
     }
   }
 }

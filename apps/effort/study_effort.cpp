@@ -84,7 +84,7 @@ Effort effort_of(const std::vector<PlannedRun>& runs, const Subject& subject) {
     all += seconds;
     longest = std::max(longest, run.is_virtual ? seconds : seconds / core_count());
   }
-  return {std::max(longest, all / core_count()), bytes_at_once(runs, subject)};
+  return {std::max(longest, all / core_count()), bytes_at_once(runs, subject), true};
 }
 
 }  // namespace dmpc::apps

@@ -39,7 +39,7 @@ Table finished_table(const std::vector<ScaleResult>& results, bool is_complete, 
 }
 
 std::string page_of(const Table& table, const ScaleOptions& options) {
-  const html::SweepPart part{"", table, scale_plots(options.settings)};
+  const html::SweepPart part{"", table, scale_plots(options.settings), scale_conclusion(table)};
   return html::sweep_page({"Study scale", {}, {part}}, this_origin(), std::cerr);
 }
 

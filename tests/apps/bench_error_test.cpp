@@ -39,7 +39,7 @@ std::string output_of(const ErrorOptions& options) {
   apps::Interrupt interrupt;
   std::ostringstream output;
   CHECK(apps::bench_error_command(options, interrupt, output) == 0);
-  return output.str();
+  return output.str().starts_with("**") ? unfolded(output.str()) : output.str();
 }
 
 }  // namespace

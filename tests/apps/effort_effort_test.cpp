@@ -30,6 +30,8 @@ TEST_CASE("an effort is told in words that promise no more than is known") {
   CHECK(text_of(Effort{.seconds = 4 * 3600.0}) == "about 4 hours");
   CHECK(text_of(Effort{.seconds = 234, .bytes = 1536U << 20U}) == "about 4 minutes and up to 1.5 GiB of memory");
   CHECK(text_of(Effort{.seconds = 234, .bytes = 1U << 20U}) == "about 4 minutes");
+  CHECK(text_of(Effort{.seconds = 7, .bytes = 1536U << 20U, .is_given = true}) ==
+        "about 7 seconds; nodes are given up to 1.5 GiB of memory, and may touch less");
 }
 
 TEST_CASE("nothing is said of an effort where nobody looks") {

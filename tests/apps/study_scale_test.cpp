@@ -46,7 +46,7 @@ std::string output_of(const ScaleOptions& options) {
   apps::Interrupt interrupt;
   std::ostringstream output;
   CHECK(apps::study_scale_command(options, interrupt, output) == 0);
-  return output.str();
+  return output.str().starts_with("**") ? unfolded(output.str()) : output.str();
 }
 
 bool has_word(const Words& words, const std::string& word) { return std::find(words.begin(), words.end(), word) != words.end(); }

@@ -33,7 +33,7 @@ std::string output_of(const StudyOptions& options, int status = 0) {
   apps::Interrupt interrupt;
   std::ostringstream output;
   CHECK(apps::study_command(options, interrupt, output) == status);
-  return output.str();
+  return output.str().starts_with("**") ? unfolded(output.str()) : output.str();
 }
 
 /// A list of ever the same number, so long that no study ends by itself.

@@ -117,6 +117,14 @@ TEST_CASE("a picture or page that cannot be written keeps no command's table, an
   }
 }
 
+TEST_CASE("every table, with its title and notes, fits lines of 120 letters") {
+  for (const TableCase& one : table_cases()) {
+    const TemporaryFolder folder;
+    CAPTURE(one.words[1]);
+    CHECK(widest_line(run_table(words_of(one, folder)).output) <= 120);
+  }
+}
+
 TEST_CASE("a table that cannot be written keeps none of its pictures") {
   const TemporaryFolder folder;
   make_unwritable(folder / "table.md");
