@@ -7,6 +7,7 @@
 #include <numeric>
 #include <string>
 
+#include "apps/effort/render_effort.h"
 #include "apps/figures.h"
 #include "apps/inspection.h"
 #include "apps/load_scene.h"
@@ -171,6 +172,15 @@ std::uint64_t print_report(const CheckOptions& options, const core::Database& da
   return unexplained;
 }
 
+void announce_effort(const CheckOptions& options, const Subject& subject) {
+  if (options.quiet || !stderr_is_terminal()) {
+    return;
+  }
+  if (const Effort effort = check_effort(subject); is_long(effort)) {
+    announce("check " + options.picture.scene, effort, options.quiet, std::cerr);
+  }
+}
+
 }  // namespace
 
 void add_options(OptionSet options, CheckOptions& check) {
@@ -195,7 +205,9 @@ void add_options(OptionSet options, CheckOptions& check) {
 int check_command(const CheckOptions& options, Interrupt& interrupt) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   core::Scene scene = load_scene(options.picture);
-  const auto [database, settings] = build_subject(std::move(scene), options.picture, {}, true);
+  const Subject subject = build_subject(std::move(scene), options.picture, {}, true);
+  announce_effort(options, subject);
+  const auto& [database, settings] = subject;
   const Inspection inspection = inspect_shown(options, database, settings);
   interrupt.set_consequence("the report is incomplete");
   const std::uint64_t unexplained = print_report(options, database, settings.camera, inspection);

@@ -24,6 +24,9 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+/// Where help's explanations begin.
+constexpr std::size_t help_column = 36;
+
 /// "--nodes", of "-n,--nodes".
 std::string long_name(const std::string& names) { return names.substr(names.find(',') + 1); }
 
@@ -86,7 +89,7 @@ OptionSet::OptionSet(CLI::App& app) : app_(&app) {
 
 OptionSet OptionSet::add_command(const std::string& name, const std::string& description) {
   app_->require_subcommand(1);
-  return OptionSet(*app_->add_subcommand(name, description));
+  return OptionSet(*app_->add_subcommand(name, description)->group("Commands"));
 }
 
 void OptionSet::begin_group(const std::string& title) { app_->option_defaults()->group(title); }
@@ -180,8 +183,12 @@ bool OptionSet::is_given(const std::string& name) const {
 
 CommandLine::CommandLine(const std::string& description, const std::string& version, const std::string& examples)
     : app_(std::make_unique<CLI::App>(description, "dmpc")) {
+  app_->set_help_flag("-h,--help", "Explain this");
   app_->set_version_flag("--version", version, "Print the version");
-  app_->get_formatter()->column_width(36);
+  for (const auto& [theirs, ours] : {std::pair{"Positionals", "Arguments"}, {"OPTIONS", "options"}, {"SUBCOMMAND", "COMMAND"}}) {
+    app_->get_formatter()->label(theirs, ours);
+  }
+  app_->get_formatter()->column_width(help_column);
   app_->footer(examples);
 }
 

@@ -112,4 +112,11 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
   return scene;
 }
 
+core::Scene load_scene_beside(const PictureOptions& picture, const std::vector<NamedFile>& outputs) {
+  OpenedFiles opened;
+  core::Scene scene = load_scene(picture, LoadNotes::said, &opened);
+  check_not_read(opened, outputs);
+  return scene;
+}
+
 }  // namespace dmpc::apps

@@ -4,9 +4,11 @@
 #include <map>
 #include <utility>
 
+#include "apps/folded_text.h"
 #include "apps/html/sweep_page.h"
 #include "apps/origin.h"
 #include "apps/output_file.h"
+#include "apps/paper_conclusions.h"
 #include "apps/paper_data.h"
 #include "apps/paper_plots.h"
 #include "apps/plot_program.h"
@@ -73,7 +75,7 @@ std::vector<std::string> introduction(const PaperReport& report) {
 std::string head_of(const PaperReport& report) {
   std::string text = std::string("# ") + title + "\n";
   for (const std::string& paragraph : introduction(report)) {
-    text += "\n" + paragraph + "\n";
+    text += "\n" + folded(paragraph, markdown_width_max, "") + "\n";
   }
   return text;
 }
@@ -91,7 +93,7 @@ std::vector<Plot> plots_of(const std::string& table) {
 std::string text_with(const PaperReport& report, const Pictures& pictures, const std::vector<std::string>& complaints) {
   std::string text = head_of(report);
   for (const std::string& complaint : complaints) {
-    text += "\nNote: " + complaint + ".\n";
+    text += "\n" + folded("Note: " + complaint + ".", markdown_width_max, "") + "\n";
   }
   for (const NamedTable& named : report.tables) {
     const auto links = pictures.find(named.name);
@@ -104,6 +106,22 @@ std::string text_with(const PaperReport& report, const Pictures& pictures, const
 
 std::string text_of(const PaperReport& report) { return text_with(report, {}, {}); }
 
+std::vector<OutputName> report_files(const std::vector<std::string>& tables, const std::filesystem::path& folder,
+                                     const std::string& option) {
+  std::vector<OutputName> files;
+  const auto add = [&](const std::string& name) { files.push_back({{option, folder / name}}); };
+  for (const std::string& table : tables) {
+    add(table + ".csv");
+    add(table + ".json");
+    for (const Plot& plot : plots_of(table)) {
+      add(plot.name + ".gnuplot");
+      add(plot.name + ".svg");
+    }
+  }
+  add("report.md");
+  return files;
+}
+
 std::vector<std::string> write_report(const PaperReport& report, const std::filesystem::path& folder, Attempts& attempts) {
   std::vector<std::string> complaints;
   write_tables(report.tables, folder, attempts);
@@ -115,7 +133,7 @@ std::vector<std::string> write_report(const PaperReport& report, const std::file
 std::string page_of(const PaperReport& report, std::ostream& complaints) {
   std::vector<html::SweepPart> parts;
   for (const NamedTable& named : report.tables) {
-    parts.push_back({named.table.title(), named.table, plots_of(named.name)});
+    parts.push_back({named.table.title(), named.table, plots_of(named.name), paper_conclusion(named.name, named.table)});
   }
   return html::sweep_page({title, introduction(report), std::move(parts)}, this_origin(), complaints);
 }

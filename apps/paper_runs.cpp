@@ -91,7 +91,7 @@ std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs) {
 }
 
 void carry_out(std::span<const PaperRun> runs, std::span<const PaperSubject> subjects, const Interrupt& interrupt,
-               PaperResults& results) {
+               PaperResults& results, const std::function<void()>& told) {
   core::expect(results.size() == runs.size(), "every run has a place for its result");
   std::map<std::pair<std::string, std::uint32_t>, std::uint64_t> films;  // by scene and size
   Progress progress(std::cerr, stderr_is_terminal(), std::to_string(runs.size()) + " runs: ");
@@ -111,6 +111,7 @@ void carry_out(std::span<const PaperRun> runs, std::span<const PaperSubject> sub
       const auto [film, is_first] = films.try_emplace({runs[index].scene, runs[index].resolution}, result.film_hash);
       core::expect(film->second == result.film_hash, "every run of a scene gives the same film");
       results[index] = result;
+      told();
       done_pixels += pixels_of(runs[index]);
       progress.update(done_pixels, all_pixels);
     };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -62,10 +63,11 @@ std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs);
 /// By a run's number; nothing where it did not come to its end.
 using PaperResults = std::vector<std::optional<PaperResult>>;
 
-/// Gives each run its place in `results`, as many as runs; after a signal some are left as they are, the last ones mostly.
-/// Progress on stderr if that is a terminal. Throws core::InternalError if two runs of one scene and size give different films,
-/// and whatever a run throws: `results` has what was finished before.
-void carry_out(std::span<const PaperRun> runs, std::span<const PaperSubject> subjects, const Interrupt& interrupt,
-               PaperResults& results);
+/// `told` hears of each result, when it has its place. Gives each run its place in `results`, as many as runs; after a signal
+/// some are left as they are, the last ones mostly. Progress on stderr if that is a terminal. Throws core::InternalError if two
+/// runs of one scene and size give different films, and whatever a run throws: `results` has what was finished before.
+void carry_out(
+    std::span<const PaperRun> runs, std::span<const PaperSubject> subjects, const Interrupt& interrupt, PaperResults& results,
+    const std::function<void()>& told = [] {});
 
 }  // namespace dmpc::apps

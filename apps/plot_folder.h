@@ -10,6 +10,7 @@
 
 #include "apps/plot.h"
 #include "apps/study_table.h"
+#include "apps/system/attempts.h"
 
 namespace dmpc::apps {
 
@@ -19,10 +20,13 @@ class PlotFolder {
  public:
   PlotFolder(std::filesystem::path folder, std::ostream& complaints) : folder_(std::move(folder)), complaints_(complaints) {}
 
-  /// Writes the table as CSV to `data_file`, and draws the plots of it. Throws core::InputError if a file cannot be written.
-  void add(const Table& table, const std::string& data_file, std::span<const Plot> plots);
+  /// Writes the table as CSV to `data_file`, and draws the plots of it if that is there: each file is one of the
+  /// attempts.
+  void add(const Table& table, const std::string& data_file, std::span<const Plot> plots, Attempts& attempts);
 
  private:
+  void draw_one(const Plot& plot, const Table& table, const std::string& data_file);
+
   std::filesystem::path folder_;
   std::ostream& complaints_;
   std::set<std::string> told_;

@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <iostream>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "apps/checkpoints.h"
+#include "apps/effort/render_effort.h"
 #include "apps/load_scene.h"
 #include "apps/onlookers.h"
 #include "apps/output_file.h"
@@ -123,6 +125,23 @@ Sights take_sights(const RenderOptions& options, Onlookers& onlookers) {
   return sights;
 }
 
+/// Says how long a long render will take, where somebody waits; a signal ends the process here and now. Without what is done
+/// already.
+void announce_effort(const RenderOptions& options, const Subject& subject, const Checkpoints* checkpoints, Interrupt& interrupt) {
+  if (options.quiet || !stderr_is_terminal()) {
+    return;
+  }
+  const Interrupt::EndAtOnce end_at_once(interrupt);
+  const double samples = static_cast<double>(subject.settings.camera.pixel_count()) * options.picture.samples;
+  const double done = checkpoints == nullptr ? 0 : static_cast<double>(checkpoints->samples_found_done());
+  Effort effort = render_effort(options, subject);
+  effort.seconds *= std::max(0.0, 1 - done / samples);
+  if (is_long(effort)) {
+    announce("render " + options.picture.scene + (options.picture.is_refined ? ", at least" : ""), effort, options.quiet,
+             std::cerr);
+  }
+}
+
 /// Plans, and says what the user should know before waiting for the picture; a signal ends the process here and now.
 ReadyRun prepare(const RenderOptions& options, const Subject& subject, const RunTies& ties, Interrupt& interrupt,
                  Seconds& seconds) {
@@ -221,6 +240,7 @@ int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostrea
                      .observer = onlookers.observer(),
                      .reference_logs = onlookers.reference_logs(),
                      .continuation = continuation_of(checkpoints ? &*checkpoints : nullptr, preview.get(), interrupt)};
+  announce_effort(options, subject, checkpoints ? &*checkpoints : nullptr, interrupt);
   const ReadyRun run = prepare(options, subject, ties, interrupt, seconds);
   if (checkpoints) {
     interrupt.set_consequence(consequence_of(*checkpoints));

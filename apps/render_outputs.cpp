@@ -60,7 +60,7 @@ void check_outputs(const RenderOptions& options, const OutputSet<RenderRecord>& 
     const ScratchFolder probe;
   }
   if (!options.quiet || has_counters_on_standard_output(options)) {
-    check_standard_output();
+    check_standard_output("what follows the picture", "--quiet says nothing there");
   }
 }
 

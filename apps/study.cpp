@@ -8,26 +8,22 @@
 #include <utility>
 #include <vector>
 
-#include "apps/distinct_files.h"
 #include "apps/effort/effort.h"
-#include "apps/effort/last_row.h"
+#include "apps/effort/shown_rows.h"
 #include "apps/effort/study_effort.h"
 #include "apps/figures.h"
 #include "apps/html/sweep_page.h"
 #include "apps/load_scene.h"
 #include "apps/machines.h"
 #include "apps/origin.h"
-#include "apps/output_file.h"
 #include "apps/picture_identity.h"
-#include "apps/plot_folder.h"
 #include "apps/progress.h"
-#include "apps/scratch_folder.h"
 #include "apps/stats.h"
 #include "apps/study_conclusions.h"
 #include "apps/study_runs.h"
 #include "apps/subject.h"
 #include "apps/system/attempts.h"
-#include "apps/system/output_set.h"
+#include "apps/table_files.h"
 #include "core/scenes.h"
 
 namespace dmpc::apps {
@@ -36,47 +32,15 @@ namespace {
 /// What the pictures are drawn from, in their folder.
 std::string data_file_of(const std::string& study) { return study + ".csv"; }
 
-/// Makes the folder: whether an output lies in it is known only then.
-void add_plot_files(const StudyOptions& options, std::vector<NamedFile>& outputs) {
-  make_output_folder(*options.plots, "--plots");
-  std::visit(
-      [&](const auto& study) {
-        outputs.push_back({"--plots", *options.plots / data_file_of(study.name)});
-        for (const Plot& plot : study.plots()) {
-          outputs.push_back({"--plots", *options.plots / (plot.name + ".gnuplot")});
-          outputs.push_back({"--plots", *options.plots / (plot.name + ".svg")});
-        }
-      },
-      options.study);
-}
-
-/// Returns the outputs.
-std::vector<NamedFile> check_output(const StudyOptions& options) {
+TableFiles files_of(const StudyOptions& options) {
   std::vector<NamedFile> inputs;
   add_scene_file(options.picture.scene, inputs);
   if (!options.machine_name.empty() && find_machine_preset(options.machine_name) == nullptr) {
     inputs.push_back({"--machine", options.machine_name});
   }
-  std::vector<NamedFile> outputs;
-  if (options.output) {
-    outputs.push_back({"-o", *options.output});
-  }
-  if (options.report) {
-    outputs.push_back({"--report", *options.report});
-  }
-  if (options.plots) {
-    add_plot_files(options, outputs);
-  }
-  check_distinct(inputs, outputs);
-  if (options.output) {
-    check_output_path(*options.output, "-o");
-  }
-  if (options.report) {
-    check_output_path(*options.report, "--report");
-    const ScratchFolder probe;
-  }
-  check_open_files();
-  return outputs;
+  const PlottedNames plotted =
+      std::visit([](const auto& study) { return names_of(data_file_of(study.name), study.plots()); }, options.study);
+  return {options.table, {plotted}, {.inputs = std::move(inputs)}};
 }
 
 /// What is studied, and the digest of its scene if a page tells it.
@@ -86,12 +50,12 @@ struct Loaded {
 };
 
 /// A signal ends the process here and now.
-Loaded load(const StudyOptions& options, const std::vector<NamedFile>& outputs, Interrupt& interrupt) {
+Loaded load(const StudyOptions& options, const TableFiles& files, Interrupt& interrupt) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   OpenedFiles opened;
   core::Scene scene = load_scene(options.picture, LoadNotes::said, &opened);
-  check_not_read(opened, outputs);
-  const auto digest = options.report ? std::optional(scene_digest(scene)) : std::nullopt;
+  check_not_read(opened, files.names());
+  const auto digest = options.table.report ? std::optional(scene_digest(scene)) : std::nullopt;
   return {build_subject(std::move(scene), options.picture, options.database, true), digest};
 }
 
@@ -134,17 +98,14 @@ std::string page_of(const OneStudy& study, const Table& table, const StudyOption
                           this_origin(marks.scene_digest), std::cerr);
 }
 
-/// The table before all else.
 template <class OneStudy>
-void write(const OneStudy& study, const Table& table, const Marks& marks, const StudyOptions& options, std::ostream& output,
-           Attempts& attempts) {
-  attempts.make([&] { write_to(options.output, text_of(table, options.format), output, "the table"); });
-  if (options.report) {
-    attempts.make([&] { write_file(*options.report, page_of(study, table, options, marks)); });
-  }
-  if (options.plots) {
-    attempts.make([&] { PlotFolder(*options.plots, std::cerr).add(table, data_file_of(OneStudy::name), study.plots()); });
-  }
+TableResult result_of(const OneStudy& study, const Table& table, const Marks& marks, const StudyOptions& options) {
+  return {.text = text_of(table, options.table.format),
+          .page = [&] { return page_of(study, table, options, marks); },
+          .plotted =
+              [&] {
+                return std::vector<PlottedTable>{{table, data_file_of(OneStudy::name), study.plots()}};
+              }};
 }
 
 template <class OneStudy>
@@ -173,11 +134,6 @@ std::exception_ptr measure(const OneStudy& study, StudyRuns& runs, Table& table)
   }
 }
 
-/// Rows are shown as they come to who waits for the table at a terminal.
-bool shows_rows(const StudyOptions& options) {
-  return !options.quiet && !options.output && options.format == TableFormat::markdown && stderr_is_terminal();
-}
-
 /// A signal ends the process here and now.
 void announce_effort(const StudyOptions& options, const Subject& subject, Interrupt& interrupt) {
   if (!options.quiet && stderr_is_terminal()) {
@@ -190,27 +146,26 @@ void announce_effort(const StudyOptions& options, const Subject& subject, Interr
 
 /// Returns the exit status.
 template <class OneStudy>
-int carry_out(const OneStudy& study, const StudyOptions& options, const std::vector<NamedFile>& outputs, Interrupt& interrupt,
+int carry_out(const OneStudy& study, const StudyOptions& options, const TableFiles& files, Interrupt& interrupt,
               std::ostream& output) {
-  const auto [subject, digest] = load(options, outputs, interrupt);
+  const auto [subject, digest] = load(options, files, interrupt);
   announce_effort(options, subject, interrupt);
   Table table = empty_table(study, options, subject);
-  if (shows_rows(options)) {
-    table.set_listener([](const Table& rows) { show_last_row(rows, std::cerr); });
-  }
+  ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
+  table.set_listener([&shown](const Table& rows) { shown.show(rows); });
   StudyRuns runs(subject.database, subject.settings, {std::cerr, stderr_is_terminal(), study.run_count()}, interrupt);
   const std::exception_ptr failure = measure(study, runs, table);
   Attempts attempts(std::cerr);
   if (!failure || !table.rows().empty()) {
-    interrupt.set_consequence(failure          ? "the table has the rows finished before"
-                              : options.output ? "nothing was written"
-                                               : "the table is incomplete");
+    interrupt.set_consequence(failure              ? "the table has the rows finished before"
+                              : options.table.file ? "nothing was written"
+                                                   : "the table is incomplete");
     table.add_note(film_note(runs));
     std::optional<Interrupt::EndAtOnce> end_at_once;
     if (!failure) {
       end_at_once.emplace(interrupt);
     }
-    write(study, table, {digest, runs.film_hash()}, options, output, attempts);
+    files.write(result_of(study, table, {digest, runs.film_hash()}, options), output, std::cerr, attempts);
   }
   if (failure) {
     std::rethrow_exception(failure);
@@ -221,8 +176,8 @@ int carry_out(const OneStudy& study, const StudyOptions& options, const std::vec
 }  // namespace
 
 int study_command(const StudyOptions& options, Interrupt& interrupt, std::ostream& output) {
-  const std::vector<NamedFile> outputs = check_output(options);
-  return std::visit([&](const auto& study) { return carry_out(study, options, outputs, interrupt, output); }, options.study);
+  const TableFiles files = files_of(options);
+  return std::visit([&](const auto& study) { return carry_out(study, options, files, interrupt, output); }, options.study);
 }
 
 }  // namespace dmpc::apps

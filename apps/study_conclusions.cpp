@@ -20,32 +20,18 @@ using Row = std::vector<Cell>;
 /// Within so much of the best lru is as good as any policy.
 constexpr double as_good = 1.1;
 
-/// Of the column with this name; nothing where the row has no number there.
-std::optional<double> number(const Table& table, const Row& row, std::string_view name) {
-  const auto& columns = table.columns();
-  const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& column) { return column.name == name; });
-  if (found == columns.end()) {
-    return std::nullopt;
-  }
-  const Cell& cell = row[static_cast<std::size_t>(found - columns.begin())];
-  if (const auto* const whole = std::get_if<std::uint64_t>(&cell)) {
-    return static_cast<double>(*whole);
-  }
-  const auto* const real = std::get_if<double>(&cell);
-  return real == nullptr ? std::nullopt : std::optional(*real);
-}
-
 /// The last row that has a number in each of these columns; nullptr if none has.
 const Row* last_with(const Table& table, std::initializer_list<std::string_view> names) {
   const auto has_all = [&](const Row& row) {
-    return std::all_of(names.begin(), names.end(), [&](std::string_view name) { return number(table, row, name).has_value(); });
+    return std::all_of(names.begin(), names.end(),
+                       [&](std::string_view name) { return number_in(table, row, name).has_value(); });
   };
   const auto found = std::find_if(table.rows().rbegin(), table.rows().rend(), has_all);
   return found == table.rows().rend() ? nullptr : &*found;
 }
 
 std::string nodes_text(const Table& table, const Row& row) {
-  return counted(static_cast<std::uint64_t>(number(table, row, "nodes").value_or(0)), "node");
+  return counted(static_cast<std::uint64_t>(number_in(table, row, "nodes").value_or(0)), "node");
 }
 
 std::string percent_text(double percent) { return fixed(percent, 1) + " %"; }
@@ -54,8 +40,8 @@ std::string percent_text(double percent) { return fixed(percent, 1) + " %"; }
 const Row* row_of_regions(const Table& table, double node_count, const std::string& regions) {
   const auto found = std::find_if(table.rows().rbegin(), table.rows().rend(), [&](const Row& row) {
     const auto* const kind = std::get_if<std::string>(&row[1]);
-    return kind != nullptr && *kind == regions && number(table, row, "nodes") == node_count &&
-           number(table, row, "average load achieved");
+    return kind != nullptr && *kind == regions && number_in(table, row, "nodes") == node_count &&
+           number_in(table, row, "average load achieved");
   });
   return found == table.rows().rend() ? nullptr : &*found;
 }
@@ -67,13 +53,13 @@ std::string conclusion_of(const BalanceStudy&, const Table& table) {
   if (last == nullptr) {
     return "";
   }
-  const double node_count = *number(table, *last, "nodes");
+  const double node_count = *number_in(table, *last, "nodes");
   const Row* const sampled = row_of_regions(table, node_count, "subsampled");
   const Row* const equal = row_of_regions(table, node_count, "equal size");
   if (sampled == nullptr || equal == nullptr) {
     return "";
   }
-  const auto load_of = [&](const Row& row) { return percent_text(*number(table, row, "average load achieved")); };
+  const auto load_of = [&](const Row& row) { return percent_text(*number_in(table, row, "average load achieved")); };
   return "On " + nodes_text(table, *last) + " the average load is " + load_of(*sampled) +
          " with regions by the subsampled picture, and " + load_of(*equal) + " with regions of equal size.";
 }
@@ -83,7 +69,7 @@ std::string conclusion_of(const TrafficStudy&, const Table& table) {
   if (last == nullptr) {
     return "";
   }
-  const double rays = *number(table, *last, "ray traffic"), pages = *number(table, *last, "page traffic");
+  const double rays = *number_in(table, *last, "ray traffic"), pages = *number_in(table, *last, "page traffic");
   if (rays == 0 || pages == 0) {
     return "On " + nodes_text(table, *last) +
            (rays == pages ? " nothing travels."
@@ -101,12 +87,12 @@ std::string conclusion_of(const SpeedupStudy&, const Table& table) {
   if (last == nullptr) {
     return "";
   }
-  std::string text = "On " + nodes_text(table, *last) + " the speedup is " + fixed(*number(table, *last, "speedup"), 1) +
-                     ", an efficiency of " + percent_text(*number(table, *last, "efficiency"));
+  std::string text = "On " + nodes_text(table, *last) + " the speedup is " + fixed(*number_in(table, *last, "speedup"), 1) +
+                     ", an efficiency of " + percent_text(*number_in(table, *last, "efficiency"));
   std::string largest;
   double share = 0;
   for (const char* const part : time_part_names) {
-    const double percent = number(table, *last, part).value_or(0);
+    const double percent = number_in(table, *last, part).value_or(0);
     if (std::string_view(part) != "computing" && percent > share) {
       largest = part;
       share = percent;
@@ -119,15 +105,15 @@ std::string conclusion_of(const SpeedupStudy&, const Table& table) {
 
 std::string conclusion_of(const CacheStudy&, const Table& table) {
   for (const Row& row : table.rows()) {
-    const auto pages = number(table, row, "cache pages"), share = number(table, row, "share of database"),
-               lru = number(table, row, "faults lru"), optimum = number(table, row, "faults optimum");
+    const auto pages = number_in(table, row, "cache pages"), share = number_in(table, row, "share of database"),
+               lru = number_in(table, row, "faults lru"), optimum = number_in(table, row, "faults optimum");
     const Row& first = table.rows().front();
-    const double most = number(table, first, "faults lru").value_or(0);
+    const double most = number_in(table, first, "faults lru").value_or(0);
     if (pages && share && lru && optimum && *pages > 1 && most > 0 && *lru <= as_good * *optimum) {
       return "From caches of " + counted(static_cast<std::uint64_t>(*pages), "page") + " on (" + percent_text(*share) +
              " of the database) lru is within 10 % of the best that any policy could do; it faults " +
              percent_text(100 * *lru / most) + " as often as with " +
-             counted(static_cast<std::uint64_t>(number(table, first, "cache pages").value_or(0)), "page") + ".";
+             counted(static_cast<std::uint64_t>(number_in(table, first, "cache pages").value_or(0)), "page") + ".";
     }
   }
   return "";

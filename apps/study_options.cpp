@@ -110,11 +110,8 @@ struct AddOwn {
 void add_options(OptionSet set, StudyOptions& options) {
   add_options(set, options.picture);
   add_options(set, options.database);
-  add_format_option(set, options.format);
+  add_options(set, options.table, TableExtras::plots_and_report);
   set.add_quiet(options.quiet);
-  add_report_option(set, options.report, "with the table and its plots");
-  set.add_path("--plots", "FOLDER", options.plots, "Where pictures by gnuplot go, with their scripts and the table as CSV");
-  set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
   std::visit(AddOwn{set, options.machine_name}, options.study);
 }
 

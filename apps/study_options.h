@@ -1,8 +1,6 @@
 // The options of `study`: a scene, which study, and where its table goes.
 #pragma once
 
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <variant>
 
@@ -12,8 +10,8 @@
 #include "apps/study_balance.h"
 #include "apps/study_cache.h"
 #include "apps/study_speedup.h"
-#include "apps/study_table.h"
 #include "apps/study_traffic.h"
+#include "apps/table_options.h"
 
 namespace dmpc::apps {
 
@@ -25,12 +23,9 @@ struct StudyOptions {
   Study study;
   PictureOptions picture;
   DatabaseOptions database;
-  TableFormat format = TableFormat::markdown;
-  std::optional<std::filesystem::path> output;  ///< stdout if not given
-  std::optional<std::filesystem::path> report;  ///< a page with the table and its pictures
-  std::optional<std::filesystem::path> plots;   ///< a folder for pictures and what they are drawn from
-  std::string machine_name;                     ///< as given on the command line, if it was
-  bool quiet = false;                           ///< no progress
+  TableOutput table;
+  std::string machine_name;  ///< as given on the command line, if it was
+  bool quiet = false;        ///< no progress
 };
 
 /// Declares those that all studies share, and those of the study that `options` holds now.

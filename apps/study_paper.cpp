@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/effort/effort.h"
+#include "apps/effort/shown_rows.h"
 #include "apps/figures.h"
 #include "apps/machine_load.h"
 #include "apps/output_file.h"
@@ -20,6 +21,7 @@
 #include "apps/paper_tables.h"
 #include "apps/scratch_folder.h"
 #include "apps/system/attempts.h"
+#include "apps/system/output_set.h"
 #include "apps/table_options.h"
 #include "core/expect.h"
 
@@ -65,9 +67,38 @@ PaperReport report_of(const Catalogue& catalogue, const std::vector<VariedRuns>&
   return report;
 }
 
+/// Every table's name, in their order; the last one only where the machine is varied.
+std::vector<std::string> table_names(bool has_sensitivity) {
+  std::vector<std::string> names = {"table_2",  "table_3", "calibration", "law",    "against_law",
+                                    "memories", "losses",  "algorithms",  "caches", "claims"};
+  if (has_sensitivity) {
+    names.emplace_back("sensitivity");
+  }
+  return names;
+}
+
+/// Throws core::UsageError or core::InputError unless all outputs can be made, as far as can be known beforehand.
+void check_files(const PaperStudyOptions& options) {
+  std::vector<OutputName> outputs;
+  if (options.output) {
+    make_output_folder(*options.output, "-o");
+    outputs = report_files(table_names(options.has_sensitivity), *options.output, "-o");
+  }
+  if (options.report) {
+    outputs.push_back({{"--report", *options.report}});
+    const ScratchFolder probe;
+  }
+  check_outputs({}, outputs);
+  check_standard_output("the report", "redirect it elsewhere");
+  check_open_files();
+}
+
 /// Writes what is known: to `output` before the folder, so that a file in the way there loses nothing.
 void publish(const PaperReport& report, const PaperStudyOptions& options, std::ostream& output, Attempts& attempts) {
-  output << text_of(report) << std::flush;
+  attempts.make([&] {
+    output << text_of(report);
+    finish_output(output, "the report");
+  });
   if (options.output) {
     for (const std::string& complaint : write_report(report, *options.output, attempts)) {
       std::cerr << "dmpc: " << complaint << std::endl;
@@ -76,7 +107,16 @@ void publish(const PaperReport& report, const PaperStudyOptions& options, std::o
   if (options.report) {
     attempts.make([&] { write_file(*options.report, page_of(report, std::cerr)); });
   }
-  attempts.make([&] { finish_output(output, "the report"); });
+}
+
+/// Rows of the tables whose rows need a run or two, as they come.
+void show_rows(const Catalogue& catalogue, const PaperResults& results, ShownRows& shown) {
+  constexpr std::size_t key_count = 2;  // a scene, and nodes or a size
+  if (shown.is_shown()) {
+    shown.show(table_3(catalogue, results), key_count);
+    shown.show(algorithms(catalogue, results), key_count);
+    shown.show(caches(catalogue, results), key_count);
+  }
 }
 
 /// By processor time of a server's core in November 2026.
@@ -104,13 +144,7 @@ void add_options(OptionSet options, PaperStudyOptions& paper) {
 }
 
 int study_paper_command(const PaperStudyOptions& options, Interrupt& interrupt, std::ostream& output) {
-  if (options.output) {
-    make_output_folder(*options.output, "-o");
-  }
-  if (options.report) {
-    check_output_path(*options.report, "--report");
-    const ScratchFolder probe;
-  }
+  check_files(options);
   Catalogue catalogue = catalogue_of(options.resolution);
   const std::vector<VariedRuns> varied = options.has_sensitivity ? add_variations(catalogue) : std::vector<VariedRuns>();
   announce("study paper, " + counted(catalogue.runs.size(), "run"), effort_of(catalogue), options.quiet, std::cerr);
@@ -124,6 +158,7 @@ int study_catalogue(const Catalogue& catalogue, const std::vector<VariedRuns>& v
     return paper_subjects(catalogue.runs);
   }();
   PaperResults results(catalogue.runs.size());
+  ShownRows shown(shows_rows({}, options.quiet), std::cerr);
   Attempts attempts(std::cerr);
   const auto publish_results = [&] {
     const PaperReport report = report_of(catalogue, varied, results, subjects);
@@ -131,7 +166,7 @@ int study_catalogue(const Catalogue& catalogue, const std::vector<VariedRuns>& v
     publish(report, options, output, attempts);
   };
   try {
-    carry_out(catalogue.runs, subjects, interrupt, results);
+    carry_out(catalogue.runs, subjects, interrupt, results, [&] { show_rows(catalogue, results, shown); });
   } catch (...) {
     publish_results();
     throw;

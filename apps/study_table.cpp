@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "apps/figures.h"
+#include "apps/folded_text.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -50,10 +51,7 @@ std::vector<Line> markdown_cells(const Table& table) {
     lines[0].push_back(escaped(header_of(column)));
   }
   for (const std::vector<Cell>& row : table.rows()) {
-    Line& line = lines.emplace_back();
-    for (std::size_t column = 0; column < row.size(); ++column) {
-      line.push_back(std::visit(MarkdownCell{table.columns()[column].digits}, row[column]));
-    }
+    lines.push_back(texts_of(table, row));
   }
   return lines;
 }
@@ -160,7 +158,7 @@ std::string markdown(const Table& table) {
     numbered.insert(numbered.end(), layouts.begin(), layouts.end());
     layouts = std::move(numbered);
   }
-  std::string text = "**" + table.title() + "**\n";
+  std::string text = folded("**" + table.title() + "**", markdown_width_max, "  ") + "\n";
   for (const Fold& fold : folds_of(lines, layouts)) {
     text += "\n" + markdown_line(lines[0], layouts, fold) + markdown_rule(layouts, fold);
     for (std::size_t row = 1; row < lines.size(); ++row) {
@@ -169,7 +167,7 @@ std::string markdown(const Table& table) {
   }
   text += table.notes().empty() ? "" : "\n";
   for (const std::string& note : table.notes()) {
-    text += "- " + note + "\n";
+    text += folded("- " + note, markdown_width_max, "  ") + "\n";
   }
   return text;
 }
@@ -266,15 +264,36 @@ void Table::add_row(std::vector<Cell> row) {
   }
 }
 
-std::string last_row_text(const Table& table) {
+std::vector<std::string> texts_of(const Table& table, const std::vector<Cell>& row) {
+  std::vector<std::string> texts;
+  for (std::size_t column = 0; column < row.size(); ++column) {
+    texts.push_back(std::visit(MarkdownCell{table.columns()[column].digits}, row[column]));
+  }
+  return texts;
+}
+
+std::optional<double> number_in(const Table& table, const std::vector<Cell>& row, std::string_view column) {
+  const auto& columns = table.columns();
+  const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& one) { return one.name == column; });
+  if (found == columns.end()) {
+    return std::nullopt;
+  }
+  const Cell& cell = row[static_cast<std::size_t>(found - columns.begin())];
+  if (const auto* const whole = std::get_if<std::uint64_t>(&cell)) {
+    return static_cast<double>(*whole);
+  }
+  const auto* const real = std::get_if<double>(&cell);
+  return real == nullptr ? std::nullopt : std::optional(*real);
+}
+
+std::string row_text(const Table& table, const std::vector<Cell>& row) {
+  const std::vector<std::string> cells = texts_of(table, row);
   std::string text;
-  for (std::size_t column = 0; column < table.columns().size(); ++column) {
-    const std::string cell = std::visit(MarkdownCell{table.columns()[column].digits}, table.rows().back()[column]);
-    const std::string more = (text.empty() ? "" : ", ") + header_of(table.columns()[column]) + " " + cell;
-    if (cell.empty() || text.size() + more.size() > row_text_max) {
-      continue;
+  for (std::size_t column = 0; column < cells.size(); ++column) {
+    const std::string more = (text.empty() ? "" : ", ") + header_of(table.columns()[column]) + " " + cells[column];
+    if (!cells[column].empty() && text.size() + more.size() <= row_text_max) {
+      text += more;
     }
-    text += more;
   }
   return text;
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -55,11 +56,17 @@ class Table {
 /// Letters in a line of a terminal, and of a page to be read.
 inline constexpr std::size_t markdown_width_max = 120;
 
-/// The names and cells of the last row, "nodes 4, virtual time (s) 3.142", as many as fit a line; a table with rows.
-std::string last_row_text(const Table& table);
+/// A row's cells as Markdown has them.
+std::vector<std::string> texts_of(const Table& table, const std::vector<Cell>& row);
+
+/// Of the column with this name; nothing where there is none, or the row has no number there.
+std::optional<double> number_in(const Table& table, const std::vector<Cell>& row, std::string_view column);
+
+/// The names and cells of a row, "nodes 4, virtual time (s) 3.142", as many as fit a line.
+std::string row_text(const Table& table, const std::vector<Cell>& row);
 
 /// The whole table with a line end.
-///   markdown   the title in bold, the table with its columns in line, the notes as a list; a table that is wider than
+///   markdown   the title in bold, the table with its columns in line, the notes as a list, folded; a table that is wider than
 ///              markdown_width_max stands in pieces, each with the columns on the left that tell the rows apart
 ///   csv        a line of column names with their units, then a line a row as RFC 4180 quotes it; neither title nor notes
 ///   json       {"title", "columns": [{"name", "unit"}], "rows": [{by name}], "notes": [...]}; names with underscores for spaces,

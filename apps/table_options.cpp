@@ -4,10 +4,18 @@
 
 namespace dmpc::apps {
 
-void add_format_option(OptionSet options, TableFormat& format) {
-  options.add_choice<TableFormat>("--format", format,
+void add_options(OptionSet options, TableOutput& output, TableExtras extras) {
+  options.add_choice<TableFormat>("--format", output.format,
                                   {{"markdown", TableFormat::markdown}, {"csv", TableFormat::csv}, {"json", TableFormat::json}},
                                   "How the table is written");
+  if (extras == TableExtras::plots_and_report) {
+    add_report_option(options, output.report, "with the table and its plots");
+  }
+  if (extras != TableExtras::none) {
+    options.add_path("--plots", "FOLDER", output.plots,
+                     "Where pictures by gnuplot go, with their scripts and what they are drawn from");
+  }
+  options.add_path("-o,--output", "FILE [stdout]", output.file, "Where it goes");
 }
 
 void add_report_option(OptionSet options, std::optional<std::filesystem::path>& report, const std::string& what) {

@@ -1,6 +1,7 @@
-// How a command's table is asked for.
+// How a command's table is asked for, and the page and pictures of it.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,8 +11,18 @@
 
 namespace dmpc::apps {
 
-/// Declares --format.
-void add_format_option(OptionSet options, TableFormat& format);
+struct TableOutput {
+  TableFormat format = TableFormat::markdown;
+  std::optional<std::filesystem::path> file;    ///< stdout if not given
+  std::optional<std::filesystem::path> report;  ///< a page with the table and its pictures
+  std::optional<std::filesystem::path> plots;   ///< a folder for pictures by gnuplot and what they are drawn from
+};
+
+/// What a command has beside its table.
+enum class TableExtras : std::uint8_t { none, plots, plots_and_report };
+
+/// Declares --format and -o, and --plots and --report as far as the command has them.
+void add_options(OptionSet options, TableOutput& output, TableExtras extras);
 
 /// Declares --report; its help ends with `what`, such as "the table and its plots". A name that does not end in .html is an
 /// core::UsageError.

@@ -1,16 +1,16 @@
 #include "apps/accurate/precision_command.h"
 
 #include <algorithm>
+#include <exception>
 #include <iostream>
 #include <ostream>
 
 #include "apps/accurate/precision.h"
-#include "apps/distinct_files.h"
 #include "apps/effort/effort.h"
+#include "apps/effort/shown_rows.h"
 #include "apps/load_scene.h"
-#include "apps/output_file.h"
 #include "apps/progress.h"
-#include "apps/table_options.h"
+#include "apps/table_files.h"
 #include "core/scenes.h"
 
 namespace dmpc::apps {
@@ -30,16 +30,12 @@ std::vector<std::string> all_families() {
   return scenes;
 }
 
-void check_files(const PrecisionOptions& options) {
-  if (!options.output) {
-    return;
-  }
-  std::vector<NamedFile> inputs;
+TableFiles files_of(const PrecisionOptions& options) {
+  OtherFiles others;
   for (const std::string& scene : options.scenes) {
-    add_scene_file(scene, inputs);
+    add_scene_file(scene, others.inputs);
   }
-  check_distinct(inputs, {{"-o", *options.output}});
-  check_output_path(*options.output, "-o");
+  return {options.table, {}, others};
 }
 
 Table empty_table(const PrecisionOptions& options) {
@@ -97,13 +93,36 @@ Effort effort_of(const PrecisionOptions& options, std::size_t scene_count) {
   return {.seconds = pixel_seconds * pixels * static_cast<double>(scene_count)};
 }
 
-Precision measure(const PrecisionOptions& options, const std::string& name, Interrupt& interrupt) {
+Precision measure(const PrecisionOptions& options, const std::string& name, const TableFiles& files, Interrupt& interrupt) {
   PictureOptions picture{.scene = name, .resolution = options.resolution, .depth = options.depth};
-  const core::Scene scene = load_scene(picture);
+  const core::Scene scene = load_scene_beside(picture, files.names());
   Progress progress(std::cerr, stderr_is_terminal(), name + " ", "rows");
   return measure_precision(
       scene, picture,
       {.progress = [&](std::uint64_t done, std::uint64_t rows) { progress.update(done, rows); }, .stop = interrupt.token()});
+}
+
+/// What ended it before its time, if anything did. `is_explained` becomes false if a pixel is not.
+std::exception_ptr measure_all(const PrecisionOptions& options, const std::vector<std::string>& scenes, const TableFiles& files,
+                               Interrupt& interrupt, Table& table, bool& is_explained) {
+  try {
+    for (const std::string& scene : scenes) {
+      interrupt.check();
+      const Precision precision = measure(options, scene, files, interrupt);
+      table.add_row(row_of(scene, precision));
+      describe_errors(scene, precision, table);
+      is_explained = is_explained && precision.errors.empty();
+    }
+    return nullptr;
+  } catch (...) {
+    return std::current_exception();
+  }
+}
+
+const char* verdict_of(bool is_complete, bool is_explained) {
+  return !is_explained ? "UNEXPLAINED pixels: one of the renderers has an error."
+         : is_complete ? "Every pixel is explained."
+                       : "Ended before its time: scenes are missing.";
 }
 
 }  // namespace
@@ -116,8 +135,7 @@ void add_options(OptionSet set, PrecisionOptions& options) {
       "--resolution", "WxH [256x256]", [&options](const std::string& text) { options.resolution = parse_resolution(text); },
       "Pixels of the pictures");
   set.add_number("--depth", options.depth, 1, 255, "5", "Longest chain of reflections and refractions");
-  add_format_option(set, options.format);
-  set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
+  add_options(set, options.table, TableExtras::none);
   set.add_quiet(options.quiet);
   set.set_examples(
       "Examples:\n"
@@ -128,21 +146,24 @@ void add_options(OptionSet set, PrecisionOptions& options) {
 }
 
 int bench_precision_command(const PrecisionOptions& options, Interrupt& interrupt, std::ostream& output) {
-  check_files(options);
-  Table table = empty_table(options);
-  bool is_explained = true;
+  const TableFiles files = files_of(options);
   const std::vector<std::string> scenes = options.scenes.empty() ? all_families() : options.scenes;
   announce("bench precision", effort_of(options, scenes.size()), options.quiet, std::cerr);
-  for (const std::string& scene : scenes) {
-    interrupt.check();
-    const Precision precision = measure(options, scene, interrupt);
-    table.add_row(row_of(scene, precision));
-    describe_errors(scene, precision, table);
-    is_explained = is_explained && precision.errors.empty();
+  Table table = empty_table(options);
+  ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
+  table.set_listener([&shown](const Table& rows) { shown.show(rows); });
+  bool is_explained = true;
+  const std::exception_ptr failure = measure_all(options, scenes, files, interrupt, table, is_explained);
+  Attempts attempts(std::cerr);
+  if (!failure || !table.rows().empty()) {
+    interrupt.set_consequence("the table has the scenes measured before");
+    table.add_note(verdict_of(!failure, is_explained));
+    files.write({.text = text_of(table, options.table.format)}, output, std::cerr, attempts);
   }
-  table.add_note(is_explained ? "Every pixel is explained." : "UNEXPLAINED pixels: one of the renderers has an error.");
-  write_to(options.output, text_of(table, options.format), output, "the table");
-  return is_explained ? 0 : unexplained_status;
+  if (failure) {
+    std::rethrow_exception(failure);
+  }
+  return is_explained ? attempts.status() : unexplained_status;
 }
 
 }  // namespace dmpc::apps

@@ -1,16 +1,14 @@
 // The command `bench precision`: the product's pictures in float against double precision, pixel by pixel.
 #pragma once
 
-#include <filesystem>
 #include <iosfwd>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/command_line.h"
 #include "apps/interrupt.h"
 #include "apps/picture_options.h"
-#include "apps/study_table.h"
+#include "apps/table_options.h"
 
 namespace dmpc::apps {
 
@@ -18,18 +16,18 @@ struct PrecisionOptions {
   std::vector<std::string> scenes;  ///< NFF files or built-in names; none: every family in its own size
   Resolution resolution{256, 256};
   int depth = 5;
-  TableFormat format = TableFormat::markdown;
-  std::optional<std::filesystem::path> output;  ///< stdout if not given
-  bool quiet = false;                           ///< no progress
+  TableOutput table;   ///< without a page and plots
+  bool quiet = false;  ///< no progress
 };
 
 /// Declares them.
 void add_options(OptionSet set, PrecisionOptions& options);
 
 /// Writes the table to the file asked for (whole or not at all), else to `output`; progress goes to stderr if that is a terminal.
-/// Returns the exit status: 0 if every pixel that differs is explained, 3 otherwise. Throws core::InputError for a scene that
-/// cannot be read or a table that cannot be written, core::UsageError for an output that is a scene's file, and Interrupted after
-/// a signal.
+/// After a signal or an error it has the scenes measured before. Returns the exit status: 3 if a pixel that differs is not
+/// explained, 1 if the table could not be written, which is said on stderr, else 0. Throws core::InputError for a scene that
+/// cannot be read or a table that cannot be made, core::UsageError for an output that is a file the scene is read from, and
+/// Interrupted after a signal.
 int bench_precision_command(const PrecisionOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

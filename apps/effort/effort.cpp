@@ -35,8 +35,17 @@ std::string duration_text(double seconds) {
 }  // namespace
 
 std::string text_of(const Effort& effort) {
+  if (effort.bytes < small_bytes) {
+    return duration_text(effort.seconds);
+  }
+  const std::string memory = memory_text(effort.bytes) + " of memory";
   return duration_text(effort.seconds) +
-         (effort.bytes >= small_bytes ? " and up to " + memory_text(effort.bytes) + " of memory" : "");
+         (effort.is_given ? "; nodes are given up to " + memory + ", and may touch less" : " and up to " + memory);
+}
+
+bool is_long(const Effort& effort) {
+  constexpr double long_seconds = 30;
+  return effort.seconds >= long_seconds;
 }
 
 void announce(const std::string& what, const Effort& effort, bool quiet, std::ostream& messages) {

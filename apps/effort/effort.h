@@ -11,10 +11,15 @@ namespace dmpc::apps {
 struct Effort {
   double seconds = 0;     ///< by the wall clock
   std::size_t bytes = 0;  ///< of memory, at most; 0: little, or not known
+  bool is_given = false;  ///< the memory is what nodes are given, of which they may touch but a part
 };
 
-/// "some seconds", "about 4 minutes and up to 1.5 GiB of memory"; memory is left out below 256 MiB.
+/// "some seconds", "about 4 minutes and up to 1.5 GiB of memory", "about 4 minutes; nodes are given up to 4.1 GiB of memory, and
+/// may touch less"; memory is left out below 256 MiB.
 std::string text_of(const Effort& effort);
+
+/// Whether one would rather know of it before a single render: half a minute or more.
+bool is_long(const Effort& effort);
 
 /// Writes "dmpc: WHAT: " and the effort as a line if stderr is a terminal and `quiet` is not set, and the effort is more than
 /// some seconds.

@@ -47,12 +47,6 @@ struct Plan {
   }
 };
 
-double seconds_of(const PlannedRun& run, double picture) {
-  const double nodes = run.node_count;
-  const double by_rays = dataflow_factor * picture + dataflow_pair_seconds * nodes * nodes;
-  return run.times * ((run.strategy == Strategy::dataflow ? by_rays : svm_factor * picture) + node_seconds * nodes);
-}
-
 std::size_t bytes_of(const PlannedRun& run, const Subject& subject) {
   const bool has_regions = run.strategy == Strategy::dataflow && run.node_count <= dataflow::region_count_max;
   const Forecast one = forecast(subject.database, subject.settings, {run.node_count}, {.balance = dataflow::Balance::equal_size});
@@ -74,6 +68,12 @@ std::size_t bytes_at_once(const std::vector<PlannedRun>& runs, const Subject& su
 
 }  // namespace
 
+double seconds_of(const PlannedRun& run, double picture_seconds) {
+  const double nodes = run.node_count;
+  const double by_rays = dataflow_factor * picture_seconds + dataflow_pair_seconds * nodes * nodes;
+  return run.times * ((run.strategy == Strategy::dataflow ? by_rays : svm_factor * picture_seconds) + node_seconds * nodes);
+}
+
 std::vector<PlannedRun> planned_runs(const Study& study) { return std::visit(Plan{}, study); }
 
 Effort effort_of(const std::vector<PlannedRun>& runs, const Subject& subject) {
@@ -84,7 +84,7 @@ Effort effort_of(const std::vector<PlannedRun>& runs, const Subject& subject) {
     all += seconds;
     longest = std::max(longest, run.is_virtual ? seconds : seconds / core_count());
   }
-  return {std::max(longest, all / core_count()), bytes_at_once(runs, subject)};
+  return {std::max(longest, all / core_count()), bytes_at_once(runs, subject), true};
 }
 
 }  // namespace dmpc::apps

@@ -21,6 +21,9 @@ struct PlannedRun {
 /// In their order; of a study whose runs depend on the first one about as many.
 std::vector<PlannedRun> planned_runs(const Study& study);
 
+/// Of one run, from what the one-thread renderer takes for the picture. By processor time.
+double seconds_of(const PlannedRun& run, double picture_seconds);
+
 /// Of all runs, from a few pixels of the picture and from what their nodes ask for.
 Effort effort_of(const std::vector<PlannedRun>& runs, const Subject& subject);
 

@@ -8,16 +8,15 @@
 #include <span>
 #include <utility>
 
-#include "apps/distinct_files.h"
+#include "apps/effort/shown_rows.h"
 #include "apps/error/findings.h"
 #include "apps/error/table.h"
 #include "apps/figures.h"
 #include "apps/load_scene.h"
 #include "apps/machine_load.h"
 #include "apps/output_file.h"
-#include "apps/plot_folder.h"
 #include "apps/system/attempts.h"
-#include "apps/table_options.h"
+#include "apps/table_files.h"
 #include "core/expect.h"
 #include "svm/plan.h"
 
@@ -60,33 +59,18 @@ void check_scenes(const ErrorOptions& options) {
   }
 }
 
-void add_plot_files(const ErrorOptions& options, std::vector<NamedFile>& outputs) {
-  make_output_folder(*options.plots, "--plots");
+/// Names of pictures of errors are known when they are drawn.
+TableFiles files_of(const ErrorOptions& options) {
+  OtherFiles others;
+  std::vector<PlottedNames> plotted;
   for (const std::string& scene : options.scenes) {
-    outputs.push_back({"--plots", *options.plots / data_file_of(scene)});
-    for (const char* cost : {"_rays", "_seconds"}) {
-      outputs.push_back({"--plots", *options.plots / (plot_name_of(scene) + cost + ".gnuplot")});
-      outputs.push_back({"--plots", *options.plots / (plot_name_of(scene) + cost + ".svg")});
-    }
-  }
-}
-
-void check_files(const ErrorOptions& options) {
-  std::vector<NamedFile> inputs, outputs;
-  for (const std::string& scene : options.scenes) {
-    add_scene_file(scene, inputs);
-  }
-  if (options.output) {
-    outputs.push_back({"-o", *options.output});
-    check_output_path(*options.output, "-o");
-  }
-  if (options.plots) {
-    add_plot_files(options, outputs);
+    add_scene_file(scene, others.inputs);
+    plotted.push_back({data_file_of(scene), {plot_name_of(scene) + "_rays", plot_name_of(scene) + "_seconds"}});
   }
   if (options.measure.pictures) {
     make_output_folder(*options.measure.pictures, "--pictures");
   }
-  check_distinct(inputs, outputs);
+  return {options.table, plotted, others};
 }
 
 std::string title_of(const ErrorOptions& options) {
@@ -129,19 +113,32 @@ Table finished_table(const ErrorOptions& options, std::span<const SceneResult> r
   return table;
 }
 
-void draw_plots(const ErrorOptions& options, std::span<const SceneResult> results, Attempts& attempts) {
-  PlotFolder plots(*options.plots, std::cerr);
+std::vector<PlottedTable> plotted_tables(std::span<const SceneResult> results) {
+  std::vector<PlottedTable> plotted;
   for (const SceneResult& result : results) {
-    attempts.make(
-        [&] { plots.add(plotted_table(result), data_file_of(result.scene), plots_of(result, plot_name_of(result.scene))); });
+    plotted.push_back({plotted_table(result), data_file_of(result.scene), plots_of(result, plot_name_of(result.scene))});
+  }
+  return plotted;
+}
+
+/// Of points that were rendered once; what their times are in the end the table says.
+void show_rows(const SceneResult& result, ShownRows& shown) {
+  constexpr std::size_t key_count = 3;  // scene, knob and setting
+  if (shown.is_shown()) {
+    shown.show(table_of({&result, 1}, ""), key_count);
   }
 }
 
 /// What ended it before its time, if anything did.
-std::exception_ptr measure_all(const ErrorOptions& options, const Interrupt& interrupt, std::vector<SceneResult>& results) {
+std::exception_ptr measure_all(const ErrorOptions& options, const TableFiles& files, const Interrupt& interrupt,
+                               std::vector<SceneResult>& results) {
+  MeasureOptions measure = options.measure;
+  measure.outputs = files.names();
+  ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
+  measure.told = [&](const SceneResult& result) { show_rows(result, shown); };
   try {
     for (const std::string& scene : options.scenes) {
-      measure_scene(scene, options.measure, interrupt, results.emplace_back());
+      measure_scene(scene, measure, interrupt, results.emplace_back());
     }
     return nullptr;
   } catch (...) {
@@ -206,12 +203,9 @@ void add_options(OptionSet set, ErrorOptions& options) {
   add_strategy_option(set, measure.strategy.strategy);
   set.add_number("--nodes", measure.strategy.computer.node_count, 1, svm::node_count_max,
                  std::to_string(measure.strategy.computer.node_count), "Nodes that render");
-  set.add_path("--plots", "FOLDER", options.plots,
-               "Where pictures by gnuplot go, with their scripts and what they are drawn from");
   set.add_path("--pictures", "FOLDER", measure.pictures,
                "Where pictures of every point's error go, " + fixed(static_cast<double>(picture_scale), 0) + " times as bright");
-  add_format_option(set, options.format);
-  set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
+  add_options(set, options.table, TableExtras::plots);
   set.add_quiet(options.quiet);
   set.set_examples(
       "Examples:\n"
@@ -231,10 +225,10 @@ void add_options(OptionSet set, ErrorOptions& options) {
 }
 
 int bench_error_command(const ErrorOptions& options, Interrupt& interrupt, std::ostream& output) {
-  check_files(options);
+  const TableFiles files = files_of(options);
   const double load = machine_load();
   std::vector<SceneResult> results;
-  const std::exception_ptr failure = measure_all(options, interrupt, results);
+  const std::exception_ptr failure = measure_all(options, files, interrupt, results);
   Attempts attempts(std::cerr);
   if (!failure || std::any_of(results.begin(), results.end(), has_measurements)) {
     interrupt.set_consequence("the table has the points measured before");
@@ -242,10 +236,8 @@ int bench_error_command(const ErrorOptions& options, Interrupt& interrupt, std::
     if (failure) {
       table.add_note("Ended before its time: points or rounds are missing.");
     }
-    attempts.make([&] { write_to(options.output, text_of(table, options.format), output, "the table"); });
-    if (options.plots) {
-      draw_plots(options, results, attempts);
-    }
+    files.write({.text = text_of(table, options.table.format), .plotted = [&] { return plotted_tables(results); }}, output,
+                std::cerr, attempts);
   }
   if (failure) {
     std::rethrow_exception(failure);

@@ -1,16 +1,14 @@
 // The command `bench error`: what every knob of a render costs, and what it does to the picture's error.
 #pragma once
 
-#include <filesystem>
 #include <iosfwd>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/command_line.h"
 #include "apps/error/measure.h"
 #include "apps/interrupt.h"
-#include "apps/study_table.h"
+#include "apps/table_options.h"
 
 namespace dmpc::apps {
 
@@ -19,11 +17,9 @@ struct ErrorOptions {
 
   std::vector<std::string> scenes;
   MeasureOptions measure;
-  TableFormat format = TableFormat::markdown;
-  std::optional<std::filesystem::path> output;  ///< stdout if not given
-  std::optional<std::filesystem::path> plots;   ///< a folder for pictures by gnuplot and what they are drawn from
-  bool has_tessellation = false;                ///< asked for by name: a scene that has none is refused
-  bool quiet = false;                           ///< no progress
+  TableOutput table;              ///< without a page
+  bool has_tessellation = false;  ///< asked for by name: a scene that has none is refused
+  bool quiet = false;             ///< no progress
 };
 
 /// Declares them.

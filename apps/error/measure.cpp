@@ -36,7 +36,7 @@ PictureOptions picture_of(PictureOptions picture, const Setting& setting) {
 /// The scene in all its tessellations, each built when it is first asked for.
 class Scenes {
  public:
-  Scenes(const std::string& name, PictureOptions picture) : picture_(std::move(picture)) {
+  Scenes(const std::string& name, const MeasureOptions& options) : picture_(options.picture), outputs_(options.outputs) {
     picture_.scene = name;
     add(0);
   }
@@ -48,15 +48,23 @@ class Scenes {
   const Built& of(int tessellation) { return scenes_.contains(tessellation) ? scenes_.at(tessellation) : add(tessellation); }
   const core::Scene& exact() const { return scenes_.at(0).scene; }
 
+  /// Throws core::UsageError if `picture` falls on a file that the scene was read from, or on another output.
+  void check_apart(const NamedFile& picture) const {
+    check_not_read(opened_, {picture});
+    check_distinct(outputs_, {picture});
+  }
+
  private:
   const Built& add(int tessellation) {
     core::Scene scene = load(tessellation);
     Subject subject = build_subject(scene, picture_);
     return scenes_.emplace(tessellation, Built{std::move(scene), std::move(subject)}).first->second;
   }
-  core::Scene load(int tessellation) const {
+  core::Scene load(int tessellation) {
     if (tessellation == 0) {
-      return load_scene(picture_);
+      core::Scene scene = load_scene(picture_, LoadNotes::said, &opened_);
+      check_not_read(opened_, outputs_);
+      return scene;
     }
     core::SceneName name = core::parse_scene_name(picture_.scene);
     name.tessellation = tessellation;
@@ -64,6 +72,8 @@ class Scenes {
   }
 
   PictureOptions picture_;
+  std::vector<NamedFile> outputs_;
+  OpenedFiles opened_;
   std::map<int, Built> scenes_;
 };
 
@@ -86,7 +96,7 @@ Image accurate_image(const AccuratePicture& accurate) {
 class Bench {
  public:
   Bench(const std::string& scene, const MeasureOptions& options, const Interrupt& interrupt, SceneResult& result)
-      : options_(options), interrupt_(interrupt), result_(result), scenes_(scene, options.picture) {
+      : options_(options), interrupt_(interrupt), result_(result), scenes_(scene, options) {
     const core::View& view = scenes_.exact().view;
     const Resolution size = options.picture.resolution.value_or(Resolution{view.width, view.height});
     result_.scene = scene;
@@ -209,6 +219,9 @@ class Bench {
       judge(measurement, rendered.picture);
     }
     measurement.seconds.push_back(rendered.seconds);
+    if (measurement.seconds.size() == 1 && options_.told) {
+      options_.told(result_);
+    }
   }
 
   void judge(Measurement& measurement, const Image& picture) {
@@ -244,7 +257,9 @@ class Bench {
   void write_error(const std::string& name, const Image& picture, const Image& reference) const {
     Image error = difference_picture(picture, reference);
     std::transform(error.rgb.begin(), error.rgb.end(), error.rgb.begin(), [](float value) { return picture_scale * value; });
-    write_image(*options_.pictures / (name + ".png"), error);
+    const std::filesystem::path path = *options_.pictures / (name + ".png");
+    scenes_.check_apart({"--pictures", path});
+    write_image(path, error);
   }
 
   const MeasureOptions& options_;

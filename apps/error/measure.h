@@ -3,11 +3,14 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "apps/accurate/reference.h"
+#include "apps/distinct_files.h"
 #include "apps/error/knob.h"
 #include "apps/error/result.h"
 #include "apps/interrupt.h"
@@ -25,6 +28,8 @@ struct MeasureOptions {
   std::size_t rounds = 3;
   ReferenceOptions reference;
   std::optional<std::filesystem::path> pictures;  ///< an existing folder for pictures of the errors
+  std::function<void(const SceneResult&)> told;   ///< each time that a setting has been rendered for the first time
+  std::vector<NamedFile> outputs;                 ///< none of which may be a file that a scene is read from
 };
 
 /// How much brighter than the error, in linear light, its pictures are.

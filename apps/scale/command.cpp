@@ -7,20 +7,17 @@
 #include <utility>
 #include <vector>
 
-#include "apps/distinct_files.h"
 #include "apps/effort/effort.h"
+#include "apps/effort/shown_rows.h"
 #include "apps/figures.h"
 #include "apps/html/sweep_page.h"
 #include "apps/machine_load.h"
 #include "apps/option_values.h"
 #include "apps/origin.h"
-#include "apps/output_file.h"
-#include "apps/plot_folder.h"
 #include "apps/scale/measure.h"
 #include "apps/scale/table.h"
-#include "apps/scratch_folder.h"
 #include "apps/system/attempts.h"
-#include "apps/table_options.h"
+#include "apps/table_files.h"
 #include "core/expect.h"
 #include "core/scenes.h"
 #include "dataflow/bsp.h"
@@ -30,48 +27,29 @@ namespace {
 
 constexpr const char* data_file = "scale.csv";
 
-void check_files(const ScaleOptions& options) {
-  std::vector<NamedFile> outputs;
-  if (options.output) {
-    outputs.push_back({"-o", *options.output});
-  }
-  if (options.report) {
-    outputs.push_back({"--report", *options.report});
-  }
-  if (options.plots) {
-    make_output_folder(*options.plots, "--plots");
-    outputs.push_back({"--plots", *options.plots / data_file});
-    for (const Plot& plot : scale_plots(options.settings)) {
-      outputs.push_back({"--plots", *options.plots / (plot.name + ".gnuplot")});
-      outputs.push_back({"--plots", *options.plots / (plot.name + ".svg")});
-    }
-  }
-  check_distinct({}, outputs);
-  if (options.output) {
-    check_output_path(*options.output, "-o");
-  }
-  if (options.report) {
-    check_output_path(*options.report, "--report");
-    const ScratchFolder probe;
-  }
-}
+TableFiles files_of(const ScaleOptions& options) { return {options.table, {names_of(data_file, scale_plots(options.settings))}}; }
 
-/// The table before all else.
-void publish(const std::vector<ScaleResult>& results, bool is_complete, double load, const ScaleOptions& options,
-             std::ostream& output, Attempts& attempts) {
+Table finished_table(const std::vector<ScaleResult>& results, bool is_complete, double load, const ScaleOptions& options) {
   Table table = scale_table(results, options.settings);
   if (!is_complete) {
     table.add_note("Ended before its time: rows are missing.");
   }
   table.add_note(load_note(load));
-  attempts.make([&] { write_to(options.output, text_of(table, options.format), output, "the table"); });
-  if (options.report) {
-    const html::SweepPart part{"", table, scale_plots(options.settings)};
-    attempts.make([&] { write_file(*options.report, html::sweep_page({"Study scale", {}, {part}}, this_origin(), std::cerr)); });
-  }
-  if (options.plots) {
-    attempts.make([&] { PlotFolder(*options.plots, std::cerr).add(table, data_file, scale_plots(options.settings)); });
-  }
+  return table;
+}
+
+std::string page_of(const Table& table, const ScaleOptions& options) {
+  const html::SweepPart part{"", table, scale_plots(options.settings), scale_conclusion(table)};
+  return html::sweep_page({"Study scale", {}, {part}}, this_origin(), std::cerr);
+}
+
+TableResult result_of(const Table& table, const ScaleOptions& options) {
+  return {.text = text_of(table, options.table.format),
+          .page = [&] { return page_of(table, options); },
+          .plotted =
+              [&] {
+                return std::vector<PlottedTable>{{table, data_file, scale_plots(options.settings)}};
+              }};
 }
 
 /// Throws core::RoomError if no run found room, core::InputError if there was none.
@@ -162,10 +140,7 @@ Effort effort_of(const std::vector<ScaleRun>& runs, const ScaleSettings& setting
 void add_options(OptionSet set, ScaleOptions& options) {
   add_subject(set, options.settings);
   add_computer(set, options.settings);
-  add_format_option(set, options.format);
-  add_report_option(set, options.report, "with the table and its plots");
-  set.add_path("--plots", "FOLDER", options.plots, "Where pictures by gnuplot go, with their scripts and the table as CSV");
-  set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
+  add_options(set, options.table, TableExtras::plots_and_report);
   set.add_quiet(options.quiet);
   set.set_examples(
       "Examples:\n"
@@ -177,20 +152,25 @@ void add_options(OptionSet set, ScaleOptions& options) {
 
 int study_scale_command(const ScaleOptions& options, Interrupt& interrupt, std::ostream& output) {
   const std::vector<ScaleRun> runs = scale_runs(options.settings);
-  check_files(options);
+  const TableFiles files = files_of(options);
   announce("study scale, " + counted(runs.size(), "run"), effort_of(runs, options.settings), options.quiet, std::cerr);
   const double load = machine_load();
+  ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
   std::vector<ScaleResult> results;
   std::exception_ptr failure;
   Attempts attempts(std::cerr);
   try {
-    measure_scale(runs, options.settings, interrupt, [&](ScaleResult result) { results.push_back(std::move(result)); });
+    measure_scale(runs, options.settings, interrupt, [&](ScaleResult result) {
+      results.push_back(std::move(result));
+      shown.show(scale_rows(results, options.settings));
+    });
   } catch (...) {
     failure = std::current_exception();
   }
   if (!results.empty()) {
     interrupt.set_consequence("the table has the rows finished before");
-    publish(results, !failure, load, options, output, attempts);
+    const Table table = finished_table(results, !failure, load, options);
+    files.write(result_of(table, options), output, std::cerr, attempts);
   }
   if (failure) {
     std::rethrow_exception(failure);

@@ -1,24 +1,19 @@
 // The command `study scale`: what larger scenes and more nodes take, and how fast that grows.
 #pragma once
 
-#include <filesystem>
 #include <iosfwd>
-#include <optional>
 
 #include "apps/command_line.h"
 #include "apps/interrupt.h"
 #include "apps/scale/settings.h"
-#include "apps/study_table.h"
+#include "apps/table_options.h"
 
 namespace dmpc::apps {
 
 struct ScaleOptions {
   ScaleSettings settings;
-  TableFormat format = TableFormat::markdown;
-  std::optional<std::filesystem::path> output;  ///< stdout if not given
-  std::optional<std::filesystem::path> report;  ///< a page with the table and its pictures
-  std::optional<std::filesystem::path> plots;   ///< a folder for pictures by gnuplot and what they are drawn from
-  bool quiet = false;                           ///< no progress
+  TableOutput table;
+  bool quiet = false;  ///< no progress
 };
 
 /// Declares them.

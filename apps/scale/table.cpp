@@ -228,6 +228,12 @@ void add_plots(const Pictures& pictures, std::vector<Plot>& plots) {
 
 }  // namespace
 
+Table scale_rows(const std::vector<ScaleResult>& results, const ScaleSettings& settings) {
+  Table table("", columns());
+  add_rows(results, settings, table);
+  return table;
+}
+
 Table scale_table(const std::vector<ScaleResult>& results, const ScaleSettings& settings) {
   Table table("Study scale: " + std::to_string(settings.resolution.width) + "x" + std::to_string(settings.resolution.height) +
                   " pixels, part sizes on " + counted(settings.node_count, "node"),
@@ -239,6 +245,30 @@ Table scale_table(const std::vector<ScaleResult>& results, const ScaleSettings& 
     growth.add(group);
   }
   return table;
+}
+
+std::string scale_conclusion(const Table& table) {
+  const auto exponent = [&](const std::vector<Cell>& row, ScaleFigure figure) {
+    const auto number = number_in(table, row, column_of(figure).name);
+    return number ? fixed(*number, exponent_digits) : std::string("?");
+  };
+  const auto first = [&](const char* part) {
+    return std::find_if(table.rows().begin(), table.rows().end(),
+                        [&](const auto& row) { return row[part_at] == Cell(std::string(part)); });
+  };
+  std::string text;
+  if (const auto row = first("growth by size"); row != table.rows().end()) {
+    const std::vector<std::string> texts = texts_of(table, *row);
+    text += "From " + texts[scene_at] + " by " + texts[method_at] + " building takes primitives to the power of " +
+            exponent(*row, ScaleFigure::build) + ", rendering of " + exponent(*row, ScaleFigure::render) + ", memory of " +
+            exponent(*row, ScaleFigure::memory) + ". ";
+  }
+  if (const auto row = first("growth by nodes"); row != table.rows().end()) {
+    const std::vector<std::string> texts = texts_of(table, *row);
+    text += "For " + texts[scene_at] + " by " + texts[method_at] + " rendering takes nodes to the power of " +
+            exponent(*row, ScaleFigure::render) + ". ";
+  }
+  return text.substr(0, text.empty() ? 0 : text.size() - 1);
 }
 
 std::vector<Plot> scale_plots(const ScaleSettings& settings) {

@@ -16,6 +16,13 @@ namespace dmpc::apps {
 /// in words.
 Table scale_table(const std::vector<ScaleResult>& results, const ScaleSettings& settings);
 
+/// The results' rows alone.
+Table scale_rows(const std::vector<ScaleResult>& results, const ScaleSettings& settings);
+
+/// What such a table comes to, from its rows: how the first method's time and memory grow with the scene, and its time with the
+/// nodes; empty if they tell too little.
+std::string scale_conclusion(const Table& table);
+
 /// Pictures of such a table, logarithmic on both axes.
 std::vector<Plot> scale_plots(const ScaleSettings& settings);
 

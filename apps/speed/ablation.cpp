@@ -7,7 +7,6 @@
 #include <iostream>
 #include <utility>
 
-#include "apps/load_scene.h"
 #include "apps/progress.h"
 #include "apps/rounds.h"
 #include "apps/run_strategy.h"
@@ -173,7 +172,7 @@ class AblationBench {
 
   static Subject subject_of(const std::string& scene, const SpeedSettings& settings) {
     const PictureOptions picture = settings.picture_of(SpeedPart::ablation, scene);
-    return build_subject(load_scene(picture), picture);
+    return build_subject(settings.load(picture), picture);
   }
 
   std::size_t add_variant(const Variant& variant) {

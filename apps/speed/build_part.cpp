@@ -5,7 +5,6 @@
 #include <iostream>
 #include <string>
 
-#include "apps/load_scene.h"
 #include "apps/progress.h"
 #include "apps/rounds.h"
 #include "apps/speed/rival.h"
@@ -46,7 +45,7 @@ class BuildBench {
   void prepare() {
     for (const std::string& name : settings_.scenes_of(SpeedPart::build)) {
       interrupt_.check();
-      const core::Scene& scene = scenes_.emplace_back(load_scene(name));
+      const core::Scene& scene = scenes_.emplace_back(settings_.load(settings_.picture_of(SpeedPart::build, name)));
       const core::Database& database = databases_.emplace_back(core::build_database(scene, {}));
       for (const std::uint32_t threads : settings_.thread_counts) {
         matches_.push_back({&scene, &database, threads, results_.size()});

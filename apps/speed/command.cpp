@@ -7,13 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "apps/distinct_files.h"
 #include "apps/effort/effort.h"
+#include "apps/effort/shown_rows.h"
 #include "apps/load_scene.h"
 #include "apps/machine_load.h"
 #include "apps/oracle.h"
-#include "apps/output_file.h"
-#include "apps/plot_folder.h"
 #include "apps/speed/ablation.h"
 #include "apps/speed/ablation_table.h"
 #include "apps/speed/build_part.h"
@@ -28,7 +26,7 @@
 #include "apps/speed/table.h"
 #include "apps/speed/target.h"
 #include "apps/system/attempts.h"
-#include "apps/table_options.h"
+#include "apps/table_files.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -48,29 +46,16 @@ struct Results {
 std::string plot_name_of(SpeedPart part) { return std::string("speed_") + name_of(part); }
 std::string data_file_of(SpeedPart part) { return plot_name_of(part) + ".csv"; }
 
-void add_plot_files(const SpeedOptions& options, std::vector<NamedFile>& outputs) {
-  make_output_folder(*options.plots, "--plots");
-  for (const SpeedPart part : options.parts) {
-    outputs.push_back({"--plots", *options.plots / data_file_of(part)});
-    for (const char* extension : {".gnuplot", ".svg"}) {
-      outputs.push_back({"--plots", *options.plots / (plot_name_of(part) + extension)});
-    }
-  }
-}
-
-void check_files(const SpeedOptions& options) {
-  std::vector<NamedFile> inputs, outputs;
+TableFiles files_of(const SpeedOptions& options) {
+  OtherFiles others;
   for (const std::string& scene : options.settings.scenes) {
-    add_scene_file(scene, inputs);
+    add_scene_file(scene, others.inputs);
   }
-  if (options.output) {
-    outputs.push_back({"-o", *options.output});
-    check_output_path(*options.output, "-o");
+  std::vector<PlottedNames> plotted;
+  for (const SpeedPart part : options.parts) {
+    plotted.push_back({data_file_of(part), {plot_name_of(part)}});
   }
-  if (options.plots) {
-    add_plot_files(options, outputs);
-  }
-  check_distinct(inputs, outputs);
+  return {options.table, plotted, others};
 }
 
 void measure_part(SpeedPart part, const SpeedSettings& settings, const Interrupt& interrupt, Results& results) {
@@ -92,11 +77,23 @@ void measure_part(SpeedPart part, const SpeedSettings& settings, const Interrupt
   }
 }
 
+/// Of what was measured so far, as the table in the end has them.
+void show_rows(const SpeedOptions& options, const Results& results, ShownRows& shown) {
+  if (shown.is_shown()) {
+    shown.show(options.is_ablation ? table_of(results.ablations, "") : headline_of(results.comparisons, ""));
+  }
+}
+
 /// What ended it before its time, if anything did.
-std::exception_ptr measure_all(const SpeedOptions& options, const Interrupt& interrupt, Results& results) {
+std::exception_ptr measure_all(const SpeedOptions& options, const TableFiles& files, const Interrupt& interrupt,
+                               Results& results) {
+  SpeedSettings settings = options.settings;
+  settings.outputs = files.names();
+  ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
   try {
     for (const SpeedPart part : options.parts) {
-      measure_part(part, options.settings, interrupt, results);
+      measure_part(part, settings, interrupt, results);
+      show_rows(options, results, shown);
     }
     return nullptr;
   } catch (...) {
@@ -161,17 +158,17 @@ void add_notes(const SpeedOptions& options, const Results& results, double load,
 /// What is to be read first, then all, if that is asked for or goes to a file.
 std::string comparisons_text(const SpeedOptions& options, const Results& results, double load, bool is_whole) {
   Table details = table_of(results.comparisons, title());
-  if (options.format != TableFormat::markdown) {
+  if (options.table.format != TableFormat::markdown) {
     add_notes(options, results, load, is_whole, details);
-    return text_of(details, options.format);
+    return text_of(details, options.table.format);
   }
   Table headline = headline_of(results.comparisons, title() + ", geometric means over scenes and kinds");
   add_notes(options, results, load, is_whole, headline);
-  const bool has_details = options.has_details || options.output;
+  const bool has_details = options.has_details || options.table.file;
   if (!has_details) {
     headline.add_note("--details, or a file (-o), has all " + std::to_string(details.rows().size()) + " comparisons.");
   }
-  return text_of(headline, options.format) + (has_details ? "\n" + text_of(details, options.format) : "");
+  return text_of(headline, options.table.format) + (has_details ? "\n" + text_of(details, options.table.format) : "");
 }
 
 std::string text_of_all(const SpeedOptions& options, const Results& results, double load, bool is_whole) {
@@ -180,7 +177,7 @@ std::string text_of_all(const SpeedOptions& options, const Results& results, dou
   }
   Table table = table_of(results.ablations, "Pictures without skips; ratios are medians over rounds, without over with");
   add_notes(options, results, load, is_whole, table);
-  return text_of(table, options.format);
+  return text_of(table, options.table.format);
 }
 
 /// By processor time of a server's core in November 2026 with the default scenes and parts. A bench that is not quick shoots ten
@@ -196,14 +193,15 @@ Effort effort_of(const SpeedOptions& options) {
           .bytes = options.is_ablation || !options.settings.scenes.empty() ? 0 : with_embree_bytes};
 }
 
-void draw_plots(const SpeedOptions& options, const Results& results, Attempts& attempts) {
-  PlotFolder plots(*options.plots, std::cerr);
+std::vector<PlottedTable> plotted_tables(const SpeedOptions& options, const Results& results) {
+  std::vector<PlottedTable> plotted;
   for (const SpeedPart part : options.parts) {
     const bool is_ablation = part == SpeedPart::ablation;
     const Table table = is_ablation ? plotted_table(results.ablations) : plotted_table(part, results.comparisons);
     const Plot plot = is_ablation ? plot_of_ablation(table, plot_name_of(part)) : plot_of(part, table, plot_name_of(part));
-    attempts.make([&] { plots.add(table, data_file_of(part), {&plot, 1}); });
+    plotted.push_back({table, data_file_of(part), {plot}});
   }
+  return plotted;
 }
 
 /// Parts and threads are those of comparisons.
@@ -244,11 +242,8 @@ void add_options(OptionSet set, SpeedOptions& options) {
   set.add_text(
       "--resolution", "WxH [512x512, emulation 1024x1024]",
       [&settings](const std::string& text) { settings.resolution = parse_resolution(text); }, "Pixels of the pictures");
-  set.add_path("--plots", "FOLDER", options.plots,
-               "Where pictures by gnuplot go, with their scripts and what they are drawn from");
   set.add_flag("--details", options.has_details, "Print every comparison, too, not the means of them alone");
-  add_format_option(set, options.format);
-  set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
+  add_options(set, options.table, TableExtras::plots);
   set.add_quiet(options.quiet);
   set.set_examples(
       "Examples:\n"
@@ -260,18 +255,17 @@ void add_options(OptionSet set, SpeedOptions& options) {
 }
 
 int bench_speed_command(const SpeedOptions& options, Interrupt& interrupt, std::ostream& output) {
-  check_files(options);
+  const TableFiles files = files_of(options);
   announce("bench speed", effort_of(options), options.quiet, std::cerr);
   const double load = machine_load();
   Results results;
-  const std::exception_ptr failure = measure_all(options, interrupt, results);
+  const std::exception_ptr failure = measure_all(options, files, interrupt, results);
   Attempts attempts(std::cerr);
   if (!failure || results.has_figures()) {
     interrupt.set_consequence("the table has what was measured before");
-    attempts.make([&] { write_to(options.output, text_of_all(options, results, load, !failure), output, "the table"); });
-    if (options.plots) {
-      draw_plots(options, results, attempts);
-    }
+    files.write(
+        {.text = text_of_all(options, results, load, !failure), .plotted = [&] { return plotted_tables(options, results); }},
+        output, std::cerr, attempts);
   }
   if (failure) {
     std::rethrow_exception(failure);

@@ -1,15 +1,13 @@
 // The command `bench speed`: our grid, pictures, emulated computers and databases beside Embree and each other.
 #pragma once
 
-#include <filesystem>
 #include <iosfwd>
-#include <optional>
 #include <set>
 
 #include "apps/command_line.h"
 #include "apps/interrupt.h"
 #include "apps/speed/part.h"
-#include "apps/study_table.h"
+#include "apps/table_options.h"
 
 namespace dmpc::apps {
 
@@ -17,11 +15,9 @@ struct SpeedOptions {
   SpeedSettings settings;
   bool is_ablation = false;  ///< then that is the only part
   std::set<SpeedPart> parts = all_speed_parts();
-  TableFormat format = TableFormat::markdown;
-  bool has_details = false;                     ///< every comparison is printed, too; a file has them anyway
-  std::optional<std::filesystem::path> output;  ///< stdout if not given
-  std::optional<std::filesystem::path> plots;   ///< a folder for pictures by gnuplot and what they are drawn from
-  bool quiet = false;                           ///< no progress
+  TableOutput table;         ///< without a page
+  bool has_details = false;  ///< every comparison is printed, too; a file has them anyway
+  bool quiet = false;        ///< no progress
 };
 
 /// Declares them.

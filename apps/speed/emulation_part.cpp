@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "apps/load_scene.h"
 #include "apps/progress.h"
 #include "apps/rounds.h"
 #include "apps/run_strategy.h"
@@ -88,7 +87,7 @@ class EmulationBench {
  private:
   static Subject subject_of(const std::string& scene, const SpeedSettings& settings) {
     const PictureOptions picture = settings.picture_of(SpeedPart::emulation, scene);
-    return build_subject(load_scene(picture), picture);
+    return build_subject(settings.load(picture), picture);
   }
 
   Times render(const Computer& computer) {

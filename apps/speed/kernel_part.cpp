@@ -9,7 +9,6 @@
 #include <numeric>
 #include <string>
 
-#include "apps/load_scene.h"
 #include "apps/progress.h"
 #include "apps/rounds.h"
 #include "apps/speed/crew.h"
@@ -57,7 +56,7 @@ class Arena {
  public:
   Arena(const std::string& scene, const SpeedSettings& settings)
       : name_(scene),
-        subject_(subject_of(settings.picture_of(SpeedPart::kernel, scene))),
+        subject_(subject_of(scene, settings)),
         recording_(record_rays(subject_.database, subject_.settings, settings.rays_max())),
         robust_(subject_.database.primitives(), EmbreeMode::robust, EmbreeQuality::high),
         fast_(subject_.database.primitives(), EmbreeMode::fast, EmbreeQuality::high) {
@@ -95,7 +94,10 @@ class Arena {
   }
 
  private:
-  static Subject subject_of(const PictureOptions& picture) { return build_subject(load_scene(picture), picture); }
+  static Subject subject_of(const std::string& scene, const SpeedSettings& settings) {
+    const PictureOptions picture = settings.picture_of(SpeedPart::kernel, scene);
+    return build_subject(settings.load(picture), picture);
+  }
 
   std::uint64_t trace_piece(Contender contender, std::span<const core::Ray> rays, Query query, std::size_t thread) {
     switch (contender) {

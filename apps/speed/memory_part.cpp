@@ -3,7 +3,6 @@
 #include <iostream>
 #include <string>
 
-#include "apps/load_scene.h"
 #include "apps/output_file.h"
 #include "apps/progress.h"
 #include "apps/scratch_folder.h"
@@ -33,7 +32,7 @@ std::size_t peak_of(const std::string& scene, const SpeedSettings& settings, con
 /// What the nodes of that render have together.
 std::size_t local_bytes(const std::string& scene, const SpeedSettings& settings) {
   const PictureOptions picture = settings.picture_of(SpeedPart::memory, scene);
-  const Subject subject = build_subject(load_scene(picture), picture);
+  const Subject subject = build_subject(settings.load(picture), picture);
   const svm::Plan plan = svm::plan_of(svm::Strategy::svm, subject.database, subject.settings, {.node_count = node_count});
   std::size_t sum = 0;
   for (std::uint32_t node = 0; node < node_count; ++node) {

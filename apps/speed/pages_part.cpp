@@ -5,7 +5,6 @@
 #include <string>
 #include <variant>
 
-#include "apps/load_scene.h"
 #include "apps/paper_data.h"
 #include "apps/progress.h"
 #include "apps/run_strategy.h"
@@ -58,7 +57,7 @@ void measure_pages(const SpeedSettings& settings, const Interrupt& interrupt, st
     PictureOptions picture = settings.picture_of(SpeedPart::pages, scenes[i]);
     picture.convention = core::Convention::paper;
     picture.skips.background = false;
-    const Subject subject = build_subject(load_scene(picture), picture);
+    const Subject subject = build_subject(settings.load(picture), picture);
     const PaperScene& row = row_of(scenes[i]);
     const double kilobytes = static_cast<double>(subject.database.bytes().size()) / 1024;
     const double pages = pages_a_pixel(subject, interrupt);

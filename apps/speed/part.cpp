@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "apps/load_scene.h"
 #include "apps/machine_load.h"
 #include "apps/option_values.h"
 #include "apps/paper_data.h"
@@ -107,6 +108,8 @@ PictureOptions SpeedSettings::picture_of(SpeedPart part, const std::string& scen
   picture.resolution = resolution.value_or(Resolution{side, side});
   return picture;
 }
+
+core::Scene SpeedSettings::load(const PictureOptions& picture) const { return load_scene_beside(picture, outputs); }
 
 std::vector<std::uint32_t> parse_thread_counts(const std::string& text) {
   return parse_different_numbers(text, "--threads", thread_count_max);

@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/distinct_files.h"
 #include "apps/picture_options.h"
+#include "core/scene.h"
 
 namespace dmpc::apps {
 
@@ -31,6 +33,7 @@ struct SpeedSettings {
   std::vector<std::uint32_t> thread_counts;  ///< of kernel and build, each once, ascending
   std::optional<Resolution> resolution;      ///< nothing: what the part takes
   std::filesystem::path program;             ///< dmpc itself, to be run as a process of its own
+  std::vector<NamedFile> outputs;            ///< none of which may be a file that a scene is read from
 
   SpeedSettings();  ///< one thread and all cores
 
@@ -38,6 +41,8 @@ struct SpeedSettings {
   std::size_t rounds_of(SpeedPart part) const;
   /// One sample a pixel, at depth 5.
   PictureOptions picture_of(SpeedPart part, const std::string& scene) const;
+  /// Throws as load_scene_beside().
+  core::Scene load(const PictureOptions& picture) const;
   /// Of each class of rays in the kernel's part.
   std::size_t rays_max() const { return is_quick ? 20'000 : 200'000; }
 };

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "apps/image_file.h"
-#include "apps/load_scene.h"
 #include "apps/progress.h"
 #include "apps/render.h"
 #include "apps/rounds.h"
@@ -30,11 +29,12 @@ StrategyOptions strategy_of(bool is_rival) {
 }
 
 /// Times of each phase, and in the end of all.
-Phases render_whole(const PictureOptions& picture, const StrategyOptions& strategy, const std::filesystem::path& path,
-                    const Interrupt& interrupt) {
+Phases render_whole(const std::string& scene_name, const SpeedSettings& settings, const StrategyOptions& strategy,
+                    const std::filesystem::path& path, const Interrupt& interrupt) {
+  const PictureOptions picture = settings.picture_of(SpeedPart::picture, scene_name);
   Phases phases{};
   DoubleStopwatch stopwatch;
-  core::Scene scene = load_scene(picture);
+  core::Scene scene = settings.load(picture);
   phases[0] = stopwatch.lap();
   const Subject subject = build_subject(std::move(scene), picture);
   phases[1] = stopwatch.lap();
@@ -81,8 +81,7 @@ void measure_picture(const SpeedSettings& settings, const Interrupt& interrupt, 
     interrupt.check();
     progress.update(round * count + index, rounds * count);
     const bool is_rival = index % 2 == 1;
-    const PictureOptions picture = settings.picture_of(SpeedPart::picture, scenes[index / 2]);
-    const Phases phases = render_whole(picture, strategy_of(is_rival), folder / "picture.png", interrupt);
+    const Phases phases = render_whole(scenes[index / 2], settings, strategy_of(is_rival), folder / "picture.png", interrupt);
     for (std::size_t phase = 0; phase < phases.size(); ++phase) {
       note(phases[phase], is_rival, &results[first + 2 * (index / 2 * phases.size() + phase)]);
     }

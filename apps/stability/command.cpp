@@ -5,14 +5,12 @@
 #include <limits>
 #include <memory>
 
-#include "apps/distinct_files.h"
 #include "apps/effort/effort.h"
-#include "apps/output_file.h"
 #include "apps/progress.h"
 #include "apps/stability/run.h"
 #include "apps/stability/state.h"
 #include "apps/stability/table.h"
-#include "apps/table_options.h"
+#include "apps/table_files.h"
 #include "apps/words.h"
 #include "core/expect.h"
 
@@ -35,17 +33,12 @@ std::string identity_of(const StabilityOptions& options) {
   return text + (options.tests.empty() ? "all" : "");
 }
 
-void check_files(const StabilityOptions& options) {
-  std::vector<NamedFile> outputs;
-  if (options.output) {
-    outputs.push_back({"-o", *options.output});
-    check_output_path(*options.output, "-o");
-  }
+TableFiles files_of(const StabilityOptions& options) {
+  OtherFiles others;
   if (options.resume) {
-    outputs.push_back({"--resume", *options.resume});
-    check_output_path(*options.resume, "--resume");
+    others.outputs.push_back({"--resume", *options.resume});
   }
-  check_distinct({}, outputs);
+  return {options.table, {}, others};
 }
 
 /// A run whose state is kept in a file, if one is asked for.
@@ -116,8 +109,7 @@ void add_options(OptionSet set, StabilityOptions& options) {
       "Only these: R1 to R12, R14, quadrics");
   set.add_number("--seed", options.seed, 0, std::numeric_limits<std::int64_t>::max(), "1", "Other rays, as good as these");
   set.add_path("--resume", "FILE", options.resume, "Keep the run's state in FILE, and go on from there if it exists");
-  add_format_option(set, options.format);
-  set.add_path("-o,--output", "FILE [stdout]", options.output, "Where it goes");
+  add_options(set, options.table, TableExtras::none);
   set.add_quiet(options.quiet);
   set.set_examples(
       "Examples:\n"
@@ -135,13 +127,14 @@ void add_options(OptionSet set, StabilityOptions& options) {
 }
 
 int bench_stability_command(const StabilityOptions& options, Interrupt& interrupt, std::ostream& output) {
-  check_files(options);
+  const TableFiles files = files_of(options);
   announce("bench stability", effort_of(options), options.quiet, std::cerr);
   const StabilityRun run(stability_cases({options.rays}, options.tests), options.seed);
   KeptRun kept(options, run);
   const StabilityState& state = kept.finish(interrupt);
-  write_to(options.output, text_of(table_of(state, options.seed), options.format), output, "the table");
-  return state.own_failures() == 0 ? 0 : failed_status;
+  Attempts attempts(std::cerr);
+  files.write({.text = text_of(table_of(state, options.seed), options.table.format)}, output, std::cerr, attempts);
+  return state.own_failures() == 0 ? attempts.status() : failed_status;
 }
 
 }  // namespace dmpc::apps

@@ -10,7 +10,7 @@
 
 #include "apps/command_line.h"
 #include "apps/interrupt.h"
-#include "apps/study_table.h"
+#include "apps/table_options.h"
 
 namespace dmpc::apps {
 
@@ -21,8 +21,7 @@ struct StabilityOptions {
   bool quick = false, is_long = false;  ///< the command line's words for quick_rays and 0; `rays` says it
   std::vector<std::string> tests;       ///< "R1", "quadrics"; none: all
   std::uint64_t seed = 1;
-  TableFormat format = TableFormat::markdown;
-  std::optional<std::filesystem::path> output;  ///< stdout if not given
+  TableOutput table;                            ///< without a page and plots
   std::optional<std::filesystem::path> resume;  ///< where the run's state is kept, and gone on from
   bool quiet = false;                           ///< no progress
 };
@@ -32,8 +31,8 @@ void add_options(OptionSet set, StabilityOptions& options);
 
 /// Writes the table to the file asked for (whole or not at all), else to `output`; progress goes to stderr if that is a terminal.
 /// With --resume the state is written about once a minute, after a signal and in the end. Returns the exit status: 0 if none of
-/// our kernels failed, 1 otherwise, whatever Embree did. Throws core::UsageError for a test that is none, core::InputError for
-/// files that cannot be written or another run's state, and Interrupted after a signal.
+/// our kernels failed and the table is written, 1 otherwise, whatever Embree did. Throws core::UsageError for a test that is
+/// none, core::InputError for files that cannot be written or another run's state, and Interrupted after a signal.
 int bench_stability_command(const StabilityOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

@@ -3,6 +3,7 @@
 #include <ostream>
 
 #include "apps/exit_status.h"
+#include "apps/system/surroundings.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -11,6 +12,8 @@ bool Attempts::make(const std::function<void()>& step) {
   try {
     step();
     return true;
+  } catch (const BrokenPipe&) {
+    unsaid_ = unsaid_ ? unsaid_ : std::current_exception();
   } catch (const core::InputError& error) {
     messages_ << "dmpc: " << error.what() << std::endl;
   } catch (const std::exception&) {

@@ -13,10 +13,10 @@ class Attempts {
   /// What fails for bad input is said on `messages`, which outlives it, a line each.
   explicit Attempts(std::ostream& messages) : messages_(messages) {}
 
-  /// Calls `step`; whether it came to its end. An Interrupted passes.
+  /// Calls `step`; whether it came to its end. An Interrupted passes; a broken pipe, of which nobody reads, is not said.
   bool make(const std::function<void()>& step);
 
-  /// The exit status after all of them. Throws what was no bad input, if there was such a thing.
+  /// The exit status after all of them. Throws what was no bad input, or a broken pipe, if there was such a thing.
   int status() const;
 
  private:

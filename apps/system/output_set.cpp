@@ -36,11 +36,10 @@ void check_outputs(const std::vector<NamedFile>& inputs, const std::vector<Outpu
   }
 }
 
-void check_standard_output() {
+void check_standard_output(const std::string& what, const std::string& advice) {
   const bool is_taken = ::write(STDOUT_FILENO, "", 0) == 0;
   if (!is_taken) {
-    throw core::InputError(std::string("what follows the picture could not be written to the standard output: ") +
-                           std::strerror(errno) + "; --quiet says nothing there");
+    throw core::InputError(what + " could not be written to the standard output: " + std::strerror(errno) + "; " + advice);
   }
 }
 

@@ -29,8 +29,8 @@ void check_outputs(const std::vector<NamedFile>& inputs, const std::vector<Outpu
 /// Their names alone.
 std::vector<NamedFile> files_of(const std::vector<OutputName>& outputs);
 
-/// Throws core::InputError if the standard output takes nothing.
-void check_standard_output();
+/// Throws core::InputError, naming `what` was to go there and with `advice`, if the standard output takes nothing.
+void check_standard_output(const std::string& what, const std::string& advice);
 
 /// Throws ComputerRoomError unless as many files can be open at a time as writing them takes.
 void check_open_files();

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "apps/interrupt.h"
+#include "apps/system/surroundings.h"
 #include "core/expect.h"
 
 namespace dmpc::apps {
@@ -38,6 +39,17 @@ TEST_CASE("an error of our own does not look like bad input, and waits until all
   attempts.make([&made] { ++made; });
   CHECK(made == 1);
   CHECK_THROWS_AS(attempts.status(), std::logic_error);
+}
+
+TEST_CASE("a broken pipe is not said, keeps nothing that follows from its turn, and is what all come to") {
+  std::ostringstream messages;
+  Attempts attempts(messages);
+  int made = 0;
+  attempts.make([] { throw BrokenPipe("nobody reads"); });
+  attempts.make([&made] { ++made; });
+  CHECK(made == 1);
+  CHECK(messages.str().empty());
+  CHECK_THROWS_AS(attempts.status(), BrokenPipe);
 }
 
 TEST_CASE("an interruption ends all") {

@@ -46,7 +46,7 @@ std::string output_of(const SpeedOptions& options) {
   apps::Interrupt interrupt;
   std::ostringstream output;
   CHECK(apps::bench_speed_command(options, interrupt, output) == 0);
-  return output.str();
+  return output.str().starts_with("**") ? unfolded(output.str()) : output.str();
 }
 
 }  // namespace
@@ -81,13 +81,13 @@ TEST_CASE("bench speed prints its means first, and every comparison if asked or 
   CHECK(contains(means, "geometric means over scenes and kinds"));
   CHECK(contains(means, "--details, or a file (-o), has all "));
   CHECK_FALSE(contains(means, "largest ratio"));
-  options.output = folder / "speed.md";
+  options.table.file = folder / "speed.md";
   CHECK(output_of(options).empty());
   const std::string file = file_text(folder / "speed.md");
-  CHECK(file.find("geometric means") < file.find("largest ratio"));
+  CHECK(unfolded(file).find("geometric means") < unfolded(file).find("largest ratio"));
   std::istringstream lines(file);
   for (std::string line; std::getline(lines, line);) {
-    CHECK((line.size() <= 120 || !line.starts_with("|")));
+    CHECK(line.size() <= 120);
   }
 }
 
@@ -161,7 +161,7 @@ TEST_CASE("bench speed writes what was measured before an error ended it") {
 TEST_CASE("an interrupted bench speed writes nothing before anything is measured") {
   const TemporaryFolder folder;
   SpeedOptions options = tiny_speed();
-  options.output = folder / "table.md";
+  options.table.file = folder / "table.md";
   apps::Interrupt interrupt;
   ::kill(::getpid(), SIGINT);
   while (!interrupt.requested()) {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "apps/effort/pilot.h"
+#include "apps/effort/render_effort.h"
 #include "apps/effort/study_effort.h"
 #include "apps/load_scene.h"
 
@@ -29,6 +30,8 @@ TEST_CASE("an effort is told in words that promise no more than is known") {
   CHECK(text_of(Effort{.seconds = 4 * 3600.0}) == "about 4 hours");
   CHECK(text_of(Effort{.seconds = 234, .bytes = 1536U << 20U}) == "about 4 minutes and up to 1.5 GiB of memory");
   CHECK(text_of(Effort{.seconds = 234, .bytes = 1U << 20U}) == "about 4 minutes");
+  CHECK(text_of(Effort{.seconds = 7, .bytes = 1536U << 20U, .is_given = true}) ==
+        "about 7 seconds; nodes are given up to 1.5 GiB of memory, and may touch less");
 }
 
 TEST_CASE("nothing is said of an effort where nobody looks") {
@@ -42,6 +45,21 @@ TEST_CASE("a larger picture of the same scene takes longer") {
   const double few = picture_seconds(small.database, small.settings), many = picture_seconds(large.database, large.settings);
   CHECK(few > 0);
   CHECK(many > 20 * few);
+}
+
+TEST_CASE("a render of half a minute is long, one of less is not") {
+  CHECK(is_long({.seconds = 31}));
+  CHECK_FALSE(is_long({.seconds = 29}));
+}
+
+TEST_CASE("more pixels, a machine's model and a check take longer") {
+  const Subject small = small_subject("tetra-3", 64), large = small_subject("tetra-3", 512);
+  StrategyOptions threads, model;
+  model.computer.runner = RunnerKind::virtual_time;
+  model.computer.node_count = 64;
+  CHECK(render_effort(threads, large).seconds > 4 * render_effort(threads, small).seconds);
+  CHECK(render_effort(model, small).seconds > 0.1);  // nodes take time, too
+  CHECK(check_effort(large).seconds > 4 * check_effort(small).seconds);
 }
 
 TEST_CASE("every run of a study is planned") {

@@ -109,4 +109,13 @@ TEST_CASE("pictures of the study of scale show columns of its table, under names
   CHECK(names.contains("scale_mount_memory"));
 }
 
+TEST_CASE("the table of scale is concluded with how the first method's time and memory grow") {
+  CHECK(scale_conclusion(apps::scale_table({}, ScaleSettings())).empty());
+  const std::string text =
+      scale_conclusion(apps::scale_table({of_size(1, 0.5), of_size(3, 0.5), of_nodes(1, 2), of_nodes(4, 4)}, ScaleSettings()));
+  CHECK(text.starts_with("From tetra-1 to tetra-3 by svm "));
+  CHECK(text.find("building takes primitives to the power of 0.50") != std::string::npos);
+  CHECK(text.ends_with("rendering takes nodes to the power of 0.50."));
+}
+
 }  // namespace dmpc::tests

@@ -38,8 +38,8 @@ SpeedupStudy speedup(std::initializer_list<std::string> more = {}) {
 TEST_CASE("a study and a scene are all that study needs") {
   const StudyOptions options = study("balance");
   CHECK(options.picture.scene == "teapot-12");
-  CHECK(options.format == TableFormat::markdown);
-  CHECK_FALSE(options.output);
+  CHECK(options.table.format == TableFormat::markdown);
+  CHECK_FALSE(options.table.file);
   CHECK(balance().node_counts == Counts{4, 8, 16, 32, 64});
   CHECK(balance().regions.subsample == 8);
   CHECK(balance().regions.columns_per_side == 256);
@@ -54,8 +54,8 @@ TEST_CASE("options of a study are taken") {
   CHECK(std::get<TrafficStudy>(options.study).node_counts == Counts{3});
   CHECK(options.picture.depth == 2);
   CHECK(options.database.axes == AxesChoice::screen);
-  CHECK(options.format == TableFormat::json);
-  CHECK(options.output == "a.json");
+  CHECK(options.table.format == TableFormat::json);
+  CHECK(options.table.file == "a.json");
   const BalanceStudy taken = balance({"--subsample=4", "--balance-grid=16", "--topology=fat-tree", "--per-node"});
   CHECK(taken.regions.subsample == 4);
   CHECK(taken.regions.columns_per_side == 16);

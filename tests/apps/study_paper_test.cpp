@@ -77,7 +77,8 @@ TEST_CASE("a whole study writes its report, every table twice and every picture 
     CHECK(has_text(folder / "paper" / (plot + ".svg")) == is_drawn);
   }
   for (const std::string& report : {file_text(folder / "paper" / "report.md"), process.output()}) {
-    CHECK(contains(report, "show how the study works, and no more"));
+    CHECK(contains(unfolded(report), "show how the study works"));
+    CHECK(widest_line(report) <= 120);
     CHECK(contains(report, "| not judged |"));
     CHECK_FALSE(contains(report, "Unfinished"));
   }

@@ -82,7 +82,7 @@ TEST_CASE("the pieces of a wide table have numbered rows where much would be nee
 TEST_CASE("a row that is added is told of, as much as fits a line") {
   Table table("two runs", {{"nodes"}, {"kind"}, {"average load", "%", 1}, {std::string(80, 'x')}});
   std::vector<std::string> told;
-  table.set_listener([&told](const Table& rows) { told.push_back(last_row_text(rows)); });
+  table.set_listener([&told](const Table& rows) { told.push_back(row_text(rows, rows.rows().back())); });
   table.add_row({std::uint64_t{4}, "plain", 82.46, "far away"});
   table.add_row({std::uint64_t{8}, "missing", {}, {}});
   CHECK(told == std::vector<std::string>{"nodes 4, kind plain, average load (%) 82.5", "nodes 8, kind missing"});

@@ -1,6 +1,7 @@
 // What stands in a text.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 
@@ -13,6 +14,30 @@ inline std::size_t count(const std::string& text, const std::string& part) {
     ++found;
   }
   return found;
+}
+
+/// All lines as one.
+inline std::string joined_lines(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+inline std::size_t widest_line(const std::string& text) {
+  std::size_t widest = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    widest = std::max(widest, end - begin);
+    begin = end + 1;
+  }
+  return widest;
+}
+
+/// A folded title, note or paragraph as one line.
+inline std::string unfolded(std::string text) {
+  for (std::size_t at = 0; (at = text.find("\n  ", at)) != std::string::npos;) {
+    text.replace(at, 3, " ");
+  }
+  return text;
 }
 
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
