@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::dataflow {
 

@@ -7,12 +7,12 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/database.h"
-#include "core/extract.h"
-#include "core/forget.h"
-#include "core/pixel_task.h"
-#include "core/traversal.h"
-#include "dataflow/bsp.h"
+#include "core/build/database.h"
+#include "core/build/extract.h"
+#include "core/base/forget.h"
+#include "core/picture/pixel_task.h"
+#include "core/trace/traversal.h"
+#include "dataflow/regions/bsp.h"
 #include "dataflow/plan.h"
 #include "dataflow/primaries.h"
 

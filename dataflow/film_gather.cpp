@@ -1,6 +1,6 @@
 #include "dataflow/film_gather.h"
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::dataflow {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/film.h"
+#include "core/picture/film.h"
 #include "dataflow/packets.h"
 #include "nodes/node.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/expect.h"
-#include "core/units.h"
+#include "core/base/expect.h"
+#include "core/base/units.h"
 
 namespace dmpc::dataflow {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "core/film.h"
-#include "core/partial_picture.h"
-#include "core/refinement.h"
+#include "core/picture/film.h"
+#include "core/picture/partial_picture.h"
+#include "core/picture/refinement.h"
 #include "dataflow/flow_control.h"
 #include "dataflow/kept_rays.h"
 #include "dataflow/packets.h"

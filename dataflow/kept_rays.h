@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 #include "dataflow/packets.h"
 
 namespace dmpc::dataflow {

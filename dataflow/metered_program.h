@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dataflow/program.h"
-#include "nodes/meter.h"
+#include "nodes/watch/meter.h"
 
 namespace dmpc::dataflow {
 

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "core/operations.h"
-#include "core/traversal.h"
-#include "dataflow/bsp.h"
+#include "core/trace/operations.h"
+#include "core/trace/traversal.h"
+#include "dataflow/regions/bsp.h"
 
 namespace dmpc::dataflow {
 

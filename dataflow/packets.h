@@ -25,13 +25,13 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "core/cursor.h"
-#include "core/film.h"
-#include "core/ray.h"
-#include "core/refinement.h"
-#include "core/units.h"
-#include "dataflow/bsp.h"
-#include "dataflow/primary_run.h"
+#include "core/trace/cursor.h"
+#include "core/picture/film.h"
+#include "core/record/ray.h"
+#include "core/picture/refinement.h"
+#include "core/base/units.h"
+#include "dataflow/regions/bsp.h"
+#include "dataflow/regions/primary_run.h"
 #include "dataflow/termination.h"
 #include "nodes/node.h"
 #include "nodes/packet.h"

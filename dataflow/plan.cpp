@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/expect.h"
-#include "core/records.h"
+#include "core/base/expect.h"
+#include "core/record/records.h"
 #include "dataflow/film_gather.h"
 #include "dataflow/gather.h"
 #include "dataflow/host.h"
@@ -12,7 +12,7 @@
 #include "dataflow/program.h"
 #include "dataflow/ray_queue.h"
 #include "dataflow/ray_task.h"
-#include "nodes/held_packets.h"
+#include "nodes/threads/held_packets.h"
 #include "nodes/size_text.h"
 
 namespace dmpc::dataflow {

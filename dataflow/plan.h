@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/refinement.h"
-#include "dataflow/bsp.h"
+#include "core/picture/refinement.h"
+#include "dataflow/regions/bsp.h"
 #include "nodes/chaos.h"
 #include "nodes/local_memory.h"
 #include "nodes/runner.h"

@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "core/expect.h"
-#include "core/traversal.h"
+#include "core/base/expect.h"
+#include "core/trace/traversal.h"
 #include "dataflow/next_stop.h"
 
 namespace dmpc::dataflow {

@@ -7,9 +7,9 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/pixel_task.h"
-#include "core/refinement.h"
-#include "dataflow/bsp.h"
+#include "core/picture/pixel_task.h"
+#include "core/picture/refinement.h"
+#include "dataflow/regions/bsp.h"
 #include "dataflow/packets.h"
 #include "nodes/local_memory.h"
 

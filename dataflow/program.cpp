@@ -5,11 +5,11 @@
 #include <memory>
 #include <numeric>
 
-#include "core/expect.h"
-#include "core/traversal.h"
+#include "core/base/expect.h"
+#include "core/trace/traversal.h"
 #include "dataflow/next_stop.h"
 #include "dataflow/packets.h"
-#include "nodes/operation_charges.h"
+#include "nodes/watch/operation_charges.h"
 
 namespace dmpc::dataflow {
 namespace {

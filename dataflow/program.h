@@ -19,11 +19,11 @@
 #include <string>
 #include <vector>
 
-#include "core/extract.h"
-#include "core/operations.h"
-#include "core/pixel_task.h"
+#include "core/build/extract.h"
+#include "core/trace/operations.h"
+#include "core/picture/pixel_task.h"
 #include "dataflow/backpressure.h"
-#include "dataflow/bsp.h"
+#include "dataflow/regions/bsp.h"
 #include "dataflow/film_gather.h"
 #include "dataflow/flow_control.h"
 #include "dataflow/gather.h"

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/expect.h"
-#include "core/units.h"
+#include "core/base/expect.h"
+#include "core/base/units.h"
 #include "dataflow/packets.h"
 #include "nodes/local_memory.h"
 

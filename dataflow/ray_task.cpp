@@ -1,7 +1,7 @@
 #include "dataflow/ray_task.h"
 
-#include "core/expect.h"
-#include "core/traversal.h"
+#include "core/base/expect.h"
+#include "core/trace/traversal.h"
 
 namespace dmpc::dataflow {
 

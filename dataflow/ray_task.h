@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/pixel_task.h"
-#include "core/records.h"
+#include "core/picture/pixel_task.h"
+#include "core/record/records.h"
 #include "dataflow/packets.h"
 #include "nodes/local_memory.h"
 #include "nodes/node_id.h"

@@ -3,11 +3,11 @@
 #include <memory>
 #include <utility>
 
-#include "core/expect.h"
-#include "dataflow/mapping.h"
+#include "core/base/expect.h"
+#include "dataflow/regions/mapping.h"
 #include "dataflow/metered_program.h"
 #include "dataflow/packets.h"
-#include "dataflow/work.h"
+#include "dataflow/regions/work.h"
 
 namespace dmpc::dataflow {
 namespace {

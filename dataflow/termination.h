@@ -15,7 +15,7 @@
 #include <optional>
 #include <type_traits>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 #include "nodes/node_id.h"
 
 namespace dmpc::dataflow {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/refinement.h"
+#include "core/picture/refinement.h"
 #include "dataflow/packets.h"
-#include "dataflow/primary_run.h"
+#include "dataflow/regions/primary_run.h"
 
 namespace dmpc::dataflow {
 

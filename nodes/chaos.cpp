@@ -1,6 +1,6 @@
 #include "nodes/chaos.h"
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::nodes {
 namespace {

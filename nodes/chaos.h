@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "core/sampling.h"
+#include "core/base/sampling.h"
 #include "nodes/node_id.h"
 
 namespace dmpc::nodes {

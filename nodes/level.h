@@ -7,7 +7,7 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::nodes {
 

@@ -6,8 +6,8 @@
 #include <new>
 #include <string>
 
-#include "core/expect.h"
-#include "core/units.h"
+#include "core/base/expect.h"
+#include "core/base/units.h"
 
 #if defined(__SANITIZE_ADDRESS__)
 #include <sanitizer/asan_interface.h>

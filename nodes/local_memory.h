@@ -9,7 +9,7 @@
 #include <span>
 #include <type_traits>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::nodes {
 

@@ -1,6 +1,6 @@
 #include "nodes/machine.h"
 
-#include "core/sampling.h"
+#include "core/base/sampling.h"
 
 namespace dmpc::nodes {
 

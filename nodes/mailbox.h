@@ -36,8 +36,8 @@
 #include <cstring>
 #include <span>
 
-#include "core/expect.h"
-#include "core/units.h"
+#include "core/base/expect.h"
+#include "core/base/units.h"
 #include "nodes/atomics.h"
 #include "nodes/awake_count.h"
 #include "nodes/local_memory.h"

@@ -7,7 +7,7 @@
 #include <span>
 #include <type_traits>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 #include "nodes/counters.h"
 #include "nodes/local_memory.h"
 #include "nodes/node_id.h"

@@ -7,7 +7,7 @@
 #include <span>
 #include <type_traits>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 #include "nodes/node_id.h"
 
 namespace dmpc::nodes {

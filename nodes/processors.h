@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 #include "nodes/counters.h"
 
 namespace dmpc::nodes {

@@ -1,8 +1,8 @@
 #include "nodes/runner.h"
 
-#include "core/expect.h"
-#include "nodes/threads_runner.h"
-#include "nodes/virtual_runner.h"
+#include "core/base/expect.h"
+#include "nodes/threads/threads_runner.h"
+#include "nodes/virtual/virtual_runner.h"
 
 namespace dmpc::nodes {
 

@@ -15,7 +15,7 @@
 #include "nodes/node.h"
 #include "nodes/observer.h"
 #include "nodes/program.h"
-#include "nodes/virtual_times.h"
+#include "nodes/virtual/virtual_times.h"
 
 namespace dmpc::nodes {
 

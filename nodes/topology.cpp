@@ -5,8 +5,8 @@
 #include <bit>
 #include <utility>
 
-#include "core/expect.h"
-#include "core/units.h"
+#include "core/base/expect.h"
+#include "core/base/units.h"
 
 namespace dmpc::nodes {
 namespace {

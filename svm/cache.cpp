@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/expect.h"
-#include "core/records.h"
+#include "core/base/expect.h"
+#include "core/record/records.h"
 
 namespace dmpc::svm {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::svm {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::svm {
 

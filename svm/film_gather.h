@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/film.h"
+#include "core/picture/film.h"
 #include "nodes/node.h"
 #include "svm/packets.h"
 #include "svm/plan.h"

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 #include "svm/page.h"
 
 namespace dmpc::svm {

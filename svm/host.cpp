@@ -4,8 +4,8 @@
 #include <cstring>
 #include <utility>
 
-#include "core/expect.h"
-#include "core/units.h"
+#include "core/base/expect.h"
+#include "core/base/units.h"
 
 namespace dmpc::svm {
 namespace {

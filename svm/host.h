@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/film.h"
-#include "core/partial_picture.h"
-#include "core/refinement.h"
+#include "core/picture/film.h"
+#include "core/picture/partial_picture.h"
+#include "core/picture/refinement.h"
 #include "nodes/node.h"
 #include "nodes/program.h"
 #include "svm/packets.h"

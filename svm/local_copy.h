@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <span>
 
-#include "core/expect.h"
-#include "core/records.h"
+#include "core/base/expect.h"
+#include "core/record/records.h"
 #include "nodes/node.h"
 #include "svm/node_program.h"
 #include "svm/plan.h"

@@ -3,11 +3,11 @@
 #include <memory>
 #include <type_traits>
 
-#include "core/expect.h"
-#include "svm/counting_pager.h"
+#include "core/base/expect.h"
+#include "svm/watch/counting_pager.h"
 #include "svm/local_copy.h"
 #include "svm/pager.h"
-#include "svm/recording_pager.h"
+#include "svm/watch/recording_pager.h"
 
 namespace dmpc::svm {
 namespace {

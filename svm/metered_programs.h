@@ -2,8 +2,8 @@
 // those without a meter.
 #pragma once
 
-#include "core/database.h"
-#include "core/pixel_task.h"
+#include "core/build/database.h"
+#include "core/picture/pixel_task.h"
 #include "svm/plan.h"
 #include "svm/run.h"
 

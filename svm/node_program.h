@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/operations.h"
+#include "core/trace/operations.h"
 #include "nodes/program.h"
 
 namespace dmpc::svm {

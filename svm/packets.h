@@ -22,8 +22,8 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "core/film.h"
-#include "core/refinement.h"
+#include "core/picture/film.h"
+#include "core/picture/refinement.h"
 #include "nodes/node.h"
 #include "nodes/packet.h"
 #include "svm/page.h"

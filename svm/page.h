@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/expect.h"
-#include "core/record.h"
+#include "core/base/expect.h"
+#include "core/record/record.h"
 
 namespace dmpc::svm {
 

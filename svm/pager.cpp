@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 #include "svm/packets.h"
 
 namespace dmpc::svm {

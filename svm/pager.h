@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/records.h"
+#include "core/record/records.h"
 #include "nodes/node.h"
 #include "svm/cache.h"
 #include "svm/faults.h"

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "core/expect.h"
-#include "core/pixel_task.h"
-#include "core/units.h"
-#include "nodes/held_packets.h"
-#include "svm/counting_pager.h"
+#include "core/base/expect.h"
+#include "core/picture/pixel_task.h"
+#include "core/base/units.h"
+#include "nodes/threads/held_packets.h"
+#include "svm/watch/counting_pager.h"
 #include "svm/film_gather.h"
 #include "svm/host.h"
 #include "svm/local_copy.h"

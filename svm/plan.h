@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/partial_picture.h"
-#include "core/refinement.h"
+#include "core/picture/partial_picture.h"
+#include "core/picture/refinement.h"
 #include "nodes/chaos.h"
 #include "nodes/local_memory.h"
 #include "nodes/runner.h"

@@ -16,11 +16,11 @@
 #include <string>
 #include <utility>
 
-#include "core/expect.h"
-#include "core/pixel_task.h"
-#include "nodes/meter.h"
+#include "core/base/expect.h"
+#include "core/picture/pixel_task.h"
+#include "nodes/watch/meter.h"
 #include "nodes/node.h"
-#include "nodes/operation_charges.h"
+#include "nodes/watch/operation_charges.h"
 #include "svm/faults.h"
 #include "svm/film_gather.h"
 #include "svm/node_program.h"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/expect.h"
-#include "core/sampling.h"
+#include "core/base/expect.h"
+#include "core/base/sampling.h"
 
 namespace dmpc::svm {
 namespace {

@@ -3,12 +3,12 @@
 #include <memory>
 #include <string>
 
-#include "core/expect.h"
-#include "svm/counting_pager.h"
+#include "core/base/expect.h"
+#include "svm/watch/counting_pager.h"
 #include "svm/host.h"
 #include "svm/metered_programs.h"
 #include "svm/pager.h"
-#include "svm/recording_pager.h"
+#include "svm/watch/recording_pager.h"
 
 namespace dmpc::svm {
 namespace {

@@ -13,23 +13,23 @@
 #include <utility>
 #include <vector>
 
-#include "core/database.h"
-#include "core/film.h"
-#include "core/partial_picture.h"
-#include "core/pixel_task.h"
-#include "core/traversal.h"
+#include "core/build/database.h"
+#include "core/picture/film.h"
+#include "core/picture/partial_picture.h"
+#include "core/picture/pixel_task.h"
+#include "core/trace/traversal.h"
 #include "nodes/chaos.h"
 #include "nodes/counters.h"
-#include "nodes/heat_map.h"
+#include "nodes/watch/heat_map.h"
 #include "nodes/machine.h"
-#include "nodes/meter.h"
+#include "nodes/watch/meter.h"
 #include "nodes/runner.h"
 #include "svm/host.h"
 #include "svm/local_copy.h"
 #include "svm/node_program.h"
 #include "svm/plan.h"
 #include "svm/program.h"
-#include "svm/reference_log.h"
+#include "svm/watch/reference_log.h"
 
 namespace dmpc::svm {
 

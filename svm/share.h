@@ -4,8 +4,8 @@
 #include <bit>
 #include <cstdint>
 
-#include "core/expect.h"
-#include "core/sampling.h"
+#include "core/base/expect.h"
+#include "core/base/sampling.h"
 
 namespace dmpc::svm {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/expect.h"
-#include "core/shade.h"
+#include "core/base/expect.h"
+#include "core/picture/shade.h"
 #include "nodes/local_memory.h"
 
 namespace dmpc::svm {

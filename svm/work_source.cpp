@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/expect.h"
-#include "core/units.h"
+#include "core/base/expect.h"
+#include "core/base/units.h"
 
 namespace dmpc::svm {
 namespace {

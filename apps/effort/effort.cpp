@@ -3,8 +3,8 @@
 #include <cmath>
 #include <ostream>
 
-#include "apps/figures.h"
-#include "apps/progress.h"
+#include "apps/line/number_text.h"
+#include "apps/system/progress.h"
 
 namespace dmpc::apps {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "apps/stopwatch.h"
-#include "core/operations.h"
-#include "core/render.h"
+#include "apps/system/stopwatch.h"
+#include "core/trace/operations.h"
+#include "core/picture/render.h"
 
 namespace dmpc::apps {
 namespace {

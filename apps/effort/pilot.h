@@ -1,8 +1,8 @@
 // A few pixels of a picture, rendered to know how long all of them will take.
 #pragma once
 
-#include "core/database.h"
-#include "core/pixel_task.h"
+#include "core/build/database.h"
+#include "core/picture/pixel_task.h"
 
 namespace dmpc::apps {
 

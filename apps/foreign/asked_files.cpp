@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "apps/foreign/mapped_file.h"
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {

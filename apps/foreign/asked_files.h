@@ -1,7 +1,7 @@
 // A reader's files, which it asks dmpc for.
 #pragma once
 
-#include "apps/mesh/scene_files.h"
+#include "apps/foreign/mesh/scene_files.h"
 #include "apps/reader/line.h"
 
 namespace dmpc::apps {

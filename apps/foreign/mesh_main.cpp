@@ -5,10 +5,10 @@
 
 #include "apps/foreign/asked_files.h"
 #include "apps/foreign/service.h"
-#include "apps/mesh/import.h"
-#include "apps/mesh/reader.h"
-#include "apps/reader/scene_blocks.h"
-#include "core/expect.h"
+#include "apps/foreign/import.h"
+#include "apps/foreign/mesh_reader.h"
+#include "apps/formats/scene_blocks.h"
+#include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {

@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "apps/reader/picture_format.h"
-#include "apps/texture_size.h"
-#include "core/expect.h"
-#include "core/record_writer.h"
-#include "core/srgb.h"
-#include "core/texel.h"
+#include "apps/picture/picture_format.h"
+#include "apps/picture/texture_size.h"
+#include "core/base/expect.h"
+#include "core/build/record_writer.h"
+#include "core/base/srgb.h"
+#include "core/scene/texel.h"
 
 namespace dmpc::apps {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "apps/foreign/asked_files.h"
 #include "apps/foreign/sandbox.h"
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {

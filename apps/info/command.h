@@ -5,11 +5,11 @@
 #include <iosfwd>
 #include <vector>
 
-#include "apps/command_line.h"
-#include "apps/database_options.h"
-#include "apps/interrupt.h"
-#include "apps/picture_options.h"
-#include "dataflow/balance.h"
+#include "apps/line/command_line.h"
+#include "apps/scene/database_options.h"
+#include "apps/system/interrupt.h"
+#include "apps/scene/picture_options.h"
+#include "dataflow/regions/balance.h"
 
 namespace dmpc::apps {
 

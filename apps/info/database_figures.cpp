@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/directory.h"
-#include "core/records.h"
+#include "core/record/directory.h"
+#include "core/record/records.h"
 
 namespace dmpc::apps {
 

@@ -1,8 +1,8 @@
 #include "apps/info/forecast.h"
 
-#include "apps/stopwatch.h"
-#include "apps/strategy_options.h"
-#include "dataflow/mapping.h"
+#include "apps/system/stopwatch.h"
+#include "apps/run/strategy_options.h"
+#include "dataflow/regions/mapping.h"
 #include "dataflow/run.h"
 #include "svm/run.h"
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/database.h"
-#include "core/pixel_task.h"
-#include "dataflow/balance.h"
+#include "core/build/database.h"
+#include "core/picture/pixel_task.h"
+#include "dataflow/regions/balance.h"
 
 namespace dmpc::apps {
 

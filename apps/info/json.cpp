@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "apps/info/record.h"
-#include "apps/region_options.h"
-#include "apps/staging.h"
+#include "apps/run/region_options.h"
+#include "apps/scene/staging.h"
 
 namespace dmpc::apps {
 

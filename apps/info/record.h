@@ -6,7 +6,7 @@
 #include "apps/info/database_figures.h"
 #include "apps/info/forecast.h"
 #include "apps/info/scene_figures.h"
-#include "apps/memory_room.h"
+#include "apps/system/memory_room.h"
 
 namespace dmpc::apps {
 

@@ -1,8 +1,8 @@
 #include "apps/info/scene_figures.h"
 
-#include "core/conversion.h"
-#include "core/parallel.h"
-#include "core/texture_layout.h"
+#include "core/build/conversion.h"
+#include "core/base/parallel.h"
+#include "core/record/texture_layout.h"
 
 namespace dmpc::apps {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/box.h"
-#include "core/scene.h"
+#include "core/base/box.h"
+#include "core/scene/scene.h"
 
 namespace dmpc::apps {
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <numeric>
 
-#include "apps/figures.h"
+#include "apps/line/number_text.h"
 #include "apps/info/record.h"
-#include "apps/region_options.h"
-#include "apps/shown_text.h"
-#include "apps/staging.h"
-#include "apps/study_table.h"
-#include "apps/subject.h"
+#include "apps/run/region_options.h"
+#include "apps/line/shown_text.h"
+#include "apps/scene/staging.h"
+#include "apps/table/table.h"
+#include "apps/scene/subject.h"
 #include "nodes/size_text.h"
 
 namespace dmpc::apps {

@@ -8,8 +8,8 @@
 
 #include "apps/manual/completion.h"
 #include "apps/manual/man_page.h"
-#include "apps/options.h"
-#include "core/expect.h"
+#include "apps/commands.h"
+#include "core/base/expect.h"
 
 namespace dmpc::apps {
 

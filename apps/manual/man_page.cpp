@@ -4,11 +4,11 @@
 #include <utility>
 #include <vector>
 
-#include "apps/exit_status.h"
+#include "apps/line/exit_status.h"
 #include "apps/manual/leaves.h"
 #include "apps/manual/lines.h"
 #include "apps/manual/roff.h"
-#include "apps/usage/typed_line.h"
+#include "apps/line/typed_line.h"
 
 namespace dmpc::apps {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "apps/command_description.h"
+#include "apps/line/command_description.h"
 
 namespace dmpc::apps {
 

@@ -4,7 +4,7 @@
 #include <system_error>
 
 #include "apps/system/shortage.h"
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::apps {
 

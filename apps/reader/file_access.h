@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/opened_files.h"
+#include "apps/system/opened_files.h"
 #include "apps/reader/input_file.h"
 
 namespace dmpc::apps {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "apps/reader/descriptor.h"
+#include "apps/system/descriptor.h"
 
 namespace dmpc::apps {
 

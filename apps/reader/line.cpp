@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "apps/system/shortage.h"
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {

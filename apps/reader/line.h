@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "apps/reader/descriptor.h"
+#include "apps/system/descriptor.h"
 #include "apps/reader/packing.h"
 #include "apps/reader/saying.h"
 

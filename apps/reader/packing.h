@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "apps/reader/saying.h"
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::apps {
 

@@ -16,11 +16,11 @@
 #include <iostream>
 #include <utility>
 
-#include "apps/figures.h"
+#include "apps/line/number_text.h"
 #include "apps/reader/program_path.h"
 #include "apps/system/memory_file.h"
 #include "apps/system/shortage.h"
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 // NOLINTNEXTLINE(readability-redundant-declaration): POSIX leaves its declaration to the program
 extern char** environ;

@@ -2,9 +2,9 @@
 
 #include <ostream>
 
-#include "apps/exit_status.h"
+#include "apps/line/exit_status.h"
 #include "apps/system/surroundings.h"
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::apps {
 

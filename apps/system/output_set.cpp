@@ -7,9 +7,9 @@
 #include <cerrno>
 #include <cstring>
 
-#include "apps/image_file.h"
+#include "apps/picture/image_file.h"
 #include "apps/system/shortage.h"
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::apps {
 

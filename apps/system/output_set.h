@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "apps/distinct_files.h"
-#include "apps/output_file.h"
+#include "apps/system/distinct_files.h"
+#include "apps/system/output_file.h"
 #include "apps/system/attempts.h"
 
 namespace dmpc::apps {

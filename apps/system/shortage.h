@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::apps {
 

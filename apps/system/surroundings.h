@@ -1,7 +1,7 @@
 // What a process needs around it before it opens anything.
 #pragma once
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::apps {
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/stability/random.h"
-#include "core/expect.h"
-#include "core/kernel.h"
-#include "core/records.h"
+#include "apps/bench/stability/random.h"
+#include "core/base/expect.h"
+#include "core/trace/kernel.h"
+#include "core/record/records.h"
 #include "tests/bench/groups.h"
 
 namespace dmpc::bench {

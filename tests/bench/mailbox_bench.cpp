@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 #include "tests/bench/groups.h"
 #include "tests/bench/rivals.h"
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 #include "svm/packets.h"
 #include "svm/pager.h"
 #include "tests/bench/groups.h"

@@ -4,7 +4,7 @@
 #include <iomanip>
 #include <iostream>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::bench {
 

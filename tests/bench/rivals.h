@@ -22,7 +22,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 #include "nodes/mailbox.h"
 
 namespace dmpc::bench {

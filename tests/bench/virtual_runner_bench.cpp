@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "core/expect.h"
-#include "nodes/virtual_runner.h"
+#include "core/base/expect.h"
+#include "nodes/virtual/virtual_runner.h"
 #include "tests/bench/groups.h"
 #include "tests/nodes/scripted_machine.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "dataflow/balance.h"
+#include "dataflow/regions/balance.h"
 #include "tests/support/border_scene.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"

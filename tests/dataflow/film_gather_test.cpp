@@ -5,8 +5,8 @@
 #include <cstring>
 #include <limits>
 
-#include "core/expect.h"
-#include "nodes/threads_runner.h"
+#include "core/base/expect.h"
+#include "nodes/threads/threads_runner.h"
 #include "tests/support/shuffled_machine.h"
 
 using namespace dmpc;

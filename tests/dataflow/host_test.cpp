@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 #include "tests/support/shuffled_machine.h"
 
 using namespace dmpc;

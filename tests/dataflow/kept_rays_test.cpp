@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 using namespace dmpc;
 using dataflow::KeptRays;

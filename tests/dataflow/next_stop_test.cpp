@@ -4,11 +4,11 @@
 
 #include <cstring>
 
-#include "apps/stability/cells.h"
-#include "apps/stability/random.h"
-#include "core/database.h"
-#include "core/traversal.h"
-#include "dataflow/balance.h"
+#include "apps/bench/stability/cells.h"
+#include "apps/bench/stability/random.h"
+#include "core/build/database.h"
+#include "core/trace/traversal.h"
+#include "dataflow/regions/balance.h"
 #include "dataflow/distribution.h"
 #include "tests/support/small_scenes.h"
 

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "core/expect.h"
-#include "core/units.h"
+#include "core/base/expect.h"
+#include "core/base/units.h"
 #include "dataflow/packets.h"
 #include "nodes/size_text.h"
 

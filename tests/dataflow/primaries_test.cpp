@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "core/database.h"
-#include "core/traversal.h"
-#include "dataflow/balance.h"
+#include "core/build/database.h"
+#include "core/trace/traversal.h"
+#include "dataflow/regions/balance.h"
 #include "tests/support/small_scenes.h"
 
 using namespace dmpc;

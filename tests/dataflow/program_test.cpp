@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/render.h"
-#include "dataflow/balance.h"
+#include "core/picture/render.h"
+#include "dataflow/regions/balance.h"
 #include "dataflow/distribution.h"
 #include "dataflow/host.h"
 #include "dataflow/run.h"

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 using namespace dmpc;
 using dataflow::RayMessage;

@@ -5,9 +5,9 @@
 #include <array>
 #include <optional>
 
-#include "core/extract.h"
-#include "core/traversal.h"
-#include "dataflow/balance.h"
+#include "core/build/extract.h"
+#include "core/trace/traversal.h"
+#include "dataflow/regions/balance.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"
 

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "dataflow/work.h"
+#include "dataflow/regions/work.h"
 #include "tests/support/border_scene.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 
-#include "core/vec.h"
+#include "core/base/vec.h"
 
 namespace dmpc::tests {
 

@@ -16,10 +16,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/checkpoint_file.h"
-#include "apps/digest.h"
-#include "core/expect.h"
-#include "core/shade.h"
+#include "apps/render/checkpoint_file.h"
+#include "apps/system/digest.h"
+#include "core/base/expect.h"
+#include "core/picture/shade.h"
 #include "tests/fuzz/bytes.h"
 #include "tests/support/priced_machine.h"
 #include "tests/support/small_scenes.h"

@@ -10,9 +10,9 @@
 #include <string>
 #include <string_view>
 
-#include "apps/gltf/document.h"
-#include "apps/mesh/reader.h"
-#include "core/expect.h"
+#include "apps/foreign/gltf/document.h"
+#include "apps/foreign/mesh_reader.h"
+#include "core/base/expect.h"
 #include "tests/fuzz/small_picture.h"
 
 using namespace dmpc;

@@ -9,11 +9,11 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/command_line.h"
-#include "apps/machine_file.h"
-#include "apps/option_values.h"
-#include "apps/render_options.h"
-#include "core/expect.h"
+#include "apps/line/command_line.h"
+#include "apps/machine/machine_file.h"
+#include "apps/line/option_values.h"
+#include "apps/run/render_options.h"
+#include "core/base/expect.h"
 
 using namespace dmpc;
 

@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <iostream>
 
-#include "apps/referee.h"
-#include "apps/stability/children.h"
-#include "apps/stability/hearing.h"
-#include "apps/stability/own_kernels.h"
-#include "apps/stability/rays.h"
-#include "core/database.h"
-#include "core/expect.h"
+#include "apps/oracle/referee.h"
+#include "apps/bench/stability/children.h"
+#include "apps/bench/stability/hearing.h"
+#include "apps/bench/stability/own_kernels.h"
+#include "apps/bench/stability/rays.h"
+#include "core/build/database.h"
+#include "core/base/expect.h"
 #include "tests/fuzz/bytes.h"
 #include "tests/fuzz/mesh_rays.h"
 #include "tests/fuzz/mesh_scene.h"
@@ -38,7 +38,7 @@ bool is_valid(const Ray& ray, const Hit& hit) {
 }
 
 /// Whether the grid answers for this ray to the referee: its direction is of unit length, and it starts no farther away than the
-/// pad allows for (core/frame.h). Other rays only have to end, and in one way.
+/// pad allows for (core/scene/frame.h). Other rays only have to end, and in one way.
 bool is_ordinary(const core::Database& database, const Ray& ray) {
   const core::GridFrame& frame = database.header().frame;
   core::Vec3d size;

@@ -8,11 +8,11 @@
 #include <cstdint>
 #include <limits>
 
-#include "apps/stability/axes.h"
-#include "apps/stability/rays.h"
-#include "apps/stability/targets.h"
-#include "core/database.h"
-#include "core/ray.h"
+#include "apps/bench/stability/axes.h"
+#include "apps/bench/stability/rays.h"
+#include "apps/bench/stability/targets.h"
+#include "core/build/database.h"
+#include "core/record/ray.h"
 #include "tests/fuzz/bytes.h"
 
 namespace dmpc::tests {

@@ -7,9 +7,9 @@
 #include <limits>
 #include <vector>
 
-#include "core/database.h"
-#include "core/frame.h"
-#include "core/scene.h"
+#include "core/build/database.h"
+#include "core/scene/frame.h"
+#include "core/scene/scene.h"
 #include "tests/fuzz/bytes.h"
 
 namespace dmpc::tests {

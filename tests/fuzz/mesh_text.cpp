@@ -7,12 +7,12 @@
 #include <string>
 #include <string_view>
 
-#include "apps/byte_order_mark.h"
-#include "apps/mesh/mtl_text.h"
-#include "apps/mesh/obj_check.h"
-#include "apps/mesh/ply_check.h"
-#include "apps/mesh/stl_check.h"
-#include "core/expect.h"
+#include "apps/system/byte_order_mark.h"
+#include "apps/foreign/mesh/mtl_text.h"
+#include "apps/foreign/mesh/obj_check.h"
+#include "apps/foreign/mesh/ply_check.h"
+#include "apps/foreign/mesh/stl_check.h"
+#include "core/base/expect.h"
 
 using namespace dmpc;
 

@@ -9,12 +9,12 @@
 #include <sstream>
 #include <string>
 
-#include "apps/nff_reader.h"
-#include "apps/nff_writer.h"
-#include "core/database.h"
-#include "core/expect.h"
-#include "core/render.h"
-#include "core/scene.h"
+#include "apps/formats/nff_reader.h"
+#include "apps/formats/nff_writer.h"
+#include "core/build/database.h"
+#include "core/base/expect.h"
+#include "core/picture/render.h"
+#include "core/scene/scene.h"
 #include "tests/support/same_scene.h"
 
 using namespace dmpc;
@@ -38,7 +38,7 @@ bool in_unit_range(const core::Vec3d& color) {
   return std::min({color.x, color.y, color.z}) >= 0 && std::max({color.x, color.y, color.z}) <= 1;
 }
 
-/// What apps/nff_reader.h says of every scene that it lets pass.
+/// What apps/formats/nff_reader.h says of every scene that it lets pass.
 void check_promises(const core::Scene& scene) {
   using core::expect;
   for (const std::uint64_t bits : tests::bits_of(scene)) {

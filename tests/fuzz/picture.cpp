@@ -16,8 +16,8 @@
 #include <string_view>
 
 #include "apps/foreign/picture_decoder.h"
-#include "apps/reader/picture_format.h"
-#include "core/expect.h"
+#include "apps/picture/picture_format.h"
+#include "core/base/expect.h"
 
 using namespace dmpc;
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "apps/reader/scene_blocks.h"
-#include "core/expect.h"
-#include "core/texture.h"
+#include "apps/formats/scene_blocks.h"
+#include "core/base/expect.h"
+#include "core/scene/texture.h"
 #include "tests/fuzz/bytes.h"
 #include "tests/fuzz/small_picture.h"
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/camera.h"
-#include "core/database.h"
-#include "core/expect.h"
-#include "core/render.h"
-#include "core/scene.h"
+#include "core/picture/camera.h"
+#include "core/build/database.h"
+#include "core/base/expect.h"
+#include "core/picture/render.h"
+#include "core/scene/scene.h"
 
 namespace dmpc::tests {
 

@@ -11,8 +11,8 @@
 #include <tuple>
 #include <vector>
 
-#include "core/expect.h"
-#include "nodes/held_packets.h"
+#include "core/base/expect.h"
+#include "nodes/threads/held_packets.h"
 #include "tests/nodes/toy_machine.h"
 
 namespace dmpc::tests {

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "nodes/held_packets.h"
-#include "nodes/threads_runner.h"
+#include "nodes/threads/held_packets.h"
+#include "nodes/threads/threads_runner.h"
 #include "tests/nodes/scripted_machine.h"
 
 namespace dmpc::tests {

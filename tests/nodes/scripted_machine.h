@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "nodes/virtual_runner.h"
+#include "nodes/virtual/virtual_runner.h"
 #include "tests/nodes/toy_machine.h"
 
 namespace dmpc::tests {

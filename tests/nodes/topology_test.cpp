@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 #include "tests/support/topologies.h"
 
 namespace dmpc::tests {

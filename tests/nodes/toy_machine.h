@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "nodes/threads_runner.h"
+#include "nodes/threads/threads_runner.h"
 
 namespace dmpc::tests {
 

@@ -12,9 +12,9 @@
 #include <string>
 #include <utility>
 
-#include "core/units.h"
+#include "core/base/units.h"
 #include "nodes/program.h"
-#include "nodes/threads_runner.h"
+#include "nodes/threads/threads_runner.h"
 
 namespace dmpc::tests {
 

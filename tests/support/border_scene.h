@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/database.h"
-#include "core/frame.h"
-#include "core/scene.h"
+#include "core/build/database.h"
+#include "core/scene/frame.h"
+#include "core/scene/scene.h"
 
 namespace dmpc::tests {
 

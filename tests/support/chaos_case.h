@@ -7,7 +7,7 @@
 #include <optional>
 #include <ostream>
 
-#include "core/sampling.h"
+#include "core/base/sampling.h"
 #include "dataflow/run.h"
 #include "nodes/chaos.h"
 #include "nodes/machine.h"

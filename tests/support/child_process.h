@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 #include "tests/support/temporary_folder.h"
 
 namespace dmpc::tests {

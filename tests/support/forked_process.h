@@ -4,7 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::tests {
 

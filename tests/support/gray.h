@@ -1,7 +1,7 @@
 // A picture of one value.
 #pragma once
 
-#include "apps/image_file.h"
+#include "apps/picture/image_file.h"
 
 namespace dmpc::tests {
 

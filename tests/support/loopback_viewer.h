@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::tests {
 

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "core/sampling.h"
-#include "core/texture.h"
+#include "core/base/sampling.h"
+#include "core/scene/texture.h"
 
 namespace dmpc::tests {
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "apps/image_file.h"
+#include "apps/picture/image_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace dmpc::tests {

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "apps/paper_catalogue.h"
-#include "apps/paper_data.h"
-#include "apps/paper_runs.h"
+#include "apps/study/paper/catalogue.h"
+#include "apps/study/paper/data.h"
+#include "apps/study/paper/runs.h"
 
 namespace dmpc::tests {
 

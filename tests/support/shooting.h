@@ -8,13 +8,13 @@
 #include <limits>
 #include <vector>
 
-#include "apps/stability/cells.h"
-#include "apps/stability/rays.h"
-#include "core/database.h"
-#include "core/frame.h"
-#include "core/kernel.h"
-#include "core/primitive.h"
-#include "core/traversal.h"
+#include "apps/bench/stability/cells.h"
+#include "apps/bench/stability/rays.h"
+#include "core/build/database.h"
+#include "core/scene/frame.h"
+#include "core/trace/kernel.h"
+#include "core/trace/primitive.h"
+#include "core/trace/traversal.h"
 
 namespace dmpc::tests {
 

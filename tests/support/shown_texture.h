@@ -11,13 +11,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/record_writer.h"
-#include "core/records.h"
-#include "core/texel.h"
-#include "core/texture.h"
-#include "core/texture_layout.h"
-#include "core/texture_lookup.h"
-#include "core/texture_records.h"
+#include "core/build/record_writer.h"
+#include "core/record/records.h"
+#include "core/scene/texel.h"
+#include "core/scene/texture.h"
+#include "core/record/texture_layout.h"
+#include "core/picture/texture_lookup.h"
+#include "core/build/texture_records.h"
 
 namespace dmpc::tests {
 

@@ -10,10 +10,10 @@
 #include <span>
 #include <vector>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 #include "nodes/node.h"
 #include "nodes/program.h"
-#include "nodes/threads_runner.h"
+#include "nodes/threads/threads_runner.h"
 
 namespace dmpc::tests {
 

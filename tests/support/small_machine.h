@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "core/expect.h"
-#include "core/pixel_task.h"
+#include "core/base/expect.h"
+#include "core/picture/pixel_task.h"
 #include "nodes/node.h"
 #include "nodes/program.h"
 #include "svm/host.h"

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/record.h"
+#include "core/record/record.h"
 
 namespace dmpc::tests {
 

@@ -5,13 +5,13 @@
 #include <cstdint>
 #include <ostream>
 
-#include "apps/stability/cells.h"
-#include "core/background.h"
-#include "core/database.h"
-#include "core/frame.h"
-#include "core/operations.h"
-#include "core/render.h"
-#include "core/scene.h"
+#include "apps/bench/stability/cells.h"
+#include "core/picture/background.h"
+#include "core/build/database.h"
+#include "core/scene/frame.h"
+#include "core/trace/operations.h"
+#include "core/picture/render.h"
+#include "core/scene/scene.h"
 
 namespace dmpc::tests {
 

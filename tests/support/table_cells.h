@@ -5,7 +5,7 @@
 #include <string>
 #include <variant>
 
-#include "apps/study_table.h"
+#include "apps/table/table.h"
 #include "tests/support/text.h"
 
 namespace dmpc::tests {

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::tests {
 

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 namespace dmpc::tests {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/options.h"
-#include "core/expect.h"
+#include "apps/commands.h"
+#include "core/base/expect.h"
 
 namespace dmpc::tests {
 

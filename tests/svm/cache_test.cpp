@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 #include "tests/support/small_pages.h"
 
 using namespace dmpc;

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 using namespace dmpc;
 using svm::Faults;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 #include "svm/packets.h"
 #include "tests/support/small_machine.h"
 

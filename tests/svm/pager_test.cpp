@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 #include "svm/packets.h"
 #include "tests/support/small_machine.h"
 #include "tests/support/small_pages.h"

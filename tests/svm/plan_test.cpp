@@ -5,8 +5,8 @@
 #include <array>
 #include <string>
 
-#include "core/expect.h"
-#include "core/units.h"
+#include "core/base/expect.h"
+#include "core/base/units.h"
 
 using namespace dmpc;
 using core::operator""_KiB;

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "svm/counting_pager.h"
+#include "svm/watch/counting_pager.h"
 #include "svm/local_copy.h"
 #include "svm/pager.h"
 #include "svm/run.h"

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <stop_token>
 
-#include "core/render.h"
-#include "core/scenes.h"
-#include "svm/miss_curve.h"
-#include "svm/optimum.h"
+#include "core/picture/render.h"
+#include "core/families/scenes.h"
+#include "svm/watch/miss_curve.h"
+#include "svm/watch/optimum.h"
 #include "tests/support/references.h"
 
 using namespace dmpc;

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 
 using namespace dmpc;
 using svm::PixelRectangle;

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "core/expect.h"
+#include "core/base/expect.h"
 #include "svm/packets.h"
 #include "tests/support/small_machine.h"
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/scenes.h"
+#include "core/families/scenes.h"
 #include "dataflow/run.h"
-#include "nodes/threads_runner.h"
+#include "nodes/threads/threads_runner.h"
 #include "tests/support/allocation_guard.h"
 
 namespace dmpc::tests {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "nodes/held_packets.h"
+#include "nodes/threads/held_packets.h"
 #include "tests/nodes/toy_machine.h"
 #include "tests/support/allocation_guard.h"
 

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "core/scenes.h"
-#include "nodes/threads_runner.h"
-#include "svm/counting_pager.h"
+#include "core/families/scenes.h"
+#include "nodes/threads/threads_runner.h"
+#include "svm/watch/counting_pager.h"
 #include "svm/local_copy.h"
 #include "svm/pager.h"
 #include "svm/run.h"

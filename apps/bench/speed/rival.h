@@ -1,0 +1,43 @@
+// Embree as a rival: asked as any renderer asks it, without what the oracle needs to name primitives beyond doubt.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "apps/oracle/oracle.h"
+#include "apps/system/stopwatch.h"
+#include "core/build/database.h"
+#include "core/record/ray.h"
+
+namespace dmpc::apps {
+
+/// What every traced ray is asked for.
+enum class Query : std::uint8_t { closest, any };
+
+/// How much work Embree puts into its tree: its default, or all it can. In version 3 that adds spatial splits to fast trees, and
+/// nothing to robust ones.
+enum class EmbreeQuality : std::uint8_t { medium, high };
+
+/// No filters, no order among equal t, no triangle left out: a raw ray and a plain call. Spheres and cones are user geometry.
+/// Immutable once built; every query is thread-safe.
+class EmbreeRival {
+ public:
+  /// `primitives` outlive it. Builds on `thread_count` threads, 0: on all cores. Throws InternalError if Embree reports an error.
+  EmbreeRival(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode, EmbreeQuality quality,
+              std::uint32_t thread_count = 0);
+  ~EmbreeRival();
+  EmbreeRival(const EmbreeRival&) = delete;
+  EmbreeRival& operator=(const EmbreeRival&) = delete;
+
+  /// Asks about the rays, one by one, up to their t_max; returns how many hit.
+  std::uint64_t trace(std::span<const core::Ray> rays, Query query) const;
+  /// What Embree took to build its tree, from vertices that lay ready.
+  Times build_times() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace dmpc::apps

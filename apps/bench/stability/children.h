@@ -1,0 +1,32 @@
+// The rays that a hit spawns.
+#pragma once
+
+#include <vector>
+
+#include "core/build/database.h"
+#include "core/record/records.h"
+#include "core/picture/shade.h"
+
+namespace dmpc::apps {
+
+/// All children of a hit in the order of shading: shadow rays, the reflected and the refracted one. None of a miss.
+inline std::vector<core::Ray> children_of(const core::Database& database, const core::Ray& ray, const core::Hit& hit) {
+  const core::LocalRecords records(database.bytes());
+  std::vector<core::Ray> children;
+  if (!hit.found()) {
+    return children;
+  }
+  core::HitState state = core::begin_shading(ray, hit);
+  core::Operations operations;
+  while (state.stage != core::HitState::Stage::finished) {
+    const core::Address needed = record_needed(state, database.header());
+    core::Ray child;
+    const std::byte* record = needed == core::no_address ? nullptr : records.find(needed);
+    if (core::shade_step(state, record, database.header(), {}, {}, child, operations)) {
+      children.push_back(child);
+    }
+  }
+  return children;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,45 @@
+#include "apps/bench/stability/own_kernels.h"
+
+#include "apps/bench/stability/rays.h"
+#include "apps/bench/stability/records.h"
+#include "apps/bench/stability/walk.h"
+#include "core/trace/traversal.h"
+
+namespace dmpc::apps {
+namespace {
+
+void test_scalar(const core::Ray& ray, const core::ShearedRay& sheared, const BlockView& block, core::Hit& best) {
+  for (std::size_t lane = 0; lane < block.count; ++lane) {
+    const float t = core::intersect_triangle(sheared, block.rows, block.count, lane);
+    if (t > 0.0F && t < ray.t_max && nearer(t, block.ids[lane], best) && block.ids[lane] != ray.ignored_primitive) {
+      best.t = t;
+      best.primitive = block.ids[lane];
+    }
+  }
+}
+
+core::Hit shoot_scalar(const core::Database& database, const core::Ray& ray) {
+  const core::ShearedRay sheared(ray);
+  return walk_blocks(database, ray, core::meet_children_scalar,
+                     [&](const BlockView& block, core::Hit& best) { test_scalar(ray, sheared, block, best); });
+}
+
+core::Hit shoot_resumed(const core::Database& database, const core::Ray& ray) {
+  OneRecord records(database.bytes());
+  core::Cursor cursor;
+  core::Operations operations;
+  while (core::trace(ray, cursor, records, database.header(), {}, operations) == core::Traced::absent) {
+    records.fetch(cursor.absent);
+  }
+  return cursor.best;
+}
+
+}  // namespace
+
+OwnAnswers ask_own_kernels(const core::Database& database, const core::Ray& ray) {
+  const core::Ray nearest = of_kind(ray, core::RayKind::primary);
+  return {shoot(database, nearest), shoot_scalar(database, nearest), shoot(database, nearest, false),
+          shoot_resumed(database, nearest), shoot(database, of_kind(ray, core::RayKind::shadow))};
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,45 @@
+// The numbers of a glTF document: its accessors, as floats or indices.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "apps/foreign/gltf/buffers.h"
+
+namespace dmpc::apps::gltf {
+
+/// Vectors of `width` numbers each, one after the other.
+struct Values {
+  std::size_t width = 0;
+  std::vector<float> numbers;
+
+  std::size_t count() const { return width == 0 ? 0 : numbers.size() / width; }
+  std::span<const float> operator[](std::size_t i) const { return std::span(numbers).subspan(i * width, width); }
+};
+
+/// Reads accessors, plain, interleaved, sparse or without a view (zeros). Throws core::InputError, by its place in the document,
+/// for what reaches beyond its view or is not of the expected kind.
+class Accessors {
+ public:
+  Accessors(const Document& document, Buffers& buffers) : buffers_(buffers), accessors_(document.root().list("accessors")) {}
+
+  std::size_t count() const { return accessors_.size(); }
+
+  /// The accessor that `where` names, whose vectors have `width` numbers, or either; integers as the file says: normalised to -1
+  /// or 0 to 1, or as they are (KHR_mesh_quantization).
+  Values values(const Part& where, std::size_t width, std::size_t other_width = 0);
+  /// Whole numbers from 0 on.
+  std::vector<std::uint32_t> indices(const Part& where);
+  /// How many vectors it has.
+  std::uint64_t count_of(const Part& where);
+
+ private:
+  const Part& accessor(const Part& where) const;
+
+  Buffers& buffers_;
+  std::vector<Part> accessors_;
+};
+
+}  // namespace dmpc::apps::gltf

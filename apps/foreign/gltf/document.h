@@ -1,0 +1,25 @@
+// A glTF document: the JSON of a .gltf, or of a .glb with its binary chunk.
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+
+#include "apps/foreign/gltf/part.h"
+
+namespace dmpc::apps::gltf {
+
+struct Document {
+  nlohmann::json json;
+  std::optional<std::span<const std::byte>> chunk;  ///< of the file's bytes
+  int version = 2;                                  ///< or 1, which Assimp reads
+
+  Part root() const { return Part(json); }
+};
+
+/// Takes apart a file, whose bytes outlive the document. Throws core::InputError for what is no glTF as a whole: other versions,
+/// chunks that end early, JSON that breaks off.
+Document parse_document(std::span<const std::byte> file);
+
+}  // namespace dmpc::apps::gltf

@@ -1,0 +1,55 @@
+#include "apps/foreign/gltf/draco.h"
+
+#include <draco/compression/decode.h>
+
+#include <cstdint>
+#include <memory>
+
+namespace dmpc::apps::gltf {
+namespace {
+
+std::unique_ptr<draco::Mesh> unpacked(const Part& packing, std::span<const std::byte> bytes) {
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  auto mesh = draco::Decoder().DecodeMeshFromBuffer(&buffer);
+  if (!mesh.ok()) {
+    packing.fail("Draco cannot unpack it: " + mesh.status().error_msg_string());
+  }
+  return std::move(mesh).value();
+}
+
+Values values_of(const draco::Mesh& mesh, const Part& id, std::size_t width) {
+  const draco::PointAttribute* const attribute = mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id.as_whole()));
+  if (attribute == nullptr || static_cast<std::size_t>(attribute->num_components()) != width) {
+    id.fail(attribute == nullptr ? "the packed bytes have no such attribute"
+                                 : "the packed attribute has another number of components");
+  }
+  Values values{width, std::vector<float>(mesh.num_points() * width)};
+  for (std::uint32_t point = 0; point < mesh.num_points(); ++point) {
+    const draco::AttributeValueIndex index = attribute->mapped_index(draco::PointIndex(point));
+    if (index.value() >= attribute->size() ||
+        !attribute->ConvertValue(index, static_cast<std::int8_t>(width), &values.numbers[point * width])) {
+      id.fail("the packed attribute has a value that cannot be read");
+    }
+  }
+  return values;
+}
+
+}  // namespace
+
+Primitive read_draco(const Part& packing, Buffers& buffers, const std::map<std::string, std::size_t>& widths) {
+  const View view = buffers.view(packing.required_index("bufferView", buffers.view_count(), "bufferViews"));
+  const auto mesh = unpacked(packing, view.bytes);
+  Primitive result;
+  for (const auto& [name, width] : widths) {
+    result.attributes[name] = values_of(*mesh, packing.get("attributes").get(name), width);
+  }
+  for (std::uint32_t face = 0; face < mesh->num_faces(); ++face) {
+    for (const draco::PointIndex& corner : mesh->face(draco::FaceIndex(face))) {
+      result.indices.push_back(corner.value());
+    }
+  }
+  return result;
+}
+
+}  // namespace dmpc::apps::gltf

@@ -1,0 +1,205 @@
+#include "apps/foreign/gltf/materials.h"
+
+#include <assimp/GltfMaterial.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "core/base/elementary.h"
+
+namespace dmpc::apps::gltf {
+namespace {
+
+/// A member that refers to a texture is called so: "normalTexture".
+bool is_texture(const std::string& key) { return key.size() >= 7 && key.compare(key.size() - 7, 7, "Texture") == 0; }
+
+class Writer {
+ public:
+  Writer(const Document& document, Images& images)
+      : root_(document.root()),
+        textures_(root_.list("textures")),
+        samplers_(root_.list("samplers")),
+        image_count_(root_.list("images").size()),
+        images_(images) {}
+
+  /// `place` is that of its colour's texture.
+  std::unique_ptr<aiMaterial> material(const Part& source, TexturePlace& place);
+
+ private:
+  void add_texture(const Part& use, aiMaterial& target, aiTextureType type, unsigned number);
+  void add_colour_texture(const Part& use, aiMaterial& target, TexturePlace& place);
+  void add_edges(const Part& texture, aiMaterial& target);
+  /// All but that of the colour, at any depth that makes sense.
+  void add_others(const Part& source, aiMaterial& target, unsigned& number, int level = 0);
+  std::optional<std::size_t> image_of(const Part& texture) const;
+
+  Part root_;
+  std::vector<Part> textures_, samplers_;
+  std::size_t image_count_;
+  Images& images_;
+};
+
+void add_number(aiMaterial& target, double value, const char* key, unsigned type, unsigned index) {
+  const auto number = static_cast<ai_real>(value);
+  target.AddProperty(&number, 1, key, type, index);
+}
+
+aiTextureMapMode edge_mode(const Part& sampler, const std::string& key) {
+  const std::uint64_t mode = sampler.whole(key, 10497);
+  if (mode != 10497 && mode != 33071 && mode != 33648) {
+    sampler.get(key).fail("is " + std::to_string(mode) + ", expected 10497, 33071 or 33648");
+  }
+  return mode == 33071 ? aiTextureMapMode_Clamp : mode == 33648 ? aiTextureMapMode_Mirror : aiTextureMapMode_Wrap;
+}
+
+/// The transform of KHR_texture_transform: scaled, then turned, then moved.
+TexturePlace place_of(const Part& transform) {
+  const double angle = transform.number("rotation", 0);
+  const std::vector<double> offset = transform.numbers("offset", {0, 0}), scale = transform.numbers("scale", {1, 1});
+  if (!(std::abs(angle) <= 1e6)) {
+    transform.get("rotation").fail("expected radians of at most 1e6 in magnitude");
+  }
+  const double sine = core::sin_radians(angle), cosine = core::cos_radians(angle);
+  return {{{{cosine * scale[0], sine * scale[1], offset[0]}, {-sine * scale[0], cosine * scale[1], offset[1]}}}};
+}
+
+/// What is known of materials of specular and glossiness, which came before those of metal and roughness: their colour and their
+/// roughness. So they are no metals.
+struct Base {
+  Part colours, roughness;
+  const char *color, *texture;
+  bool is_glossy;
+};
+
+Base base_of(const Part& source, const Part& empty) {
+  if (const auto glossy = source.extension("KHR_materials_pbrSpecularGlossiness")) {
+    return {*glossy, *glossy, "diffuseFactor", "diffuseTexture", true};
+  }
+  const Part base = source.find("pbrMetallicRoughness").value_or(empty);
+  return {base, base, "baseColorFactor", "baseColorTexture", false};
+}
+
+void add_base(const Base& base, aiMaterial& target) {
+  const std::vector<double> color = base.colours.numbers(base.color, {1, 1, 1, 1});
+  const aiColor4D colour(static_cast<ai_real>(color[0]), static_cast<ai_real>(color[1]), static_cast<ai_real>(color[2]),
+                         static_cast<ai_real>(color[3]));
+  target.AddProperty(&colour, 1, AI_MATKEY_BASE_COLOR);
+  add_number(target, color[3], AI_MATKEY_OPACITY);
+  if (base.is_glossy) {
+    add_number(target, 0, AI_MATKEY_METALLIC_FACTOR);
+    add_number(target, 1 - base.roughness.number("glossinessFactor", 1), AI_MATKEY_ROUGHNESS_FACTOR);
+  } else {
+    add_number(target, base.roughness.number("metallicFactor", 1), AI_MATKEY_METALLIC_FACTOR);
+    add_number(target, base.roughness.number("roughnessFactor", 1), AI_MATKEY_ROUGHNESS_FACTOR);
+  }
+}
+
+void add_extensions(const Part& source, aiMaterial& target) {
+  if (const auto ior = source.extension("KHR_materials_ior")) {
+    add_number(target, ior->number("ior", 1.5), AI_MATKEY_REFRACTI);
+  }
+  if (const auto transmission = source.extension("KHR_materials_transmission")) {
+    add_number(target, transmission->number("transmissionFactor", 0), AI_MATKEY_TRANSMISSION_FACTOR);
+  }
+  if (const auto coat = source.extension("KHR_materials_clearcoat")) {
+    add_number(target, coat->number("clearcoatFactor", 0), AI_MATKEY_CLEARCOAT_FACTOR);
+  }
+}
+
+void add_look(const Part& source, aiMaterial& target) {
+  const std::vector<double> light = source.numbers("emissiveFactor", {0, 0, 0});
+  const aiColor3D emission(static_cast<ai_real>(light[0]), static_cast<ai_real>(light[1]), static_cast<ai_real>(light[2]));
+  target.AddProperty(&emission, 1, AI_MATKEY_COLOR_EMISSIVE);
+  const aiString mode(source.text("alphaMode", "OPAQUE")), name(source.text("name", ""));
+  target.AddProperty(&mode, AI_MATKEY_GLTF_ALPHAMODE);
+  target.AddProperty(&name, AI_MATKEY_NAME);
+}
+
+std::optional<std::size_t> Writer::image_of(const Part& texture) const {
+  for (const char* const format : {"EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds", "KHR_texture_basisu"}) {
+    const auto other = texture.extension(format);
+    if (other && !texture.find("source")) {
+      return other->index("source", image_count_, "images");
+    }
+  }
+  return texture.index("source", image_count_, "images");
+}
+
+void Writer::add_texture(const Part& use, aiMaterial& target, aiTextureType type, unsigned number) {
+  const Part& texture = textures_[use.required_index("index", textures_.size(), "textures")];
+  if (const auto image = image_of(texture)) {
+    const aiString name(images_.name_of(*image));
+    target.AddProperty(&name, AI_MATKEY_TEXTURE(type, number));
+  }
+}
+
+void Writer::add_edges(const Part& texture, aiMaterial& target) {
+  const auto sampler = texture.index("sampler", samplers_.size(), "samplers");
+  const std::array<int, 2> modes = {sampler ? edge_mode(samplers_[*sampler], "wrapS") : aiTextureMapMode_Wrap,
+                                    sampler ? edge_mode(samplers_[*sampler], "wrapT") : aiTextureMapMode_Wrap};
+  target.AddProperty(&modes[0], 1, AI_MATKEY_MAPPINGMODE_U(aiTextureType_BASE_COLOR, 0));
+  target.AddProperty(&modes[1], 1, AI_MATKEY_MAPPINGMODE_V(aiTextureType_BASE_COLOR, 0));
+}
+
+void Writer::add_colour_texture(const Part& use, aiMaterial& target, TexturePlace& place) {
+  add_texture(use, target, aiTextureType_BASE_COLOR, 0);
+  add_edges(textures_[use.required_index("index", textures_.size(), "textures")], target);
+  std::uint64_t coordinates = use.whole("texCoord", 0);
+  if (const auto transform = use.extension("KHR_texture_transform")) {
+    coordinates = transform->whole("texCoord", coordinates);
+    place = place_of(*transform);
+  }
+  const int set = static_cast<int>(std::min<std::uint64_t>(coordinates, AI_MAX_NUMBER_OF_TEXTURECOORDS));
+  target.AddProperty(&set, 1, AI_MATKEY_UVWSRC(aiTextureType_BASE_COLOR, 0));
+}
+
+void Writer::add_others(const Part& source, aiMaterial& target, unsigned& number, int level) {
+  constexpr int levels_max = 16;
+  if (level > levels_max) {
+    source.fail("extensions within each other more than 16 deep, expected one or two");
+  }
+  for (const auto& [key, part] : source.members()) {
+    if (key == "baseColorTexture" || key == "diffuseTexture") {
+      continue;
+    }
+    if (is_texture(key)) {
+      add_texture(part, target, aiTextureType_UNKNOWN, number);
+      ++number;
+    } else if (key == "extensions" || key == "pbrMetallicRoughness" || key.substr(0, 4) == "KHR_") {
+      add_others(part, target, number, level + 1);
+    }
+  }
+}
+
+std::unique_ptr<aiMaterial> Writer::material(const Part& source, TexturePlace& place) {
+  static const nlohmann::json nothing = nlohmann::json::object();
+  auto target = std::make_unique<aiMaterial>();
+  const Base base = base_of(source, Part(nothing));
+  add_base(base, *target);
+  add_look(source, *target);
+  add_extensions(source, *target);
+  if (const auto texture = base.colours.find(base.texture)) {
+    add_colour_texture(*texture, *target, place);
+  }
+  unsigned number = 0;
+  add_others(source, *target, number);
+  return target;
+}
+
+}  // namespace
+
+std::vector<TexturePlace> add_materials(const Document& document, Images& images, aiScene& scene) {
+  static const nlohmann::json nothing = nlohmann::json::object();
+  std::vector<Part> sources = document.root().list("materials");
+  sources.emplace_back(nothing);
+  Writer writer(document, images);
+  std::vector<TexturePlace> places;
+  scene.mMaterials = new aiMaterial*[sources.size()];
+  for (const Part& source : sources) {
+    scene.mMaterials[scene.mNumMaterials] = writer.material(source, places.emplace_back()).release();
+    ++scene.mNumMaterials;
+  }
+  return places;
+}
+
+}  // namespace dmpc::apps::gltf

@@ -1,0 +1,18 @@
+// The materials of a glTF document as Assimp's.
+#pragma once
+
+#include <assimp/scene.h>
+
+#include <vector>
+
+#include "apps/foreign/gltf/images.h"
+#include "apps/foreign/mesh/texture_place.h"
+
+namespace dmpc::apps::gltf {
+
+/// Gives the scene its materials, with the keys that Assimp's own reader uses (apps/foreign/mesh/material.h looks for them), and, last,
+/// that of primitives without one. Returns each one's place on its colour's texture. Throws core::InputError, by its place in the
+/// document.
+std::vector<TexturePlace> add_materials(const Document& document, Images& images, aiScene& scene);
+
+}  // namespace dmpc::apps::gltf

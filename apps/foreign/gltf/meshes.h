@@ -1,0 +1,24 @@
+// The meshes of a glTF document as Assimp's, one for each primitive.
+#pragma once
+
+#include <assimp/scene.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/foreign/gltf/primitive.h"
+
+namespace dmpc::apps::gltf {
+
+struct Meshes {
+  std::vector<std::pair<unsigned, unsigned>> ranges;  ///< of each mesh of the document: the scene's first and one past its last
+  std::uint64_t corners_left_over = 0;                ///< of lists whose length is no multiple of three
+};
+
+/// Gives the scene its meshes, which refer to materials that it has. Throws core::InputError, by its place in the document.
+Meshes add_meshes(const Document& document, Buffers& buffers, aiScene& scene);
+
+}  // namespace dmpc::apps::gltf

@@ -1,0 +1,246 @@
+#include "apps/foreign/gltf/nodes.h"
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace dmpc::apps::gltf {
+namespace {
+
+aiVector3D vector_of(const std::vector<double>& v) {
+  return {static_cast<ai_real>(v[0]), static_cast<ai_real>(v[1]), static_cast<ai_real>(v[2])};
+}
+
+/// Translation after rotation after scale, as Assimp multiplies them.
+aiMatrix4x4 composed(const aiVector3D& translation, const aiQuaternion& rotation, const aiVector3D& scale) {
+  aiMatrix4x4 moved, scaled;
+  aiMatrix4x4::Translation(translation, moved);
+  aiMatrix4x4::Scaling(scale, scaled);
+  return moved * aiMatrix4x4(rotation.GetMatrix()) * scaled;
+}
+
+aiQuaternion quaternion_of(const std::vector<double>& q) {
+  return {static_cast<ai_real>(q[3]), static_cast<ai_real>(q[0]), static_cast<ai_real>(q[1]), static_cast<ai_real>(q[2])};
+}
+
+aiMatrix4x4 transform_of(const Part& node) {
+  aiMatrix4x4 result;
+  if (!node.find("matrix")) {
+    return composed(vector_of(node.numbers("translation", {0, 0, 0})), quaternion_of(node.numbers("rotation", {0, 0, 0, 1})),
+                    vector_of(node.numbers("scale", {1, 1, 1})));
+  }
+  const std::vector<double> columns = node.numbers("matrix", std::vector<double>(16));
+  for (unsigned row = 0; row < 4; ++row) {
+    for (unsigned column = 0; column < 4; ++column) {
+      result[row][column] = static_cast<ai_real>(columns[4 * column + row]);
+    }
+  }
+  return result;
+}
+
+bool is_hidden(const Part& node) {
+  const auto visibility = node.extension("KHR_node_visibility");
+  return visibility && visibility->find("visible") && !visibility->flag("visible");
+}
+
+using Nodes = std::vector<std::unique_ptr<aiNode>>;
+
+void give_children(aiNode& parent, Nodes& children) {
+  parent.mChildren = children.empty() ? nullptr : new aiNode*[children.size()];
+  for (auto& child : children) {
+    child->mParent = &parent;
+    parent.mChildren[parent.mNumChildren] = child.release();
+    ++parent.mNumChildren;
+  }
+}
+
+void give_meshes(aiNode& node, const std::pair<unsigned, unsigned>& range) {
+  node.mMeshes = new unsigned[range.second - range.first + 1];
+  for (unsigned mesh = range.first; mesh < range.second; ++mesh) {
+    node.mMeshes[node.mNumMeshes] = mesh;
+    ++node.mNumMeshes;
+  }
+}
+
+class Tree {
+ public:
+  Tree(const Document& document, Accessors& accessors, const Meshes& meshes)
+      : nodes_(document.root().list("nodes")), accessors_(accessors), meshes_(meshes) {}
+
+  std::size_t count() const { return nodes_.size(); }
+  /// The node that `where` names, with all below it; none if it is hidden.
+  std::unique_ptr<aiNode> node(const Part& where, int level);
+
+  /// The names of the nodes that have them, in the document's order of cameras and lights.
+  std::map<std::size_t, std::string> cameras, lights;
+
+ private:
+  std::string unique_name(const Part& node);
+  void add_instances(const Part& instancing, std::size_t mesh, Nodes& children);
+
+  std::vector<Part> nodes_;
+  Accessors& accessors_;
+  const Meshes& meshes_;
+  std::set<std::size_t> seen_;
+  std::set<std::string> names_;
+};
+
+/// Cameras and lights find their nodes by name.
+std::string Tree::unique_name(const Part& node) {
+  const std::string name = node.text("name", node.where());
+  return names_.insert(name).second ? name : name + " (" + node.where() + ")";
+}
+
+/// The numbers of one instance of many; a plain one where the attribute is not there.
+std::vector<double> instance(const Values& values, std::size_t i, std::vector<double> plain) {
+  for (std::size_t k = 0; k < values.width; ++k) {
+    plain[k] = double{values[i][k]};
+  }
+  return plain;
+}
+
+void Tree::add_instances(const Part& instancing, std::size_t mesh, Nodes& children) {
+  const Part attributes = instancing.get("attributes");
+  Values moves, turns, scales;
+  std::size_t count = 0;
+  const auto read = [&](const char* name, std::size_t width, Values& values) {
+    const auto found = attributes.find(name);
+    values = found ? accessors_.values(*found, width) : Values{};
+    if (found && count > 0 && values.count() != count) {
+      found->fail("has another count than the other attributes of the instances");
+    }
+    count = found ? values.count() : count;
+  };
+  read("TRANSLATION", 3, moves);
+  read("ROTATION", 4, turns);
+  read("SCALE", 3, scales);
+  for (std::size_t i = 0; i < count; ++i) {
+    children.push_back(std::make_unique<aiNode>(instancing.where() + "[" + std::to_string(i) + "]"));
+    children.back()->mTransformation =
+        composed(vector_of(instance(moves, i, {0, 0, 0})), quaternion_of(instance(turns, i, {0, 0, 0, 1})),
+                 vector_of(instance(scales, i, {1, 1, 1})));
+    give_meshes(*children.back(), meshes_.ranges[mesh]);
+  }
+}
+
+std::unique_ptr<aiNode> Tree::node(const Part& where, int level) {
+  constexpr int levels_max = 2000;
+  const std::size_t index = where.as_index(count(), "nodes");
+  const Part& source = nodes_[index];
+  if (!seen_.insert(index).second || level > levels_max) {
+    where.fail(level > levels_max ? "nodes below each other more than 2000 deep"
+                                  : "nodes that are recursive or shared: nodes[" + std::to_string(index) +
+                                        "] hangs below two nodes, or below itself, and nodes must be a tree");
+  }
+  if (is_hidden(source)) {
+    return nullptr;
+  }
+  auto result = std::make_unique<aiNode>(unique_name(source));
+  result->mTransformation = transform_of(source);
+  Nodes children;
+  if (const auto mesh = source.index("mesh", meshes_.ranges.size(), "meshes")) {
+    const auto instancing = source.extension("EXT_mesh_gpu_instancing");
+    instancing ? add_instances(*instancing, *mesh, children) : give_meshes(*result, meshes_.ranges[*mesh]);
+  }
+  for (const Part& child : source.list("children")) {
+    if (auto below = node(child, level + 1)) {
+      children.push_back(std::move(below));
+    }
+  }
+  give_children(*result, children);
+  if (const auto camera = source.find("camera")) {
+    cameras.emplace(camera->as_whole(), result->mName.C_Str());
+  }
+  if (const auto light = source.extension("KHR_lights_punctual")) {
+    lights.emplace(light->get("light").as_whole(), result->mName.C_Str());
+  }
+  return result;
+}
+
+/// What apps/foreign/mesh/lights.h makes the angle from: the vertical one times the aspect.
+void fill(const Part& source, aiCamera& camera) {
+  camera.mLookAt = {0, 0, -1};
+  const auto perspective = source.find("perspective");
+  if (source.get("type").as_text() != "perspective" || !perspective) {
+    camera.mHorizontalFOV = 0;
+    return;
+  }
+  camera.mAspect = static_cast<float>(perspective->number("aspectRatio", 0));
+  camera.mHorizontalFOV =
+      static_cast<float>(perspective->get("yfov").as_number()) * (camera.mAspect == 0 ? 1.0F : camera.mAspect);
+}
+
+aiLightSourceType type_of(const Part& source) {
+  const Part type = source.get("type");
+  const std::string text = type.as_text();
+  if (text != "directional" && text != "point" && text != "spot") {
+    type.fail("is '" + text + "', expected directional, point or spot");
+  }
+  return text == "point" ? aiLightSource_POINT : text == "spot" ? aiLightSource_SPOT : aiLightSource_DIRECTIONAL;
+}
+
+void fill(const Part& source, aiLight& light) {
+  light.mType = type_of(source);
+  light.mDirection = {0, 0, -1};
+  light.mUp = {0, 1, 0};
+  const std::vector<double> color = source.numbers("color", {1, 1, 1});
+  const auto intensity = static_cast<float>(source.number("intensity", 1));
+  light.mColorDiffuse = {static_cast<float>(color[0]) * intensity, static_cast<float>(color[1]) * intensity,
+                         static_cast<float>(color[2]) * intensity};
+}
+
+/// One of each of `names`, of what the document lists as `sources`.
+template <class T>
+void add_named(const std::map<std::size_t, std::string>& names, const std::vector<Part>& sources, const Part& root, T**& list,
+               unsigned& count, const std::string& what) {
+  list = names.empty() ? nullptr : new T*[names.size()];
+  for (const auto& [index, name] : names) {
+    if (index >= sources.size()) {
+      root.fail("a node refers to " + what + "[" + std::to_string(index) + "], which does not exist: there are " +
+                std::to_string(sources.size()));
+    }
+    list[count] = new T;
+    ++count;
+    list[count - 1]->mName = name;
+    fill(sources[index], *list[count - 1]);
+  }
+}
+
+/// The root of several, which stand beside each other, is a node of ours.
+aiNode* root_of(Nodes& roots) {
+  if (roots.size() == 1) {
+    return roots.front().release();
+  }
+  auto root = std::make_unique<aiNode>("the scene");
+  give_children(*root, roots);
+  return root.release();
+}
+
+}  // namespace
+
+void add_nodes(const Document& document, Accessors& accessors, const Meshes& meshes, aiScene& scene) {
+  const Part root = document.root();
+  const std::vector<Part> scenes = root.list("scenes");
+  if (scenes.empty()) {
+    root.fail("has no scene, so that nothing says what is to be shown");
+  }
+  const Part& shown = scenes[root.index("scene", scenes.size(), "scenes").value_or(0)];
+  Tree tree(document, accessors, meshes);
+  Nodes roots;
+  scene.mName = shown.text("name", "");
+  for (const Part& where : shown.list("nodes")) {
+    if (auto node = tree.node(where, 0)) {
+      roots.push_back(std::move(node));
+    }
+  }
+  scene.mRootNode = root_of(roots);
+  const auto punctual = root.extension("KHR_lights_punctual");
+  add_named(tree.cameras, root.list("cameras"), root, scene.mCameras, scene.mNumCameras, "cameras");
+  add_named(tree.lights, punctual ? punctual->list("lights") : std::vector<Part>(), root, scene.mLights, scene.mNumLights,
+            "lights");
+}
+
+}  // namespace dmpc::apps::gltf

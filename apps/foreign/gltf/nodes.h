@@ -1,0 +1,16 @@
+// The tree of nodes of a glTF document as Assimp's, with cameras and lights.
+#pragma once
+
+#include <assimp/scene.h>
+
+#include "apps/foreign/gltf/accessors.h"
+#include "apps/foreign/gltf/meshes.h"
+
+namespace dmpc::apps::gltf {
+
+/// Gives the scene the nodes of the document's scene, the first if it names none; what is hidden (KHR_node_visibility) is left
+/// out, and instances (EXT_mesh_gpu_instancing) are nodes of their own. Throws core::InputError, by its place in the document,
+/// for nodes that are no tree.
+void add_nodes(const Document& document, Accessors& accessors, const Meshes& meshes, aiScene& scene);
+
+}  // namespace dmpc::apps::gltf

@@ -1,0 +1,328 @@
+#include "apps/foreign/import.h"
+
+#include <assimp/BaseImporter.h>
+
+#include <algorithm>
+#include <assimp/IOStream.hpp>
+#include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
+#include <assimp/ProgressHandler.hpp>
+#include <cctype>
+#include <cstddef>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <optional>
+#include <set>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "apps/system/byte_order_mark.h"
+#include "apps/line/number_text.h"
+#include "apps/foreign/gltf/reader.h"
+#include "apps/foreign/mesh/material.h"
+#include "apps/foreign/mesh/mtl_check.h"
+#include "apps/foreign/mesh/mtl_text.h"
+#include "apps/foreign/mesh/obj_check.h"
+#include "apps/foreign/mesh/ply_check.h"
+#include "apps/foreign/mesh/stl_check.h"
+#include "apps/line/shown_text.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// Read only, from memory.
+class Stream final : public Assimp::IOStream {
+ public:
+  explicit Stream(std::unique_ptr<FileBytes> file) : file_(std::move(file)) {}
+
+  std::size_t Read(void* buffer, std::size_t size, std::size_t count) override {
+    const auto left = file_->bytes().subspan(position_);
+    const std::size_t whole = size == 0 ? 0 : std::min(count, left.size() / size);
+    if (whole > 0) {
+      std::memcpy(buffer, left.data(), whole * size);
+    }
+    position_ += whole * size;
+    return whole;
+  }
+  std::size_t Write(const void* /*buffer*/, std::size_t /*size*/, std::size_t /*count*/) override { return 0; }
+  aiReturn Seek(std::size_t offset, aiOrigin origin) override {
+    const std::size_t size = FileSize(), from = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? position_ : size;
+    const std::size_t target = from + offset;  // a step back comes as a large step, and wraps round
+    if (target > size) {
+      return aiReturn_FAILURE;
+    }
+    position_ = target;
+    return aiReturn_SUCCESS;
+  }
+  std::size_t Tell() const override { return position_; }
+  std::size_t FileSize() const override { return file_->bytes().size(); }
+  void Flush() override {}
+
+ private:
+  std::unique_ptr<FileBytes> file_;
+  std::size_t position_ = 0;
+};
+
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending.empty() ? ending : ending.substr(1);
+}
+
+std::string_view text_of(const FileBytes& file) {
+  return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
+}
+
+/// A part of another file's bytes.
+class LaterBytes final : public FileBytes {
+ public:
+  LaterBytes(std::unique_ptr<FileBytes> whole, std::size_t begin) : whole_(std::move(whole)), begin_(begin) {}
+  std::span<const std::byte> bytes() const override { return whole_->bytes().subspan(begin_); }
+
+ private:
+  std::unique_ptr<FileBytes> whole_;
+  std::size_t begin_;
+};
+
+class TextBytes final : public FileBytes {
+ public:
+  explicit TextBytes(std::string text) : text_(std::move(text)) {}
+  std::span<const std::byte> bytes() const override { return std::as_bytes(std::span(text_)); }
+
+ private:
+  std::string text_;
+};
+
+/// A scene's file, from where readers for files that end so look for their first word.
+std::unique_ptr<FileBytes> open_scene(const std::string& path, const std::string& ending, SceneFiles& files) {
+  std::unique_ptr<FileBytes> file = files.open(path);
+  const std::string_view text = text_of(*file);
+  const std::string_view rest = ending == "ply" || ending == "obj" ? without_mark(text)
+                                : ending == "stl"                  ? stl_without_mark(text)
+                                                                   : text;
+  const std::size_t begin = text.size() - rest.size();
+  return begin == 0 ? std::move(file) : std::make_unique<LaterBytes>(std::move(file), begin);
+}
+
+/// As a reader of Assimp's sees them, with a list of what was asked for in vain.
+class Files final : public Assimp::IOSystem {
+ public:
+  Files(const std::string& scene, SceneFiles& files, ImportedFile& result, MtlTextures& textures)
+      : scene_(scene), files_(files), result_(result), textures_(textures) {}
+
+  bool Exists(const char* path) const override { return files_.exists(path); }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* path, const char* /*mode*/) override {
+    try {
+      return new Stream(opened(path));
+    } catch (const core::InputError& error) {
+      note_once(result_.missing, error.what());
+      return nullptr;
+    }
+  }
+  void Close(Assimp::IOStream* stream) override { delete stream; }
+
+ private:
+  std::unique_ptr<FileBytes> opened(const std::string& path) {
+    if (path == scene_) {
+      return open_scene(path, ending_of(path), files_);
+    }
+    return ending_of(path) == "mtl" ? materials(path) : files_.open(path);
+  }
+  std::unique_ptr<FileBytes> materials(const std::string& path) {
+    const std::unique_ptr<FileBytes> file = library(path);
+    note_once(result_.notes, check_mtl(path, text_of(*file)));
+    return std::make_unique<TextBytes>(plain_mtl(text_of(*file), textures_));
+  }
+  /// A library of materials, which may be called otherwise than the scene says.
+  std::unique_ptr<FileBytes> library(const std::string& path) {
+    try {
+      return files_.open(path);
+    } catch (const core::InputError&) {
+      const std::filesystem::path folder = std::filesystem::path(scene_).parent_path();
+      const std::string name = path.substr(folder.empty() ? 0 : std::min(path.size(), folder.string().size() + 1));
+      const std::vector<std::filesystem::path> found = files_.meant(folder, name);
+      if (found.empty()) {
+        throw;
+      }
+      note_once(result_.notes,
+                "a file of materials was found under another name: " + found.front().filename().string() + " for " + name);
+      return files_.open(found.front().string());
+    }
+  }
+
+  /// Assimp may open a file again and again.
+  static void note_once(std::vector<std::string>& notes, const std::string& note) {
+    if (!note.empty() && std::find(notes.begin(), notes.end(), note) == notes.end()) {
+      notes.push_back(note);
+    }
+  }
+
+  std::string scene_;
+  SceneFiles& files_;
+  ImportedFile& result_;
+  MtlTextures& textures_;
+};
+
+class LoadProgress final : public Assimp::ProgressHandler {
+ public:
+  explicit LoadProgress(SceneFiles& files) : files_(files) {}
+
+  bool Update(float share) override {
+    files_.show_progress(share >= 0 && share <= 1 ? share : 0);
+    return true;
+  }
+  void UpdateFileRead(int step, int step_count) override {
+    Update(step_count > 0 ? static_cast<float>(step) / static_cast<float>(step_count) : 1.0F);
+  }
+
+ private:
+  SceneFiles& files_;
+};
+
+bool reads(Assimp::BaseImporter& reader, const std::string& ending) {
+  std::set<std::string> endings;
+  reader.GetExtensionList(endings);
+  return endings.contains(ending);
+}
+
+/// What Assimp has caught on its way out, if that was the end of memory.
+void rethrow_end_of_memory(const std::exception_ptr& caught) {
+  try {
+    if (caught) {
+      std::rethrow_exception(caught);
+    }
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (...) {  // told by its text
+  }
+}
+
+/// What Assimp takes for a scene, or for ever to read, although something of it is missing.
+void check_is_whole(const std::string& path, const std::string& ending, SceneFiles& files) {
+  const auto check = ending == "ply" ? check_ply : ending == "stl" ? check_stl : ending == "obj" ? check_obj : nullptr;
+  if (check != nullptr) {
+    check(text_of(*open_scene(path, ending, files)));
+  }
+}
+
+std::vector<std::byte> bytes_of_file(const std::string& path, SceneFiles& files) {
+  const std::unique_ptr<FileBytes> file = files.open(path);
+  return {file->bytes().begin(), file->bytes().end()};
+}
+
+/// Nothing for version 1, which is left to Assimp.
+std::optional<ImportedFile> import_gltf(const std::string& path, SceneFiles& files) {
+  const std::unique_ptr<FileBytes> file = files.open(path);
+  const gltf::Document document = gltf::parse_document(file->bytes());
+  if (document.version == 1) {
+    return std::nullopt;
+  }
+  const auto open = [&](const std::string& name) {
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    const auto found = files.meant(folder, name);
+    return bytes_of_file((found.empty() ? folder / name : found.front()).string(), files);
+  };
+  return gltf::read_gltf(document, open);
+}
+
+/// Whether Assimp has put a figure of its own in place of the meshes that the file does not have: one for its tree of nodes.
+bool is_figure_of_nodes(const aiScene& scene) {
+  const auto is_named_so = [](const aiMaterial* material) {
+    return std::string(material->GetName().C_Str()) == "SkeletonMaterial";
+  };
+  return (scene.mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0 &&
+         std::any_of(scene.mMaterials, scene.mMaterials + scene.mNumMaterials, is_named_so);
+}
+
+/// Of a scene that Assimp paints white where the file says nothing of colours.
+bool says_no_colour(const std::string& path, const std::string& ending, SceneFiles& files) {
+  if (ending != "ply" && ending != "stl") {
+    return false;
+  }
+  const std::unique_ptr<FileBytes> file = open_scene(path, ending, files);
+  return ending == "ply" ? !has_ply_material(text_of(*file)) : !has_stl_colour(text_of(*file));
+}
+
+/// But a texture's colours stay as they are.
+void make_plain(aiScene& scene) {
+  const aiColor3D grey(static_cast<ai_real>(plain_grey));
+  for (aiMaterial* const material : std::span(scene.mMaterials, scene.mNumMaterials)) {
+    if (material->GetTextureCount(aiTextureType_DIFFUSE) == 0) {
+      material->RemoveProperty(AI_MATKEY_COLOR_DIFFUSE);
+      material->AddProperty(&grey, 1, AI_MATKEY_COLOR_DIFFUSE);
+    }
+  }
+}
+
+void take_over(const MtlTextures& textures, ImportedFile& file) {
+  for (const aiMaterial* const material : std::span(file.scene->mMaterials, file.scene->mNumMaterials)) {
+    const auto place = textures.places.find(material->GetName().C_Str());
+    file.texture_places.push_back(place == textures.places.end() ? TexturePlace{} : place->second);
+  }
+  for (const auto& [option, count] : textures.left_out) {
+    file.notes.push_back("textures' option " + option + ", which is not followed: " + grouped(count));
+  }
+}
+
+void check_has_mesh(const aiScene& scene) {
+  if (scene.mNumMeshes == 0 || is_figure_of_nodes(scene)) {
+    throw core::InputError(
+        "there is no mesh in it, and so no triangle that has an area; expected a mesh of triangles or polygons");
+  }
+}
+
+/// Which may quote the file.
+std::string what_assimp_says(const Assimp::Importer& importer, std::string ending) {
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::toupper(c); });
+  std::string words = clipped(importer.GetErrorString());
+  words.erase(words.find_last_not_of(". ") + 1);
+  return "cannot be read as " + ending + ": " + words + ": write it anew, or as another format";
+}
+
+}  // namespace
+
+void prepare_import() { static_cast<void>(Assimp::Importer().GetImporterCount()); }
+
+void keep_readers_of(const std::string& ending, Assimp::Importer& importer) {
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    Assimp::BaseImporter* const reader = importer.GetImporter(i);
+    if (!reads(*reader, ending)) {
+      importer.UnregisterLoader(reader);
+      delete reader;
+    }
+  }
+}
+
+ImportedFile import_file(const std::string& path, SceneFiles& files) {
+  const std::string ending = ending_of(path);
+  if (ending == "gltf" || ending == "glb") {
+    if (auto file = import_gltf(path, files)) {
+      return *std::move(file);
+    }
+  }
+  check_is_whole(path, ending, files);
+  ImportedFile file;
+  Assimp::Importer importer;
+  keep_readers_of(ending, importer);
+  MtlTextures textures;
+  importer.SetIOHandler(new Files(path, files, file, textures));  // is the importer's from now on, and so is the next
+  importer.SetProgressHandler(new LoadProgress(files));
+  if (importer.ReadFile(path, 0) == nullptr) {
+    rethrow_end_of_memory(importer.GetException());
+    throw core::InputError(what_assimp_says(importer, ending));
+  }
+  check_has_mesh(*importer.GetScene());
+  file.scene.reset(importer.GetOrphanedScene());
+  take_over(textures, file);
+  if (says_no_colour(path, ending, files)) {
+    make_plain(*file.scene);
+  }
+  return file;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,38 @@
+// Reads a file by Assimp, or glTF 2 by a reader of our own.
+#pragma once
+
+#include <assimp/scene.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/foreign/mesh/scene_files.h"
+#include "apps/foreign/mesh/texture_place.h"
+
+namespace Assimp {
+class Importer;
+}
+
+namespace dmpc::apps {
+
+struct ImportedFile {
+  std::unique_ptr<aiScene> scene;
+  std::vector<TexturePlace> texture_places;  ///< of each material's colour texture; none where all are plain
+  std::vector<std::string> notes;            ///< what of the file is not shown as it is, a sentence each
+  std::vector<std::string> missing;          ///< sentences: which files it refers to cannot be had, in order, each once
+};
+
+/// Makes the library ready, after which it opens nothing but through SceneFiles.
+void prepare_import();
+
+/// Leaves only readers of files with this ending, in small letters: where none of these takes a file, Assimp else asks all of
+/// them whether they know its first bytes.
+void keep_readers_of(const std::string& ending, Assimp::Importer& importer);
+
+/// Reads meshes, materials, lights and cameras as the file has them, by a reader for files that end as it does. Throws
+/// core::InputError with Assimp's own words if it cannot read the file, or if there is no mesh in it, std::bad_alloc if memory
+/// ends.
+ImportedFile import_file(const std::string& path, SceneFiles& files);
+
+}  // namespace dmpc::apps

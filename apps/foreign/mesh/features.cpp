@@ -1,0 +1,80 @@
+#include "apps/foreign/mesh/features.h"
+
+#include <cstdint>
+#include <set>
+
+#include "apps/line/number_text.h"
+#include "apps/foreign/mesh/material.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// Appends "what: count" unless the count is 0.
+void note(std::vector<std::string>& notes, const std::string& what, std::uint64_t count) {
+  if (count > 0) {
+    notes.push_back(what + ": " + grouped(count));
+  }
+}
+
+template <class List, class Predicate>
+std::uint64_t count(const List& list, const Predicate& predicate) {
+  std::uint64_t found = 0;
+  for (const auto& entry : list) {
+    found += predicate(*entry) ? 1 : 0;
+  }
+  return found;
+}
+
+std::uint64_t points_and_lines(const aiMesh& mesh) {
+  std::uint64_t found = 0;
+  for (std::size_t i = 0; i < mesh.mNumFaces; ++i) {
+    found += mesh.mFaces[i].mNumIndices < 3 ? 1 : 0;
+  }
+  return found;
+}
+
+void note_meshes(const std::set<const aiMesh*>& meshes, std::vector<std::string>& notes) {
+  std::uint64_t thin = 0;
+  for (const aiMesh* mesh : meshes) {
+    thin += points_and_lines(*mesh);
+  }
+  note(notes, "points and lines left out", thin);
+  note(notes, "meshes whose vertex colours are not used",
+       count(meshes, [](const aiMesh& mesh) { return mesh.HasVertexColors(0); }));
+  note(notes, "meshes with several sets of texture coordinates, of which colours use one",
+       count(meshes, [](const aiMesh& mesh) { return mesh.GetNumUVChannels() > 1; }));
+  note(notes, "meshes with a skin, shown at rest", count(meshes, [](const aiMesh& mesh) { return mesh.HasBones(); }));
+  note(notes, "meshes with morph targets, shown without them",
+       count(meshes, [](const aiMesh& mesh) { return mesh.mNumAnimMeshes > 0; }));
+}
+
+void note_materials(const std::set<const aiMaterial*>& materials, std::vector<std::string>& notes) {
+  std::set<std::string> textures;
+  for (const aiMaterial* material : materials) {
+    list_textures(*material, textures);
+  }
+  note(notes, "textures not used, since they are not of a surface's colour", textures.size());
+  note(notes, "materials whose texture is moved, turned or scaled, shown without that", count(materials, has_moved_texture));
+  note(notes, "materials that emit light, shown without it", count(materials, is_emissive));
+  note(notes, "materials with an alpha mask, shown opaque", count(materials, has_alpha_mask));
+  note(notes, "materials with a clear coat, shown without it", count(materials, has_clear_coat));
+}
+
+}  // namespace
+
+void note_features(const aiScene& scene, const std::vector<Placement>& placements, std::vector<std::string>& notes) {
+  std::set<const aiMesh*> meshes;
+  std::set<const aiMaterial*> materials;
+  for (const Placement& placement : placements) {
+    const aiMesh* mesh = scene.mMeshes[placement.mesh];
+    meshes.insert(mesh);
+    if (mesh->mMaterialIndex < scene.mNumMaterials) {
+      materials.insert(scene.mMaterials[mesh->mMaterialIndex]);
+    }
+  }
+  note_materials(materials, notes);
+  note_meshes(meshes, notes);
+  note(notes, "animations not played", scene.mNumAnimations);
+}
+
+}  // namespace dmpc::apps

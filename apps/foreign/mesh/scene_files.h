@@ -1,0 +1,45 @@
+// What a reader of mesh files has of the world: files, a place for textures, and somebody who wants to know how far it is.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/picture/texture_file.h"
+
+namespace dmpc::apps {
+
+/// A file's bytes, as long as it lives.
+class FileBytes {
+ public:
+  virtual ~FileBytes() = default;
+  virtual std::span<const std::byte> bytes() const = 0;
+};
+
+class SceneFiles {
+ public:
+  virtual ~SceneFiles() = default;
+
+  /// Throws core::InputError, a whole sentence, if the file cannot be had.
+  virtual std::unique_ptr<FileBytes> open(const std::string& path) = 0;
+  virtual bool exists(const std::string& path) = 0;
+  /// As files_meant() of apps/formats/named_file.h.
+  virtual std::vector<std::filesystem::path> meant(const std::filesystem::path& folder, const std::string& name) = 0;
+
+  /// The scene's next texture: a picture's file, one that lies in memory (`format_hint` is an ending, or nothing), or texels, red
+  /// in the lowest byte. Throw core::InputError "NAME: ..." if it cannot be had.
+  virtual void add_texture(const std::string& path, const TextureEdges& edges) = 0;
+  virtual void add_texture(std::span<const std::byte> file, const std::string& name, const std::string& format_hint,
+                           const TextureEdges& edges) = 0;
+  virtual void add_texture(std::span<const std::uint32_t> texels, std::uint32_t width, std::uint32_t height,
+                           const std::string& name, const TextureEdges& edges) = 0;
+
+  /// 0 to 1.
+  virtual void show_progress(float share) = 0;
+};
+
+}  // namespace dmpc::apps

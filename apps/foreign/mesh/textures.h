@@ -1,0 +1,61 @@
+// The textures of a mesh file's materials.
+#pragma once
+
+#include <assimp/scene.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "apps/foreign/mesh/scene_files.h"
+#include "apps/picture/texture_file.h"
+#include "core/scene/texture.h"
+
+namespace dmpc::apps {
+
+/// Where a material says that its colour comes from.
+struct TextureUse {
+  std::string path;          ///< as the file has it; of one within the file its number behind a star, or its name
+  unsigned coordinates = 0;  ///< which of a mesh's texture coordinates
+  TextureEdges edges;
+};
+
+/// The base colour's (glTF), else that of diffuse light; nothing if the material has neither, or one that is no picture laid out
+/// by coordinates.
+std::optional<TextureUse> colour_texture(const aiMaterial& source);
+
+/// Reads each texture once, from beside the mesh file or from within it.
+class TextureReader {
+ public:
+  /// `file` is what lies at `path`; it and `files` outlive the reader. `textures` get names alone.
+  TextureReader(const aiScene& file, const std::filesystem::path& path, SceneFiles& files, std::vector<core::Texture>& textures)
+      : file_(file), path_(path), files_(files), textures_(textures) {}
+
+  /// Its place among the scene's textures; nothing if it cannot be had, which missing() tells.
+  std::optional<std::uint32_t> find(const TextureUse& use);
+
+  /// "a.png: ...": what could not be had and why, once each, in the order of their names.
+  std::vector<std::string> missing() const { return {missing_.begin(), missing_.end()}; }
+
+  /// "wood.PNG for C:\art\wood.png": what was found elsewhere than the file says.
+  std::vector<std::string> other_names() const { return {other_names_.begin(), other_names_.end()}; }
+
+ private:
+  /// As the scene's next texture.
+  void read(const TextureUse& use);
+  /// That is meant by this name (apps/formats/named_file.h).
+  std::string file_of(const std::string& name);
+
+  const aiScene& file_;
+  std::filesystem::path path_;
+  SceneFiles& files_;
+  std::vector<core::Texture>& textures_;
+  std::map<std::string, std::optional<std::uint32_t>> known_;  ///< by path and edges
+  std::set<std::string> missing_, other_names_;
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,193 @@
+#include "apps/foreign/mesh_reader.h"
+
+#include <algorithm>
+#include <set>
+
+#include "apps/line/number_text.h"
+#include "apps/foreign/mesh/features.h"
+#include "apps/foreign/mesh/geometry.h"
+#include "apps/foreign/import.h"
+#include "apps/foreign/mesh/lights.h"
+#include "apps/foreign/mesh/material.h"
+#include "apps/foreign/mesh/placement.h"
+#include "apps/foreign/mesh/textures.h"
+#include "apps/formats/whole_view.h"
+#include "core/base/expect.h"
+#include "core/base/forget.h"
+
+namespace dmpc::apps {
+namespace {
+
+using Placements = std::vector<Placement>;
+
+/// Which materials some placed mesh has.
+std::vector<bool> used_materials(const aiScene& file, const Placements& placements) {
+  std::vector<bool> used(file.mNumMaterials);
+  for (const Placement& placement : placements) {
+    const unsigned material = file.mMeshes[placement.mesh]->mMaterialIndex;
+    if (material < used.size()) {
+      used[material] = true;
+    }
+  }
+  return used;
+}
+
+/// One line for all textures that are not where the file says.
+void note_other_names(const std::vector<std::string>& names, std::vector<std::string>& notes) {
+  constexpr std::size_t shown = 4;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), shown); ++i) {
+    list += (i > 0 ? ", " : "") + names[i];
+  }
+  if (!names.empty()) {
+    notes.push_back(grouped(names.size()) + (names.size() == 1 ? " texture was" : " textures were") +
+                    " found under other names: " + list +
+                    (names.size() > shown ? " and " + grouped(names.size() - shown) + " more" : ""));
+  }
+}
+
+/// With the textures of those that are used, which the scene is given; what cannot be had is added to `missing`.
+std::vector<MeshMaterial> materials_of(const ImportedFile& imported, const Placements& placements, SceneFiles& files,
+                                       MeshScene& result, std::vector<std::string>& missing) {
+  const aiScene& file = *imported.scene;
+  TextureReader textures(file, result.scene.name, files, result.scene.textures);
+  const std::vector<bool> used = used_materials(file, placements);
+  std::vector<MeshMaterial> materials;
+  for (std::size_t i = 0; i < file.mNumMaterials; ++i) {
+    MeshMaterial material{material_of(*file.mMaterials[i])};
+    const auto use = used[i] ? colour_texture(*file.mMaterials[i]) : std::nullopt;
+    if (const auto texture = use ? textures.find(*use) : std::nullopt) {
+      material.material.texture = *texture;
+      material.coordinates = use->coordinates;
+      material.place = i < imported.texture_places.size() ? imported.texture_places[i] : TexturePlace{};
+    }
+    materials.push_back(material);
+  }
+  for (const std::string& texture : textures.missing()) {
+    missing.push_back(texture);
+  }
+  note_other_names(textures.other_names(), result.notes);
+  return materials;
+}
+
+/// A picture without them would be another, so that has to be asked for.
+void judge_missing(const std::vector<std::string>& missing, const MeshOptions& options, std::vector<std::string>& notes) {
+  std::string list;
+  for (const std::string& one : missing) {
+    list += "\n  " + one;
+    notes.push_back(one + "; what it covers has its plain colour");
+  }
+  if (!missing.empty() && !options.allows_missing) {
+    throw core::InputError("what it refers to cannot be had:" + list +
+                           "\nPut these files where they are looked for, or show what they cover in its plain colour by " +
+                           "--missing=plain");
+  }
+}
+
+/// What all placements become; says what instancing costs.
+GeometrySize measure(const aiScene& file, const Placements& placements, std::vector<std::string>& notes) {
+  std::vector<GeometrySize> sizes(file.mNumMeshes);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    sizes[i] = size_of(*file.mMeshes[i]);
+  }
+  std::set<std::size_t> placed;
+  GeometrySize once, all;
+  for (const Placement& placement : placements) {
+    all += sizes[placement.mesh];
+    once += placed.insert(placement.mesh).second ? sizes[placement.mesh] : GeometrySize{};
+  }
+  if (placed.size() < placements.size()) {
+    notes.push_back(grouped(placed.size()) + (placed.size() == 1 ? " mesh stands in " : " meshes stand in ") +
+                    grouped(placements.size()) + " places: " + grouped(once.triangles) + " triangles become " +
+                    grouped(all.triangles));
+  }
+  return all;
+}
+
+void reserve(core::Scene& scene, const GeometrySize& size) {
+  scene.objects.reserve(size.faces);
+  scene.vertices.reserve(size.corners);
+}
+
+/// In how many places each mesh stands.
+std::vector<std::size_t> count_uses(const aiScene& file, const Placements& placements) {
+  std::vector<std::size_t> uses(file.mNumMeshes);
+  for (const Placement& placement : placements) {
+    ++uses[placement.mesh];
+  }
+  return uses;
+}
+
+/// Frees a mesh that nobody needs any more, long before the file's others.
+void forget(aiScene& file, std::size_t mesh) {
+  delete file.mMeshes[mesh];
+  file.mMeshes[mesh] = nullptr;
+}
+
+/// Each mesh is freed after its last place.
+void add_geometry(core::Scene& scene, aiScene& file, const Placements& placements, const std::vector<MeshMaterial>& materials,
+                  const MeshOptions& options) {
+  core::SceneBuilder builder(scene);
+  GeometryWriter writer(builder, materials, options.smooth_degrees);
+  std::vector<std::size_t> uses = count_uses(file, placements);
+  for (const Placement& placement : placements) {
+    writer.add(*file.mMeshes[placement.mesh], placement.mesh, placement.world);
+    if (--uses[placement.mesh] == 0) {
+      forget(file, placement.mesh);
+    }
+  }
+  if (!writer.has_area()) {
+    throw core::InputError("there is no triangle in it that has an area; expected a mesh of triangles or polygons");
+  }
+}
+
+std::string text_of(const core::Vec3d& point) { return rounded(point.x) + "," + rounded(point.y) + "," + rounded(point.z); }
+
+/// The whole in view; says how, as a start for a camera of one's own.
+core::View plain_view(const Bounds& bounds, const MeshOptions& options, std::vector<std::string>& notes) {
+  const core::View view = whole_view(bounds, options.up.value_or(UpAxis{}));
+  notes.push_back("the whole is in view, as by --camera=" + text_of(view.from) + "/" + text_of(view.at) + "/" + text_of(view.up));
+  return view;
+}
+
+void add_surroundings(core::Scene& scene, const aiScene& file, const MeshOptions& options, std::vector<std::string>& notes) {
+  const double scale = options.scale.value_or(1);
+  const Bounds bounds = bounds_of_vertices(scene);
+  scene.background = plain_background;
+  // What is said of a view or of lights that others are put in place of would be untrue.
+  std::vector<std::string> unsaid;
+  std::vector<std::string>& view_notes = options.is_seen_otherwise ? unsaid : notes;
+  const auto camera = camera_of(file, scale, view_notes);
+  scene.view = camera ? *camera : plain_view(bounds, options, view_notes);
+  scene.lights = lights_of(file, bounds, scale, options.is_lit_otherwise ? unsaid : notes);
+  if (scene.lights.empty()) {
+    scene.lights = plain_lights(bounds, scene.view);
+  }
+}
+
+MeshScene read(const std::string& path, const MeshOptions& options, SceneFiles& files) {
+  const ImportedFile file = import_file(path, files);
+  MeshScene result{.scene = {.name = path}, .notes = {}};
+  std::vector<std::string> missing = file.missing;
+  const Placements placements = find_placements(*file.scene, options.scale.value_or(1));
+  const GeometrySize size = measure(*file.scene, placements, result.notes);
+  check_size(size);
+  reserve(result.scene, size);
+  note_features(*file.scene, placements, result.notes);
+  result.notes.insert(result.notes.end(), file.notes.begin(), file.notes.end());
+  const std::vector<MeshMaterial> materials = materials_of(file, placements, files, result, missing);
+  judge_missing(missing, options, result.notes);
+  add_geometry(result.scene, *file.scene, placements, materials, options);
+  add_surroundings(result.scene, *file.scene, options, result.notes);
+  return result;
+}
+
+}  // namespace
+
+MeshScene read_mesh(const std::string& path, const MeshOptions& options, SceneFiles& files) {
+  MeshScene mesh = read(path, options, files);
+  core::give_back_freed();  // Assimp's faces are many small pieces
+  return mesh;
+}
+
+}  // namespace dmpc::apps

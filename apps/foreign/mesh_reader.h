@@ -1,0 +1,24 @@
+// Reads a mesh file as a scene.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/formats/mesh_options.h"
+#include "apps/foreign/mesh/scene_files.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::apps {
+
+struct MeshScene {
+  core::Scene scene;               ///< its textures are names alone: who has the files has the texels
+  std::vector<std::string> notes;  ///< what of the file is not shown as it is, a sentence each
+};
+
+/// All triangles and polygons, instances expanded; the file's first camera, else the whole scene in view; its lights, else two of
+/// ours; a plain background. Throws core::InputError for what cannot be read or makes no scene (apps/foreign/mesh/geometry.h,
+/// apps/foreign/mesh/placement.h), has no triangle at all, or refers to files that cannot be had, unless `options` allow that;
+/// std::bad_alloc if memory ends.
+MeshScene read_mesh(const std::string& path, const MeshOptions& options, SceneFiles& files);
+
+}  // namespace dmpc::apps

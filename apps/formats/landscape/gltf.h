@@ -1,0 +1,21 @@
+// The landscape as glTF 2.0 (Khronos Group, 2017): a JSON text that names a file of numbers and a picture.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/formats/landscape/mesh.h"
+
+namespace dmpc::apps {
+
+struct LandscapeGltf {
+  std::string json;     ///< what goes to the .gltf
+  std::string numbers;  ///< what goes to `numbers_name`, little-endian
+};
+
+/// Ground with the texture `picture_name`, a lake that mirrors, and a camera at the lake's near end. Both names are of files
+/// beside the .gltf, of letters, digits, dots, - and _ alone.
+LandscapeGltf landscape_gltf(const LandscapeMesh& ground, const LandscapeMesh& lake, const std::string& numbers_name,
+                             const std::string& picture_name);
+
+}  // namespace dmpc::apps

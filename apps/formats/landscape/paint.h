@@ -1,0 +1,12 @@
+// The picture that covers the landscape's ground.
+#pragma once
+
+#include "apps/picture/image_file.h"
+
+namespace dmpc::apps {
+
+/// Of `side` x `side` texels, the one at the top left at (x, z) = (-1, -1/2); `side` > 0. Painted by all cores, the same whatever
+/// their number.
+Image ground_picture(int side);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,20 @@
+// What the command line says about a mesh file beside its path.
+#pragma once
+
+#include <optional>
+
+#include "apps/formats/up_axis.h"
+
+namespace dmpc::apps {
+
+struct MeshOptions {
+  std::optional<double> scale;           ///< all coordinates are multiplied by it; above 0; 1 if not given
+  std::optional<UpAxis> up;              ///< what points up where the file has no camera; y if not given
+  std::optional<double> smooth_degrees;  ///< vertex normals are reckoned anew, over edges up to this angle; 0 to 180
+  bool opens_anywhere = false;           ///< files that lie neither beside nor below the scene are opened, too
+  bool allows_missing = false;           ///< what files that are missing would cover is shown in its plain colour
+  /// Another view is taken, or other lights, so that nothing is said of the file's.
+  bool is_seen_otherwise = false, is_lit_otherwise = false;
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,247 @@
+#include "apps/formats/mesh_session.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <span>
+#include <utility>
+
+#include "apps/formats/named_file.h"
+#include "apps/system/input_memory.h"
+#include "apps/picture/texture_size.h"
+#include "core/base/expect.h"
+#include "core/scene/texture.h"
+
+namespace dmpc::apps {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Beside what a file becomes: libraries' own, and instances, of which few bytes make many.
+constexpr std::uint64_t spare_bytes = std::uint64_t{2} << 30U;
+constexpr std::uint64_t memory_per_byte = 1024;
+/// Of a texture within a file.
+constexpr std::uint64_t texture_bytes_max = std::uint64_t{2} << 30U;
+constexpr std::uint64_t note_bytes_max = std::uint64_t{1} << 20U;
+
+std::uint64_t memory_bytes_for(std::uint64_t file_bytes) {
+  return std::min(spare_bytes + memory_per_byte * file_bytes, reader_memory_bytes_max());
+}
+
+/// Of the files that may belong to the scene, which are no larger than what lies beside it.
+std::uint64_t bytes_of(const std::string& path) { return find_input_file(path).bytes; }
+
+std::uint64_t bytes_around(const std::string& path) {
+  std::uint64_t bytes = bytes_of(path);
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(fs::absolute(path).parent_path(), error)) {
+    bytes += entry.is_regular_file(error) ? entry.file_size(error) : 0;
+  }
+  return bytes;
+}
+
+std::string format_of(const std::string& path) {
+  std::string ending = fs::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::toupper(c); });
+  return ending.empty() ? "these" : ending.substr(1);
+}
+
+TextureEdges take_edges(Unpacker& fields) {
+  const auto s = fields.take_choice(core::TextureWrap::clamp);
+  return {s, fields.take_choice(core::TextureWrap::clamp)};
+}
+
+}  // namespace
+
+MeshSession::MeshSession(const std::string& path, const MeshOptions& options, bool shows_progress, const ReaderLimits& limits)
+    : path_(path),
+      options_(options),
+      limits_(limits),
+      access_(path, options.opens_anywhere),
+      file_bytes_(bytes_of(path)),
+      progress_(std::cerr, shows_progress, "Reading " + path + ":", "bytes"),
+      pictures_(limits),
+      process_("dmpc_mesh_reader", memory_bytes_for(bytes_around(path)), limits),
+      current_(path) {}
+
+MeshFile MeshSession::read() {
+  try {
+    ask();
+    while (!answer(process_.receive())) {
+    }
+    result_.scene = receiver_.finish();
+  } catch (const ReaderDeath& death) {
+    throw core::InputError("the reader of " + format_of(path_) + " files " + death.what() +
+                           (current_ == path_ ? "" : ", while it had " + current_) +
+                           ": the file is damaged, or more than its reader can take; write it anew, or as another format");
+  } catch (const Nonsense& nonsense) {
+    throw core::InputError(std::string(nonsense.what()) + ": the file is damaged; write it anew, or as another format");
+  } catch (const core::RoomError& error) {
+    const std::string text = error.what();
+    throw text.starts_with("took")
+        ? core::RoomError("the reader of " + format_of(path_) + " files " + text + ": make the scene smaller, or divide it")
+        : error;
+  }
+  result_.scene.name = path_;
+  result_.opened = access_.opened();
+  return std::move(result_);
+}
+
+void MeshSession::ask() {
+  const auto add = [](Packer& fields, const auto& choice, double value) {
+    fields.add(static_cast<std::uint8_t>(choice.has_value())).add(value);
+  };
+  Packer fields;
+  fields.add_text(path_);
+  add(fields, options_.scale, options_.scale.value_or(1));
+  const UpAxis up = options_.up.value_or(UpAxis{});
+  add(fields, options_.up, static_cast<double>(up.axis));
+  fields.add(static_cast<std::uint8_t>(up.is_negative));
+  add(fields, options_.smooth_degrees, options_.smooth_degrees.value_or(0));
+  for (const bool flag : {options_.allows_missing, options_.is_seen_otherwise, options_.is_lit_otherwise}) {
+    fields.add(static_cast<std::uint8_t>(flag));
+  }
+  process_.send(Saying::read_mesh, fields);
+}
+
+bool MeshSession::answer(const Message& message) {
+  if (receiver_.take(message)) {
+    return false;
+  }
+  Unpacker fields(message.bytes);
+  switch (message.saying) {
+    case Saying::open:
+      answer_open(fields.take_text());
+      return false;
+    case Saying::exists:
+      process_.send(access_.has(fields.take_text()) ? Saying::yes : Saying::no);
+      return false;
+    case Saying::meant:
+      answer_meant(fields);
+      return false;
+    case Saying::progress:
+      show(fields);
+      return false;
+    case Saying::bytes:
+      add_bytes(message.bytes);
+      return false;
+    case Saying::texture_file:
+    case Saying::texture_bytes:
+    case Saying::texture_texels:
+      answer_texture(message);
+      return false;
+    case Saying::note:
+      add_note(fields);
+      return false;
+    case Saying::done:
+      return true;
+    case Saying::bad_input:
+      throw core::InputError(fields.take_text());
+    case Saying::no_room:
+      throw core::RoomError(fields.take_text());
+    default:
+      throw Nonsense("what its reader says of it is nonsense");
+  }
+}
+
+void MeshSession::answer_open(const std::string& path) {
+  try {
+    const std::size_t known = access_.opened().paths().size();
+    const InputFile file = access_.open(path);
+    const bool is_new = access_.opened().paths().size() > known;  // else it would get time for each of a thousand mentions
+    current_ = path;
+    process_.send(Saying::file, Packer().add(file.bytes), &file.descriptor, is_new ? file.bytes : 0);
+  } catch (const ReaderDeath&) {
+    throw;
+  } catch (const core::RoomError&) {
+    throw;
+  } catch (const core::InputError& error) {
+    process_.send(Saying::no, Packer().add_text(error.what()));
+  }
+}
+
+void MeshSession::answer_meant(Unpacker fields) {
+  const std::string folder = fields.take_text();
+  Packer names;
+  for (const fs::path& path : files_meant(folder, fields.take_text())) {
+    if (access_.has(path) && names.bytes().size() + path.string().size() + sizeof(std::uint32_t) < message_bytes_max) {
+      names.add_text(path.string());
+    }
+  }
+  process_.send(Saying::names, names);
+}
+
+void MeshSession::answer_texture(const Message& message) {
+  try {
+    receiver_.add(texture_of(message));
+  } catch (const Nonsense&) {
+    throw;
+  } catch (const core::RoomError&) {  // nothing is missing
+    throw;
+  } catch (const core::InputError& error) {
+    bytes_.clear();
+    process_.send(Saying::no, Packer().add_text(error.what()));
+    return;
+  }
+  bytes_.clear();
+  process_.send(Saying::yes);
+}
+
+core::Texture MeshSession::texture_of(const Message& message) {
+  Unpacker fields(message.bytes);
+  return message.saying == Saying::texture_file    ? texture_of_file(fields)
+         : message.saying == Saying::texture_bytes ? texture_of_bytes(fields)
+                                                   : texture_of_texels(fields);
+}
+
+core::Texture MeshSession::texture_of_file(Unpacker fields) {
+  const std::string path = fields.take_text();
+  const TextureEdges edges = take_edges(fields);
+  InputFile file = access_.open(path);
+  std::string ending = fs::path(path).extension().string();
+  ending.erase(0, 1);
+  return pictures_.read_texture({std::move(file.descriptor), file.bytes, path, ending}, edges);
+}
+
+core::Texture MeshSession::texture_of_bytes(Unpacker fields) {
+  const std::string name = fields.take_text(), hint = fields.take_text();
+  const TextureEdges edges = take_edges(fields);
+  return pictures_.read_texture(picture_of(std::as_bytes(std::span(bytes_)), name, hint), edges);
+}
+
+core::Texture MeshSession::texture_of_texels(Unpacker fields) {
+  const std::string name = fields.take_text();
+  const auto width = fields.take<std::uint32_t>(), height = fields.take<std::uint32_t>();
+  const TextureEdges edges = take_edges(fields);
+  check_texture_size(name, width, height);
+  const std::uint64_t count = std::uint64_t{width} * height;
+  Unpacker::require(bytes_.size() == count * sizeof(std::uint32_t));
+  core::Texture texture{.name = name, .wrap_s = edges.s, .wrap_t = edges.t, .levels = {{width, height, {}}}};
+  texture.levels.front().texels.resize(count);
+  std::memcpy(texture.levels.front().texels.data(), bytes_.data(), bytes_.size());
+  core::add_levels(texture);
+  return texture;
+}
+
+void MeshSession::add_bytes(const std::string& bytes) {
+  Unpacker::require(bytes_.size() + bytes.size() <= texture_bytes_max);
+  bytes_ += bytes;
+}
+
+void MeshSession::add_note(Unpacker fields) {
+  result_.notes.push_back(fields.take_text());
+  note_bytes_ += result_.notes.back().size() + 1;
+  Unpacker::require(note_bytes_ <= note_bytes_max);
+}
+
+void MeshSession::show(Unpacker fields) {
+  const auto share = static_cast<double>(fields.take<float>());
+  const std::uint64_t total = std::max<std::uint64_t>(file_bytes_, 1);
+  progress_.update(static_cast<std::uint64_t>((share >= 0 && share <= 1 ? share : 0) * static_cast<double>(total)), total);
+}
+
+}  // namespace dmpc::apps

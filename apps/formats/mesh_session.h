@@ -1,0 +1,56 @@
+// What a mesh file's reader asks for while it reads, and what it makes of the file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/formats/mesh_file.h"
+#include "apps/system/progress.h"
+#include "apps/reader/file_access.h"
+#include "apps/picture/picture_reader.h"
+#include "apps/reader/process.h"
+#include "apps/formats/scene_blocks.h"
+
+namespace dmpc::apps {
+
+/// Opens what the scene may have opened, has its textures read, and believes nothing.
+class MeshSession {
+ public:
+  /// Throws core::InputError if there is no file at `path`.
+  MeshSession(const std::string& path, const MeshOptions& options, bool shows_progress, const ReaderLimits& limits);
+
+  /// Throws core::InputError, a sentence that goes on "PATH: ..." or says it whole.
+  MeshFile read();
+
+ private:
+  void ask();
+  /// Whether it was the last message.
+  bool answer(const Message& message);
+  void answer_open(const std::string& path);
+  void answer_meant(Unpacker fields);
+  void answer_texture(const Message& message);
+  core::Texture texture_of(const Message& message);
+  core::Texture texture_of_file(Unpacker fields);
+  core::Texture texture_of_bytes(Unpacker fields);
+  core::Texture texture_of_texels(Unpacker fields);
+  void add_bytes(const std::string& bytes);
+  void add_note(Unpacker fields);
+  void show(Unpacker fields);
+
+  std::string path_;
+  MeshOptions options_;
+  ReaderLimits limits_;
+  FileAccess access_;
+  std::uint64_t file_bytes_ = 0;  ///< the scene's own
+  Progress progress_;
+  PictureReader pictures_;
+  ReaderProcess process_;
+  SceneReceiver receiver_;
+  std::string bytes_;  ///< of the texture that is sent
+  std::uint64_t note_bytes_ = 0;
+  MeshFile result_;
+  std::string current_;  ///< the file opened last
+};
+
+}  // namespace dmpc::apps

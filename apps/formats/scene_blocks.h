@@ -1,0 +1,46 @@
+// A scene of polygons and patches as messages, and back: whoever receives it believes nothing.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/reader/line.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::apps {
+
+/// Sends all but the textures and the name; what is sent is freed on the way. Returns whether the other end took it.
+bool send_scene(core::Scene& scene, Line& line);
+
+/// Puts it together. Throws Nonsense for what no scene may hold: more than was announced; an index, a count, a kind or a number
+/// out of its range; a view that shows nothing; std::bad_alloc if memory ends.
+class SceneReceiver {
+ public:
+  /// Whether the message is one of a scene's, and was taken.
+  bool take(const Message& message);
+  /// Throws Nonsense if there are too many.
+  void add(core::Texture texture);
+
+  /// The whole, which is left empty. Requires the last message.
+  core::Scene finish();
+
+ private:
+  void take_head(Unpacker fields);
+  void take_lights(Unpacker fields);
+  /// How many entries there will be of each pool.
+  struct Announced {
+    std::uint64_t materials = 0, objects = 0, vertices = 0, normals = 0, corners = 0;
+  };
+
+  template <class T>
+  static void append(std::vector<T>& pool, std::uint64_t announced, const std::string& bytes);
+  void check_object(const core::Object& object) const;
+  void check_material(const core::Material& material) const;
+
+  core::Scene scene_;
+  Announced announced_;
+  bool has_head_ = false;
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,27 @@
+// What makes a view one that shows nothing.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/scene/scene.h"
+
+namespace dmpc::apps {
+
+/// Of the view's points and of lights: farther out, squares of distances leave the range of floats.
+inline constexpr double view_coordinate_max = 1e30;
+/// Whether all coordinates are numbers within it.
+bool is_in_reach(const core::Vec3d& point);
+
+enum class ViewFault : std::uint8_t {
+  angle,      ///< not between 0 and 180 degrees, both excluded
+  far_from,   ///< `from` has a coordinate beyond view_coordinate_max, or not a number
+  far_at,     ///< the same of `at`
+  direction,  ///< from and at are one point
+  up          ///< zero, or parallel to the line from `from` to `at`
+};
+
+/// The first of them, in that order.
+std::optional<ViewFault> fault_of(const core::View& view);
+
+}  // namespace dmpc::apps

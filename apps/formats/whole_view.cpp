@@ -1,0 +1,54 @@
+#include "apps/formats/whole_view.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/box.h"
+#include "core/base/elementary.h"
+#include "core/scene/frame.h"
+
+namespace dmpc::apps {
+
+using core::Vec3d;
+
+Bounds bounds_of_vertices(const core::Scene& scene) {
+  core::Box box;
+  for (const Vec3d& vertex : scene.vertices) {
+    box.include(vertex);
+  }
+  Bounds bounds{box.center(), 0};
+  double square = 0;
+  for (const Vec3d& vertex : scene.vertices) {
+    const Vec3d offset = vertex - bounds.center;
+    square = std::max(square, dot(offset, offset));
+  }
+  bounds.radius = std::sqrt(square);
+  return bounds;
+}
+
+core::View whole_view(const Bounds& bounds, const UpAxis& up) {
+  struct Frame {
+    Vec3d right, up, front;
+  };
+  static constexpr std::array<Frame, 3> frames = {
+      {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}}};
+  Frame frame = frames[up.axis];
+  if (up.is_negative) {  // half a turn about the way to the front
+    frame = {Vec3d{} - frame.right, Vec3d{} - frame.up, frame.front};
+  }
+  core::View view{.at = bounds.center, .up = frame.up};
+  const Vec3d towards_eye = normalize(frame.right * 0.6 + frame.up * 0.5 + frame.front);
+  view.from = bounds.center + towards_eye * (bounds.radius / core::sin_degrees(view.angle_degrees / 2));
+  return view;
+}
+
+std::vector<core::PointLight> plain_lights(const Bounds& bounds, const core::View& view) {
+  constexpr double distance_radii = 1000, key = 0.8, fill = 0.3;
+  const core::GridAxes screen = core::screen_axes(view);
+  const Vec3d towards_key = normalize(screen[0] * 0.7 + screen[1] + screen[2]);
+  return {{bounds.center + towards_key * (distance_radii * bounds.radius), {key, key, key}, true},
+          {view.from, {fill, fill, fill}, true}};
+}
+
+}  // namespace dmpc::apps

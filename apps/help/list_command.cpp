@@ -1,0 +1,95 @@
+#include "apps/help/list_command.h"
+
+#include <algorithm>
+#include <ostream>
+
+#include "apps/system/output_file.h"
+#include "apps/table/table.h"
+#include "apps/help/choices.h"
+#include "apps/line/typed_line.h"
+#include "core/base/expect.h"
+#include "core/base/nearest_word.h"
+
+namespace dmpc::apps {
+namespace {
+
+std::vector<std::string> kinds() {
+  std::vector<std::string> names;
+  for (const ChoiceList& list : all_choices()) {
+    names.push_back(list.kind);
+  }
+  return names;
+}
+
+std::string kind_named(const std::string& word) {
+  const std::vector<std::string> all = kinds();
+  if (std::find(all.begin(), all.end(), word) == all.end()) {
+    const std::string meant = core::did_you_mean(word, all);
+    throw core::UsageError("there is no list of " + word + ": expected " + listed(all) + (meant.empty() ? "" : ".") + meant);
+  }
+  return word;
+}
+
+std::vector<ChoiceList> chosen(const ListOptions& options) {
+  std::vector<ChoiceList> all = all_choices();
+  if (options.kinds.empty()) {
+    return all;
+  }
+  std::vector<ChoiceList> some;
+  for (const std::string& kind : options.kinds) {
+    some.push_back(*std::find_if(all.begin(), all.end(), [&](const ChoiceList& one) { return one.kind == kind; }));
+  }
+  return some;
+}
+
+std::string text_of(const ChoiceList& list) {
+  std::size_t width = 0;
+  for (const Choice& entry : list.entries) {
+    width = std::max(width, entry.name.size() + 2);
+  }
+  std::string text = list.kind + " (" + list.where + ")\n";
+  for (const Choice& entry : list.entries) {
+    text += "  " + entry.name + std::string(width - entry.name.size(), ' ') + entry.meaning + "\n";
+  }
+  return text;
+}
+
+/// One row a word.
+Table table_of(const std::vector<ChoiceList>& lists) {
+  Table table("What there is to choose from", {{"kind"}, {"name"}, {"meaning"}});
+  for (const ChoiceList& list : lists) {
+    for (const Choice& entry : list.entries) {
+      table.add_row({list.kind, entry.name, entry.meaning});
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+void add_options(OptionSet options, ListOptions& list) {
+  options.add_arguments(
+      "KIND", [&list](const std::string& word) { list.kinds.push_back(kind_named(word)); },
+      "One of " + listed(kinds()) + "; without any all of them");
+  options.add_choice<ListFormat>("--format", list.format, {{"text", ListFormat::text}, {"json", ListFormat::json}},
+                                 "Lines to read, or a table with stable keys");
+  options.set_examples(
+      "Examples:\n"
+      "  dmpc list scenes\n"
+      "  dmpc list machines policies --format=json\n"
+      "dmpc scene --help tells the sizes of scenes, dmpc machine NAME all figures of a machine with their sources.");
+}
+
+int list_command(const ListOptions& options, std::ostream& output) {
+  const std::vector<ChoiceList> lists = chosen(options);
+  if (options.format == ListFormat::json) {
+    output << text_of(table_of(lists), TableFormat::json);
+  }
+  for (std::size_t i = 0; options.format == ListFormat::text && i < lists.size(); ++i) {
+    output << (i == 0 ? "" : "\n") << text_of(lists[i]);
+  }
+  finish_output(output, "the list");
+  return 0;
+}
+
+}  // namespace dmpc::apps

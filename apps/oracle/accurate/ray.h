@@ -1,0 +1,32 @@
+// Rays and hits of the accurate renderer: double precision, the scene's own coordinates.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "core/record/ray.h"
+#include "core/base/vec.h"
+
+namespace dmpc::apps {
+
+/// A ray in world coordinates. Kinds and depths are those of core/record/ray.h.
+struct AccurateRay {
+  core::Vec3d origin;
+  core::Vec3d direction;                                   ///< of unit length
+  double t_max = std::numeric_limits<double>::infinity();  ///< hits count in (0, t_max)
+  std::uint32_t ignored_body = core::no_primitive;         ///< the triangle it starts on, which it cannot hit again
+  core::Vec3d weight{1, 1, 1};  ///< factor of the light it finds; for a shadow ray the light that it brings if nothing blocks it
+  int depth = 1;
+  core::RayKind kind = core::RayKind::primary;
+  std::uint32_t light = 0;  ///< of a shadow ray: index into the scene's lights
+};
+
+/// The least (t, body) that a ray meets; of a shadow ray some hit, whichever was found.
+struct AccurateHit {
+  double t = std::numeric_limits<double>::infinity();
+  std::uint32_t body = core::no_primitive;  ///< index into AccurateScene::bodies
+
+  bool found() const { return body != core::no_primitive; }
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,119 @@
+#include "apps/oracle/curved.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+using core::Vec3d;
+
+/// The roots of a t^2 + 2 b t + c = 0 in ascending order, written so that neither suffers from cancellation of b against the
+/// root; with a = 0 both are the one root. NaN, which no comparison accepts, stands for a root that does not exist.
+std::array<double, 2> roots(double a, double b, double c, double quarter_discriminant) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (!(quarter_discriminant >= 0)) {
+    return {none, none};
+  }
+  const double q = -(b + std::copysign(std::sqrt(quarter_discriminant), b));
+  const double first = q != 0 ? c / q : none;
+  const double second = a != 0 ? q / a : first;
+  return first < second || std::isnan(second) ? std::array{first, second} : std::array{second, first};
+}
+
+/// The first root in (0, t_max) that `accept` takes.
+template <class Accept>
+std::optional<double> first_of(const std::array<double, 2>& candidates, float t_max, const Accept& accept) {
+  for (const double t : candidates) {
+    if (t > 0 && t < static_cast<double>(t_max) && accept(t)) {
+      return t;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<double> nearest_on_sphere(const std::array<float, 9>& value, const core::Ray& ray) {
+  const Vec3d center = Vec3d(core::Vec3f{value[0], value[1], value[2]});
+  const double radius = static_cast<double>(value[3]);
+  const Vec3d direction(ray.direction);
+  const Vec3d from_center = Vec3d(ray.origin) - center;
+  const double a = dot(direction, direction);
+  const double b = dot(from_center, direction);
+  // The squared distance of centre and line is taken from its own vector: b^2 - a c would cancel for a far, small sphere.
+  const Vec3d across = from_center - direction * (b / a);
+  const double distance = length(from_center);
+  const double c = (distance - std::fabs(radius)) * (distance + std::fabs(radius));
+  return first_of(roots(a, b, c, a * (radius * radius - dot(across, across))), ray.t_max,
+                  [&](double t) { return radius > 0 || dot(from_center + direction * t, direction) > 0; });
+}
+
+/// A cone with its axis, in double precision; radius(height) = base_radius + slope * height.
+struct Axial {
+  Vec3d base, axis;  ///< axis: unit length, from base to apex
+  double base_radius, height, slope;
+  bool inside_only;
+};
+
+Axial axial(const std::array<float, 9>& value) {
+  const Vec3d base = Vec3d(core::Vec3f{value[0], value[1], value[2]});
+  const Vec3d to_apex = Vec3d(core::Vec3f{value[4], value[5], value[6]}) - base;
+  const double height = length(to_apex);
+  const double base_radius = std::fabs(static_cast<double>(value[3]));
+  const double apex_radius = std::fabs(static_cast<double>(value[7]));
+  return {base, to_apex * (1 / height), base_radius, height, (apex_radius - base_radius) / height, value[3] < 0 || value[7] < 0};
+}
+
+std::optional<double> nearest_on_cone(const std::array<float, 9>& value, const core::Ray& ray) {
+  const Axial cone = axial(value);
+  const Vec3d from_base = Vec3d(ray.origin) - cone.base;
+  const Vec3d direction(ray.direction);
+  const double along_origin = dot(from_base, cone.axis);
+  const double along_direction = dot(direction, cone.axis);
+  const Vec3d across_origin = from_base - cone.axis * along_origin;
+  const Vec3d across_direction = direction - cone.axis * along_direction;
+  const double radius_origin = cone.base_radius + cone.slope * along_origin;
+  const double radius_direction = cone.slope * along_direction;
+  const double a = dot(across_direction, across_direction) - radius_direction * radius_direction;
+  const double b = dot(across_origin, across_direction) - radius_origin * radius_direction;
+  const double across_length = length(across_origin);
+  const double c = (across_length - radius_origin) * (across_length + radius_origin);
+  return first_of(roots(a, b, c, b * b - a * c), ray.t_max, [&](double t) {
+    const double along = along_origin + t * along_direction;
+    const double turn = dot(across_origin + across_direction * t, direction) -
+                        cone.slope * (radius_origin + t * radius_direction) * along_direction;
+    return along >= 0 && along <= cone.height && (!cone.inside_only || turn > 0);
+  });
+}
+
+/// Grows [center - radius, center + radius] by a few units in the last place, so that rounding never cuts into the body.
+void enclose(std::array<float, 6>& box, const float* center, float radius) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double middle = static_cast<double>(center[axis]);
+    const double reach = std::fabs(static_cast<double>(radius));
+    const double slack = (std::fabs(middle) + reach) * 0x1p-21;
+    box[axis] = std::min(box[axis], static_cast<float>(middle - reach - slack));
+    box[axis + 3] = std::max(box[axis + 3], static_cast<float>(middle + reach + slack));
+  }
+}
+
+}  // namespace
+
+std::optional<double> nearest_on_curved(const core::PrimitiveValues& values, const core::Ray& ray) {
+  core::expect(values.kind != core::PrimitiveKind::triangle, "a curved primitive is a sphere or a cone");
+  return values.kind == core::PrimitiveKind::sphere ? nearest_on_sphere(values.value, ray) : nearest_on_cone(values.value, ray);
+}
+
+std::array<float, 6> bounds_of_curved(const core::PrimitiveValues& values) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  std::array<float, 6> box{infinity, infinity, infinity, -infinity, -infinity, -infinity};
+  enclose(box, values.value.data(), values.value[3]);
+  if (values.kind == core::PrimitiveKind::cone) {
+    enclose(box, values.value.data() + 4, values.value[7]);
+  }
+  return box;
+}
+
+}  // namespace dmpc::apps

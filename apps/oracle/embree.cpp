@@ -1,0 +1,65 @@
+#include "apps/oracle/embree.h"
+
+#include <array>
+
+#include "apps/oracle/curved.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps::embree {
+
+namespace {
+
+void set_bounds(const RTCBoundsFunctionArguments* arguments) {
+  const Shapes& shapes = *static_cast<const Shapes*>(arguments->geometryUserPtr);
+  const std::array<float, 6> box = bounds_of_curved(shapes.primitives[shapes.curved[arguments->primID]]);
+  RTCBounds& bounds = *arguments->bounds_o;
+  bounds.lower_x = box[0], bounds.lower_y = box[1], bounds.lower_z = box[2];
+  bounds.upper_x = box[3], bounds.upper_y = box[4], bounds.upper_z = box[5];
+}
+
+}  // namespace
+
+Shapes::Shapes(std::span<const core::PrimitiveValues> given) : primitives(given) {
+  for (std::uint32_t id = 0; id < given.size(); ++id) {
+    (given[id].kind == core::PrimitiveKind::triangle ? triangles : curved).push_back(id);
+  }
+}
+
+RTCGeometry triangle_mesh(RTCDevice device, const Shapes& shapes) {
+  const std::vector<std::uint32_t>& ids = shapes.triangles;
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices = static_cast<float*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * ids.size()));
+  auto* indices = static_cast<unsigned*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), ids.size()));
+  core::expect(vertices != nullptr && indices != nullptr, "Embree has memory for the triangles");
+  for (std::size_t index = 0; index < ids.size(); ++index) {
+    for (std::size_t k = 0; k < 9; ++k) {
+      vertices[9 * index + k] = shapes.primitives[ids[index]].value[k];
+    }
+    for (std::size_t k = 3 * index; k < 3 * index + 3; ++k) {
+      indices[k] = static_cast<unsigned>(k);
+    }
+  }
+  return geometry;
+}
+
+RTCGeometry curved_geometry(RTCDevice device, const Shapes& shapes, RTCIntersectFunctionN intersect,
+                            RTCOccludedFunctionN occlude) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(shapes.curved.size()));
+  rtcSetGeometryUserData(geometry, const_cast<Shapes*>(&shapes));
+  rtcSetGeometryBoundsFunction(geometry, set_bounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, intersect);
+  rtcSetGeometryOccludedFunction(geometry, occlude);
+  return geometry;
+}
+
+void attach(RTCScene scene, RTCGeometry geometry, RTCBuildQuality quality) {
+  rtcSetGeometryBuildQuality(geometry, quality);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+}
+
+}  // namespace dmpc::apps::embree

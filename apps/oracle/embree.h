@@ -1,0 +1,117 @@
+// The only file that includes Embree: its geometries, and one ray asked of its version 3 or 4.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/build/database.h"
+#include "core/record/ray.h"
+
+#if __has_include(<embree3/rtcore.h>)
+#include <embree3/rtcore.h>
+#else
+#include <embree4/rtcore.h>
+#endif
+
+namespace dmpc::apps::embree {
+
+// Embree 4 renamed the context and moved it into an arguments structure. That branch is untested: Debian 12 has 3.13.
+#if RTC_VERSION_MAJOR >= 4
+using Context = RTCRayQueryContext;
+inline void start(Context& context) { rtcInitRayQueryContext(&context); }
+inline void intersect(RTCScene scene, Context& context, RTCRayHit& ray_hit) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context;
+  rtcIntersect1(scene, &ray_hit, &arguments);
+}
+inline void occlude(RTCScene scene, Context& context, RTCRay& ray) {
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &context;
+  rtcOccluded1(scene, &ray, &arguments);
+}
+#else
+/// What a query's callbacks are handed: make it the first member of a structure to let them find more.
+using Context = RTCIntersectContext;
+inline void start(Context& context) { rtcInitIntersectContext(&context); }
+/// The closest hit.
+inline void intersect(RTCScene scene, Context& context, RTCRayHit& ray_hit) { rtcIntersect1(scene, &context, &ray_hit); }
+/// Any hit.
+inline void occlude(RTCScene scene, Context& context, RTCRay& ray) { rtcOccluded1(scene, &context, &ray); }
+#endif
+
+/// The ray as Embree takes it: from 0 to its t_max, seen by all geometries.
+inline RTCRay ray_of(const core::Ray& ray) {
+  RTCRay result{};
+  result.org_x = ray.origin.x, result.org_y = ray.origin.y, result.org_z = ray.origin.z;
+  result.dir_x = ray.direction.x, result.dir_y = ray.direction.y, result.dir_z = ray.direction.z;
+  result.tfar = ray.t_max;
+  result.mask = ~0U;
+  return result;
+}
+
+/// A scene's primitives as Embree gets them. They outlive it.
+struct Shapes {
+  std::span<const core::PrimitiveValues> primitives;
+  std::vector<std::uint32_t> triangles, curved;  ///< Embree's index -> primitive id
+
+  explicit Shapes(std::span<const core::PrimitiveValues> primitives);
+};
+
+/// A mesh, not yet committed, of the triangles, in their order and without shared vertices.
+RTCGeometry triangle_mesh(RTCDevice device, const Shapes& shapes);
+
+/// Who asks for a curved primitive, `id`: a ray, as Embree keeps it, in a query.
+struct CurvedQuery {
+  const Shapes& shapes;
+  std::uint32_t id;
+  RTCRayN* ray;
+  unsigned ray_count;  ///< side by side in `ray`; the first is meant
+  Context* context;
+};
+/// Where the ray meets the primitive; nothing if nowhere, or if the query does not want it.
+using CurvedDistance = std::optional<float>(const CurvedQuery&);
+
+/// User geometry, not yet committed, of the spheres and cones, which `distance` finds. The shapes outlive it.
+RTCGeometry curved_geometry(RTCDevice device, const Shapes& shapes, RTCIntersectFunctionN intersect,
+                            RTCOccludedFunctionN occlude);
+template <CurvedDistance distance>
+RTCGeometry curved_geometry(RTCDevice device, const Shapes& shapes);
+
+/// Commits a geometry, and hands it over to the scene.
+void attach(RTCScene scene, RTCGeometry geometry, RTCBuildQuality quality);
+
+template <CurvedDistance distance>
+void intersect_curved(const RTCIntersectFunctionNArguments* arguments) {
+  RTCRayN* const ray = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
+  const Shapes& shapes = *static_cast<const Shapes*>(arguments->geometryUserPtr);
+  if (arguments->valid[0] == 0) {
+    return;
+  }
+  if (const auto t = distance({shapes, shapes.curved[arguments->primID], ray, arguments->N, arguments->context})) {
+    RTCRayN_tfar(ray, arguments->N, 0) = *t;
+    RTCHitN* const hit = RTCRayHitN_HitN(arguments->rayhit, arguments->N);
+    RTCHitN_primID(hit, arguments->N, 0) = arguments->primID;
+    RTCHitN_geomID(hit, arguments->N, 0) = arguments->geomID;
+  }
+}
+
+template <CurvedDistance distance>
+void occlude_curved(const RTCOccludedFunctionNArguments* arguments) {
+  const Shapes& shapes = *static_cast<const Shapes*>(arguments->geometryUserPtr);
+  if (arguments->valid[0] != 0 &&
+      distance({shapes, shapes.curved[arguments->primID], arguments->ray, arguments->N, arguments->context})) {
+    RTCRayN_tfar(arguments->ray, arguments->N, 0) = -std::numeric_limits<float>::infinity();
+  }
+}
+
+template <CurvedDistance distance>
+RTCGeometry curved_geometry(RTCDevice device, const Shapes& shapes) {
+  return curved_geometry(device, shapes, intersect_curved<distance>, occlude_curved<distance>);
+}
+
+}  // namespace dmpc::apps::embree

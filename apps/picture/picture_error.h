@@ -1,0 +1,35 @@
+// How far a picture lies from a reference.
+#pragma once
+
+#include <cstdint>
+
+#include "apps/picture/image_file.h"
+
+namespace dmpc::apps {
+
+/// Of linear floats over all channels of all pixels, but for the perceived ones. A value that is not finite on one side only, or
+/// differently, makes the sums infinite.
+struct PictureError {
+  double root_mean_square = 0;
+  double largest = 0;
+  /// 99 of 100 pixels have no channel with a larger error.
+  double percentile_99 = 0;
+  double mean_absolute = 0;
+  double peak_signal_to_noise_decibels = 0;  ///< for a peak of 1; infinite for equal pictures
+  double relative_mean_square = 0;           ///< mean of (a - b)^2 / (b + 0.01)^2, b the reference, as pbrt-v4 has it
+  double flip_mean = 0;                      ///< flip.h
+  double flip_percentile_99 = 0;
+  std::uint64_t pixels = 0;
+  std::uint64_t differing_pixels = 0;  ///< with any channel that differs at all
+};
+
+/// Throws core::InputError if the sizes differ.
+PictureError measure_error(const Image& picture, const Image& reference);
+
+/// |a - b| channel by channel. Throws core::InputError if the sizes differ.
+Image difference_picture(const Image& picture, const Image& reference);
+
+/// FLIP in all three channels. Throws core::InputError if the sizes differ.
+Image flip_picture(const Image& picture, const Image& reference);
+
+}  // namespace dmpc::apps

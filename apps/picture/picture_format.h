@@ -1,0 +1,30 @@
+// Which pictures are read, told by what they begin with.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "apps/system/descriptor.h"
+
+namespace dmpc::apps {
+
+/// OpenImageIO's name ("png", "jpeg", "openexr", "tiff", "bmp", "hdr", "webp", "gif", "pnm", "dds") by the first bytes of a file;
+/// "targa", which begins anyhow, if `ending` (of a name, "tga") says so; else nothing.
+std::optional<std::string> picture_format(std::string_view beginning, std::string_view ending);
+/// The same of an open file.
+std::optional<std::string> picture_format(const Descriptor& file, std::string_view ending);
+
+/// "PNG, JPEG, ...", for messages.
+std::string known_picture_formats();
+
+/// Pixels along a side.
+inline constexpr std::uint32_t picture_side_max = 1U << 20U;
+
+/// What a picture of that size takes when it is decoded: channels of so many bytes, three at most.
+std::uint64_t decoded_bytes(std::uint64_t width, std::uint64_t height, std::uint64_t bytes_a_channel);
+/// The most that a file may say that it becomes: no format packs more than a few thousand to one, but for small ones.
+std::uint64_t decoded_bytes_max(std::uint64_t file_bytes);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,181 @@
+#include "apps/picture/picture_reader.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <vector>
+
+#include "apps/reader/input_file.h"
+#include "apps/system/input_memory.h"
+#include "apps/picture/picture_format.h"
+#include "apps/system/shortage.h"
+#include "apps/picture/texture_size.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// Beside what a picture becomes: libraries' own, and the file itself.
+constexpr std::uint64_t spare_bytes = std::uint64_t{512} << 20U;
+
+/// So much room is made for what is announced before it comes.
+constexpr std::uint64_t believed_bytes_max = std::uint64_t{16} << 20U;
+
+/// The values as they are decoded, as they are wanted, and what a library keeps of them.
+std::uint64_t memory_bytes_for(std::uint64_t file_bytes) {
+  return std::min(spare_bytes + 2 * decoded_bytes_max(file_bytes) + file_bytes, reader_memory_bytes_max());
+}
+
+std::string format_text(const PictureFile& file) {
+  const auto format = picture_format(file.descriptor, file.ending);
+  if (!format) {
+    throw core::InputError("is no picture that is read, by what it begins with; expected " + known_picture_formats());
+  }
+  return *format;
+}
+
+[[noreturn]] void fail_to_copy(const std::string& name, int error) {
+  const std::string what = name + ": no copy of it can be made in memory";
+  throw_if_short(error, what);
+  throw core::InputError(what + ": " + std::strerror(error));
+}
+
+}  // namespace
+
+PictureFile open_picture(const std::filesystem::path& path) {
+  try {
+    InputFile file = find_input_file(path);
+    open_input_file(file);
+    std::string ending = path.extension().string();
+    ending.erase(0, 1);
+    return {std::move(file.descriptor), file.bytes, path.string(), ending};
+  } catch (const ComputerRoomError&) {
+    throw;
+  } catch (const core::InputError& error) {
+    throw core::InputError(path.string() + ": " + error.what());
+  }
+}
+
+PictureFile picture_of(std::span<const std::byte> bytes, const std::string& name, const std::string& ending) {
+  PictureFile file{Descriptor(::memfd_create("picture", MFD_CLOEXEC)), bytes.size(), name, ending};
+  if (!file.descriptor.is_open()) {
+    fail_to_copy(name, errno);
+  }
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(file.descriptor.number(), bytes.data(), bytes.size());
+    if (count < 0 && errno != EINTR) {
+      fail_to_copy(name, errno);
+    }
+    bytes = bytes.subspan(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+  }
+  return file;
+}
+
+core::Texture PictureReader::read_texture(const PictureFile& file, const TextureEdges& edges) {
+  core::Texture texture{.name = file.name, .wrap_s = edges.s, .wrap_t = edges.t, .levels = {}};
+  read(file, Saying::read_texture, [&] {
+    const Head head = receive_head(file);
+    check_texture_size(file.name, head.width, head.height);
+    texture.format = head.format;
+    texture.levels.push_back({head.width, head.height, receive_values<std::uint32_t>(std::uint64_t{head.width} * head.height)});
+  });
+  core::add_levels(texture);
+  return texture;
+}
+
+Image PictureReader::read_image(const PictureFile& file) {
+  Image image;
+  read(file, Saying::read_image, [&] {
+    const Head head = receive_head(file);
+    image.width = static_cast<int>(head.width);
+    image.height = static_cast<int>(head.height);
+    image.rgb = receive_values<float>(std::uint64_t{head.width} * head.height * 3);
+  });
+  return image;
+}
+
+/// A process that said nonsense, or died, is no more.
+template <class Take>
+void PictureReader::read(const PictureFile& file, Saying request, const Take& take) {
+  std::string format = "pictures";
+  try {
+    format = format_text(file);
+    ask(file, request);
+    take();
+    Unpacker::require(receive().saying == Saying::done);
+  } catch (const ReaderDeath& death) {
+    process_.reset();
+    throw core::InputError(file.name + ": the reader of " + format + " " + death.what() +
+                           ": the file is damaged; write it anew, or as another format");
+  } catch (const ComputerRoomError& error) {
+    process_.reset();
+    throw ComputerRoomError(file.name + ": " + error.what());
+  } catch (const core::RoomError& error) {
+    process_.reset();
+    const std::string text = file.name + ": the reader of " + format + " " + error.what();
+    if (memory_bytes_ < reader_memory_bytes_max()) {
+      throw core::InputError(text + " for a file of " + std::to_string(file.bytes) + " bytes: it is damaged");
+    }
+    throw core::RoomError(text + ": make the picture smaller");
+  } catch (const Nonsense& nonsense) {
+    process_.reset();
+    throw core::InputError(file.name + ": " + nonsense.what() + ": the file is damaged; write it anew, or as another format");
+  } catch (const core::InputError& error) {
+    const std::string text = error.what();
+    throw core::InputError(text.starts_with(file.name) ? text : file.name + ": " + text);
+  }
+}
+
+void PictureReader::ask(const PictureFile& file, Saying request) {
+  const std::uint64_t memory = memory_bytes_for(file.bytes);
+  if (!process_ || memory > memory_bytes_) {
+    process_.reset();
+    process_.emplace("dmpc_picture_reader", memory, limits_);
+    memory_bytes_ = memory;
+  }
+  const Packer fields = Packer().add_text(file.name).add_text(format_text(file)).add(static_cast<std::uint64_t>(file.bytes));
+  process_->send(request, fields, &file.descriptor, file.bytes);
+}
+
+Message PictureReader::receive() {
+  Message message = process_->receive();
+  if (message.saying == Saying::bad_input) {
+    throw core::InputError(Unpacker(message.bytes).take_text());
+  }
+  return message;
+}
+
+PictureReader::Head PictureReader::receive_head(const PictureFile& file) {
+  const Message message = receive();
+  Unpacker::require(message.saying == Saying::picture);
+  Unpacker fields(message.bytes);
+  Head head{};
+  head.width = fields.take<std::uint32_t>();
+  head.height = fields.take<std::uint32_t>();
+  head.format = fields.take_choice(core::TexelFormat::shared_exponent);
+  fields.finish();
+  Unpacker::require(head.width >= 1 && head.height >= 1 && head.width <= picture_side_max && head.height <= picture_side_max &&
+                    decoded_bytes(head.width, head.height, 1) <= decoded_bytes_max(file.bytes));
+  return head;
+}
+
+/// Believes no more of what was announced than what comes.
+template <class T>
+std::vector<T> PictureReader::receive_values(std::uint64_t count) {
+  std::vector<T> values;
+  values.reserve(std::min<std::uint64_t>(count, believed_bytes_max / sizeof(T)));
+  while (values.size() < count) {
+    const Message message = receive();
+    const std::size_t more = message.bytes.size() / sizeof(T), before = values.size();
+    Unpacker::require(message.saying == Saying::bytes && more > 0 && message.bytes.size() % sizeof(T) == 0 &&
+                      more <= count - before);
+    values.resize(before + more);
+    std::memcpy(values.data() + before, message.bytes.data(), message.bytes.size());
+  }
+  return values;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,30 @@
+// Textures from picture files.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "core/scene/texture.h"
+
+namespace dmpc::apps {
+
+/// How a texture goes on beyond its edges, along each side.
+struct TextureEdges {
+  core::TextureWrap s = core::TextureWrap::repeat, t = core::TextureWrap::repeat;
+};
+
+/// Reads the first three channels (one or two: the first is taken thrice) of the first picture in the file, and makes its smaller
+/// levels. Alpha is left out, and the colours are as they are without it. Pictures of 8 bits that are not said to be linear keep
+/// their bytes as sRGB; all others are stored with a shared exponent, those of integers made linear by the sRGB curve unless said
+/// to be linear. Throws core::InputError if there is no such picture, if it is larger than core::Texture::size_max along a side
+/// or than any database, has no texels, several layers, or several samples a texel.
+core::Texture read_texture(const std::filesystem::path& path, const TextureEdges& edges);
+
+/// The same of a file that lies in memory, as in a scene's own file; `name` is for messages, `format_hint` an extension such as
+/// "png" or "jpg", or nothing if that is not known.
+core::Texture read_texture(std::span<const std::byte> file, const std::string& name, const std::string& format_hint,
+                           const TextureEdges& edges);
+
+}  // namespace dmpc::apps

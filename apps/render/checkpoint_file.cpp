@@ -1,0 +1,208 @@
+#include "apps/render/checkpoint_file.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/system/digest.h"
+#include "apps/system/file_source.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view first_line = "dmpc checkpoint 1";
+
+struct PassRecord {
+  std::uint64_t number = 0, first_sample = 0, samples = 0;
+};
+
+struct PixelRecord {
+  core::PixelSums sums;
+  std::uint64_t samples = 0;
+};
+static_assert(sizeof(PixelRecord) == 56 && std::is_trivially_copyable_v<PixelRecord>);
+
+/// Settings and digests of less than 2 KiB, as a rule.
+constexpr std::size_t head_bytes_max = 65536;
+
+/// Written and read at a time.
+constexpr std::uint32_t block_pixels = 4096;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& what) {
+  throw core::InputError("--checkpoint " + path.string() + ": " + what);
+}
+
+std::string head_of(const PictureIdentity& identity) {
+  std::string text = std::string(first_line) + "\n";
+  for (const PictureFact& fact : identity.facts) {
+    text += fact.name + "=" + fact.value + "\n";
+  }
+  return text + "\n";
+}
+
+/// Bytes to a file and a digest of them.
+class Writer {
+ public:
+  explicit Writer(std::ostream& stream) : stream_(stream) {}
+
+  void put(std::span<const std::byte> bytes) {
+    digest_.add(bytes);
+    stream_.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  }
+  void put_end() {
+    const std::uint64_t digest = digest_.value();
+    put(std::as_bytes(std::span(&digest, 1)));
+  }
+
+ private:
+  std::ostream& stream_;
+  Digest digest_;
+};
+
+void put_pixels(Writer& writer, const core::Film& film) {
+  const auto pixel_count = static_cast<std::uint32_t>(film.pixels().size());
+  std::vector<PixelRecord> block;
+  for (std::uint32_t first = 0; first < pixel_count; first += block_pixels) {
+    block.clear();
+    for (std::uint32_t pixel = first; pixel < std::min(first + block_pixels, pixel_count); ++pixel) {
+      block.push_back({film.pixels()[pixel], film.samples(pixel)});
+    }
+    writer.put(std::as_bytes(std::span(block)));
+  }
+}
+
+/// Bytes from a file, and whether they are those that were written.
+class Reader {
+ public:
+  Reader(const fs::path& path, Files& files) : path_(path), stream_(path, files) { check_read(); }
+
+  std::vector<PictureFact> take_head() {
+    std::string head(first_line.size() + 1, ' ');
+    stream_.read(head.data(), static_cast<std::streamsize>(head.size()));
+    check_read();
+    if (!stream_ || head != std::string(first_line) + "\n") {
+      fail(path_, "this is no checkpoint of this version of dmpc");
+    }
+    std::vector<PictureFact> facts;
+    for (std::string line = take_line(head); !line.empty(); line = take_line(head)) {
+      const std::size_t sign = line.find('=');
+      check(sign != std::string::npos);
+      facts.push_back({line.substr(0, sign), line.substr(sign + 1)});
+    }
+    digest_.add(std::as_bytes(std::span(head)));
+    return facts;
+  }
+  template <class T>
+  void take(std::span<T> values) {
+    const std::span<std::byte> bytes = std::as_writable_bytes(values);
+    stream_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    check(bool{stream_});
+    digest_.add(std::span<const std::byte>(bytes));
+  }
+  void take_end() {
+    const std::uint64_t expected = digest_.value();
+    std::uint64_t digest = 0;
+    take(std::span(&digest, 1));
+    check(digest == expected && stream_.peek() == std::istream::traits_type::eof());
+    check_read();
+  }
+  void check(bool is_whole) const {
+    check_read();
+    if (!is_whole) {
+      fail(path_, "this checkpoint is damaged or cut short: start again without --resume, when it is removed");
+    }
+  }
+  void refuse(const std::string& impossible) const {
+    fail(path_, "this checkpoint is damaged, it tells of " + impossible + ": start again without --resume, when it is removed");
+  }
+  /// A number that has more room in the file than it can need.
+  std::uint32_t narrow(std::uint64_t number) const {
+    check(number <= std::numeric_limits<std::uint32_t>::max());
+    return static_cast<std::uint32_t>(number);
+  }
+
+ private:
+  /// The file may be whole, and the disk at fault.
+  void check_read() const {
+    if (stream_.error() != 0) {
+      fail(path_, std::string("cannot be read: ") + std::strerror(stream_.error()));
+    }
+  }
+  /// The next line, without its end; with it, it is added to `head`, which a file of something else must not fill for ever.
+  std::string take_line(std::string& head) {
+    const std::size_t begin = head.size();
+    for (char character = ' '; character != '\n'; head += character) {
+      check(head.size() < head_bytes_max && bool{stream_.get(character)});
+    }
+    return head.substr(begin, head.size() - begin - 1);
+  }
+
+  fs::path path_;
+  FileSource stream_;
+  Digest digest_;
+};
+
+void take_pixels(Reader& reader, core::Film& film) {
+  const auto pixel_count = static_cast<std::uint32_t>(film.pixels().size());
+  std::vector<PixelRecord> block;
+  for (std::uint32_t first = 0; first < pixel_count; first += block_pixels) {
+    block.resize(std::min(block_pixels, pixel_count - first));
+    reader.take(std::span(block));
+    for (std::uint32_t i = 0; i < block.size(); ++i) {
+      film.deposit(first + i, block[i].sums);
+      film.add_samples(first + i, reader.narrow(block[i].samples));
+    }
+  }
+}
+
+}  // namespace
+
+void write_checkpoint(const fs::path& path, const PictureIdentity& identity, const core::Film& film, const core::Refinement& pass,
+                      const core::PixelMask& done, Files& files) {
+  OutputFile file(path, {.name = TemporaryName::of_target, .option = "--checkpoint"}, files);
+  Writer writer(file.stream());
+  const std::string head = head_of(identity);
+  const PassRecord record{pass.result().passes, pass.samples().first, pass.samples().count};
+  writer.put(std::as_bytes(std::span(head)));
+  writer.put(std::as_bytes(std::span(&record, 1)));
+  writer.put(std::as_bytes(pass.pixels().words()));
+  writer.put(std::as_bytes(done.words()));
+  put_pixels(writer, film);
+  writer.put_end();
+  file.commit();
+}
+
+core::PartialPicture read_checkpoint(const fs::path& path, const PictureIdentity& identity, Files& files) {
+  Reader reader(path, files);
+  const std::vector<PictureFact> facts = reader.take_head();
+  if (const std::string difference = difference_text(facts, identity.facts); !difference.empty()) {
+    fail(path, "this is the checkpoint of another picture: " + difference);
+  }
+  reader.check(facts == identity.facts);
+  PassRecord pass;
+  reader.take(std::span(&pass, 1));
+  const auto pixel_count = static_cast<std::uint32_t>(identity.width) * static_cast<std::uint32_t>(identity.height);
+  core::PixelMask pixels(pixel_count), done(pixel_count);
+  reader.take(pixels.words());
+  reader.take(done.words());
+  core::PartialPicture picture{core::Film(identity.width, identity.height),
+                               reader.narrow(pass.number),
+                               {reader.narrow(pass.first_sample), reader.narrow(pass.samples)},
+                               pixels,
+                               done};
+  take_pixels(reader, picture.film);
+  reader.take_end();
+  if (const char* const fault = core::fault_of(picture, identity.terms)) {
+    reader.refuse(fault);
+  }
+  return picture;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,98 @@
+#include "apps/render/checkpoints.h"
+
+#include <ostream>
+#include <system_error>
+#include <utility>
+
+#include "apps/render/checkpoint_file.h"
+#include "apps/line/number_text.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string start_text(const fs::path& file, const core::PartialPicture& start) {
+  return "going on from " + file.string() + ": " + grouped(start.done.count()) + " of " + counted(start.pixels.count(), "pixel") +
+         " of pass " + std::to_string(start.passes) + " are done";
+}
+
+bool is_there(const fs::path& file) {
+  std::error_code error;
+  const bool is_found = fs::exists(file, error);
+  if (error) {
+    throw core::InputError("--checkpoint " + file.string() + ": cannot be looked at: " + error.message());
+  }
+  return is_found;
+}
+
+}  // namespace
+
+Checkpoints::Checkpoints(const CheckpointOptions& options, PictureIdentity identity, std::ostream& messages, bool is_quiet,
+                         std::stop_token stop, Files& files)
+    : options_(options),
+      file_(file_behind(*options.file)),
+      identity_(std::move(identity)),
+      messages_(messages),
+      stop_(std::move(stop)),
+      files_(files) {
+  const fs::path& file = *options.file;
+  if (options.resumes && is_there(file_)) {
+    start_.emplace(read_checkpoint(file_, identity_, files_));
+    has_one_ = true;
+  }
+  if (options.resumes && !is_quiet) {
+    messages_ << "dmpc: " << (start_ ? start_text(file, *start_) : "there is no " + file.string() + " yet: from the start")
+              << '\n';
+  }
+}
+
+core::Continuation Checkpoints::continuation() {
+  wait_for_next();
+  return {start(), [this] { return Clock::now() >= next_; },
+          [this](const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) { keep(film, pass, done); }};
+}
+
+void Checkpoints::wait_for_next() {
+  next_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options_.every_seconds));
+}
+
+void Checkpoints::keep(const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) {
+  try {
+    write_checkpoint(file_, identity_, film, pass, done, files_);
+    has_one_ = true;
+  } catch (const core::InputError& error) {
+    messages_ << "\ndmpc: " << error.what() << (stop_.stop_requested() ? "" : "; the render goes on") << std::endl;
+  }
+  wait_for_next();
+}
+
+void Checkpoints::finish() const {
+  if (!options_.stays) {
+    files_.remove(file_);
+    files_.remove(next_name(file_));  // of a process that was killed
+  }
+}
+
+std::optional<FileLock> claim_checkpoint(const CheckpointOptions& options) {
+  if (!options.file) {
+    return std::nullopt;
+  }
+  const std::string what = "--checkpoint " + options.file->string() + ": ";
+  if (is_special(*options.file) && !fs::is_directory(*options.file)) {
+    throw core::InputError(what + "this is a pipe or device, from which nothing can be resumed");
+  }
+  check_output_path(*options.file, "--checkpoint");
+  std::optional<FileLock> lock = FileLock::try_lock(hidden_name(file_behind(*options.file), "lock"));
+  if (!lock) {
+    throw core::InputError(what + "another dmpc keeps its checkpoint there");
+  }
+  if (is_there(*options.file) && !options.resumes) {
+    throw core::InputError(what + "this file is there already: --resume goes on from it, or remove it to start again");
+  }
+  return lock;
+}
+
+}  // namespace dmpc::apps

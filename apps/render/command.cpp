@@ -1,0 +1,268 @@
+#include "apps/render/command.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <utility>
+
+#include "apps/render/checkpoints.h"
+#include "apps/render/effort.h"
+#include "apps/scene/load_scene.h"
+#include "apps/render/onlookers.h"
+#include "apps/system/output_file.h"
+#include "apps/render/preview.h"
+#include "apps/system/progress.h"
+#include "apps/render/outputs.h"
+#include "apps/run/run_strategy.h"
+#include "apps/show/stats/stats.h"
+#include "apps/system/stopwatch.h"
+#include "apps/scene/subject.h"
+#include "apps/show/summary.h"
+#include "apps/system/attempts.h"
+#include "apps/show/trace/file.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+struct ProcessorTime {
+  double user = 0, system = 0;
+};
+
+ProcessorTime processor_time() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return {seconds(usage.ru_utime), seconds(usage.ru_stime)};
+}
+
+/// What is rendered, and the digest of its scene if a page tells it.
+struct Loaded {
+  Subject subject;
+  std::optional<std::uint64_t> scene_digest;
+};
+
+/// Reads and builds, and makes `checkpoints` if some are asked for; a signal ends the process here and now.
+Loaded load(const RenderOptions& options, const OutputSet<RenderRecord>& outputs, Files& files,
+            std::optional<Checkpoints>& checkpoints, Interrupt& interrupt, Seconds& seconds) {
+  const Interrupt::EndAtOnce end_at_once(interrupt);
+  Stopwatch stopwatch;
+  OpenedFiles opened;
+  core::Scene scene = load_scene(options.picture, options.quiet ? LoadNotes::silent : LoadNotes::said, &opened);
+  check_not_read(opened, files_of(outputs.names()));
+  if (options.checkpoint.file) {
+    checkpoints.emplace(options.checkpoint, identity_of(options, scene), std::cerr, options.quiet, interrupt.token(), files);
+  }
+  const auto digest = options.report ? std::optional(scene_digest(scene)) : std::nullopt;
+  seconds.load = stopwatch.lap();
+  Subject subject = build_subject(std::move(scene), options.picture, options.database, true);
+  if (options.tracer != TracerChoice::embree) {
+    subject.database.forget_primitives();
+  }
+  seconds.build = stopwatch.lap();
+  return {std::move(subject), digest};
+}
+
+/// Where the nodes' meters write; nothing if nobody wants to know.
+std::optional<nodes::HeatMap> make_heat_map(const RenderOptions& options, const core::Camera& camera) {
+  if (options.heat_maps.empty()) {
+    return std::nullopt;
+  }
+  return nodes::HeatMap(static_cast<std::uint32_t>(camera.width() * camera.height()), kinds_of(options.heat_maps));
+}
+
+/// Who looks on; nothing if nobody wants to or listens.
+std::unique_ptr<Preview> make_preview(const RenderOptions& options, const core::Camera& camera, const core::PartialPicture* start,
+                                      const std::stop_token& stop) {
+  if (options.viewer.empty()) {
+    return nullptr;
+  }
+  return Preview::to_viewer(parse_viewer_address(options.viewer, "--preview"), options.picture.scene, camera.width(),
+                            camera.height(), start, stop);
+}
+
+/// What an interruption of the run means.
+const char* consequence_of(const Checkpoints& checkpoints) {
+  return checkpoints.has_one() ? "no picture was written; --resume goes on from the checkpoint" : "no picture was written";
+}
+
+core::Continuation continuation_of(Checkpoints* checkpoints, Preview* preview, Interrupt& interrupt) {
+  core::Continuation continuation;
+  if (checkpoints != nullptr) {
+    continuation = checkpoints->continuation();
+    continuation.keep = [keep = continuation.keep, checkpoints, &interrupt](const core::Film& film, const core::Refinement& pass,
+                                                                            const core::PixelMask& done) {
+      keep(film, pass, done);
+      interrupt.set_consequence(consequence_of(*checkpoints));
+    };
+  }
+  if (preview != nullptr) {
+    continuation.watch = [preview](const core::Film& film, const core::Refinement& pass, std::uint32_t pixel) {
+      preview->watch(film, pass, pixel);
+    };
+  }
+  return continuation;
+}
+
+/// What the onlookers have seen; says so if some of a trace was lost, or there is none.
+Sights take_sights(const RenderOptions& options, Onlookers& onlookers) {
+  Sights sights = onlookers.take();
+  if (!sights.trace || options.quiet) {
+    return sights;
+  }
+  for (const std::string& note : {loss_note(*sights.trace, options.trace), empty_note(*sights.trace)}) {
+    if (!note.empty()) {
+      std::cerr << "dmpc: " << note << '\n';
+    }
+  }
+  return sights;
+}
+
+/// Says how long a long render will take, where somebody waits; a signal ends the process here and now. Without what is done
+/// already.
+void announce_effort(const RenderOptions& options, const Subject& subject, const Checkpoints* checkpoints, Interrupt& interrupt) {
+  if (options.quiet || !stderr_is_terminal()) {
+    return;
+  }
+  const Interrupt::EndAtOnce end_at_once(interrupt);
+  const double samples = static_cast<double>(subject.settings.camera.pixel_count()) * options.picture.samples;
+  const double done = checkpoints == nullptr ? 0 : static_cast<double>(checkpoints->samples_found_done());
+  Effort effort = render_effort(options, subject);
+  effort.seconds *= std::max(0.0, 1 - done / samples);
+  if (is_long(effort)) {
+    announce("render " + options.picture.scene + (options.picture.is_refined ? ", at least" : ""), effort, options.quiet,
+             std::cerr);
+  }
+}
+
+/// Plans, and says what the user should know before waiting for the picture; a signal ends the process here and now.
+ReadyRun prepare(const RenderOptions& options, const Subject& subject, const RunTies& ties, Interrupt& interrupt,
+                 Seconds& seconds) {
+  const Interrupt::EndAtOnce end_at_once(interrupt);
+  Stopwatch stopwatch;
+  ReadyRun run = make_ready(options, subject.database, subject.settings, {}, ties);
+  seconds.prepare = stopwatch.lap();
+  for (const std::string& note : run.notes) {
+    if (!options.quiet) {
+      std::cerr << "dmpc: " << note << '\n';
+    }
+  }
+  return run;
+}
+
+Report run_timed(const RenderOptions& options, const ReadyRun& run, const Interrupt& interrupt, Seconds& seconds) {
+  Stopwatch stopwatch;
+  const ProcessorTime before = processor_time();
+  Progress progress(std::cerr, !options.quiet && stderr_is_terminal());
+  const auto update = [&progress](std::uint32_t done, std::uint32_t total) { progress.update(done, total); };
+  Report report = run.start(update, interrupt.token());
+  if (account_of(report).end != nodes::RunEnd::finished) {  // else the picture is done, and a signal comes too late for it
+    interrupt.check();
+    core::expect(false, "a run that nobody stopped is finished");
+  }
+  const ProcessorTime after = processor_time();
+  seconds.render = stopwatch.lap();
+  seconds.render_user = after.user - before.user;
+  seconds.render_system = after.system - before.system;
+  return report;
+}
+
+/// Before all else that is to be done, so that nothing that fails takes it away.
+void write_picture(const RenderOptions& options, const core::Film& film, Files& files, Interrupt& interrupt, Seconds& seconds) {
+  interrupt.set_consequence("the picture was not written");
+  const Interrupt::EndAtOnce end_at_once(interrupt, Interrupt::EndAtOnce::Before::is_passed_over);
+  Stopwatch stopwatch;
+  OutputFile picture(options.image, {.option = "-o"}, files);
+  picture.write(encoded_picture(options.image, image_of(film)));
+  interrupt.set_consequence("perhaps the picture was not written");
+  picture.commit();
+  interrupt.set_consequence("the picture was written, what follows it is incomplete");
+  seconds.write = stopwatch.lap();
+}
+
+/// What goes to the standard output: counters if they were asked for there, then the closing lines.
+void print_closing(const RenderRecord& record, std::ostream& output) {
+  if (has_counters_on_standard_output(record.options)) {
+    output << stats_json(record);
+  }
+  if (!record.options.quiet) {
+    print_summary(output, record);
+  }
+  finish_output(output, "what follows the picture");
+}
+
+void write_others(RenderRecord record, const OutputSet<RenderRecord>& outputs, Files& files, Interrupt& interrupt,
+                  Attempts& attempts, std::ostream& output) {
+  const Interrupt::EndAtOnce end_at_once(interrupt);
+  const ProcessorTime all = processor_time();
+  record.seconds.user = all.user;
+  record.seconds.system = all.system;
+  outputs.write(record, attempts, files);
+  attempts.make([&] { print_closing(record, output); });
+}
+
+}  // namespace
+
+Image image_of(const core::Film& film) {
+  Image image(film.width(), film.height());
+  for (std::uint32_t pixel = 0; pixel < film.pixels().size(); ++pixel) {
+    const core::Vec3d radiance = film.radiance(pixel);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      image.rgb[std::size_t{pixel} * 3 + channel] = static_cast<float>(radiance[channel]);
+    }
+  }
+  return image;
+}
+
+int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostream& output, Files& files) {
+  const OutputSet<RenderRecord> outputs = outputs_of(asked);
+  check_outputs(asked, outputs);
+  const std::optional<FileLock> lock = claim_checkpoint(asked.checkpoint);
+  RenderOptions options = asked;
+  choose_machine(options);
+  Seconds seconds;
+  std::optional<Checkpoints> checkpoints;
+  Loaded loaded = load(options, outputs, files, checkpoints, interrupt, seconds);
+  Subject& subject = loaded.subject;
+  std::optional<nodes::HeatMap> heat = make_heat_map(options, subject.settings.camera);
+  Onlookers onlookers(options, static_cast<std::uint32_t>(subject.database.page_count()));
+  const std::unique_ptr<Preview> preview =
+      make_preview(options, subject.settings.camera, checkpoints ? checkpoints->start() : nullptr, interrupt.token());
+  const RunTies ties{.distributed = [&subject] { subject.database.forget_records(); },  // the nodes have theirs
+                     .heat = heat ? &*heat : nullptr,
+                     .observer = onlookers.observer(),
+                     .reference_logs = onlookers.reference_logs(),
+                     .continuation = continuation_of(checkpoints ? &*checkpoints : nullptr, preview.get(), interrupt)};
+  announce_effort(options, subject, checkpoints ? &*checkpoints : nullptr, interrupt);
+  const ReadyRun run = prepare(options, subject, ties, interrupt, seconds);
+  if (checkpoints) {
+    interrupt.set_consequence(consequence_of(*checkpoints));
+  }
+  const Report report = run_timed(options, run, interrupt, seconds);
+  const core::Film& film = account_of(report).film;
+  Attempts attempts(std::cerr);
+  const bool is_written = attempts.make([&] { write_picture(options, film, files, interrupt, seconds); });
+  if (checkpoints && is_written) {
+    attempts.make([&] { checkpoints->finish(); });
+  } else if (checkpoints && checkpoints->has_one()) {
+    std::cerr << "dmpc: the checkpoint stays, --resume goes on from it\n";
+  }
+  Sights sights;
+  attempts.make([&] { sights = take_sights(options, onlookers); });
+  write_others({options, subject.database, report, seconds, heat ? &*heat : nullptr, sights.trace ? &*sights.trace : nullptr,
+                sights.view ? &*sights.view : nullptr, checkpoints ? checkpoints->samples_found_done() : 0, loaded.scene_digest},
+               outputs, files, interrupt, attempts, output);
+  if (preview) {
+    preview->finish(film);
+  }
+  return attempts.status();
+}
+
+}  // namespace dmpc::apps

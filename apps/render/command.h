@@ -1,0 +1,24 @@
+// The command `render`: scene in, picture and counters out.
+#pragma once
+
+#include <iosfwd>
+
+#include "apps/picture/image_file.h"
+#include "apps/system/interrupt.h"
+#include "apps/run/render_options.h"
+#include "apps/system/files.h"
+#include "core/picture/film.h"
+
+namespace dmpc::apps {
+
+/// Mean linear radiance of each pixel; requires samples > 0.
+Image image_of(const core::Film& film);
+
+/// Renders, writes the picture, then all else that is asked for, and prints the closing lines to `output`, the standard output,
+/// unless quiet; progress and remarks go to stderr. What can be seen beforehand (paths, scene, memory) is checked before anything
+/// is rendered: then it throws core::UsageError or core::InputError. What cannot be written afterwards is said on stderr, a line
+/// each, and keeps nothing else from being written. Returns the exit status. Throws Interrupted, and then no picture was written.
+/// `files` are those that the outputs and the checkpoint are written to.
+int render_command(const RenderOptions& options, Interrupt& interrupt, std::ostream& output, Files& files = real_files());
+
+}  // namespace dmpc::apps

@@ -1,0 +1,28 @@
+#include "apps/render/effort.h"
+
+#include <algorithm>
+
+#include "apps/effort/pilot.h"
+#include "apps/study/effort.h"
+#include "apps/system/real_load.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// Measured on a server's core in November 2026: what Embree and the comparison take besides.
+constexpr double check_factor = 1.5;
+
+}  // namespace
+
+Effort render_effort(const StrategyOptions& options, const Subject& subject) {
+  const bool is_virtual = options.computer.runner == RunnerKind::virtual_time;
+  const double seconds = seconds_of({options.strategy, options.computer.node_count, is_virtual},
+                                    picture_seconds(subject.database, subject.settings));
+  return {.seconds = is_virtual ? seconds : seconds / std::min(core_count(), options.computer.node_count)};
+}
+
+Effort check_effort(const Subject& subject) {
+  return {.seconds = check_factor * picture_seconds(subject.database, subject.settings)};
+}
+
+}  // namespace dmpc::apps

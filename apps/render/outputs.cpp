@@ -1,0 +1,69 @@
+#include "apps/render/outputs.h"
+
+#include <iostream>
+#include <vector>
+
+#include "apps/show/heat/files.h"
+#include "apps/show/page/render_page.h"
+#include "apps/scene/load_scene.h"
+#include "apps/machine/machines.h"
+#include "apps/show/page/origin.h"
+#include "apps/system/scratch_folder.h"
+#include "apps/show/trace/file.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+std::vector<NamedFile> inputs_of(const RenderOptions& options) {
+  std::vector<NamedFile> inputs;
+  add_scene_file(options.picture.scene, inputs);
+  if (options.computer.runner == RunnerKind::virtual_time && find_machine_preset(options.computer.machine_name) == nullptr) {
+    inputs.push_back({"--machine", options.computer.machine_name});
+  }
+  return inputs;
+}
+
+}  // namespace
+
+OutputSet<RenderRecord> outputs_of(const RenderOptions& options) {
+  using Record = const RenderRecord&;
+  OutputSet<RenderRecord> outputs;
+  outputs.add("-o", options.image, OutputKind::picture, nullptr);
+  if (options.stats) {
+    const auto write = [](Record record, std::ostream& stream) { stream << stats_json(record); };
+    outputs.add("--stats", *options.stats, OutputKind::text,
+                has_counters_on_standard_output(options) ? OutputSet<RenderRecord>::Write() : write);
+  }
+  if (options.trace.path) {
+    outputs.add("--trace", *options.trace.path, OutputKind::text, write_trace);
+  }
+  if (options.report) {
+    outputs.add("--report", *options.report, OutputKind::text, [](Record record, std::ostream& stream) {
+      stream << html::render_page(record, this_origin(record.scene_digest), std::cerr);
+    });
+  }
+  for (const HeatRequest& request : options.heat_maps) {
+    outputs.add("--heatmap", request.path, OutputKind::picture,
+                [request](Record record, std::ostream& stream) { stream << heat_file(request, record); });
+  }
+  if (options.checkpoint.file) {
+    outputs.add("--checkpoint", *options.checkpoint.file, OutputKind::text, nullptr);
+  }
+  return outputs;
+}
+
+void check_outputs(const RenderOptions& options, const OutputSet<RenderRecord>& outputs) {
+  check_outputs(inputs_of(options), outputs.names());
+  check_open_files();
+  if (options.report) {
+    const ScratchFolder probe;
+  }
+  if (!options.quiet || has_counters_on_standard_output(options)) {
+    check_standard_output("what follows the picture", "--quiet says nothing there");
+  }
+}
+
+bool has_counters_on_standard_output(const RenderOptions& options) { return options.stats && is_standard_output(*options.stats); }
+
+}  // namespace dmpc::apps

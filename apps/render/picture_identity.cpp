@@ -1,0 +1,141 @@
+#include "apps/render/picture_identity.h"
+
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <span>
+
+#include "apps/system/digest.h"
+#include "apps/show/stats/stats.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+void add(Digest& digest, const core::Vec3d& vector) {
+  digest.add(vector.x);
+  digest.add(vector.y);
+  digest.add(vector.z);
+}
+
+template <class T>
+void add_all(Digest& digest, const std::vector<T>& values) {
+  static_assert(sizeof(T) % alignof(double) == 0 && std::is_trivially_copyable_v<T>);
+  digest.add(std::as_bytes(std::span(values)));
+}
+
+std::string text_of(const Digest& digest) { return "#" + hash_text(digest.value()); }
+
+/// The shortest text that is this number.
+std::string text_of(double number) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
+}
+
+std::string objects_text(const core::Scene& scene) {
+  static_assert(sizeof(core::Vec3d) == 24 && sizeof(core::TexturedCorner) == 32 && sizeof(core::Sphere) == 32 &&
+                sizeof(core::Cone) == 64);  // no padding
+  Digest digest;
+  for (const core::Object& object : scene.objects) {
+    digest.add(std::uint64_t{object.material} << 8U | static_cast<std::uint64_t>(object.kind));
+    digest.add(std::uint64_t{object.first} << 32U | object.vertex_count);
+    digest.add(std::uint64_t{object.first_normal});
+  }
+  add_all(digest, scene.vertices);
+  add_all(digest, scene.normals);
+  add_all(digest, scene.corners);
+  add_all(digest, scene.spheres);
+  add_all(digest, scene.cones);
+  return text_of(digest);
+}
+
+std::string materials_text(const core::Scene& scene) {
+  Digest digest;
+  for (const core::Material& material : scene.materials) {
+    add(digest, material.color);
+    for (const double number :
+         {material.diffuse, material.specular, material.shine, material.transmittance, material.refraction_index}) {
+      digest.add(number);
+    }
+    digest.add(std::uint64_t{material.texture});
+  }
+  return text_of(digest);
+}
+
+std::string textures_text(const core::Scene& scene) {
+  Digest digest;
+  for (const core::Texture& texture : scene.textures) {
+    digest.add(static_cast<std::uint64_t>(texture.format));
+    digest.add(static_cast<std::uint64_t>(texture.wrap_s) << 8U | static_cast<std::uint64_t>(texture.wrap_t));
+    for (const core::TextureLevel& level : texture.levels) {
+      digest.add(std::uint64_t{level.width} << 32U | level.height);
+      digest.add(std::as_bytes(std::span(level.texels)));
+    }
+  }
+  return text_of(digest);
+}
+
+std::string lights_text(const core::Scene& scene) {
+  Digest digest;
+  add(digest, scene.background);
+  for (const core::PointLight& light : scene.lights) {
+    add(digest, light.position);
+    add(digest, light.color);
+    digest.add(std::uint64_t{light.has_color});
+  }
+  return text_of(digest);
+}
+
+std::string view_text(const core::View& view) {
+  Digest digest;
+  for (const core::Vec3d& vector : {view.from, view.at, view.up}) {
+    add(digest, vector);
+  }
+  digest.add(view.angle_degrees);
+  return text_of(digest);
+}
+
+void add_samples(std::vector<PictureFact>& facts, const PictureOptions& picture) {
+  facts.push_back({"samples", picture.is_refined ? "auto" : std::to_string(picture.samples)});
+  if (picture.is_refined) {
+    facts.push_back({"error", text_of(picture.refinement.error)});
+    facts.push_back({"samples-max", std::to_string(picture.refinement.samples_max)});
+  }
+}
+
+}  // namespace
+
+PictureIdentity identity_of(const RenderOptions& options, const core::Scene& scene) {
+  const PictureOptions& picture = options.picture;
+  const Resolution size = picture.resolution.value_or(Resolution{scene.view.width, scene.view.height});
+  PictureIdentity identity{size.width, size.height, {}, {}};
+  std::vector<PictureFact>& facts = identity.facts;
+  facts = {{"version of dmpc", DMPC_VERSION},
+           {"resolution", std::to_string(size.width) + "x" + std::to_string(size.height)},
+           {"objects", objects_text(scene)},
+           {"materials", materials_text(scene)},
+           {"textures", textures_text(scene)},
+           {"lights or background", lights_text(scene)},
+           {"view", view_text(scene.view)},
+           {"depth", std::to_string(picture.depth)},
+           {"cutoff", text_of(picture.cutoff)},
+           {"convention", picture.convention == core::Convention::haines ? "haines" : "paper"},
+           {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
+           {"grid-axes", name_of(options.database.axes)}};
+  add_samples(facts, picture);
+  // A ray from the eye is like one that is reflected, one hit earlier.
+  identity.terms = {static_cast<std::uint32_t>(picture.samples), picture.refinement,
+                    core::radiance_bound(scene, picture.depth + 1)};
+  return identity;
+}
+
+std::uint64_t scene_digest(const core::Scene& scene) {
+  Digest digest;
+  for (const std::string& text :
+       {objects_text(scene), materials_text(scene), textures_text(scene), lights_text(scene), view_text(scene.view)}) {
+    digest.add(text);
+  }
+  return digest.value();
+}
+
+}  // namespace dmpc::apps

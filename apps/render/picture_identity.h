@@ -1,0 +1,26 @@
+// What makes a picture: two with the same identity have the same bits, whatever computes them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "apps/render/picture_facts.h"
+#include "apps/run/render_options.h"
+#include "core/picture/partial_picture.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::apps {
+
+struct PictureIdentity {
+  int width = 1, height = 1;
+  std::vector<PictureFact> facts;
+  core::PictureTerms terms = {};  ///< what follows from the facts for a part of the picture
+};
+
+/// `scene` as it is rendered: staged, and not yet built from.
+PictureIdentity identity_of(const RenderOptions& options, const core::Scene& scene);
+
+/// Of all that the scene is: equal scenes, equal digests, whatever file or name they come from.
+std::uint64_t scene_digest(const core::Scene& scene);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,48 @@
+#include "apps/run/checkpoint_options.h"
+
+#include <string>
+
+#include "apps/line/option_values.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+using core::UsageError;
+
+constexpr double seconds_max = 1e6;
+
+double parse_seconds(const std::string& text) {
+  const double seconds = finite_number(text);
+  if (!(seconds > 0 && seconds <= seconds_max)) {
+    throw UsageError("--checkpoint-every=" + text + ": expected seconds, above 0 and at most 1000000");
+  }
+  return seconds;
+}
+
+}  // namespace
+
+void add_options(OptionSet options, CheckpointOptions& checkpoint) {
+  options.begin_group("Long renders");
+  options.add_path("--checkpoint", "FILE", checkpoint.file,
+                   "Keep what is done in FILE now and then, so that a render that was stopped or killed can be gone on with; "
+                   "removed when the picture is there");
+  options.add_text(
+      "--checkpoint-every", "SECONDS [120]",
+      [&checkpoint](const std::string& text) { checkpoint.every_seconds = parse_seconds(text); },
+      "How long to wait from one checkpoint to the next");
+  options.add_flag("--resume", checkpoint.resumes,
+                   "Go on from what --checkpoint=FILE has, whatever computer and strategy made it; from the start if there is "
+                   "no such file yet");
+  options.add_flag("--keep-checkpoint", checkpoint.stays, "Do not remove the checkpoint when the picture is there");
+  options.check_in_the_end([options, &checkpoint] {
+    for (const char* option : {"--checkpoint-every", "--resume", "--keep-checkpoint"}) {
+      if (!checkpoint.file && options.is_given(option)) {
+        throw UsageError(std::string(option) + " goes with --checkpoint=FILE");
+      }
+    }
+  });
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,86 @@
+#include "apps/run/heat_options.h"
+
+#include <algorithm>
+
+#include "core/base/expect.h"
+#include "core/base/nearest_word.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+using core::UsageError;
+using nodes::HeatKind;
+
+std::string all_kinds() {
+  std::string text;
+  for (const std::string_view name : nodes::heat_kind_names) {
+    text += (text.empty() ? "" : "|") + std::string(name);
+  }
+  return text;
+}
+
+/// " Did you mean faults?"; empty if no kind is near.
+std::string kind_meant(const std::string& typed) {
+  const std::vector<std::string> names(nodes::heat_kind_names.begin(), nodes::heat_kind_names.end());
+  return core::did_you_mean(typed, names);
+}
+
+bool is_of_pages(HeatKind kind) { return kind == HeatKind::faults || kind == HeatKind::references || kind == HeatKind::pages; }
+
+const char* reason_without_pages(Strategy strategy) {
+  return strategy == Strategy::dataflow ? "rays travel to where the records are, and look up no pages"
+                                        : "every node holds the whole scene, and looks up no pages";
+}
+
+}  // namespace
+
+HeatRequest parse_heat_request(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const auto& names = nodes::heat_kind_names;
+  const auto name = std::find(names.begin(), names.end(), text.substr(0, colon));
+  if (colon == std::string::npos || name == names.end()) {
+    const std::string meant = name == names.end() ? kind_meant(text.substr(0, colon)) : "";
+    throw UsageError("--heatmap=" + text + ": expected " + all_kinds() + ", a colon and a file, such as rays:rays.png" +
+                     (meant.empty() ? "" : ".") + meant);
+  }
+  const HeatRequest request{static_cast<HeatKind>(name - names.begin()), text.substr(colon + 1)};
+  if (!holds_numbers(request) && request.path.extension() != ".png") {
+    throw UsageError("--heatmap=" + text + ": expected a file with the ending .exr (numbers) or .png (colours and a legend)");
+  }
+  return request;
+}
+
+bool holds_numbers(const HeatRequest& request) { return request.path.extension() == ".exr"; }
+
+void add_heat_option(OptionSet options, std::vector<HeatRequest>& requests) {
+  options.add_texts(
+      "--heatmap", "KIND:FILE", [&requests](const std::string& text) { requests.push_back(parse_heat_request(text)); },
+      "Write what each pixel took, of the kind " + all_kinds() +
+          ": to FILE.exr the numbers, to FILE.png colours and a legend; may be given several times (faults, references and "
+          "pages: "
+          "svm)");
+}
+
+void check_heat(const std::vector<HeatRequest>& requests, Strategy strategy) {
+  if (requests.size() > heat_requests_max) {
+    throw UsageError("--heatmap is given " + std::to_string(requests.size()) + " times: " + std::to_string(heat_requests_max) +
+                     " are the most");
+  }
+  for (const HeatRequest& request : requests) {
+    if (strategy != Strategy::svm && is_of_pages(request.kind)) {
+      throw UsageError("--heatmap=" + std::string(nodes::name_of(request.kind)) + ":" + request.path.string() +
+                       " goes with --strategy=svm: with --strategy=" + name_of(strategy) + " " + reason_without_pages(strategy));
+    }
+  }
+}
+
+std::vector<HeatKind> kinds_of(const std::vector<HeatRequest>& requests) {
+  std::vector<HeatKind> kinds;
+  for (const HeatRequest& request : requests) {
+    kinds.push_back(request.kind);
+  }
+  return kinds;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,39 @@
+// The option --heatmap: which pictures of what each pixel took, and where they go.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/line/command_line.h"
+#include "apps/run/strategy_options.h"
+#include "nodes/watch/heat_map.h"
+
+namespace dmpc::apps {
+
+/// One heat map to be written: to an EXR file the numbers, to a PNG file colours and a legend.
+struct HeatRequest {
+  nodes::HeatKind kind;
+  std::filesystem::path path;
+};
+
+/// All kinds in both formats, and as many again. They are under way at a time, for which interrupt.cpp has room.
+inline constexpr std::size_t heat_requests_max = 32;
+
+/// "KIND:FILE.exr" or "KIND:FILE.png". Throws core::UsageError for anything else.
+HeatRequest parse_heat_request(const std::string& text);
+
+/// Whether the file gets numbers, or else colours.
+bool holds_numbers(const HeatRequest& request);
+
+/// Declares --heatmap, which may be given several times.
+void add_heat_option(OptionSet options, std::vector<HeatRequest>& requests);
+
+/// Throws core::UsageError, saying why, for a kind that the strategy has not, or too many.
+void check_heat(const std::vector<HeatRequest>& requests, Strategy strategy);
+
+/// The kinds of all requests.
+std::vector<nodes::HeatKind> kinds_of(const std::vector<HeatRequest>& requests);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,51 @@
+#include "apps/run/region_options.h"
+
+#include <string>
+
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+/// Columns of loads in 128 MiB.
+constexpr std::int64_t columns_per_side_max = 4096;
+/// No picture has a longer side.
+constexpr std::int64_t subsample_max = 65536;
+
+}  // namespace
+
+const char* name_of(dataflow::Balance balance) { return balance == dataflow::Balance::subsampled ? "subsampled" : "equal-size"; }
+
+void add_balance_option(OptionSet options, dataflow::Balance& balance) {
+  using dataflow::Balance;
+  options.add_choice<Balance>("--balance", balance, {{"subsampled", Balance::subsampled}, {"equal-size", Balance::equal_size}},
+                              "Regions of about equal load, by a subsampled picture, or of equal size");
+}
+
+void add_region_options(OptionSet options, dataflow::BalanceOptions& balance) {
+  options.add_number("--subsample", balance.subsample, 1, subsample_max, "8",
+                     "The subsampled picture has one pixel of every NxN");
+  options.add_number("--balance-grid", balance.columns_per_side, 1, columns_per_side_max, "256",
+                     "Columns a side in which the load is counted");
+}
+
+void check_regions(const OptionSet& options, const dataflow::BalanceOptions& balance) {
+  for (const char* const option : {"--subsample", "--balance-grid"}) {
+    if (options.is_given(option) && balance.balance == dataflow::Balance::equal_size) {
+      throw core::UsageError(std::string(option) + " goes with --balance=subsampled: regions of equal size ask for no load");
+    }
+  }
+}
+
+void add_topology_option(OptionSet options, nodes::TopologyKind& topology) {
+  using nodes::TopologyKind;
+  OptionSet::Choices<TopologyKind> topologies;
+  for (const auto kind :
+       {TopologyKind::hypercube, TopologyKind::mesh, TopologyKind::torus, TopologyKind::fat_tree, TopologyKind::crossbar}) {
+    topologies.emplace_back(name_of(kind), kind);
+  }
+  options.add_choice("--topology", topology, topologies, "The wiring onto which neighbouring regions are mapped");
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,21 @@
+// The options that say how space is cut into regions and where these are put.
+#pragma once
+
+#include "apps/line/command_line.h"
+#include "dataflow/regions/balance.h"
+#include "nodes/topology.h"
+
+namespace dmpc::apps {
+
+/// As the command line calls it.
+const char* name_of(dataflow::Balance balance);
+/// Declares --balance.
+void add_balance_option(OptionSet options, dataflow::Balance& balance);
+/// Declares --subsample and --balance-grid, but not which balance there is.
+void add_region_options(OptionSet options, dataflow::BalanceOptions& balance);
+/// For OptionSet::check_in_the_end(): throws core::UsageError for the latter two with regions of equal size.
+void check_regions(const OptionSet& options, const dataflow::BalanceOptions& balance);
+/// Declares --topology.
+void add_topology_option(OptionSet options, nodes::TopologyKind& topology);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,143 @@
+#include "apps/run/render_options.h"
+
+#include <string>
+
+#include "apps/line/option_values.h"
+#include "apps/run/region_options.h"
+#include "apps/table/table_options.h"
+#include "apps/render/viewer_connection.h"
+#include "core/base/expect.h"
+#include "dataflow/packets.h"
+#include "dataflow/plan.h"
+#include "svm/plan.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+using core::UsageError;
+
+void add_computer_options(OptionSet& options, RenderOptions& render) {
+  ComputerOptions& computer = render.computer;
+  options.begin_group("The computer");
+  options.add_number("--nodes", computer.node_count, 1, svm::node_count_max, "8",
+                     "Nodes, each with a memory of its own; dataflow takes up to " + std::to_string(dataflow::region_count_max));
+  add_strategy_option(options, render.strategy);
+  add_memory_option(options, computer.node_memory_bytes);
+  add_options(options, render.database);
+}
+
+void add_runner_options(OptionSet& options, ComputerOptions& computer) {
+  options.begin_group("What drives the computer");
+  options.add_choice<RunnerKind>(
+      "--runner", computer.runner, {{"threads", RunnerKind::threads}, {"virtual", RunnerKind::virtual_time}},
+      "threads: a thread for each node. virtual: the model of a machine, in its own time, the same whenever it is repeated");
+  add_machine_options(options, computer, " (virtual)");
+  options.add_text(
+      "--chaos", "SEED [calm]",
+      [&computer](const std::string& text) { computer.chaos = nodes::chaos_of(parse_seed(text, "--chaos")); },
+      "Disturb the computer by this seed (threads): packets late and out of order, slow nodes and links, few credits; the "
+      "picture stays");
+}
+
+void add_study_options(OptionSet& options, RenderOptions& render) {
+  options.begin_group("Looking closer");
+  options.add_choice<TracerChoice>("--tracer", render.tracer, {{"grid", TracerChoice::grid}, {"embree", TracerChoice::embree}},
+                                   "Who finds what a ray hits; embree goes with --strategy=replicated only");
+  options.add_path("--stats", "FILE.json", render.stats, "Write all counters");
+  add_report_option(options, render.report, "with the picture, heat maps asked for, counters, losses, traffic and memory");
+  add_heat_option(options, render.heat_maps);
+  add_options(options, render.trace);
+  const ViewerAddress standard;
+  options.add_flag_with_text("--preview", standard.host + ":" + standard.port, render.viewer,
+                             "Show the picture as it comes in the image viewer tev, if that listens there; --preview=HOST:PORT "
+                             "if it listens elsewhere");
+  options.add_flag("--quiet", render.quiet, "No progress, no closing lines");
+}
+
+void check_tracer(const RenderOptions& render) {
+  if (render.tracer == TracerChoice::embree && render.strategy != Strategy::replicated) {
+    throw UsageError("--tracer=embree needs --strategy=replicated: Embree sees the whole scene, and no other node holds it all");
+  }
+}
+
+/// An option that does not go with one of the runners, and why.
+struct Conflict {
+  const char* option;
+  RunnerKind runner;
+  const char* reason;
+};
+
+constexpr Conflict conflicts[] = {
+    {"--machine", RunnerKind::threads, "threads model no machine"},
+    {"--no-contention", RunnerKind::threads, "threads model no links"},
+    {"--memory-port", RunnerKind::threads, "threads model no ports"},
+    {"--chaos", RunnerKind::virtual_time, "chaos disturbs threads only"},
+    {"--checkpoint", RunnerKind::virtual_time, "the time of two halves of a run is not the time of a whole one"},
+    {"--topology", RunnerKind::virtual_time, "the machine has a topology of its own, onto which regions are mapped"},
+};
+
+void check_runner(const OptionSet& options, const RenderOptions& render) {
+  const RunnerKind runner = render.computer.runner;
+  for (const Conflict& conflict : conflicts) {
+    if (options.is_given(conflict.option) && conflict.runner == runner) {
+      throw UsageError(std::string(conflict.option) + " does not go with --runner=" + name_of(runner) + ": " + conflict.reason);
+    }
+  }
+  if (render.tracer == TracerChoice::embree && runner == RunnerKind::virtual_time) {
+    throw UsageError("--tracer=embree does not go with --runner=virtual: nobody knows what Embree's operations would cost");
+  }
+}
+
+void check(const OptionSet& options, const RenderOptions& render) {
+  check_together(options, render);
+  check_node_count(render.strategy, render.computer.node_count);
+  check_tracer(render);
+  check_runner(options, render);
+  check_heat(render.heat_maps, render.strategy);
+  check_trace(options, render.trace, render.computer.node_count);
+  if (render.pages.count_pages && !render.stats) {
+    throw UsageError("--count-pages counts for the --stats file: give --stats=FILE.json too");
+  }
+  if (!render.viewer.empty()) {
+    parse_viewer_address(render.viewer, "--preview");
+  }
+  if (render.checkpoint.resumes && !render.heat_maps.empty()) {
+    throw UsageError("--resume does not go with --heatmap: what was done before would be missing on it");
+  }
+}
+
+}  // namespace
+
+void add_options(OptionSet options, RenderOptions& render) {
+  add_options(options, render.picture);
+  options.add_required(
+      "-o,--output", "IMAGE", [&render](const std::string& text) { render.image = text; },
+      "The picture: .exr, .tif (linear floats), .png, .jpg (8 bits, sRGB), ...");
+  add_computer_options(options, render);
+  add_runner_options(options, render.computer);
+  add_page_options(options, render.pages);
+  options.add_flag("--count-pages", render.pages.count_pages,
+                   "Count the distinct pages of each pixel for --stats (svm; takes memory and time)");
+  add_ray_options(options, render.rays);
+  add_topology_option(options, render.rays.topology);
+  add_study_options(options, render);
+  add_options(options, render.checkpoint);
+  options.check_in_the_end([options, &render] { check(options, render); });
+  options.set_examples(
+      "Examples:\n"
+      "  dmpc render teapot-12 --nodes=8 -o teapot.png\n"
+      "  dmpc render tetra-10 --nodes=64 --node-memory=4MiB -o tetra.exr\n"
+      "  dmpc render rings-4-t1 --cache-pages=16 --count-pages --stats=rings.json -o rings.png\n"
+      "  dmpc render rings-4-t1 --heatmap=faults:faults.png --heatmap=faults:faults.exr -o rings.png\n"
+      "  dmpc render rings-4-t1 --nodes=4 --cache-pages=64 --trace=rings.json --trace-window=10,12 -o rings.png\n"
+      "  dmpc render rings-4-t1 --cache-pages=64 --heatmap=faults:faults.png --report=rings.html -o rings.png\n"
+      "  dmpc render rings-3-t1 --strategy=dataflow --nodes=16 --grid-axes=screen -o rings.png\n"
+      "  dmpc render teapot-12 --nodes=64 --runner=virtual --machine=ipsc860 --stats=teapot.json -o teapot.png\n"
+      "  dmpc render balls-6 --samples=256 --checkpoint=balls.checkpoint --resume -o balls.exr\n"
+      "  dmpc render my.nff --strategy=replicated --tracer=embree --resolution=1024x768 -o my.tif\n"
+      "The picture does not depend on the computer's options, to the last bit: the film_hash of --stats says so. Only\n"
+      "--grid-axes=screen, another grid, rounds otherwise than --grid-axes=world.");
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,36 @@
+// The options of `render`: a scene, a computer, a strategy, and what to look at.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/run/checkpoint_options.h"
+#include "apps/line/command_line.h"
+#include "apps/scene/database_options.h"
+#include "apps/run/heat_options.h"
+#include "apps/scene/picture_options.h"
+#include "apps/run/strategy_options.h"
+#include "apps/run/trace_options.h"
+
+namespace dmpc::apps {
+
+struct RenderOptions : StrategyOptions {
+  PictureOptions picture;
+  DatabaseOptions database;
+  std::filesystem::path image;                  ///< where the picture goes
+  std::optional<std::filesystem::path> stats;   ///< where the counters go, as JSON
+  std::optional<std::filesystem::path> report;  ///< where the page goes that shows all of it
+  std::vector<HeatRequest> heat_maps;           ///< what else is to be shown of each pixel
+  TraceOptions trace;                           ///< what is recorded of the run
+  CheckpointOptions checkpoint;                 ///< what is kept on the way
+  std::string viewer;                           ///< HOST:PORT of one that is to show the picture as it comes; empty: none
+  bool quiet = false;                           ///< no progress and no closing lines
+};
+
+/// Declares them, and which go together.
+void add_options(OptionSet options, RenderOptions& render);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,69 @@
+#include "apps/run/report.h"
+
+#include <initializer_list>
+
+#include "dataflow/packets.h"
+#include "svm/packets.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+// Where the strategies call one thing by different names.
+std::uint64_t deposits_saturated(const svm::Report& report) { return report.host_deposits_saturated; }
+std::uint64_t deposits_saturated(const dataflow::Report& report) { return report.host_rays.deposits_saturated; }
+std::span<const char* const> kind_names(const svm::Report&) { return svm::kind_names; }
+std::span<const char* const> kind_names(const dataflow::Report&) { return dataflow::kind_names; }
+
+template <class Kind>
+std::uint32_t bits_of(std::initializer_list<Kind> kinds) {
+  std::uint32_t bits = 0;
+  for (const Kind kind : kinds) {
+    bits |= 1U << number_of(kind);
+  }
+  return bits;
+}
+
+WaitKinds waits_of(const svm::Report&) {
+  using svm::Kind;
+  return {.data = "page",
+          .data_kinds = bits_of({Kind::page_reply}),
+          .work_kinds = bits_of({Kind::work_request, Kind::work_reply, Kind::mask_part, Kind::begin_pass}),
+          .end_kinds = bits_of({Kind::stop})};
+}
+WaitKinds waits_of(const dataflow::Report&) {
+  using dataflow::Kind;
+  return {.data = "ray",
+          .data_kinds = bits_of({Kind::rays, Kind::forwarded}),
+          .work_kinds = bits_of({Kind::primaries}),
+          .end_kinds = bits_of({Kind::finish, Kind::stop})};
+}
+
+template <class StrategyReport>
+Account account_of_strategy(const StrategyReport& report) {
+  Account account{.film = report.film,
+                  .end = report.end,
+                  .node_memory_max_bytes = report.plan.node_memory_max_bytes(),
+                  .chaos = report.plan.request.chaos,
+                  .nodes = {},
+                  .operations = report.operations(),
+                  .host = report.host,
+                  .host_deposits_saturated = deposits_saturated(report),
+                  .sent = report.sent(),
+                  .kind_names = kind_names(report),
+                  .virtual_time = report.virtual_time,
+                  .waits = waits_of(report),
+                  .refinement = report.refinement};
+  for (const auto& node : report.nodes) {
+    account.nodes.push_back({node.program.operations, node.counters, node.memory_planned, node.memory_used});
+  }
+  return account;
+}
+
+}  // namespace
+
+Account account_of(const Report& report) {
+  return std::visit([](const auto& of_strategy) { return account_of_strategy(of_strategy); }, report);
+}
+
+}  // namespace dmpc::apps

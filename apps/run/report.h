@@ -1,0 +1,52 @@
+// What a run reports, whichever strategy it followed.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "apps/run/time_parts.h"
+#include "core/picture/film.h"
+#include "core/trace/operations.h"
+#include "dataflow/run.h"
+#include "nodes/counters.h"
+#include "svm/run.h"
+
+namespace dmpc::apps {
+
+/// svm and replicated report alike.
+using Report = std::variant<svm::Report, dataflow::Report>;
+
+/// What every strategy says of a node. A view.
+struct NodeAccount {
+  const core::Operations& operations;
+  const nodes::NodeCounters& counters;
+  const nodes::MemoryPlan& memory_planned;
+  const nodes::MemoryPlan& memory_used;
+};
+
+/// What every strategy reports. A view: the report outlives it.
+struct Account {
+  const core::Film& film;
+  nodes::RunEnd end;
+  std::size_t node_memory_max_bytes;                          ///< what the fullest node takes
+  const std::optional<nodes::Chaos>& chaos;                   ///< that disturbed the run
+  std::vector<NodeAccount> nodes;                             ///< by number
+  core::Operations operations;                                ///< summed over them
+  const nodes::NodeCounters& host;                            ///< of the host
+  std::uint64_t host_deposits_saturated;                      ///< pixels whose sums saturated on the host's film
+  std::array<nodes::Traffic, nodes::packet_kind_count> sent;  ///< by all nodes and the host, by kind
+  std::span<const char* const> kind_names;                    ///< of the strategy's packets
+  const std::optional<nodes::VirtualReport>& virtual_time;    ///< of a modelled machine
+  WaitKinds waits;                                            ///< what the waits for these packets are
+  core::RefinementResult refinement;
+};
+
+/// Thread-safe, as long as nobody changes the report.
+Account account_of(const Report& report);
+
+}  // namespace dmpc::apps

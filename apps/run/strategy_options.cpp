@@ -1,0 +1,144 @@
+#include "apps/run/strategy_options.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "apps/machine/machines.h"
+#include "apps/line/option_values.h"
+#include "apps/run/region_options.h"
+#include "core/base/expect.h"
+#include "dataflow/packets.h"
+#include "dataflow/plan.h"
+#include "svm/plan.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+using core::UsageError;
+
+/// An option that only some strategies have, and why.
+struct Belonging {
+  const char* option;
+  std::vector<Strategy> strategies;
+  const char* reason;
+
+  bool has(Strategy strategy) const { return std::find(strategies.begin(), strategies.end(), strategy) != strategies.end(); }
+  std::string names() const {
+    std::string names;
+    for (const Strategy strategy : strategies) {
+      names += std::string(names.empty() ? "" : " or ") + "--strategy=" + name_of(strategy);
+    }
+    return names;
+  }
+};
+
+const std::vector<Belonging>& belongings() {
+  static const std::vector<Belonging> all = {
+      {"--cache-pages", {Strategy::svm}, "a node of the others needs no page of another node"},
+      {"--replacement", {Strategy::svm}, "a node of the others keeps no page of another node"},
+      {"--count-pages", {Strategy::svm}, "the others look up no pages"},
+      {"--in-flight", {Strategy::svm, Strategy::replicated}, "a node of dataflow traces one ray at a time"},
+      {"--work-item", {Strategy::svm, Strategy::replicated}, "a node of dataflow works on what comes to its region"},
+      {"--balance", {Strategy::dataflow}, "the others share out pixels, not space"},
+      {"--subsample", {Strategy::dataflow}, "the others share out pixels, not space"},
+      {"--balance-grid", {Strategy::dataflow}, "the others share out pixels, not space"},
+      {"--ray-batch", {Strategy::dataflow}, "rays of the others do not travel"},
+      {"--ray-credits", {Strategy::dataflow}, "rays of the others do not travel"},
+      {"--ray-queue", {Strategy::dataflow}, "rays of the others do not travel"},
+      {"--topology", {Strategy::dataflow}, "the others map no regions onto nodes"},
+  };
+  return all;
+}
+
+void check_strategy(const OptionSet& options, const StrategyOptions& run) {
+  for (const Belonging& belonging : belongings()) {
+    if (options.is_given(belonging.option) && !belonging.has(run.strategy)) {
+      throw UsageError(std::string(belonging.option) + " goes with " + belonging.names() + ": " + belonging.reason);
+    }
+  }
+  check_regions(options, run.rays.balance);
+}
+
+}  // namespace
+
+const char* name_of(Strategy strategy) {
+  switch (strategy) {
+    case Strategy::svm:
+      return "svm";
+    case Strategy::replicated:
+      return "replicated";
+    case Strategy::dataflow:
+      return "dataflow";
+  }
+  core::expect(false, "a strategy has a name");
+  return "";
+}
+
+const char* name_of(RunnerKind runner) { return runner == RunnerKind::threads ? "threads" : "virtual"; }
+
+void add_strategy_option(OptionSet options, Strategy& strategy) {
+  options.add_choice<Strategy>(
+      "--strategy", strategy, {{"svm", Strategy::svm}, {"replicated", Strategy::replicated}, {"dataflow", Strategy::dataflow}},
+      "svm: the scene is spread over the nodes and its pages travel. replicated: every node holds it all. dataflow: every node "
+      "holds a region of space and rays travel");
+}
+
+void add_memory_option(OptionSet options, std::optional<std::size_t>& node_memory_bytes) {
+  const auto take = [&node_memory_bytes](const std::string& text) {
+    node_memory_bytes = text == "auto" ? std::nullopt : std::optional(parse_size_bytes(text, "--node-memory"));
+  };
+  options.add_text("--node-memory", "SIZE|auto [auto]", take, "Bound of each node's memory, such as 4MiB");
+}
+
+void add_machine_options(OptionSet options, ComputerOptions& computer, const std::string& when) {
+  options.add_text(
+      "--machine", "MACHINE|FILE.json [ipsc2]", [&computer](const std::string& name) { computer.machine_name = name; },
+      "The machine that is modelled" + when + ": " + machine_preset_names() + " or a file such as dmpc machine prints");
+  options.add_flag("--no-contention", computer.no_contention, "A link carries any number of messages at once" + when);
+  options.add_flag("--memory-port", computer.memory_port,
+                   "A node sends one message at a time and receives one at a time, over whatever links" + when);
+}
+
+void add_page_options(OptionSet options, PageOptions& pages, const std::string& in_flight_default) {
+  options.begin_group("Strategies svm and replicated");
+  options.add_number("--cache-pages", pages.cache_pages, 1, 0x7fffffff,
+                     "a quarter of the database; with --node-memory what it holds",
+                     "Pages of other nodes that a node can keep (svm)");
+  using svm::Replacement;
+  options.add_choice<Replacement>(
+      "--replacement", pages.replacement,
+      {{"lru", Replacement::lru}, {"clock", Replacement::clock}, {"fifo", Replacement::fifo}, {"random", Replacement::random}},
+      "Which of them makes room for another (svm)");
+  options.add_number("--in-flight", pages.in_flight, 1, svm::in_flight_max, in_flight_default,
+                     "Pixels that a node works on at once");
+  options.add_number("--work-item", pages.work_item_side, 0, 1024, "3",
+                     "Side in pixels of what a node gives to an idle one; 0: nothing is given");
+}
+
+void add_ray_options(OptionSet options, RayOptions& rays) {
+  options.begin_group("Strategy dataflow");
+  add_balance_option(options, rays.balance.balance);
+  add_region_options(options, rays.balance);
+  options.add_number("--ray-batch", rays.ray_batch, 1, dataflow::ray_batch_max, "what fills 1 KiB", "Rays in a packet, at most");
+  options.add_number("--ray-credits", rays.ray_credits, 0, dataflow::ray_credits_max, "4",
+                     "Packets of rays that each node may have under way to each other; 0: all go by way of the host");
+  options.add_number("--ray-queue", rays.queue_packets, 0, dataflow::queue_packets_max, "512",
+                     "Packets of rays that can wait on a node for credit before more go by way of the host");
+}
+
+void check_together(const OptionSet& options, const StrategyOptions& run) {
+  check_strategy(options, run);
+  if (run.computer.no_contention && run.computer.memory_port) {
+    throw UsageError("--memory-port does not go with --no-contention: without contention no message waits for a port");
+  }
+}
+
+void check_node_count(Strategy strategy, std::uint32_t node_count) {
+  if (strategy == Strategy::dataflow && node_count > dataflow::region_count_max) {
+    throw UsageError("--nodes=" + std::to_string(node_count) + ": from 1 to " + std::to_string(dataflow::region_count_max) +
+                     " nodes with --strategy=dataflow");
+  }
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,89 @@
+// The options of a run beside its picture: a strategy, and the computer that it asks for. Shared by `render` and `study speedup`.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "apps/line/command_line.h"
+#include "dataflow/regions/balance.h"
+#include "nodes/chaos.h"
+#include "nodes/machine.h"
+#include "nodes/topology.h"
+#include "svm/replacement.h"
+
+namespace dmpc::apps {
+
+/// svm: pages travel. replicated: nothing does, every node holds the whole scene. dataflow: rays travel.
+enum class Strategy : std::uint8_t { svm, replicated, dataflow };
+/// As the command line calls it.
+const char* name_of(Strategy strategy);
+
+/// Who finds what a ray hits: our grid, or Embree (with strategy replicated only).
+enum class TracerChoice : std::uint8_t { grid, embree };
+
+/// What calls the nodes' programs: threads, by the wall clock, or the model of a machine, in virtual time.
+enum class RunnerKind : std::uint8_t { threads, virtual_time };
+/// As the command line calls it.
+const char* name_of(RunnerKind runner);
+
+/// What every strategy asks of the computer.
+struct ComputerOptions {
+  std::uint32_t node_count = 8;
+  std::optional<std::size_t> node_memory_bytes;  ///< of each node; without it what the strategy needs
+  std::optional<nodes::Chaos> chaos;             ///< disturbs the run
+  RunnerKind runner = RunnerKind::threads;
+  std::string machine_name = "ipsc2";     ///< to be modelled: a preset's name or a machine file
+  bool no_contention = false;             ///< on the modelled machine
+  bool memory_port = false;               ///< on the modelled machine, even if its file says that it has none
+  std::optional<nodes::Machine> machine;  ///< the model itself, once it is read (run_strategy.h)
+};
+
+/// Of svm, and as far as no page travels of replicated; svm/plan.h says more.
+struct PageOptions {
+  std::optional<std::uint32_t> cache_pages;
+  svm::Replacement replacement = svm::Replacement::lru;
+  std::optional<std::uint32_t> in_flight;
+  std::uint32_t work_item_side = 3;
+  bool count_pages = false;
+};
+
+/// Of dataflow; dataflow/plan.h says more.
+struct RayOptions {
+  dataflow::BalanceOptions balance;
+  std::optional<std::uint32_t> ray_batch;
+  std::optional<std::uint32_t> ray_credits;
+  std::optional<std::uint32_t> queue_packets;
+  nodes::TopologyKind topology = nodes::TopologyKind::hypercube;  ///< onto which the regions are mapped
+};
+
+/// A strategy, and all that it asks of the computer.
+struct StrategyOptions {
+  Strategy strategy = Strategy::svm;
+  ComputerOptions computer;
+  PageOptions pages;
+  RayOptions rays;
+  TracerChoice tracer = TracerChoice::grid;
+};
+
+/// Declares --strategy.
+void add_strategy_option(OptionSet options, Strategy& strategy);
+/// Declares --node-memory.
+void add_memory_option(OptionSet options, std::optional<std::size_t>& node_memory_bytes);
+/// Declares --machine, --no-contention and --memory-port; `when` is what their help says of when they go, such as " (virtual)".
+void add_machine_options(OptionSet options, ComputerOptions& computer, const std::string& when);
+/// Declares the options of svm and replicated but --count-pages, in a group of their own. `in_flight_default` is what help says
+/// of the default of --in-flight; as it stands here it covers every runner.
+void add_page_options(OptionSet options, PageOptions& pages,
+                      const std::string& in_flight_default = "16, replicated 1, runner virtual 1");
+/// Declares the options of dataflow but --topology in a group of their own.
+void add_ray_options(OptionSet options, RayOptions& rays);
+
+/// For OptionSet::check_in_the_end(): throws core::UsageError for options, of those declared above or --topology or
+/// --count-pages, that do not go with the strategy, the machine or each other.
+void check_together(const OptionSet& options, const StrategyOptions& strategy);
+/// Throws core::UsageError for more nodes than the strategy takes.
+void check_node_count(Strategy strategy, std::uint32_t node_count);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,32 @@
+// How a scene becomes records in pages: page size, their order, the grid's directions. Shared by `render` and the studies.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "apps/line/command_line.h"
+#include "core/build/record_order.h"
+
+namespace dmpc::apps {
+
+/// The directions of the grid: the world's, or the screen's (right, up, towards the eye).
+enum class AxesChoice : std::uint8_t { world, screen };
+/// As the command line calls it.
+const char* name_of(AxesChoice axes);
+/// As the command line calls it.
+const char* name_of(core::RecordOrder order);
+
+struct DatabaseOptions {
+  std::size_t page_size_bytes = 1024;  ///< a power of two, 512 B to 64 KiB
+  core::RecordOrder record_order = core::RecordOrder::spatial;
+  AxesChoice axes = AxesChoice::world;
+};
+
+/// Declares them.
+void add_options(OptionSet options, DatabaseOptions& database);
+
+/// "1KiB", in bytes. Throws core::UsageError for anything but a power of two from 512 B to 64 KiB.
+std::size_t parse_page_size(const std::string& text);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,122 @@
+#include "apps/scene/load_scene.h"
+
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <set>
+#include <system_error>
+
+#include "apps/formats/landscape/files.h"
+#include "apps/formats/mesh_file.h"
+#include "apps/formats/nff_reader.h"
+#include "apps/system/progress.h"
+#include "core/base/expect.h"
+#include "core/families/scenes.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// Benchmarks load a scene again and again; one saying is enough.
+void say_once(const std::vector<std::string>& notes) {
+  static std::set<std::string> said;
+  for (const std::string& note : notes) {
+    if (said.insert(note).second) {
+      std::cerr << "dmpc: " << note << '\n';
+    }
+  }
+}
+
+/// Of pictures that are black, or nothing but background, because the scene is.
+void say_what_is_missing(const core::Scene& scene) {
+  if (scene.objects.empty()) {
+    say_once({scene.name + ": there is nothing in it: the picture shows the background alone"});
+  } else if (scene.lights.empty()) {
+    say_once({scene.name + ": no light is in it: what reflects none is black; --light=X,Y,Z adds one"});
+  }
+}
+
+core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadNotes notes, OpenedFiles& opened) {
+  const bool says = notes == LoadNotes::said;
+  MeshFile file = read_mesh_file(path, options, says && stderr_is_terminal());
+  opened.add(file.opened);
+  if (says) {
+    say_once(file.notes);
+  }
+  return std::move(file.scene);
+}
+
+core::Scene load_nff(const std::string& path, std::int64_t pixels_max, LoadNotes notes, OpenedFiles& opened) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (!ending.empty() && ending != ".nff" && ending != ".NFF") {
+    throw core::InputError(path + ": files that end in " + ending + " are not read; expected .nff or one of " +
+                           known_mesh_formats());
+  }
+  Progress progress(std::cerr, notes == LoadNotes::said && stderr_is_terminal(), "Reading " + path + ":", "bytes");
+  opened.add(path);
+  return read_nff_file(path, pixels_max, [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); });
+}
+
+core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int64_t pixels_max, LoadNotes notes,
+                     OpenedFiles& opened) {
+  if (const auto name = core::find_scene_name(scene)) {
+    return core::built_in_scene(*name);
+  }
+  std::error_code error;
+  const bool looks_like_name = scene.find_first_of("./") == std::string::npos;
+  if (looks_like_name && !std::filesystem::exists(scene, error)) {
+    if (landscape_size(scene)) {
+      throw core::InputError("'" + scene + "' is a scene of several files: write them first, dmpc scene " + scene + " -o " +
+                             scene + ".gltf, then take " + scene + ".gltf");
+    }
+    return core::built_in_scene(core::parse_scene_name(scene));  // throws, listing what there is
+  }
+  return is_mesh_path(scene) ? load_mesh(scene, mesh, notes, opened) : load_nff(scene, pixels_max, notes, opened);
+}
+
+void check_mesh_options(const std::string& scene, const MeshOptions& options) {
+  const bool is_mesh = !core::find_scene_name(scene) && is_mesh_path(scene);
+  if (!is_mesh && (options.scale || options.up || options.smooth_degrees || options.allows_missing || options.opens_anywhere)) {
+    throw core::UsageError("--scale, --up, --smooth, --missing=plain and --files=anywhere go with mesh files (" +
+                           known_mesh_formats() + "), and " + scene + " is none");
+  }
+}
+
+}  // namespace
+
+core::Scene load_scene(const std::string& scene, std::int64_t pixels_max) {
+  OpenedFiles opened;
+  return load_any(scene, {}, pixels_max, LoadNotes::said, opened);
+}
+
+void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs) {
+  if (!core::find_scene_name(scene)) {
+    inputs.push_back({"SCENE", scene});
+  }
+}
+
+core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFiles* opened) {
+  check_mesh_options(picture.scene, picture.staging.mesh);
+  MeshOptions mesh = picture.staging.mesh;
+  mesh.is_seen_otherwise = picture.staging.camera.has_value();
+  mesh.is_lit_otherwise = !picture.staging.lights.empty();
+  OpenedFiles read;
+  core::Scene scene = load_any(picture.scene, mesh,
+                               picture.resolution ? std::numeric_limits<std::int64_t>::max() : picture_pixels_max, notes, read);
+  if (opened != nullptr) {
+    opened->add(read);
+  }
+  apply(picture.staging, scene);
+  if (notes == LoadNotes::said) {
+    say_what_is_missing(scene);
+  }
+  return scene;
+}
+
+core::Scene load_scene_beside(const PictureOptions& picture, const std::vector<NamedFile>& outputs) {
+  OpenedFiles opened;
+  core::Scene scene = load_scene(picture, LoadNotes::said, &opened);
+  check_not_read(opened, outputs);
+  return scene;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,151 @@
+#include "apps/scene/picture_options.h"
+
+#include <charconv>
+#include <string>
+#include <vector>
+
+#include "apps/line/option_values.h"
+#include "core/picture/background.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+constexpr int samples_max = 32768;
+constexpr double default_error = 1.0 / 255;
+
+void take_samples(PictureOptions& picture, std::string_view text) {
+  picture.is_refined = text == "auto";
+  if (picture.is_refined) {
+    picture.samples = refined_samples;
+    return;
+  }
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, picture.samples);
+  if (error != std::errc() || rest != end || picture.samples < 1 || picture.samples > samples_max) {
+    throw core::UsageError("--samples=" + std::string(text) + ": expected a whole number from 1 to 32768, or auto");
+  }
+}
+
+/// `name` is one of all_skips, or "all".
+void switch_off(core::Skips& skips, const std::string& name) {
+  for (const core::Skip& skip : core::all_skips) {
+    skips.*skip.is_on = skips.*skip.is_on && name != skip.name && name != "all";
+  }
+}
+
+void apply_quality(const OptionSet& options, PictureOptions& picture) {
+  if (!picture.quality) {
+    return;
+  }
+  const QualityChoice choice = choice_of(*picture.quality);
+  if (!options.is_given("--samples")) {
+    take_samples(picture, "auto");
+  }
+  picture.cutoff = options.is_given("--cutoff") ? picture.cutoff : choice.cutoff;
+  if (picture.is_refined && !options.is_given("--error")) {
+    picture.refinement.error = choice.error;
+  }
+}
+
+void check_refinement(const OptionSet& options, PictureOptions& picture) {
+  for (const char* option : {"--error", "--samples-max"}) {
+    if (!picture.is_refined && options.is_given(option)) {
+      throw core::UsageError(std::string(option) + " goes with --samples=auto");
+    }
+  }
+  if (picture.is_refined && picture.refinement.error == 0) {
+    picture.refinement.error = default_error;
+  }
+}
+
+}  // namespace
+
+QualityChoice choice_of(Quality quality) {
+  return quality == Quality::draft ? QualityChoice{4.0 / 255, 1.0 / 64} : QualityChoice{1.0 / 255, 1.0 / 255};
+}
+
+void add_options(OptionSet options, PictureOptions& picture) {
+  options.add_argument(
+      "SCENE", [&picture](const std::string& text) { picture.scene = text; },
+      "An NFF file, a mesh file (obj, ply, stl, gltf, glb, ...), or a built-in scene such as teapot-12, rings-4-t1, tetra-9");
+  add_options(options, picture.staging);
+  add_view_options(options, picture);
+  options.add_text(
+      "--samples", "1..32768|auto [1]", [&picture](const std::string& text) { take_samples(picture, text); },
+      "Rays through each pixel; auto: as many as it needs for --error");
+  options.add_text(
+      "--error", "E [1/255]", [&picture](const std::string& text) { picture.refinement.error = parse_share(text, "--error"); },
+      "With --samples=auto: the estimated root mean square error of the linear picture at which it is done");
+  options.add_number("--samples-max", picture.refinement.samples_max, 2, 32768, "4096",
+                     "With --samples=auto: no pixel gets more rays than this");
+  options.add_text(
+      "--cutoff", "C [0]", [&picture](const std::string& text) { picture.cutoff = parse_share(text, "--cutoff", true); },
+      "Shoot no ray that can bring but less than C of light to its sample; 0 is exact");
+  options.add_choice<Quality>(
+      "--quality", picture.quality, {{"draft", Quality::draft}, {"default", Quality::standard}}, "one ray a pixel",
+      "As --samples=auto with an error and a cutoff for a quick look, or for a good one; what other options say counts more");
+  add_skip_option(options, picture.skips);
+  options.check_in_the_end([options, &picture] {
+    apply_quality(options, picture);
+    check_refinement(options, picture);
+  });
+}
+
+void add_skip_option(OptionSet options, core::Skips& skips) {
+  std::vector<std::string> names;
+  std::string table;
+  for (const core::Skip& skip : core::all_skips) {
+    names.emplace_back(skip.name);
+    table += "\n" + std::string(skip.name) + ": " + skip.what;
+  }
+  names.emplace_back("all");
+  options.add_words(
+      "--no-skip", names, [&skips](const std::string& name) { switch_off(skips, name); },
+      "Do what is left out where a scene does not need it; the picture keeps its bits:" + table);
+}
+
+void add_view_options(OptionSet options, PictureOptions& picture) {
+  options.add_text(
+      "--resolution", "WxH [the scene's]", [&picture](const std::string& text) { picture.resolution = parse_resolution(text); },
+      "Pixels of the picture");
+  options.add_number("--depth", picture.depth, 1, 255, std::to_string(picture.depth),
+                     "Longest chain of reflections and refractions; 1 is the eye's ray alone");
+  options.add_choice<core::Convention>("--convention", picture.convention,
+                                       {{"haines", core::Convention::haines}, {"paper", core::Convention::paper}},
+                                       "When shadow rays are cast: towards lights that the surface faces, or towards all");
+}
+
+core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database) {
+  const Resolution size = options.resolution.value_or(Resolution{scene.view.width, scene.view.height});
+  const core::Camera camera(scene.view, database.header().frame, size.width, size.height, options.samples);
+  return {.header = database.header(),
+          .camera = camera,
+          .shade = {.convention = options.convention,
+                    .depth_max = options.depth,
+                    .cutoff = options.cutoff,
+                    .radiance_bound = core::radiance_bound(scene, options.depth),
+                    .pixel_angle = database.records().textured > 0 ? camera.pixel_size() : 0},
+          .refinement = options.refinement,
+          .skips = options.skips,
+          .background = options.skips.background ? core::find_background(database, camera) : core::BackgroundTiles()};
+}
+
+Resolution parse_resolution(std::string_view text) {
+  Resolution size;
+  const char* const end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.width);
+  if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
+    const auto height = std::from_chars(width.ptr + 1, end, size.height);
+    const auto pixels = std::int64_t{size.width} * size.height;
+    if (height.ec == std::errc() && height.ptr == end && size.width >= 1 && size.height >= 1 && size.width <= 65536 &&
+        size.height <= 65536 && pixels <= picture_pixels_max) {
+      return size;
+    }
+  }
+  throw core::UsageError("--resolution=" + std::string(text) +
+                         ": expected WIDTHxHEIGHT such as 512x384, each 1 to 65536 and at most 268435456 pixels in all");
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,70 @@
+// What decides a picture on the command line: the scene and how it is looked at. Shared by `render` and `check`.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "apps/line/command_line.h"
+#include "apps/scene/staging.h"
+#include "core/build/database.h"
+#include "core/picture/pixel_task.h"
+#include "core/scene/scene.h"
+#include "core/picture/shade.h"
+#include "core/trace/skips.h"
+
+namespace dmpc::apps {
+
+/// Pixels of one picture, whether the scene or the command line asks for them.
+inline constexpr std::int64_t picture_pixels_max = std::int64_t{1} << 28;
+
+/// In the first pass of a refined picture: two on each plane would tell more of the error, one is what most pixels of most
+/// pictures need.
+inline constexpr int refined_samples = 2;
+
+struct Resolution {
+  int width = 0, height = 0;  ///< both above 0
+};
+
+/// Names for choices of samples and cutoff, to be had without knowing them: draft shows within 5 of 255 steps, on average, what
+/// the converged picture would, standard within 2.
+enum class Quality : std::uint8_t { draft, standard };
+
+struct QualityChoice {
+  double error = 0;   ///< core::RefinementOptions::error
+  double cutoff = 0;  ///< core::ShadeOptions::cutoff
+};
+/// What a quality stands for, where no option says otherwise. The errors leave room for an estimate that is too low by a fifth.
+/// The cutoffs are the largest whose own error is below a quarter of an 8-bit step (standard) and one such step (draft) on the
+/// SPD's scenes; `bench error` shows what all that costs and does.
+QualityChoice choice_of(Quality quality);
+
+struct PictureOptions {
+  std::string scene;                     ///< an NFF file, a mesh file or a built-in name
+  std::optional<Resolution> resolution;  ///< the view's own if not given
+  int samples = 1;                       ///< per pixel, 1 to 32768 (core/picture/film.h says why); if refined, in the first pass
+  bool is_refined = false;               ///< --samples=auto
+  core::RefinementOptions refinement;    ///< its error is 0 unless the picture is refined
+  int depth = 5;                         ///< hits of this depth cast shadow rays only; 1 to 255
+  core::Convention convention = core::Convention::haines;
+  double cutoff = 0;               ///< core::ShadeOptions::cutoff
+  std::optional<Quality> quality;  ///< --quality, already in the fields above
+  core::Skips skips;               ///< what is left out on the way to it
+  Staging staging;                 ///< how the scene is seen and lit, if not as it says itself
+};
+
+/// Declares them.
+void add_options(OptionSet options, PictureOptions& picture);
+/// Declares --no-skip.
+void add_skip_option(OptionSet options, core::Skips& skips);
+/// Declares those that neither are the scene nor trade error for time: --resolution, --depth and --convention.
+void add_view_options(OptionSet options, PictureOptions& picture);
+
+/// What the nodes need beside the records.
+core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database);
+
+/// "512x384"; each 1 to 65536, at most 2^28 pixels. Throws core::UsageError for anything else.
+Resolution parse_resolution(std::string_view text);
+
+}  // namespace dmpc::apps

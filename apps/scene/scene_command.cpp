@@ -1,0 +1,87 @@
+#include "apps/scene/scene_command.h"
+
+#include <ostream>
+
+#include "apps/formats/landscape/files.h"
+#include "apps/formats/nff_writer.h"
+#include "apps/system/output_file.h"
+#include "core/base/expect.h"
+#include "core/families/scenes.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+/// What would not be read by its ending as what it is.
+void check_ending(const core::SceneName& name, const std::filesystem::path& path) {
+  const std::string ending = path.extension().string();
+  if (!ending.empty() && ending != ".nff" && ending != ".NFF") {
+    throw core::UsageError(
+        "-o " + path.string() + ": " + name.text() +
+        " is written as NFF: expected a name that ends in .nff, or has no ending (only landscapes are written " +
+        "as .gltf: dmpc scene landscape-10 -o land.gltf)");
+  }
+}
+
+void write_file(const core::SceneName& name, const std::filesystem::path& path, Interrupt& interrupt) {
+  check_ending(name, path);
+  check_output_path(path, "-o");
+  if (is_special(path)) {
+    interrupt.set_consequence("the output is incomplete");
+  }
+  const Interrupt::EndAtOnce end_at_once(interrupt);
+  write_nff_file(path.string(), [&name](core::SceneSink& sink) { core::generate_scene(name, sink); });
+}
+
+void write_output(const core::SceneName& name, Interrupt& interrupt, std::ostream& output) {
+  interrupt.set_consequence("the output is incomplete");
+  const Interrupt::EndAtOnce end_at_once(interrupt);
+  output.exceptions(std::ostream::badbit);  // so that nothing is made that nobody reads any more
+  try {
+    NffWriter writer(output);
+    core::generate_scene(name, writer);
+    output.flush();
+  } catch (const std::ostream::failure&) {
+    output.exceptions(std::ostream::goodbit);
+  }
+  finish_output(output, "the scene");
+}
+
+void write_landscape_files(int size, const std::optional<std::filesystem::path>& path, Interrupt& interrupt) {
+  if (!path) {
+    throw core::UsageError("a landscape is several files: give -o FILE.gltf");
+  }
+  check_output_path(*path, "-o");
+  const Interrupt::EndAtOnce end_at_once(interrupt);
+  write_landscape(size, *path);
+}
+
+}  // namespace
+
+void add_options(OptionSet options, SceneOptions& scene) {
+  options.add_argument(
+      "SCENE", [&scene](const std::string& text) { scene.name = text; },
+      "FAMILY, FAMILY-SIZE, or FAMILY-SIZE-tN for curved surfaces as triangles");
+  options.add_path("-o,--output", "FILE [stdout]", scene.output, "Where it goes");
+  options.set_examples("Families:\n" + core::describe_scene_families() + describe_landscape() +
+                       "\nExamples:\n"
+                       "  dmpc scene teapot-12 -o teapot.nff\n"
+                       "  dmpc scene rings-4-t1 | head\n"
+                       "  dmpc scene landscape-10 -o land.gltf");
+}
+
+int scene_command(const SceneOptions& options, Interrupt& interrupt, std::ostream& output) {
+  if (const auto size = landscape_size(options.name)) {
+    write_landscape_files(*size, options.output, interrupt);
+    return 0;
+  }
+  const core::SceneName name = core::parse_scene_name(options.name);
+  if (options.output) {
+    write_file(name, *options.output, interrupt);
+  } else {
+    write_output(name, interrupt, output);
+  }
+  return 0;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,28 @@
+// The command `scene`: writes a built-in scene as NFF, or a landscape as glTF.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+#include "apps/line/command_line.h"
+#include "apps/system/interrupt.h"
+
+namespace dmpc::apps {
+
+struct SceneOptions {
+  std::string name;                             ///< of a built-in scene or a landscape
+  std::optional<std::filesystem::path> output;  ///< stdout if not given
+};
+
+/// Declares them.
+void add_options(OptionSet options, SceneOptions& scene);
+
+/// Writes to the file asked for (whole or not at all), else to `output`. A signal ends the process. Returns the exit status 0.
+/// Throws core::InputError for an unknown name or if writing fails,
+/// core::UsageError for a landscape without an -o that ends in .gltf or another scene with one that ends in anything but .nff,
+/// Interrupted if a signal came before.
+int scene_command(const SceneOptions& options, Interrupt& interrupt, std::ostream& output);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,164 @@
+#include "apps/scene/staging.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/line/number_text.h"
+#include "apps/line/option_values.h"
+#include "apps/formats/view_faults.h"
+#include "apps/line/words.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+using core::Vec3d;
+
+constexpr const char* camera_form = "FROM/AT[/UP[/DEGREES]] with points such as 1,2,3";
+constexpr const char* light_form = "X,Y,Z[/R,G,B] with numbers, coordinates from -1e30 to 1e30, none of the colour below 0";
+constexpr const char* number_form = "a number above 0, at most 1e30";
+
+[[noreturn]] void refuse(const std::string& option, const std::string& text, const std::string& expected) {
+  throw core::UsageError(option + "=" + text + ": expected " + expected);
+}
+
+std::optional<Vec3d> parse_vector(const std::string& text) {
+  const std::vector<std::string> words = words_between(text, ',');
+  if (words.size() != 3) {
+    return std::nullopt;
+  }
+  const Vec3d vector{finite_number(words[0]), finite_number(words[1]), finite_number(words[2])};
+  return is_finite(vector) ? std::optional(vector) : std::nullopt;
+}
+
+/// With an up that goes with every direction if none is given.
+core::View view_of(const CameraChoice& camera) {
+  const Vec3d direction = camera.at - camera.from;
+  const bool is_upright = std::abs(direction.y) >= std::max(std::abs(direction.x), std::abs(direction.z));
+  return {.from = camera.from,
+          .at = camera.at,
+          .up = camera.up.value_or(is_upright ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0}),
+          .angle_degrees = camera.degrees.value_or(45)};
+}
+
+const char* expected_instead(ViewFault fault) {
+  switch (fault) {
+    case ViewFault::angle:
+      return "an angle between 0 and 180 degrees, both excluded";
+    case ViewFault::far_from:
+    case ViewFault::far_at:
+      return "coordinates from -1e30 to 1e30";
+    case ViewFault::direction:
+      return "FROM and AT at different points";
+    case ViewFault::up:
+      return "an UP that is not zero and not parallel to the line from FROM to AT";
+  }
+  return "";
+}
+
+double parse_scale(const std::string& text) {
+  const double scale = finite_number(text);
+  return scale > 0 && scale <= view_coordinate_max ? scale : (refuse("--scale", text, number_form), 0);
+}
+
+double parse_smooth(const std::string& text) {
+  const double degrees = finite_number(text);
+  return degrees >= 0 && degrees <= 180 ? degrees : (refuse("--smooth", text, "degrees from 0 to 180"), 0);
+}
+
+}  // namespace
+
+CameraChoice parse_camera(const std::string& text) {
+  const std::vector<std::string> parts = words_between(text, '/');
+  const auto vector = [&](std::size_t i) {
+    const auto read = i < parts.size() ? parse_vector(parts[i]) : std::nullopt;
+    return read ? *read : (refuse("--camera", text, camera_form), Vec3d{});
+  };
+  if (parts.size() > 4) {
+    refuse("--camera", text, camera_form);
+  }
+  CameraChoice camera{.from = vector(0), .at = vector(1)};
+  if (parts.size() > 2) {
+    camera.up = vector(2);
+  }
+  if (parts.size() > 3) {
+    camera.degrees = finite_number(parts[3]);
+  }
+  if (const auto fault = fault_of(view_of(camera))) {
+    refuse("--camera", text, expected_instead(*fault));
+  }
+  return camera;
+}
+
+core::PointLight parse_light(const std::string& text) {
+  const std::vector<std::string> parts = words_between(text, '/');
+  const auto position = parse_vector(parts[0]);
+  const auto color = parse_vector(parts.back());
+  if (parts.size() > 2 || !position || !is_in_reach(*position) || !color ||
+      (parts.size() == 2 && std::min({color->x, color->y, color->z}) < 0)) {
+    refuse("--light", text, light_form);
+  }
+  return parts.size() == 2 ? core::PointLight{*position, *color, true} : core::PointLight{.position = *position};
+}
+
+std::string text_of(const core::Vec3d& vector) {
+  return shortest(vector.x) + "," + shortest(vector.y) + "," + shortest(vector.z);
+}
+
+std::string text_of(const CameraChoice& camera) {
+  core::expect(camera.up || !camera.degrees, "degrees stand behind an up");
+  const std::string up = camera.up ? "/" + text_of(*camera.up) : "";
+  return text_of(camera.from) + "/" + text_of(camera.at) + up + (camera.degrees ? "/" + shortest(*camera.degrees) : "");
+}
+
+std::string text_of(const core::PointLight& light) {
+  return text_of(light.position) + (light.has_color ? "/" + text_of(light.color) : "");
+}
+
+void add_options(OptionSet options, Staging& staging) {
+  options.add_text(
+      "--camera", "FROM/AT[/UP[/DEGREES]] [the scene's]",
+      [&staging](const std::string& text) { staging.camera = parse_camera(text); },
+      "From where and at what to look, such as 1,2,3/0,0,0/0,1,0/45");
+  options.add_texts(
+      "--light", "X,Y,Z[/R,G,B] [the scene's]",
+      [&staging](const std::string& text) { staging.lights.push_back(parse_light(text)); },
+      "A point light in place of the scene's; give it again for more. Without a colour it is as bright as NFF's");
+  options.add_text(
+      "--scale", "S [1]", [&staging](const std::string& text) { staging.mesh.scale = parse_scale(text); },
+      "Mesh files: multiply all coordinates by S");
+  OptionSet::Choices<UpAxis> axes;
+  for (const char* const word : {"x", "y", "z", "-x", "-y", "-z"}) {
+    axes.emplace_back(word, up_axis_of(word));
+  }
+  options.add_choice("--up", staging.mesh.up, axes, "y",
+                     "Mesh files: the axis that points up, such as --up=-z, for the view where the file has none");
+  options.add_text(
+      "--smooth", "DEGREES [the file's normals]",
+      [&staging](const std::string& text) { staging.mesh.smooth_degrees = parse_smooth(text); },
+      "Mesh files: reckon vertex normals anew, smooth over edges up to this angle");
+  options.add_words(
+      "--missing", {"error", "plain"}, [&staging](const std::string& text) { staging.mesh.allows_missing = text == "plain"; },
+      "Mesh files that refer to textures or other files that cannot be had: an error, or what they cover in its plain colour; "
+      "error if not given");
+  options.add_words(
+      "--files", {"below", "anywhere"}, [&staging](const std::string& text) { staging.mesh.opens_anywhere = text == "anywhere"; },
+      "Mesh files: which files they may refer to: those beside and below them, or any; below if not given");
+}
+
+void apply(const Staging& staging, core::Scene& scene) {
+  if (staging.camera) {
+    scene.view.from = staging.camera->from;
+    scene.view.at = staging.camera->at;
+    scene.view.up = staging.camera->up.value_or(scene.view.up);
+    scene.view.angle_degrees = staging.camera->degrees.value_or(scene.view.angle_degrees);
+    if (fault_of(scene.view)) {
+      throw core::UsageError("--camera: the scene's own up is parallel to the line from FROM to AT: give UP, too");
+    }
+  }
+  if (!staging.lights.empty()) {
+    scene.lights = staging.lights;
+  }
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,45 @@
+// How a scene is placed, seen and lit, where the command line has its own idea.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/line/command_line.h"
+#include "apps/formats/mesh_options.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::apps {
+
+/// What --camera says; what it leaves open stays the scene's.
+struct CameraChoice {
+  core::Vec3d from, at;
+  std::optional<core::Vec3d> up;
+  std::optional<double> degrees;
+};
+
+struct Staging {
+  std::optional<CameraChoice> camera;
+  std::vector<core::PointLight> lights;  ///< in place of the scene's, unless there are none
+  MeshOptions mesh;                      ///< for mesh files alone
+};
+
+/// Declares --camera, --light, --scale, --up, --smooth, --missing and --files.
+void add_options(OptionSet options, Staging& staging);
+
+/// "FROM/AT[/UP[/DEGREES]]", "1,2,3/0,0,0/0,1,0/45". Throws core::UsageError for anything else, or for a view that shows nothing.
+CameraChoice parse_camera(const std::string& text);
+/// "X,Y,Z[/R,G,B]". Throws core::UsageError for anything else, or for a colour below 0.
+core::PointLight parse_light(const std::string& text);
+
+/// What parse_camera() reads as these very numbers. Requires an up if there are degrees.
+std::string text_of(const CameraChoice& camera);
+/// What parse_light() reads as these very numbers.
+std::string text_of(const core::PointLight& light);
+/// "1,2,3", with the very numbers.
+std::string text_of(const core::Vec3d& vector);
+
+/// Gives the scene the camera and the lights. Throws core::UsageError if the scene's own up does not go with the camera.
+void apply(const Staging& staging, core::Scene& scene);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,30 @@
+// A scene as the nodes are given it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "apps/scene/database_options.h"
+#include "apps/scene/picture_options.h"
+#include "core/build/database.h"
+#include "core/picture/pixel_task.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::apps {
+
+/// What is rendered.
+struct Subject {
+  core::Database database;
+  core::RenderSettings settings;
+};
+
+/// The database of `scene`, whose objects are freed on the way, and its picture. Says on stderr if primitives were left out,
+/// and with `shows_progress` how far it is if stderr is a terminal.
+/// Throws core::InputError as core::build_database() does.
+Subject build_subject(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options = {},
+                      bool shows_progress = false);
+
+/// A sentence about the primitives that a database left out; empty if it left out none.
+std::string dropped_text(std::uint64_t count);
+
+}  // namespace dmpc::apps

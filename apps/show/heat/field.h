@@ -1,0 +1,34 @@
+// The numbers of one heat map, and what they mean.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/show/stats/stats.h"
+#include "nodes/watch/heat_map.h"
+
+namespace dmpc::apps {
+
+/// A number for each pixel, row by row from the top left.
+struct HeatField {
+  nodes::HeatKind kind;
+  int width = 0, height = 0;
+  std::vector<double> values;
+  std::string meaning;         ///< what the numbers count, in words
+  std::string unit;            ///< of the numbers: "rays", "us"
+  std::string clock;           ///< of `time`: "processor time" or "virtual time"; of other kinds empty
+  bool is_repeatable = false;  ///< another run with the same options gives the same bits
+
+  double least() const;
+  double largest() const;
+  double sum() const;
+};
+
+/// What the run has put on the heat map, which it has filled. Requires record.heat with this kind.
+///
+/// Repeatable are rays, depth and samples, which are the same for every strategy and number of nodes, too; references and pages,
+/// the same for every number of nodes; all in virtual time; with threads, faults and node where no pixel changes its node and
+/// (faults) one at a time is under way on it, or where there is one node; and dataflow's node.
+HeatField heat_field(nodes::HeatKind kind, const RenderRecord& record);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,16 @@
+// A heat map as a picture: a colour for each pixel, and below it a legend.
+#pragma once
+
+#include <string>
+
+#include "apps/show/heat/field.h"
+#include "apps/picture/image_file.h"
+
+namespace dmpc::apps {
+
+/// Black: 0 on a logarithmic scale. The legend says what is shown, the scale (linear or logarithmic, as heat_scale.h chooses)
+/// with round numbers, least, largest and mean, and `source`, such as scene and strategy, on a line of its own. A picture too
+/// narrow for its legend gets a white margin on the right; in a wide one each dot of a letter is several pixels wide.
+Image heat_picture(const HeatField& field, const std::string& source);
+
+}  // namespace dmpc::apps

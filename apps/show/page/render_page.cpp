@@ -1,0 +1,217 @@
+#include "apps/show/page/render_page.h"
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "apps/line/amount.h"
+#include "apps/line/number_text.h"
+#include "apps/show/heat/field.h"
+#include "apps/show/heat/picture.h"
+#include "apps/show/page/conclusions.h"
+#include "apps/show/page/page.h"
+#include "apps/show/page/render_tables.h"
+#include "apps/show/page/view_tables.h"
+#include "apps/render/command.h"
+#include "apps/show/summary.h"
+#include "nodes/size_text.h"
+
+namespace dmpc::apps::html {
+
+namespace {
+
+std::string runner_text(const RenderOptions& options) {
+  return options.computer.machine ? "virtual, in the time of a modelled " + options.computer.machine->name
+                                  : "threads, one a node, by the wall clock";
+}
+
+/// By which another run is known to be the same.
+Facts results_of(const Account& account) {
+  Facts results = {{"film", hash_text(account.film.hash())}};
+  if (account.virtual_time) {
+    results.emplace_back("run", hash_text(account.virtual_time->run_hash(account.film.hash())));
+  }
+  return results;
+}
+
+Facts facts_of(const RenderRecord& record, const Account& account) {
+  const RenderOptions& options = record.options;
+  Facts facts = {
+      {"Scene", options.picture.scene + ", " + counted(record.database.header().primitive_count, "primitive")},
+      {"Database", counted(record.database.page_count(), "page") + " of " + nodes::size_text(record.database.page_size())},
+      {"Computer", computer_text(record)},
+      {"Runner", runner_text(options)},
+      {"Memory of the fullest node", bytes_text(account.node_memory_max_bytes)},
+      {"Rays shot", grouped(account.operations.ray_count())},
+      {"Packets sent", grouped(nodes::total(account.sent).packets) + ", " +
+                           amount_text(static_cast<double>(nodes::total(account.sent).bytes), "bytes")},
+      {"Rendering took", seconds_text(record.seconds.render) + " by the wall clock, " +
+                             seconds_text(record.seconds.render_user + record.seconds.render_system) + " of processors"}};
+  if (account.virtual_time) {
+    facts.push_back({"Virtual time", amount_text(static_cast<double>(account.virtual_time->total_ns), "ns")});
+  }
+  return facts;
+}
+
+void add_pictures(Page& page, const RenderRecord& record, const Account& account) {
+  page.begin_section("Picture");
+  const std::string size = std::to_string(account.film.width()) + "x" + std::to_string(account.film.height()) + " pixels";
+  page.add_picture(image_of(account.film), "The picture of " + record.options.picture.scene, size + ".");
+  if (record.heat == nullptr) {
+    return;
+  }
+  page.begin_section("What each pixel took");
+  for (std::size_t number = 0; number < nodes::heat_kind_names.size(); ++number) {
+    if (const auto kind = static_cast<nodes::HeatKind>(number); record.heat->has(kind)) {
+      const HeatField field = heat_field(kind, record);
+      const std::string name(nodes::name_of(kind));
+      page.add_conclusion(heat_conclusion(field));
+      page.add_picture(heat_picture(field, record.options.picture.scene + ", " + computer_text(record)), "Heat map of " + name,
+                       name + ": " + field.meaning + ", least " + amount_text(field.least(), field.unit) + ", largest " +
+                           amount_text(field.largest(), field.unit) + ".");
+    }
+  }
+}
+
+void add_time(Page& page, const RunView& view) {
+  if (view.steps.nodes.front().empty()) {
+    return;
+  }
+  page.begin_section("Over time");
+  page.add_conclusion(time_conclusion(view.steps));
+  const Table table = step_table(view.steps);
+  page.add_plot(step_plot(view.steps), table);
+  page.add_map(step_map(view.steps), "Each row is a node, each column a step of time: the darker, the less it did.");
+  page.add_table(table);
+}
+
+/// From the nodes in rows to those in columns.
+template <class Count>
+NumberMap matrix(const std::vector<Count>& counts, const std::string& title, const std::string& row_label,
+                 const std::string& column_label, const std::string& value_label) {
+  const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(counts.size())) + 0.5);
+  return {.title = title,
+          .row_label = row_label,
+          .column_label = column_label,
+          .value_label = value_label,
+          .unit = {},
+          .rows = side,
+          .columns = side,
+          .values = std::vector<double>(counts.begin(), counts.end())};
+}
+
+void add_misses(Page& page, const RenderRecord& record, const MissEstimate& misses) {
+  const auto& report = std::get<svm::Report>(record.report);
+  const svm::PageCounters pages = report.pages();
+  page.add_conclusion(cache_conclusion(misses, report.plan.frames, static_cast<std::uint32_t>(record.database.page_count())));
+  const Table table = miss_table(misses, static_cast<std::uint32_t>(record.database.page_count()), pages.references,
+                                 report.plan.frames, pages.faults);
+  page.add_plot(miss_plot(), table);
+  page.add_table(table);
+}
+
+void add_fetches(Page& page, const svm::Fetches& fetches) {
+  page.begin_section("Fetching a page");
+  page.add_conclusion(fetch_conclusion(fetches));
+  const Table table = fetch_table(fetches);
+  page.add_plot(fetch_plot(fetches), table);
+  page.add_table(table);
+  page.add_table(fetch_part_table(fetches));
+}
+
+void add_pages(Page& page, const RenderRecord& record, const svm::Fetches& fetches) {
+  page.begin_section("Pages");
+  const svm::PageCounters pages = std::get<svm::Report>(record.report).pages();
+  page.add_conclusion(page_conclusion(pages, fetches));
+  if (pages.faults == 0) {
+    return;
+  }
+  page.add_map(matrix(fetches.by_pair, "Who fetched pages from whom", "node that asks", "home of the page", "fetches"), "");
+  page.add_plot(page_share_plot(), page_share_table(fetches));
+  page.add_table(page_table(fetches));
+  add_fetches(page, fetches);
+  if (record.view->misses) {
+    page.begin_section("Other caches");
+    add_misses(page, record, *record.view->misses);
+  }
+}
+
+void add_rays(Page& page, const dataflow::Report& report, const Account& account) {
+  page.begin_section("Rays between nodes");
+  const std::vector<std::uint64_t> rays = report.ray_matrix();
+  page.add_conclusion(ray_conclusion(rays, account.operations.ray_count()));
+  if (account.nodes.size() > 1) {
+    page.add_map(matrix(rays, "Who sent rays to whom", "node that sends", "owner that receives", "rays"), "");
+  }
+}
+
+void add_nodes(Page& page, const RenderRecord& record) {
+  page.begin_section("Nodes");
+  page.add_conclusion(node_conclusion(account_of(record.report)));
+  const Table table = node_table(record);
+  for (const Plot& plot : node_plots(record)) {
+    page.add_plot(plot, table);
+  }
+  page.add_table(table);
+}
+
+void add_losses(Page& page, const Account& account) {
+  page.begin_section("Where the time went");
+  page.add_conclusion(loss_conclusion(account));
+  const Table table = loss_table(account);
+  page.add_plot(loss_plot(account), table);
+  page.add_table(table);
+}
+
+void add_traffic(Page& page, const Account& account) {
+  page.begin_section("Traffic");
+  page.add_conclusion(traffic_conclusion(account));
+  page.add_table(packet_table(account));
+  if (!account.virtual_time) {
+    return;
+  }
+  const nodes::LinkTraffic& links = account.virtual_time->links;
+  const double hops = links.messages == 0 ? 0 : static_cast<double>(links.hops) / static_cast<double>(links.messages);
+  page.add_text(counted(links.messages, "message") + " from one node to another passed " + fixed(hops, 2) +
+                " links each, on average.");
+  const Table table = link_table(*account.virtual_time);
+  page.add_plot(link_plot(), table);
+  page.add_table(table);
+}
+
+void add_memory(Page& page, const Account& account, std::size_t database_bytes) {
+  page.begin_section("Memory");
+  page.add_conclusion(memory_conclusion(account, database_bytes));
+  const Table table = memory_table(account);
+  page.add_plot(memory_plot(account), table);
+  page.add_table(table);
+}
+
+}  // namespace
+
+std::string render_page(const RenderRecord& record, const Origin& origin, std::ostream& complaints) {
+  const Account account = account_of(record.report);
+  Page page("Render of " + record.options.picture.scene, complaints);
+  page.add_text(origin.program + ", " + origin.date);
+  page.add_facts(facts_of(record, account));
+  add_pictures(page, record, account);
+  add_losses(page, account);
+  if (record.view != nullptr) {
+    add_time(page, *record.view);
+  }
+  if (record.view != nullptr && record.view->fetches) {
+    add_pages(page, record, *record.view->fetches);
+  }
+  if (const auto* const report = std::get_if<dataflow::Report>(&record.report)) {
+    add_rays(page, *report, account);
+  }
+  add_nodes(page, record);
+  add_traffic(page, account);
+  add_memory(page, account, record.database.page_count() * record.database.page_size());
+  page.add_origin(origin, results_of(account));
+  return page.text();
+}
+
+}  // namespace dmpc::apps::html

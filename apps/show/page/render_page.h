@@ -1,0 +1,16 @@
+// The page of --report: what a render was, showed, took and lost.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+#include "apps/show/page/origin.h"
+#include "apps/show/stats/stats.h"
+
+namespace dmpc::apps::html {
+
+/// The whole document. What could not be drawn is told to `complaints`. Throws core::InputError if no temporary file can be
+/// written.
+std::string render_page(const RenderRecord& record, const Origin& origin, std::ostream& complaints);
+
+}  // namespace dmpc::apps::html

@@ -1,0 +1,35 @@
+// The page of a study: what a sweep found, as plots and tables.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "apps/show/page/page.h"
+#include "apps/show/page/origin.h"
+#include "apps/table/plot.h"
+#include "apps/table/table.h"
+
+namespace dmpc::apps::html {
+
+/// A table and the plots of it.
+struct SweepPart {
+  std::string heading;  ///< of its section; empty: none
+  const Table& table;   ///< outlives this
+  std::vector<Plot> plots;
+  std::string conclusion = {};  ///< a sentence; empty: none
+};
+
+/// What a page tells.
+struct Sweep {
+  std::string title;
+  std::vector<std::string> texts;  ///< paragraphs
+  std::vector<SweepPart> parts;
+  Facts results = {};  ///< by which another run is known to be the same
+};
+
+/// The whole document. What could not be drawn is told to `complaints`. Throws core::InputError if no temporary file can be
+/// written.
+std::string sweep_page(const Sweep& sweep, const Origin& origin, std::ostream& complaints);
+
+}  // namespace dmpc::apps::html

@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <numeric>
+#include <string>
+
+#include "apps/run/ray_hops.h"
+#include "apps/run/region_options.h"
+#include "apps/show/stats/strategy.h"
+#include "dataflow/packets.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+using Traffic = std::array<nodes::Traffic, nodes::packet_kind_count>;
+
+/// What the rays of one node, or of all, did on their way.
+struct Travel {
+  std::uint64_t rays_shot = 0;
+  dataflow::RayCounters rays;
+  dataflow::Gather::Counters gather;
+  Traffic sent;
+  std::uint32_t backlog_max = 0;
+};
+
+std::uint64_t sum_of(const std::array<std::uint64_t, core::ray_kind_count>& by_kind) {
+  return std::accumulate(by_kind.begin(), by_kind.end(), std::uint64_t{0});
+}
+
+double ratio(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+Json travel_json(const Travel& travel, std::uint32_t ray_batch) {
+  const dataflow::Gather::Counters& gather = travel.gather;
+  return {{"rays_in", rays_json(travel.rays.in)},
+          {"rays_out", rays_json(travel.rays.out)},
+          {"messages_per_ray", ratio(sum_of(travel.rays.out), travel.rays_shot)},
+          {"packets", gather.packets},
+          {"packets_flushed", gather.packets_flushed},
+          {"packets_queued", gather.packets_queued},
+          {"mean_fill", gather.mean_fill(ray_batch)},
+          {"bytes", dataflow::ray_traffic(travel.sent).bytes},
+          {"overflow",
+           {{"rays", gather.rays_overflowed},
+            {"packets", gather.packets_overflowed},
+            {"share", ratio(gather.rays_overflowed, gather.rays)}}},
+          {"hits_sent_back", travel.rays.hits_sent_back},
+          {"queue_max", gather.queue_high_water},
+          {"backlog_max", travel.backlog_max}};
+}
+
+Travel travel_of(const dataflow::NodeReport& node) {
+  const dataflow::ProgramReport& program = node.program;
+  return {sum_of(program.operations.rays), program.rays, program.gather, node.counters.sent, program.backlog_high_water};
+}
+
+Travel travel_of(const dataflow::Report& report) {
+  Travel all{sum_of(report.operations().rays), report.rays(), report.gathers(), report.sent(), 0};
+  for (const dataflow::NodeReport& node : report.nodes) {
+    all.backlog_max = std::max(all.backlog_max, node.program.backlog_high_water);
+  }
+  return all;
+}
+
+/// `predicted` is empty if nothing was.
+Json loads_json(const std::vector<double>& work, const std::vector<double>& predicted) {
+  const auto total = [](const std::vector<double>& loads) { return std::accumulate(loads.begin(), loads.end(), 0.0); };
+  const bool is_predicted = !predicted.empty();
+  return {{"work_ps", total(work)},
+          {"predicted_ps", is_predicted ? Json(total(predicted)) : Json()},
+          {"average", dataflow::average_load(work)},
+          {"average_predicted", is_predicted ? Json(dataflow::average_load(predicted)) : Json()}};
+}
+
+double volume(const core::Corner& low, const core::Corner& high) {
+  double product = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    product *= high[axis] - low[axis];
+  }
+  return product;
+}
+
+Json region_json(const dataflow::NodeReport& node, const core::Corner& grid_size) {
+  return {{"low", node.region.low},
+          {"high", node.region.high},
+          {"share", volume(node.region.low, node.region.high) / volume({}, grid_size)},
+          {"part_bytes", node.part_bytes},
+          {"primitive_copies", node.primitive_copies},
+          {"primary_rays", node.primary_rays}};
+}
+
+Json regions_json(const dataflow::Report& report) {
+  std::uint64_t bytes = 0, copies = 0, rays = 0;
+  for (const dataflow::NodeReport& node : report.nodes) {
+    bytes += node.part_bytes;
+    copies += node.primitive_copies;
+    rays += node.primary_rays;
+  }
+  return {{"grid", report.bsp.grid_size()},
+          {"duplication", report.duplication},
+          {"part_bytes", bytes},
+          {"primitive_copies", copies},
+          {"primary_rays", rays}};
+}
+
+/// Rows of senders.
+/// Only pairs of which one has sent the other a ray: neighbours, mostly.
+Json pairs_json(const dataflow::Report& report) {
+  Json rows = Json::array();
+  for (std::size_t from = 0; from < report.nodes.size(); ++from) {
+    const std::vector<dataflow::PairCounters>& pairs = report.nodes[from].program.pairs;
+    for (std::size_t to = 0; to < pairs.size(); ++to) {
+      if (pairs[to].rays_total() > 0) {
+        const auto& [rays, packets, overflowed] = pairs[to];
+        rows.push_back({from, to, rays[0], rays[1], rays[2], rays[3], packets, overflowed});
+      }
+    }
+  }
+  return {{"columns", {"from", "to", "primary", "reflected", "refracted", "shadow", "packets", "rays_overflowed"}},
+          {"rows", rows}};
+}
+
+Json mapping_json(const dataflow::Report& report, nodes::TopologyKind topology) {
+  const RayHops hops = ray_hops_of(report, topology);
+  return {{"topology", std::string(name_of(topology))}, {"mean_hops", hops.mean}, {"mean_hops_random", hops.mean_of_random}};
+}
+
+Json options_json(const RayOptions& rays, const dataflow::Plan& plan) {
+  const bool subsampled = rays.balance.balance == dataflow::Balance::subsampled;
+  return {{"balance", name_of(rays.balance.balance)},
+          {"subsample", subsampled ? Json(rays.balance.subsample) : Json()},
+          {"balance_grid", subsampled ? Json(rays.balance.columns_per_side) : Json()},
+          {"ray_batch", plan.ray_batch},
+          {"ray_credits", plan.ray_credits},
+          {"ray_queue", plan.queue_packets},
+          {"topology", std::string(name_of(rays.topology))}};
+}
+
+Json host_json(const dataflow::HostCounters& host) {
+  return {{"rays_kept_max", host.rays_kept_max}, {"kept_bytes_max", host.kept_bytes_max}, {"token_rounds", host.token_rounds}};
+}
+
+}  // namespace
+
+StrategyStats strategy_stats(const RenderOptions& options, const dataflow::Report& report) {
+  const dataflow::Plan& plan = report.plan;
+  const std::vector<double> work = report.work();
+  StrategyStats stats{
+      .options = options_json(options.rays, plan),
+      .all = {{"travel", travel_json(travel_of(report), plan.ray_batch)},
+              {"load", loads_json(work, report.predicted)},
+              {"regions", regions_json(report)},
+              {"mapping", mapping_json(report, options.rays.topology)},
+              {"pairs", pairs_json(report)}},
+      .chaos = {{"ray_credits", plan.ray_credits}, {"host_credits", plan.host_credits}, {"film_credits", plan.film_credits}},
+      .host = host_json(report.host_rays),
+      .packets_overflowed = report.gathers().packets_overflowed};
+  for (std::size_t i = 0; i < report.nodes.size(); ++i) {
+    const dataflow::NodeReport& node = report.nodes[i];
+    stats.nodes.push_back(
+        {{"travel", travel_json(travel_of(node), plan.ray_batch)},
+         {"load", {{"work_ps", work[i]}, {"predicted_ps", report.predicted.empty() ? Json() : Json(report.predicted[i])}}},
+         {"region", region_json(node, report.bsp.grid_size())}});
+  }
+  return stats;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,337 @@
+#include "apps/show/stats/stats.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <initializer_list>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "apps/show/heat/field.h"
+#include "apps/machine/machine_file.h"
+#include "apps/show/stats/strategy.h"
+#include "apps/show/stats/virtual.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+using nodes::Traffic;
+
+constexpr double nanosecond = 1e-9;
+
+/// All of `keys` in order, null but for those that `values` has.
+Json filled(std::initializer_list<const char*> keys, const Json& values) {
+  Json result;
+  for (const char* const key : keys) {
+    result[key] = nullptr;
+  }
+  for (const auto& [key, value] : values.items()) {
+    core::expect(result.contains(key), "a strategy adds no key of its own");
+    result[key] = value;
+  }
+  return result;
+}
+
+std::uint64_t test_count(const core::Operations& operations, core::PrimitiveKind kind) {
+  return operations.primitive_tests[static_cast<std::size_t>(kind)];
+}
+
+Json hits_json(const core::Operations& operations) {
+  return {{"primary", operations.primary_hits},
+          {"secondary", operations.secondary_hits},
+          {"shadow_blocked", operations.shadow_blocked},
+          {"total_internal_reflections", operations.total_internal_reflections}};
+}
+
+Json operations_json(const core::Operations& operations) {
+  return {{"cell_steps", operations.cell_steps},
+          {"brick_reads", operations.brick_reads},
+          {"triangle_tests", test_count(operations, core::PrimitiveKind::triangle)},
+          {"sphere_tests", test_count(operations, core::PrimitiveKind::sphere)},
+          {"cone_tests", test_count(operations, core::PrimitiveKind::cone)},
+          {"shadings", operations.shadings},
+          {"normal_reads", operations.normal_reads},
+          {"texture_lookups", operations.texture_lookups},
+          {"tile_reads", operations.tile_reads},
+          {"deposits_saturated", operations.deposits_saturated}};
+}
+
+/// How samples were shared out.
+Json sampling_json(const RenderRecord& record, const Account& account) {
+  const std::uint64_t samples = account.film.samples();
+  Json result = {{"samples", samples},
+                 {"resumed", record.samples_found_done},
+                 {"samples_per_pixel", static_cast<double>(samples) / static_cast<double>(account.film.pixels().size())},
+                 {"passes", account.refinement.passes}};
+  result["estimated_error"] = record.options.picture.is_refined ? Json(account.refinement.error) : Json();
+  return result;
+}
+
+/// A figure of the whole picture that a part of its samples does not tell: null where some were found done.
+Json of_whole_picture(const RenderRecord& record, const Json& figure) { return record.samples_found_done == 0 ? figure : Json(); }
+
+/// The cutoff's own bound: on average a sample lacks at most so much light.
+Json cutoff_json(const RenderRecord& record, const Account& account) {
+  const RenderOptions& options = record.options;
+  const auto cut = static_cast<double>(account.operations.rays_cut);
+  return {
+      {"on", options.picture.cutoff > 0},
+      {"exact", false},
+      {"cutoff", options.picture.cutoff},
+      {"rays_cut", account.operations.rays_cut},
+      {"mean_error_bound", of_whole_picture(record, options.picture.cutoff * cut / static_cast<double>(account.film.samples()))}};
+}
+
+/// A name as keys have it.
+std::string key_of(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == ' ' || c == '-'; }, '_');
+  return name;
+}
+
+/// What was left out.
+Json skips_json(const RenderRecord& record, const Account& account) {
+  const RenderOptions& options = record.options;
+  Json result;
+  for (const core::Skip& skip : core::all_skips) {
+    result[key_of(skip.name)] = {{"on", options.picture.skips.*skip.is_on},
+                                 {"exact", true},
+                                 {"avoided", account.operations.skipped.*skip.avoided},
+                                 {"unit", skip.unit}};
+  }
+  result["cutoff"] = cutoff_json(record, account);
+  return result;
+}
+
+Json packets_json(const nodes::NodeCounters& counters) {
+  const Traffic sent = nodes::total(counters.sent);
+  const Traffic received = nodes::total(counters.received);
+  return {{"sent", sent.packets},
+          {"received", received.packets},
+          {"bytes", sent.bytes},
+          {"bytes_received", received.bytes},
+          {"refused", counters.refused}};
+}
+
+Json all_packets_json(const Account& account, std::uint64_t packets_overflowed) {
+  const Traffic total = nodes::total(account.sent);
+  std::uint64_t received = nodes::total(account.host.received).packets;
+  for (const NodeAccount& node : account.nodes) {
+    received += nodes::total(node.counters.received).packets;
+  }
+  Json by_kind;
+  for (std::size_t kind = 0; kind < account.kind_names.size(); ++kind) {
+    by_kind[account.kind_names[kind]] = {{"packets", account.sent[kind].packets}, {"bytes", account.sent[kind].bytes}};
+  }
+  return {{"sent", total.packets},
+          {"received", received},
+          {"bytes", total.bytes},
+          {"overflow", packets_overflowed},
+          {"by_kind", by_kind}};
+}
+
+Json memory_json(const nodes::MemoryPlan& memory) {
+  Json result;
+  for (std::size_t index = 0; index < nodes::category_count; ++index) {
+    result[key_of(nodes::name_of(static_cast<nodes::Category>(index)))] = memory.bytes[index];
+  }
+  result["total"] = memory.total();
+  return result;
+}
+
+/// What a seed did to the computer, or null without one.
+Json chaos_json(const Account& account, const Json& credits) {
+  if (!account.chaos) {
+    return nullptr;
+  }
+  std::uint64_t held = account.host.held, sat_out = account.host.sat_out;
+  for (const NodeAccount& node : account.nodes) {
+    held += node.counters.held;
+    sat_out += node.counters.sat_out;
+  }
+  Json result = {{"seed", account.chaos->seed}, {"packets_held", held}, {"quanta_sat_out", sat_out}};
+  result.update(filled({"request_credits", "ray_credits", "host_credits", "film_credits"}, credits));
+  return result;
+}
+
+Json node_seconds_json(const nodes::NodeCounters& counters) {
+  // The clocks differ, so that a node that never waited may seem to have been busy for longer than it ran.
+  const std::uint64_t accounted_ns = counters.busy_ns + counters.asleep_ns;
+  const std::uint64_t waiting_ns = counters.wall_ns > accounted_ns ? counters.wall_ns - accounted_ns : 0;
+  return {{"busy", static_cast<double>(counters.busy_ns) * nanosecond},
+          {"idle", static_cast<double>(counters.asleep_ns) * nanosecond},
+          {"waiting", static_cast<double>(waiting_ns) * nanosecond},
+          {"wall", static_cast<double>(counters.wall_ns) * nanosecond}};
+}
+
+/// `timed`: what a run in virtual time adds; a node of it has no time by the wall clock.
+Json node_json(const NodeAccount& node, const Json& special, const Json& timed) {
+  Json result = {{"rays", rays_json(node.operations.rays)},
+                 {"hits", hits_json(node.operations)},
+                 {"operations", operations_json(node.operations)},
+                 {"packets", packets_json(node.counters)}};
+  result.update(filled({"pages", "work", "travel", "load", "region"}, special));
+  result["memory"] = {{"planned", memory_json(node.memory_planned)}, {"used", memory_json(node.memory_used)}};
+  result["seconds"] = timed.empty() ? node_seconds_json(node.counters) : Json();
+  result.update(filled({"virtual_seconds", "time_percent"}, timed));
+  result["quanta"] = node.counters.quanta;
+  result["sleeps"] = node.counters.sleeps;
+  return result;
+}
+
+Json nodes_json(const Account& account, const StrategyStats& special, const VirtualStats& timed) {
+  Json result = Json::array();
+  for (std::size_t i = 0; i < account.nodes.size(); ++i) {
+    result.push_back(node_json(account.nodes[i], special.nodes[i], timed.nodes[i]));
+  }
+  return result;
+}
+
+Json host_json(const RenderRecord& record, const Account& account, const Json& special, const Json& timed) {
+  Json result = {{"packets", packets_json(account.host)},
+                 {"deposits_saturated", of_whole_picture(record, account.host_deposits_saturated)},
+                 {"seconds", timed.empty() ? node_seconds_json(account.host) : Json()},
+                 {"sleeps", account.host.sleeps}};
+  result.update(filled({"virtual_seconds"}, timed));
+  result.update(filled({"rays_kept_max", "kept_bytes_max", "token_rounds"}, special));
+  return result;
+}
+
+/// How the scene is placed, seen and lit, as the command line would say it; null where it says nothing.
+void add_staging(Json& options, const Staging& staging) {
+  const MeshOptions& mesh = staging.mesh;
+  options["camera"] = staging.camera ? Json(text_of(*staging.camera)) : Json();
+  options["light"] = nullptr;
+  for (const core::PointLight& light : staging.lights) {
+    options["light"].push_back(text_of(light));
+  }
+  options["scale"] = mesh.scale ? Json(*mesh.scale) : Json();
+  options["up"] = mesh.up ? Json(text_of(*mesh.up)) : Json();
+  options["smooth"] = mesh.smooth_degrees ? Json(*mesh.smooth_degrees) : Json();
+  options["missing"] = mesh.allows_missing ? Json("plain") : Json();
+}
+
+Json options_json(const RenderRecord& record, const Account& account, const Json& special) {
+  const RenderOptions& options = record.options;
+  Json result = {{"scene", options.picture.scene},
+                 {"width", account.film.width()},
+                 {"height", account.film.height()},
+                 {"samples", options.picture.is_refined ? Json("auto") : Json(options.picture.samples)},
+                 {"error", options.picture.is_refined ? Json(options.picture.refinement.error) : Json()},
+                 {"samples_max", options.picture.is_refined ? Json(options.picture.refinement.samples_max) : Json()},
+                 {"cutoff", options.picture.cutoff},
+                 {"depth", options.picture.depth},
+                 {"convention", options.picture.convention == core::Convention::haines ? "haines" : "paper"},
+                 {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
+                 {"grid_axes", name_of(options.database.axes)},
+                 {"record_order", name_of(options.database.record_order)},
+                 {"strategy", name_of(options.strategy)},
+                 {"nodes", account.nodes.size()},
+                 {"node_memory", account.node_memory_max_bytes},
+                 {"page_size", record.database.page_size()}};
+  add_staging(result, options.picture.staging);
+  result.update(filled({"cache_pages", "replacement", "in_flight", "work_item", "count_pages", "balance", "subsample",
+                        "balance_grid", "ray_batch", "ray_credits", "ray_queue", "topology"},
+                       special));
+  return result;
+}
+
+Json seconds_json(const Seconds& seconds) {
+  return {{"load", seconds.load},
+          {"build", seconds.build},
+          {"prepare", seconds.prepare},
+          {"render", seconds.render},
+          {"write", seconds.write},
+          {"user", seconds.user},
+          {"system", seconds.system},
+          {"render_user", seconds.render_user},
+          {"render_system", seconds.render_system}};
+}
+
+Json heat_maps_json(const RenderRecord& record) {
+  Json result;
+  for (const HeatRequest& request : record.options.heat_maps) {
+    const HeatField field = heat_field(request.kind, record);
+    result.push_back({{"kind", nodes::name_of(field.kind)},
+                      {"file", request.path.string()},
+                      {"unit", field.unit},
+                      {"clock", field.clock.empty() ? Json() : Json(field.clock)},
+                      {"repeatable", field.is_repeatable},
+                      {"least", field.least()},
+                      {"largest", field.largest()},
+                      {"sum", field.sum()}});
+  }
+  return result;
+}
+
+Json database_json(const core::Database& database) {
+  const core::RecordCounts& records = database.records();
+  const auto block_count = [&](core::PrimitiveKind kind) { return records.blocks[static_cast<std::size_t>(kind)]; };
+  return {{"bytes", database.page_count() * database.page_size()},
+          {"pages", database.page_count()},
+          {"page_size", database.page_size()},
+          {"primitives", database.header().primitive_count},
+          {"references", database.references()},
+          {"dropped", database.dropped()},
+          {"bricks", records.bricks},
+          {"triangle_blocks", block_count(core::PrimitiveKind::triangle)},
+          {"sphere_blocks", block_count(core::PrimitiveKind::sphere)},
+          {"cone_blocks", block_count(core::PrimitiveKind::cone)},
+          {"normals", records.normals},
+          {"textured", records.textured},
+          {"texture_tiles", records.texture_tiles},
+          {"materials", database.header().material_count},
+          {"lights", database.header().light_count}};
+}
+
+}  // namespace
+
+Json rays_json(const std::array<std::uint64_t, core::ray_kind_count>& rays) {
+  const auto count = [&](core::RayKind kind) { return rays[static_cast<std::size_t>(kind)]; };
+  return {{"primary", count(core::RayKind::primary)},
+          {"reflected", count(core::RayKind::reflected)},
+          {"refracted", count(core::RayKind::refracted)},
+          {"shadow", count(core::RayKind::shadow)},
+          {"total", std::accumulate(rays.begin(), rays.end(), std::uint64_t{0})}};
+}
+
+std::string hash_text(std::uint64_t hash) {
+  std::string text(16, '0');
+  for (std::size_t digit = 16; digit-- > 0; hash >>= 4U) {
+    text[digit] = "0123456789abcdef"[hash & 15U];
+  }
+  return text;
+}
+
+std::string stats_json(const RenderRecord& record) {
+  const Account account = account_of(record.report);
+  const VirtualStats timed = virtual_stats(account);
+  const std::optional<nodes::Machine>& machine = record.options.computer.machine;
+  const StrategyStats special =
+      std::visit([&](const auto& report) { return strategy_stats(record.options, report); }, record.report);
+  Json all = {{"program", "dmpc " DMPC_VERSION},
+              {"options", options_json(record, account, special.options)},
+              {"runner", name_of(record.options.computer.runner)},
+              {"machine", machine ? machine_json(*machine) : Json()},
+              {"film_hash", hash_text(account.film.hash())},
+              {"sampling", sampling_json(record, account)},
+              {"rays", rays_json(account.operations.rays)},
+              {"hits", hits_json(account.operations)},
+              {"operations", operations_json(account.operations)},
+              {"seconds", seconds_json(record.seconds)}};
+  all["operations"]["deposits_saturated"] = of_whole_picture(record, account.operations.deposits_saturated);
+  all.update(filled({"run_hash", "machine_digest", "virtual_seconds", "time_percent", "events", "links"}, timed.all));
+  all.update({{"database", database_json(record.database)}, {"packets", all_packets_json(account, special.packets_overflowed)}});
+  all.update(filled({"pages", "work", "travel", "load", "regions", "mapping", "pairs"}, special.all));
+  all["chaos"] = chaos_json(account, special.chaos);
+  all["skips"] = skips_json(record, account);
+  all["heat_maps"] = heat_maps_json(record);
+  all["nodes"] = nodes_json(account, special, timed);
+  all["host"] = host_json(record, account, special.host, timed.host);
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names of files may be no UTF-8
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,17 @@
+// What a run in virtual time adds to the counters: for stats.cpp alone, which says what every key means in stats.h.
+#pragma once
+
+#include "apps/run/report.h"
+#include "apps/show/stats/strategy.h"
+
+namespace dmpc::apps {
+
+/// Objects whose values take the places of nulls, empty without virtual time.
+struct VirtualStats {
+  Json all = Json::object(), host = Json::object();
+  std::vector<Json> nodes;  ///< by number
+};
+
+VirtualStats virtual_stats(const Account& account);
+
+}  // namespace dmpc::apps

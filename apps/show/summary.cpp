@@ -1,0 +1,148 @@
+#include "apps/show/summary.h"
+
+#include <algorithm>
+#include <ostream>
+#include <variant>
+
+#include "apps/line/number_text.h"
+#include "apps/machine/machines.h"
+#include "apps/run/ray_hops.h"
+#include "apps/line/shown_text.h"
+#include "apps/run/time_parts.h"
+#include "nodes/size_text.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+/// What only one strategy has to say.
+struct StrategyLines {
+  std::string computer;  ///< the rest of that line
+  std::string figures;   ///< whole lines, with their ends
+};
+
+std::string memory_text(const Account& account) {
+  const auto fullest = std::max_element(account.nodes.begin(), account.nodes.end(), [](const auto& a, const auto& b) {
+    return a.memory_planned.total() < b.memory_planned.total();
+  });
+  std::string text = bytes_text(fullest->memory_planned.total()) + " a node:";
+  const char* separator = " ";
+  for (std::size_t index = 0; index < nodes::category_count; ++index) {
+    const std::size_t bytes = fullest->memory_planned.bytes[index];
+    if (bytes > 0) {
+      text += separator + std::string(nodes::name_of(static_cast<nodes::Category>(index))) + " " + bytes_text(bytes);
+      separator = ", ";
+    }
+  }
+  return text;
+}
+
+std::string rays_text(const core::Operations& operations, double render_seconds) {
+  const auto count = [&](core::RayKind kind) { return grouped(operations.rays[static_cast<std::size_t>(kind)]); };
+  const std::uint64_t total = operations.ray_count();
+  const double rate = render_seconds > 0 ? static_cast<double>(total) / render_seconds : 0;
+  return grouped(total) + " (primary " + count(core::RayKind::primary) + ", reflected " + count(core::RayKind::reflected) +
+         ", refracted " + count(core::RayKind::refracted) + ", shadow " + count(core::RayKind::shadow) + "), " +
+         grouped(static_cast<std::uint64_t>(rate)) + " a second";
+}
+
+std::string pages_text(const svm::Report& report) {
+  const svm::PageCounters pages = report.pages();
+  std::string text = grouped(pages.references) + " look-ups: at home " + percent(pages.home_hits, pages.references) +
+                     ", cached " + percent(pages.cache_hits, pages.references) + ", missed " +
+                     percent(pages.misses, pages.references) + "; " + grouped(pages.faults) + " faults, " +
+                     grouped(pages.evictions) + " evictions";
+  if (report.plan.request.count_pages) {
+    const auto pixels = static_cast<double>(std::max<std::uint64_t>(report.work().pixels_rendered, 1));  // of this run
+    text += ", " + fixed(static_cast<double>(pages.distinct_pages) / pixels, 2) + " distinct pages a pixel";
+  }
+  return text;
+}
+
+/// A whole line of what adaptive sampling did, or nothing.
+std::string sampling_line(const RenderOptions& options, const Account& account) {
+  if (!options.picture.is_refined) {
+    return "";
+  }
+  const double mean = static_cast<double>(account.film.samples()) / static_cast<double>(account.film.pixels().size());
+  const core::RefinementResult& result = account.refinement;
+  return "samples  " + fixed(mean, 2) + " a pixel, in " + std::to_string(result.passes) +
+         (result.passes == 1 ? " pass" : " passes") + "; estimated error " + fixed(255 * result.error, 3) + "/255" +
+         (result.error > options.picture.refinement.error ? ", more than was asked for: no pixel may have more samples" : "") +
+         "\n";
+}
+
+StrategyLines lines_of(const RenderOptions& options, const svm::Report& report) {
+  const bool paged = options.strategy == Strategy::svm;
+  const std::string in_flight = counted(report.plan.in_flight, "pixel") + " in flight";
+  return {paged ? grouped(report.plan.frames) + " cached pages a node, " + in_flight : in_flight,
+          paged ? "pages    " + pages_text(report) + "\n" : ""};
+}
+
+std::string travel_text(const dataflow::Report& report) {
+  const dataflow::Gather::Counters sent = report.gathers();
+  return grouped(sent.rays) + " messages, " + fixed(report.messages_per_ray(), 2) + " hops a ray, in " +
+         counted(sent.packets, "packet") + " " + fixed(100 * report.mean_fill(), 1) + " % full; overflowed " +
+         percent(sent.rays_overflowed, sent.rays);
+}
+
+std::string load_text(const dataflow::Report& report) {
+  const auto average = [](const std::vector<double>& loads) { return fixed(100 * dataflow::average_load(loads), 1) + " %"; };
+  const std::string predicted = report.predicted.empty() ? "" : "predicted " + average(report.predicted) + ", ";
+  return predicted + "achieved " + average(report.work()) + " (mean over maximum of the nodes' work)";
+}
+
+std::string regions_text(const RenderOptions& options, const dataflow::Report& report) {
+  const RayHops hops = ray_hops_of(report, options.rays.topology);
+  return fixed(report.duplication, 2) + " copies of a record; on the " + std::string(name_of(options.rays.topology)) + " " +
+         fixed(hops.mean, 2) + " links a message, " + fixed(hops.mean_of_random, 2) + " if mapped at random";
+}
+
+StrategyLines lines_of(const RenderOptions& options, const dataflow::Report& report) {
+  return {counted(report.plan.ray_batch, "ray") + " a packet, " + counted(report.plan.ray_credits, "credit") + " a pair, " +
+              counted(report.plan.queue_packets, "packet") + " queued",
+          "travel   " + travel_text(report) + "\nload     " + load_text(report) + "\nregions  " + regions_text(options, report) +
+              "\n"};
+}
+
+/// Lines of a run in virtual time, with their ends; without it none.
+std::string virtual_lines(const Account& account, const std::optional<nodes::Machine>& machine) {
+  if (!account.virtual_time || !machine) {
+    return "";
+  }
+  const nodes::VirtualReport& report = *account.virtual_time;
+  const std::string time = fixed(static_cast<double>(report.total_ns) / 1e9, 6) + " s on " + name_with_links(*machine);
+  return "virtual  " + time + ", " + counted(report.events, "event") + "; run_hash " +
+         hash_text(report.run_hash(account.film.hash())) + ", machine_digest " + hash_text(report.machine_digest) +
+         "\nlosses   " + parts_text(parts_of(sum_of_nodes(report), account.waits), account.waits) + "\n";
+}
+
+std::string time_text(const Seconds& seconds) {
+  return "load " + seconds_text(seconds.load) + ", build " + seconds_text(seconds.build) + ", prepare " +
+         seconds_text(seconds.prepare) + ", render " + seconds_text(seconds.render) + ", write " + seconds_text(seconds.write) +
+         "; processor " + seconds_text(seconds.user + seconds.system);
+}
+
+}  // namespace
+
+std::string computer_text(const RenderRecord& record) {
+  const RenderOptions& options = record.options;
+  const std::string on_machine = options.computer.machine ? " of " + options.computer.machine->name : "";
+  return std::string(name_of(options.strategy)) + ", " + counted(options.computer.node_count, "node") + on_machine;
+}
+
+void print_summary(std::ostream& output, const RenderRecord& record) {
+  const Account account = account_of(record.report);
+  const StrategyLines special = std::visit([&](const auto& report) { return lines_of(record.options, report); }, record.report);
+  output << "scene    " << shown(record.options.picture.scene) << ", "
+         << counted(record.database.header().primitive_count, "primitive") << " in "
+         << counted(record.database.page_count(), "page") << " of " << nodes::size_text(record.database.page_size())
+         << "\ncomputer " << counted(account.nodes.size(), "node") << ", " << name_of(record.options.strategy) << ", "
+         << special.computer << "\nmemory   " << memory_text(account) << "\nrays     "
+         << rays_text(account.operations, record.seconds.render) << '\n'
+         << sampling_line(record.options, account) << special.figures << virtual_lines(account, record.options.computer.machine)
+         << "time     " << time_text(record.seconds) << "\npicture  " << shown(record.options.image.string()) << ", "
+         << account.film.width() << "x" << account.film.height() << ", film " << hash_text(account.film.hash()) << '\n';
+}
+
+}  // namespace dmpc::apps

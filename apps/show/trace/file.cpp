@@ -1,0 +1,92 @@
+#include "apps/show/trace/file.h"
+
+#include <algorithm>
+#include <ostream>
+#include <utility>
+
+#include "apps/line/number_text.h"
+#include "apps/show/trace/chrome.h"
+#include "apps/show/trace/paje.h"
+#include "apps/show/trace/view.h"
+#include "core/base/expect.h"
+#include "nodes/watch/trace.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+/// In one line.
+std::string line_of(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
+  return text;
+}
+
+std::string milliseconds(std::uint64_t time_ns) { return thousandths(time_ns / 1000); }
+
+std::string window_text(const std::optional<TraceWindow>& window) {
+  return window ? milliseconds(window->from_ns) + " to " + (window->to_ns ? milliseconds(*window->to_ns) : "the end") : "all";
+}
+
+std::string nodes_text(const std::optional<TraceNodes>& nodes) {
+  std::string text;
+  for (const auto& [first, last] : nodes.value_or(TraceNodes{}).rows) {
+    text += (text.empty() ? "" : ", ") + std::to_string(first) + (first == last ? "" : " to " + std::to_string(last));
+  }
+  return !nodes ? "all" : !nodes->has_host ? text : text.empty() ? "host" : text + ", host";
+}
+
+TraceView view_of(const RenderRecord& record) {
+  const RenderOptions& options = record.options;
+  const Account account = account_of(record.report);
+  TraceView view{.trace = *record.trace,
+                 .kind_names = account.kind_names,
+                 .has_pages = options.strategy == Strategy::svm,
+                 .width = static_cast<std::uint32_t>(account.film.width()),
+                 .clock = options.computer.machine ? "virtual time" : "wall clock"};
+  view.remarks = {{"scene", options.picture.scene},
+                  {"strategy", name_of(options.strategy)},
+                  {"nodes", std::to_string(options.computer.node_count)},
+                  {"runner", name_of(options.computer.runner)}};
+  if (account.virtual_time) {
+    view.remarks.push_back({"machine", options.computer.machine->name});
+    view.remarks.push_back({"machine_digest", hash_text(account.virtual_time->machine_digest)});
+    view.remarks.push_back({"run_hash", hash_text(account.virtual_time->run_hash(account.film.hash()))});
+  }
+  view.remarks.push_back({"window_ms", window_text(options.trace.window)});
+  view.remarks.push_back({"recorded_nodes", nodes_text(options.trace.nodes)});
+  if (options.trace.every > 1) {
+    view.remarks.push_back({"recorded", "one pixel of " + std::to_string(options.trace.every)});
+  }
+  view.remarks.push_back({"lost", record.trace->events_lost == 0 ? "nothing" : loss_note(*record.trace, options.trace)});
+  for (auto& [name, text] : view.remarks) {
+    text = line_of(std::move(text));
+  }
+  return view;
+}
+
+}  // namespace
+
+void write_trace(const RenderRecord& record, std::ostream& stream) {
+  core::expect(record.trace != nullptr, "a trace that is written was recorded");
+  const TraceView view = view_of(record);
+  record.options.trace.path->extension() == ".paje" ? write_paje(view, stream) : write_chrome(view, stream);
+}
+
+std::string loss_note(const nodes::Trace& trace, const TraceOptions& options) {
+  if (trace.events_lost == 0) {
+    return "";
+  }
+  return "the trace is full: " + counted(trace.events_lost, "event") + " from " + milliseconds(trace.lost_from_ns) +
+         " ms on were not recorded; " +
+         (options.every > 1 ? "--trace-window or --trace-nodes leave" : "--trace-window, --trace-nodes or --trace-every leave") +
+         " room, --trace-events makes some";
+}
+
+std::string empty_note(const nodes::Trace& trace) {
+  const bool is_empty = trace.messages.empty() && std::all_of(trace.nodes.begin(), trace.nodes.end(),
+                                                              [](const nodes::TraceNode& node) { return node.spans.empty(); });
+  return is_empty ? "the trace is empty: nothing of what it was to record happened in this run" : "";
+}
+
+}  // namespace dmpc::apps

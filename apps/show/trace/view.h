@@ -1,0 +1,60 @@
+// A trace in words: what its writers have in common.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "nodes/watch/trace.h"
+
+namespace dmpc::apps {
+
+/// What was recorded, and what its numbers mean. A view.
+struct TraceView {
+  const nodes::Trace& trace;
+  std::span<const char* const> kind_names;  ///< of the strategy's packets
+  bool has_pages = false;                   ///< pages travel
+  std::uint32_t width = 1;                  ///< of the picture
+  std::string clock;                        ///< "virtual time" or "wall clock"
+  /// What else there is to say of the run, with its name. Written as it is: without line ends.
+  std::vector<std::pair<std::string, std::string>> remarks;
+};
+
+/// "node 3", or "host" for the last.
+std::string node_name(const TraceView& view, std::size_t index);
+
+/// What a node is doing.
+enum class SpanName : std::uint8_t { trace, shade, install_page, pack_rays, unpack_rays, control, serve_page, send, take_packet };
+inline constexpr std::array<const char*, 9> span_names = {"trace",   "shade",      "install page", "pack rays",  "unpack rays",
+                                                          "control", "serve page", "send packets", "take packet"};
+SpanName name_of(const nodes::TraceSpan& span);
+inline const char* text_of(SpanName name) { return span_names[static_cast<std::size_t>(name)]; }
+
+/// A node that waits for a page, from the request to the reply.
+struct PageWait {
+  std::uint32_t node = 0, page = 0;
+  std::uint64_t begin_ns = 0, end_ns = 0;
+};
+/// In the order in which they end. Empty unless pages travel.
+std::vector<PageWait> page_waits(const TraceView& view);
+
+/// "1234.567": a thousandth of a number of nanoseconds, without rounding.
+std::string thousandths(std::uint64_t value);
+
+/// What a writer says at a time; in the order in which it goes at one time in one call of one node.
+enum class TraceMoment : std::uint8_t { span_end, received, span_begin, sent, wait_begin, wait_end, level };
+
+struct TraceItem {
+  std::uint64_t time_ns = 0;
+  std::uint32_t node = 0, call = 0;
+  TraceMoment moment = TraceMoment::span_begin;
+  std::uint32_t index = 0;  ///< of the node's span or level, the message or the wait
+};
+/// All moments of the trace and of `waits`, in no order.
+std::vector<TraceItem> items_of(const nodes::Trace& trace, std::span<const PageWait> waits);
+
+}  // namespace dmpc::apps

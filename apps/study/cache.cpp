@@ -1,0 +1,304 @@
+#include "apps/study/cache.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+
+#include "apps/line/number_text.h"
+#include "apps/run/run_strategy.h"
+#include "apps/system/side_by_side.h"
+#include "core/base/elementary.h"
+#include "core/base/expect.h"
+#include "core/families/scenes.h"
+#include "svm/watch/miss_curve.h"
+#include "svm/watch/optimum.h"
+#include "svm/packets.h"
+#include "svm/run.h"
+
+namespace dmpc::apps {
+namespace {
+
+using svm::Replacement;
+using Sizes = std::vector<std::uint32_t>;
+
+constexpr std::uint32_t standard_size_count = 12;
+
+/// The policies that have to be run, in the order of their columns.
+constexpr std::array run_policies = {Replacement::clock, Replacement::fifo, Replacement::random};
+
+/// Where a row's cells are.
+enum At : std::size_t { cache_pages_at, share_at, miss_ratio_at, lru_at, first_policy_at, optimum_at = 7, time_at };
+
+/// svm on a machine, one pixel at a time on each node as the 1994 paper's nodes worked.
+StrategyOptions one_at_a_time(std::uint32_t node_count, const nodes::Machine& machine) {
+  StrategyOptions options{.computer = {.node_count = node_count}, .pages = {.in_flight = 1}};
+  choose_machine(options, machine);
+  return options;
+}
+
+/// With these the references depend on neither cache nor machine, so any machine will do: the default one takes no time.
+StrategyOptions fixed_order(std::uint32_t node_count) {
+  StrategyOptions options = one_at_a_time(node_count, nodes::Machine());
+  options.pages.work_item_side = 0;
+  return options;
+}
+
+/// The same with all references recorded.
+svm::RunOptions recording(std::uint32_t node_count) {
+  return {.node_count = node_count, .in_flight = 1, .work_item_side = 0, .record_references = true, .machine = nodes::Machine()};
+}
+
+/// What follows from the references, by size.
+struct Curves {
+  svm::MissCurve lru;
+  std::vector<std::uint64_t> optimum;
+  std::uint64_t references = 0;  ///< of pages at home, too, and repeated ones
+};
+
+Curves curves_of(const svm::Report& recorded, const Sizes& sizes, const StudyRuns& runs) {
+  Curves curves{.optimum = std::vector<std::uint64_t>(sizes.size()), .references = recorded.pages().references};
+  side_by_side(recorded.nodes.size(), [&](std::size_t node) -> std::function<void()> {
+    runs.check();
+    const std::span<const svm::PageId> references = recorded.nodes[node].references.pages();
+    const svm::Optimum optimum(references);
+    std::vector<std::uint64_t> misses;
+    for (const std::uint32_t size : sizes) {
+      misses.push_back(optimum.misses(size));
+    }
+    return [&curves, misses, lru = svm::MissCurve(references)] {
+      curves.lru += lru;
+      std::transform(misses.begin(), misses.end(), curves.optimum.begin(), curves.optimum.begin(), std::plus());
+    };
+  });
+  return curves;
+}
+
+/// One frame leaves no choice, and where every page has a frame nothing has to go: all policies do the same.
+bool has_choice(std::uint32_t cache_pages, const Curves& curves) {
+  return cache_pages > 1 && cache_pages < curves.lru.distinct_pages();
+}
+
+double percent(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+/// The rows of the table on their way: each is added if all of its runs have ended.
+class Sweep {
+ public:
+  Sweep(const CacheStudy& study, const Sizes& sizes, std::uint32_t page_count, const Curves& curves, Table& table)
+      : node_count_(study.node_count), table_(table) {
+    for (std::size_t row = 0; row < sizes.size(); ++row) {
+      begin_row(sizes[row], page_count, curves, curves.optimum[row]);
+      if (row == 0 && study.machine) {
+        add_job(one_at_a_time(1, *study.machine), [this](const svm::Report& report) { one_node_ns_ = total_ns(report); });
+      }
+      add_policies(sizes[row], has_choice(sizes[row], curves));
+      if (study.machine) {
+        add_timed(sizes[row], *study.machine);
+      }
+      rows_.back().cells.resize(table.columns().size());
+    }
+  }
+  Sweep(const Sweep&) = delete;
+  Sweep& operator=(const Sweep&) = delete;
+
+  /// After a signal or an error, too, the table has the rows whose runs had all ended.
+  void carry_out(StudyRuns& runs) {
+    try {
+      run_jobs(runs);
+    } catch (...) {
+      add_finished_rows();
+      throw;
+    }
+    add_finished_rows();
+  }
+
+ private:
+  struct Job {
+    std::size_t row;  ///< that needs it
+    StrategyOptions options;
+    std::function<void(const svm::Report&)> take;
+  };
+  struct Row {
+    std::vector<Cell> cells;
+    std::size_t jobs_left = 0;
+  };
+
+  void run_jobs(StudyRuns& runs) {
+    std::vector<StrategyOptions> options;
+    for (const Job& job : jobs_) {
+      options.push_back(job.options);
+    }
+    runs.run_side_by_side(options, [this](std::size_t index, const StudyOutcome& outcome) {
+      if (!outcome.report) {
+        throw core::InputError(outcome.misfit);
+      }
+      jobs_[index].take(std::get<svm::Report>(*outcome.report));
+      --rows_[jobs_[index].row].jobs_left;
+    });
+  }
+
+  void add_finished_rows() {
+    for (const Row& row : rows_) {
+      if (row.jobs_left == 0) {
+        table_.add_row(row.cells);
+      }
+    }
+  }
+
+  static std::uint64_t total_ns(const svm::Report& report) { return report.virtual_time->total_ns; }
+
+  /// For the row begun last.
+  void add_job(StrategyOptions options, std::function<void(const svm::Report&)> take) {
+    jobs_.push_back({rows_.size() - 1, std::move(options), std::move(take)});
+    ++rows_.back().jobs_left;
+  }
+
+  void begin_row(std::uint32_t cache_pages, std::uint32_t page_count, const Curves& curves, std::uint64_t optimum) {
+    const std::uint64_t misses = curves.lru.misses(cache_pages);
+    std::vector<Cell>& row = rows_.emplace_back(Row{std::vector<Cell>(time_at)}).cells;
+    row[cache_pages_at] = std::uint64_t{cache_pages};
+    row[share_at] = percent(cache_pages, page_count);
+    row[miss_ratio_at] = percent(misses, curves.references);
+    row[lru_at] = misses;
+    row[optimum_at] = optimum;
+  }
+
+  void add_policies(std::uint32_t cache_pages, bool is_run) {
+    for (std::size_t i = 0; i < run_policies.size(); ++i) {
+      const std::size_t row = rows_.size() - 1, column = first_policy_at + i;
+      if (!is_run) {
+        rows_[row].cells[column] = rows_[row].cells[lru_at];
+        continue;
+      }
+      StrategyOptions options = fixed_order(node_count_);
+      options.pages.cache_pages = cache_pages;
+      options.pages.replacement = run_policies[i];
+      add_job(options, [this, row, column](const svm::Report& report) { rows_[row].cells[column] = report.pages().faults; });
+    }
+  }
+
+  void add_timed(std::uint32_t cache_pages, const nodes::Machine& machine) {
+    StrategyOptions options = one_at_a_time(node_count_, machine);
+    options.pages.cache_pages = cache_pages;
+    add_job(options, [this, row = rows_.size() - 1](const svm::Report& report) { fill_times(rows_[row].cells, report); });
+  }
+
+  void fill_times(std::vector<Cell>& row, const svm::Report& report) const {
+    const double seconds = static_cast<double>(total_ns(report)) * 1e-9;
+    const std::uint64_t page_bytes = report.sent()[svm::number_of(svm::Kind::page_reply)].bytes;
+    const bool takes_time = total_ns(report) > 0;
+    row[time_at] = seconds;
+    row[time_at + 1] = takes_time && one_node_ns_ ? Cell(percent(*one_node_ns_, node_count_ * total_ns(report))) : Cell();
+    row[time_at + 2] =
+        takes_time ? Cell(static_cast<std::uint64_t>(static_cast<double>(page_bytes) / node_count_ / seconds)) : Cell();
+  }
+
+  std::uint32_t node_count_;
+  Table& table_;
+  std::optional<std::uint64_t> one_node_ns_;
+  std::vector<Row> rows_;
+  std::vector<Job> jobs_;  ///< in the order of their rows
+};
+
+std::string needs_note(const svm::MissCurve& lru) {
+  if (lru.references() == 0) {
+    return "No node references a page of another.";
+  }
+  return "The node that references most has to do with " + counted(lru.distinct_pages(), "different page") + " of others; from " +
+         counted(std::max(lru.sufficient_pages(), 1U), "frame") + " on lru faults on each page's first reference only, " +
+         counted(lru.cold_misses(), "time") + " in all.";
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> geometric_sizes(std::uint32_t most, std::uint32_t count) {
+  core::expect(count >= 2, "sizes go from one to another");
+  if (most == 0) {
+    return {};
+  }
+  Sizes sizes;
+  const double step = core::natural_log(most) / (count - 1);
+  for (std::uint32_t i = 0; i + 1 < count; ++i) {
+    const auto size = static_cast<std::uint32_t>(core::exponential(i * step) + 0.5);
+    if (sizes.empty() || size > sizes.back()) {
+      sizes.push_back(size);
+    }
+  }
+  if (sizes.back() < most) {
+    sizes.push_back(most);
+  }
+  return sizes;
+}
+
+std::vector<Column> CacheStudy::columns() const {
+  std::vector<Column> columns = {{"cache pages"}, {"share of database", "%", 2}, {"misses lru", "%", 4}, {"faults lru"}};
+  for (const Replacement policy : run_policies) {
+    columns.push_back({"faults " + std::string(svm::name_of(policy))});
+  }
+  columns.push_back({"faults optimum"});
+  if (machine) {
+    columns.insert(columns.end(), {{"virtual time", "s", 3}, {"efficiency", "%", 2}, {"page traffic a node", "bytes/s"}});
+  }
+  return columns;
+}
+
+std::vector<Plot> CacheStudy::plots() const {
+  const PlotAxis sizes{.label = "cache of a node (pages)", .scale = PlotScale::powers_of_10};
+  const PlotAxis count{.label = "faults", .scale = PlotScale::powers_of_10}, rate{.label = "", .least = 0};
+  std::vector<PlotSeries> policies = {{"lru", "faults lru"}};
+  for (const Replacement policy : run_policies) {
+    const std::string policy_name(svm::name_of(policy));
+    policies.push_back({.title = policy_name, .column = "faults " + policy_name, .color = policies.size()});
+  }
+  policies.push_back({.title = "optimum", .column = "faults optimum", .color = policies.size()});
+  std::vector<Plot> plots = {curves("cache_faults", "Page faults", "cache pages", sizes, count, std::move(policies))};
+  if (machine) {
+    plots.push_back(curves("cache_efficiency", "Efficiency", "cache pages", sizes, percent_axis("efficiency"),
+                           {{"on " + machine->name, "efficiency"}}));
+    plots.push_back(curves("cache_traffic", "Pages received by a node", "cache pages", sizes, rate,
+                           {{"on " + machine->name, "page traffic a node"}}));
+  }
+  return plots;
+}
+
+void CacheStudy::measure(StudyRuns& runs, Table& table) const {
+  svm::Report recorded = runs.run(std::to_string(node_count) + " nodes, recording", recording(node_count));
+  const std::uint32_t page_count = recorded.plan.request.page_count;
+  const Sizes sizes =
+      cache_pages.empty() ? geometric_sizes(page_count - page_count / node_count, standard_size_count) : cache_pages;
+  const Curves curves = curves_of(recorded, sizes, runs);
+  recorded = {.film = core::Film(1, 1)};  // the references take much memory
+  Sweep(*this, sizes, page_count, curves, table).carry_out(runs);
+  table.add_note(needs_note(curves.lru));
+  runs.check();
+}
+
+std::vector<std::string> CacheStudy::notes(const std::string& scene) const {
+  std::vector<std::string> notes = {
+      std::to_string(node_count) + " nodes. Share of database: the cache of one node over all pages.",
+      "Faults and misses: pixels shared out beforehand, one in flight on a node, so that all policies see the same references "
+      "and every miss is a fault. Misses are given as a share of all references, pages at home included.",
+      "Lru: from the stack distances of one run's references (Mattson, Gecsei, Slutz and Traiger, 1970). Clock, fifo, random: by "
+      "a run each, but for sizes that leave no choice. Optimum: the page that leaves is the one needed last (Belady, 1966)."};
+  if (machine) {
+    notes.push_back(
+        "Virtual time, efficiency against one node with all pages at home, and bytes of pages received a node and "
+        "second: the machine " +
+        machine->name + ", lru, one pixel in flight, work items of 3x3.");
+  }
+  const auto scene_name = core::find_scene_name(scene);
+  if (scene_name && scene_name->text() == "rings-4-t1") {
+    notes.emplace_back(
+        "Badouel, Bouatouch and Priol (1994) report for Rings4 on 32 nodes of an iPSC/2 that efficiency stays above 50 % with "
+        "larger caches only, and that the communication rate peaks at 204 pages, at about 70 % of 0.9 MB/s, and falls with "
+        "less.");
+  } else if (scene_name && scene_name->text() == "tetra-9") {
+    notes.emplace_back(
+        "Badouel, Bouatouch and Priol (1994) report for Tetra9 on 32 nodes of an iPSC/2 that a small cache is enough.");
+  }
+  return notes;
+}
+
+}  // namespace dmpc::apps

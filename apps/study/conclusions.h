@@ -1,0 +1,19 @@
+// What the table of a study comes to: a sentence or two, computed from its rows; empty if they tell too little.
+#pragma once
+
+#include <string>
+
+#include "apps/study/balance.h"
+#include "apps/study/cache.h"
+#include "apps/study/speedup.h"
+#include "apps/table/table.h"
+#include "apps/study/traffic.h"
+
+namespace dmpc::apps {
+
+std::string conclusion_of(const BalanceStudy& study, const Table& table);
+std::string conclusion_of(const TrafficStudy& study, const Table& table);
+std::string conclusion_of(const SpeedupStudy& study, const Table& table);
+std::string conclusion_of(const CacheStudy& study, const Table& table);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,90 @@
+#include "apps/study/effort.h"
+
+#include <algorithm>
+#include <variant>
+
+#include "apps/effort/pilot.h"
+#include "apps/info/forecast.h"
+#include "apps/system/real_load.h"
+#include "dataflow/plan.h"
+
+namespace dmpc::apps {
+namespace {
+
+// Measured on a server's core in November 2026, by processor time: what a run takes for each second of the one-thread renderer,
+// and beside that for each node and each pair of nodes.
+constexpr double svm_factor = 1.6, dataflow_factor = 2.5;
+constexpr double node_seconds = 2e-3, dataflow_pair_seconds = 2e-4;
+
+/// So many runs of each node count.
+std::vector<PlannedRun> repeated(const std::vector<std::uint32_t>& node_counts, const std::vector<PlannedRun>& each) {
+  std::vector<PlannedRun> runs;
+  for (const std::uint32_t node_count : node_counts) {
+    for (PlannedRun run : each) {
+      run.node_count = node_count;
+      runs.push_back(run);
+    }
+  }
+  return runs;
+}
+
+struct Plan {
+  std::vector<PlannedRun> operator()(const BalanceStudy& study) const {
+    return repeated(study.node_counts, {{Strategy::dataflow}, {Strategy::dataflow}});
+  }
+  std::vector<PlannedRun> operator()(const TrafficStudy& study) const {
+    return repeated(study.node_counts, {{Strategy::dataflow}, {Strategy::svm}, {Strategy::svm}});
+  }
+  std::vector<PlannedRun> operator()(const CacheStudy& study) const {
+    constexpr std::size_t standard_sizes = 12, policies_run = 3;
+    constexpr double times = 2.5;  // small caches miss often
+    const std::size_t sizes = study.cache_pages.empty() ? standard_sizes : study.cache_pages.size();
+    const std::size_t runs = 1 + sizes * (policies_run + (study.machine ? 1 : 0));
+    return std::vector<PlannedRun>(runs, {Strategy::svm, study.node_count, true, times});
+  }
+  std::vector<PlannedRun> operator()(const SpeedupStudy& study) const {
+    return repeated(study.node_counts, {{study.run.strategy, 1, true}});
+  }
+};
+
+std::size_t bytes_of(const PlannedRun& run, const Subject& subject) {
+  const bool has_regions = run.strategy == Strategy::dataflow && run.node_count <= dataflow::region_count_max;
+  const Forecast one = forecast(subject.database, subject.settings, {run.node_count}, {.balance = dataflow::Balance::equal_size});
+  const ComputerForecast& computer = one.computers.front();
+  return has_regions                            ? computer.dataflow->all_bytes
+         : run.strategy == Strategy::replicated ? computer.replicated.all_bytes
+                                                : computer.svm.all_bytes;
+}
+
+/// Of the largest computers, as many as there are at a time.
+std::size_t bytes_at_once(const std::vector<PlannedRun>& runs, const Subject& subject) {
+  const auto largest =
+      std::max_element(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.node_count < b.node_count; });
+  const std::size_t at_once = largest->is_virtual ? std::min<std::size_t>(core_count(), runs.size()) : 1;
+  const auto alike = static_cast<std::size_t>(
+      std::count_if(runs.begin(), runs.end(), [&](const auto& run) { return run.node_count == largest->node_count; }));
+  return std::min(alike, at_once) * bytes_of(*largest, subject);
+}
+
+}  // namespace
+
+double seconds_of(const PlannedRun& run, double picture_seconds) {
+  const double nodes = run.node_count;
+  const double by_rays = dataflow_factor * picture_seconds + dataflow_pair_seconds * nodes * nodes;
+  return run.times * ((run.strategy == Strategy::dataflow ? by_rays : svm_factor * picture_seconds) + node_seconds * nodes);
+}
+
+std::vector<PlannedRun> planned_runs(const Study& study) { return std::visit(Plan{}, study); }
+
+Effort effort_of(const std::vector<PlannedRun>& runs, const Subject& subject) {
+  const double picture = picture_seconds(subject.database, subject.settings);
+  double all = 0, longest = 0;
+  for (const PlannedRun& run : runs) {
+    const double seconds = seconds_of(run, picture);
+    all += seconds;
+    longest = std::max(longest, run.is_virtual ? seconds : seconds / core_count());
+  }
+  return {std::max(longest, all / core_count()), bytes_at_once(runs, subject), true};
+}
+
+}  // namespace dmpc::apps

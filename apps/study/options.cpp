@@ -1,0 +1,118 @@
+#include "apps/study/options.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/machine/machine_file.h"
+#include "apps/machine/machines.h"
+#include "apps/line/option_values.h"
+#include "apps/run/region_options.h"
+#include "apps/run/run_strategy.h"
+#include "apps/table/table_options.h"
+#include "core/base/expect.h"
+#include "dataflow/regions/bsp.h"
+#include "svm/plan.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr std::uint32_t cache_pages_max = 0x7fffffff;
+
+/// "4,8,16".
+std::string listed(const std::vector<std::uint32_t>& counts) {
+  std::string text;
+  for (const std::uint32_t count : counts) {
+    text += (text.empty() ? "" : ",") + std::to_string(count);
+  }
+  return text;
+}
+
+void add_node_counts(OptionSet& set, std::vector<std::uint32_t>& counts, std::uint32_t most = dataflow::region_count_max) {
+  set.add_text(
+      "--nodes", "N,N,... [" + listed(counts) + "]",
+      [&counts, most](const std::string& text) { counts = parse_numbers(text, "--nodes", most); },
+      "Nodes of the computers, one after the other");
+}
+
+/// In the end: the options go together, and the machine is read.
+void finish(const OptionSet& set, SpeedupStudy& study) {
+  check_together(set, study.run);
+  for (const std::uint32_t node_count : study.node_counts) {
+    check_node_count(study.run.strategy, node_count);
+  }
+  choose_machine(study.run);
+}
+
+/// One overload a study: its own options, and examples.
+struct AddOwn {
+  OptionSet& set;
+  std::string& machine_name;
+
+  void operator()(BalanceStudy& study) const {
+    add_node_counts(set, study.node_counts);
+    add_region_options(set, study.regions);
+    add_topology_option(set, study.topology);
+    set.add_flag("--per-node", study.per_node, "Show each node's share of the work, too");
+    set.set_examples(
+        "Examples:\n"
+        "  dmpc study balance rings-3-t1\n"
+        "  dmpc study balance teapot-12 --nodes=16 --topology=torus --per-node --format=csv -o teapot.csv");
+  }
+  void operator()(TrafficStudy& study) const {
+    add_node_counts(set, study.node_counts);
+    set.set_examples(
+        "Examples:\n"
+        "  dmpc study traffic teapot-12\n"
+        "  dmpc study traffic rings-4-t1 --nodes=8,64 --resolution=256x256 --format=json -o rings.json");
+  }
+  void operator()(CacheStudy& study) const {
+    set.add_number("--nodes", study.node_count, 2, svm::node_count_max, "32", "Nodes, each with a cache of its own");
+    set.add_text(
+        "--cache-pages", "N,N,... [12 from 1 to all]",
+        [&study](const std::string& text) { study.cache_pages = parse_numbers(text, "--cache-pages", cache_pages_max); },
+        "Sizes of the caches in pages");
+    set.add_text(
+        "--machine", "MACHINE|FILE.json",
+        [&study, &file = machine_name](const std::string& text) {
+          study.machine = load_machine(text).machine;
+          file = text;
+        },
+        "The machine that the study is timed on, in virtual time: one of " + machine_preset_names() + ", or a file");
+    set.set_examples(
+        "Examples:\n"
+        "  dmpc study cache rings-4-t1\n"
+        "  dmpc study cache tetra-9 --nodes=32 --machine=ipsc2 --resolution=512x512 --format=csv -o tetra.csv");
+  }
+  void operator()(SpeedupStudy& study) const {
+    add_node_counts(set, study.node_counts, svm::node_count_max);
+    add_strategy_option(set, study.run.strategy);
+    add_memory_option(set, study.run.computer.node_memory_bytes);
+    add_machine_options(set, study.run.computer, "");
+    add_page_options(set, study.run.pages, "1");
+    add_ray_options(set, study.run.rays);
+    set.check_in_the_end([set = set, &study, &file = machine_name] {
+      file = study.run.computer.machine_name;
+      finish(set, study);
+    });
+    set.set_examples(
+        "Examples:\n"
+        "  dmpc study speedup rings-4-t1\n"
+        "  dmpc study speedup rings-4-t1 --node-memory=1MiB --replacement=clock --in-flight=4 --format=csv -o rings.csv\n"
+        "  dmpc study speedup teapot-12 --strategy=dataflow --machine=hdr --nodes=1,16,256,1024\n"
+        "A number of nodes whose memory cannot hold the scene has a row without figures, and a note that says what would do.\n"
+        "If none can, the exit status is 4.");
+  }
+};
+
+}  // namespace
+
+void add_options(OptionSet set, StudyOptions& options) {
+  add_options(set, options.picture);
+  add_options(set, options.database);
+  add_options(set, options.table, TableExtras::plots_and_report);
+  set.add_quiet(options.quiet);
+  std::visit(AddOwn{set, options.machine_name}, options.study);
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,116 @@
+#include "apps/study/paper/catalogue.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "apps/machine/machines.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// The iPSC/2's, in the article.
+constexpr std::size_t node_memory_bytes = std::size_t{4} << 20U;
+
+const nodes::Machine& preset(const char* name) {
+  const MachineDescription* description = find_machine_preset(name);
+  core::expect(description != nullptr, "the machine of the study has a preset");
+  return description->machine;
+}
+
+/// Our databases are smaller than the article's (Table 2), so the same memory would hold more of them: caches have the article's
+/// share of the database in place of its bytes.
+PaperRun run_of_table_3(const PaperRun& like, std::size_t scene, std::size_t column) {
+  PaperRun run = like;
+  run.scene = paper_scenes[scene].scene;
+  run.node_count = paper_node_counts[column];
+  if (run.node_count > 1) {
+    run.cache_share = paper_scenes[scene].cache_share(run.node_count);
+  }
+  return run;
+}
+
+void add_tables(Catalogue& catalogue, const PaperRun& like) {
+  for (std::size_t scene = 0; scene < paper_scenes.size(); ++scene) {
+    for (std::size_t column = paper_scenes[scene].base(); column < paper_node_counts.size(); ++column) {
+      catalogue.timed[scene][column] = catalogue.add(run_of_table_3(like, scene, column));
+    }
+    PaperRun run = like;
+    run.scene = paper_scenes[scene].scene;
+    run.count_pages = true;
+    catalogue.counted[scene] = catalogue.add(run);
+  }
+}
+
+void add_rings(Catalogue& catalogue, const PaperRun& like) {
+  for (std::size_t scene = 0; scene < rings.size(); ++scene) {
+    PaperRun run = like;
+    run.scene = rings[scene];
+    for (std::size_t column = 0; column < paper_node_counts.size(); ++column) {
+      run.node_count = paper_node_counts[column];
+      run.node_memory_bytes = run.node_count > 1 ? std::optional(node_memory_bytes) : std::nullopt;
+      run.rays_travel = true;
+      catalogue.rings_by_rays[scene][column] = catalogue.add(run);
+      run.rays_travel = false;
+      const bool is_in_table_3 = run.scene == paper_scenes[rings_row].scene && column >= paper_scenes[rings_row].base();
+      catalogue.rings_by_pages[scene][column] = is_in_table_3 ? catalogue.timed[rings_row][column] : catalogue.add(run);
+    }
+  }
+}
+
+/// Records without an order in space; other memories than those of the article's text.
+void add_memories(Catalogue& catalogue) {
+  for (std::size_t row = 0; row < missing_rows.size(); ++row) {
+    const std::size_t scene = missing_rows[row];
+    for (std::size_t column = paper_scenes[scene].base(); column < paper_node_counts.size(); ++column) {
+      PaperRun run = catalogue.runs[catalogue.timed[scene][column]];
+      run.record_order = core::RecordOrder::scattered;
+      catalogue.scattered[row][column] = catalogue.add(run);
+      run.record_order = core::RecordOrder::spatial;
+      if (run.node_count > 1) {
+        run.cache_share = paper_scenes[scene].cache_share(run.node_count, cache_scenes[row].shared_kilobytes());
+      }
+      catalogue.figures_memory[row][column] = catalogue.add(run);
+      run.cache_share.reset();
+      run.node_memory_bytes = node_memory_bytes;
+      catalogue.whole_memory[row][column] = catalogue.add(run);
+    }
+  }
+}
+
+/// At half the resolution a side: small caches miss so often that a whole picture takes minutes.
+void add_caches(Catalogue& catalogue, const PaperRun& like) {
+  for (std::size_t scene = 0; scene < cache_scenes.size(); ++scene) {
+    PaperRun run = like;
+    run.scene = cache_scenes[scene].row().scene;
+    run.resolution = std::max(1U, like.resolution / 2);
+    catalogue.cache_base[scene] = catalogue.add(run);
+    run.node_count = cache_node_count;
+    for (std::size_t size = 0; size < cache_size_count; ++size) {
+      run.cache_share = cache_scenes[scene].share(size);
+      catalogue.cached[scene][size] = catalogue.add(run);
+    }
+  }
+}
+
+}  // namespace
+
+Catalogue catalogue_of(std::uint32_t resolution) {
+  Catalogue catalogue;
+  catalogue.resolution = resolution;
+  const PaperRun like{.machine = preset("ipsc2"), .resolution = resolution};
+  add_tables(catalogue, like);
+  add_rings(catalogue, like);
+  add_memories(catalogue);
+  add_caches(catalogue, like);
+  PaperRun faster = catalogue.runs[catalogue.timed[rings_row][faster_column]];
+  faster.machine = preset("ipsc860");
+  catalogue.faster_machine = catalogue.add(faster);
+  PaperRun dearer = catalogue.runs[catalogue.timed[calibration_row][1]];
+  dearer.machine.cost_ps[static_cast<std::size_t>(nodes::Charge::cached_lookup)] *= 2;
+  catalogue.dearer_cache = catalogue.add(dearer);
+  catalogue.run_count_without_variations = catalogue.runs.size();
+  return catalogue;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,121 @@
+#include "apps/study/paper/runs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "apps/scene/load_scene.h"
+#include "apps/system/progress.h"
+#include "apps/run/report.h"
+#include "apps/system/side_by_side.h"
+#include "core/base/expect.h"
+#include "dataflow/run.h"
+#include "svm/packets.h"
+#include "svm/run.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// The article's program counts rays as this convention does, and traced all of them.
+PictureOptions picture_of(const std::string& scene, std::uint32_t resolution) {
+  const auto side = static_cast<int>(resolution);
+  PictureOptions picture{.scene = scene, .resolution = Resolution{side, side}, .convention = core::Convention::paper};
+  picture.skips.background = false;
+  return picture;
+}
+
+std::uint64_t pixels_of(const PaperRun& run) { return std::uint64_t{run.resolution} * run.resolution; }
+
+const Subject& subject_of(const PaperRun& run, std::span<const PaperSubject> subjects) {
+  const auto found =
+      std::find_if(subjects.begin(), subjects.end(), [&](const PaperSubject& subject) { return subject.is_of(run); });
+  core::expect(found != subjects.end(), "every run has its scene");
+  return found->subject;
+}
+
+std::optional<std::uint32_t> cache_pages_of(const PaperRun& run, const core::Database& database) {
+  if (!run.cache_share) {
+    return std::nullopt;
+  }
+  const double pages = *run.cache_share * static_cast<double>(database.page_count());
+  return std::max(1U, static_cast<std::uint32_t>(std::lround(pages)));
+}
+
+Report report_of(const PaperRun& run, const Subject& subject, const std::stop_token& stop) {
+  if (run.rays_travel) {
+    const dataflow::RunOptions options{.node_count = run.node_count,
+                                       .node_memory_bytes = run.node_memory_bytes,
+                                       .topology = run.machine.topology,
+                                       .machine = run.machine};
+    return dataflow::run_dataflow(subject.database, subject.settings, options, stop);
+  }
+  const svm::RunOptions options{.node_count = run.node_count,
+                                .node_memory_bytes = run.node_memory_bytes,
+                                .cache_pages = cache_pages_of(run, subject.database),
+                                .in_flight = 1,
+                                .count_pages = run.count_pages,
+                                .machine = run.machine};
+  return svm::run_svm(subject.database, subject.settings, options, stop);
+}
+
+PaperResult result_of(const Report& report) {
+  const Account account = account_of(report);
+  PaperResult result{.total_ns = account.virtual_time->total_ns,
+                     .parts = parts_of(sum_of_nodes(*account.virtual_time), account.waits),
+                     .rays = account.operations.ray_count(),
+                     .film_hash = account.film.hash()};
+  if (const auto* pages = std::get_if<svm::Report>(&report)) {
+    result.faults = pages->pages().faults;
+    result.cache_pages = pages->plan.cache().frame_count;
+    result.page_bytes = account.sent[svm::number_of(svm::Kind::page_reply)].bytes;
+    result.pages_a_pixel = static_cast<double>(pages->pages().distinct_pages) / static_cast<double>(account.film.pixels().size());
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs) {
+  std::vector<PaperSubject> subjects;
+  for (const PaperRun& run : runs) {
+    if (std::none_of(subjects.begin(), subjects.end(), [&](const PaperSubject& subject) { return subject.is_of(run); })) {
+      const PictureOptions picture = picture_of(run.scene, run.resolution);
+      subjects.push_back({run.scene, run.resolution, run.record_order,
+                          build_subject(load_scene(picture), picture, {.record_order = run.record_order})});
+    }
+  }
+  return subjects;
+}
+
+void carry_out(std::span<const PaperRun> runs, std::span<const PaperSubject> subjects, const Interrupt& interrupt,
+               PaperResults& results, const std::function<void()>& told) {
+  core::expect(results.size() == runs.size(), "every run has a place for its result");
+  std::map<std::pair<std::string, std::uint32_t>, std::uint64_t> films;  // by scene and size
+  Progress progress(std::cerr, stderr_is_terminal(), std::to_string(runs.size()) + " runs: ");
+  std::uint64_t done_pixels = 0;
+  const std::uint64_t all_pixels = std::accumulate(runs.begin(), runs.end(), std::uint64_t{0},
+                                                   [](auto sum, const PaperRun& run) { return sum + pixels_of(run); });
+  side_by_side(runs.size(), [&](std::size_t index) -> std::function<void()> {
+    if (interrupt.requested()) {
+      return [] {};
+    }
+    const Subject& subject = subject_of(runs[index], subjects);
+    const Report report = report_of(runs[index], subject, interrupt.token());
+    if (account_of(report).end != nodes::RunEnd::finished) {
+      return [] {};
+    }
+    return [&, index, result = result_of(report)] {
+      const auto [film, is_first] = films.try_emplace({runs[index].scene, runs[index].resolution}, result.film_hash);
+      core::expect(film->second == result.film_hash, "every run of a scene gives the same film");
+      results[index] = result;
+      told();
+      done_pixels += pixels_of(runs[index]);
+      progress.update(done_pixels, all_pixels);
+    };
+  });
+}
+
+}  // namespace dmpc::apps

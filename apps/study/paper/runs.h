@@ -1,0 +1,73 @@
+// The runs behind the study `paper`: the article's scenes on modelled machines, as many at once as there are cores.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/system/interrupt.h"
+#include "apps/scene/subject.h"
+#include "apps/run/time_parts.h"
+#include "core/build/record_order.h"
+#include "nodes/machine.h"
+
+namespace dmpc::apps {
+
+/// One picture on one machine.
+struct PaperRun {
+  std::string scene;  ///< a built-in scene's name
+  std::uint32_t node_count = 1;
+  bool rays_travel = false;  ///< strategy dataflow in place of svm
+  nodes::Machine machine;
+  std::optional<double> cache_share = std::nullopt;  ///< of svm: what a node's cache holds, of the database; at least a page
+  bool count_pages = false;                          ///< of svm: the distinct pages a pixel
+  std::optional<std::size_t> node_memory_bytes = std::nullopt;
+  std::uint32_t resolution = 512;  ///< pixels a side
+  core::RecordOrder record_order = core::RecordOrder::spatial;
+};
+
+/// What it came to.
+struct PaperResult {
+  std::uint64_t total_ns = 0;
+  TimeParts parts;  ///< summed over the nodes
+  std::uint64_t rays = 0, faults = 0, page_bytes = 0;
+  std::uint32_t cache_pages = 0;  ///< of a node, if pages travelled
+  double pages_a_pixel = 0;       ///< if they were counted
+  std::uint64_t film_hash = 0;
+
+  double seconds() const { return 1e-9 * static_cast<double>(total_ns); }
+  /// Bytes of pages that a node receives a second.
+  double page_rate(std::uint32_t node_count) const {
+    return static_cast<double>(page_bytes) / static_cast<double>(node_count) / seconds();
+  }
+};
+
+/// A scene of the study, built once.
+struct PaperSubject {
+  std::string scene;
+  std::uint32_t resolution = 0;
+  core::RecordOrder record_order = core::RecordOrder::spatial;
+  Subject subject;
+
+  /// Whether it is the run's.
+  bool is_of(const PaperRun& run) const {
+    return scene == run.scene && resolution == run.resolution && record_order == run.record_order;
+  }
+};
+/// Those that the runs need. Takes a second or so for the largest.
+std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs);
+
+/// By a run's number; nothing where it did not come to its end.
+using PaperResults = std::vector<std::optional<PaperResult>>;
+
+/// `told` hears of each result, when it has its place. Gives each run its place in `results`, as many as runs; after a signal
+/// some are left as they are, the last ones mostly. Progress on stderr if that is a terminal. Throws core::InternalError if two
+/// runs of one scene and size give different films, and whatever a run throws: `results` has what was finished before.
+void carry_out(
+    std::span<const PaperRun> runs, std::span<const PaperSubject> subjects, const Interrupt& interrupt, PaperResults& results,
+    const std::function<void()>& told = [] {});
+
+}  // namespace dmpc::apps

@@ -1,0 +1,226 @@
+#include "apps/study/paper/tables.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "apps/line/number_text.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+std::optional<CellOfTable3> cell_of(const Catalogue& catalogue, const PaperResults& results, std::size_t scene,
+                                    std::size_t column) {
+  const PaperScene& paper = paper_scenes[scene];
+  const std::size_t base = paper.base();
+  const auto found = column < base ? std::nullopt : found_efficiency(catalogue.timed[scene], results, base, column);
+  if (!found) {
+    return std::nullopt;
+  }
+  const PaperResult& result = *results[catalogue.timed[scene][column]];
+  return CellOfTable3{.scene = scene,
+                      .title = paper.title,
+                      .nodes = paper_node_counts[column],
+                      .printed_seconds = static_cast<double>(paper.seconds[column]),
+                      .seconds = result.seconds(),
+                      .printed_efficiency = printed_efficiency(paper, column),
+                      .efficiency = *found,
+                      .is_calibrated = scene == calibration_row && column < calibration_cell_count,
+                      .is_base = column == base,
+                      .parts = result.parts};
+}
+
+Differences differences_of(const Catalogue& catalogue, const PaperResults& results) {
+  Differences errors;
+  for (const CellOfTable3& cell : cells_of_table_3(catalogue, results)) {
+    if (cell.is_predicted()) {
+      errors.add(cell.efficiency - cell.printed_efficiency);
+    }
+  }
+  return errors;
+}
+
+}  // namespace
+
+std::optional<double> found_efficiency(const Catalogue::ByNodeCount& runs, const PaperResults& results, std::size_t base,
+                                       std::size_t column) {
+  const auto &first = results[runs[base]], &result = results[runs[column]];
+  if (!first || !result) {
+    return std::nullopt;
+  }
+  return efficiency(first->seconds(), paper_node_counts[base], result->seconds(), paper_node_counts[column]);
+}
+
+std::size_t printed_cell_count() {
+  std::size_t count = 0;
+  for (const PaperScene& scene : paper_scenes) {
+    count += paper_node_counts.size() - scene.base();
+  }
+  return count;
+}
+
+void note_missing_rows(Table& table, std::size_t expected) {
+  core::expect(table.rows().size() <= expected, "a table has no more rows than it can have");
+  if (const std::size_t missing = expected - table.rows().size(); missing > 0) {
+    table.add_note("Unfinished: " + std::to_string(missing) + " of " + std::to_string(expected) + " rows are missing.");
+  }
+}
+
+std::vector<CellOfTable3> cells_of_table_3(const Catalogue& catalogue, const PaperResults& results) {
+  std::vector<CellOfTable3> cells;
+  for (std::size_t scene = 0; scene < paper_scenes.size(); ++scene) {
+    for (std::size_t column = 0; column < paper_node_counts.size(); ++column) {
+      if (const auto cell = cell_of(catalogue, results, scene, column)) {
+        cells.push_back(*cell);
+      }
+    }
+  }
+  return cells;
+}
+
+Table table_2(const Catalogue& catalogue, const PaperResults& results, const std::vector<PaperSubject>& subjects) {
+  Table table("Table 2: scenes, rays, database", {{"scene"},
+                                                  {"ours"},
+                                                  {"polygons printed"},
+                                                  {"polygons"},
+                                                  {"rays printed"},
+                                                  {"rays"},
+                                                  {"database printed", "KB"},
+                                                  {"database", "KB"},
+                                                  {"pages a pixel printed", "", 2},
+                                                  {"pages a pixel", "", 2}});
+  for (std::size_t scene = 0; scene < paper_scenes.size(); ++scene) {
+    const PaperScene& paper = paper_scenes[scene];
+    const auto& result = results[catalogue.counted[scene]];
+    if (!result) {
+      continue;
+    }
+    const PaperRun& run = catalogue.runs[catalogue.counted[scene]];
+    const auto subject = std::find_if(subjects.begin(), subjects.end(), [&](const auto& at) { return at.is_of(run); });
+    core::expect(subject != subjects.end(), "every run has its scene");
+    const core::Database& database = subject->subject.database;
+    table.add_row({paper.title, paper.scene, paper.polygons, std::uint64_t{database.header().primitive_count}, paper.rays,
+                   result->rays, paper.database_kilobytes, std::uint64_t{database.bytes().size() / 1024}, paper.pages_a_pixel,
+                   result->pages_a_pixel});
+    table.add_note(std::string(paper.title) + ": " + paper.remark + ".");
+  }
+  note_missing_rows(table, paper_scenes.size());
+  return table;
+}
+
+Table table_3(const Catalogue& catalogue, const PaperResults& results) {
+  Table table("Table 3: seconds on the iPSC/2, and efficiencies", {{"scene"},
+                                                                   {"nodes"},
+                                                                   {"printed", "s", 0},
+                                                                   {"found", "s", 1},
+                                                                   {"found over printed", "", 3},
+                                                                   {"efficiency printed", "%", 1},
+                                                                   {"efficiency", "%", 1},
+                                                                   {"difference", "points", 1},
+                                                                   {"use"}});
+  for (const CellOfTable3& cell : cells_of_table_3(catalogue, results)) {
+    table.add_row({cell.title, std::uint64_t{cell.nodes}, cell.printed_seconds, cell.seconds, cell.seconds / cell.printed_seconds,
+                   cell.printed_efficiency, cell.efficiency, cell.efficiency - cell.printed_efficiency,
+                   cell.is_calibrated ? "calibrated"
+                   : cell.is_base     ? "base"
+                                      : "predicted"});
+  }
+  const Differences errors = differences_of(catalogue, results);
+  table.add_note(
+      "Caches hold the share of the database that they held in the article: of 3.2 MB shared memory a node, what its own pages "
+      "leave. Another table shows other memories in place of that.");
+  table.add_note(
+      "Calibrated: two figures of the machine were fitted to these two cells, the price of an operation and that of "
+      "looking up a cached page. All others are predictions.");
+  table.add_note("Predicted efficiencies differ by " + fixed(errors.mean(), 2) + " points on average and " +
+                 fixed(errors.worst, 2) + " at worst, " + std::to_string(errors.count) + " cells.");
+  note_missing_rows(table, printed_cell_count());
+  return table;
+}
+
+Table losses(const Catalogue& catalogue, const PaperResults& results) {
+  std::vector<Column> columns = {{"scene"}, {"nodes"}};
+  for (const char* part : time_part_names) {
+    columns.push_back({part, "%", 2});
+  }
+  Table table("Where the nodes' time goes", columns);
+  for (const CellOfTable3& cell : cells_of_table_3(catalogue, results)) {
+    std::vector<Cell> row = {cell.title, std::uint64_t{cell.nodes}};
+    for (const double percent : cell.parts.percent()) {
+      row.emplace_back(percent);
+    }
+    table.add_row(std::move(row));
+  }
+  table.add_note("The parts of a row add up to 100 %. Dearer look-ups of cached pages are part of computing.");
+  note_missing_rows(table, printed_cell_count());
+  return table;
+}
+
+Table algorithms(const Catalogue& catalogue, const PaperResults& results) {
+  Table table("Figures 5 and 7: efficiency of both algorithms", {{"scene"},
+                                                                 {"nodes"},
+                                                                 {"rays travel", "s", 1},
+                                                                 {"pages travel", "s", 1},
+                                                                 {"rays travel efficiency", "%", 1},
+                                                                 {"pages travel efficiency", "%", 1}});
+  for (std::size_t scene = 0; scene < rings.size(); ++scene) {
+    const auto& first = results[catalogue.rings_by_pages[scene][0]];
+    for (std::size_t column = 0; column < paper_node_counts.size(); ++column) {
+      const auto& rays = results[catalogue.rings_by_rays[scene][column]];
+      const auto& pages = results[catalogue.rings_by_pages[scene][column]];
+      if (first && rays && pages) {
+        const std::uint32_t nodes = paper_node_counts[column];
+        table.add_row({rings[scene], std::uint64_t{nodes}, rays->seconds(), pages->seconds(),
+                       efficiency(first->seconds(), 1, rays->seconds(), nodes),
+                       efficiency(first->seconds(), 1, pages->seconds(), nodes)});
+      }
+    }
+  }
+  table.add_note("Both against one node, on which nothing travels. The curves of the article are not printed as numbers.");
+  table.add_note(
+      "On several nodes the pages of rings-4-t1 travel on the machines of Table 3, whose caches have the article's share of the "
+      "database; its rays, and all of rings-3-t1, on nodes with memories of 4 MiB.");
+  table.add_note(
+      "In the article Rings4 by travelling rays did not fit into the memories of 2 and 4 nodes; our smaller database does.");
+  note_missing_rows(table, rings.size() * paper_node_counts.size());
+  return table;
+}
+
+Table caches(const Catalogue& catalogue, const PaperResults& results) {
+  Table table("Figures 8 to 10: caches on " + std::to_string(cache_node_count) + " nodes", {{"scene"},
+                                                                                            {"cache in the article", "pages"},
+                                                                                            {"cache", "pages"},
+                                                                                            {"of the database", "%", 3},
+                                                                                            {"efficiency", "%", 1},
+                                                                                            {"faults"},
+                                                                                            {"page traffic a node", "bytes/s", 0},
+                                                                                            {"page wait", "%", 1},
+                                                                                            {"stolen", "%", 1}});
+  for (std::size_t scene = 0; scene < cache_scenes.size(); ++scene) {
+    const auto& base = results[catalogue.cache_base[scene]];
+    for (std::size_t size = 0; size < cache_size_count; ++size) {
+      const std::size_t number = catalogue.cached[scene][size];
+      if (base && results[number]) {
+        const PaperResult& result = *results[number];
+        const auto percent = result.parts.percent();
+        table.add_row({cache_scenes[scene].row().scene, std::uint64_t{cache_scenes[scene].pages[size]},
+                       std::uint64_t{result.cache_pages}, 100 * cache_scenes[scene].share(size),
+                       efficiency(base->seconds(), 1, result.seconds(), cache_node_count), result.faults,
+                       result.page_rate(cache_node_count), percent[static_cast<std::size_t>(TimePart::data_wait)],
+                       percent[static_cast<std::size_t>(TimePart::stolen)]});
+      }
+    }
+  }
+  table.add_note("Caches have the article's share of the database in place of its pages, since ours are smaller (Table 2).");
+  table.add_note(
+      "With one pixel in flight a node asks for a page only when the one before has come, so its traffic grows as long as the "
+      "cache shrinks, until it does little else than wait.");
+  table.add_note("Pictures of half the resolution a side: small caches miss too often for the whole one.");
+  note_missing_rows(table, cache_scenes.size() * cache_size_count);
+  return table;
+}
+
+}  // namespace dmpc::apps

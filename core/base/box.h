@@ -1,0 +1,30 @@
+// Axis-aligned boxes in double precision, for building.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "core/base/vec.h"
+
+namespace dmpc::core {
+
+/// Empty as constructed: low above high.
+struct Box {
+  Vec3d low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+            std::numeric_limits<double>::infinity()};
+  Vec3d high = -low;
+
+  bool empty() const { return !(low.x <= high.x); }
+  void include(const Vec3d& point) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], point[axis]);
+      high[axis] = std::max(high[axis], point[axis]);
+    }
+  }
+  /// Grows by `margin` to every side.
+  Box padded(const Vec3d& margin) const { return {low - margin, high + margin}; }
+  Vec3d center() const { return (low + high) * 0.5; }
+  Vec3d half() const { return (high - low) * 0.5; }
+};
+
+}  // namespace dmpc::core

@@ -1,0 +1,262 @@
+#include "core/base/elementary.h"
+
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "core/base/expect.h"
+
+namespace dmpc::core {
+namespace {
+
+// Each constant as the nearest double and, where it matters, the nearest double to what that leaves out.
+constexpr double half_pi = 0x1.921fb54442d18p+0, half_pi_tail = 0x1.1a62633145c07p-54;
+constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
+constexpr double radian_per_degree = 0x1.1df46a2529d39p-6, radian_per_degree_tail = 0x1.5c1d8becdd291p-62;
+constexpr double log_2 = 0x1.62e42fefa39efp-1, log_2_tail = 0x1.abc9e3b39803fp-56;
+constexpr double one_over_log_2 = 0x1.71547652b82fep+0;
+
+constexpr double angle_max = 1e6;
+
+/// A quarter turn counted, and the rest of the angle as an unevaluated sum of radians, |high| <= pi/4 and a little.
+struct Reduced {
+  int quarter = 0;
+  double high = 0, low = 0;
+};
+
+Reduced renormalized(double quarters, double high, double low) {
+  const double sum = high + low;
+  return {static_cast<int>(static_cast<std::int64_t>(quarters) & 3), sum, (high - sum) + low};
+}
+
+Reduced reduce_radians(double radians) {
+  expect(std::abs(radians) <= angle_max, "an angle lies within a million radians");
+  const double quarters = std::nearbyint(radians * two_over_pi);
+  return renormalized(quarters, std::fma(-quarters, half_pi, radians), -quarters * half_pi_tail);
+}
+
+/// Horner's rule; coefficients from the highest power down.
+template <std::size_t Count>
+double polynomial(double x, const std::array<double, Count>& coefficients) {
+  double sum = coefficients[0];
+  for (std::size_t i = 1; i < Count; ++i) {
+    sum = std::fma(sum, x, coefficients[i]);
+  }
+  return sum;
+}
+
+/// Taylor's series to the 17th power: the first term left out is below 1e-19 at pi/4.
+double sin_reduced(double high, double low) {
+  static constexpr std::array<double, 8> series = {1 / 355687428096000.0, -1 / 1307674368000.0, 1 / 6227020800.0, -1 / 39916800.0,
+                                                   1 / 362880.0,          -1 / 5040.0,          1 / 120.0,        -1 / 6.0};
+  const double square = high * high;
+  return high + std::fma(high * square, polynomial(square, series), std::fma(-0.5 * square, low, low));
+}
+
+/// Taylor's series to the 18th power: the first term left out is below 4e-21 at pi/4.
+double cos_reduced(double high, double low) {
+  static constexpr std::array<double, 8> series = {
+      -1 / 6402373705728000.0, 1 / 20922789888000.0, -1 / 87178291200.0, 1 / 479001600.0,
+      -1 / 3628800.0,          1 / 40320.0,          -1 / 720.0,         1 / 24.0};
+  const double square = high * high;
+  const double half = 0.5 * square;
+  const double leading = 1 - half;
+  const double rest = std::fma(square * square, polynomial(square, series), -high * low);
+  return leading + (((1 - leading) - half) + rest);
+}
+
+double sin_of(const Reduced& angle) {
+  const double magnitude = (angle.quarter & 1) != 0 ? cos_reduced(angle.high, angle.low) : sin_reduced(angle.high, angle.low);
+  return (angle.quarter & 2) != 0 ? -magnitude : magnitude;
+}
+
+double cos_of(const Reduced& angle) { return sin_of({(angle.quarter + 1) & 3, angle.high, angle.low}); }
+
+/// Quarter turns, and the rest in degrees, |rest| <= 45: exact.
+std::pair<double, double> reduce_degrees(double degrees) {
+  expect(std::abs(degrees) <= angle_max, "an angle lies within a million degrees");
+  const double quarters = std::nearbyint(degrees / 90);
+  return {quarters, std::fma(-90.0, quarters, degrees)};
+}
+
+Reduced radians_from_degrees(double quarters, double degrees) {
+  const double product = degrees * radian_per_degree;
+  const double error = std::fma(degrees, radian_per_degree, -product);
+  return renormalized(quarters, product, std::fma(degrees, radian_per_degree_tail, error));
+}
+
+/// 2 ^ exponent; requires -1022 <= exponent <= 1023.
+double power_of_2(int exponent) { return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52U); }
+
+/// value * 2 ^ exponent for |exponent| <= 1100, rounded once if the result is not normal.
+double scale(double value, int exponent) {
+  const int first = exponent / 2;
+  return value * power_of_2(first) * power_of_2(exponent - first);
+}
+
+/// Taylor's series to the 14th power: the first term left out is below 1e-19 at log(2)/2.
+double exponential_reduced(double x) {
+  static constexpr std::array<double, 13> series = {
+      1 / 87178291200.0, 1 / 6227020800.0, 1 / 479001600.0, 1 / 39916800.0, 1 / 3628800.0, 1 / 362880.0, 1 / 40320.0,
+      1 / 5040.0,        1 / 720.0,        1 / 120.0,       1 / 24.0,       1 / 6.0,       1 / 2.0};
+  return 1 + std::fma(x * x, polynomial(x, series), x);
+}
+
+/// value = significand * 2 ^ exponent with sqrt(1/2) <= significand < sqrt(2), about.
+struct Binary {
+  double significand = 1;
+  int exponent = 0;
+};
+
+Binary split(double value) {
+  const bool tiny = value < std::numeric_limits<double>::min();
+  const auto bits = std::bit_cast<std::uint64_t>(tiny ? value * 0x1p54 : value);
+  const int exponent = static_cast<int>(bits >> 52U) - 1023 - (tiny ? 54 : 0);
+  const double significand = std::bit_cast<double>((bits & 0xfffffffffffffU) | (std::uint64_t{1023} << 52U));
+  return significand > 0x1.6a09ep+0 ? Binary{significand / 2, exponent + 1} : Binary{significand, exponent};
+}
+
+/// log(significand) = 2 artanh(s) with s = (significand - 1) / (significand + 1), |s| < 0.1716: the series' first term left out,
+/// s^23, is below 2e-18 relative to the first.
+double log_reduced(double significand) {
+  static constexpr std::array<double, 10> series = {2 / 21.0, 2 / 19.0, 2 / 17.0, 2 / 15.0, 2 / 13.0,
+                                                    2 / 11.0, 2 / 9.0,  2 / 7.0,  2 / 5.0,  2 / 3.0};
+  const double offset = significand - 1;
+  const double s = offset / (significand + 1);
+  const double square = s * s;
+  // 2 s = offset - s offset, which keeps the leading term exact.
+  return offset - s * (offset - square * polynomial(square, series));
+}
+
+/// Powers of ten that a double holds exactly.
+constexpr std::array<double, 23> power_of_10 = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                                1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+/// An unevaluated sum, exact: value times a power of ten (rounded), and what the rounding left out.
+struct Scaled {
+  double high = 0, low = 0;
+};
+
+/// value * 10 ^ power, -22 <= power <= 22. Dividing leaves the sign of `low` right only, which is all that a tie needs.
+Scaled scale_by_10(double value, int power) {
+  const double factor = power_of_10[static_cast<std::size_t>(std::abs(power))];
+  if (power >= 0) {
+    const double high = value * factor;
+    return {high, std::fma(value, factor, -high)};
+  }
+  const double high = value / factor;
+  return {high, std::fma(-high, factor, value)};
+}
+
+/// The integer nearest to a sum between 0 and 1e7, ties to even. Where `high` is not a tie, `low` is too small to matter.
+double nearest_integer(const Scaled& sum) {
+  const double below = static_cast<double>(static_cast<std::int64_t>(sum.high));
+  const double beyond_half = (sum.high - below) - 0.5;
+  const bool tie = beyond_half == 0;
+  const bool odd = (static_cast<std::int64_t>(below) & 1) != 0;
+  const bool up = tie ? (sum.low > 0 || (sum.low == 0 && odd)) : beyond_half > 0;
+  return up ? below + 1 : below;
+}
+
+/// The power of ten that brings a positive value to six digits before the point, perhaps one too high.
+int six_digit_power(double magnitude) {
+  const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(magnitude) >> 52U) - 1023;
+  constexpr double log10_of_2 = 0.30102999566398119521;
+  const double decade = exponent * log10_of_2;
+  const int below = static_cast<int>(decade) - (decade < static_cast<int>(decade) ? 1 : 0);
+  return 5 - below;
+}
+
+/// For the numbers whose power of ten is not exact in a double: the same result by way of text.
+double round_by_text(double value) {
+  std::array<char, 64> text{};
+  const auto written = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 6);
+  double result = value;
+  std::from_chars(text.data(), written.ptr, result);
+  return result;
+}
+
+}  // namespace
+
+double sin_radians(double radians) { return sin_of(reduce_radians(radians)); }
+double cos_radians(double radians) { return cos_of(reduce_radians(radians)); }
+
+double tan_radians(double radians) {
+  const Reduced angle = reduce_radians(radians);
+  return sin_of(angle) / cos_of(angle);
+}
+
+double sin_degrees(double degrees) {
+  const auto [quarters, rest] = reduce_degrees(degrees);
+  const Reduced angle = radians_from_degrees(quarters, rest);
+  if (std::abs(rest) == 30 && (angle.quarter & 1) == 0) {
+    return (rest > 0) == (angle.quarter == 0) ? 0.5 : -0.5;
+  }
+  return sin_of(angle) + 0.0;  // never -0
+}
+
+double cos_degrees(double degrees) {
+  const auto [quarters, rest] = reduce_degrees(degrees);
+  const Reduced angle = radians_from_degrees(quarters, rest);
+  if (std::abs(rest) == 30 && (angle.quarter & 1) == 1) {
+    return (rest < 0) == (angle.quarter == 1) ? 0.5 : -0.5;
+  }
+  return cos_of(angle) + 0.0;
+}
+
+double tan_degrees(double degrees) { return sin_degrees(degrees) / cos_degrees(degrees); }
+
+double exponential(double x) {
+  if (!(x > -745.2)) {
+    return std::isnan(x) ? x : 0;
+  }
+  if (x > 709.79) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double count = std::nearbyint(x * one_over_log_2);
+  const double rest = std::fma(-count, log_2_tail, std::fma(-count, log_2, x));
+  return scale(exponential_reduced(rest), static_cast<int>(count));
+}
+
+double natural_log(double x) {
+  if (!(x > 0)) {
+    return x == 0 ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+  }
+  const Binary parts = split(x);
+  const double count = parts.exponent;
+  const double high = count * log_2;
+  const double low = std::fma(count, log_2, -high) + count * log_2_tail;
+  return high + (log_reduced(parts.significand) + low);
+}
+
+double pow_unit(double base, double exponent) {
+  if (exponent == 0 || base >= 1) {
+    return 1;
+  }
+  return base > 0 ? exponential(exponent * natural_log(base)) : 0;
+}
+
+double round_to_6_digits(double value) {
+  const double magnitude = std::abs(value);
+  if (magnitude == 0 || !std::isfinite(value)) {
+    return value;
+  }
+  if (magnitude < 1e-16 || magnitude >= 1e26) {
+    return round_by_text(value);
+  }
+  int power = six_digit_power(magnitude);
+  Scaled scaled = scale_by_10(magnitude, power);
+  if (scaled.high >= 1e6) {
+    scaled = scale_by_10(magnitude, --power);
+  }
+  const double digits = nearest_integer(scaled);
+  const double factor = power_of_10[static_cast<std::size_t>(std::abs(power))];
+  return std::copysign(power >= 0 ? digits / factor : digits * factor, value);
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,95 @@
+#include "core/build/brick_tree.h"
+
+#include <array>
+#include <cstddef>
+#include <cstring>
+
+namespace dmpc::core {
+namespace {
+
+Address take_room_for(BrickDraft& draft, RecordWriter& writer) {
+  const Address address = writer.allocate(sizeof(Brick));
+  for (std::size_t i = 0; i < draft.brick.child_count; ++i) {
+    const BrickDraft::Block& block = draft.blocks[i];
+    if (block.count > 0) {
+      draft.brick.child[i] = BrickChild::block(writer.allocate(block_bytes(block.kind, block.count)));
+    }
+  }
+  auto next = draft.bricks.begin();
+  for (std::size_t i = 0; i < draft.brick.child_count; ++i) {
+    if (draft.blocks[i].count == 0) {
+      draft.brick.child[i] = BrickChild::brick(take_room_for(*next++, writer));
+    }
+  }
+  return address;
+}
+
+void count_below(const BrickDraft& draft, RecordCounts& records) {
+  ++records.bricks;
+  for (std::size_t i = 0; i < draft.brick.child_count; ++i) {
+    records.blocks[static_cast<std::size_t>(draft.blocks[i].kind)] += draft.blocks[i].count > 0 ? 1 : 0;
+  }
+  for (const BrickDraft& brick : draft.bricks) {
+    count_below(brick, records);
+  }
+}
+
+class TreeWriter {
+ public:
+  TreeWriter(const BrickTree& tree, std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading,
+             RecordWriter& writer)
+      : tree_(tree), primitives_(primitives), shading_(shading), writer_(writer) {}
+
+  void write(const BrickDraft& draft, Address address) const {
+    writer_.write(address, 0, draft.brick);
+    auto next = draft.bricks.begin();
+    for (std::size_t i = 0; i < draft.brick.child_count; ++i) {
+      if (draft.blocks[i].count > 0) {
+        write_block(draft.blocks[i], draft.brick.child[i].address());
+      } else {
+        write(*next++, draft.brick.child[i].address());
+      }
+    }
+  }
+
+ private:
+  void write_block(const BrickDraft::Block& block, Address address) const {
+    std::array<std::byte, record_bytes_max> record;
+    BlockHeader header;
+    header.kind = block.kind;
+    header.count = block.count;
+    std::memcpy(record.data(), &header, sizeof(header));
+    const std::size_t rows = value_count(block.kind);
+    for (std::size_t lane = 0; lane < block.count; ++lane) {
+      const std::uint32_t id = tree_.ids[block.first + lane];
+      const auto put = [&](std::size_t row, const auto& value) {
+        static_assert(sizeof(value) == 4);
+        std::memcpy(record.data() + sizeof(header) + 4 * (row * block.count + lane), &value, sizeof(value));
+      };
+      for (std::size_t row = 0; row < rows; ++row) {
+        put(row, primitives_[id].value[row]);
+      }
+      put(rows, id);
+      put(rows + 1, shading_[id]);
+    }
+    writer_.write(address, 0, std::as_bytes(std::span(record)).first(block_bytes(block.kind, block.count)));
+  }
+
+  const BrickTree& tree_;
+  std::span<const PrimitiveValues> primitives_;
+  std::span<const ShadingReference> shading_;
+  RecordWriter& writer_;
+};
+
+}  // namespace
+
+void BrickTree::count(RecordCounts& records) const { count_below(top, records); }
+
+Address BrickTree::take_room(RecordWriter& writer) { return address = take_room_for(top, writer); }
+
+void BrickTree::write(std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading,
+                      RecordWriter& writer) const {
+  TreeWriter(*this, primitives, shading, writer).write(top, address);
+}
+
+}  // namespace dmpc::core

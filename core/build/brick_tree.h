@@ -1,0 +1,42 @@
+// The bricks and blocks of one top cell before they have addresses.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/build/database.h"
+#include "core/record/record.h"
+#include "core/build/record_writer.h"
+
+namespace dmpc::core {
+
+/// A brick, the blocks and the bricks below it.
+struct BrickDraft {
+  /// Primitives of one kind: `count` of BrickTree::ids.
+  struct Block {
+    std::uint32_t first = 0;
+    std::uint8_t count = 0;  ///< 0: the child is a brick
+    PrimitiveKind kind{};
+  };
+  Brick brick;  ///< without the addresses of its children
+  std::array<Block, brick_children_max> blocks{};
+  std::vector<BrickDraft> bricks;  ///< in the order of the children
+};
+
+/// What BrickBuilder makes of a top cell. Thread safety: several may write at the same time.
+struct BrickTree {
+  BrickDraft top;
+  std::vector<std::uint32_t> ids;  ///< of the blocks, ascending in each
+  Address address = no_address;    ///< of the first brick, once there is room
+
+  /// Adds its bricks and blocks.
+  void count(RecordCounts& records) const;
+  /// Takes room for the records: a brick, its blocks, and then its bricks. Returns the first brick's address.
+  Address take_room(RecordWriter& writer);
+  /// Writes the records, for which room has been taken and made.
+  void write(std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading, RecordWriter& writer) const;
+};
+
+}  // namespace dmpc::core

@@ -1,0 +1,204 @@
+#include "core/build/extract.h"
+
+#include <cstring>
+#include <map>
+#include <utility>
+
+#include "core/record/directory.h"
+#include "core/build/record_writer.h"
+#include "core/record/texture_layout.h"
+#include "core/build/texture_records.h"
+#include "core/base/units.h"
+
+namespace dmpc::core {
+namespace {
+
+/// Nothing depends on a part's pages; the smallest wastes least at its end.
+constexpr std::size_t part_page_bytes = 512;
+
+class Extractor {
+ public:
+  Extractor(const Database& database, const Region& region)
+      : whole_(database.header()), bytes_(database.bytes().data()), region_(region), writer_(part_page_bytes) {}
+
+  DatabasePart extract() {
+    DatabaseHeader& header = part_.header;
+    header = whole_;
+    header.region = region_;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      header.directory_low[axis] = region_.low[axis] / finest_per_top * finest_per_top;
+      header.directory_size[axis] = ceil_divide(region_.high[axis] - header.directory_low[axis], finest_per_top);
+    }
+    header.directory = writer_.allocate_array<DirectoryEntry>(directory_entry_count(header.directory_size));
+    header.lights = copy_array<LightRecord>(whole_.lights, whole_.light_count);
+    header.materials = copy_array<MaterialRecord>(whole_.materials, whole_.material_count);
+    copy_directory();
+    copy_textures();
+    part_.bytes = std::move(writer_).finish();
+    part_.record_bytes = part_.bytes.size() - overread_bytes;
+    return std::move(part_);
+  }
+
+ private:
+  const std::byte* at(Address address) const { return bytes_ + byte_offset(address); }
+
+  template <class T>
+  Address copy_array(Address from, std::size_t count) {
+    const Address to = writer_.allocate_array<T>(count);
+    if (count > 0) {
+      writer_.write(to, 0, std::span(at(from), count * sizeof(T)));
+    }
+    return to;
+  }
+
+  void copy_directory() {
+    const DatabaseHeader& header = part_.header;
+    Corner cell;
+    for (cell[2] = header.directory_low[2]; cell[2] < region_.high[2]; cell[2] += finest_per_top) {
+      for (cell[1] = header.directory_low[1]; cell[1] < region_.high[1]; cell[1] += finest_per_top) {
+        for (cell[0] = header.directory_low[0]; cell[0] < region_.high[0]; cell[0] += finest_per_top) {
+          copy_top_cell(cell);
+        }
+      }
+    }
+  }
+
+  void copy_top_cell(const Corner& cell) {
+    const std::uint64_t from = directory_index(whole_, cell), to = directory_index(part_.header, cell);
+    auto entry = read<DirectoryEntry>(at(directory_address(whole_, from)) + directory_offset(from));
+    if (!entry.empty()) {
+      const Address copy = region_.overlaps(cell, finest_per_top) ? copy_brick(brick_at(entry.brick())) : no_address;
+      entry.bits = copy != no_address ? static_cast<std::uint32_t>(copy) : DirectoryEntry::empty_flag;
+    }
+    writer_.write(directory_address(part_.header, to), directory_offset(to), entry);
+  }
+
+  /// Whether a child's box, borders included, touches the region.
+  bool touches(const Brick& brick, std::size_t child) const {
+    const double edge = double{whole_.frame.finest_cell};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (place_of(brick, axis, child) > region_.high[axis] * edge ||
+          place_of(brick, axis + 3, child) < region_.low[axis] * edge) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// The children of a brick that the region needs: blocks whose boxes touch it, and bricks that have such.
+  std::vector<std::size_t> kept_children(const Brick& brick) const {
+    std::vector<std::size_t> kept;
+    for (std::size_t child = 0; child < brick.child_count; ++child) {
+      const BrickChild& link = brick.child[child];
+      if (touches(brick, child) && (link.is_block() || !kept_children(brick_at(link.address())).empty())) {
+        kept.push_back(child);
+      }
+    }
+    return kept;
+  }
+
+  Brick brick_at(Address address) const { return read<Brick>(at(address)); }
+
+  /// Copies what a brick has for the region; no_address if that is nothing.
+  Address copy_brick(const Brick& from) {
+    const std::vector<std::size_t> kept = kept_children(from);
+    if (kept.empty()) {
+      return no_address;
+    }
+    const Address to = writer_.allocate(sizeof(Brick));
+    Brick brick{.origin = from.origin, .unit = from.unit};
+    for (const std::size_t child : kept) {
+      const Address old = from.child[child].address();
+      const std::size_t place = brick.child_count++;
+      brick.child[place] =
+          from.child[child].is_block() ? BrickChild::block(copy_block(old)) : BrickChild::brick(copy_brick(brick_at(old)));
+      for (std::size_t row = 0; row < 6; ++row) {
+        brick.bounds[row][place] = from.bounds[row][child];
+      }
+    }
+    writer_.write(to, 0, brick);
+    return to;
+  }
+
+  Address copy_block(Address from) {
+    const auto header = read<BlockHeader>(at(from));
+    const std::size_t size = block_bytes(header.kind, header.count), row = sizeof(ShadingReference) * header.count;
+    std::vector<ShadingReference> shading(header.count);
+    std::memcpy(shading.data(), at(from) + size - row, row);
+    for (ShadingReference& reference : shading) {
+      if (reference.is_smooth()) {
+        reference = ShadingReference::smooth(copy_normals(reference.normals()));
+      }
+    }
+    const Address to = writer_.allocate(size);
+    writer_.write(to, 0, std::span(at(from), size - row));
+    writer_.write(to, size - row, std::as_bytes(std::span(shading)));
+    part_.primitive_copies += header.count;
+    return to;
+  }
+
+  /// A triangle that lies in several bricks keeps one record of normals.
+  Address copy_normals(Address from) {
+    const auto [found, is_new] = normals_.try_emplace(static_cast<std::uint32_t>(from), no_address);
+    if (is_new && read<PatchNormals>(at(from)).is_textured()) {
+      auto textured = read<TexturedNormals>(at(from));
+      textured.texture = copy_reference(textured);
+      found->second = writer_.add(textured);
+    } else if (is_new) {
+      found->second = writer_.add(read<PatchNormals>(at(from)));
+    }
+    return found->second;
+  }
+
+  /// Notes which tiles the triangle needs; they are copied when all are known.
+  TextureReference copy_reference(const TexturedNormals& triangle) {
+    const auto [found, is_new] = textures_.try_emplace(static_cast<std::uint32_t>(triangle.texture.tiles));
+    UsedTexture& texture = found->second;
+    if (is_new) {
+      const std::size_t entries = tile_entry_count(triangle.texture);
+      texture.from = texture.to = triangle.texture;
+      texture.to.tiles = writer_.allocate_array<Address>(entries);
+      texture.needed.resize(entries);
+    }
+    for_each_tile(triangle, [&](std::uint32_t tile) { texture.needed[tile] = true; });
+    return texture.to;
+  }
+
+  /// In the order of the whole, which keeps neighbours together.
+  void copy_textures() {
+    for (const auto& [address, texture] : textures_) {
+      const auto* const table = reinterpret_cast<const Address*>(at(texture.from.tiles));
+      std::map<Address, std::size_t> tiles;
+      for (std::size_t tile = 0; tile < texture.needed.size(); ++tile) {
+        if (texture.needed[tile]) {
+          tiles.emplace(table[tile], tile);
+        }
+      }
+      std::vector<Address> copies(texture.needed.size(), no_address);
+      for (const auto& [from, tile] : tiles) {
+        copies[tile] = writer_.add(read<TextureTile>(at(from)));
+      }
+      writer_.write(texture.to.tiles, 0, std::as_bytes(std::span(copies)));
+    }
+  }
+
+  /// A texture that the region's triangles show.
+  struct UsedTexture {
+    TextureReference from, to;
+    std::vector<bool> needed;  ///< tiles
+  };
+
+  const DatabaseHeader& whole_;
+  const std::byte* bytes_;
+  Region region_;
+  RecordWriter writer_;
+  DatabasePart part_;
+  std::map<std::uint32_t, Address> normals_;       ///< old address -> new
+  std::map<std::uint32_t, UsedTexture> textures_;  ///< by the old address of their tables
+};
+
+}  // namespace
+
+DatabasePart extract(const Database& database, const Region& region) { return Extractor(database, region).extract(); }
+
+}  // namespace dmpc::core

@@ -1,0 +1,28 @@
+// The part of a database that touches a region: what a node of dataflow holds.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/build/database.h"
+#include "core/record/record.h"
+#include "core/record/records.h"
+
+namespace dmpc::core {
+
+/// Records and table of contents of one region, position-independent like the whole database's. trace() on it answers the same
+/// bits as on the whole while the ray is in the region.
+struct DatabasePart {
+  DatabaseHeader header;               ///< header.region is the region
+  std::vector<std::byte> bytes;        ///< overread_bytes more than the records take
+  std::size_t record_bytes = 0;        ///< the size of the records alone, also when `bytes` are forgotten
+  std::uint64_t primitive_copies = 0;  ///< lanes of its blocks: summed over all parts and divided by the whole's, the duplication
+};
+
+/// Copies the directory's entries, bricks, blocks and normals that cells in `region` need, all materials and lights, and of
+/// textures the tiles that the triangles there may show; addresses are made anew, values keep their bits. Children whose boxes do
+/// not touch the region are left out of their bricks.
+DatabasePart extract(const Database& database, const Region& region);
+
+}  // namespace dmpc::core

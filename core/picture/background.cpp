@@ -1,0 +1,150 @@
+#include "core/picture/background.h"
+
+#include <bit>
+
+#include "core/record/directory.h"
+#include "core/build/overlap.h"
+#include "core/record/records.h"
+
+namespace dmpc::core {
+namespace {
+
+/// Bricks and blocks that fall on so few tiles count as filling them: what is in them takes longer to look at than the tiles that
+/// it leaves empty save. A picture of tetra-9 then has 1 % of its tiles less, found in 60 % of the time.
+constexpr int few_tiles_of_brick = 6, few_tiles_of_block = 16;
+
+std::uint32_t count_of(std::uint64_t bits) { return static_cast<std::uint32_t>(std::popcount(bits)); }
+
+int tile_count(const TileFootprint& footprint) { return std::popcount(footprint.rows) * std::popcount(footprint.columns); }
+
+Box box_of(const Brick& brick, std::size_t child) {
+  Box box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] = place_of(brick, axis, child);
+    box.high[axis] = place_of(brick, axis + 3, child);
+  }
+  return box;
+}
+
+Box box_of_cell(const Corner& corner, const GridFrame& frame) {
+  Box box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] = corner[axis] * double{frame.finest_cell};
+    box.high[axis] = (corner[axis] + finest_per_top) * double{frame.finest_cell};
+  }
+  return box;
+}
+
+PrimitiveValues primitive_in(const std::byte* record, std::size_t lane) {
+  const auto header = read<BlockHeader>(record);
+  PrimitiveValues primitive{.kind = header.kind};
+  for (std::size_t row = 0; row < value_count(header.kind); ++row) {
+    primitive.value[row] = read<float>(record + sizeof(header) + sizeof(float) * (row * header.count + lane));
+  }
+  return primitive;
+}
+
+/// Takes bits away from tiles on which boxes fall.
+class Finder {
+ public:
+  Finder(const Database& database, const BoxProjector& projector)
+      : header_(database.header()),
+        records_(database.bytes()),
+        projector_(projector),
+        pad_{database.pad(), database.pad(), database.pad()} {
+    const TileFootprint all = projector.all();
+    for (std::uint32_t row = 0; row < tiles_per_side; ++row) {
+      bits_[row] = (all.rows >> row & 1U) != 0 ? all.columns : 0;
+    }
+    left_ = static_cast<std::uint32_t>(tile_count(all));
+  }
+
+  BackgroundTiles::Bits find() {
+    const auto& size = header_.directory_size;
+    for (std::int32_t z = 0; z < size[2]; ++z) {
+      for (std::int32_t y = 0; y < size[1]; ++y) {
+        for (std::int32_t x = 0; x < size[0] && left_ > 0; ++x) {
+          look_into_cell({x * finest_per_top, y * finest_per_top, z * finest_per_top});
+        }
+      }
+    }
+    return bits_;
+  }
+
+ private:
+  void look_into_cell(const Corner& corner) {
+    const std::uint64_t index = directory_index(header_, corner);
+    const auto entry = read<DirectoryEntry>(records_.find(directory_address(header_, index)) + directory_offset(index));
+    if (!entry.empty() && falls_on_any(projector_.footprint_of(box_of_cell(corner, header_.frame)))) {
+      look_into_brick(entry.brick());
+    }
+  }
+
+  /// A ray comes to a child through the boxes above it, so a box that falls on no tile with a bit needs not be opened.
+  void look_into_brick(Address address) {
+    const auto brick = read<Brick>(records_.find(address));
+    for (std::size_t child = 0; child < brick.child_count && left_ > 0; ++child) {
+      const TileFootprint footprint = projector_.footprint_of(box_of(brick, child));
+      const bool is_block = brick.child[child].is_block();
+      if (tile_count(footprint) <= (is_block ? few_tiles_of_block : few_tiles_of_brick)) {
+        take_away(footprint);
+      } else if (falls_on_any(footprint)) {
+        const Address below = brick.child[child].address();
+        is_block ? look_into_block(below, footprint) : look_into_brick(below);
+      }
+    }
+  }
+
+  /// Primitives of a block may lie far from each other.
+  void look_into_block(Address address, const TileFootprint& of_block) {
+    const std::byte* const record = records_.find(address);
+    for (std::size_t lane = 0; lane < read<BlockHeader>(record).count; ++lane) {
+      const Box box = bounds_of(primitive_in(record, lane)).padded(pad_);
+      const TileFootprint footprint = projector_.footprint_of(box);
+      take_away({footprint.columns & of_block.columns, footprint.rows & of_block.rows});
+    }
+  }
+
+  bool falls_on_any(const TileFootprint& footprint) const {
+    for (std::uint64_t rows = footprint.rows; rows != 0; rows &= rows - 1) {
+      if ((bits_[static_cast<std::size_t>(std::countr_zero(rows))] & footprint.columns) != 0) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void take_away(const TileFootprint& footprint) {
+    for (std::uint64_t rows = footprint.rows; rows != 0; rows &= rows - 1) {
+      std::uint64_t& row = bits_[static_cast<std::size_t>(std::countr_zero(rows))];
+      left_ -= count_of(row & footprint.columns);
+      row &= ~footprint.columns;
+    }
+  }
+
+  const DatabaseHeader& header_;
+  LocalRecords records_;
+  const BoxProjector& projector_;
+  Vec3d pad_;  ///< within which a hit may lie beside its primitive
+  BackgroundTiles::Bits bits_{};
+  std::uint32_t left_ = 0;  ///< bits
+};
+
+}  // namespace
+
+BackgroundTiles::BackgroundTiles(const Camera& camera, const Bits& bits)
+    : across_(TiledSide::of(camera.width())),
+      down_(TiledSide::of(camera.height())),
+      width_(static_cast<std::uint32_t>(camera.width())),
+      bits_(bits) {
+  for (const std::uint64_t row : bits) {
+    count_ += count_of(row);
+  }
+}
+
+BackgroundTiles find_background(const Database& database, const Camera& camera) {
+  const BoxProjector projector(camera);
+  return projector.is_certain() ? BackgroundTiles(camera, Finder(database, projector).find()) : BackgroundTiles();
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,48 @@
+#include "core/picture/camera.h"
+
+#include <algorithm>
+
+#include "core/base/elementary.h"
+#include "core/base/expect.h"
+#include "core/scene/frame.h"
+#include "core/picture/sample_position.h"
+
+namespace dmpc::core {
+
+Camera::Camera(const View& view, const GridFrame& frame, int width, int height, int samples)
+    : width_(width), height_(height), samples_(samples) {
+  expect(width > 0 && height > 0 && samples > 0, "a camera has pixels and samples");
+  origin_ = Vec3f(to_local(frame, view.from));
+  const GridAxes screen = screen_axes(view);
+  const Vec3d right = turned(frame.axes, screen[0]), up = turned(frame.axes, screen[1]);
+  forward_ = -turned(frame.axes, screen[2]);
+  // A picture one pixel wide has no spacing of its own: its pixel spans the whole angle.
+  const int intervals = std::max(1, std::min(width, height) - 1);
+  const double pixel = 2.0 * tan_degrees(view.angle_degrees / 2) / intervals;
+  right_ = right * pixel;
+  down_ = up * -pixel;
+}
+
+Ray Camera::primary_ray(std::uint32_t pixel, std::uint32_t sample) const {
+  double column = static_cast<double>(pixel % static_cast<std::uint32_t>(width_)) - 0.5 * (width_ - 1);
+  double row = static_cast<double>(pixel / static_cast<std::uint32_t>(width_)) - 0.5 * (height_ - 1);
+  if (samples_ > 1) {
+    const SamplePosition position = sample_position(pixel, sample);
+    column += position.x - 0.5;
+    row += position.y - 0.5;
+  }
+  Ray ray;
+  ray.origin = origin_;
+  ray.direction = Vec3f(normalize(forward_ + right_ * column + down_ * row));
+  ray.pixel = pixel;
+  ray.sample = sample;
+  return ray;
+}
+
+Vec3d Camera::on_film(const Vec3d& offset) const {
+  const double depth = dot(offset, forward_);
+  return {dot(offset, right_) / dot(right_, right_) + 0.5 * (width_ - 1) * depth,
+          dot(offset, down_) / dot(down_, down_) + 0.5 * (height_ - 1) * depth, depth};
+}
+
+}  // namespace dmpc::core

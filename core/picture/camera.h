@@ -1,0 +1,39 @@
+// From a pixel and a sample to its primary ray.
+#pragma once
+
+#include <cstdint>
+
+#include "core/record/ray.h"
+#include "core/record/record.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::core {
+
+/// A pinhole, in grid-local coordinates. NFF's angle spans the centres of the first and last pixel along the shorter side: sample
+/// i of n lies at tan(angle/2) (2i/(n-1) - 1), so 513x513 shoots through the corners of 512x512 pixels (Haines' SPD procedure)
+/// and 512x512 gives the rays of the 1994 paper.
+class Camera {
+ public:
+  /// Requires width, height > 0. With one sample a pixel the ray goes through the centre; with more, samples are jittered over
+  /// the pixel by a hash of (pixel, sample).
+  Camera(const View& view, const GridFrame& frame, int width, int height, int samples);
+
+  Ray primary_ray(std::uint32_t pixel, std::uint32_t sample) const;
+  /// Where an offset from the eye is seen: its column and row, whole numbers in the middles of pixels, each times z, the depth
+  /// along the direction in which the camera looks. Behind the eye the depth is negative.
+  Vec3d on_film(const Vec3d& offset) const;
+  const Vec3f& eye() const { return origin_; }
+  /// The side of a pixel on a film at distance 1.
+  double pixel_size() const { return length(right_); }
+  int width() const { return width_; }
+  int height() const { return height_; }
+  std::uint32_t pixel_count() const { return static_cast<std::uint32_t>(width_) * static_cast<std::uint32_t>(height_); }
+  int samples() const { return samples_; }
+
+ private:
+  Vec3f origin_;
+  Vec3d forward_, right_, down_;  ///< right_ and down_: one pixel's step in the plane at distance 1
+  int width_, height_, samples_;
+};
+
+}  // namespace dmpc::core

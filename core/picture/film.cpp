@@ -1,0 +1,95 @@
+#include "core/picture/film.h"
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/base/expect.h"
+
+namespace dmpc::core {
+namespace {
+
+constexpr std::int64_t channel_max = std::numeric_limits<std::int64_t>::max();
+
+std::int64_t fixed(float light) {
+  const double scaled = double{light} / film_resolution;
+  if (!(scaled > 0.0)) {
+    return 0;
+  }
+  return scaled >= 9.2e18 ? channel_max : static_cast<std::int64_t>(std::nearbyint(scaled));
+}
+
+class Fnv1a {
+ public:
+  void add(std::uint64_t value) {
+    for (int byte = 0; byte < 8; ++byte) {
+      hash_ = (hash_ ^ (value >> (8 * byte) & 0xffU)) * 0x100000001b3ULL;
+    }
+  }
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+};
+
+Vec3d sum_of(const FixedColor& plane) {
+  return {static_cast<double>(plane.channel[0]), static_cast<double>(plane.channel[1]), static_cast<double>(plane.channel[2])};
+}
+
+}  // namespace
+
+FixedColor to_fixed(const Color& light) { return {{fixed(light.x), fixed(light.y), fixed(light.z)}}; }
+
+bool add(FixedColor& sum, const FixedColor& deposit) {
+  bool saturated = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (__builtin_add_overflow(sum.channel[i], deposit.channel[i], &sum.channel[i])) {
+      sum.channel[i] = channel_max;
+    }
+    saturated = saturated || sum.channel[i] == channel_max;
+  }
+  return saturated;
+}
+
+Film::Film(int width, int height) : width_(width), height_(height) {
+  expect(width > 0 && height > 0, "a film has pixels");
+  pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  samples_.resize(pixels_.size());
+}
+
+bool Film::deposit(std::uint32_t pixel, const PixelSums& sums) {
+  expect(pixel < pixels_.size(), "a deposit falls on the film");
+  const bool even = add(pixels_[pixel].plane[0], sums.plane[0]);
+  const bool odd = add(pixels_[pixel].plane[1], sums.plane[1]);
+  return even || odd;
+}
+
+std::uint64_t Film::samples() const { return std::accumulate(samples_.begin(), samples_.end(), std::uint64_t{0}); }
+
+Vec3d Film::radiance(std::uint32_t pixel) const {
+  expect(samples_[pixel] > 0, "a picture has samples");
+  return (sum_of(pixels_[pixel].plane[0]) + sum_of(pixels_[pixel].plane[1])) * (film_resolution / samples_[pixel]);
+}
+
+Vec3d Film::half_difference(std::uint32_t pixel) const {
+  expect(samples_[pixel] > 1, "both planes of a pixel have samples");
+  const std::uint32_t odd = samples_[pixel] / 2, even = samples_[pixel] - odd;
+  const double scale = 0.5 * film_resolution;
+  return sum_of(pixels_[pixel].plane[0]) * (scale / even) - sum_of(pixels_[pixel].plane[1]) * (scale / odd);
+}
+
+std::uint64_t Film::hash() const {
+  Fnv1a hash;
+  hash.add(static_cast<std::uint64_t>(width_));
+  hash.add(static_cast<std::uint64_t>(height_));
+  for (const PixelSums& sums : pixels_) {
+    for (const FixedColor& plane : sums.plane) {
+      for (const std::int64_t channel : plane.channel) {
+        hash.add(static_cast<std::uint64_t>(channel));
+      }
+    }
+  }
+  return hash.value();
+}
+
+}  // namespace dmpc::core

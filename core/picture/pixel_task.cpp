@@ -1,0 +1,71 @@
+#include "core/picture/pixel_task.h"
+
+#include "core/base/expect.h"
+
+namespace dmpc::core {
+
+void PixelTask::start(std::uint32_t pixel, const SampleRange& samples, const RenderSettings& settings, Operations& operations) {
+  expect(stack_.size() >= static_cast<std::size_t>(settings.shade.depth_max), "the ray stack holds a hit a depth");
+  pixel_ = pixel;
+  sample_ = samples.first;
+  sample_end_ = samples.first + samples.count;
+  sums_ = {};
+  stack_size_ = 0;
+  shows_background_ = settings.shows_background(pixel);
+  shoot_primary(settings, operations);
+}
+
+/// Where it is not traced its direction does not matter.
+void PixelTask::shoot_primary(const RenderSettings& settings, Operations& operations) {
+  if (shows_background_) {
+    shoot({.pixel = pixel_, .sample = sample_}, operations);
+    ++operations.skipped.background;
+  } else {
+    shoot(settings.camera.primary_ray(pixel_, sample_), operations);
+  }
+}
+
+void PixelTask::shoot(const Ray& ray, Operations& operations) {
+  ray_ = ray;
+  cursor_ = {};
+  tracing_ = true;
+  ++operations.rays[static_cast<std::size_t>(ray.kind)];
+}
+
+void PixelTask::deposit(const Color& light, Operations& operations) {
+  if (add(sums_.plane[ray_.sample % 2], to_fixed(light))) {
+    ++operations.deposits_saturated;
+  }
+}
+
+/// What a traced ray leaves: light on the film, or a hit on the stack.
+void PixelTask::end_ray(Traced result, const RenderSettings& settings, Operations& operations) {
+  expect(result == Traced::hit || result == Traced::miss, "a pixel's tracer sees the whole scene");
+  tracing_ = false;
+  const bool hit = result == Traced::hit;
+  if (ray_.kind == RayKind::shadow) {
+    operations.shadow_blocked += hit ? 1 : 0;
+    if (!hit) {
+      deposit(ray_.weight, operations);
+    }
+    return;
+  }
+  if (!hit) {
+    deposit(ray_.weight * settings.header.background, operations);
+    return;
+  }
+  ++(ray_.kind == RayKind::primary ? operations.primary_hits : operations.secondary_hits);
+  expect(stack_size_ < stack_.size(), "the ray stack holds a hit a depth");
+  stack_[stack_size_++] = begin_shading(ray_, cursor_.best);
+}
+
+/// With no hit left to shade: the next sample, if there is one.
+bool PixelTask::next_sample(const RenderSettings& settings, Operations& operations) {
+  if (++sample_ == sample_end_) {
+    return false;
+  }
+  shoot_primary(settings, operations);
+  return true;
+}
+
+}  // namespace dmpc::core

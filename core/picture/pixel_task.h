@@ -1,0 +1,145 @@
+// One pixel under way: a bounded stack of hits and one ray, run against any tracer until it ends or needs an absent record.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/picture/background.h"
+#include "core/picture/camera.h"
+#include "core/picture/film.h"
+#include "core/trace/operations.h"
+#include "core/picture/refinement.h"
+#include "core/picture/shade.h"
+#include "core/trace/traversal.h"
+
+namespace dmpc::core {
+
+/// Finds what a ray hits, and the records that shading reads. trace() has the contract of core/trace/traversal.h's.
+template <class T>
+concept Tracer = requires(T& tracer, const Ray& ray, Cursor& cursor, Operations& operations, Address address) {
+  { tracer.trace(ray, cursor, operations) } -> std::same_as<Traced>;
+  { tracer.find(address) } -> std::same_as<const std::byte*>;
+};
+
+/// Our grid over any memory: the tracer of svm (records = the pager) and of replicated (records = the whole database).
+template <Records R>
+class GridTracer {
+ public:
+  GridTracer(R& records, const DatabaseHeader& header, const Skips& skips) : records_(&records), header_(header), skips_(skips) {}
+  Traced trace(const Ray& ray, Cursor& cursor, Operations& operations) {
+    return core::trace(ray, cursor, *records_, header_, skips_, operations);
+  }
+  const std::byte* find(Address address) { return records_->find(address); }
+
+ private:
+  R* records_;
+  DatabaseHeader header_;
+  Skips skips_;
+};
+
+/// What a pixel needs beside the records; by value in every node.
+struct RenderSettings {
+  DatabaseHeader header;
+  Camera camera;  ///< knows the samples of the first pass
+  ShadeOptions shade;
+  RefinementOptions refinement;
+  Skips skips;
+  BackgroundTiles background;  ///< find_background() of the database and the camera, if that is known
+
+  /// Whether the pixel's primary rays are certain to miss, and need not be traced.
+  bool shows_background(std::uint32_t pixel) const { return skips.background && background.has(pixel); }
+  /// The same picture, for a tracer that is to be asked about every ray.
+  RenderSettings with_every_ray_traced() const {
+    RenderSettings settings = *this;
+    settings.skips.background = false;
+    return settings;
+  }
+  SampleRange first_samples() const { return {0, static_cast<std::uint32_t>(camera.samples())}; }
+};
+
+enum class TaskState : std::uint8_t { finished, more, absent };
+
+/// Renders samples of one pixel, depth first, last in first out: a hit is shaded one child at a time, and each child is
+/// traced to its end before the next is made, so the stack holds at most one hit a depth, whatever the number of lights. Lives in
+/// memory given by its owner; never allocates. Copyable as bytes.
+class PixelTask {
+ public:
+  /// `stack` has at least settings.shade.depth_max entries and outlives the task.
+  explicit PixelTask(std::span<HitState> stack) : stack_(stack) {}
+
+  void start(std::uint32_t pixel, const SampleRange& samples, const RenderSettings& settings, Operations& operations);
+
+  /// Goes on until the pixel is finished, a ray has ended (`more`), or a record is absent (see absent()). One call ends at
+  /// most one ray, so it is a bounded quantum.
+  template <Tracer T>
+  TaskState run(T& tracer, const RenderSettings& settings, Operations& operations);
+
+  Address absent() const { return absent_; }
+  std::uint32_t pixel() const { return pixel_; }
+  const PixelSums& sums() const { return sums_; }
+  /// Under way, or the one that ended last.
+  const Ray& ray() const { return ray_; }
+
+ private:
+  template <Tracer T>
+  TaskState shade(T& tracer, const RenderSettings& settings, Operations& operations);
+  void shoot_primary(const RenderSettings& settings, Operations& operations);
+  void shoot(const Ray& ray, Operations& operations);
+  void deposit(const Color& light, Operations& operations);
+  void end_ray(Traced result, const RenderSettings& settings, Operations& operations);
+  bool next_sample(const RenderSettings& settings, Operations& operations);
+
+  std::span<HitState> stack_;
+  Ray ray_;
+  Cursor cursor_;
+  PixelSums sums_;
+  Address absent_ = no_address;
+  std::uint32_t pixel_ = 0;
+  std::uint32_t sample_ = 0, sample_end_ = 0;
+  std::uint32_t stack_size_ = 0;
+  bool tracing_ = false;
+  bool shows_background_ = false;  ///< the pixel's primary rays are not traced: they miss
+};
+
+template <Tracer T>
+TaskState PixelTask::run(T& tracer, const RenderSettings& settings, Operations& operations) {
+  if (!tracing_) {
+    const TaskState shaded = shade(tracer, settings, operations);
+    if (shaded != TaskState::more) {
+      return shaded;
+    }
+  }
+  const Traced result = shows_background_ ? Traced::miss : tracer.trace(ray_, cursor_, operations);
+  if (result == Traced::absent) {
+    absent_ = cursor_.absent;
+    return TaskState::absent;
+  }
+  end_ray(result, settings, operations);
+  return TaskState::more;
+}
+
+/// Shades the newest hit until it yields a ray to be traced (`more`), needs an absent record, or no hit and no sample is left.
+template <Tracer T>
+TaskState PixelTask::shade(T& tracer, const RenderSettings& settings, Operations& operations) {
+  while (stack_size_ > 0) {
+    HitState& state = stack_[stack_size_ - 1];
+    if (state.stage == HitState::Stage::finished) {
+      --stack_size_;
+      continue;
+    }
+    const Address address = record_needed(state, settings.header);
+    const std::byte* record = address == no_address ? nullptr : tracer.find(address);
+    if (address != no_address && record == nullptr) {
+      absent_ = address;
+      return TaskState::absent;
+    }
+    Ray child;
+    if (shade_step(state, record, settings.header, settings.shade, settings.skips, child, operations)) {
+      shoot(child, operations);
+      return TaskState::more;
+    }
+  }
+  return next_sample(settings, operations) ? TaskState::more : TaskState::finished;
+}
+
+}  // namespace dmpc::core

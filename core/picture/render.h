@@ -1,0 +1,43 @@
+// The one-thread reference renderer: what every strategy's film must equal, bit for bit.
+#pragma once
+
+#include <vector>
+
+#include "core/base/expect.h"
+#include "core/picture/film.h"
+#include "core/picture/pixel_task.h"
+
+namespace dmpc::core {
+
+/// Renders the samples of one pixel with `tracer`, which never answers absent, and adds the work to `operations`.
+template <Tracer T>
+PixelSums render_pixel(PixelTask& task, std::uint32_t pixel, const SampleRange& samples, T& tracer,
+                       const RenderSettings& settings, Operations& operations) {
+  task.start(pixel, samples, settings, operations);
+  TaskState state = TaskState::more;
+  while (state != TaskState::finished) {
+    state = task.run(tracer, settings, operations);
+    expect(state != TaskState::absent, "the reference renderer has every record");
+  }
+  return task.sums();
+}
+
+/// Renders every pixel in order, pass after pass.
+template <Tracer T>
+Film render(T& tracer, const RenderSettings& settings, Operations& operations) {
+  const int width = settings.camera.width(), height = settings.camera.height();
+  Film film(width, height);
+  Refinement refinement(settings.refinement, settings.first_samples().count, width, height);
+  std::vector<HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
+  PixelTask task(stack);
+  do {
+    for (std::uint32_t pixel = 0; pixel < settings.camera.pixel_count(); ++pixel) {
+      if (refinement.pixels().has(pixel)) {
+        film.deposit(pixel, render_pixel(task, pixel, refinement.samples(), tracer, settings, operations));
+      }
+    }
+  } while (refinement.next_pass(film));
+  return film;
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,47 @@
+#include "core/picture/sample_position.h"
+
+#include "core/base/sampling.h"
+
+namespace dmpc::core {
+namespace {
+
+constexpr std::uint32_t reversed(std::uint32_t bits) {
+  bits = (bits >> 16U) | (bits << 16U);
+  bits = ((bits & 0xff00ff00U) >> 8U) | ((bits & 0x00ff00ffU) << 8U);
+  bits = ((bits & 0xf0f0f0f0U) >> 4U) | ((bits & 0x0f0f0f0fU) << 4U);
+  bits = ((bits & 0xccccccccU) >> 2U) | ((bits & 0x33333333U) << 2U);
+  return ((bits & 0xaaaaaaaaU) >> 1U) | ((bits & 0x55555555U) << 1U);
+}
+
+/// A permutation in which a bit depends on the seed and on lower bits alone (S. Laine, T. Karras, "Stratified Sampling for
+/// Stochastic Transparency", 2011; constants: Burley, section 4).
+constexpr std::uint32_t permuted(std::uint32_t value, std::uint32_t seed) {
+  value += seed;
+  value ^= value * 0x6c50b47cU;
+  value ^= value * 0xb82f1e52U;
+  value ^= value * 0xc7afe638U;
+  return value ^ (value * 0x8d22f6e6U);
+}
+
+/// Sobol's second dimension, its digits in reverse: row i of the matrix is Pascal's triangle modulo 2.
+constexpr std::uint32_t second_dimension_reversed(std::uint32_t index) {
+  std::uint32_t bits = 0;
+  for (std::uint32_t column = 1; index != 0; index >>= 1U, column ^= column << 1U) {
+    bits ^= (index & 1U) != 0 ? column : 0;
+  }
+  return bits;
+}
+
+double unit(std::uint32_t digits) { return static_cast<double>(digits) * 0x1p-32; }
+
+}  // namespace
+
+SamplePosition sample_position(std::uint32_t pixel, std::uint32_t sample) {
+  const std::uint32_t index = sample / 2, plane = sample % 2;
+  const std::uint64_t seeds = mix((std::uint64_t{pixel} << 1U | plane) + 0x9e3779b97f4a7c15ULL);
+  const auto seed_x = static_cast<std::uint32_t>(seeds), seed_y = static_cast<std::uint32_t>(seeds >> 32U);
+  // The first dimension's digits are the index's in reverse.
+  return {unit(reversed(permuted(index, seed_x))), unit(reversed(permuted(second_dimension_reversed(index), seed_y)))};
+}
+
+}  // namespace dmpc::core

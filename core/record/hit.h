@@ -1,0 +1,34 @@
+// The nearest intersection found so far, and the order that makes it unique.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "core/record/ray.h"
+#include "core/record/record.h"
+
+namespace dmpc::core {
+
+/// A candidate or final hit. `block` and `lane` say where the primitive's record was read; a primitive that lies in several
+/// bricks has equal copies there, so they do not influence the picture.
+struct Hit {
+  float t = std::numeric_limits<float>::infinity();
+  std::uint32_t primitive = no_primitive;
+  Address block = no_address;
+  std::uint32_t lane = 0;
+
+  constexpr bool found() const { return primitive != no_primitive; }
+};
+
+/// The least (t, primitive) wins, whatever the order in which candidates come.
+constexpr bool nearer(float t, std::uint32_t primitive, const Hit& than) {
+  return t < than.t || (t == than.t && primitive < than.primitive);
+}
+
+/// Whether a candidate whose record is here takes the place of `than`: it is nearer, or it is the same and nobody here knows
+/// where the record of `than` is.
+constexpr bool replaces(float t, std::uint32_t primitive, const Hit& than) {
+  return nearer(t, primitive, than) || (than.block == no_address && t == than.t && primitive == than.primitive);
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,60 @@
+// The self-contained ray: its own continuation, stack entry in svm and message in dataflow.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "core/base/vec.h"
+
+namespace dmpc::core {
+
+enum class RayKind : std::uint8_t { primary, reflected, refracted, shadow };
+inline constexpr std::size_t ray_kind_count = 4;
+
+/// No primitive: a ray that missed, or one that starts on no flat primitive.
+inline constexpr std::uint32_t no_primitive = 0xffffffffU;
+
+/// A ray in grid-local coordinates (GridFrame in core/record/record.h). Nothing returns to whoever spawned it: where it ends, it
+/// deposits light at `pixel` or spawns further rays (as pbrt-v4's wavefront work items do).
+struct Ray {
+  Vec3f origin;
+  float t_max = std::numeric_limits<float>::infinity();  ///< hits count in (0, t_max)
+  Vec3f direction;                                       ///< of unit length, to rounding
+  std::uint32_t ignored_primitive = no_primitive;        ///< the triangle it starts on, which it cannot hit again
+  Color weight{1, 1, 1};     ///< factor of the light it finds; for a shadow ray the light that it brings if nothing blocks it
+  std::uint32_t pixel = 0;   ///< y * width + x
+  std::uint32_t sample = 0;  ///< below the samples per pixel
+  std::uint8_t depth = 1;    ///< 1 for a primary ray; a shadow ray has the depth of the ray whose hit cast it
+  RayKind kind = RayKind::primary;
+  std::uint16_t cone = 0;  ///< cone_bits() of its cone's width where it starts; 0 where no texture asks for it
+};
+static_assert(sizeof(Ray) == 56 && std::is_trivially_copyable_v<Ray>);
+
+/// A width, grid-local and not negative, as the upper half of a float: to 1 in 128, which is as good as a level of detail needs.
+inline std::uint16_t cone_bits(double width) {
+  return static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(static_cast<float>(width)) >> 16U);
+}
+/// The width of the cone in which a ray stands for all those through its pixel, where it starts (after J. Amanatides, "Ray
+/// Tracing with Cones", SIGGRAPH 1984).
+inline double cone_width(const Ray& ray) { return double{std::bit_cast<float>(std::uint32_t{ray.cone} << 16U)}; }
+
+/// A direction's component below this counts as 0, denormals and -0 included.
+inline constexpr float smallest_component = 1e-18F;
+
+/// One over each component of the ray's direction, never infinite: one that counts as 0 is taken for smallest_component, with its
+/// sign.
+inline Vec3d reciprocal_direction(const Ray& ray) {
+  Vec3d reciprocal;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float component = ray.direction[axis];
+    const bool counts = component >= smallest_component || component <= -smallest_component;
+    reciprocal[axis] = 1.0 / double{counts ? component : std::copysign(smallest_component, component)};
+  }
+  return reciprocal;
+}
+
+}  // namespace dmpc::core

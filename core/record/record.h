@@ -1,0 +1,249 @@
+// Addresses and fixed layouts of the database's records: position-independent, little-endian, no pointers.
+//
+// The database is an array of bytes cut into pages. A record lies wholly in one page, is at most record_bytes_max long and
+// starts at a multiple of record_alignment, so that a 32-bit address spans 32 GiB and page = address / (page_size / 8).
+//
+//   directory   one DirectoryEntry a top cell of the grid
+//   bricks      Brick, the primitive blocks that it names, and its bricks in turn (top cells in Morton order)
+//   normals     PatchNormals, TexturedNormals         } shading data, read for final hits only
+//   materials   MaterialRecord                        }
+//   lights      LightRecord                           }
+//   textures    tables of addresses, and the TextureTiles that they name: read where a final hit is textured
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+#include "core/base/region.h"
+#include "core/base/units.h"
+#include "core/base/vec.h"
+
+namespace dmpc::core {
+
+/// Where a record starts: its byte offset in the database divided by record_alignment.
+enum class Address : std::uint32_t {};
+inline constexpr Address no_address{0xffffffffU};
+inline constexpr std::size_t record_alignment = 8;
+inline constexpr std::size_t record_bytes_max = 448;
+
+constexpr std::uint64_t byte_offset(Address address) {
+  return std::uint64_t{static_cast<std::uint32_t>(address)} * record_alignment;
+}
+/// The address of the record at `base + bytes`; `bytes` is a multiple of record_alignment.
+constexpr Address advance(Address base, std::uint64_t bytes) {
+  return Address{static_cast<std::uint32_t>(static_cast<std::uint32_t>(base) + bytes / record_alignment)};
+}
+
+/// A value at any byte of a record, whatever its alignment.
+template <class T>
+T read(const std::byte* from) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  T value;
+  std::memcpy(&value, from, sizeof(T));
+  return value;
+}
+
+// ---- The grid ------------------------------------------------------------------------------------------------------------
+
+/// Space is measured in cells, whose number follows that of the primitives; the lattice on which regions are cut is finer, and
+/// the cells of the directory, which a ray walks, are coarser.
+inline constexpr int finest_per_cell = 64;
+inline constexpr int cells_per_top = 8;
+/// Cells of the finest lattice along the edge of a top cell.
+inline constexpr int finest_per_top = cells_per_top * finest_per_cell;
+
+/// One top cell: a brick's address, or empty with the Chebyshev radius r of top cells around it that are empty too: all cells
+/// nearer than r are empty (Cohen & Sheffer 1994). r = 0: what lies in the cell is no business of this region's.
+struct DirectoryEntry {
+  static constexpr std::uint32_t empty_flag = 0x80000000U;
+  std::uint32_t bits = empty_flag | 1U;
+
+  constexpr bool empty() const { return (bits & empty_flag) != 0; }
+  constexpr int radius() const { return static_cast<int>(bits & ~empty_flag); }
+  constexpr Address brick() const { return Address{bits}; }
+};
+static_assert(sizeof(DirectoryEntry) == 4);
+inline constexpr int radius_max = 64;
+
+/// A child of a brick: a block of primitives, or a brick of its own.
+struct BrickChild {
+  static constexpr std::uint32_t block_flag = 0x80000000U;
+  std::uint32_t bits = 0;
+
+  static constexpr BrickChild none() { return {0xffffffffU}; }
+  static constexpr BrickChild block(Address address) { return {block_flag | static_cast<std::uint32_t>(address)}; }
+  static constexpr BrickChild brick(Address address) { return {static_cast<std::uint32_t>(address)}; }
+  constexpr bool found() const { return bits != none().bits; }
+  constexpr bool is_block() const { return (bits & block_flag) != 0; }
+  constexpr Address address() const { return Address{bits & ~block_flag}; }
+};
+
+inline constexpr std::size_t brick_children_max = 8;
+/// Bricks between a top cell and a block, at most: 8^9 primitives fit below a top cell.
+inline constexpr int brick_levels_max = 8;
+
+/// What a part of a top cell holds: up to 8 children, each with the box within which a ray may meet it: child i between
+/// bounds[axis][i] and bounds[axis + 3][i] units from the origin. A box holds its child's primitives as far as they lie in the
+/// top cell, and the insertion pad around them.
+struct Brick {
+  Vec3f origin;
+  float unit = 1;  ///< a power of two
+  std::array<BrickChild, brick_children_max> child{};
+  std::array<std::array<std::uint8_t, brick_children_max>, 6> bounds{};
+  std::uint32_t child_count = 0;
+  std::uint32_t padding = 0;
+};
+/// Where the bound in row `row` of a brick's child lies, grid-local.
+constexpr double place_of(const Brick& brick, std::size_t row, std::size_t child) {
+  return double{brick.origin[row % 3]} + brick.bounds[row][child] * double{brick.unit};
+}
+static_assert(sizeof(Brick) == 104 && std::is_trivially_copyable_v<Brick> && sizeof(Brick) <= record_bytes_max);
+
+// ---- Primitive blocks ----------------------------------------------------------------------------------------------------
+
+enum class PrimitiveKind : std::uint8_t { triangle, sphere, cone };
+inline constexpr std::size_t primitive_kind_count = 3;
+
+inline constexpr std::size_t block_lanes = 8;
+
+/// Up to 8 primitives of one kind, as a structure of arrays with `count` lanes: `value_count(kind)` rows of floats, then a row of
+/// primitive ids (ascending), then a row of ShadingReference. Grid-local coordinates.
+///   triangle rows: v0.x v0.y v0.z v1.x .. v2.z    sphere rows: centre.x .y .z radius
+///   cone rows:     base.x .y .z radius, apex.x .y .z radius
+struct BlockHeader {
+  PrimitiveKind kind{};
+  std::uint8_t count = 0;
+  std::array<std::uint8_t, 6> padding{};
+};
+static_assert(sizeof(BlockHeader) == 8);
+
+constexpr std::size_t value_count(PrimitiveKind kind) {
+  return kind == PrimitiveKind::triangle ? 9 : kind == PrimitiveKind::sphere ? 4 : 8;
+}
+constexpr std::size_t block_bytes(PrimitiveKind kind, std::size_t count) {
+  return sizeof(BlockHeader) + count * 4 * (value_count(kind) + 2);
+}
+static_assert(block_bytes(PrimitiveKind::triangle, block_lanes) <= record_bytes_max);
+
+/// Where a primitive's shading data is: the index of its material, or the address of its PatchNormals.
+struct ShadingReference {
+  static constexpr std::uint32_t smooth_flag = 0x80000000U;
+  std::uint32_t bits = 0;
+
+  static constexpr ShadingReference flat(std::uint32_t material) { return {material}; }
+  static constexpr ShadingReference smooth(Address normals) { return {smooth_flag | static_cast<std::uint32_t>(normals)}; }
+  constexpr bool is_smooth() const { return (bits & smooth_flag) != 0; }
+  constexpr std::uint32_t material() const { return bits; }
+  constexpr Address normals() const { return Address{bits & ~smooth_flag}; }
+};
+
+// ---- Shading data --------------------------------------------------------------------------------------------------------
+
+/// Vertex normals of a smooth triangle, of unit length to rounding; all 0 if it is flat. Begins a TexturedNormals if its flag
+/// says so.
+struct PatchNormals {
+  static constexpr std::uint32_t textured_flag = 0x80000000U;
+
+  std::array<Vec3f, 3> normal;
+  std::uint32_t material_bits = 0;  ///< the index of the material, and the flag
+
+  constexpr bool is_textured() const { return (material_bits & textured_flag) != 0; }
+  constexpr std::uint32_t material() const { return material_bits & ~textured_flag; }
+};
+static_assert(sizeof(PatchNormals) == 40);
+
+/// How a texel's 32 bits are read. srgb: red, green and blue from the lowest byte up, with the sRGB curve; shared_exponent:
+/// linear, from the lowest bit up three mantissas of 9 bits and an exponent of 5 (OpenGL's RGB9_E5).
+enum class TexelFormat : std::uint8_t { srgb, shared_exponent };
+/// What lies beyond a texture's edges: itself again, itself mirrored, or its edge.
+enum class TextureWrap : std::uint8_t { repeat, mirror, clamp };
+
+/// The side of a tile, in texels.
+inline constexpr std::uint32_t tile_side = 8;
+/// Texels row by row. Those beyond the edge of a level are of no account.
+struct TextureTile {
+  std::array<std::uint32_t, std::size_t{tile_side} * tile_side> texel{};
+};
+static_assert(sizeof(TextureTile) == 256 && sizeof(TextureTile) <= record_bytes_max);
+
+/// A texture as its users know it (core/record/texture_layout.h): levels of tiles, the finest first, each half the size of the one
+/// before.
+struct TextureReference {
+  Address tiles = no_address;  ///< a table of the tiles' addresses, level by level, each row by row; two share a record
+  std::uint16_t width = 1, height = 1;
+  TexelFormat format{};
+  TextureWrap wrap_s{}, wrap_t{};
+  std::uint8_t level_count = 1;
+};
+static_assert(sizeof(TextureReference) == 12);
+
+/// What shading needs of a textured triangle, smooth or not. A place on a texture: s to the right, t downwards, both from 0 to 1
+/// over the whole.
+struct TexturedNormals {
+  PatchNormals normals;
+  TextureReference texture;
+  std::array<std::array<float, 2>, 3> place{};  ///< (s, t) of its corners
+  float texels_per_unit = 0;  ///< texels of the finest level along a grid-local unit: the root of the ratio of areas
+};
+static_assert(sizeof(TexturedNormals) == 80 && sizeof(TexturedNormals) <= record_bytes_max);
+
+struct MaterialRecord {
+  Color color;
+  float diffuse = 0, specular = 0, shine = 0, transmittance = 0, refraction_index = 1;
+};
+static_assert(sizeof(MaterialRecord) == 32);
+
+struct LightRecord {
+  Vec3f position;  ///< grid-local
+  Color intensity;
+  std::array<std::uint32_t, 2> padding{};
+};
+static_assert(sizeof(LightRecord) == 32);
+
+// ---- What every node knows without asking --------------------------------------------------------------------------------
+
+/// Three unit vectors of the world at right angles, right-handed.
+using GridAxes = std::array<Vec3d, 3>;
+inline constexpr GridAxes world_axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
+
+/// How grid-local coordinates come from the world's: local = (axes world - origin) * scale, scale a power of two that brings the
+/// largest extent into (1/2, 1]. Keeps rounding in proportion to the scene, wherever it lies.
+struct GridFrame {
+  GridAxes axes = world_axes;  ///< the grid's x, y and z; the world's unless asked for the screen's
+  Vec3d origin;                ///< in the directions of `axes`
+  double scale = 1;
+  std::array<std::int32_t, 3> resolution{1, 1, 1};  ///< cells along x, y, z
+  float finest_cell = 1;                            ///< edge of a finest cell, grid-local
+};
+
+/// The grid's size in finest cells.
+constexpr Corner grid_size(const GridFrame& frame) {
+  return {frame.resolution[0] * finest_per_cell, frame.resolution[1] * finest_per_cell, frame.resolution[2] * finest_per_cell};
+}
+
+/// Top cells along x, y, z: the last of an axis may reach beyond the grid.
+constexpr std::array<std::int32_t, 3> top_cells(const GridFrame& frame) {
+  return {ceil_divide(frame.resolution[0], cells_per_top), ceil_divide(frame.resolution[1], cells_per_top),
+          ceil_divide(frame.resolution[2], cells_per_top)};
+}
+
+/// The database's table of contents, by value in every node.
+struct DatabaseHeader {
+  GridFrame frame;
+  Region region;  ///< whose records are here: the whole grid, or a node's part of it
+  Address directory = no_address;
+  Corner directory_low{};                        ///< finest cells, a multiple of top cells: where the directory begins
+  std::array<std::int32_t, 3> directory_size{};  ///< top cells along x, y, z
+  Address materials = no_address;
+  Address lights = no_address;
+  std::uint32_t primitive_count = 0;
+  std::uint32_t material_count = 0;
+  std::uint32_t light_count = 0;
+  Color background;
+};
+static_assert(std::is_trivially_copyable_v<DatabaseHeader>);
+
+}  // namespace dmpc::core

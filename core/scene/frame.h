@@ -1,0 +1,37 @@
+// The grid's place in the world and its resolution.
+#pragma once
+
+#include <cstddef>
+
+#include "core/base/box.h"
+#include "core/record/record.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::core {
+
+/// A frame for `primitive_count` primitives within `bounds` (in the directions of `axes`), with about `cells_per_primitive`
+/// cubic cells each. The grid starts a fixed odd share of a cell outside the bounds, so that regular scenes do not put all
+/// their vertices on corners of cells; flat scenes are given a thickness of 1e-4 of their largest extent, and no scene is
+/// thinner than 2^-36 of its largest coordinate: within less, doubles could not say where its parts are. Bounds scaled by a power
+/// of two give the same frame, scaled, to the last bit.
+GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double cells_per_primitive,
+                    const GridAxes& axes = world_axes);
+
+/// Within which distance of a cell a primitive must be listed there, grid-local: more than the rounding of a ray and of its hit's
+/// t can move the hit, for rays that start up to `distance` scene extents away (2^-21 of the extent times 1 + distance: eight
+/// units in the last place of a float there), and never below 1e-3 of a finest cell. The walk's planes, in double, add nothing to
+/// it.
+double insertion_pad(const GridFrame& frame, double distance);
+
+/// The screen's axes: right, up, and from the scene towards the eye.
+GridAxes screen_axes(const View& view);
+
+/// A direction of the world in the grid's axes. World axes keep its bits.
+inline Vec3d turned(const GridAxes& axes, const Vec3d& v) { return {dot(axes[0], v), dot(axes[1], v), dot(axes[2], v)}; }
+
+/// A world point in grid-local coordinates, not rounded.
+inline Vec3d to_local(const GridFrame& frame, const Vec3d& point) {
+  return (turned(frame.axes, point) - frame.origin) * frame.scale;
+}
+
+}  // namespace dmpc::core

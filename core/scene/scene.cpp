@@ -1,0 +1,154 @@
+#include "core/scene/scene.h"
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "core/base/expect.h"
+
+namespace dmpc::core {
+namespace {
+
+constexpr std::size_t pool_max = std::numeric_limits<std::uint32_t>::max();
+
+std::uint32_t pool_index(std::size_t index) {
+  if (index >= pool_max) {
+    throw RoomError("the scene is too large: more than 4294967294 vertices, normals or objects; divide it");
+  }
+  return static_cast<std::uint32_t>(index);
+}
+
+/// Adding 0 makes -0 and 0, which are equal, hash alike.
+std::size_t mix(std::size_t hash, double value) {
+  return (hash ^ std::bit_cast<std::uint64_t>(value + 0.0)) * 0x9e3779b97f4a7c15U ^ (hash >> 29U);
+}
+
+std::vector<Vec3d> slice(const std::vector<Vec3d>& pool, std::uint32_t first, std::uint32_t count) {
+  const auto begin = pool.begin() + static_cast<std::ptrdiff_t>(first);
+  return {begin, begin + static_cast<std::ptrdiff_t>(count)};
+}
+
+void replay_object(const Scene& scene, const Object& object, SceneSink& sink) {
+  switch (object.kind) {
+    case ObjectKind::polygon:
+      return sink.polygon(slice(scene.vertices, object.first, object.vertex_count));
+    case ObjectKind::patch:
+      return sink.patch(slice(scene.vertices, object.first, object.vertex_count),
+                        slice(scene.normals, object.first_normal, object.vertex_count));
+    case ObjectKind::textured: {
+      std::vector<Vec3d> normals;
+      for (std::uint32_t corner = 0; corner < object.vertex_count; ++corner) {
+        normals.push_back(scene.corners[object.first_normal + corner].normal);
+      }
+      return sink.patch(slice(scene.vertices, object.first, object.vertex_count), normals);
+    }
+    case ObjectKind::sphere: {
+      const Sphere& sphere = scene.spheres[object.first];
+      return sink.sphere(sphere.center, sphere.radius);
+    }
+    case ObjectKind::cone: {
+      const Cone& cone = scene.cones[object.first];
+      return sink.cone(cone.base, cone.base_radius, cone.apex, cone.apex_radius);
+    }
+  }
+}
+
+}  // namespace
+
+std::size_t SceneBuilder::MaterialHash::operator()(const Material& material) const {
+  std::size_t hash = 0;
+  for (const double value :
+       {material.color.x, material.color.y, material.color.z, material.diffuse, material.specular, material.shine,
+        material.transmittance, material.refraction_index, static_cast<double>(material.texture)}) {
+    hash = mix(hash, value);
+  }
+  return hash;
+}
+
+SceneBuilder::SceneBuilder(Scene& scene) : scene_(scene) {
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    materials_.try_emplace(scene.materials[i], pool_index(i));
+  }
+}
+
+void SceneBuilder::background(const Vec3d& color) { scene_.background = color; }
+void SceneBuilder::view(const View& view) { scene_.view = view; }
+void SceneBuilder::light(const PointLight& light) { scene_.lights.push_back(light); }
+
+void SceneBuilder::material(const Material& material) {
+  const auto [entry, is_new] = materials_.try_emplace(material, pool_index(scene_.materials.size()));
+  if (is_new) {
+    scene_.materials.push_back(material);
+  }
+  material_ = entry->second;
+  has_material_ = true;
+}
+
+void SceneBuilder::polygon(const std::vector<Vec3d>& vertices) {
+  expect(vertices.size() >= 3, "a polygon has at least 3 vertices");
+  add(ObjectKind::polygon, scene_.vertices.size(), vertices.size(), 0);
+  scene_.vertices.insert(scene_.vertices.end(), vertices.begin(), vertices.end());
+}
+
+void SceneBuilder::patch(const std::vector<Vec3d>& vertices, const std::vector<Vec3d>& normals) {
+  expect(vertices.size() >= 3, "a patch has at least 3 vertices");
+  expect(vertices.size() == normals.size(), "a patch has a normal for each vertex");
+  add(ObjectKind::patch, scene_.vertices.size(), vertices.size(), scene_.normals.size());
+  scene_.vertices.insert(scene_.vertices.end(), vertices.begin(), vertices.end());
+  scene_.normals.insert(scene_.normals.end(), normals.begin(), normals.end());
+}
+
+void SceneBuilder::textured(const std::vector<Vec3d>& vertices, const std::vector<TexturedCorner>& corners) {
+  expect(vertices.size() >= 3 && vertices.size() == corners.size(), "a textured patch has a corner for each of its vertices");
+  add(ObjectKind::textured, scene_.vertices.size(), vertices.size(), scene_.corners.size());
+  expect(scene_.materials[material_].texture < scene_.textures.size(), "a textured patch has a texture");
+  scene_.vertices.insert(scene_.vertices.end(), vertices.begin(), vertices.end());
+  scene_.corners.insert(scene_.corners.end(), corners.begin(), corners.end());
+}
+
+void SceneBuilder::sphere(const Vec3d& center, double radius) {
+  add(ObjectKind::sphere, scene_.spheres.size(), 0, 0);
+  scene_.spheres.push_back({center, radius});
+}
+
+void SceneBuilder::cone(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius) {
+  add(ObjectKind::cone, scene_.cones.size(), 0, 0);
+  scene_.cones.push_back({base, base_radius, apex, apex_radius});
+}
+
+void SceneBuilder::add(ObjectKind kind, std::size_t first, std::size_t vertex_count, std::size_t first_normal) {
+  if (!has_material_) {
+    material(Material{});
+  }
+  pool_index(scene_.objects.size());
+  pool_index(first + vertex_count);
+  scene_.objects.push_back(
+      {kind, material_, pool_index(first), static_cast<std::uint32_t>(vertex_count), pool_index(first_normal)});
+}
+
+Vec3d intensity_of(const PointLight& light, const Scene& scene) {
+  if (light.has_color) {
+    return light.color;
+  }
+  const double equal = 1.0 / std::sqrt(static_cast<double>(scene.lights.size()));
+  return {equal, equal, equal};
+}
+
+void replay(const Scene& scene, SceneSink& sink) {
+  sink.background(scene.background);
+  sink.view(scene.view);
+  for (const PointLight& light : scene.lights) {
+    sink.light(light);
+  }
+  const Object* previous = nullptr;
+  for (const Object& object : scene.objects) {
+    if (previous == nullptr || previous->material != object.material) {
+      sink.material(scene.materials[object.material]);
+    }
+    replay_object(scene, object, sink);
+    previous = &object;
+  }
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,150 @@
+// A scene as a file says it: objects in file order, materials, lights and a view, in double precision and world
+// coordinates. It lives on the host only; core/build/database.h turns it into flat records for the nodes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "core/scene/texture.h"
+#include "core/base/vec.h"
+
+namespace dmpc::core {
+
+/// NFF's `f`: what an object's surface does with light (E. Haines, SPD, NFF.TXT).
+struct Material {
+  Vec3d color{0.5, 0.5, 0.5};   ///< of the diffuse part, 0..1
+  double diffuse = 1;           ///< Kd
+  double specular = 0;          ///< Ks: weight of the highlight and of the mirror
+  double shine = 0;             ///< Phong's cosine power
+  double transmittance = 0;     ///< T; above 0 the surface transmits
+  double refraction_index = 1;  ///< of the inside; meaningful when transmittance > 0 only
+  /// What `color` is multiplied by on textured patches: index into Scene::textures.
+  std::uint32_t texture = no_texture;
+
+  static constexpr std::uint32_t no_texture = 0xffffffffU;
+  bool operator==(const Material&) const = default;
+};
+
+/// NFF's `l`: a point light without fall-off.
+struct PointLight {
+  Vec3d position;
+  Vec3d color{1, 1, 1};
+  bool has_color = false;  ///< false: the file gave no colour, and every such light gets 1/sqrt(number of lights)
+};
+
+/// NFF's `v`.
+struct View {
+  Vec3d from{0, 0, 1}, at{0, 0, 0}, up{0, 1, 0};
+  double angle_degrees = 45;  ///< from the centre of the first to the centre of the last pixel row
+  double hither = 0;          ///< kept for writing; tracing ignores it
+  int width = 512, height = 512;
+};
+
+/// Radius below 0: only the inside is visible.
+struct Sphere {
+  Vec3d center;
+  double radius = 1;
+};
+
+/// An open cone or (equal radii) cylinder. Both radii below 0: only the inside is visible.
+struct Cone {
+  Vec3d base;
+  double base_radius = 1;
+  Vec3d apex;
+  double apex_radius = 1;
+};
+
+/// A vertex of a textured patch beside its position.
+struct TexturedCorner {
+  Vec3d normal;                  ///< need not be of unit length; 0 at all corners of a flat patch
+  std::array<float, 2> place{};  ///< on the texture: s to the right, t downwards, 0 to 1 over the whole
+};
+
+enum class ObjectKind : std::uint8_t { polygon, patch, textured, sphere, cone };
+
+/// One entity of the file. `first` indexes the pool of its kind: vertices (polygon, patch, textured), spheres, cones.
+struct Object {
+  ObjectKind kind{};
+  std::uint32_t material = 0;  ///< index into Scene::materials
+  std::uint32_t first = 0;
+  std::uint32_t vertex_count = 0;  ///< polygon, patch, textured: at least 3; else 0
+  /// patch: index into Scene::normals, textured: into Scene::corners, vertex_count of them.
+  std::uint32_t first_normal = 0;
+};
+
+struct Scene {
+  std::string name;  ///< the file's path or the built-in name, for messages
+  View view;
+  Vec3d background;  ///< linear RGB, as the file gives it
+  std::vector<PointLight> lights;
+  std::vector<Material> materials;  ///< equal ones merged
+  std::vector<Object> objects;      ///< in file order
+  std::vector<Vec3d> vertices;
+  std::vector<Vec3d> normals;  ///< of patches; need not be of unit length
+  std::vector<TexturedCorner> corners;
+  std::vector<Sphere> spheres;
+  std::vector<Cone> cones;
+  std::vector<Texture> textures;
+};
+
+/// What a light of the scene shines with. One without a colour shines with 1 / sqrt(number of lights): twice Haines' suggestion,
+/// since nothing here is ambient.
+Vec3d intensity_of(const PointLight& light, const Scene& scene);
+
+/// What takes the entities of a scene one by one, in a file's order: a builder, a writer, or a step on the way to one. Objects
+/// get the material given last before them.
+class SceneSink {
+ public:
+  virtual ~SceneSink() = default;
+
+  virtual void background(const Vec3d& color) = 0;
+  virtual void view(const View& view) = 0;
+  virtual void light(const PointLight& light) = 0;
+  virtual void material(const Material& material) = 0;
+  /// At least 3 vertices.
+  virtual void polygon(const std::vector<Vec3d>& vertices) = 0;
+  /// At least 3 vertices and one normal for each.
+  virtual void patch(const std::vector<Vec3d>& vertices, const std::vector<Vec3d>& normals) = 0;
+  virtual void sphere(const Vec3d& center, double radius) = 0;
+  virtual void cone(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius) = 0;
+};
+
+/// Adds entities to a scene. Equal materials are merged; objects before the first material get Material{}. Throws InputError when
+/// a pool outgrows its 32-bit indices. The scene must outlive the builder, and only one builder may be at work on it.
+class SceneBuilder final : public SceneSink {
+ public:
+  explicit SceneBuilder(Scene& scene);
+
+  void background(const Vec3d& color) override;
+  void view(const View& view) override;
+  void light(const PointLight& light) override;
+  void material(const Material& material) override;
+  void polygon(const std::vector<Vec3d>& vertices) override;
+  void patch(const std::vector<Vec3d>& vertices, const std::vector<Vec3d>& normals) override;
+  void sphere(const Vec3d& center, double radius) override;
+  void cone(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius) override;
+  /// A patch, or a polygon, whose material has a texture. At least 3 vertices and a corner for each.
+  void textured(const std::vector<Vec3d>& vertices, const std::vector<TexturedCorner>& corners);
+
+ private:
+  struct MaterialHash {
+    std::size_t operator()(const Material& material) const;
+  };
+
+  void add(ObjectKind kind, std::size_t first, std::size_t vertex_count, std::size_t first_normal);
+
+  Scene& scene_;
+  std::unordered_map<Material, std::uint32_t, MaterialHash> materials_;
+  std::uint32_t material_ = 0;
+  bool has_material_ = false;
+};
+
+/// Sends a whole scene in file order: background, view, lights, then the objects, with the material wherever it changes. Without
+/// its textures, which no sink knows: textured patches come as patches.
+void replay(const Scene& scene, SceneSink& sink);
+
+}  // namespace dmpc::core

@@ -1,0 +1,75 @@
+#include "core/scene/texel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "core/base/srgb.h"
+
+namespace dmpc::core {
+namespace {
+
+/// OpenGL's EXT_texture_shared_exponent: a channel is mantissa * 2^(exponent - 15 - 9).
+constexpr int mantissa_bits = 9, exponent_bias = 15, exponent_max = 31;
+constexpr double mantissa_max = (1U << mantissa_bits) - 1;
+
+std::array<float, 256> curve() {
+  std::array<float, 256> light{};
+  for (std::size_t byte = 0; byte < light.size(); ++byte) {
+    light[byte] = static_cast<float>(linear_from_srgb(static_cast<double>(byte) / 255));
+  }
+  return light;
+}
+const std::array<float, 256> light_of_byte = curve();
+
+float mantissa(std::uint32_t texel, std::uint32_t channel) {
+  return static_cast<float>(texel >> channel * mantissa_bits & ((1U << mantissa_bits) - 1));
+}
+
+/// What a format can hold of a channel.
+double bounded(double channel, double largest) { return channel > 0 ? std::min(channel, largest) : 0; }
+
+std::uint32_t encoded_bytes(const Vec3d& color) {
+  std::uint32_t texel = 0;
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    texel |= std::uint32_t{srgb_byte(static_cast<float>(color[channel]))} << 8 * channel;
+  }
+  return texel;
+}
+
+std::uint32_t encoded_exponent(const Vec3d& color) {
+  const double largest_number = std::ldexp(mantissa_max, exponent_max - exponent_bias - mantissa_bits);
+  Vec3d channels;
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    channels[channel] = bounded(color[channel], largest_number);
+  }
+  const double largest = std::max({channels.x, channels.y, channels.z});
+  int exponent = 0;
+  std::frexp(largest, &exponent);  // largest < 2^exponent
+  exponent = largest > 0 ? std::max(exponent + exponent_bias, 0) : 0;
+  const auto unit = [&] { return std::ldexp(1.0, exponent - exponent_bias - mantissa_bits); };
+  exponent += std::floor(largest / unit() + 0.5) > mantissa_max ? 1 : 0;
+  std::uint32_t texel = static_cast<std::uint32_t>(exponent) << 3 * mantissa_bits;
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    const double steps = std::floor(channels[channel] / unit() + 0.5);
+    texel |= static_cast<std::uint32_t>(steps) << channel * mantissa_bits;
+  }
+  return texel;
+}
+
+}  // namespace
+
+Color decoded(TexelFormat format, std::uint32_t texel) {
+  if (format == TexelFormat::srgb) {
+    return {light_of_byte[texel & 0xffU], light_of_byte[texel >> 8U & 0xffU], light_of_byte[texel >> 16U & 0xffU]};
+  }
+  const float unit = std::ldexp(1.0F, static_cast<int>(texel >> 3 * mantissa_bits) - exponent_bias - mantissa_bits);
+  return Color{mantissa(texel, 0), mantissa(texel, 1), mantissa(texel, 2)} * unit;
+}
+
+std::uint32_t encoded(TexelFormat format, const Vec3d& color) {
+  return format == TexelFormat::srgb ? encoded_bytes(color) : encoded_exponent(color);
+}
+
+}  // namespace dmpc::core

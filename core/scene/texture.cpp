@@ -1,0 +1,79 @@
+#include "core/scene/texture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "core/base/expect.h"
+#include "core/scene/texel.h"
+#include "core/record/texture_layout.h"
+
+namespace dmpc::core {
+namespace {
+
+/// What of one side's texels a coarser texel covers: `first` and those behind it, each by its share.
+struct Cover {
+  std::uint32_t first = 0;
+  std::vector<double> share;  ///< they add up to 1
+};
+
+/// Of texel `index` of `coarse` on a side that has `fine`.
+Cover cover_of(std::uint32_t index, std::uint32_t coarse, std::uint32_t fine) {
+  const double width = static_cast<double>(fine) / coarse, low = index * width, high = (index + 1) * width;
+  Cover cover{.first = static_cast<std::uint32_t>(low), .share = {}};
+  for (std::uint32_t texel = cover.first; texel < fine && texel < high; ++texel) {
+    cover.share.push_back((std::min<double>(high, texel + 1) - std::max<double>(low, texel)) / width);
+  }
+  return cover;
+}
+
+std::vector<Cover> covers_of(std::uint32_t coarse, std::uint32_t fine) {
+  std::vector<Cover> covers;
+  for (std::uint32_t index = 0; index < coarse; ++index) {
+    covers.push_back(cover_of(index, coarse, fine));
+  }
+  return covers;
+}
+
+Vec3d mean_of(const TextureLevel& level, TexelFormat format, const Cover& columns, const Cover& rows) {
+  Vec3d sum;
+  for (std::size_t row = 0; row < rows.share.size(); ++row) {
+    const std::size_t first = (rows.first + row) * level.width + columns.first;
+    for (std::size_t column = 0; column < columns.share.size(); ++column) {
+      sum = sum + Vec3d(decoded(format, level.texels[first + column])) * (rows.share[row] * columns.share[column]);
+    }
+  }
+  return sum;
+}
+
+TextureLevel halved(const TextureLevel& fine, TexelFormat format) {
+  TextureLevel coarse{.width = level_size(fine.width, 1), .height = level_size(fine.height, 1), .texels = {}};
+  coarse.texels.reserve(std::size_t{coarse.width} * coarse.height);
+  const std::vector<Cover> columns = covers_of(coarse.width, fine.width), rows = covers_of(coarse.height, fine.height);
+  for (const Cover& row : rows) {
+    for (const Cover& column : columns) {
+      coarse.texels.push_back(encoded(format, mean_of(fine, format, column, row)));
+    }
+  }
+  return coarse;
+}
+
+}  // namespace
+
+void add_levels(Texture& texture) {
+  expect(texture.levels.size() == 1, "smaller levels are made of the finest");
+  const TextureLevel& finest = texture.levels.front();
+  expect(finest.width > 0 && finest.height > 0 && finest.texels.size() == std::size_t{finest.width} * finest.height,
+         "a texture has texels");
+  for (const std::uint32_t texel : finest.texels) {
+    const Color color = decoded(texture.format, texel);
+    texture.brightest = std::max({texture.brightest, double{color.x}, double{color.y}, double{color.z}});
+  }
+  const std::uint32_t count = level_count(finest.width, finest.height);
+  texture.levels.reserve(count);
+  while (texture.levels.size() < count) {
+    texture.levels.push_back(halved(texture.levels.back(), texture.format));
+  }
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,18 @@
+// Planar polygons, concave ones too, into triangles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/vec.h"
+
+namespace dmpc::core {
+
+/// Corner indices of the triangles of a simple polygon, with the polygon's winding; `vertices` has at least 3. Adds no vertices,
+/// so neighbours that share an edge stay closed. Convex polygons become a fan, others lose one ear after the other (G. Meisters,
+/// "Polygons Have Ears", 1975). A polygon without area gives nothing.
+std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Vec3d> vertices);
+
+}  // namespace dmpc::core

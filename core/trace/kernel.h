@@ -1,0 +1,87 @@
+// Intersection of one ray with up to 8 boxes or primitives of one record; SIMD where the machine has it, with the scalar twins'
+// bits.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+
+#include "core/trace/cursor.h"
+#include "core/record/hit.h"
+#include "core/trace/operations.h"
+#include "core/trace/primitive.h"
+#include "core/record/ray.h"
+#include "core/record/record.h"
+
+namespace dmpc::core {
+
+/// A ray as boxes need it, from reciprocal_direction(): with a component next to 0 it passes the planes of a box that it lies
+/// between far behind and far ahead.
+struct BoxRay {
+  BoxRay(const Ray& ray, const Vec3d& reciprocal_direction);
+
+  Vec3f origin, reciprocal;
+  std::array<std::uint32_t, 3> near_row{}, far_row{};  ///< which rows of a brick's bounds the ray comes to first and last
+};
+
+/// Which of a brick's children have boxes that the ray meets in [t_low, t_high]: returns one of them, if any, and adds the others
+/// to those that wait. With `in_order` it is the nearest, and the nearest of the others is last, else any. A ray enters a box at
+/// t_low or later; waiting.t_taken is where it enters that of the child returned. Planes are off by less than 2^-22 of their
+/// distance from the origin, which the insertion pad around the boxes makes good.
+using BrickKernel = BrickChild (*)(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order,
+                                   MetChildren& waiting);
+/// The fastest kernel for this processor.
+extern const BrickKernel meet_children;
+/// The plain loop: the twin that every SIMD kernel must equal.
+BrickChild meet_children_scalar(const BoxRay& ray, const Brick& brick, float t_low, float t_high, bool in_order,
+                                MetChildren& waiting);
+
+/// The triangles of a block: nine rows of `count` floats, then a row of ids, readable for overread_bytes behind.
+struct TriangleRows {
+  const float* rows;
+  std::size_t count;
+
+  const std::byte* ids() const { return reinterpret_cast<const std::byte*>(rows + 9 * count); }
+};
+
+/// Which triangles the ray hits at a t in (0, t_most], a bit each, the one with id `ignored` left out; times[lane] is the t of
+/// those. `times` has room for 8.
+using TriangleKernel = std::uint32_t (*)(const ShearedRay& ray, const TriangleRows& triangles, std::uint32_t ignored,
+                                         float t_most, float* times);
+/// The fastest kernel for this processor.
+extern const TriangleKernel hit_triangles;
+/// The plain loop over intersect_triangle: the twin that every SIMD kernel must equal.
+std::uint32_t hit_triangles_scalar(const ShearedRay& ray, const TriangleRows& triangles, std::uint32_t ignored, float t_most,
+                                   float* times);
+
+/// The same for the spheres or cones of a block, in scalar code.
+std::uint32_t hit_curved(const Ray& ray, PrimitiveKind kind, const float* rows, std::size_t count, float t_most, float* times);
+
+/// The instruction set of the kernels here, for reports: "AVX3", "AVX2" or "scalar".
+const char* simd_name();
+
+/// Merges the hits of `ray` with the block at `record` (whose address is `block`) into `best`: the least (t, primitive) with t in
+/// (0, ray.t_max), the ignored primitive left out. Order and repetition of calls do not change the result.
+inline void test_block(const Ray& ray, const ShearedRay& sheared, const std::byte* record, Address block, Hit& best,
+                       Operations& operations) {
+  const auto header = read<BlockHeader>(record);
+  const auto* rows = reinterpret_cast<const float*>(record + sizeof(BlockHeader));
+  const std::size_t count = header.count;
+  float times[block_lanes];
+  operations.primitive_tests[static_cast<std::size_t>(header.kind)] += count;
+  const float t_most = std::min(best.t, ray.t_max);
+  std::uint32_t hits = header.kind == PrimitiveKind::triangle
+                           ? hit_triangles(sheared, {rows, count}, ray.ignored_primitive, t_most, times)
+                           : hit_curved(ray, header.kind, rows, count, t_most, times);
+  const auto* ids = reinterpret_cast<const std::uint32_t*>(rows + value_count(header.kind) * count);
+  for (; hits != 0; hits &= hits - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(hits));
+    const float t = times[lane];
+    if (t < ray.t_max && replaces(t, ids[lane], best) && ids[lane] != ray.ignored_primitive) {
+      best = {t, ids[lane], block, static_cast<std::uint32_t>(lane)};
+    }
+  }
+}
+
+}  // namespace dmpc::core

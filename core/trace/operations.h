@@ -1,0 +1,42 @@
+// Counts of the work that core does. The machine model of nodes/ alone knows what each costs.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <numeric>
+
+#include "core/record/ray.h"
+#include "core/record/record.h"
+#include "core/trace/skips.h"
+
+namespace dmpc::core {
+
+/// Counted in one place each, the same under every runner and strategy.
+struct Operations {
+  std::uint64_t cell_steps = 0;  ///< steps from one cell to the next, on any level
+  std::uint64_t brick_reads = 0;
+  std::array<std::uint64_t, primitive_kind_count> primitive_tests{};  ///< lanes tested, by kind
+  std::uint64_t shadings = 0;                                         ///< hits that were shaded
+  std::uint64_t normal_reads = 0;                                     ///< of those, hits on smooth triangles
+  std::uint64_t texture_lookups = 0;                                  ///< of those, hits on textured triangles
+  std::uint64_t tile_reads = 0;                                       ///< of tiles of textures: 1 to 8 for each of those
+
+  std::array<std::uint64_t, ray_kind_count> rays{};  ///< shot, hit or miss, by kind
+  std::uint64_t primary_hits = 0;
+  std::uint64_t secondary_hits = 0;  ///< reflected and refracted rays that hit
+  std::uint64_t shadow_blocked = 0;
+  std::uint64_t total_internal_reflections = 0;
+  std::uint64_t deposits_saturated = 0;
+  std::uint64_t rays_cut = 0;  ///< not shot, because they could bring less light than the cutoff
+  SkippedWork skipped;
+
+  /// Rays shot, of all kinds.
+  std::uint64_t ray_count() const { return std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}); }
+  /// Those of them that were not known to meet only the background.
+  std::uint64_t traced_ray_count() const { return ray_count() - skipped.background; }
+};
+
+/// Sums field by field.
+Operations& operator+=(Operations& sum, const Operations& more);
+
+}  // namespace dmpc::core

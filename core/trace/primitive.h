@@ -1,0 +1,41 @@
+// Intersection of one ray with one primitive: the scalar twins that every other kernel must equal bit for bit.
+#pragma once
+
+#include <cstdint>
+
+#include "core/record/ray.h"
+#include "core/record/record.h"
+
+namespace dmpc::core {
+
+/// A ray sheared so that it runs along +z through the origin: a pure function of the ray's bits.
+/// Source: S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
+struct ShearedRay {
+  explicit ShearedRay(const Ray& ray);
+
+  Vec3f origin;
+  float shear_x, shear_y, scale_z;
+  std::uint32_t axis_x, axis_y, axis_z;  ///< which coordinate plays x, y, z; axis_z is the direction's largest
+};
+
+/// Nearer to 0 than this the sign of a triangle's t is decided in double. Rounding moves t by some 2^-24 of the distance, on a
+/// triangle of length E and area A by E^3 / A times as much.
+inline constexpr float near_start = 0x1p-10F;
+
+/// The t of a ray that misses: never in (0, t_max).
+inline constexpr float missed = -1.0F;
+
+/// `rows` points at a block's first value, `stride` is its lane count. Returns the t of the hit of lane `lane`, or `missed`.
+/// Triangles: float, edge functions unfused, decided in double when one is zero (watertight along shared edges and at shared
+/// vertices), barycentric weights divided before t is summed, so that scaling all coordinates by a power of two scales t exactly.
+/// A t nearer to 0 than `near_start` whose sign is not that of double's t (within the triangle's depths) gives way to it: on
+/// needles t is off by more than a secondary ray starts off its surface, and the ray must neither hit what shares its surface's
+/// plane nor pass what lies ahead.
+float intersect_triangle(const ShearedRay& ray, const float* rows, std::size_t stride, std::size_t lane);
+
+/// Spheres and cones: solved in double about the point of the ray nearest to the centre (base), so that distance cancels nothing;
+/// t rounded to float once. A negative radius shows the inside only. Nearest root with t > 0.
+float intersect_sphere(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane);
+float intersect_cone(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane);
+
+}  // namespace dmpc::core

@@ -1,0 +1,84 @@
+#include "dataflow/regions/balance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dataflow/regions/charged_picture.h"
+
+namespace dmpc::dataflow {
+namespace {
+
+void check(const BalanceOptions& options) {
+  if (options.subsample < 1) {
+    throw core::UsageError("a subsampled picture takes one pixel of every 1x1 or more");
+  }
+  if (options.columns_per_side < 1) {
+    throw core::UsageError("loads are counted on a grid of 1x1 columns or more");
+  }
+}
+
+/// Middles of the full intervals of length `step` in [0, size), or the middle of [0, size) if it is shorter.
+std::vector<std::uint32_t> middles(int size, int step) {
+  std::vector<std::uint32_t> found;
+  for (int at = std::min(step, size) / 2; at < size && (found.empty() || at - step / 2 + step <= size); at += step) {
+    found.push_back(static_cast<std::uint32_t>(at));
+  }
+  return found;
+}
+
+}  // namespace
+
+CutAxes axes_facing(const core::Camera& camera) {
+  // Opposite corners of the picture: what they have in common is the direction in which the camera looks.
+  const core::Vec3f first = camera.primary_ray(0, 0).direction, last = camera.primary_ray(camera.pixel_count() - 1, 0).direction;
+  const core::Vec3f forward = first + last;
+  std::size_t along = 0;
+  for (std::size_t axis = 1; axis < 3; ++axis) {
+    along = std::fabs(forward[axis]) > std::fabs(forward[along]) ? axis : along;
+  }
+  return along == 0 ? CutAxes{1, 2} : along == 1 ? CutAxes{0, 2} : CutAxes{0, 1};
+}
+
+std::vector<std::uint32_t> subsampled_pixels(int width, int height, int subsample) {
+  std::vector<std::uint32_t> pixels;
+  for (const std::uint32_t y : middles(height, subsample)) {
+    for (const std::uint32_t x : middles(width, subsample)) {
+      pixels.push_back(y * static_cast<std::uint32_t>(width) + x);
+    }
+  }
+  return pixels;
+}
+
+ColumnLoads measure_loads(const core::Database& database, const core::RenderSettings& settings, const ColumnLattice& lattice,
+                          const std::vector<std::uint32_t>& pixels, const std::stop_token& stop) {
+  ColumnLoads loads(lattice);
+  const auto charge = [&](const core::Corner& cell, std::uint64_t work) { loads.load[lattice.column_of(cell)] += work; };
+  ChargedPicture picture(database, settings, charge);
+  for (std::size_t index = 0; index < pixels.size() && !stop.stop_requested(); ++index) {
+    picture.render(pixels[index]);
+  }
+  return loads;
+}
+
+ColumnLoads column_loads(const core::Database& database, const core::RenderSettings& settings, const BalanceOptions& options,
+                         const std::stop_token& stop) {
+  check(options);
+  const core::Camera& camera = settings.camera;
+  const ColumnLattice lattice(core::grid_size(settings.header.frame), axes_facing(camera), options.columns_per_side);
+  return options.balance == Balance::equal_size
+             ? ColumnLoads(lattice)
+             : measure_loads(database, settings, lattice, subsampled_pixels(camera.width(), camera.height(), options.subsample),
+                             stop);
+}
+
+Balanced share_out(const ColumnLoads& loads, std::uint32_t region_count, const BalanceOptions& options) {
+  if (options.balance == Balance::equal_size) {
+    const ColumnLattice& lattice = loads.lattice;
+    return {equal_size_bsp(lattice.grid_size(), lattice.axes(), region_count, options.bsp),
+            std::vector<double>(region_count, 0.0)};
+  }
+  const Bsp bsp = build_bsp(loads, region_count, options.bsp);
+  return {bsp, loads_of_regions(bsp, loads)};
+}
+
+}  // namespace dmpc::dataflow

@@ -1,0 +1,272 @@
+#include "dataflow/regions/bsp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <string>
+
+#include "core/base/units.h"
+
+namespace dmpc::dataflow {
+namespace {
+
+/// What a finest column's area counts beside its load, as a share of the mean load of a finest column: too little to disturb a
+/// balance, enough to put a cut through empty space in its middle.
+constexpr double area_share = 1e-6;
+
+/// A rectangle of finest columns, half-open, along the two cut axes.
+struct Rectangle {
+  std::array<std::int32_t, 2> low{}, high{};
+
+  std::int32_t length(std::size_t along) const { return high[along] - low[along]; }
+  std::int64_t area() const { return std::int64_t{length(0)} * length(1); }
+};
+
+/// How much of column `index` lies in [low, high) along `along`, in [0, 1].
+double share_within(const ColumnLattice& lattice, std::size_t along, std::int32_t index, std::int32_t low, std::int32_t high) {
+  const std::int32_t first = lattice.line(along, index), end = lattice.line(along, index + 1);
+  return static_cast<double>(std::min(end, high) - std::max(first, low)) / static_cast<double>(end - first);
+}
+
+/// The load of the part of column `index` along `along` that lies in the rectangle: summed across the other axis.
+double strip_load(const ColumnLoads& loads, const Rectangle& in, std::size_t along, std::int32_t index) {
+  const ColumnLattice& lattice = loads.lattice;
+  const std::size_t across = 1 - along;
+  double sum = 0;
+  for (std::int32_t i = lattice.column_at(across, in.low[across]); i <= lattice.column_at(across, in.high[across] - 1); ++i) {
+    const std::uint64_t load = loads.load[along == 0 ? lattice.number(index, i) : lattice.number(i, index)];
+    sum += static_cast<double>(load) * share_within(lattice, across, i, in.low[across], in.high[across]);
+  }
+  return sum * share_within(lattice, along, index, in.low[along], in.high[along]);
+}
+
+/// The cuts that leave each side at least `columns_each` finest columns a region: [least, most] along one axis.
+struct CutRange {
+  std::int32_t least, most;
+};
+
+std::optional<CutRange> cuts_allowed(const Rectangle& box, std::size_t along, std::uint32_t low_count, std::uint32_t high_count,
+                                     std::int64_t columns_each) {
+  const std::int64_t across = box.length(1 - along);
+  const auto least = box.low[along] + core::ceil_divide(columns_each * low_count, across);
+  const auto most = box.high[along] - core::ceil_divide(columns_each * high_count, across);
+  if (least > most) {
+    return std::nullopt;
+  }
+  return CutRange{static_cast<std::int32_t>(least), static_cast<std::int32_t>(most)};
+}
+
+Rectangle rectangle_of(const core::Region& region, const CutAxes& axes) {
+  return {{region.low[axes[0]], region.low[axes[1]]}, {region.high[axes[0]], region.high[axes[1]]}};
+}
+
+}  // namespace
+
+// ---- The tree ------------------------------------------------------------------------------------------------------------
+
+std::uint32_t Bsp::region_index_of(const core::Corner& cell) const {
+  std::uint32_t first = 0, count = region_count_;
+  while (count > 1) {
+    const std::uint32_t low_count = count / 2;
+    const Cut& cut = cuts_[first + low_count - 1];
+    const bool is_low = cell[static_cast<std::size_t>(cut.axis)] < cut.at;
+    first += is_low ? 0 : low_count;
+    count = is_low ? low_count : count - low_count;
+  }
+  return first;
+}
+
+core::Region Bsp::region_at(std::uint32_t index) const {
+  core::Region region{{}, grid_size_};
+  for_each_cut(index, [&](const Cut& cut, bool is_high) {
+    (is_high ? region.low : region.high)[static_cast<std::size_t>(cut.axis)] = cut.at;
+  });
+  return region;
+}
+
+std::uint32_t Bsp::region_index_of(nodes::NodeId node) const {
+  const auto end = owner_.begin() + region_count_;
+  const auto found = std::find(owner_.begin(), end, nodes::index_of(node));
+  core::expect(found != end, "a node that is asked for its region owns one");
+  return static_cast<std::uint32_t>(found - owner_.begin());
+}
+
+void Bsp::assign(std::span<const std::uint32_t> node_of_region) {
+  core::expect(node_of_region.size() == region_count_, "every region is given to a node");
+  std::vector<bool> taken(region_count_, false);
+  for (std::uint32_t region = 0; region < region_count_; ++region) {
+    const std::uint32_t node = node_of_region[region];
+    core::expect(node < region_count_ && !taken[node], "every node owns one region");
+    taken[node] = true;
+    owner_[region] = static_cast<std::uint16_t>(node);
+  }
+}
+
+// ---- Building ------------------------------------------------------------------------------------------------------------
+
+/// Cuts one box after the other, the larger share of the regions always on the high side.
+class BspBuilder {
+ public:
+  BspBuilder(const ColumnLoads& loads, std::uint32_t region_count, const BspOptions& options)
+      : loads_(loads), options_(options), bsp_(loads.lattice.grid_size()) {
+    bsp_.region_count_ = region_count;
+    std::iota(bsp_.owner_.begin(), bsp_.owner_.end(), static_cast<std::uint16_t>(0));
+    const auto columns = static_cast<double>(std::int64_t{loads.lattice.size(0)} * loads.lattice.size(1));
+    const double total = std::accumulate(loads.load.begin(), loads.load.end(), 0.0,
+                                         [](double sum, std::uint64_t load) { return sum + static_cast<double>(load); });
+    area_weight_ = total > 0 ? area_share * total / columns : 1.0;
+  }
+
+  Bsp build() {
+    cut({{0, 0}, {loads_.lattice.size(0), loads_.lattice.size(1)}}, 0, bsp_.region_count_, 0);
+    return bsp_;
+  }
+
+ private:
+  struct Place {
+    std::size_t along;
+    std::int32_t at;
+  };
+
+  void cut(const Rectangle& box, std::uint32_t first, std::uint32_t count, std::size_t depth) {
+    if (count == 1) {
+      return;
+    }
+    const std::uint32_t low_count = count / 2;
+    const Place place = choose(box, low_count, count - low_count, depth);
+    bsp_.cuts_[first + low_count - 1] = {place.at, loads_.lattice.axes()[place.along]};
+    Rectangle low = box, high = box;
+    low.high[place.along] = high.low[place.along] = place.at;
+    cut(low, first, low_count, depth + 1);
+    cut(high, first + low_count, count - low_count, depth + 1);
+  }
+
+  /// The preferred axis if it has a cut that leaves each region some columns, else the other one, with fewer columns as it must
+  /// be.
+  Place choose(const Rectangle& box, std::uint32_t low_count, std::uint32_t high_count, std::size_t depth) const {
+    const std::size_t preferred = preferred_axis(box, depth);
+    for (const std::int64_t columns_each : {4, 2, 1}) {
+      for (const std::size_t along : {preferred, 1 - preferred}) {
+        if (box.area() > 0) {
+          if (const auto range = cuts_allowed(box, along, low_count, high_count, columns_each)) {
+            return {along, median(box, along, low_count, high_count, *range)};
+          }
+        }
+      }
+    }
+    // More regions than columns: the middle; some regions will be empty.
+    return {preferred, box.low[preferred] + box.length(preferred) / 2};
+  }
+
+  std::size_t preferred_axis(const Rectangle& box, std::size_t depth) const {
+    if (options_.order == CutOrder::alternating) {
+      return depth % 2;
+    }
+    return box.length(0) > box.length(1) ? 0 : 1;
+  }
+
+  double strip(const Rectangle& box, std::size_t along, std::int32_t index) const {
+    const std::int32_t low = std::max(box.low[along], loads_.lattice.line(along, index));
+    const std::int32_t high = std::min(box.high[along], loads_.lattice.line(along, index + 1));
+    return strip_load(loads_, box, along, index) + area_weight_ * static_cast<double>(high - low) * box.length(1 - along);
+  }
+
+  /// Where the low side has its share of the box's load, as near as the range allows.
+  std::int32_t median(const Rectangle& box, std::size_t along, std::uint32_t low_count, std::uint32_t high_count,
+                      const CutRange& range) const {
+    const std::int32_t first = loads_.lattice.column_at(along, box.low[along]);
+    const std::int32_t last = loads_.lattice.column_at(along, box.high[along] - 1);
+    std::vector<double> strips;
+    for (std::int32_t i = first; i <= last; ++i) {
+      strips.push_back(strip(box, along, i));
+    }
+    const double region_load = std::accumulate(strips.begin(), strips.end(), 0.0) / (low_count + high_count);
+    double missing = region_load * low_count;
+    std::int32_t column = first;
+    while (column < last && strips[static_cast<std::size_t>(column - first)] <= missing) {
+      missing -= strips[static_cast<std::size_t>(column - first)];
+      ++column;
+    }
+    const double inside = strips[static_cast<std::size_t>(column - first)];
+    return std::clamp(place_in_column(box, along, column, missing, inside, region_load), range.least, range.most);
+  }
+
+  /// On the nearer of the column's two lines, or inside it if that misses the share by too much. `missing` of the column's load
+  /// `inside` the box belongs to the low side.
+  std::int32_t place_in_column(const Rectangle& box, std::size_t along, std::int32_t column, double missing, double inside,
+                               double region_load) const {
+    const std::int32_t low = std::max(box.low[along], loads_.lattice.line(along, column));
+    const std::int32_t high = std::min(box.high[along], loads_.lattice.line(along, column + 1));
+    const double share = std::clamp(missing / inside, 0.0, 1.0);
+    if (std::min(share, 1.0 - share) * inside > options_.hot_spot_share * region_load) {
+      return low + static_cast<std::int32_t>(std::floor(share * (high - low) + 0.5));
+    }
+    return share < 0.5 ? low : high;
+  }
+
+  const ColumnLoads& loads_;
+  BspOptions options_;
+  Bsp bsp_;
+  double area_weight_ = 0;
+};
+
+Bsp build_bsp(const ColumnLoads& loads, std::uint32_t region_count, const BspOptions& options) {
+  if (region_count < 1 || region_count > region_count_max) {
+    throw core::UsageError("space can be cut into 1 to " + std::to_string(region_count_max) + " regions, not " +
+                           std::to_string(region_count));
+  }
+  return BspBuilder(loads, region_count, options).build();
+}
+
+Bsp equal_size_bsp(const core::Corner& grid_size, const CutAxes& axes, std::uint32_t region_count, const BspOptions& options) {
+  const std::int32_t longest = std::max(grid_size[axes[0]], grid_size[axes[1]]);
+  constexpr std::int32_t columns_max = 1024;
+  return build_bsp(ColumnLoads(ColumnLattice(grid_size, axes, std::min(longest, columns_max))), region_count, options);
+}
+
+// ---- What came of it -----------------------------------------------------------------------------------------------------
+
+std::vector<double> loads_of_regions(const Bsp& bsp, const ColumnLoads& loads) {
+  std::vector<double> sums;
+  for (std::uint32_t region = 0; region < bsp.region_count(); ++region) {
+    const Rectangle box = rectangle_of(bsp.region_at(region), loads.lattice.axes());
+    double sum = 0;
+    if (box.area() > 0) {
+      for (std::int32_t i = loads.lattice.column_at(0, box.low[0]); i <= loads.lattice.column_at(0, box.high[0] - 1); ++i) {
+        sum += strip_load(loads, box, 0, i);
+      }
+    }
+    sums.push_back(sum);
+  }
+  return sums;
+}
+
+double average_load(std::span<const double> loads) {
+  const double most = loads.empty() ? 0 : *std::max_element(loads.begin(), loads.end());
+  return most > 0 ? std::accumulate(loads.begin(), loads.end(), 0.0) / (most * static_cast<double>(loads.size())) : 1.0;
+}
+
+std::vector<Boundary> boundaries_of(const Bsp& bsp, const CutAxes& axes) {
+  std::vector<Rectangle> boxes;
+  for (std::uint32_t region = 0; region < bsp.region_count(); ++region) {
+    boxes.push_back(rectangle_of(bsp.region_at(region), axes));
+  }
+  std::vector<Boundary> found;
+  for (std::uint32_t a = 0; a < boxes.size(); ++a) {
+    for (std::uint32_t b = a + 1; b < boxes.size(); ++b) {
+      for (std::size_t along = 0; along < 2; ++along) {
+        const bool touch =
+            boxes[a].high[1 - along] == boxes[b].low[1 - along] || boxes[b].high[1 - along] == boxes[a].low[1 - along];
+        const std::int32_t length =
+            std::min(boxes[a].high[along], boxes[b].high[along]) - std::max(boxes[a].low[along], boxes[b].low[along]);
+        if (touch && length > 0) {
+          found.push_back({a, b, length});
+        }
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace dmpc::dataflow

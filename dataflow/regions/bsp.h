@@ -1,0 +1,132 @@
+// Space cut into as many regions as there are nodes, by median planes, as one small value that every node holds.
+//
+// Source of the scheme: D. Badouel, K. Bouatouch, T. Priol, "Distributing Data and Control for Ray Tracing in Parallel", 1994:
+// binary space partitioning with planes perpendicular to two axes, about equal loads on both sides.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "core/base/region.h"
+#include "dataflow/regions/columns.h"
+#include "nodes/node_id.h"
+
+namespace dmpc::dataflow {
+
+/// The most regions that a Bsp can have; its size follows.
+inline constexpr std::uint32_t region_count_max = 1024;
+
+/// How the next cut's axis is chosen. Either way the other axis is taken where the chosen one has no cut left. Measured with 64
+/// regions: the mean of the average loads on rings-3-t1, teapot-12, mount-6-t6, tetra-9 and balls-4 is 85 % across the longer
+/// side and 84 % alternating; but the boundaries, which rays cross, are shorter across the longer side: by 13 % on rings-3-t1, 20
+/// % on teapot-12, 35 % on mount-6-t6, 1 % on tetra-6 and 78 % on the flat balls-4.
+enum class CutOrder : std::uint8_t {
+  longer_axis,  ///< across the longer side of the box, the second cut axis when they are equal
+  alternating   ///< the first cut axis, then the second, and so on: the 1994 paper's order
+};
+
+struct BspOptions {
+  CutOrder order = CutOrder::longer_axis;
+  /// A cut that would miss its share by more than this part of one region's load, were it made on a lattice line, is made inside
+  /// the column, whose load counts as evenly spread.
+  double hot_spot_share = 1.0 / 32;
+};
+
+/// The regions of a run and their owners: every finest cell of the grid lies in exactly one region, and every region has one
+/// node.
+///
+/// Invariants: regions are numbered 0 .. region_count() - 1 from the low side of every cut to the high side. A box of n regions
+/// is cut into floor(n / 2) and ceil(n / 2), so the tree's form follows from the count alone, and the cut between regions i and i
+/// + 1, at whatever depth, is kept at index i. Immutable but for assign() and mark_empty(); as plain bytes copyable to every
+/// node.
+class Bsp {
+ public:
+  /// One region: the grid of `grid_size` finest cells, owned by node 0.
+  explicit Bsp(const core::Corner& grid_size) : grid_size_(grid_size) {}
+
+  std::uint32_t region_count() const { return region_count_; }
+  /// In finest cells.
+  const core::Corner& grid_size() const { return grid_size_; }
+  /// Which region holds a finest cell of the grid: at most ceil(log2(region_count())) comparisons.
+  std::uint32_t region_index_of(const core::Corner& cell) const;
+  /// The box of region `index`, in finest cells; empty only if there are more regions than finest columns to share.
+  core::Region region_at(std::uint32_t index) const;
+
+  /// A plane between regions.
+  struct Cut {
+    std::int32_t at = 0;  ///< the first finest index of the high side
+    std::int32_t axis = 0;
+  };
+  /// Calls visit(cut, is_high) for every cut above region `index`, the outermost first: on which side of it the region lies.
+  template <class Visit>
+  void for_each_cut(std::uint32_t index, Visit visit) const;
+
+  /// The node that answers for a finest cell of the grid.
+  nodes::NodeId owner_of(const core::Corner& cell) const { return nodes::NodeId{owner_[region_index_of(cell)]}; }
+  /// What `node` answers for. Requires a node that owns a region.
+  core::Region region_of(nodes::NodeId node) const { return region_at(region_index_of(node)); }
+  /// The number of the region that `node` owns.
+  std::uint32_t region_index_of(nodes::NodeId node) const;
+
+  /// Whether region `index` is known to hold nothing.
+  bool is_empty(std::uint32_t index) const { return (empty_[index / 64] >> (index % 64) & 1U) != 0; }
+  /// Region `index` holds nothing: rays need not go to its owner.
+  void mark_empty(std::uint32_t index) { empty_[index / 64] |= std::uint64_t{1} << (index % 64); }
+
+  /// Gives region i to node node_of_region[i]; expects a permutation of 0 .. region_count() - 1. Before, region i is node i's.
+  void assign(std::span<const std::uint32_t> node_of_region);
+
+ private:
+  friend class BspBuilder;
+
+  core::Corner grid_size_;
+  std::uint32_t region_count_ = 1;
+  std::array<Cut, region_count_max - 1> cuts_{};
+  std::array<std::uint16_t, region_count_max> owner_{};
+  std::array<std::uint64_t, region_count_max / 64> empty_{};  ///< a bit a region
+};
+static_assert(std::is_trivially_copyable_v<Bsp>);
+
+template <class Visit>
+void Bsp::for_each_cut(std::uint32_t index, Visit visit) const {
+  core::expect(index < region_count_, "a region has a number below the count");
+  std::uint32_t first = 0, count = region_count_;
+  while (count > 1) {
+    const std::uint32_t low_count = count / 2;
+    const bool is_high = index >= first + low_count;
+    visit(cuts_[first + low_count - 1], is_high);
+    first += is_high ? low_count : 0;
+    count = is_high ? count - low_count : low_count;
+  }
+}
+
+/// Regions of about equal load. Throws core::UsageError unless 1 <= region_count <= region_count_max. Columns without load count
+/// a little by their area, so that loads of zero throughout give regions of equal size.
+Bsp build_bsp(const ColumnLoads& loads, std::uint32_t region_count, const BspOptions& options = {});
+
+/// The naive split: regions of equal size whatever lies in them.
+Bsp equal_size_bsp(const core::Corner& grid_size, const CutAxes& axes, std::uint32_t region_count,
+                   const BspOptions& options = {});
+
+/// The load of each region, by region number; a column that is cut gives each side its share of the area.
+std::vector<double> loads_of_regions(const Bsp& bsp, const ColumnLoads& loads);
+
+/// Mean over maximum, in (0, 1]: the share of time that the regions' nodes are busy if nothing else costs time. 1 if there is no
+/// load.
+double average_load(std::span<const double> loads);
+
+/// Two regions that share a face.
+struct Boundary {
+  std::uint32_t low = 0, high = 0;  ///< region numbers, low < high
+  /// The face's extent along the cut axis that it lies in; along the third axis all span the grid.
+  std::int32_t length_cells = 0;
+  constexpr bool operator==(const Boundary&) const = default;
+};
+
+/// The connectivity graph: every pair of regions that share a face of positive length, ascending by (low, high).
+std::vector<Boundary> boundaries_of(const Bsp& bsp, const CutAxes& axes);
+
+}  // namespace dmpc::dataflow

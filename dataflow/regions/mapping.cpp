@@ -1,0 +1,182 @@
+#include "dataflow/regions/mapping.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <numeric>
+#include <utility>
+
+#include "core/base/expect.h"
+#include "core/base/sampling.h"
+
+namespace dmpc::dataflow {
+namespace {
+
+/// Each region's flows, in both directions.
+class Neighbours {
+ public:
+  struct Entry {
+    std::uint32_t region;
+    std::uint64_t amount;
+  };
+
+  Neighbours(std::span<const Flow> flows, std::uint32_t region_count) : of_(region_count) {
+    for (const Flow& flow : flows) {
+      core::expect(flow.first < region_count && flow.second < region_count && flow.first != flow.second,
+                   "a flow goes between two regions");
+      of_[flow.first].push_back({flow.second, flow.amount});
+      of_[flow.second].push_back({flow.first, flow.amount});
+    }
+  }
+  std::span<const Entry> of(std::uint32_t region) const { return of_[region]; }
+
+ private:
+  std::vector<std::vector<Entry>> of_;
+};
+
+std::uint32_t hops(const nodes::Topology& topology, std::uint32_t a, std::uint32_t b) {
+  return topology.hops(nodes::NodeId{a}, nodes::NodeId{b});
+}
+
+/// What a region's flows cost on `node` while `other`, with which it may exchange places, is left out: that distance stays.
+std::uint64_t cost_at(const Mapping& mapping, const Neighbours& neighbours, const nodes::Topology& topology, std::uint32_t region,
+                      std::uint32_t node, std::uint32_t other) {
+  std::uint64_t sum = 0;
+  for (const auto& [neighbour, amount] : neighbours.of(region)) {
+    sum += neighbour == other ? 0 : amount * hops(topology, node, mapping[neighbour]);
+  }
+  return sum;
+}
+
+bool exchange_helps(const Mapping& mapping, const Neighbours& neighbours, const nodes::Topology& topology, std::uint32_t a,
+                    std::uint32_t b) {
+  const std::uint64_t now =
+      cost_at(mapping, neighbours, topology, a, mapping[a], b) + cost_at(mapping, neighbours, topology, b, mapping[b], a);
+  const std::uint64_t then =
+      cost_at(mapping, neighbours, topology, a, mapping[b], b) + cost_at(mapping, neighbours, topology, b, mapping[a], a);
+  return then < now;
+}
+
+/// Ends, since every exchange lowers an integer sum.
+void descend(Mapping& mapping, const Neighbours& neighbours, const nodes::Topology& topology) {
+  const auto count = static_cast<std::uint32_t>(mapping.size());
+  for (bool has_changed = true; has_changed;) {
+    has_changed = false;
+    for (std::uint32_t a = 0; a < count; ++a) {
+      for (std::uint32_t b = a + 1; b < count; ++b) {
+        if (exchange_helps(mapping, neighbours, topology, a, b)) {
+          std::swap(mapping[a], mapping[b]);
+          has_changed = true;
+        }
+      }
+    }
+  }
+}
+
+/// Where the descents start, the most promising first.
+std::vector<Mapping> beginnings(const Bsp& bsp) {
+  constexpr std::uint32_t random_regions_max = 128;  // beyond that each descent takes seconds
+  constexpr std::uint64_t random_count = 24;
+  std::vector<Mapping> mappings{gray_mapping(bsp), identity_mapping(bsp.region_count())};
+  if (bsp.region_count() <= random_regions_max) {
+    for (std::uint64_t seed = 0; seed < random_count; ++seed) {
+      mappings.push_back(random_mapping(bsp.region_count(), seed));
+    }
+  }
+  return mappings;
+}
+
+}  // namespace
+
+std::vector<Flow> flows_of(std::span<const Boundary> boundaries) {
+  std::vector<Flow> flows;
+  for (const Boundary& boundary : boundaries) {
+    flows.push_back({boundary.low, boundary.high, static_cast<std::uint64_t>(boundary.length_cells)});
+  }
+  return flows;
+}
+
+std::vector<Flow> flows_of_matrix(std::span<const std::uint64_t> rays, std::uint32_t node_count) {
+  core::expect(rays.size() == std::size_t{node_count} * node_count, "the matrix has a row and a column for each node");
+  std::vector<Flow> flows;
+  for (std::uint32_t index = 0; index < rays.size(); ++index) {
+    const std::uint32_t source = index / node_count, target = index % node_count;
+    core::expect(source != target || rays[index] == 0, "no node sends rays to itself");
+    if (rays[index] > 0) {
+      flows.push_back({source, target, rays[index]});
+    }
+  }
+  return flows;
+}
+
+double mean_hops(const Mapping& mapping, std::span<const Flow> flows, const nodes::Topology& topology) {
+  std::uint64_t sum = 0, amount = 0;
+  for (const Flow& flow : flows) {
+    sum += flow.amount * hops(topology, mapping[flow.first], mapping[flow.second]);
+    amount += flow.amount;
+  }
+  return amount > 0 ? static_cast<double>(sum) / static_cast<double>(amount) : 0.0;
+}
+
+double mean_hops_of_random(std::span<const Flow> flows, const nodes::Topology& topology, std::uint32_t mapping_count) {
+  core::expect(mapping_count > 0, "a mean is of one mapping or more");
+  double sum = 0;
+  for (std::uint32_t seed = 0; seed < mapping_count; ++seed) {
+    sum += mean_hops(random_mapping(topology.node_count(), seed), flows, topology);
+  }
+  return sum / mapping_count;
+}
+
+Mapping map_regions(const Bsp& bsp, std::span<const Flow> flows, const nodes::Topology& topology) {
+  core::expect(topology.node_count() == bsp.region_count(), "there are as many nodes as regions");
+  const Neighbours neighbours(flows, bsp.region_count());
+  Mapping best;
+  for (Mapping& mapping : beginnings(bsp)) {
+    descend(mapping, neighbours, topology);
+    if (best.empty() || mean_hops(mapping, flows, topology) < mean_hops(best, flows, topology)) {
+      best = std::move(mapping);
+    }
+  }
+  return best;
+}
+
+Mapping gray_mapping(const Bsp& bsp) {
+  Mapping mapping = identity_mapping(bsp.region_count());
+  if (!std::has_single_bit(bsp.region_count())) {
+    return mapping;
+  }
+  for (std::uint32_t region = 0; region < bsp.region_count(); ++region) {
+    std::uint32_t code = 0;
+    std::array<bool, 3> was_high{};  // along each axis, at the cut before
+    bsp.for_each_cut(region, [&](const Bsp::Cut& cut, bool is_high) {
+      bool& before = was_high[static_cast<std::size_t>(cut.axis)];
+      code = 2 * code + (is_high != before ? 1U : 0U);
+      before = is_high;
+    });
+    mapping[region] = code;
+  }
+  return mapping;
+}
+
+void map_onto(Bsp& bsp, nodes::TopologyKind kind, const CutAxes& axes) {
+  const std::vector<Flow> flows = flows_of(boundaries_of(bsp, axes));
+  bsp.assign(map_regions(bsp, flows, nodes::Topology(kind, bsp.region_count())));
+}
+
+Mapping identity_mapping(std::uint32_t region_count) {
+  Mapping mapping(region_count);
+  std::iota(mapping.begin(), mapping.end(), 0U);
+  return mapping;
+}
+
+Mapping random_mapping(std::uint32_t region_count, std::uint64_t seed) {
+  Mapping mapping = identity_mapping(region_count);
+  // R. Durstenfeld, "Algorithm 235: Random permutation", 1964.
+  for (std::uint32_t left = region_count; left > 1; --left) {
+    const std::uint64_t draw = core::mix(core::mix(seed) + left);
+    std::swap(mapping[left - 1], mapping[static_cast<std::uint32_t>(draw % left)]);
+  }
+  return mapping;
+}
+
+}  // namespace dmpc::dataflow

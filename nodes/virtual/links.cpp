@@ -1,0 +1,151 @@
+#include "nodes/virtual/links.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "core/base/expect.h"
+
+namespace dmpc::nodes {
+
+Links::Links(const Machine& machine, std::uint32_t node_count)
+    : topology_(machine.topology, node_count), machine_(machine), wires_(topology_.place_count() + 1 + node_count) {}
+
+std::uint32_t Links::hops(NodeId source, NodeId target) const {
+  const NodeId host{topology_.node_count()}, door{0};
+  if (source == target) {
+    return 0;
+  }
+  const std::uint32_t to_the_host = source == host || target == host ? 1 : 0;
+  return to_the_host + topology_.hops(source == host ? door : source, target == host ? door : target);
+}
+
+std::uint64_t Links::pass(NodeId source, NodeId target, std::uint64_t now_ns, std::uint64_t bytes) {
+  if (source == target) {
+    return now_ns;
+  }
+  const std::uint32_t hop_count = hops(source, target);
+  const std::uint64_t passage_ns = hop_count * machine_.hop_ns + bytes * machine_.cost_of_message(bytes).byte_ps / 1000;
+  find_route(source, target);
+  const std::uint64_t end_ns = start_ns(now_ns) + passage_ns;
+  for (Wire* const wire : route_) {
+    wire->free_at_ns = end_ns;
+    ++wire->messages;
+    wire->bytes += bytes;
+    wire->busy_ns += passage_ns;
+  }
+  ++traffic_.messages;
+  traffic_.hops += hop_count;
+  traffic_.passages += route_.size();
+  traffic_.bytes += route_.size() * bytes;
+  traffic_.busy_ns += route_.size() * passage_ns;
+  return end_ns;
+}
+
+/// When all links of the route are free. The wait is charged to the one that was free last, the first of them if several were.
+std::uint64_t Links::start_ns(std::uint64_t now_ns) {
+  if (!machine_.has_contention) {
+    return now_ns;
+  }
+  Wire* last = route_.front();
+  for (Wire* const wire : route_) {
+    last = wire->free_at_ns > last->free_at_ns ? wire : last;
+  }
+  if (last->free_at_ns <= now_ns) {
+    return now_ns;
+  }
+  last->wait_ns += last->free_at_ns - now_ns;
+  traffic_.wait_ns += last->free_at_ns - now_ns;
+  return last->free_at_ns;
+}
+
+std::vector<LinkUse> Links::busiest(std::size_t count) const {
+  struct Used {
+    std::uint32_t from;
+    const Wire* wire;
+  };
+  std::vector<Used> used;
+  for (std::uint32_t from = 0; from < wires_.size(); ++from) {
+    for (const Wire& wire : wires_[from]) {
+      used.push_back({from, &wire});
+    }
+  }
+  const auto end = used.begin() + static_cast<std::ptrdiff_t>(std::min(count, used.size()));
+  std::partial_sort(used.begin(), end, used.end(), [](const Used& a, const Used& b) {
+    return std::tuple(b.wire->busy_ns, a.from, a.wire->to) < std::tuple(a.wire->busy_ns, b.from, b.wire->to);
+  });
+  std::vector<LinkUse> uses;
+  std::transform(used.begin(), end, std::back_inserter(uses), [this](const Used& one) -> LinkUse {
+    const Wire& wire = *one.wire;
+    return {place_name(one.from), place_name(wire.to), wire.messages, wire.bytes, wire.busy_ns, wire.wait_ns};
+  });
+  return uses;
+}
+
+std::size_t Links::used_count() const {
+  std::size_t count = 0;
+  for (const std::vector<Wire>& from_place : wires_) {
+    count += from_place.size();
+  }
+  return count;
+}
+
+void Links::expect_sums() const {
+  LinkTraffic sum;
+  for (const std::vector<Wire>& from_place : wires_) {
+    for (const Wire& wire : from_place) {
+      sum.passages += wire.messages;
+      sum.bytes += wire.bytes;
+      sum.busy_ns += wire.busy_ns;
+      sum.wait_ns += wire.wait_ns;
+    }
+  }
+  core::expect(sum.passages == traffic_.passages && sum.bytes == traffic_.bytes && sum.busy_ns == traffic_.busy_ns &&
+                   sum.wait_ns == traffic_.wait_ns,
+               "what the links carried adds up to the whole traffic");
+}
+
+std::string Links::place_name(std::uint32_t place) const {
+  const std::uint32_t node_count = topology_.node_count();
+  if (place > host_place()) {
+    return "memory " + std::to_string(place - host_place() - 1);
+  }
+  if (place == host_place()) {
+    return "host";
+  }
+  if (place < node_count) {
+    return "node " + std::to_string(place);
+  }
+  return topology_.kind() == TopologyKind::fat_tree ? "switch " + std::to_string(place - node_count)
+                                                    : "place " + std::to_string(place);
+}
+
+/// The wire of a link, made when a message first passes it.
+Links::Wire& Links::wire(const Link& link) {
+  std::vector<Wire>& from_place = wires_[link.from];
+  const auto at = std::lower_bound(from_place.begin(), from_place.end(), link.to,
+                                   [](const Wire& wire, std::uint32_t to) { return wire.to < to; });
+  return at != from_place.end() && at->to == link.to ? *at : *from_place.insert(at, Wire{.to = link.to});
+}
+
+/// A way begins at each place once, so that a wire which is made does not move another one of the route.
+void Links::find_route(NodeId source, NodeId target) {
+  const NodeId host{topology_.node_count()}, door{0};
+  links_.clear();
+  if (source == host) {
+    links_.push_back({host_place(), index_of(door)});
+  } else if (machine_.has_memory_port) {
+    links_.push_back({memory_place(index_of(source)), index_of(source)});
+  }
+  topology_.append_route(source == host ? door : source, target == host ? door : target, links_);
+  if (target == host) {
+    links_.push_back({index_of(door), host_place()});
+  } else if (machine_.has_memory_port) {
+    links_.push_back({index_of(target), memory_place(index_of(target))});
+  }
+  route_.clear();
+  for (const Link& link : links_) {
+    route_.push_back(&wire(link));
+  }
+}
+
+}  // namespace dmpc::nodes

@@ -1,0 +1,54 @@
+// Where a node's virtual time has gone: the parts add up to the whole.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "core/base/sampling.h"
+#include "nodes/virtual/links.h"
+#include "nodes/packet.h"
+
+namespace dmpc::nodes {
+
+/// Of one node in one run, in nanoseconds of virtual time.
+struct VirtualTimes {
+  std::uint64_t computing_ns = 0;  ///< the operations that the program charged
+  std::uint64_t sending_ns = 0;    ///< of packets, but for those sent by an interrupt's service
+  std::uint64_t receiving_ns = 0;  ///< of packets, but for those that interrupted
+  std::uint64_t stolen_ns = 0;     ///< service of interrupts while the program had something to do
+  std::uint64_t lent_ns = 0;       ///< the same while it had nothing to do
+  /// Nothing to do, by the kind of the packet that ended it.
+  std::array<std::uint64_t, packet_kind_count> waiting_ns{};
+  std::uint64_t end_ns = 0;  ///< nothing to do any more
+
+  /// The length of the run: the same for every node.
+  std::uint64_t total_ns() const {
+    return computing_ns + sending_ns + receiving_ns + stolen_ns + lent_ns +
+           std::accumulate(waiting_ns.begin(), waiting_ns.end(), std::uint64_t{0}) + end_ns;
+  }
+};
+
+/// All links of machines with up to 32 nodes, as a rule.
+inline constexpr std::size_t busiest_links_max = 256;
+
+/// What a run came to in virtual time.
+struct VirtualReport {
+  std::uint64_t total_ns = 0;  ///< from the start to the last event
+  std::uint64_t events = 0;
+  /// Over all events in order: time, source and kind, and of a message its target, kind and bytes.
+  std::uint64_t hash = 0;
+  std::uint64_t machine_digest = 0;  ///< Machine::digest()
+  LinkTraffic links;
+  std::size_t links_used = 0;          ///< that carried anything, memory ports included
+  std::vector<LinkUse> busiest_links;  ///< as Links::busiest(), at most busiest_links_max
+  std::vector<VirtualTimes> nodes;     ///< in order, the host last
+
+  /// Of a whole run: its events, its machine and what it has produced (a hash of it). Equal runs, equal hashes, on any computer
+  /// and in every build type.
+  std::uint64_t run_hash(std::uint64_t product_hash) const { return core::mix(core::mix(hash ^ machine_digest) ^ product_hash); }
+};
+
+}  // namespace dmpc::nodes

@@ -1,0 +1,48 @@
+#include "nodes/watch/heat_map.h"
+
+#include <atomic>
+#include <numeric>
+
+#include "core/base/expect.h"
+
+namespace dmpc::nodes {
+
+HeatMap::HeatMap(std::uint32_t pixel_count, std::span<const HeatKind> kinds) : pixel_count_(pixel_count) {
+  for (const HeatKind kind : kinds) {
+    values_[static_cast<std::size_t>(kind)].resize(pixel_count);
+  }
+}
+
+std::uint64_t* HeatMap::place(HeatKind kind, std::uint32_t pixel) {
+  core::expect(pixel < pixel_count_, "heat falls on a pixel of the picture");
+  std::vector<std::uint64_t>& values = values_[static_cast<std::size_t>(kind)];
+  return values.empty() ? nullptr : &values[pixel];
+}
+
+void HeatMap::add(HeatKind kind, std::uint32_t pixel, std::uint64_t amount) {
+  if (std::uint64_t* const value = place(kind, pixel)) {
+    std::atomic_ref(*value).fetch_add(amount, std::memory_order_relaxed);
+  }
+}
+
+void HeatMap::raise(HeatKind kind, std::uint32_t pixel, std::uint64_t value) {
+  if (std::uint64_t* const old = place(kind, pixel)) {
+    const std::atomic_ref highest(*old);
+    std::uint64_t known = highest.load(std::memory_order_relaxed);
+    while (known < value && !highest.compare_exchange_weak(known, value, std::memory_order_relaxed)) {
+    }
+  }
+}
+
+void HeatMap::set(HeatKind kind, std::uint32_t pixel, std::uint64_t value) {
+  if (std::uint64_t* const old = place(kind, pixel)) {
+    std::atomic_ref(*old).store(value, std::memory_order_relaxed);
+  }
+}
+
+std::uint64_t HeatMap::sum(HeatKind kind) const {
+  const std::span<const std::uint64_t> all = values(kind);
+  return std::accumulate(all.begin(), all.end(), std::uint64_t{0});
+}
+
+}  // namespace dmpc::nodes

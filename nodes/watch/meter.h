@@ -1,0 +1,68 @@
+// What programs tell of the pixels that they work on: a template parameter of theirs, so that without one nothing is compiled.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "nodes/watch/heat_meter.h"
+#include "nodes/node_id.h"
+#include "nodes/observer.h"
+
+namespace dmpc::nodes {
+
+/// A program without one costs nothing: what it would do for a meter is not compiled.
+struct NoMeter {
+  static constexpr bool is_on = false;
+};
+
+/// What a run's options ask of meters: a heat map, an observer, both or neither, and the machine whose prices are time. All
+/// outlive the meters.
+struct Metering {
+  HeatMap* heat = nullptr;
+  Observer* observer = nullptr;
+  const Machine* machine = nullptr;  ///< without one nodes are threads
+
+  bool is_wanted() const { return heat != nullptr || observer != nullptr; }
+};
+
+/// One node's. Thread safety: belongs to one node.
+class Meter {
+ public:
+  static constexpr bool is_on = true;
+
+  Meter(const Metering& metering, NodeId self) : observer_(metering.observer), self_(self) {
+    if (metering.heat != nullptr) {
+      heat_.emplace(*metering.heat, self, metering.machine);
+    }
+  }
+
+  /// What is counted and computed from now on is for one pixel.
+  void begin(const HeatTotals& totals) {
+    if (heat_) {
+      heat_->begin(totals);
+    }
+  }
+  /// It was for this one, and a ray of this depth was the newest. What follows, up to the next begin() if there is one, is for
+  /// the pixel of the next end().
+  void end(std::uint32_t pixel, std::uint32_t depth, const HeatTotals& totals) {
+    if (heat_) {
+      heat_->end(pixel, depth, totals);
+    }
+    if (observer_ != nullptr) {
+      observer_->worked({self_, pixel, depth});
+    }
+  }
+  /// The pixel belongs to this node.
+  void claim(std::uint32_t pixel) {
+    if (heat_) {
+      heat_->claim(pixel);
+    }
+  }
+
+ private:
+  std::optional<HeatMeter> heat_;
+  Observer* observer_;
+  NodeId self_;
+};
+
+}  // namespace dmpc::nodes

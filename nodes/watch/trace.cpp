@@ -1,0 +1,328 @@
+#include "nodes/watch/trace.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <tuple>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "core/base/expect.h"
+#include "core/base/sampling.h"
+#include "nodes/atomics.h"
+#include "nodes/program.h"
+
+namespace dmpc::nodes {
+namespace {
+
+/// Packets so far, by peer and kind.
+class Ordinals {
+ public:
+  std::uint32_t next(NodeId peer, PacketKind kind) { return count_[index_of(peer) * packet_kind_count + kind]++; }
+
+ private:
+  std::unordered_map<std::size_t, std::uint32_t> count_;  // whose order nobody sees
+};
+
+std::uint32_t first_word_of(std::span<const std::byte> payload) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, payload.data(), std::min(payload.size(), sizeof(word)));
+  return word;
+}
+
+/// What begins first, and of what begins at one time what was called first.
+bool is_before(const TraceSpan& a, const TraceSpan& b) {
+  return std::tuple(a.begin_ns, a.call, a.activity) < std::tuple(b.begin_ns, b.call, b.activity);
+}
+
+/// Of each node, the numbers of some of its program's calls.
+using Calls = std::vector<std::unordered_set<std::uint32_t>>;
+
+/// Calls for a pixel that was not chosen are not among the spans, nor are their messages' ends kept.
+void split_calls(const std::vector<TraceNode>& nodes, Calls& chosen, Calls& undecided) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (const TraceSpan& span : nodes[i].spans) {
+      if (span.activity != Activity::send) {
+        (span.is_chosen ? chosen : undecided)[i].insert(span.call);
+      }
+    }
+  }
+}
+
+/// A call that receives a message of a chosen one is chosen, too; returns whether any was.
+bool spread(const std::vector<TraceMessage>& messages, Calls& chosen, Calls& undecided) {
+  bool has_spread = false;
+  for (const TraceMessage& message : messages) {
+    const std::size_t target = index_of(message.target);
+    if (chosen[index_of(message.source)].contains(message.sent_call) && undecided[target].erase(message.received_call) > 0) {
+      chosen[target].insert(message.received_call);
+      has_spread = true;
+    }
+  }
+  return has_spread;
+}
+
+/// Leaves in the trace only the chosen calls, what follows from their messages, and these messages.
+void keep_chosen(Trace& trace) {
+  Calls chosen(trace.nodes.size()), undecided(trace.nodes.size());
+  split_calls(trace.nodes, chosen, undecided);
+  while (spread(trace.messages, chosen, undecided)) {
+  }
+  for (std::size_t i = 0; i < trace.nodes.size(); ++i) {
+    std::erase_if(trace.nodes[i].spans, [&](const TraceSpan& span) { return !chosen[i].contains(span.call); });
+  }
+  std::erase_if(trace.messages,
+                [&](const TraceMessage& message) { return !chosen[index_of(message.source)].contains(message.sent_call); });
+}
+
+}  // namespace
+
+/// One end of a message.
+struct TraceRecorder::End {
+  std::uint64_t time_ns = 0;
+  std::uint32_t peer = 0, ordinal = 0;
+  std::uint32_t call = 0, bytes = 0, first_word = 0;
+  PacketKind kind = 0;
+
+  /// What both ends of a message have in common, and no others.
+  using Name = std::tuple<std::uint32_t, std::uint32_t, PacketKind, std::uint32_t>;
+  Name name(std::uint32_t source, std::uint32_t target) const { return {source, target, kind, ordinal}; }
+};
+
+/// Those that one node has told, either of what it sent or of what it received.
+struct TraceRecorder::Ends {
+  std::vector<End> kept;
+  std::vector<End> undecided;  ///< of calls under way, whose pixels are not known yet
+  Ordinals count;
+};
+
+/// What one node has told, on cache lines of its own.
+struct alignas(cache_line_bytes) TraceRecorder::Log {
+  TraceNode node;
+  Ends sent, received;
+  std::array<std::uint64_t, Levels::count_max> levels{};
+  TraceSpan current;                ///< of the call under way: what it has worked on
+  bool is_last_call_wanted = true;  ///< but for interrupts
+  std::uint64_t lost_from_ns = std::numeric_limits<std::uint64_t>::max();
+};
+
+namespace {
+
+/// Work or a packet, and no interrupt.
+bool is_own_call(Activity activity) { return activity == Activity::work || activity == Activity::receive; }
+
+}  // namespace
+
+Doing doing_between(const Charges& before, const Charges& after) {
+  const auto any = [&](std::initializer_list<Charge> charges) {
+    return std::any_of(charges.begin(), charges.end(), [&](Charge charge) { return after[charge] != before[charge]; });
+  };
+  if (any({Charge::shading, Charge::tile_read})) {
+    return Doing::shade;
+  }
+  if (any({Charge::ray_setup, Charge::cell_step, Charge::brick_read, Charge::triangle_test, Charge::sphere_test,
+           Charge::cone_test, Charge::home_lookup, Charge::cached_lookup})) {
+    return Doing::trace;
+  }
+  return any({Charge::page_install}) ? Doing::install : any({Charge::ray_packing}) ? Doing::pack : Doing::other;
+}
+
+TraceRecorder::TraceRecorder(std::uint32_t peer_count, const TraceChoice& choice) : choice_(choice) {
+  core::expect(choice.nodes.empty() || choice.nodes.size() == peer_count, "a choice of nodes has all of them and the host");
+  core::expect(choice.every > 0, "one of at least one pixel is recorded");
+  for (std::uint32_t i = 0; i < peer_count; ++i) {
+    logs_.push_back(std::make_unique<Log>());
+  }
+}
+
+TraceRecorder::~TraceRecorder() = default;
+
+bool TraceRecorder::is_chosen_pixel(std::uint32_t pixel) const { return core::mix(pixel) % choice_.every == 0; }
+
+/// Whether there is room for an event more.
+bool TraceRecorder::admit(Log& log, std::uint64_t time_ns) {
+  if (events_.fetch_add(1, std::memory_order_relaxed) < choice_.events_max) {
+    return true;
+  }
+  log.lost_from_ns = std::min(log.lost_from_ns, time_ns);
+  return false;
+}
+
+void TraceRecorder::worked(const Worked& worked) {
+  Log& log = *logs_[index_of(worked.node)];
+  const bool is_chosen = is_chosen_pixel(worked.pixel);
+  if (log.current.pixel == TraceSpan::no_pixel || (is_chosen && !log.current.is_chosen)) {
+    log.current.pixel = worked.pixel;
+    log.current.depth = worked.depth;
+    log.current.is_chosen = is_chosen;
+  }
+}
+
+void TraceRecorder::ended(const Span& span, const Program& program) {
+  Log& log = *logs_[index_of(span.node)];
+  if (!is_chosen_node(span.node)) {
+    return;
+  }
+  const TraceSpan made = cut(log, span);
+  const bool is_wanted = decide(log, made);
+  if (is_own_call(span.activity) && made.is_chosen) {
+    note_levels(log, program, span.end_ns);
+  }
+  if (is_wanted && overlaps_window(span) && admit(log, made.begin_ns)) {
+    log.node.spans.push_back(made);
+  }
+}
+
+/// With what the call has worked on, if it is one that does.
+TraceSpan TraceRecorder::cut(Log& log, const Span& span) const {
+  TraceSpan made;
+  if (is_own_call(span.activity)) {
+    made = std::exchange(log.current, {});
+  }
+  made.begin_ns = std::max(span.begin_ns, choice_.from_ns);
+  made.end_ns = std::min(span.end_ns, choice_.to_ns);
+  made.is_cut = made.begin_ns != span.begin_ns || made.end_ns != span.end_ns;
+  made.own_ns = span.own_ns;
+  made.call = span.call;
+  made.activity = span.activity;
+  made.doing = doing_between(span.before, span.after);
+  made.packet = span.packet;
+  made.is_chosen = made.is_chosen || choice_.every == 1;
+  return made;
+}
+
+/// Whether a span is chosen, or may be for a message that its call has received.
+bool TraceRecorder::decide(Log& log, const TraceSpan& span) {
+  if (span.activity == Activity::send || span.activity == Activity::take_over) {
+    return span.activity == Activity::send ? log.is_last_call_wanted : span.is_chosen;
+  }
+  const bool is_wanted = span.is_chosen || (span.activity != Activity::work && span.pixel == TraceSpan::no_pixel);
+  if (is_own_call(span.activity)) {
+    log.is_last_call_wanted = is_wanted;
+  }
+  settle(log, log.sent, span.call, is_wanted);
+  settle(log, log.received, span.call, is_wanted);
+  return is_wanted;
+}
+
+/// A call's messages stand and fall with it.
+void TraceRecorder::settle(Log& log, Ends& ends, std::uint32_t call, bool is_wanted) {
+  std::erase_if(ends.undecided, [&](const End& end) {
+    if (end.call == call && is_wanted) {
+      keep(log, ends, end);
+    }
+    return end.call == call;
+  });
+}
+
+void TraceRecorder::keep(Log& log, Ends& ends, const End& end) {
+  if (admit(log, end.time_ns)) {
+    ends.kept.push_back(end);
+  }
+}
+
+bool TraceRecorder::overlaps_window(const Span& span) const {
+  return is_in_window(span.begin_ns) || (span.begin_ns < choice_.from_ns && span.end_ns > choice_.from_ns);
+}
+
+void TraceRecorder::note_levels(Log& log, const Program& program, std::uint64_t time_ns) {
+  if (!is_in_window(time_ns)) {
+    return;
+  }
+  const bool is_first = log.node.level_names.empty();
+  std::uint32_t number = 0;
+  for (const Level& level : program.levels()) {
+    if (is_first) {
+      log.node.level_names.push_back(level.name);
+    }
+    if ((std::exchange(log.levels[number], level.value) != level.value || is_first) && admit(log, time_ns)) {
+      log.node.levels.push_back({time_ns, level.value, number});
+    }
+    ++number;
+  }
+}
+
+void TraceRecorder::note_end(Log& log, Ends& ends, const Passing& packet, std::uint64_t time_ns) {
+  const std::uint32_t ordinal = ends.count.next(packet.peer, packet.kind);
+  if (!is_chosen_node(packet.node) || !is_chosen_node(packet.peer) || !is_in_window(time_ns)) {
+    return;
+  }
+  const End end{.time_ns = time_ns,
+                .peer = index_of(packet.peer),
+                .ordinal = ordinal,
+                .call = packet.call,
+                .bytes = static_cast<std::uint32_t>(packet.payload.size()),
+                .first_word = first_word_of(packet.payload),
+                .kind = packet.kind};
+  if (choice_.every == 1) {
+    keep(log, ends, end);
+  } else {
+    ends.undecided.push_back(end);
+  }
+}
+
+void TraceRecorder::sent(const Passing& packet) {
+  Log& log = *logs_[index_of(packet.node)];
+  note_end(log, log.sent, packet, packet.times.sending_ns);
+}
+
+void TraceRecorder::received(const Passing& packet) {
+  Log& log = *logs_[index_of(packet.node)];
+  note_end(log, log.received, packet, packet.times.received_ns);
+}
+
+/// The two ends of every message that has both: of those of one kind between two nodes the n-th of each.
+std::vector<TraceMessage> TraceRecorder::join() const {
+  using Named = std::pair<End::Name, const End*>;
+  std::vector<Named> sent, received;
+  for (std::uint32_t i = 0; i < logs_.size(); ++i) {
+    for (const End& end : logs_[i]->sent.kept) {
+      sent.emplace_back(end.name(i, end.peer), &end);
+    }
+    for (const End& end : logs_[i]->received.kept) {
+      received.emplace_back(end.name(end.peer, i), &end);
+    }
+  }
+  std::sort(sent.begin(), sent.end());
+  std::sort(received.begin(), received.end());
+  std::vector<TraceMessage> messages;
+  auto at = sent.begin();
+  for (const auto& [name, end] : received) {
+    at = std::find_if(at, sent.end(), [&name = name](const Named& other) { return other.first >= name; });
+    if (at != sent.end() && at->first == name) {
+      messages.push_back({.source = NodeId{std::get<0>(name)},
+                          .target = NodeId{std::get<1>(name)},
+                          .kind = end->kind,
+                          .bytes = end->bytes,
+                          .first_word = end->first_word,
+                          .sent_call = at->second->call,
+                          .received_call = end->call,
+                          .sent_ns = at->second->time_ns,
+                          .received_ns = end->time_ns});
+    }
+  }
+  return messages;
+}
+
+Trace TraceRecorder::take() {
+  Trace trace{.messages = join()};
+  std::stable_sort(trace.messages.begin(), trace.messages.end(),
+                   [](const TraceMessage& a, const TraceMessage& b) { return a.sent_ns < b.sent_ns; });
+  const std::uint64_t events = events_.load(std::memory_order_relaxed);
+  trace.events_lost = events - std::min(events, choice_.events_max);
+  trace.lost_from_ns = choice_.to_ns;
+  for (const auto& log : logs_) {
+    trace.lost_from_ns = std::min(trace.lost_from_ns, log->lost_from_ns);
+    trace.nodes.push_back(std::move(log->node));
+  }
+  if (choice_.every > 1) {
+    keep_chosen(trace);
+  }
+  for (TraceNode& node : trace.nodes) {
+    std::sort(node.spans.begin(), node.spans.end(), is_before);
+  }
+  return trace;
+}
+
+}  // namespace dmpc::nodes

@@ -1,0 +1,45 @@
+// A pager that also records which pages are referenced. A type of its own, so that normal runs pay nothing for it.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "core/base/expect.h"
+#include "svm/home.h"
+#include "svm/pager.h"
+#include "svm/watch/reference_log.h"
+
+namespace dmpc::svm {
+
+/// Notes a reference when it is answered, so a step that is retried after its page arrived is noted once. Pages that are at home
+/// are left out: they need no frame. Takes as much local memory as a Pager; the log lies outside. Thread safety: none.
+class RecordingPager : public Pager {
+ public:
+  RecordingPager(nodes::Node& node, const Plan& plan, std::span<const std::byte> database)
+      : Pager(node, plan, database),
+        geometry_(plan.request.page_size_bytes),
+        homes_(plan.request.node_count),
+        self_(nodes::index_of(node.id())) {}
+
+  /// To be called once, before the first reference. `log` outlives this.
+  void record_into(ReferenceLog& log) { log_ = &log; }
+
+  /// Hides Pager's: looks the page up, then notes it.
+  const std::byte* find(core::Address address) {
+    const std::byte* const record = Pager::find(address);
+    const PageId page = geometry_.page_of(address);
+    if (record != nullptr && homes_.place_of(page).node != self_) {
+      log_->note(page);
+    }
+    return record;
+  }
+
+ private:
+  PageGeometry geometry_;
+  Homes homes_;
+  std::uint32_t self_;
+  ReferenceLog* log_ = nullptr;
+};
+static_assert(core::Records<RecordingPager>);
+
+}  // namespace dmpc::svm

@@ -1,0 +1,116 @@
+// Those who trace in `bench speed`: Embree as a rival, a pager with all pages, threads.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "apps/scene/load_scene.h"
+#include "apps/bench/speed/crew.h"
+#include "apps/bench/speed/recording.h"
+#include "apps/bench/speed/rival.h"
+#include "apps/bench/speed/warm_pager.h"
+#include "apps/scene/subject.h"
+
+namespace dmpc::tests {
+
+using apps::EmbreeMode;
+using apps::EmbreeQuality;
+using apps::EmbreeRival;
+using apps::Query;
+
+namespace {
+
+apps::Subject small_subject(const std::string& scene) {
+  apps::PictureOptions picture;
+  picture.scene = scene;
+  picture.resolution = {32, 32};
+  return build_subject(load_scene(picture), picture);
+}
+
+template <core::Records R>
+std::uint64_t hits_of(const std::vector<core::Ray>& rays, R& records, const core::DatabaseHeader& header) {
+  core::GridTracer<R> tracer(records, header, {});
+  core::Operations operations;
+  return static_cast<std::uint64_t>(std::count_if(rays.begin(), rays.end(), [&](const core::Ray& ray) {
+    core::Cursor cursor;
+    return tracer.trace(ray, cursor, operations) == core::Traced::hit;
+  }));
+}
+
+}  // namespace
+
+TEST_CASE("the rival hits as many primary rays as our grid, triangles and spheres, closest and any") {
+  for (const char* scene : {"tetra-3", "balls-2"}) {
+    CAPTURE(std::string(scene));
+    const apps::Subject subject = small_subject(scene);
+    const auto rays = apps::record_rays(subject.database, subject.settings, 10'000).of(apps::RayClass::primary);
+    core::LocalRecords records(subject.database.bytes());
+    const std::uint64_t hits = hits_of(rays, records, subject.settings.header);
+    REQUIRE(hits > 100);
+    for (const EmbreeMode mode : {EmbreeMode::robust, EmbreeMode::fast}) {
+      const EmbreeRival rival(subject.database.primitives(), mode, EmbreeQuality::medium, 1);
+      CHECK(rival.trace(rays, Query::closest) == hits);
+      CHECK(rival.trace(rays, Query::any) == hits);
+      CHECK(rival.trace({}, Query::any) == 0);
+      CHECK(rival.build_times().wall_seconds > 0);
+    }
+  }
+}
+
+TEST_CASE("the rival looks no farther than a ray goes") {
+  const apps::Subject subject = small_subject("balls-2");
+  auto rays = apps::record_rays(subject.database, subject.settings, 10'000).of(apps::RayClass::primary);
+  for (core::Ray& ray : rays) {
+    ray.t_max = 1e-3F;
+  }
+  const EmbreeRival rival(subject.database.primitives(), EmbreeMode::robust, EmbreeQuality::high);
+  CHECK(rival.trace(rays, Query::closest) == 0);
+  CHECK(rival.trace(rays, Query::any) == 0);
+}
+
+TEST_CASE("a warm pager lacks no page, and has all but its own in the cache") {
+  const apps::Subject subject = small_subject("tetra-3");
+  apps::WarmPager warm(subject.database, subject.settings, 4);
+  const svm::PageCounters before = warm.pager().counters();
+  CHECK(before.faults == subject.database.page_count() - (subject.database.page_count() + 3) / 4);
+  CHECK(before.evictions == 0);
+  const auto rays = apps::record_rays(subject.database, subject.settings, 10'000).of(apps::RayClass::primary);
+  core::LocalRecords records(subject.database.bytes());
+  CHECK(hits_of(rays, warm.pager(), subject.settings.header) == hits_of(rays, records, subject.settings.header));
+  const svm::PageCounters after = warm.pager().counters();
+  CHECK(after.misses == before.misses);
+  CHECK(after.cache_hits > before.cache_hits);
+  CHECK(after.home_hits > before.home_hits);
+}
+
+TEST_CASE("a warm pager of one node has every page at home") {
+  const apps::Subject subject = small_subject("tetra-2");
+  apps::WarmPager warm(subject.database, subject.settings, 1);
+  CHECK(warm.pager().counters().faults == 0);
+}
+
+TEST_CASE("each share of a crew's work is done once") {
+  for (const std::size_t count : {0U, 1U, 2U, 5U}) {
+    std::vector<std::atomic<int>> done(count);
+    apps::on_threads(count, [&](std::size_t index) { ++done[index]; });
+    CHECK(std::all_of(done.begin(), done.end(), [](const auto& times) { return times == 1; }));
+  }
+}
+
+TEST_CASE("an exception on a crew's thread comes back when all are over") {
+  std::atomic<int> others = 0;
+  const auto work = [&](std::size_t index) {
+    if (index == 0) {
+      throw std::runtime_error("share 0");
+    }
+    ++others;
+  };
+  CHECK_THROWS_AS(apps::on_threads(3, work), std::runtime_error);
+  CHECK(others == 2);
+}
+
+}  // namespace dmpc::tests

@@ -1,0 +1,48 @@
+#include "apps/foreign/mesh/features.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "apps/formats/mesh_file.h"
+#include "tests/support/mesh_files.h"
+#include "tests/support/temporary_folder.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+using Notes = std::vector<std::string>;
+
+Notes notes_of(const std::string& model) { return read_mesh_file(std::string(DMPC_MODELS) + "/" + model).notes; }
+
+bool has(const Notes& notes, const std::string& note) { return std::find(notes.begin(), notes.end(), note) != notes.end(); }
+
+}  // namespace
+
+TEST_CASE("of a plain mesh nothing but the view is said") { CHECK(notes_of("STL/triangle.stl").size() == 1); }
+
+TEST_CASE("what is not shown is said once a kind, with its count") {
+  CHECK(
+      has(notes_of("glTF2/ClearCoat-glTF/ClearCoatTest.gltf"), "textures not used, since they are not of a surface's colour: 5"));
+  CHECK(has(notes_of("OBJ/cube_with_vertexcolors.obj"), "meshes whose vertex colours are not used: 1"));
+  CHECK(has(notes_of("glTF2/BoxTexcoords-glTF/boxTexcoords.gltf"),
+            "meshes with several sets of texture coordinates, of which colours use one: 1"));
+  CHECK(has(notes_of("glTF2/simple_skin/simple_skin.gltf"), "meshes with a skin, shown at rest: 1"));
+  CHECK(has(notes_of("glTF2/simple_skin/simple_skin.gltf"), "animations not played: 1"));
+  const Notes cube = notes_of("glTF2/glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf");
+  CHECK(has(cube, "meshes with morph targets, shown without them: 1"));
+  const Notes coats = notes_of("glTF2/ClearCoat-glTF/ClearCoatTest.gltf");
+  CHECK(has(coats, "materials with a clear coat, shown without it: 6"));
+  CHECK(has(coats, "materials that emit light, shown without it: 1"));
+}
+
+TEST_CASE("alpha masks are said") {
+  const tests::TemporaryFolder folder;
+  tests::write_text(folder / "a.gltf", tests::Gltf{.materials = R"([{"alphaMode":"MASK"},{"alphaMode":"MASK"}])"}.text());
+  CHECK(has(read_mesh_file(folder / "a.gltf").notes, "materials with an alpha mask, shown opaque: 1"));
+}
+
+}  // namespace dmpc::apps

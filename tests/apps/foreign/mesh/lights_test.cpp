@@ -1,0 +1,117 @@
+#include "apps/foreign/mesh/lights.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "apps/formats/mesh_file.h"
+#include "tests/support/mesh_files.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
+
+namespace dmpc::apps {
+
+using core::Scene;
+using core::Vec3d;
+using doctest::Approx;
+
+namespace {
+
+/// The triangle, and a node (of `placed`) with the first of `lights`.
+MeshFile lit(const std::string& lights, const std::string& placed = R"("translation":[0,0,7])", const MeshOptions& options = {}) {
+  const tests::TemporaryFolder folder;
+  tests::Gltf gltf{.nodes = R"([{"mesh":0},{"extensions":{"KHR_lights_punctual":{"light":0}},)" + placed + "}]",
+                   .roots = "[0,1]"};
+  gltf.more = R"("extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":)" + lights + "}}";
+  tests::write_text(folder / "a.gltf", gltf.text());
+  return read_mesh_file(folder / "a.gltf", options);
+}
+
+/// The triangle seen by the first of `cameras`.
+MeshFile seen(const std::string& cameras, const std::string& placed = R"("translation":[0,0,5])") {
+  const tests::TemporaryFolder folder;
+  tests::Gltf gltf{.nodes = R"([{"mesh":0},{"camera":0,)" + placed + "}]", .roots = "[0,1]"};
+  gltf.more = R"("cameras":)" + cameras;
+  tests::write_text(folder / "a.gltf", gltf.text());
+  return read_mesh_file(folder / "a.gltf");
+}
+
+bool says(const MeshFile& file, const std::string& what) {
+  for (const std::string& note : file.notes) {
+    if (tests::contains(note, what)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("a point light stands where its node is, and that it has fall-off is said") {
+  const MeshFile file = lit(R"([{"type":"point","color":[0.5,0.25,0],"intensity":1}])");
+  REQUIRE(file.scene.lights.size() == 1);
+  CHECK(file.scene.lights[0].position == Vec3d{0, 0, 7});
+  CHECK(file.scene.lights[0].color == Vec3d{0.5, 0.25, 0});
+  CHECK(says(file, "fall-off with distance is ignored: 1"));
+}
+
+TEST_CASE("a light of a thousand candela is as bright as one can be") {
+  CHECK(lit(R"([{"type":"point","color":[1,0.5,0],"intensity":1000}])").scene.lights[0].color.x == Approx(1));
+}
+
+TEST_CASE("a directional light stands far away on the side that it comes from") {
+  const MeshFile file = lit(R"([{"type":"directional"}])");
+  REQUIRE(file.scene.lights.size() == 1);
+  CHECK(file.scene.lights[0].position.z > 1000);
+  CHECK(file.scene.lights[0].position.x == Approx(1));
+  CHECK(says(file, "far away: 1"));
+}
+
+TEST_CASE("a spot is taken for a point light, and that is said") {
+  const MeshFile file = lit(R"([{"type":"spot","spot":{"outerConeAngle":0.5}}])");
+  CHECK(file.scene.lights.at(0).position == Vec3d{0, 0, 7});
+  CHECK(says(file, "spot lights taken for point lights without fall-off: 1"));
+}
+
+TEST_CASE("nothing is said of a file's lights where others take their place, nor of its view") {
+  const std::string lamp = R"([{"type":"point","color":[0.5,0.25,0],"intensity":1}])", place = R"("translation":[0,0,7])";
+  CHECK(lit(lamp, place, {.is_seen_otherwise = true}).notes.size() == 1);
+  CHECK(lit(lamp, place, {.is_lit_otherwise = true}).notes.size() == 1);
+  CHECK(lit(lamp, place, {.is_seen_otherwise = true, .is_lit_otherwise = true}).notes.empty());
+}
+
+TEST_CASE("a light that is dark does not count") { CHECK(lit(R"([{"type":"point","intensity":0}])").scene.lights.size() == 2); }
+
+TEST_CASE("the camera looks along its node's -z with its node's y up") {
+  const Scene scene = seen(R"([{"type":"perspective","perspective":{"yfov":1,"znear":0.1,"aspectRatio":1}}])",
+                           R"("translation":[0,0,5],"rotation":[0,1,0,0])")
+                          .scene;
+  CHECK(scene.view.from == Vec3d{0, 0, 5});
+  CHECK(length(scene.view.at - Vec3d{0, 0, 6}) < 1e-6);
+  CHECK(length(scene.view.up - Vec3d{0, 1, 0}) < 1e-6);
+  CHECK(scene.view.angle_degrees == Approx(57.29578));
+}
+
+TEST_CASE("the angle spans the shorter side, and the aspect decides the size") {
+  const Scene wide = seen(R"([{"type":"perspective","perspective":{"yfov":1,"znear":0.1,"aspectRatio":2}}])").scene;
+  CHECK(wide.view.angle_degrees == Approx(57.29578));
+  CHECK(wide.view.width == 1024);
+  CHECK(wide.view.height == 512);
+  const Scene tall = seen(R"([{"type":"perspective","perspective":{"yfov":1,"znear":0.1,"aspectRatio":0.5}}])").scene;
+  CHECK(tall.view.width == 512);
+  CHECK(tall.view.height == 1024);
+  CHECK(tall.view.angle_degrees == Approx(30.555453));  // 2 atan(tan(0.5) / 2)
+}
+
+TEST_CASE("a camera without perspective is not taken, and that is said") {
+  const MeshFile file = seen(R"([{"type":"orthographic","orthographic":{"xmag":1,"ymag":1,"zfar":9,"znear":0.1}}])");
+  CHECK(says(file, "camera is not taken"));
+  CHECK(file.scene.view.up == Vec3d{0, 1, 0});
+}
+
+TEST_CASE("of several cameras the first is taken") {
+  const std::string camera = R"({"type":"perspective","perspective":{"yfov":1,"znear":0.1,"aspectRatio":1}})";
+  CHECK(says(seen("[" + camera + "," + camera + "]", R"("children":[2]},{"camera":1)"), "the first of 2 cameras"));
+}
+
+}  // namespace dmpc::apps

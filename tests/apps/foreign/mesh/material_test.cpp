@@ -1,0 +1,143 @@
+#include "apps/foreign/mesh/material.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "apps/formats/mesh_file.h"
+#include "tests/support/mesh_files.h"
+#include "tests/support/temporary_folder.h"
+
+namespace dmpc::apps {
+
+using core::Material;
+using core::Vec3d;
+using doctest::Approx;
+
+namespace {
+
+/// What a triangle of this paint gets; `lines` follow `newmtl` in its MTL.
+Material from_mtl(const std::string& lines) {
+  const tests::TemporaryFolder folder;
+  tests::write_text(folder / "a.mtl", "newmtl paint\n" + lines);
+  tests::write_text(folder / "a.obj", "mtllib a.mtl\nusemtl paint\n" + tests::triangle_obj);
+  return read_mesh_file(folder / "a.obj").scene.materials.at(0);
+}
+
+Material from_gltf(const std::string& material) {
+  const tests::TemporaryFolder folder;
+  tests::write_text(folder / "a.gltf",
+                    tests::Gltf{.materials = "[" + material + "]",
+                                .more = R"("extensionsUsed":["KHR_materials_transmission","KHR_materials_ior"])"}
+                        .text());
+  return read_mesh_file(folder / "a.gltf").scene.materials.at(0);
+}
+
+bool near(const Vec3d& a, const Vec3d& b) { return length(a - b) < 1e-6; }
+
+double most_light(const Material& material) {
+  return std::max({material.color.x, material.color.y, material.color.z}) * material.diffuse + material.specular +
+         material.transmittance;
+}
+
+}  // namespace
+
+TEST_CASE("a diffuse paint keeps its colour, taken as linear") {
+  const Material paint = from_mtl("Kd 0.5 0.25 0.125\n");
+  CHECK(near(paint.color, {0.5, 0.25, 0.125}));
+  CHECK(paint.diffuse == 1);
+  CHECK(paint.specular == 0);
+  CHECK(paint.transmittance == 0);
+}
+
+TEST_CASE("a highlight alone reflects no more than glass would, a mirror all of Ks") {
+  const std::string paint = "Kd 0.5 0.5 0.5\nKs 0.25 0.25 0.25\nNs 50\n";
+  CHECK(from_mtl(paint + "illum 1\n").specular == 0);
+  CHECK(from_mtl(paint + "illum 2\n").specular == Approx(0.04));
+  CHECK(from_mtl(paint + "illum 2\nNi 3\n").specular == Approx(0.25));
+  CHECK(from_mtl(paint + "illum 3\n").specular == Approx(0.25));
+  CHECK(from_mtl(paint + "illum 3\n").shine == 50);
+  CHECK(from_mtl("Ks 0.5 0.5 0.5\nillum 2\n").specular == 0);
+}
+
+TEST_CASE("opacity becomes transmittance, with the index of refraction") {
+  const Material paint = from_mtl("Kd 0.5 0.5 0.5\nd 0.75\nNi 1.25\n");
+  CHECK(paint.transmittance == Approx(0.25));
+  CHECK(paint.diffuse == Approx(0.75));
+  CHECK(paint.refraction_index == 1.25);
+  CHECK(from_mtl("Tr 0.25\n").transmittance == Approx(0.25));
+  CHECK(from_mtl("Tr 0.25\n").refraction_index == 1);
+}
+
+TEST_CASE("a paint that would reflect more than arrives is scaled down") {
+  const Material paint = from_mtl("Kd 1 0.5 0\nKs 1 1 1\nillum 3\nd 0.5\n");
+  CHECK(most_light(paint) == Approx(1));
+  CHECK(paint.diffuse == Approx(0.25));
+  CHECK(paint.specular == Approx(0.25));
+  CHECK(paint.transmittance == Approx(0.5));
+}
+
+TEST_CASE("numbers out of range are brought into it") {
+  const Material paint = from_mtl("Kd 7 -1 0.5\nKs 9 9 9\nNs 1e9\nd -3\nNi -1\nillum 3\n");
+  CHECK(paint.color == Vec3d{1, 0, 0.5});
+  CHECK(paint.transmittance == 1);
+  CHECK(paint.shine == 10'000);
+  CHECK(paint.refraction_index == 1);
+}
+
+TEST_CASE("glTF: what is rough and no metal is diffuse") {
+  const Material paint =
+      from_gltf(R"({"pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,0,1],"metallicFactor":0,"roughnessFactor":1}})");
+  CHECK(near(paint.color, {0.5, 0.25, 0}));
+  CHECK(paint.diffuse == 1);
+  CHECK(paint.specular == 0);
+}
+
+TEST_CASE("glTF: smooth things reflect, metals as much as their colour, others as glass does") {
+  const auto smooth = [](const std::string& metallic) {
+    return from_gltf(R"({"pbrMetallicRoughness":{"baseColorFactor":[0.9,0.6,0.3,1],"roughnessFactor":0,"metallicFactor":)" +
+                     metallic + "}}");
+  };
+  CHECK(smooth("1").specular == Approx(0.6));
+  CHECK(smooth("0").specular == Approx(0.04));
+  CHECK(smooth("0.5").specular == Approx(0.32));
+  CHECK(smooth("1").diffuse == Approx(0.4));
+}
+
+TEST_CASE("glTF: transmission refracts by its index, alpha goes straight through where it is blended") {
+  const std::string surface = R"("pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.25],"metallicFactor":0,"roughnessFactor":1})";
+  const Material glass =
+      from_gltf("{" + surface +
+                R"(,"extensions":{"KHR_materials_transmission":{"transmissionFactor":0.5},"KHR_materials_ior":{"ior":1.25}}})");
+  CHECK(glass.transmittance == Approx(0.5));
+  CHECK(glass.refraction_index == Approx(1.25));
+  const Material veil = from_gltf("{" + surface + R"(,"alphaMode":"BLEND"})");
+  CHECK(veil.transmittance == Approx(0.75));
+  CHECK(veil.diffuse == Approx(0.25));
+  CHECK(veil.refraction_index == 1);
+  CHECK(from_gltf("{" + surface + "}").transmittance == 0);
+  CHECK(from_gltf("{" + surface + R"(,"alphaMode":"MASK"})").transmittance == 0);
+}
+
+TEST_CASE("glTF: no material reflects more than arrives") {
+  for (const char* roughness : {"0", "0.5", "1"}) {
+    for (const char* metallic : {"0", "0.5", "1"}) {
+      for (const char* transmission : {"0", "0.7", "1"}) {
+        const Material material =
+            from_gltf(std::string(R"({"pbrMetallicRoughness":{"roughnessFactor":)") + roughness + R"(,"metallicFactor":)" +
+                      metallic + R"(},"extensions":{"KHR_materials_transmission":{"transmissionFactor":)" + transmission + "}}}");
+        CHECK(most_light(material) <= 1 + 1e-6);
+      }
+    }
+  }
+}
+
+TEST_CASE("the rougher, the wider the highlight") {
+  CHECK(shine_of_roughness(0) == 10'000);
+  CHECK(shine_of_roughness(1e-9) == 10'000);
+  CHECK(shine_of_roughness(0.5) == Approx(7.5));
+  CHECK(shine_of_roughness(1) == 1);
+}
+
+}  // namespace dmpc::apps

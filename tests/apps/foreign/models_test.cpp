@@ -1,0 +1,147 @@
+// The models of Debian's assimp-testmodels: each is a scene, or refused for a reason that is known.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "apps/formats/mesh_file.h"
+#include "apps/formats/view_faults.h"
+#include "core/base/expect.h"
+#include "tests/apps/show/rendered.h"
+#include "tests/support/child_process.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Models that are refused, and what the model_complaint says.
+const std::map<std::string, std::string> refused = {
+    {"OBJ/box_UTF16BE.obj", "no triangle"},     // Assimp reads nothing from it
+    {"OBJ/number_formats.obj", "no triangle"},  // one on a line
+    {"OBJ/point_cloud.obj", "no triangle"},
+    {"OBJ/testline.obj", "no triangle"},
+    {"OBJ/testpoints.obj", "no triangle"},
+    {"PLY/issue623.ply", "expected the length of a list"},  // faces' indices among the vertices' properties
+    {"PLY/points.ply", "no triangle"},                      // vertices alone
+    {"PLY/pond.0.ply", "it ends within element 'vertex' 70049 of 70051"},
+    {"glTF/BoxTextured-glTF-Binary/BoxTextured.glb", "of another version"},  // glTF 1 in binary
+    {"glTF2/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb", "not a number, infinite"},
+    {"glTF2/IndexOutOfRange/AllIndicesOutOfRange.gltf", "does not exist: there are 24"},
+    {"glTF2/BoxTextured-glTF-techniqueWebGL/BoxTextured.gltf", "requires what is not shown here: KHR_technique_webgl"},
+    {"glTF2/IndexOutOfRange/IndexOutOfRange.gltf", "index 0 is of vertex 255, which does not exist: there are 24"},
+    {"glTF2/MissingBin/BoxTextured.gltf", "BoxTextured0.bin"},
+    {"glTF2/RecursiveNodes/RecursiveNodes.gltf", "recursive"},
+    {"glTF2/SchemaFailures/sceneWrongType.gltf", "BoxTextured0.bin"},
+    {"glTF2/TestNoRootNode/NoScene.gltf", "has no scene"},
+    {"glTF2/TestNoRootNode/SceneWithoutNodes.gltf", "no triangle"},
+    {"glTF2/glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_00.gltf", "no triangle"},  // points and lines
+    {"glTF2/glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_01.gltf", "no triangle"},
+    {"glTF2/glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_02.gltf", "no triangle"},
+    {"glTF2/glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_03.gltf", "no triangle"},
+    {"glTF2/glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_07.gltf", "no triangle"},
+    {"glTF2/glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_08.gltf", "no triangle"},
+    {"glTF2/glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_09.gltf", "no triangle"},
+    {"glTF2/glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_10.gltf", "no triangle"},
+    {"glTF2/issue_3269/texcoord_crash.gltf", "there is no TEXCOORD_0"},
+    {"glTF2/wrongTypes/badArray.gltf", "not of type"},
+    {"glTF2/wrongTypes/badExtension.gltf", "not of type"},
+    {"glTF2/wrongTypes/badNumber.gltf", "has no \"index\""},
+    {"glTF2/wrongTypes/badObject.gltf", "not of type"},
+    {"glTF2/wrongTypes/badString.gltf", "not of type"},
+    {"glTF2/wrongTypes/badUint.gltf", "not of type"},
+    {"invalid/empty.obj", "too small"},
+    {"invalid/empty.ply", "the file ends within its header"},
+    {"invalid/malformed.obj", "line 23: the face has vertex 12, which does not exist: there are 8"},
+};
+
+std::vector<std::string> models() {
+  std::vector<std::string> paths;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(DMPC_MODELS)) {
+    const std::string path = fs::relative(entry.path(), DMPC_MODELS).generic_string();
+    std::string ending = entry.path().extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::array<std::string, 5> wanted = {".obj", ".ply", ".stl", ".gltf", ".glb"};
+    if (entry.is_regular_file() && std::find(wanted.begin(), wanted.end(), ending) != wanted.end()) {
+      paths.push_back(path);
+    }
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+std::string model(const std::string& path) { return std::string(DMPC_MODELS) + "/" + path; }
+
+/// Empty if it can be read.
+std::string model_complaint(const std::string& path) {
+  try {
+    const MeshFile file = read_mesh_file(model(path), {.allows_missing = true});
+    CHECK_FALSE(file.scene.objects.empty());
+    CHECK_FALSE(fault_of(file.scene.view));
+    CHECK_FALSE(file.scene.lights.empty());
+    return "";
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+}
+
+std::uint64_t film_of(const std::string& path, Strategy strategy, TracerChoice tracer = TracerChoice::grid) {
+  RenderOptions options = small(strategy);
+  options.picture.scene = model(path);
+  options.picture.resolution = {64, 64};
+  options.tracer = tracer;
+  return account_of(*Rendered(options).report).film.hash();
+}
+
+}  // namespace
+
+TEST_CASE("the models of assimp-testmodels are installed") {
+  REQUIRE_MESSAGE(std::string(DMPC_MODELS).find("NOTFOUND") == std::string::npos,
+                  "install Debian's package assimp-testmodels, then configure again");
+  CHECK(models().size() > 90);
+}
+
+TEST_CASE("every model is a scene, or refused for a reason that is known") {
+  for (const std::string& path : models()) {
+    CAPTURE(path);
+    const auto reason = refused.find(path);
+    CHECK(contains(model_complaint(path), reason == refused.end() ? "" : reason->second));
+    CHECK(model_complaint(path).empty() == (reason == refused.end()));
+  }
+}
+
+TEST_CASE("models give one film in every strategy") {
+  for (const char* path : {"OBJ/spider.obj", "PLY/cube_uv.ply", "STL/Spider_binary.stl",
+                           "glTF2/ClearCoat-glTF/ClearCoatTest.gltf", "glTF2/BoxTextured-glTF-Binary/BoxTextured.glb"}) {
+    CAPTURE(path);
+    const std::uint64_t film = film_of(path, Strategy::svm);
+    CHECK(film == film_of(path, Strategy::dataflow));
+    CHECK(film == film_of(path, Strategy::replicated));
+  }
+}
+
+TEST_CASE("Embree explains every ray on models") {
+  for (const char* path : {"OBJ/spider.obj", "glTF2/ClearCoat-glTF/ClearCoatTest.gltf"}) {
+    tests::ChildProcess check({DMPC_PROGRAM, "check", model(path), "--resolution=64x64"});
+    CHECK(check.status() == 0);
+    CHECK(contains(check.output(), "Every ray is explained."));
+  }
+}
+
+TEST_CASE("nothing but the closing lines reaches the standard output") {
+  tests::ChildProcess quiet({DMPC_PROGRAM, "render", model("OBJ/spider.obj"), "--resolution=8x8", "--quiet", "-o", "/dev/null"});
+  CHECK(quiet.status() != 3);
+  CHECK(quiet.output().empty());
+  tests::ChildProcess bad({DMPC_PROGRAM, "render", model("invalid/malformed.obj"), "-o", "a.png"});
+  CHECK(bad.status() == 1);
+  CHECK(bad.output().empty());
+  CHECK_FALSE(fs::exists("a.png"));
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,28 @@
+#include "apps/formats/landscape/paint.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+
+TEST_CASE("a picture of the ground has colours everywhere, whatever its size") {
+  for (const int side : {1, 15, 16, 17, 40}) {
+    const Image image = ground_picture(side);
+    CHECK(image.width == side);
+    CHECK(image.height == side);
+    CHECK(*std::min_element(image.rgb.begin(), image.rgb.end()) > 0);
+  }
+}
+
+TEST_CASE("the ground is painted the same every time, and not alike everywhere") {
+  const Image image = ground_picture(64);
+  CHECK(image.rgb == ground_picture(64).rgb);
+  CHECK(std::count(image.rgb.begin(), image.rgb.end(), image.rgb.front()) < 10);
+}
+
+TEST_CASE("a picture without texels is refused") { CHECK_THROWS_AS(ground_picture(0), core::InternalError); }
+
+}  // namespace dmpc::apps

@@ -1,0 +1,133 @@
+#include "apps/formats/scene_blocks.h"
+
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <limits>
+#include <thread>
+
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+using core::ObjectKind;
+
+/// A triangle of each kind that meshes have.
+core::Scene three_triangles() {
+  core::Scene scene;
+  scene.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  scene.normals = {{0, 0, 1}, {0, 0, 1}, {0, 1, 1}};
+  scene.corners.resize(3);
+  scene.materials = {{}, {.texture = 0}};
+  scene.objects = {{ObjectKind::polygon, 0, 0, 3, 0}, {ObjectKind::patch, 0, 0, 3, 0}, {ObjectKind::textured, 1, 0, 3, 0}};
+  scene.lights = {{{1, 2, 3}, {0.5, 0.5, 0.5}, true}, {{4, 5, 6}}};
+  scene.view.width = 640;
+  return scene;
+}
+
+/// Through a line and back.
+core::Scene sent(core::Scene scene) {
+  auto [mine, its] = make_ends();
+  Line sender(std::move(mine)), receiver(std::move(its));
+  std::jthread writer([&] {
+    send_scene(scene, sender);
+    sender.send(Saying::done);
+  });
+  SceneReceiver whole;
+  whole.add({.name = "t", .levels = {}});
+  while (true) {
+    const std::optional<Message> message = receiver.receive(false);
+    if (!whole.take(*message)) {
+      return whole.finish();
+    }
+  }
+}
+
+bool is_refused(const std::function<void(core::Scene&)>& spoil) {
+  core::Scene scene = three_triangles();
+  spoil(scene);
+  try {
+    sent(scene);
+    return false;
+  } catch (const Nonsense&) {
+    return true;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a scene comes through the line as it was") {
+  const core::Scene before = three_triangles(), after = sent(before);
+  CHECK(after.vertices == before.vertices);
+  CHECK(after.normals == before.normals);
+  CHECK(after.materials == before.materials);
+  CHECK(after.objects.size() == 3);
+  CHECK(after.objects[2].kind == ObjectKind::textured);
+  CHECK(after.lights[0].has_color);
+  CHECK_FALSE(after.lights[1].has_color);
+  CHECK(after.view.width == 640);
+}
+
+TEST_CASE("a scene of many messages comes through, too") {
+  core::Scene scene = three_triangles();
+  scene.vertices.resize(100'000);
+  scene.vertices.back() = {7, 8, 9};
+  CHECK(sent(scene).vertices.back() == core::Vec3d{7, 8, 9});
+}
+
+TEST_CASE("a scene that cannot be is refused, whatever is wrong with it") {
+  CHECK_FALSE(is_refused([](core::Scene&) {}));
+  CHECK(is_refused([](core::Scene& scene) { scene.objects[0].kind = ObjectKind::sphere; }));
+  CHECK(is_refused([](core::Scene& scene) { scene.objects[0].kind = static_cast<ObjectKind>(200); }));
+  CHECK(is_refused([](core::Scene& scene) { scene.objects[0].material = 2; }));
+  CHECK(is_refused([](core::Scene& scene) { scene.objects[0].first = 1; }));
+  CHECK(is_refused([](core::Scene& scene) { scene.objects[0].first = 0xffffffffU; }));
+  CHECK(is_refused([](core::Scene& scene) { scene.objects[0].vertex_count = 2; }));
+  CHECK(is_refused([](core::Scene& scene) { scene.objects[1].first_normal = 1; }));
+  CHECK(is_refused([](core::Scene& scene) { scene.objects[2].first_normal = 1; }));
+  CHECK(is_refused([](core::Scene& scene) { scene.objects[2].material = 0; }));
+  CHECK(is_refused([](core::Scene& scene) { scene.materials[1].texture = 1; }));
+  CHECK(is_refused([](core::Scene& scene) { scene.materials[0].shine = -1; }));
+  CHECK(is_refused([](core::Scene& scene) { scene.materials[0].color.x = std::numeric_limits<double>::quiet_NaN(); }));
+  CHECK(is_refused([](core::Scene& scene) { scene.vertices[0].x = std::numeric_limits<double>::infinity(); }));
+  CHECK(is_refused([](core::Scene& scene) { scene.lights[0].position.x = 1e31; }));
+  CHECK(is_refused([](core::Scene& scene) { scene.view.width = 0; }));
+  CHECK(is_refused([](core::Scene& scene) { scene.view.at = scene.view.from; }));
+}
+
+TEST_CASE("more than was announced, and parts of an entry, are refused") {
+  SceneReceiver receiver;
+  core::Scene scene = three_triangles();
+  CHECK_THROWS_AS(receiver.take({Saying::vertices, std::string(24, '\0'), Descriptor()}), Nonsense);
+  Packer head;
+  head.add(scene.view).add(scene.background);
+  for (int pool = 0; pool < 5; ++pool) {
+    head.add(std::uint64_t{1});
+  }
+  CHECK(receiver.take({Saying::scene, head.bytes(), Descriptor()}));
+  CHECK_THROWS_AS(receiver.take({Saying::vertices, std::string(25, '\0'), Descriptor()}), Nonsense);
+  CHECK_THROWS_AS(receiver.take({Saying::vertices, std::string(48, '\0'), Descriptor()}), Nonsense);
+  CHECK_THROWS_AS(receiver.take({Saying::scene, head.bytes(), Descriptor()}), Nonsense);
+}
+
+TEST_CASE("more lights, textures and materials than any scene has are refused before they take memory") {
+  SceneReceiver receiver;
+  const core::Scene scene;
+  Packer head;
+  head.add(scene.view).add(scene.background).add(std::uint64_t{1} << 30U);
+  for (int pool = 0; pool < 4; ++pool) {
+    head.add(std::uint64_t{1});
+  }
+  CHECK_THROWS_AS(receiver.take({Saying::scene, head.bytes(), Descriptor()}), Nonsense);
+  SceneReceiver other;
+  const auto add_all = [&other] {
+    for (int i = 0; i < 70'000; ++i) {
+      other.add(core::Texture{});
+    }
+  };
+  CHECK_THROWS_AS(add_all(), Nonsense);
+}
+
+}  // namespace dmpc::apps

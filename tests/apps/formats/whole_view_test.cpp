@@ -1,0 +1,49 @@
+#include "apps/formats/whole_view.h"
+
+#include <doctest/doctest.h>
+
+#include "apps/formats/view_faults.h"
+
+namespace dmpc::apps {
+
+using core::Vec3d;
+
+TEST_CASE("the bounds are a sphere about the middle of the box") {
+  const core::Scene scene{.vertices = {{-1, 0, 0}, {3, 0, 0}, {1, 1, 0}}};
+  const Bounds bounds = bounds_of_vertices(scene);
+  CHECK(bounds.center == Vec3d{1, 0.5, 0});
+  CHECK(bounds.radius == doctest::Approx(2.0615528));
+}
+
+TEST_CASE("one vertex has bounds without a radius") {
+  CHECK(bounds_of_vertices(core::Scene{.vertices = {{5, 6, 7}}}).radius == 0);
+}
+
+TEST_CASE("the sphere touches the picture's edge, for every axis that may be up") {
+  for (const std::size_t axis : {0U, 1U, 2U}) {
+    for (const bool is_negative : {false, true}) {
+      const core::View view = whole_view({{1, 2, 3}, 4}, {axis, is_negative});
+      CHECK_FALSE(fault_of(view));
+      CHECK(4 / length(view.from - view.at) == doctest::Approx(0.38268343));  // the sine of 22.5 degrees
+      CHECK((is_negative ? view.from[axis] < view.at[axis] : view.from[axis] > view.at[axis]));
+      CHECK(view.up[axis] == (is_negative ? -1 : 1));
+    }
+  }
+}
+
+TEST_CASE("with its axis the other way up a view stands on its head and still shows the front") {
+  const core::View upright = whole_view({{0, 0, 0}, 1}, {2}), turned = whole_view({{0, 0, 0}, 1}, {2, true});
+  CHECK(turned.from.x == -upright.from.x);
+  CHECK(turned.from.y == upright.from.y);
+  CHECK(turned.from.z == -upright.from.z);
+}
+
+TEST_CASE("the key light is above the eye, the fill in it") {
+  const core::View view = whole_view({{0, 0, 0}, 1}, {});
+  const auto lights = plain_lights({{0, 0, 0}, 1}, view);
+  CHECK(length(lights[0].position) == doctest::Approx(1000));
+  CHECK(normalize(lights[0].position).y > normalize(view.from).y);
+  CHECK(lights[1].position == view.from);
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,96 @@
+#include "apps/info/database_figures.h"
+
+#include <doctest/doctest.h>
+
+#include "apps/scene/load_scene.h"
+#include "tests/support/painted_square.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+struct Found {
+  explicit Found(const core::Scene& scene)
+      : database(core::build_database(scene, {})), figures(figures_of(database, figures_of(scene))) {}
+
+  const RecordFigures& records(const std::string& kind) const {
+    for (const RecordFigures& record : figures.records) {
+      if (record.kind == kind) {
+        return record;
+      }
+    }
+    throw core::InputError("there are no " + kind);
+  }
+  std::uint64_t record_bytes() const {
+    std::uint64_t sum = 0;
+    for (const RecordFigures& record : figures.records) {
+      sum += record.bytes;
+    }
+    return sum;
+  }
+
+  core::Database database;
+  DatabaseFigures figures;
+};
+
+}  // namespace
+
+TEST_CASE("a database of nothing is a page with a directory") {
+  const Found found{core::Scene{}};
+  CHECK(found.figures.pages == 1);
+  CHECK(found.figures.primitives == 0);
+  CHECK(found.figures.levels_max == 0);
+  CHECK(found.figures.occupied_top_cells == 0);
+  CHECK(found.figures.bytes_each() == 0);
+  CHECK(found.figures.copies_each() == 0);
+  CHECK(found.figures.primitives_a_block() == 0);
+  CHECK(found.record_bytes() + found.figures.unused_bytes == 1024);
+}
+
+TEST_CASE("trees are looked through: what is counted is what the builder counted") {
+  const Found found(load_scene("rings-2"));
+  const core::RecordCounts& counts = found.database.records();
+  CHECK(found.records("bricks").count == counts.bricks);
+  CHECK(found.records("blocks of triangles").count == counts.blocks[0]);
+  CHECK(found.records("blocks of spheres").count == counts.blocks[1]);
+  CHECK(found.records("blocks of cones").count == counts.blocks[2]);
+  CHECK(found.records("blocks of cones").count > 0);
+  CHECK(found.figures.levels_max >= 1);
+  CHECK(found.figures.levels_max <= core::brick_levels_max);
+  CHECK(found.figures.occupied_top_cells >= 1);
+  CHECK(found.figures.copies >= found.figures.primitives);
+  CHECK(found.figures.primitives_a_block() > 1);
+  CHECK(found.figures.primitives_a_block() <= 8);
+}
+
+TEST_CASE("records and what lies between them make up the pages") {
+  const tests::TemporaryFolder folder;
+  for (const std::string& scene : {std::string("balls-2"), tests::write_painted_square(folder, 64).string()}) {
+    CAPTURE(scene);
+    const Found found(load_scene(PictureOptions{.scene = scene}, {}));
+    CHECK(found.figures.bytes == found.database.bytes().size());
+    CHECK(found.record_bytes() + found.figures.unused_bytes == found.figures.bytes);
+    CHECK(found.figures.unused_bytes < found.figures.bytes);
+  }
+}
+
+TEST_CASE("tiles of textures are those that the database has") {
+  const tests::TemporaryFolder folder;
+  const core::Scene scene = load_scene(PictureOptions{.scene = tests::write_painted_square(folder, 64)}, {});
+  const Found found(scene);
+  CHECK(found.records("texture tiles").count == figures_of(scene).textures[0].tiles);
+  CHECK(found.records("entries of tables of tiles").bytes == figures_of(scene).textures[0].table_bytes);
+  CHECK(found.records("textured triangles").count == 2);
+}
+
+TEST_CASE("what is degenerate is told apart from primitives") {
+  core::Scene scene;
+  core::SceneBuilder builder(scene);
+  builder.sphere({0, 0, 0}, 1);
+  builder.sphere({0, 0, 0}, 0);
+  const Found found(scene);
+  CHECK(found.figures.primitives == 1);
+  CHECK(found.figures.dropped == 1);
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,104 @@
+// dmpc as others get it: installed below some folder, or as a Debian package.
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tests/apps/manual/shell.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
+
+namespace dmpc::tests {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Everything that is to be installed is below `root`, with zsh's completion in a folder of this name.
+void check_installed(const fs::path& root, const std::string& zsh_folder) {
+  const fs::path share = root / "share";
+  for (const fs::path& file : {share / "doc/dmpc/README.md", share / "doc/dmpc/ARCHITECTURE.md", share / "doc/dmpc/LICENSE",
+                               share / "doc/dmpc/apps/teapot.png", share / "fish/vendor_completions.d/dmpc.fish",
+                               share / "zsh" / zsh_folder / "_dmpc"}) {
+    CHECK_MESSAGE(fs::file_size(file) > 0, file);
+  }
+  const Said completed = run({"bash", "--norc", "-c",
+                              "source '" + (share / "bash-completion/completions/dmpc").string() +
+                                  "'; COMP_WORDS=(dmpc ren); COMP_CWORD=1; _dmpc; echo \"${COMPREPLY[@]}\""});
+  CHECK(completed.output == "render\n");
+  const Said page = run({"env", "LC_ALL=C.UTF-8", "MANPAGER=cat", "man", "--warnings", "-l", share / "man/man1/dmpc.1"});
+  CHECK(page.errors.empty());
+  CHECK(contains(page.output, "SYNOPSIS"));
+}
+
+void check_program(const fs::path& program, const fs::path& folder) {
+  CHECK(run({program, "--version"}).output.rfind("dmpc ", 0) == 0);
+  const Said rendered = run({program, "render", "tetra-3", "--resolution=16x16", "--quiet", "-o", folder / "tetra.png"});
+  CHECK(rendered.errors.empty());
+  CHECK(fs::file_size(folder / "tetra.png") > 0);
+}
+
+/// What apps/dmpc has ninja build when it is called for the first time: with words in place of the tools that it calls.
+std::string targets_of_first_call(const TemporaryFolder& folder) {
+  const fs::path apps = folder / "root/apps", tools = folder / "tools";
+  fs::create_directories(apps);
+  fs::create_directories(tools);
+  fs::copy_file(DMPC_SOURCE_DIR "/apps/dmpc", apps / "dmpc");
+  write_text(apps / "install_packages", "#!/bin/sh\n");
+  write_text(tools / "cmake", "#!/bin/sh\n");
+  write_text(tools / "ninja", "#!/bin/sh\nshift 4\necho \"$@\" > '" + (folder / "targets").string() + "'\n");
+  for (const fs::path& file : {apps / "install_packages", tools / "cmake", tools / "ninja"}) {
+    fs::permissions(file, fs::perms::owner_all);
+  }
+  run({"env", "PATH=" + tools.string() + ":/usr/bin:/bin", "bash", apps / "dmpc"});
+  return file_text(folder / "targets");
+}
+
+}  // namespace
+
+TEST_CASE("the first call of apps/dmpc builds all that is installed") {
+  const TemporaryFolder folder;
+  const std::string targets = targets_of_first_call(folder);
+  CHECK(contains(targets, "dmpc"));
+  const Said graph = run({"sh", "-c", "ninja -C '" DMPC_BUILD_DIR "' -t graph " + targets});
+  REQUIRE(graph.status == 0);
+  const std::string script = file_text(DMPC_BUILD_DIR "/apps/cmake_install.cmake"), build = DMPC_BUILD_DIR "/";
+  std::size_t files = 0;
+  for (std::size_t at = script.find("FILES \"" + build); at != std::string::npos; at = script.find("FILES \"" + build, at + 1)) {
+    const std::size_t begin = at + 7 + build.size();
+    const std::string file = script.substr(begin, script.find('"', begin) - begin);
+    CHECK_MESSAGE(contains(graph.output, "[label=\"" + file + "\"]"), file);
+    ++files;
+  }
+  CHECK(files >= 5);
+}
+
+TEST_CASE("what cmake installs below a folder is complete and works there") {
+  const TemporaryFolder folder;
+  const fs::path prefix = folder / "a prefix";
+  REQUIRE(run({"cmake", "--install", DMPC_BUILD_DIR, "--prefix", prefix}).status == 0);
+  check_installed(prefix, "site-functions");
+  check_program(prefix / "bin/dmpc", folder.path());
+}
+
+TEST_CASE("the Debian package says what it needs, and what is in it works") {
+  if (!is_installed("dpkg-shlibdeps")) {
+    MESSAGE("dpkg-dev is not installed: no package is made");
+    return;
+  }
+  const TemporaryFolder folder;
+  const Said packed = run({"cpack", "-G", "DEB", "--config", DMPC_BUILD_DIR "/CPackConfig.cmake", "-B", folder / "made"});
+  REQUIRE_MESSAGE(packed.status == 0, packed.errors);
+  const Said unpacked =
+      run({"sh", "-c", "cd '" + folder.path().string() + "' && dpkg-deb -f made/*.deb && dpkg-deb -x made/*.deb all"});
+  REQUIRE_MESSAGE(unpacked.status == 0, unpacked.errors);
+  for (const char* const line : {"Package: dmpc\n", "Section: graphics\n", "Recommends: gnuplot-nox\n", "libembree3-3",
+                                 "libtbb12", "libopenimageio2.4", "Description: distributed-memory parallel computer"}) {
+    CHECK_MESSAGE(contains(unpacked.output, line), line);
+  }
+  check_installed(folder / "all/usr", "vendor-completions");
+  check_program(folder / "all/usr/bin/dmpc", folder.path());
+}
+
+}  // namespace dmpc::tests

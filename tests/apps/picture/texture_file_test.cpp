@@ -1,0 +1,131 @@
+#include "apps/picture/texture_file.h"
+
+#include <OpenImageIO/imageio.h>
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/base/expect.h"
+#include "core/scene/texel.h"
+#include "tests/support/temporary_folder.h"
+
+namespace dmpc::tests {
+
+namespace {
+
+using apps::read_texture;
+using core::TexelFormat;
+using core::Texture;
+
+/// Writes a picture of any type and number of channels.
+template <class T>
+std::string write(const std::filesystem::path& path, int width, int height, int channels, OIIO::TypeDesc type,
+                  const std::vector<T>& values, const std::string& color_space = "") {
+  const auto output = OIIO::ImageOutput::create(path.string());
+  REQUIRE(output);
+  OIIO::ImageSpec spec(width, height, channels, type);
+  if (!color_space.empty()) {
+    spec.attribute("oiio:ColorSpace", color_space);
+  }
+  REQUIRE(output->open(path.string(), spec));
+  REQUIRE(output->write_image(type, values.data()));
+  REQUIRE(output->close());
+  return path.string();
+}
+
+core::Color color_at(const Texture& texture, std::size_t texel) {
+  return core::decoded(texture.format, texture.levels.front().texels.at(texel));
+}
+
+}  // namespace
+
+TEST_CASE("an 8-bit picture keeps its bytes, from the top left") {
+  const TemporaryFolder folder;
+  const std::vector<std::uint8_t> bytes{1, 2, 3, 10, 20, 30, 255, 0, 128, 7, 7, 7};
+  const Texture texture = read_texture(write(folder / "a.png", 2, 2, 3, OIIO::TypeDesc::UINT8, bytes), {});
+  CHECK(texture.format == TexelFormat::srgb);
+  REQUIRE(texture.levels.size() == 2);
+  CHECK(texture.levels[0].texels == std::vector<std::uint32_t>{0x030201, 0x1e140a, 0x8000ff, 0x070707});
+}
+
+TEST_CASE("alpha is left out, and gray is taken for all channels") {
+  const TemporaryFolder folder;
+  const std::vector<std::uint8_t> with_alpha{9, 8, 7, 255}, gray{77}, gray_and_alpha{66, 255};
+  CHECK(read_texture(write(folder / "a.png", 1, 1, 4, OIIO::TypeDesc::UINT8, with_alpha), {}).levels[0].texels[0] == 0x070809);
+  CHECK(read_texture(write(folder / "g.png", 1, 1, 1, OIIO::TypeDesc::UINT8, gray), {}).levels[0].texels[0] == 0x4d4d4d);
+  CHECK(read_texture(write(folder / "h.png", 1, 1, 2, OIIO::TypeDesc::UINT8, gray_and_alpha), {}).levels[0].texels[0] ==
+        0x424242);
+}
+
+TEST_CASE("colours are those of the file, however transparent the texel is") {
+  const TemporaryFolder folder;
+  const std::vector<std::uint8_t> texels{200, 100, 50, 0, 200, 100, 50, 128};
+  for (const std::string name : {"a.png", "a.tga"}) {
+    CAPTURE(name);
+    const auto output = OIIO::ImageOutput::create(name);
+    OIIO::ImageSpec spec(2, 1, 4, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    REQUIRE(output->open((folder / name).string(), spec));
+    REQUIRE(output->write_image(OIIO::TypeDesc::UINT8, texels.data()));
+    REQUIRE(output->close());
+    CHECK(read_texture(folder / name, {}).levels[0].texels == std::vector<std::uint32_t>{0x3264c8, 0x3264c8});
+  }
+}
+
+TEST_CASE("floats are linear light beyond 1, too") {
+  const TemporaryFolder folder;
+  const std::vector<float> light{0.5F, 2, 1000};
+  const Texture texture = read_texture(write(folder / "a.exr", 1, 1, 3, OIIO::TypeDesc::FLOAT, light), {});
+  CHECK(texture.format == TexelFormat::shared_exponent);
+  CHECK(color_at(texture, 0).z == doctest::Approx(1000).epsilon(1.0 / 512));
+  CHECK(texture.brightest == doctest::Approx(1000).epsilon(1.0 / 512));
+}
+
+TEST_CASE("16 bits go through the sRGB curve, and keep more than 8") {
+  const TemporaryFolder folder;
+  const std::vector<std::uint16_t> values{65535, 32896, 0};
+  const Texture texture = read_texture(write(folder / "a.png", 1, 1, 3, OIIO::TypeDesc::UINT16, values), {});
+  CHECK(texture.format == TexelFormat::shared_exponent);
+  CHECK(color_at(texture, 0).x == 1);
+  CHECK(color_at(texture, 0).y == doctest::Approx(0.2159).epsilon(0.005));
+}
+
+TEST_CASE("the edges asked for are noted") {
+  const TemporaryFolder folder;
+  const std::string path = write(folder / "a.png", 1, 1, 1, OIIO::TypeDesc::UINT8, std::vector<std::uint8_t>{1});
+  CHECK(read_texture(path, {}).wrap_s == core::TextureWrap::repeat);
+  const Texture texture = read_texture(path, {core::TextureWrap::mirror, core::TextureWrap::clamp});
+  CHECK(texture.wrap_s == core::TextureWrap::mirror);
+  CHECK(texture.wrap_t == core::TextureWrap::clamp);
+}
+
+TEST_CASE("a picture in memory is read like one in a file, whatever its format") {
+  const TemporaryFolder folder;
+  for (const std::string format : {"png", "jpg", "tif"}) {
+    CAPTURE(format);
+    const std::vector<std::uint8_t> bytes(3 * 16 * 16, 200);
+    const std::string path = write(folder / ("a." + format), 16, 16, 3, OIIO::TypeDesc::UINT8, bytes);
+    std::ostringstream content;
+    content << std::ifstream(path, std::ios::binary).rdbuf();
+    const std::string file = content.str();
+    const Texture texture = read_texture(std::as_bytes(std::span(file)), "model.glb, texture 3", format, {});
+    CHECK(texture.name == "model.glb, texture 3");
+    CHECK(texture.levels[0].texels == read_texture(path, {}).levels[0].texels);
+  }
+}
+
+TEST_CASE("what is no picture is refused by its name") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_AS(read_texture(folder / "none.png", {}), core::InputError);
+  std::ofstream(folder / "text.png") << "no picture";
+  CHECK_THROWS_AS(read_texture(folder / "text.png", {}), core::InputError);
+  const std::string nothing;
+  CHECK_THROWS_WITH_AS(read_texture(std::as_bytes(std::span(nothing)), "model.glb, texture 0", "", {}),
+                       doctest::Contains("model.glb, texture 0: is no picture that is read"), core::InputError);
+}
+
+}  // namespace dmpc::tests

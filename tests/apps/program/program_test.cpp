@@ -1,0 +1,548 @@
+// The program as its user meets it: exit statuses, messages, files.
+
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <iterator>
+#include <set>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "apps/picture/image_file.h"
+#include "tests/support/child_process.h"
+#include "tests/support/hostile_files.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
+
+namespace dmpc::tests {
+
+namespace {
+
+struct Result {
+  int status = 0;
+  std::string output, errors;
+};
+
+std::vector<std::string> dmpc(const std::vector<std::string>& arguments) {
+  std::vector<std::string> command = {DMPC_PROGRAM};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return command;
+}
+
+Result run(const std::vector<std::string>& arguments) {
+  ChildProcess process(dmpc(arguments));
+  const int status = process.status();
+  return {status, process.output(), process.errors()};
+}
+
+/// Waits until `done` says so, twenty seconds at most; whether it did.
+template <class Done>
+bool until(const Done& done) {
+  for (int tries = 0; tries < 4000; ++tries) {
+    if (done()) {
+      return true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
+}
+
+std::string film_hash(const std::string& stats_file) {
+  const std::string json = file_text(stats_file);
+  return json.substr(json.find("\"film_hash\""), 32);
+}
+
+/// Up to the next comma, space or line end.
+std::string word_after(const std::string& text, const std::string& words) {
+  const std::size_t begin = text.find(words);
+  REQUIRE(begin != std::string::npos);
+  const std::string rest = text.substr(begin + words.size());
+  return rest.substr(0, rest.find_first_of(", \n"));
+}
+
+constexpr const char* view = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 30\nhither 1\nresolution 8 8\n";
+
+}  // namespace
+
+TEST_CASE("render writes a picture and counters, and says what it did") {
+  const TemporaryFolder folder;
+  const std::string image = folder / "a.exr", stats = folder / "a.json";
+  const Result result = run({"render", "tetra-3", "--resolution=16x16", "--nodes=3", "-o", image, "--stats", stats});
+  CHECK(result.status == 0);
+  CHECK(result.errors.empty());
+  CHECK(contains(result.output, "3 nodes"));
+  CHECK(apps::read_image(image).width == 16);
+  CHECK(contains(file_text(stats), "\"film_hash\""));
+  CHECK(folder.entry_count() == 2);
+}
+
+TEST_CASE("heat maps stand beside the picture, or nothing does") {
+  const TemporaryFolder folder;
+  const std::string image = folder / "a.exr", heat = folder / "rays.png",
+                    faults = "--heatmap=faults:" + (folder / "f.exr").string();
+  const auto render = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"render", "tetra-3", "--resolution=16x16", "--nodes=3", "-o", image};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  };
+  CHECK(render({"--heatmap=rays:" + image}).status == 2);
+  CHECK(render({faults, faults}).status == 2);
+  CHECK(render({faults, "--strategy=dataflow"}).status == 2);
+  CHECK(render({"--heatmap=rays:" + (folder / "none" / "a.png").string()}).status == 1);
+  CHECK(folder.entry_count() == 0);
+  CHECK(render({"--heatmap=rays:" + heat, faults}).status == 0);
+  CHECK(folder.entry_count() == 3);
+  CHECK(apps::read_image(folder / "f.exr").width == 16);
+}
+
+TEST_CASE("a trace stands beside the picture, or nothing does, and says what it lost") {
+  const TemporaryFolder folder;
+  const std::string image = folder / "a.png", trace = folder / "a.json";
+  const auto render = [&](const std::string& file, const std::string& more) {
+    return run({"render", "tetra-1", "--resolution=4x4", "--nodes=2", "--trace=" + file, more, "-o", image});
+  };
+  CHECK(render(image, "--trace-every=1").status == 2);
+  CHECK(render(trace, "--trace-nodes=2").status == 2);
+  CHECK(render(folder / "none" / "a.json", "--trace-every=1").status == 1);
+  CHECK(folder.entry_count() == 0);
+  CHECK(render(trace, "--trace-every=1").errors.empty());
+  CHECK(contains(file_text(trace), "\"lost\":\"nothing\""));
+  CHECK(contains(render(trace, "--trace-events=5").errors, "the trace is full: "));
+  CHECK(contains(file_text(trace), "\"lost\":\"the trace is full: "));
+  CHECK(folder.entry_count() == 2);
+}
+
+TEST_CASE("a quiet render says nothing") {
+  const TemporaryFolder folder;
+  const Result result = run({"render", "tetra-1", "--resolution=4x4", "--quiet", "-o", folder / "a.png"});
+  CHECK(result.status == 0);
+  CHECK(result.output.empty());
+  CHECK(result.errors.empty());
+}
+
+TEST_CASE("Embree and our grid write the same picture") {
+  const TemporaryFolder folder;
+  for (const std::string tracer : {"grid", "embree"}) {
+    REQUIRE(run({"render", "balls-2", "--resolution=24x24", "--strategy=replicated", "--tracer=" + tracer, "--quiet", "-o",
+                 folder / (tracer + ".exr")})
+                .status == 0);
+  }
+  const Result result = run({"compare", folder / "grid.exr", folder / "embree.exr"});
+  CHECK(result.status == 0);
+  CHECK(contains(result.output, "differing pixels        0 of 576"));
+}
+
+TEST_CASE("every strategy gives the same film, for the world's axes and for the screen's") {
+  const TemporaryFolder folder;
+  std::set<std::string> hashes;
+  for (const std::string axes : {"world", "screen"}) {
+    std::set<std::string> of_axes;
+    for (const std::string strategy : {"svm", "replicated", "dataflow"}) {
+      CAPTURE(strategy);
+      const std::string stats = folder / (strategy + axes + ".json");
+      REQUIRE(run({"render", "balls-2", "--resolution=24x24", "--nodes=5", "--strategy=" + strategy, "--grid-axes=" + axes,
+                   "--quiet", "--stats=" + stats, "-o", folder / "a.exr"})
+                  .status == 0);
+      of_axes.insert(film_hash(stats));
+    }
+    CHECK(of_axes.size() == 1);
+    hashes.merge(of_axes);
+  }
+  CHECK(hashes.size() == 2);  // another grid rounds otherwise
+}
+
+TEST_CASE("no option of dataflow changes the film") {
+  const TemporaryFolder folder;
+  std::set<std::string> hashes;
+  for (const std::vector<std::string>& more : {std::vector<std::string>{},
+                                               {"--nodes=1"},
+                                               {"--nodes=13", "--balance=equal-size"},
+                                               {"--ray-batch=1", "--topology=torus"},
+                                               {"--ray-credits=0", "--chaos=3"},
+                                               {"--subsample=1", "--balance-grid=7", "--no-skip=empty-space"},
+                                               {"--nodes=3", "--node-memory=300KiB", "--page-size=512B"}}) {
+    std::vector<std::string> arguments = {"render",          "balls-1", "--strategy=dataflow", "--resolution=16x16", "--stats",
+                                          folder / "a.json", "-o",      folder / "a.exr"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Result result = run(arguments);
+    CHECK(result.status == 0);
+    CHECK(contains(result.output, "load     "));
+    hashes.insert(film_hash(folder / "a.json"));
+  }
+  CHECK(hashes.size() == 1);
+}
+
+TEST_CASE("a modelled machine renders the threads' film, twice by the same events") {
+  const TemporaryFolder folder;
+  const std::string stats = folder / "a.json";
+  const auto counters = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"render", "balls-2", "--resolution=24x24", "--nodes=5", "--stats",
+                                          stats,    "-o",      folder / "a.exr"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    REQUIRE(run(arguments).status == 0);
+    return file_text(stats);
+  };
+  const auto after = [](const std::string& text, const std::string& key) { return word_after(text, "\"" + key + "\": "); };
+  const std::string film = after(counters({}), "film_hash");
+  const std::vector<std::string> modelled = {"--strategy=svm", "--runner=virtual", "--machine=cm5"};
+  const std::string first = counters(modelled), second = counters(modelled);
+  CHECK(after(first, "film_hash") == film);
+  CHECK(after(first, "run_hash") != "null");
+  CHECK(after(first, "run_hash") == after(second, "run_hash"));
+  CHECK(after(first, "events") == after(second, "events"));
+}
+
+TEST_CASE("a machine that was printed is read again: the same run as by its name") {
+  const TemporaryFolder folder;
+  const Result printed = run({"machine", "paragon"});
+  CHECK(printed.status == 0);
+  write_text(folder / "mine.json", printed.output);
+  CHECK(run({"machine", folder / "mine.json"}).output == printed.output);
+  std::set<std::string> hashes;
+  for (const std::string& machine : {std::string("paragon"), (folder / "mine.json").string()}) {
+    const Result result = run(
+        {"render", "tetra-2", "--resolution=8x8", "--nodes=3", "--runner=virtual", "--machine", machine, "-o", folder / "a.exr"});
+    CHECK(result.status == 0);
+    CHECK(contains(result.output, " s on paragon, "));
+    hashes.insert(word_after(result.output, " events; run_hash "));
+  }
+  CHECK(hashes.size() == 1);
+}
+
+TEST_CASE("a bad machine file ends with status 1, its name, the key and what was expected, before rendering") {
+  const TemporaryFolder folder;
+  write_text(folder / "bad.json", "{\"name\": 3}");
+  const Result result = run({"render", "tetra-1", "--runner=virtual", "--machine", folder / "bad.json", "-o", folder / "a.png"});
+  CHECK(result.status == 1);
+  CHECK(contains(result.errors, (folder / "bad.json").string() + ": topology: this key is missing"));
+  CHECK(run({"machine", "abacus"}).status == 1);
+  CHECK(run({"render", "tetra-1", "--runner=virtual", "--machine=abacus", "-o", folder / "a.png"}).status == 1);
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("a page is written beside the picture, or neither is") {
+  const TemporaryFolder folder;
+  const std::string page = folder / "a.html";
+  const Result result = run({"render", "tetra-1", "--resolution=8x8", "--report", page, "-o", folder / "a.png"});
+  CHECK(result.status == 0);
+  CHECK(contains(file_text(page), "Render of tetra-1"));
+  CHECK(run({"render", "tetra-1", "--report", folder / "no/a.html", "-o", folder / "b.png"}).status == 1);
+  CHECK(folder.entry_count() == 2);
+}
+
+TEST_CASE("no output may fall on the machine file") {
+  const TemporaryFolder folder;
+  const std::string machine = folder / "mine.json";
+  write_text(machine, run({"machine", "hdr"}).output);
+  const std::string before = file_text(machine);
+  const Result result =
+      run({"render", "tetra-1", "--runner=virtual", "--machine", machine, "--stats", machine, "-o", folder / "a.png"});
+  CHECK(result.status == 2);
+  CHECK(contains(result.errors, "this is the same file as --machine "));
+  CHECK(file_text(machine) == before);
+}
+
+TEST_CASE("bad input ends with status 1, a reason, and nothing written") {
+  const TemporaryFolder folder;
+  write_text(folder / "bad.nff", std::string(view) + "q 1 2 3\n");
+  write_text(folder / "cut.nff", std::string(view) + "s 0 0\n");
+  write_text(folder / "empty.nff", "");
+  const std::size_t before = folder.entry_count();
+  for (const std::string scene : {"bad.nff", "cut.nff", "empty.nff", "missing.nff", ""}) {
+    CAPTURE(scene);
+    const Result result = run({"render", folder / scene, "-o", folder / "a.png"});
+    CHECK(result.status == 1);
+    CHECK(contains(result.errors, (folder / scene).string()));
+    CHECK(result.output.empty());
+  }
+  CHECK(contains(run({"render", folder / "bad.nff", "-o", folder / "a.png"}).errors, "bad.nff:8: "));
+  CHECK(run({"render", "nonsense-3", "-o", folder / "a.png"}).status == 1);
+  CHECK(run({"render", "tetra-1", "-o", folder / "a.nonsense"}).status == 1);
+  CHECK(run({"render", "tetra-1", "--stats", folder / "no/a.json", "-o", folder / "a.png"}).status == 1);
+  CHECK(run({"compare", folder / "bad.nff", folder / "bad.nff"}).status == 1);
+  CHECK(folder.entry_count() == before);
+}
+
+TEST_CASE("too little memory ends with status 4 before rendering and names what works") {
+  const TemporaryFolder folder;
+  const Result result = run({"render", "tetra-5", "--node-memory=1KiB", "-o", folder / "a.png"});
+  CHECK(result.status == 4);
+  CHECK(contains(result.errors, "the smallest that works is --node-memory="));
+  CHECK(folder.entry_count() == 0);
+}
+
+TEST_CASE("a scene that does not fit the nodes of dataflow ends with status 4 and says what would do, which is true") {
+  const TemporaryFolder folder;
+  const auto render = [&](const std::string& nodes, const std::string& memory) {
+    return run({"render", "tetra-6", "--strategy=dataflow", "--resolution=32x32", "--nodes=" + nodes, "--node-memory=" + memory,
+                "-o", folder / "a.png"});
+  };
+  const Result result = render("2", "400KiB");
+  CHECK(result.status == 4);
+  CHECK(contains(result.errors, "--node-memory=400KiB is too small for --nodes=2: node "));
+  CHECK(contains(result.errors, " needs at least "));
+  CHECK(folder.entry_count() == 0);
+  const std::string memory = word_after(result.errors, "the smallest that works is --node-memory=");
+  CHECK(render("2", memory).status == 0);
+  CHECK(render("2", std::to_string(std::stoul(memory) - 1)).status == 4);
+  CHECK(render(word_after(result.errors, "or with this memory --nodes="), "400KiB").status == 0);
+}
+
+TEST_CASE("what dataflow reduces to fit the memory is said before") {
+  const TemporaryFolder folder;
+  const Result result = run({"render", "balls-1", "--strategy=dataflow", "--nodes=8", "--resolution=8x8", "--node-memory=330KiB",
+                             "-o", folder / "a.png"});
+  CHECK(result.status == 0);
+  CHECK(contains(result.errors, " reduced from "));
+  CHECK(contains(result.errors, " to fit 330KiB"));
+}
+
+TEST_CASE("wrong usage ends with status 2 and a hint") {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{},
+        {"paint"},
+        {"render"},
+        {"render", "tetra-1", "-o", "a.png", "--tracer=embree"},
+        {"render", "tetra-1", "-o", "a.png", "--ray-batch=2"},
+        {"render", "tetra-1", "-o", "a.png", "--machine=ipsc2"},
+        {"render", "tetra-1", "-o", "a.png", "--runner=virtual", "--chaos=1"},
+        {"machine"},
+        {"render", "tetra-1", "-o", "a.png", "--strategy=dataflow", "--nodes=1025"}}) {
+    const Result result = run(arguments);
+    CHECK(result.status == 2);
+    CHECK(contains(result.errors, "--help"));
+  }
+}
+
+TEST_CASE("help goes to the standard output with status 0") {
+  const Result result = run({"render", "--help"});
+  CHECK(result.status == 0);
+  CHECK(contains(result.output, "Examples:"));
+  CHECK(result.errors.empty());
+}
+
+TEST_CASE("degenerate primitives are left out and counted aloud") {
+  const TemporaryFolder folder;
+  write_text(folder / "flat.nff", std::string(view) + "s 0 0 0 1\ns 1 1 1 0\n");
+  const Result result = run({"render", folder / "flat.nff", "--quiet", "-o", folder / "a.png"});
+  CHECK(result.status == 0);
+  CHECK(contains(result.errors, "1 degenerate primitive was left out"));
+  const Result check = run({"check", folder / "flat.nff"});
+  CHECK(check.status == 0);
+  CHECK(contains(check.errors, "1 degenerate primitive was left out"));
+}
+
+TEST_CASE("an output that is another one or an input ends with status 2 and nothing changed") {
+  const TemporaryFolder folder;
+  const std::string keep = folder / "keep.nff", image = folder / "a.png";
+  write_text(keep, std::string(view) + "s 0 0 0 1\n");
+  write_text(image, "older");
+  CHECK(run({"render", keep, "-o", folder / "x.png", "--stats", keep}).status == 2);
+  CHECK(run({"render", "tetra-1", "-o", image, "--stats", image}).status == 2);
+  CHECK(run({"compare", image, folder / "b.png", "--difference", image}).status == 2);
+  CHECK(file_text(image) == "older");
+  CHECK(file_text(keep) == std::string(view) + "s 0 0 0 1\n");
+  CHECK(folder.entry_count() == 2);
+}
+
+TEST_CASE("counters may go to the standard output, before the closing lines") {
+  const TemporaryFolder folder;
+  const Result result = run({"render", "tetra-1", "--resolution=4x4", "--stats=/dev/stdout", "-o", folder / "a.png"});
+  CHECK(result.status == 0);
+  CHECK(result.output.find("{") == 0);
+  CHECK(result.output.find("film_hash") < result.output.find("picture  "));
+  CHECK(contains(result.output, "picture  "));
+}
+
+TEST_CASE("counters that cannot be written end with status 1 before the render") {
+  const TemporaryFolder folder;
+  write_text(folder / "a.png", "older");
+  const Result result = run({"render", "tetra-1", "--resolution=4x4", "--stats=/dev/full", "-o", folder / "a.png"});
+  CHECK(result.status == 1);
+  CHECK(contains(result.errors, "--stats /dev/full: this device takes nothing"));
+  CHECK(result.output.empty());
+  CHECK(file_text(folder / "a.png") == "older");
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("lines that the standard output does not take end with status 1") {
+  const TemporaryFolder folder;
+  const std::string image = folder / "a.exr";
+  REQUIRE(run({"render", "tetra-1", "--resolution=4x4", "--quiet", "-o", image}).status == 0);
+  const std::vector<std::vector<std::string>> commands = {{"render", "tetra-1", "--resolution=4x4", "-o", folder / "b.exr"},
+                                                          {"check", "tetra-1", "--resolution=4x4"},
+                                                          {"compare", image, image},
+                                                          {"scene", "tetra-1"},
+                                                          {"machine", "hdr"},
+                                                          {"--help"}};
+  for (const std::vector<std::string>& command : commands) {
+    CAPTURE(command.front());
+    ChildProcess process(dmpc(command), "/dev/full");
+    CHECK(process.status() == 1);
+    CHECK(contains(process.errors(), "could not be written to the standard output"));
+  }
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("scene writes the same to a file as to the standard output") {
+  const TemporaryFolder folder;
+  const Result result = run({"scene", "tetra-2"});
+  CHECK(result.status == 0);
+  CHECK(result.errors.empty());
+  CHECK(contains(result.output, "\np 3\n"));
+  CHECK(run({"scene", "tetra-2", "-o", folder / "t.nff"}).status == 0);
+  CHECK(file_text(folder / "t.nff") == result.output);
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("a written scene renders to the same picture as the built-in one") {
+  const TemporaryFolder folder;
+  REQUIRE(run({"scene", "balls-1", "-o", folder / "b.nff"}).status == 0);
+  for (const std::string& scene : {std::string("balls-1"), (folder / "b.nff").string()}) {
+    REQUIRE(run({"render", scene, "--resolution=16x16", "--quiet", "-o", folder / "a.exr", "--stats",
+                 folder / (scene == "balls-1" ? "built_in.json" : "file.json")})
+                .status == 0);
+  }
+  CHECK(film_hash(folder / "built_in.json") == film_hash(folder / "file.json"));
+}
+
+TEST_CASE("Ctrl-C and SIGTERM end a render with status 130 and leave an older picture as it was") {
+  const TemporaryFolder folder;
+  write_text(folder / "a.png", "older");
+  for (const int signal : {SIGINT, SIGTERM}) {
+    ChildProcess process(
+        dmpc({"render", "balls-3", "--resolution=1024x1024", "--samples=32768", "--heatmap=time:" + (folder / "t.png").string(),
+              "--trace=" + (folder / "t.json").string(), "-o", folder / "a.png"}));
+    REQUIRE(process.blocks(signal));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // so that it mostly renders already
+    process.send(signal);
+    CHECK(process.status() == 130);
+    CHECK(contains(process.errors(), "interrupted"));
+    CHECK(process.output().empty());
+  }
+  CHECK(file_text(folder / "a.png") == "older");
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("Ctrl-C and SIGTERM end dataflow with status 130, while it balances and while it renders") {
+  const TemporaryFolder folder;
+  for (const std::string subsample : {"--subsample=1", "--subsample=64"}) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+      ChildProcess process(dmpc({"render", "balls-3", "--strategy=dataflow", "--resolution=4096x4096", "--samples=1024",
+                                 subsample, "-o", folder / "a.png"}));
+      REQUIRE(process.blocks(signal));
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      process.send(signal);
+      CHECK(process.status() == 130);
+      CHECK(contains(process.errors(), "interrupted, nothing was written"));
+      CHECK(process.output().empty());
+    }
+  }
+  CHECK(folder.entry_count() == 0);
+}
+
+TEST_CASE("Ctrl-C and SIGTERM end a modelled machine with status 130, whatever the strategy") {
+  const TemporaryFolder folder;
+  for (const auto& [strategy, signal] : {std::pair("svm", SIGINT), {"replicated", SIGTERM}, {"dataflow", SIGINT}}) {
+    ChildProcess process(dmpc({"render", "balls-3", std::string("--strategy=") + strategy, "--runner=virtual",
+                               "--resolution=1024x1024", "--samples=32768", "-o", folder / "a.png"}));
+    REQUIRE(process.blocks(signal));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    process.send(signal);
+    CHECK(process.status() == 130);
+    CHECK(contains(process.errors(), "interrupted, nothing was written"));
+  }
+  CHECK(folder.entry_count() == 0);
+}
+
+TEST_CASE("a signal while a scene is written to a file ends with status 130 and leaves nothing") {
+  const TemporaryFolder folder;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    ChildProcess process(dmpc({"scene", "tetra-12", "-o", folder / "t.nff"}));
+    CHECK(until([&] { return folder.entry_count() > 0; }));
+    process.send(signal);
+    CHECK(process.status() == 130);
+    CHECK(contains(process.errors(), "interrupted, nothing was written"));
+    CHECK(folder.entry_count() == 0);
+  }
+}
+
+TEST_CASE("a signal while a scene is written to the standard output ends with status 130 and says that it is incomplete") {
+  ChildProcess process(dmpc({"scene", "tetra-12"}));
+  CHECK(until([&] { return !process.output().empty(); }));
+  process.send(SIGTERM);
+  CHECK(process.status() == 130);
+  CHECK(contains(process.errors(), "interrupted, the output is incomplete"));
+}
+
+TEST_CASE("an abort that is sent ends dmpc by that signal") {
+  ChildProcess process(dmpc({"scene", "tetra-12"}));
+  CHECK(until([&] { return !process.output().empty(); }));
+  process.send(SIGABRT);
+  CHECK(process.status() == 1000 + SIGABRT);
+}
+
+/// Of the processes that are children of `parent`, as they were started.
+std::vector<int> children_of(int parent) {
+  const std::string id = std::to_string(parent);
+  std::istringstream list(file_text("/proc/" + id + "/task/" + id + "/children"));
+  return {std::istream_iterator<int>(list), {}};
+}
+
+/// 0 if there is none.
+int child_of(int parent) {
+  const std::vector<int> children = children_of(parent);
+  return children.empty() ? 0 : children.front();
+}
+
+TEST_CASE("a signal while compare reads ends with status 130") {
+  const TemporaryFolder folder;
+  const std::string picture = folder / "a.png";
+  apps::write_image(picture, apps::Image(8, 8));
+  ChildProcess process(dmpc({"compare", picture, picture, "--difference", folder / "d.png"}));
+  int reader = 0;
+  REQUIRE(until([&] { return (reader = child_of(process.id())) != 0; }));
+  ::kill(reader, SIGSTOP);  // it takes a fifth of a second to get ready, and now for ever
+  process.send(SIGINT);
+  CHECK(process.status() == 130);
+  CHECK(contains(process.errors(), "interrupted, nothing was written"));
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("a signal while textures are read ends with status 130 and leaves nothing, no process either") {
+  const TemporaryFolder folder;
+  const std::string scene = write_textured_triangle(folder, "t.png"), checkpoint = folder / "c";
+  apps::write_image(folder / "t.png", apps::Image(8, 8));
+  ChildProcess process(dmpc({"render", scene, "--checkpoint=" + checkpoint, "-o", folder / "a.png"}));
+  std::vector<int> readers;
+  REQUIRE(until([&] { return (readers = children_of(process.id())).size() == 2; }));
+  process.send(SIGINT);  // before the second one is ready
+  CHECK(process.status() == 130);
+  CHECK(contains(process.errors(), "interrupted, nothing was written"));
+  CHECK(folder.entry_count() == 3);
+  const auto has_ended = [](int reader) { return file_text("/proc/" + std::to_string(reader) + "/cmdline").empty(); };
+  CHECK(until([&] { return has_ended(readers.front()) && has_ended(readers.back()); }));
+}
+
+TEST_CASE("a signal while a render writes its counters ends with status 130, and the picture is there") {
+  const TemporaryFolder folder;
+  const std::string pipe = folder / "stats";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);  // nobody reads, so that writing to it waits
+  ChildProcess process(dmpc({"render", "tetra-1", "--resolution=4x4", "--stats", pipe, "-o", folder / "a.exr"}));
+  CHECK(until([&] { return std::filesystem::exists(folder / "a.exr"); }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  process.send(SIGINT);
+  CHECK(process.status() == 130);
+  CHECK(contains(process.errors(), "the picture was written, what follows it is incomplete"));
+  CHECK(apps::read_image(folder / "a.exr").width == 4);
+  CHECK(folder.entry_count() == 2);
+}
+
+}  // namespace dmpc::tests

@@ -1,0 +1,179 @@
+// What all commands that print tables have in common, by their command lines.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "apps/bench/precision/command.h"
+#include "apps/bench/error/command.h"
+#include "apps/commands.h"
+#include "apps/study/scale/command.h"
+#include "apps/bench/speed/command.h"
+#include "apps/bench/stability/command.h"
+#include "apps/study/command.h"
+#include "apps/study/paper/command.h"
+#include "core/base/expect.h"
+#include "tests/support/mesh_files.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
+#include "tests/support/unwritable.h"
+
+namespace dmpc::tests {
+namespace {
+
+using Words = std::vector<std::string>;
+
+struct TableCommand {
+  apps::Interrupt& interrupt;
+  std::ostream& output;
+
+  int operator()(const apps::StudyOptions& options) const { return apps::study_command(options, interrupt, output); }
+  int operator()(const apps::PaperStudyOptions& options) const { return apps::study_paper_command(options, interrupt, output); }
+  int operator()(apps::ScaleOptions options) const {
+    options.settings.program = DMPC_PROGRAM;
+    return apps::study_scale_command(options, interrupt, output);
+  }
+  int operator()(apps::SpeedOptions options) const {
+    options.settings.program = DMPC_PROGRAM;
+    return apps::bench_speed_command(options, interrupt, output);
+  }
+  int operator()(const apps::ErrorOptions& options) const { return apps::bench_error_command(options, interrupt, output); }
+  int operator()(const apps::StabilityOptions& options) const {
+    return apps::bench_stability_command(options, interrupt, output);
+  }
+  int operator()(const apps::PrecisionOptions& options) const {
+    return apps::bench_precision_command(options, interrupt, output);
+  }
+  template <class Other>
+  int operator()(const Other&) const {
+    core::expect(false, "a command that prints a table");
+    return 0;
+  }
+};
+
+struct TableRun {
+  int status = 0;
+  std::string output;
+};
+
+TableRun run_table(Words words, const Words& more = {}) {
+  words.insert(words.end(), more.begin(), more.end());
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  const int status = std::visit(TableCommand{interrupt, output}, apps::parse_command_line(words));
+  return {status, output.str()};
+}
+
+/// A command that takes but a moment, with what it has beside its table.
+struct TableCase {
+  Words words;
+  std::string data_file = {};  ///< in the folder of its pictures, if it draws any
+  bool has_page = false;
+  bool takes_files = true;  ///< as scenes
+};
+
+std::vector<TableCase> table_cases() {
+  return {{{"study", "traffic", "balls-1", "--resolution=8x8", "--nodes=1"}, "traffic.csv", true},
+          {{"study", "scale", "tetra", "--sizes=1", "--resolution=8x8", "--parts=sizes", "--methods=cache"},
+           "scale.csv",
+           true,
+           false},
+          {{"bench", "speed", "tetra-1", "--quick", "--parts=build", "--repeat=1"}, "speed_build.csv"},
+          {{"bench", "error", "tetra-1", "--quick", "--resolution=8x8", "--reference-samples=8", "--knobs=depth"},
+           "error_tetra-1.csv"},
+          {{"bench", "stability", "--tests=R5", "--rays=20"}, "", false, false},
+          {{"bench", "precision", "tetra-1", "--resolution=8x8"}}};
+}
+
+/// References of `bench error` go to a folder of the test's.
+Words words_of(const TableCase& one, const TemporaryFolder& folder) {
+  Words words = one.words;
+  if (words[1] == "error") {
+    words.push_back("--references=" + (folder / "references").string());
+  }
+  return words;
+}
+
+}  // namespace
+
+TEST_CASE("a picture or page that cannot be written keeps no command's table, and the status is 1") {
+  for (const TableCase& one : table_cases()) {
+    const TemporaryFolder folder;
+    CAPTURE(one.words[1]);
+    Words outputs = {"-o", folder / "table.md"};
+    if (!one.data_file.empty()) {
+      make_unwritable(folder / "plots" / one.data_file);
+      outputs.push_back("--plots=" + (folder / "plots").string());
+    }
+    if (one.has_page) {
+      make_unwritable(folder / "page.html");
+      outputs.push_back("--report=" + (folder / "page.html").string());
+    }
+    CHECK(run_table(words_of(one, folder), outputs).status == (one.data_file.empty() ? 0 : 1));
+    CHECK(file_text(folder / "table.md").starts_with("**"));
+  }
+}
+
+TEST_CASE("every table, with its title and notes, fits lines of 120 letters") {
+  for (const TableCase& one : table_cases()) {
+    const TemporaryFolder folder;
+    CAPTURE(one.words[1]);
+    CHECK(widest_line(run_table(words_of(one, folder)).output) <= 120);
+  }
+}
+
+TEST_CASE("a table that cannot be written keeps none of its pictures") {
+  const TemporaryFolder folder;
+  make_unwritable(folder / "table.md");
+  const Words outputs = {"-o", folder / "table.md", "--plots", folder / "plots", "--report", folder / "page.html"};
+  CHECK(run_table(table_cases()[0].words, outputs).status == 1);
+  CHECK(std::filesystem::exists(folder / "plots" / "traffic.csv"));
+  CHECK(contains(file_text(folder / "page.html"), "</html>"));
+}
+
+TEST_CASE("what is in the way of any output is said before a command begins") {
+  for (const TableCase& one : table_cases()) {
+    const TemporaryFolder folder;
+    CAPTURE(one.words[1]);
+    std::filesystem::create_directories(folder / "table.md");
+    CHECK_THROWS_AS(run_table(words_of(one, folder), {"-o", folder / "table.md"}), core::InputError);
+    if (!one.data_file.empty()) {
+      std::filesystem::create_directories(folder / "plots" / one.data_file);
+      CHECK_THROWS_AS(run_table(words_of(one, folder), {"--plots", folder / "plots", "-o", folder / "a.md"}), core::InputError);
+      CHECK_FALSE(std::filesystem::exists(folder / "a.md"));
+    }
+    CHECK_FALSE(std::filesystem::exists(folder / "references"));
+  }
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "paper" / "losses.svg");
+  CHECK_THROWS_AS(run_table({"study", "paper", "--resolution=8", "-o", folder / "paper"}), core::InputError);
+}
+
+TEST_CASE("no command's output replaces a file that its scene is read from") {
+  for (const TableCase& one : table_cases()) {
+    if (!one.takes_files) {
+      continue;
+    }
+    const TemporaryFolder folder;
+    CAPTURE(one.words[1]);
+    const std::string obj = folder / "a.obj", mtl = folder / "a.mtl", material = "newmtl m\nKd 1 0 0\n";
+    write_text(obj, "mtllib a.mtl\nusemtl m\n" + triangle_obj);
+    write_text(mtl, material);
+    Words words = words_of(one, folder);
+    words[2] = obj;
+    CHECK_THROWS_AS(run_table(words, {"-o", obj}), core::UsageError);
+    CHECK_THROWS_AS(run_table(words, {"-o", mtl}), core::UsageError);
+    CHECK(file_text(mtl) == material);
+    if (!one.data_file.empty()) {
+      const std::string data = words[1] == "error" ? "error_" + apps::file_text(obj) + ".csv" : one.data_file;
+      std::filesystem::create_directory(folder / "plots");
+      std::filesystem::create_hard_link(obj, folder / "plots" / data);
+      CHECK_THROWS_AS(run_table(words, {"--plots", folder / "plots", "-o", folder / "b.md"}), core::UsageError);
+    }
+  }
+}
+
+}  // namespace dmpc::tests

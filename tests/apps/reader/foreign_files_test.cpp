@@ -1,0 +1,366 @@
+// Files that are out to do harm: they are errors that say what is wrong, and soon.
+
+#include <arpa/inet.h>
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <seccomp.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+#include <string>
+
+#include "apps/picture/image_file.h"
+#include "apps/formats/mesh_file.h"
+#include "apps/formats/nff_reader.h"
+#include "apps/reader/file_access.h"
+#include "apps/picture/picture_reader.h"
+#include "apps/reader/process.h"
+#include "apps/system/text_input.h"
+#include "core/base/expect.h"
+#include "tests/support/forked_process.h"
+#include "tests/support/hostile_files.h"
+
+namespace dmpc::tests {
+
+namespace {
+
+namespace fs = std::filesystem;
+using apps::read_mesh_file;
+
+std::string complaint_of(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string mesh_complaint(const std::string& path, const apps::MeshOptions& options = {}) {
+  return complaint_of([&] { read_mesh_file(path, options, false, {.seconds = 1, .wall_factor = 30}); });
+}
+
+bool says(const std::string& text, const std::string& part) {
+  const bool found = text.find(part) != std::string::npos;
+  if (!found) {
+    MESSAGE(text);
+  }
+  return found;
+}
+
+/// A port of this computer that somebody listens at.
+class Ear {
+ public:
+  Ear() : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof(address);
+    REQUIRE(::bind(socket_.number(), reinterpret_cast<const sockaddr*>(&address), size) == 0);
+    REQUIRE(::listen(socket_.number(), 4) == 0);
+    ::getsockname(socket_.number(), reinterpret_cast<sockaddr*>(&address), &size);
+    port_ = std::to_string(ntohs(address.sin_port));
+  }
+  std::string address() const { return "http://127.0.0.1:" + port_ + "/t.mp4"; }
+  bool has_been_called() const { return ::accept(socket_.number(), nullptr, nullptr) >= 0; }
+
+ private:
+  apps::Descriptor socket_;
+  std::string port_;
+};
+
+void write_wood(const fs::path& path) { apps::write_image(path, apps::Image(2, 2)); }
+
+}  // namespace
+
+TEST_CASE("no scene makes dmpc call the network") {
+  const TemporaryFolder folder;
+  const Ear ear;
+  write_text(folder / "a.gltf", gltf_triangle("\"uri\":\"" + ear.address() + "\""));
+  const std::string gltf = mesh_complaint(folder / "a.gltf"),
+                    obj = mesh_complaint(write_textured_triangle(folder, ear.address()));
+  CHECK(says(gltf, "is an address, and only files are read"));
+  CHECK(says(obj, "t.mp4"));
+  CHECK_FALSE(ear.has_been_called());
+}
+
+TEST_CASE("devices and pipes are no textures and no materials") {
+  const TemporaryFolder folder;
+  const std::string device = mesh_complaint(write_textured_triangle(folder, "/dev/zero"), {.opens_anywhere = true});
+  CHECK(says(device, "a pipe, a device or the like"));
+  REQUIRE(::mkfifo((folder / "pipe.png").c_str(), 0600) == 0);
+  CHECK(says(mesh_complaint(write_textured_triangle(folder, "pipe.png")), "pipe.png"));
+  write_textured_triangle(folder, "a.png");
+  fs::remove(folder / "a.mtl");
+  REQUIRE(::mkfifo((folder / "a.mtl").c_str(), 0600) == 0);
+  CHECK(says(mesh_complaint(folder / "a.obj"), "a.mtl is a pipe"));
+  REQUIRE(::mkfifo((folder / "a.ply").c_str(), 0600) == 0);
+  CHECK(says(mesh_complaint(folder / "a.ply"), "is a pipe"));
+}
+
+TEST_CASE("what lies neither beside nor below the scene is opened only where that is allowed") {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "scene/below");
+  write_wood(folder / "above.png");
+  write_wood(folder / "scene/below/wood.png");
+  fs::create_symlink("../above.png", folder / "scene/link.png");
+  write_textured_triangle(folder, "");
+  fs::rename(folder / "a.obj", folder / "scene/a.obj");
+  const std::string scene = folder / "scene/a.obj";
+  for (const std::string name : {"../above.png", "link.png"}) {
+    CAPTURE(name);
+    write_text(folder / "scene/a.mtl", "newmtl m\nmap_Kd " + name + "\n");
+    CHECK(says(mesh_complaint(scene), "by --files=anywhere"));
+    CHECK(read_mesh_file(scene, {.opens_anywhere = true}).scene.textures.size() == 1);
+    CHECK(read_mesh_file(scene, {.allows_missing = true}).scene.textures.empty());
+  }
+  write_text(folder / "scene/a.mtl", "newmtl m\nmap_Kd below/wood.png\n");
+  const apps::MeshFile file = read_mesh_file(scene);
+  CHECK(file.scene.textures.size() == 1);
+  CHECK(file.opened.paths().contains(fs::canonical(folder / "scene/below/wood.png")));
+}
+
+TEST_CASE("of what lies elsewhere a scene is not even told that it is there") {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "scene/below");
+  for (const std::string name : {"above.png", "scene/below/wood.png", "scene/a.obj"}) {
+    write_text(folder / name, "");
+  }
+  fs::create_symlink("../above.png", folder / "scene/link.png");
+  const apps::FileAccess access(folder / "scene/a.obj", false), anywhere(folder / "scene/a.obj", true);
+  CHECK(access.has(folder / "scene/below/wood.png"));
+  CHECK(access.has(folder / "scene/a.obj"));
+  for (const std::string name : {"above.png", "scene/../above.png", "scene/link.png"}) {
+    CAPTURE(name);
+    CHECK_FALSE(access.has(folder / name));
+    CHECK(anywhere.has(folder / name));
+  }
+  CHECK_FALSE(anywhere.has(folder / "none.png"));
+}
+
+TEST_CASE("nothing lies below a folder whose name is too long to be told") {
+  const TemporaryFolder folder;
+  static std::string place;
+  place = folder.path().string();
+  CHECK(ForkedProcess([] {
+          const std::string name(200, 'd');
+          bool is_there = ::chdir(place.c_str()) == 0;
+          for (int depth = 0; depth < 25; ++depth) {
+            is_there = is_there && ::mkdir(name.c_str(), 0700) == 0 && ::chdir(name.c_str()) == 0;
+          }
+          write_text("a.obj", "v 0 0 0\n");
+          try {
+            return apps::FileAccess("a.obj", false).has(place) ? 1 : is_there ? 2 : 3;
+          } catch (const core::InputError& error) {
+            return std::string(error.what()).find("its name cannot be told") != std::string::npos ? 0 : 4;
+          }
+        }).status() == 0);
+}
+
+TEST_CASE("a file of materials that is mentioned 3,000 times is soon read") {
+  const TemporaryFolder folder;
+  const std::string scene = write_textured_triangle(folder, "t.png");
+  write_wood(folder / "t.png");
+  std::string mentions;
+  for (int i = 0; i < 3000; ++i) {
+    mentions += "mtllib a.mtl\n";
+  }
+  write_text(scene, mentions + file_text(scene));
+  CHECK(mesh_complaint(scene) == "");
+}
+
+TEST_CASE("a reader gets so much time on the wall, and messages renew nothing") {
+  const TemporaryFolder folder;
+  const std::string scene = write_textured_triangle(folder, "t.png");
+  write_wood(folder / "t.png");
+  const apps::ReaderLimits none{.wall_factor = 0};
+  CHECK(says(complaint_of([&] { read_mesh_file(scene, {}, false, none); }), "the reader of OBJ files took more than 0 seconds"));
+  CHECK(says(complaint_of([&] { apps::PictureReader(none).read_image(apps::open_picture(folder / "t.png")); }),
+             "t.png: the reader of png took more than 0 seconds"));
+}
+
+/// The process of this one that was started last; what the system says of its limit on processor time, in seconds.
+int last_child() {
+  const std::string id = std::to_string(::getpid());
+  std::istringstream children(file_text("/proc/" + id + "/task/" + id + "/children"));
+  int last = 0;
+  while (children >> last) {
+  }
+  return last;
+}
+
+int processor_seconds_of(int process) {
+  const std::string limits = file_text("/proc/" + std::to_string(process) + "/limits"), name = "Max cpu time";
+  return std::stoi(limits.substr(limits.find(name) + name.size()));
+}
+
+TEST_CASE("a reader gets so much processor time, and a picture its own") {
+  const TemporaryFolder folder;
+  write_wood(folder / "a.png");
+  apps::PictureReader reader({.seconds = 7});
+  reader.read_image(apps::open_picture(folder / "a.png"));
+  const int process = last_child();
+  const int first = processor_seconds_of(process);
+  CHECK(first >= 8);  // 7 behind what it had taken to get ready, rounded up
+  reader.read_image(apps::open_picture(folder / "a.png"));
+  CHECK(last_child() == process);
+  CHECK(processor_seconds_of(process) >= first);
+  ::kill(process, SIGXCPU);
+  CHECK(says(complaint_of([&] { reader.read_image(apps::open_picture(folder / "a.png")); }),
+             "took more than 7 seconds of processor time"));
+}
+
+TEST_CASE("a crash of the reader of pictures is an error of the picture, which is named with its format") {
+  const TemporaryFolder folder;
+  write_wood(folder / "a.png");
+  apps::PictureReader reader;
+  reader.read_image(apps::open_picture(folder / "a.png"));
+  ::kill(last_child(), SIGSEGV);
+  const std::string text = complaint_of([&] { reader.read_image(apps::open_picture(folder / "a.png")); });
+  CHECK(says(text, "a.png: the reader of png "));
+  CHECK(says(text, "the file is damaged"));
+#if !defined(__SANITIZE_ADDRESS__)  // which makes an exit of a crash
+  CHECK(says(text, "crashed (signal 11"));
+#endif
+  CHECK(reader.read_image(apps::open_picture(folder / "a.png")).width == 2);
+}
+
+#if !defined(__SANITIZE_ADDRESS__)  // under which nothing is filtered
+TEST_CASE("where a reader's calls cannot be filtered, that is said, once") {
+  const TemporaryFolder folder;
+  static std::string picture, errors;
+  picture = folder / "a.png";
+  errors = folder / "errors";
+  write_wood(picture);
+  const ForkedProcess process([] {
+    const scmp_filter_ctx filter = ::seccomp_init(SCMP_ACT_ALLOW);
+    const scmp_arg_cmp mode{0, SCMP_CMP_EQ, PR_SET_SECCOMP, 0};
+    bool is_made = ::seccomp_rule_add(filter, SCMP_ACT_ERRNO(EINVAL), SCMP_SYS(seccomp), 0) == 0 &&
+                   ::seccomp_rule_add_array(filter, SCMP_ACT_ERRNO(EINVAL), SCMP_SYS(prctl), 1, &mode) == 0;
+    is_made = is_made && ::seccomp_load(filter) == 0 && ::open(errors.c_str(), O_CREAT | O_WRONLY, 0600) == STDERR_FILENO;
+    apps::PictureReader().read_image(apps::open_picture(picture));
+    apps::PictureReader().read_image(apps::open_picture(picture));
+    std::cerr.flush();
+    return is_made ? 0 : 1;
+  });
+  CHECK(process.status() == 0);
+  const std::string text = file_text(errors), sentence = "does not confine the processes that read foreign files";
+  CHECK(says(text, sentence));
+  CHECK(text.find(sentence) == text.rfind(sentence));
+}
+#endif
+
+TEST_CASE("a texture without a name and one with an endless one are said") {
+  const TemporaryFolder folder;
+  const std::string scene = write_textured_triangle(folder, "\nmap_kd");
+  const apps::MeshFile file = read_mesh_file(scene);
+  const auto is_said = [](const std::string& note) { return note.find("map_Kd names no file in line 3 and 1 others") < 400; };
+  CHECK(std::count_if(file.notes.begin(), file.notes.end(), is_said) == 1);
+  const std::string text = mesh_complaint(write_textured_triangle(folder, std::string(200'000, 'x')));
+  CHECK(says(text, "a.mtl names a texture in 200000 bytes in line 3"));
+  CHECK(text.size() < 1000);
+}
+
+TEST_CASE("what Assimp says of a file is said as a part of our own sentence") {
+  const TemporaryFolder folder;
+  write_text(folder / "a.3mf", "none");
+  CHECK(says(mesh_complaint(folder / "a.3mf"), "a.3mf: cannot be read as 3MF: Failed to open file"));
+}
+
+TEST_CASE("a reader that never ends is ended, and its file named") {
+  const TemporaryFolder folder;
+  write_text(folder / "t.ply", "ply\nformat ascii 1.0\nelement vertex 3\nprop");
+  const std::string text = mesh_complaint(folder / "t.ply");
+  CHECK(says(text, "t.ply: "));
+}
+
+TEST_CASE("a reader's crash is an error of the file, which is named") {
+  const TemporaryFolder folder;
+  write_textured_triangle(folder, "");
+  write_text(folder / "a.mtl", "Ns 10\nmap_Kd -s 1 1 1 -o 0 0 a\nd 0.5\nillum 2\n");  // of no material
+  const std::string text = mesh_complaint(folder / "a.obj");
+  CHECK(says(text, "a.obj: "));
+#if defined(__SANITIZE_ADDRESS__)  // which makes an exit of a crash
+  CHECK(says(text, "the reader of OBJ files ended with status 1"));
+#else
+  CHECK(says(text, "the reader of OBJ files crashed (signal 11"));
+#endif
+  CHECK(says(text, "a.mtl"));
+}
+
+TEST_CASE("a file is read as what its ending says, and by no reader of other files") {
+  const TemporaryFolder folder;
+  for (const std::string name : {"a.gltf", "a.obj", "a.stl", "a.off"}) {
+    for (const std::string beginning : {"IDPO", "IDP2", "MDL7", "MDL5"}) {
+      CAPTURE(beginning);
+      write_text(folder / name, beginning + std::string(400, '\1'));
+      const std::string text = mesh_complaint(folder / name);
+      CHECK(says(text, name + ": "));
+      CHECK(text.find("crashed") == std::string::npos);
+      CHECK(text.find("MDL") == std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("pictures of other kinds are refused, whatever they are called") {
+  const TemporaryFolder folder;
+  write_text(folder / "t.png", "FOR4" + std::string(100, '\2') + "CIMG");
+  CHECK(says(mesh_complaint(write_textured_triangle(folder, "t.png")), "expected PNG, JPEG"));
+}
+
+TEST_CASE("a picture that says to be larger than its file can hold is refused") {
+  const TemporaryFolder folder;
+  write_text(folder / "t.exr", exr_header(40000, 30000));
+  const std::string text = complaint_of([&] { apps::read_image(folder / "t.exr"); });
+  CHECK(says(text, "t.exr: "));
+  CHECK(says(text, "it is damaged"));
+}
+
+TEST_CASE("a device is no scene, and neither is a pipe that nobody writes to") {
+  const TemporaryFolder folder;
+  for (const std::string device : {"/dev/zero", "/dev/urandom", "/dev/null"}) {
+    CHECK(says(complaint_of([&] { apps::read_nff_file(device); }), device + ": is a device or the like"));
+  }
+  REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  CHECK(says(complaint_of([&] { apps::read_nff_file(folder / "pipe"); }), "nobody writes to"));
+}
+
+TEST_CASE("a line that does not end, and endless comments, are refused") {
+  const TemporaryFolder folder;
+  write_text(folder / "zeros", "");
+  fs::resize_file(folder / "zeros", std::uint64_t{1} << 40U);
+  CHECK(says(complaint_of([&] { apps::read_nff_file(folder / "zeros"); }), "zeros:1: found a line of more than 16 MiB"));
+  std::string comments;
+  const std::string line = "#" + std::string(1U << 20U, '.') + "\n";
+  for (int i = 0; i < 65; ++i) {
+    comments += line;
+  }
+  write_text(folder / "comments", comments);
+  CHECK(says(complaint_of([&] { apps::read_nff_file(folder / "comments"); }), "nothing but blanks and comments"));
+}
+
+TEST_CASE("a scene may come through a pipe, however slowly") {
+  const TemporaryFolder folder;
+  const std::string pipe = folder / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  const pid_t writer = ::fork();
+  if (writer == 0) {
+    const int end = ::open(pipe.c_str(), O_WRONLY);
+    for (const std::string part : {"v from 0 0 5 at 0 0 0 up 0 1 0 an", "gle 45 hither 1 resolution 8 8\n"}) {
+      static_cast<void>(::write(end, part.data(), part.size()));
+      ::usleep(20'000);
+    }
+    ::_exit(0);
+  }
+  CHECK(apps::read_nff_file(pipe).view.width == 8);
+}
+
+}  // namespace dmpc::tests

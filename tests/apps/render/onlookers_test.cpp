@@ -1,0 +1,111 @@
+#include "apps/render/onlookers.h"
+
+#include <doctest/doctest.h>
+
+#include <numeric>
+
+#include "tests/apps/show/watched.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+template <class Numbers>
+std::uint64_t sum_of_numbers(const Numbers& numbers) {
+  return std::accumulate(numbers.begin(), numbers.end(), std::uint64_t{0});
+}
+
+/// What all nodes and the host did, but for messages.
+std::uint64_t busy_ns(const nodes::ActivitySteps& steps) {
+  std::uint64_t sum = 0;
+  for (const auto& node : steps.nodes) {
+    for (const nodes::WorkTimes& times : node) {
+      sum += sum_of_numbers(times) - times[static_cast<std::size_t>(nodes::Work::messages)];
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("nobody looks on unless somebody wants to know") {
+  const Onlookers nobody(small(), 10);
+  CHECK(nobody.observer() == nullptr);
+  Sights nothing = Onlookers(small(), 10).take();
+  CHECK_FALSE(nothing.trace);
+  CHECK_FALSE(nothing.view);
+}
+
+TEST_CASE("a trace and a page can be asked for at a time") {
+  RenderOptions options = small();
+  options.trace.path = "trace.json";
+  CHECK_FALSE(Onlookers(options, 10).take().view);
+  options.report = "page.html";
+  const Sights both = Onlookers(options, 10).take();
+  CHECK(both.trace);
+  CHECK(both.view);
+}
+
+TEST_CASE("every fetch is seen, by threads and in virtual time") {
+  for (const RenderOptions& options : {starved(small()), starved(modelled())}) {
+    const Watched watched(options);
+    const svm::PageCounters pages = std::get<svm::Report>(*watched.report).pages();
+    const svm::Fetches& fetches = *watched.view().fetches;
+    CHECK(pages.faults > 20);
+    CHECK(sum_of_numbers(fetches.by_pair) == pages.faults);
+    CHECK(sum_of_numbers(fetches.by_page) == pages.faults);
+    CHECK(fetches.sample.size() == pages.faults);
+  }
+}
+
+TEST_CASE("in virtual time a profile has all computing and all service") {
+  for (const Strategy strategy : {Strategy::svm, Strategy::dataflow}) {
+    const Watched watched(starved(modelled(strategy)));
+    std::uint64_t expected_ns = 0;
+    for (const nodes::VirtualTimes& times : account_of(*watched.report).virtual_time->nodes) {
+      expected_ns += times.computing_ns + times.stolen_ns + times.lent_ns;
+    }
+    CHECK(busy_ns(watched.view().steps) == expected_ns);
+  }
+}
+
+TEST_CASE("where the order of references is fixed, the estimate is what the run missed") {
+  RenderOptions options = starved(modelled());
+  options.pages.work_item_side = 0;
+  const Watched watched(options);
+  REQUIRE(watched.view().misses);
+  CHECK(watched.view().misses->every == 1);
+  CHECK(watched.view().misses->misses(4) == static_cast<double>(std::get<svm::Report>(*watched.report).pages().faults));
+}
+
+TEST_CASE("a run with more references than are kept ends, by threads and in virtual time, and its estimate is of a share") {
+  for (RenderOptions options : {starved(small()), starved(modelled())}) {
+    options.picture.resolution = {40, 30};
+    options.computer.node_count = 2;
+    const Watched watched(options, 1);
+    const MissEstimate& estimate = *watched.view().misses;
+    CHECK(std::get<svm::Report>(*watched.report).pages().references > 10'000);
+    CHECK(estimate.every > 1);
+    CHECK(estimate.every < 1024);
+    CHECK(estimate.misses(estimate.every) > 0);
+  }
+}
+
+TEST_CASE("pages are not looked at where there are none, nor their references where they are counted otherwise") {
+  CHECK_FALSE(Watched(small(Strategy::dataflow)).view().fetches);
+  CHECK_FALSE(Watched(small(Strategy::replicated)).view().misses);
+  RenderOptions options = small();
+  options.pages.count_pages = true;
+  const Watched counting(options);
+  CHECK(counting.view().fetches);
+  CHECK_FALSE(counting.view().misses);
+}
+
+TEST_CASE("looking on changes neither the picture nor the run") {
+  const Rendered alone(starved(modelled()));
+  const Watched watched(starved(modelled()));
+  CHECK(account_of(*alone.report).film.hash() == account_of(*watched.report).film.hash());
+  CHECK(account_of(*alone.report).virtual_time->hash == account_of(*watched.report).virtual_time->hash);
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,86 @@
+#include "apps/render/picture_identity.h"
+
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <string>
+
+#include "tests/support/small_scenes.h"
+
+namespace dmpc::apps {
+
+using tests::mirrors_and_glass;
+
+namespace {
+
+using ChangeScene = std::function<void(core::Scene&)>;
+using ChangeOptions = std::function<void(RenderOptions&)>;
+
+/// How a picture that was changed differs from the one that was not.
+std::string difference(const ChangeScene& change_scene, const ChangeOptions& change_options = {}) {
+  RenderOptions options;
+  core::Scene scene = mirrors_and_glass();
+  tests::add_textured_walls(scene);
+  const PictureIdentity here = identity_of(options, scene);
+  if (change_scene) {
+    change_scene(scene);
+  }
+  if (change_options) {
+    change_options(options);
+  }
+  return difference_text(identity_of(options, scene).facts, here.facts);
+}
+
+std::string difference_by_options(const ChangeOptions& change) { return difference({}, change); }
+
+}  // namespace
+
+TEST_CASE("the same picture has the same facts") { CHECK(difference({}).empty()); }
+
+TEST_CASE("whatever of the scene is changed, it is another picture") {
+  CHECK(difference([](auto& scene) { scene.vertices[0].x += 1e-12; }) == "other objects");
+  CHECK(difference([](auto& scene) { scene.normals[1].y = -scene.normals[1].y; }) == "other objects");
+  CHECK(difference([](auto& scene) { scene.corners[0].place[1] += 0.25F; }) == "other objects");
+  CHECK(difference([](auto& scene) { std::swap(scene.objects[0], scene.objects[1]); }) == "other objects");
+  CHECK(difference([](auto& scene) { scene.spheres.back().radius *= 2; }) == "other objects");
+  CHECK(difference([](auto& scene) { scene.cones.pop_back(); }) == "other objects");
+  CHECK(difference([](auto& scene) { scene.materials[0].shine = 7; }) == "other materials");
+  CHECK(difference([](auto& scene) { scene.textures[0].levels[0].texels[5] ^= 1U; }) == "other textures");
+  CHECK(difference([](auto& scene) { scene.lights[0].has_color = true; }) == "other lights or background");
+  CHECK(difference([](auto& scene) { scene.background.z = 0; }) == "other lights or background");
+  CHECK(difference([](auto& scene) { scene.view.angle_degrees = 51; }) == "other view");
+}
+
+TEST_CASE("whatever of the settings is changed, the facts say so in words") {
+  CHECK(difference_by_options([](auto& options) { options.picture.depth = 3; }) == "depth is 3, here 5");
+  CHECK(difference_by_options([](auto& options) { options.picture.cutoff = 0.25; }) == "cutoff is 0.25, here 0");
+  CHECK(difference_by_options([](auto& options) { options.picture.samples = 4; }) == "samples is 4, here 1");
+  CHECK(difference_by_options([](auto& options) { options.picture.resolution = {8, 9}; }) == "resolution is 8x9, here 512x512");
+  CHECK(difference_by_options([](auto& options) { options.picture.convention = core::Convention::paper; }) ==
+        "convention is paper, here haines");
+  CHECK(difference_by_options([](auto& options) { options.database.axes = AxesChoice::screen; }) ==
+        "grid-axes is screen, here world");
+  CHECK(difference_by_options([](auto& options) { options.tracer = TracerChoice::embree; }) == "tracer is embree, here grid");
+}
+
+TEST_CASE("a picture that is refined has an error and a bound more") {
+  const auto refine = [](RenderOptions& options) {
+    options.picture.is_refined = true;
+    options.picture.refinement.error = 0.5;
+  };
+  CHECK(difference_by_options(refine) ==
+        "samples is auto, here 1; error is 0.5, here there is none; samples-max is 4096, here there is none");
+  CHECK(difference_text({}, {{"error", "0.5"}}) == "no error");
+}
+
+TEST_CASE("the computer, the strategy and what is left out are no part of the picture") {
+  CHECK(difference_by_options([](auto& options) {
+          options.strategy = Strategy::dataflow;
+          options.computer.node_count = 3;
+          options.database.page_size_bytes = 4096;
+          options.database.record_order = core::RecordOrder::scattered;
+          options.picture.skips.background = false;
+        }).empty());
+}
+
+}  // namespace dmpc::apps

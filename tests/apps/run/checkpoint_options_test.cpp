@@ -1,0 +1,64 @@
+#include "apps/run/checkpoint_options.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "apps/commands.h"
+#include "core/base/expect.h"
+#include "tests/support/text.h"
+#include "tests/support/usage.h"
+
+namespace dmpc::apps {
+
+using tests::contains;
+using tests::render_usage_complaint;
+
+namespace {
+
+CheckpointOptions parse(std::vector<std::string> more) {
+  more.insert(more.begin(), {"render", "teapot-12", "-o", "a.png"});
+  return std::get<RenderOptions>(parse_command_line(more)).checkpoint;
+}
+
+}  // namespace
+
+TEST_CASE("nothing is kept unless that is asked for, and then every two minutes") {
+  CHECK_FALSE(parse({}).file);
+  const CheckpointOptions options = parse({"--checkpoint=a.checkpoint"});
+  CHECK(options.file == "a.checkpoint");
+  CHECK(options.every_seconds == 120);
+  CHECK_FALSE(options.resumes);
+  CHECK_FALSE(options.stays);
+}
+
+TEST_CASE("a checkpoint can come sooner, be resumed from, and stay") {
+  const CheckpointOptions options = parse({"--checkpoint=a", "--checkpoint-every=0.5", "--resume", "--keep-checkpoint"});
+  CHECK(options.every_seconds == 0.5);
+  CHECK(options.resumes);
+  CHECK(options.stays);
+}
+
+TEST_CASE("the options of checkpoints need a file") {
+  for (const std::string option : {"--resume", "--keep-checkpoint", "--checkpoint-every=3"}) {
+    CHECK(contains(render_usage_complaint({option}), "goes with --checkpoint=FILE"));
+  }
+}
+
+TEST_CASE("the time between checkpoints is above 0 and finite") {
+  for (const std::string text : {"0", "-1", "nan", "inf", "1e9", "2s"}) {
+    CAPTURE(text);
+    CHECK(contains(render_usage_complaint({"--checkpoint=a", "--checkpoint-every=" + text}), "expected seconds"));
+  }
+}
+
+TEST_CASE("what was done before is neither on a heat map nor in virtual time") {
+  CHECK(contains(render_usage_complaint({"--checkpoint=a", "--resume", "--heatmap=rays:b.png"}),
+                 "--resume does not go with --heatmap"));
+  CHECK(
+      contains(render_usage_complaint({"--checkpoint=a", "--runner=virtual"}), "--checkpoint does not go with --runner=virtual"));
+  CHECK(parse({"--checkpoint=a", "--heatmap=rays:b.png"}).file == "a");
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,78 @@
+#include "apps/run/heat_options.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "apps/commands.h"
+#include "core/base/expect.h"
+#include "tests/support/text.h"
+#include "tests/support/usage.h"
+
+namespace dmpc::apps {
+
+using nodes::HeatKind;
+using tests::contains;
+using tests::render_usage_complaint;
+
+namespace {
+
+RenderOptions render(const std::vector<std::string>& more) {
+  std::vector<std::string> arguments = {"render", "teapot-12", "-o", "a.png"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return std::get<RenderOptions>(parse_command_line(arguments));
+}
+
+}  // namespace
+
+TEST_CASE("heat maps may be asked for several times, of every kind") {
+  CHECK(render({}).heat_maps.empty());
+  std::vector<std::string> arguments;
+  for (const std::string_view kind : nodes::heat_kind_names) {
+    arguments.push_back("--heatmap=" + std::string(kind) + ":" + std::string(kind) + ".png");
+  }
+  arguments.push_back("--heatmap=rays:C:a b.exr");
+  const std::vector<HeatRequest> requests = render(arguments).heat_maps;
+  REQUIRE(requests.size() == 9);
+  CHECK(requests[0].kind == HeatKind::faults);
+  CHECK(requests[7].kind == HeatKind::samples);
+  CHECK(requests[7].path == "samples.png");
+  CHECK_FALSE(holds_numbers(requests[7]));
+  CHECK(requests[8].path == "C:a b.exr");
+  CHECK(holds_numbers(requests[8]));
+  CHECK(kinds_of(requests).size() == 9);
+}
+
+TEST_CASE("a heat map needs a kind, a colon and a file of one of two formats") {
+  for (const std::string wrong :
+       {"rays", "heat:a.png", "RAYS:a.png", ":a.png", "rays:", "rays:a", "rays:a.jpg", "rays:a.tif", ""}) {
+    CHECK_MESSAGE(contains(render_usage_complaint({"--heatmap=" + wrong}), "--heatmap"), wrong);
+  }
+  CHECK(contains(render_usage_complaint({"--heatmap=colour:a.png"}), "faults|references|pages|rays|time|node|depth|samples"));
+}
+
+TEST_CASE("there may be 32 heat maps and no more") {
+  std::vector<std::string> arguments;
+  for (std::size_t i = 0; i < heat_requests_max; ++i) {
+    arguments.push_back("--heatmap=rays:" + std::to_string(i) + ".png");
+  }
+  CHECK(render(arguments).heat_maps.size() == 32);
+  arguments.push_back("--heatmap=rays:last.png");
+  CHECK(contains(render_usage_complaint(arguments), "given 33 times"));
+}
+
+TEST_CASE("strategies without page look-ups refuse the kinds of pages, and say why") {
+  for (const std::string kind : {"faults", "references", "pages"}) {
+    const std::string option = "--heatmap=" + kind + ":a.png";
+    CHECK(contains(render_usage_complaint({option, "--strategy=dataflow"}), "rays travel"));
+    CHECK(contains(render_usage_complaint({"--strategy=replicated", option}), "every node holds the whole scene"));
+    CHECK(render_usage_complaint({option}).empty());
+  }
+  for (const std::string kind : {"rays", "time", "node", "depth", "samples"}) {
+    CHECK(render_usage_complaint({"--heatmap=" + kind + ":a.png", "--strategy=dataflow"}).empty());
+    CHECK(render_usage_complaint({"--heatmap=" + kind + ":a.png", "--strategy=replicated"}).empty());
+  }
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,357 @@
+#include "apps/run/render_options.h"
+
+#include <doctest/doctest.h>
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "apps/commands.h"
+#include "core/base/expect.h"
+#include "core/base/units.h"
+#include "tests/support/text.h"
+
+namespace dmpc::apps {
+
+using namespace core;
+
+using tests::contains;
+
+namespace {
+
+/// `render teapot-12 -o a.png` and more.
+RenderOptions render(std::initializer_list<std::string> more = {}) {
+  std::vector<std::string> arguments = {"render", "teapot-12", "-o", "a.png"};
+  arguments.insert(arguments.end(), more);
+  return std::get<RenderOptions>(parse_command_line(arguments));
+}
+
+std::string render_complaint(std::initializer_list<std::string> more) {
+  try {
+    render(more);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a scene and an output are all that render needs") {
+  const RenderOptions options = render();
+  CHECK(options.picture.scene == "teapot-12");
+  CHECK(options.image == "a.png");
+  CHECK(options.strategy == Strategy::svm);
+  CHECK(options.computer.node_count == 8);
+  CHECK_FALSE(options.computer.node_memory_bytes);
+  CHECK_FALSE(options.pages.cache_pages);
+  CHECK(options.pages.replacement == svm::Replacement::lru);
+  CHECK_FALSE(options.pages.in_flight);
+  CHECK(options.pages.work_item_side == 3);
+  CHECK(options.picture.skips == core::Skips{});
+  CHECK(options.database.page_size_bytes == 1024);
+  CHECK(options.database.record_order == core::RecordOrder::spatial);
+  CHECK(options.database.axes == AxesChoice::world);
+  CHECK_FALSE(options.picture.resolution);
+  CHECK(options.picture.samples == 1);
+  CHECK(options.picture.depth == 5);
+  CHECK(options.picture.convention == Convention::haines);
+  CHECK(options.tracer == TracerChoice::grid);
+  CHECK_FALSE(options.stats);
+  CHECK_FALSE(options.quiet);
+  CHECK(options.computer.runner == RunnerKind::threads);
+}
+
+TEST_CASE("every option of the computer reaches its field") {
+  const RenderOptions options = render({"--nodes=64", "--node-memory=4MiB", "--page-size=4KiB", "--record-order=scattered",
+                                        "--cache-pages=5", "--replacement=clock", "--in-flight=7", "--work-item=0",
+                                        "--no-skip=empty-space", "--count-pages", "--stats=s.json", "--quiet"});
+  CHECK(options.computer.node_count == 64);
+  CHECK(options.computer.node_memory_bytes == 4_MiB);
+  CHECK(options.database.page_size_bytes == 4_KiB);
+  CHECK(options.database.record_order == core::RecordOrder::scattered);
+  CHECK(options.pages.cache_pages == 5);
+  CHECK(options.pages.replacement == svm::Replacement::clock);
+  CHECK(options.pages.in_flight == 7);
+  CHECK(options.pages.work_item_side == 0);
+  CHECK_FALSE(options.picture.skips.empty_space);
+  CHECK(options.pages.count_pages);
+  CHECK(options.stats == "s.json");
+  CHECK(options.quiet);
+}
+
+TEST_CASE("skips are switched off by name, several at a time, or all") {
+  const auto skips = [](std::initializer_list<std::string> words) { return render(words).picture.skips; };
+  CHECK(skips({"--no-skip=unlit"}) == core::Skips{.unlit = false});
+  const core::Skips two{.any_hit = false, .zero_terms = false};
+  CHECK(skips({"--no-skip=any-hit,zero-terms"}) == two);
+  CHECK(skips({"--no-skip=any-hit", "--no-skip=zero-terms,any-hit"}) == two);
+  CHECK(skips({"--no-skip=all"}) == core::no_skips());
+  for (const core::Skip& skip : core::all_skips) {
+    CHECK(skips({std::string("--no-skip=") + skip.name}) == core::without(skip));
+  }
+  for (const std::string wrong : {"unlit,everything", "unlit;any-hit", "UNLIT", "", "unlit,"}) {
+    CHECK_MESSAGE(contains(render_complaint({"--no-skip=" + wrong}), "--no-skip"), wrong);
+  }
+}
+
+TEST_CASE("any seed makes chaos, and without one the computer is calm") {
+  CHECK_FALSE(render().computer.chaos);
+  CHECK(render({"--chaos=0"}).computer.chaos.value().seed == 0);
+  CHECK(render({"--chaos=18446744073709551615", "--strategy=replicated"}).computer.chaos.value().seed == ~std::uint64_t{0});
+  for (const std::string wrong : {"-1", "18446744073709551616", "storm", "1.5", "7x"}) {
+    CHECK_MESSAGE(contains(render_complaint({"--chaos=" + wrong}), "--chaos=" + wrong + ": expected a whole number"), wrong);
+  }
+  CHECK(contains(render_complaint({"--chaos="}), "--chaos"));
+}
+
+TEST_CASE("every option of the picture reaches its field") {
+  const RenderOptions options = render({"--resolution=64x48", "--samples=4", "--depth=9", "--convention=paper",
+                                        "--strategy=replicated", "--tracer=embree", "--node-memory=auto"});
+  REQUIRE(options.picture.resolution);
+  CHECK(options.picture.resolution->width == 64);
+  CHECK(options.picture.resolution->height == 48);
+  CHECK(options.picture.samples == 4);
+  CHECK(options.picture.depth == 9);
+  CHECK(options.picture.convention == Convention::paper);
+  CHECK(options.strategy == Strategy::replicated);
+  CHECK(options.tracer == TracerChoice::embree);
+  CHECK_FALSE(options.computer.node_memory_bytes);
+}
+
+TEST_CASE("samples refined to an error start with two a pixel, and the error is an eight-bit step unless said") {
+  const PictureOptions options = render({"--samples=auto"}).picture;
+  CHECK(options.is_refined);
+  CHECK(options.samples == 2);
+  CHECK(options.refinement.error == doctest::Approx(1.0 / 255));
+  CHECK(render({"--error=2/255", "--samples=auto"}).picture.refinement.error == doctest::Approx(2.0 / 255));
+  CHECK(render({"--samples=auto", "--samples-max=64"}).picture.refinement.samples_max == 64);
+  CHECK_FALSE(render().picture.refinement.is_wanted());
+  CHECK(contains(render_complaint({"--error=0.01"}), "--error goes with --samples=auto"));
+  CHECK(contains(render_complaint({"--samples-max=9", "--samples=2"}), "--samples-max goes with --samples=auto"));
+  for (const std::string wrong : {"automatic", "0", "-1", "1.5", "32769", "AUTO", "4x"}) {
+    CHECK_MESSAGE(contains(render_complaint({"--samples=" + wrong}), "--samples=" + wrong + ": expected a whole number"), wrong);
+  }
+}
+
+TEST_CASE("a quality chooses what no other option has said") {
+  const PictureOptions standard = render({"--quality=default"}).picture, draft = render({"--quality=draft"}).picture;
+  CHECK(standard.is_refined);
+  CHECK(standard.refinement.error == doctest::Approx(1.0 / 255));
+  CHECK(draft.refinement.error > 2 * standard.refinement.error);
+  CHECK(draft.cutoff > standard.cutoff);
+  CHECK(render({"--quality=draft", "--cutoff=0"}).picture.cutoff == 0);
+  CHECK(render({"--error=0.5", "--quality=draft"}).picture.refinement.error == 0.5);
+  const PictureOptions even = render({"--quality=draft", "--samples=3"}).picture;
+  CHECK(even.samples == 3);
+  CHECK_FALSE(even.refinement.is_wanted());
+  CHECK(contains(render_complaint({"--quality=best"}), "--quality"));
+}
+
+TEST_CASE("a cutoff is exact unless said otherwise") {
+  CHECK(render().picture.cutoff == 0);
+  CHECK(render({"--cutoff=0"}).picture.cutoff == 0);
+  CHECK(render({"--cutoff=1/512"}).picture.cutoff == 1.0 / 512);
+  CHECK(contains(render_complaint({"--cutoff=-0.1"}), "--cutoff=-0.1: expected a number from 0 to 1"));
+}
+
+TEST_CASE("a value may follow its option as a word of its own") { CHECK(render({"--nodes", "3"}).computer.node_count == 3); }
+
+TEST_CASE("a value out of range or of the wrong kind names its option") {
+  for (const std::string option : {"--nodes=0",           "--nodes=4097",      "--nodes=-1",           "--nodes=many",
+                                   "--nodes=2.5",         "--strategy=dance",  "--tracer=magic",       "--samples=0",
+                                   "--samples=32769",     "--depth=0",         "--depth=256",          "--convention=mine",
+                                   "--cache-pages=0",     "--in-flight=0",     "--in-flight=4097",     "--work-item=-1",
+                                   "--balance=even",      "--subsample=0",     "--subsample=65537",    "--balance-grid=0",
+                                   "--balance-grid=4097", "--ray-batch=0",     "--ray-batch=683",      "--ray-credits=-1",
+                                   "--ray-queue=-1",      "--ray-queue=16385", "--ray-credits=65",     "--topology=ring",
+                                   "--grid-axes=moon",    "--work-item=1025",  "--no-skip=everything", "--resolution=512",
+                                   "--page-size=1000B",   "--page-size=256B",  "--page-size=128KiB",   "--node-memory=lots",
+                                   "--unheard-of=1"}) {
+    CAPTURE(option);
+    CHECK(contains(render_complaint({option}), option.substr(0, option.find('='))));
+    CHECK(contains(render_complaint({option}), "Try: dmpc render --help"));
+  }
+}
+
+TEST_CASE("the smallest and largest values are taken") {
+  for (const std::string option : {"--nodes=1", "--nodes=4096", "--samples=32768", "--depth=1", "--depth=255", "--page-size=512B",
+                                   "--page-size=64KiB", "--cache-pages=1", "--in-flight=4096", "--work-item=1024"}) {
+    CAPTURE(option);
+    CHECK_NOTHROW(render({option}));
+  }
+  for (const std::string option :
+       {"--nodes=1024", "--subsample=1", "--subsample=65536", "--balance-grid=1", "--balance-grid=4096", "--ray-batch=1",
+        "--ray-batch=682", "--ray-credits=0", "--ray-credits=64", "--ray-queue=0", "--ray-queue=16384"}) {
+    CAPTURE(option);
+    CHECK_NOTHROW(render({"--strategy=dataflow", option}));
+  }
+}
+
+TEST_CASE("dataflow needs no option of its own") {
+  const RayOptions rays = render({"--strategy=dataflow"}).rays;
+  CHECK(rays.balance.balance == dataflow::Balance::subsampled);
+  CHECK(rays.balance.subsample == 8);
+  CHECK(rays.balance.columns_per_side == 256);
+  CHECK_FALSE(rays.ray_batch);
+  CHECK_FALSE(rays.ray_credits);
+  CHECK_FALSE(rays.queue_packets);
+  CHECK(rays.topology == nodes::TopologyKind::hypercube);
+}
+
+TEST_CASE("every option of dataflow reaches its field") {
+  const RenderOptions options =
+      render({"--strategy=dataflow", "--grid-axes=screen", "--balance=subsampled", "--subsample=4", "--balance-grid=64",
+              "--ray-batch=3", "--ray-credits=0", "--ray-queue=5", "--topology=fat-tree"});
+  CHECK(options.strategy == Strategy::dataflow);
+  CHECK(options.database.axes == AxesChoice::screen);
+  CHECK(options.rays.balance.subsample == 4);
+  CHECK(options.rays.balance.columns_per_side == 64);
+  CHECK(options.rays.ray_batch == 3);
+  CHECK(options.rays.ray_credits == 0);
+  CHECK(options.rays.queue_packets == 5);
+  CHECK(options.rays.topology == nodes::TopologyKind::fat_tree);
+  CHECK(render({"--strategy=dataflow", "--balance=equal-size"}).rays.balance.balance == dataflow::Balance::equal_size);
+}
+
+TEST_CASE("an option of another strategy is refused with the strategies that it goes with and the reason") {
+  const std::string svm = "--strategy=svm", replicated = "--strategy=replicated", dataflow = "--strategy=dataflow";
+  struct Wrong {
+    std::string option, with, goes_with;
+  };
+  const std::vector<Wrong> wrongs = {{"--cache-pages=5", replicated, svm},
+                                     {"--replacement=fifo", replicated, svm},
+                                     {"--replacement=lru", dataflow, svm},
+                                     {"--cache-pages=5", dataflow, svm},
+                                     {"--count-pages", replicated, svm},
+                                     {"--count-pages", dataflow, svm},
+                                     {"--in-flight=16", dataflow, svm + " or " + replicated},
+                                     {"--work-item=3", dataflow, svm + " or " + replicated},
+                                     {"--balance=subsampled", svm, dataflow},
+                                     {"--subsample=8", replicated, dataflow},
+                                     {"--balance-grid=256", svm, dataflow},
+                                     {"--ray-batch=10", replicated, dataflow},
+                                     {"--ray-credits=4", svm, dataflow},
+                                     {"--ray-queue=512", replicated, dataflow},
+                                     {"--topology=hypercube", replicated, dataflow}};
+  for (const auto& [option, with, goes_with] : wrongs) {
+    CAPTURE(option);
+    CAPTURE(with);
+    CHECK(contains(render_complaint({with, option, "--stats=s.json"}),
+                   option.substr(0, option.find('=')) + " goes with " + goes_with + ": "));
+  }
+}
+
+TEST_CASE("options that every strategy has go with each") {
+  for (const std::string strategy : {"svm", "replicated", "dataflow"}) {
+    CAPTURE(strategy);
+    CHECK_NOTHROW(render({"--strategy=" + strategy, "--nodes=2", "--node-memory=4MiB", "--page-size=2KiB", "--grid-axes=screen",
+                          "--chaos=1", "--no-skip=empty-space", "--stats=s.json", "--quiet"}));
+  }
+}
+
+TEST_CASE("threads drive the computer unless a machine is to be modelled") {
+  CHECK(render().computer.runner == RunnerKind::threads);
+  const ComputerOptions standard = render({"--runner=virtual"}).computer;
+  CHECK(standard.runner == RunnerKind::virtual_time);
+  CHECK(standard.machine_name == "ipsc2");
+  CHECK_FALSE(standard.no_contention);
+  CHECK_FALSE(standard.machine);
+  const ComputerOptions given = render({"--runner=virtual", "--machine=my.json", "--no-contention"}).computer;
+  CHECK(given.machine_name == "my.json");
+  CHECK(given.no_contention);
+  CHECK_FALSE(given.memory_port);
+  CHECK(render({"--runner=virtual", "--memory-port"}).computer.memory_port);
+  CHECK(render({"--runner=threads", "--chaos=1"}).computer.runner == RunnerKind::threads);
+}
+
+TEST_CASE("an option of the other runner is refused with the reason") {
+  for (const std::string option : {"--machine=ipsc2", "--no-contention", "--memory-port"}) {
+    for (const std::string strategy : {"svm", "replicated", "dataflow"}) {
+      const std::string complaint = render_complaint({option, "--strategy=" + strategy});
+      CHECK(contains(complaint, option.substr(0, option.find('=')) + " does not go with --runner=threads: threads model no "));
+    }
+  }
+  const std::string runner = "--runner=virtual";
+  CHECK(contains(render_complaint({runner, "--chaos=1"}), "--chaos does not go with --runner=virtual: "));
+  CHECK(contains(render_complaint({runner, "--strategy=dataflow", "--topology=hypercube"}),
+                 "--topology does not go with " + runner));
+  CHECK(contains(render_complaint({runner, "--strategy=replicated", "--tracer=embree"}),
+                 "--tracer=embree does not go with " + runner));
+  CHECK(contains(render_complaint({runner, "--no-contention", "--memory-port"}),
+                 "--memory-port does not go with --no-contention: "));
+  CHECK(contains(render_complaint({"--runner=magic"}), "--runner"));
+  CHECK(contains(render_complaint({runner, "--machine="}), "--machine"));
+}
+
+TEST_CASE("options that do not go together are refused with the reason") {
+  CHECK(contains(render_complaint({"--tracer=embree"}), "needs --strategy=replicated"));
+  CHECK(contains(render_complaint({"--tracer=embree", "--strategy=dataflow"}), "needs --strategy=replicated"));
+  CHECK(contains(render_complaint({"--count-pages"}), "give --stats=FILE.json too"));
+  CHECK(contains(render_complaint({"--strategy=dataflow", "--nodes=1025"}), "--nodes=1025: from 1 to 1024 nodes"));
+  for (const std::string option : {"--subsample", "--balance-grid"}) {
+    CHECK(contains(render_complaint({"--strategy=dataflow", "--balance=equal-size", option + "=8"}),
+                   option + " goes with --balance"));
+  }
+}
+
+TEST_CASE("the help of render names every option and its default") {
+  const std::string text = std::get<HelpText>(parse_command_line(std::vector<std::string>{"render", "--help"})).text;
+  for (const std::string word : {"Examples:",
+                                 "SCENE",
+                                 "--nodes",
+                                 "--strategy",
+                                 "svm|replicated|dataflow [svm]",
+                                 "--node-memory",
+                                 "--page-size",
+                                 "--cache-pages",
+                                 "--replacement",
+                                 "--in-flight",
+                                 "--work-item",
+                                 "--resolution",
+                                 "--samples",
+                                 "--depth",
+                                 "--convention",
+                                 "--tracer",
+                                 "--no-skip",
+                                 "--stats",
+                                 "--quiet",
+                                 "-o",
+                                 "--grid-axes",
+                                 "world|screen [world]",
+                                 "--balance",
+                                 "subsampled|equal-size [subsampled]",
+                                 "--subsample",
+                                 "--balance-grid",
+                                 "--ray-batch",
+                                 "1..682 [what fills 1 KiB]",
+                                 "--ray-credits",
+                                 "0..64 [4]",
+                                 "--ray-queue",
+                                 "0..16384 [512]",
+                                 "--topology",
+                                 "--runner",
+                                 "threads|virtual [threads]",
+                                 "MACHINE|FILE.json [ipsc2]",
+                                 "ipsc2, ipsc860, paragon, cm5, cs2, gigabit, hdr",
+                                 "--no-contention",
+                                 "--memory-port",
+                                 "16, replicated 1, runner virtual 1",
+                                 "hypercube|mesh|torus|fat-tree|crossbar [hypercube]"}) {
+    CHECK_MESSAGE(contains(text, word), word);
+  }
+}
+
+TEST_CASE("every strategy has the name that the command line knows") {
+  for (const Strategy strategy : {Strategy::svm, Strategy::replicated, Strategy::dataflow}) {
+    CHECK(render({std::string("--strategy=") + name_of(strategy)}).strategy == strategy);
+  }
+}
+
+TEST_CASE("a page needs a name that browsers know") {
+  CHECK_FALSE(render().report);
+  CHECK(render({"--report=a.html"}).report == "a.html");
+  CHECK(contains(render_complaint({"--report=a.pdf"}), "--report=a.pdf: expected a file with the ending .html"));
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,46 @@
+// What is said on stderr of scenes whose picture would be a riddle.
+
+#include <doctest/doctest.h>
+
+#include <iostream>
+#include <sstream>
+#include <string>
+
+#include "apps/scene/load_scene.h"
+#include "apps/scene/staging.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+const std::string nff_view = "v\nfrom 0 0 9\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0\nresolution 8 8\n";
+
+/// On stderr, when a scene file of this text is loaded with these lights of the command line.
+std::string said_of(const std::string& text, const std::vector<core::PointLight>& lights = {}) {
+  const tests::TemporaryFolder folder;
+  tests::write_text(folder / "a.nff", text);
+  PictureOptions picture{.scene = folder / "a.nff"};
+  picture.staging.lights = lights;
+  std::ostringstream said;
+  std::streambuf* const usual = std::cerr.rdbuf(said.rdbuf());
+  load_scene(picture);
+  std::cerr.rdbuf(usual);
+  return said.str();
+}
+
+}  // namespace
+
+TEST_CASE("a scene without a light is said, unless a light is given") {
+  const std::string sphere = nff_view + "f 1 1 1 1 0 0 0 0\ns 0 0 0 1\n";
+  CHECK(tests::contains(said_of(sphere), "a.nff: no light is in it"));
+  CHECK(said_of(sphere, {parse_light("1,2,3")}).empty());
+  CHECK(said_of(nff_view + "l 1 2 3\nf 1 1 1 1 0 0 0 0\ns 0 0 0 1\n").empty());
+}
+
+TEST_CASE("a scene with nothing in it is said") {
+  CHECK(tests::contains(said_of(nff_view + "l 1 2 3\n"), "a.nff: there is nothing in it"));
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,120 @@
+#include "apps/scene/staging.h"
+
+#include <doctest/doctest.h>
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "apps/commands.h"
+#include "core/base/expect.h"
+#include "tests/support/text.h"
+
+namespace dmpc::apps {
+
+using core::UsageError;
+using core::Vec3d;
+using doctest::Contains;
+
+namespace {
+
+Staging staged(std::initializer_list<std::string> options) {
+  std::vector<std::string> arguments = {"render", "teapot-12", "-o", "a.png"};
+  arguments.insert(arguments.end(), options);
+  return std::get<RenderOptions>(parse_command_line(arguments)).picture.staging;
+}
+
+}  // namespace
+
+TEST_CASE("a camera is two points, and up and degrees if wanted") {
+  const CameraChoice camera = parse_camera("1,2,3/0,-1.5,1e1/0,0,1/30.5");
+  CHECK(camera.from == Vec3d{1, 2, 3});
+  CHECK(camera.at == Vec3d{0, -1.5, 10});
+  CHECK(camera.up == Vec3d{0, 0, 1});
+  CHECK(camera.degrees == 30.5);
+  CHECK_FALSE(parse_camera("1,2,3/0,0,0").up);
+  CHECK_FALSE(parse_camera("0,2,0/0,0,0").degrees);
+  CHECK_FALSE(parse_camera("1,2,3/0,0,0/0,1,0").degrees);
+}
+
+TEST_CASE("anything but a camera is refused with the form that is expected") {
+  for (const char* text : {"", "1,2,3", "1,2/0,0,0", "1,2,3/0,0,x", "1,2,3/0,0,0/", "1,2,3/0,0,0/0,1", "1,2,3/0,0,0/0,1,0/45/1",
+                           "1,2,3,4/0,0,0", "nan,0,0/0,0,1", "inf,0,0/0,0,1", " 1,2,3/0,0,0"}) {
+    CAPTURE(text);
+    CHECK_THROWS_WITH_AS(parse_camera(text), Contains("--camera="), UsageError);
+  }
+}
+
+TEST_CASE("a camera that shows nothing is refused with the reason") {
+  CHECK_THROWS_WITH_AS(parse_camera("1,2,3/1,2,3"), Contains("different points"), UsageError);
+  CHECK_THROWS_WITH_AS(parse_camera("0,0,5/0,0,0/0,0,1"), Contains("not parallel"), UsageError);
+  CHECK_THROWS_WITH_AS(parse_camera("0,0,5/0,0,0/0,0,0"), Contains("not zero"), UsageError);
+  CHECK_THROWS_WITH_AS(parse_camera("0,0,5/0,0,0/0,1,0/0"), Contains("between 0 and 180"), UsageError);
+  CHECK_THROWS_WITH_AS(parse_camera("0,0,5/0,0,0/0,1,0/180"), Contains("between 0 and 180"), UsageError);
+  CHECK_THROWS_WITH_AS(parse_camera("0,0,5/0,0,0/0,1,0/x"), Contains("between 0 and 180"), UsageError);
+  CHECK_THROWS_WITH_AS(parse_camera("0,0,2e30/0,0,0"), Contains("1e30"), UsageError);
+}
+
+TEST_CASE("a light is a point, and a colour if wanted") {
+  CHECK(parse_light("1,2,3").position == Vec3d{1, 2, 3});
+  CHECK_FALSE(parse_light("1,2,3").has_color);
+  CHECK(parse_light("1,2,3/0.5,1,2").color == Vec3d{0.5, 1, 2});
+  CHECK(parse_light("1,2,3/0.5,1,2").has_color);
+  for (const char* text : {"", "1,2", "1,2,3/", "1,2,3/1", "1,2,3/1,1,-1", "1,2,3/1,1,1/1", "1,2,nan"}) {
+    CAPTURE(text);
+    CHECK_THROWS_WITH_AS(parse_light(text), Contains("--light="), UsageError);
+  }
+}
+
+TEST_CASE("a camera and a light are told as they are read, to the last bit") {
+  for (const char* text : {"1,2,3/0,0,0", "0.1,1e-30,3/0,0,-0.3333333333333333/0,1,0", "1,2,3/0,-1.5,10/0,0,1/30.5"}) {
+    CHECK(text_of(parse_camera(text)) == text);
+  }
+  for (const char* text : {"1,2,3", "-0.1,1e+30,3/0,0.3333333333333333,2"}) {
+    CHECK(text_of(parse_light(text)) == text);
+  }
+}
+
+TEST_CASE("the options of a mesh and of the stage are read") {
+  const Staging staging =
+      staged({"--light=1,2,3", "--light=4,5,6/1,1,1", "--scale=0.5", "--up=z", "--smooth=30", "--missing=plain"});
+  CHECK(staging.lights.size() == 2);
+  CHECK(staging.mesh.scale == 0.5);
+  CHECK(staging.mesh.up == UpAxis{2});
+  CHECK(staged({"--up=-x"}).mesh.up == UpAxis{0, true});
+  CHECK(staging.mesh.smooth_degrees == 30);
+  CHECK(staging.mesh.allows_missing);
+  CHECK_FALSE(staged({"--missing=error"}).mesh.allows_missing);
+  CHECK_FALSE(staged({}).camera);
+  CHECK_FALSE(staged({}).mesh.up);
+}
+
+TEST_CASE("scales, axes and angles out of range are refused") {
+  for (const char* option :
+       {"--scale=0", "--scale=-1", "--scale=inf", "--scale=x", "--scale=1e31", "--light=1e31,0,0", "--up=w", "--up=-", "--up=--z",
+        "--up=x,y", "--smooth=-1", "--smooth=181", "--smooth=", "--missing=no", "--camera=1", "--light=1"}) {
+    CAPTURE(option);
+    CHECK_THROWS_AS(staged({option}), UsageError);
+  }
+}
+
+TEST_CASE("a camera replaces what it names of the scene's view, lights replace all lights") {
+  core::Scene scene{.view = {.from = {0, 0, 9}, .up = {1, 0, 0}, .angle_degrees = 20, .width = 64}};
+  scene.lights.resize(5);
+  apply({}, scene);
+  CHECK(scene.view.from == Vec3d{0, 0, 9});
+  CHECK(scene.lights.size() == 5);
+  apply({.camera = parse_camera("0,1,2/0,0,0"), .lights = {parse_light("1,1,1")}}, scene);
+  CHECK(scene.view.from == Vec3d{0, 1, 2});
+  CHECK(scene.view.up == Vec3d{1, 0, 0});
+  CHECK(scene.view.angle_degrees == 20);
+  CHECK(scene.view.width == 64);
+  CHECK(scene.lights.size() == 1);
+}
+
+TEST_CASE("a camera along the scene's own up asks for another up") {
+  core::Scene scene;
+  CHECK_THROWS_WITH_AS(apply({.camera = parse_camera("0,5,0/0,0,0")}, scene), Contains("give UP, too"), UsageError);
+}
+
+}  // namespace dmpc::apps

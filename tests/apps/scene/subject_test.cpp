@@ -1,0 +1,38 @@
+#include "apps/scene/subject.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "apps/scene/load_scene.h"
+
+namespace dmpc::apps {
+
+TEST_CASE("a subject has the scene's records and the picture that was asked for") {
+  const PictureOptions picture{.scene = "tetra-3", .resolution = Resolution{20, 10}, .samples = 2, .depth = 3};
+  const Subject subject = build_subject(load_scene(picture), picture);
+  CHECK(subject.database.header().primitive_count == 64);
+  CHECK(subject.database.page_size() == 1024);
+  CHECK(subject.settings.camera.width() == 20);
+  CHECK(subject.settings.camera.height() == 10);
+  CHECK(subject.settings.shade.depth_max == 3);
+}
+
+TEST_CASE("a subject's page size, order of records and axes are those asked for") {
+  const PictureOptions picture{.scene = "tetra-3"};
+  const core::Scene scene = load_scene(picture);
+  const Subject world = build_subject(scene, picture, {.page_size_bytes = 512});
+  const Subject screen = build_subject(scene, picture, {.axes = AxesChoice::screen});
+  const Subject scattered = build_subject(scene, picture, {.record_order = core::RecordOrder::scattered});
+  CHECK(world.database.page_size() == 512);
+  CHECK_FALSE(std::ranges::equal(world.database.bytes(), scattered.database.bytes()));
+  CHECK(world.settings.camera.primary_ray(0, 0).direction != screen.settings.camera.primary_ray(0, 0).direction);
+}
+
+TEST_CASE("what was left out is told in good grammar") {
+  CHECK(dropped_text(0).empty());
+  CHECK(dropped_text(1) == "1 degenerate primitive was left out");
+  CHECK(dropped_text(2) == "2 degenerate primitives were left out");
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,22 @@
+#include "apps/show/page/data_url.h"
+
+#include <doctest/doctest.h>
+
+namespace dmpc::apps::html {
+
+TEST_CASE("bytes are written as RFC 4648 has them") {
+  const auto base64 = [](std::string_view bytes) { return data_url("", bytes).substr(std::string("data:;base64,").size()); };
+  CHECK(base64("").empty());
+  CHECK(base64("f") == "Zg==");
+  CHECK(base64("fo") == "Zm8=");
+  CHECK(base64("foo") == "Zm9v");
+  CHECK(base64("foobar") == "Zm9vYmFy");
+  CHECK(base64(std::string_view("\xFF\x00\xFB", 3)) == "/wD7");
+}
+
+TEST_CASE("a picture is a PNG within its own address") {
+  const std::string url = data_url(Image(2, 3));
+  CHECK(url.rfind("data:image/png;base64,iVBORw0KGgo", 0) == 0);  // the eight bytes with which a PNG begins
+}
+
+}  // namespace dmpc::apps::html

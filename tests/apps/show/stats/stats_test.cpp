@@ -1,0 +1,243 @@
+#include "apps/show/stats/stats.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/apps/show/rendered.h"
+#include "tests/support/mesh_files.h"
+#include "tests/support/temporary_folder.h"
+
+namespace dmpc::apps {
+
+using tests::TemporaryFolder;
+
+TEST_CASE("the keys of the counters are an interface") {
+  const std::string json = Rendered(small()).json();
+  CHECK(keys(json, 1) ==
+        std::vector<std::string>{
+            "program",    "options", "runner",   "machine",        "film_hash",       "sampling",     "rays",    "hits",
+            "operations", "seconds", "run_hash", "machine_digest", "virtual_seconds", "time_percent", "events",  "links",
+            "database",   "packets", "pages",    "work",           "travel",          "load",         "regions", "mapping",
+            "pairs",      "chaos",   "skips",    "heat_maps",      "nodes",           "host"});
+  for (const std::string key : {"samples_per_pixel",
+                                "passes",
+                                "estimated_error",
+                                "cutoff",
+                                "rays_cut",
+                                "mean_error_bound",
+                                "primary",
+                                "reflected",
+                                "refracted",
+                                "shadow",
+                                "total",
+                                "secondary",
+                                "shadow_blocked",
+                                "total_internal_reflections",
+                                "load",
+                                "build",
+                                "render",
+                                "write",
+                                "user",
+                                "system",
+                                "bytes",
+                                "pages",
+                                "page_size",
+                                "primitives",
+                                "dropped",
+                                "references",
+                                "hits",
+                                "faults",
+                                "evictions",
+                                "distinct_per_pixel",
+                                "sent",
+                                "received",
+                                "overflow",
+                                "memory",
+                                "busy",
+                                "idle",
+                                "scene",
+                                "width",
+                                "node_memory",
+                                "home_pages",
+                                "reserve",
+                                "page_request"}) {
+    CHECK_MESSAGE(contains(json, "\"" + key + "\""), key);
+  }
+}
+
+TEST_CASE("the counters agree with the report") {
+  const Rendered rendered(small());
+  const std::string json = rendered.json();
+  CHECK(value(json, "film_hash") == "\"" + hash_text(account_of(*rendered.report).film.hash()) + "\"");
+  CHECK(value(json, "primary") == "192");
+  CHECK(value(json, "scene") == "\"balls-1\"");
+  CHECK(value(json, "width") == "16");
+  CHECK(value(json, "nodes") == "3");
+  CHECK(value(json, "load") == "0.5");
+  CHECK(value(json, "sent") == value(json, "received"));
+  CHECK(value(json, "distinct_per_pixel") == "null");
+}
+
+TEST_CASE("how the scene is placed, seen and lit is told where the command line says it") {
+  RenderOptions options = small();
+  const std::string plain = Rendered(options).json();
+  for (const char* const key : {"camera", "light", "scale", "up", "smooth", "missing"}) {
+    CHECK_MESSAGE(value(plain, key) == "null", key);
+  }
+  const TemporaryFolder folder;
+  tests::write_text(folder / "a.obj", tests::triangle_obj);
+  options.picture.scene = folder / "a.obj";
+  options.picture.staging = {.camera = parse_camera("0,0,9/0,0,0/0,1,0"),
+                             .lights = {parse_light("1,2,3"), parse_light("4,5,6/1,1,1")},
+                             .mesh = {.scale = 2, .up = UpAxis{2, true}, .smooth_degrees = 30, .allows_missing = true}};
+  const auto told = nlohmann::json::parse(Rendered(options).json())["options"];
+  CHECK(told["camera"] == "0,0,9/0,0,0/0,1,0");
+  CHECK(told["light"] == nlohmann::json({"1,2,3", "4,5,6/1,1,1"}));
+  CHECK(told["scale"] == 2);
+  CHECK(told["up"] == "-z");
+  CHECK(told["smooth"] == 30);
+  CHECK(told["missing"] == "plain");
+}
+
+TEST_CASE("every node has an entry of its own") {
+  const std::string json = Rendered(small()).json();
+  std::size_t count = 0;
+  for (std::size_t at = json.find("\"quanta\""); at != std::string::npos; at = json.find("\"quanta\"", at + 1)) {
+    ++count;
+  }
+  CHECK(count == 3);
+}
+
+TEST_CASE("distinct pages are counted on demand") {
+  RenderOptions options = small();
+  options.pages.count_pages = true;
+  const std::string counted = value(Rendered(options).json(), "distinct_per_pixel");
+  CHECK(std::stod(counted) >= 1);
+}
+
+TEST_CASE("chaos is told by its seed and what it did, and only where there was some") {
+  CHECK(value(Rendered(small()).json(), "chaos") == "null");
+  RenderOptions options = small();
+  options.computer.chaos = nodes::Chaos{.seed = ~std::uint64_t{0}, .held_percent = 100};
+  const std::string json = Rendered(options).json();
+  CHECK(value(json, "seed") == "18446744073709551615");
+  CHECK(std::stoi(value(json, "packets_held")) > 0);
+  CHECK(value(json, "quanta_sat_out") == "0");
+}
+
+TEST_CASE("a node's time is what it computed, slept and waited for a core") {
+  Rendered rendered(small());
+  nodes::NodeCounters& counters = std::get<svm::Report>(*rendered.report).nodes[0].counters;
+  counters.busy_ns = 2'000'000'000;
+  counters.asleep_ns = 3'000'000'000;
+  counters.wall_ns = 9'000'000'000;
+  std::string json = rendered.json();
+  CHECK(value(json, "busy") == "2.0");
+  CHECK(value(json, "idle") == "3.0");
+  CHECK(value(json, "waiting") == "4.0");
+  CHECK(value(json, "wall") == "9.0");
+  counters.wall_ns = 4'999'999'999;
+  json = rendered.json();
+  CHECK(value(json, "waiting") == "0.0");
+}
+
+TEST_CASE("sums that saturate on the host's film are told") {
+  Rendered rendered(small());
+  std::get<svm::Report>(*rendered.report).host_deposits_saturated = 4711;
+  CHECK(contains(rendered.json(), "\"deposits_saturated\": 4711"));
+}
+
+TEST_CASE("of a picture that was gone on with, what its earlier samples would have to tell is null") {
+  const Rendered rendered(small());
+  RenderRecord record = rendered.record();
+  record.samples_found_done = 3;
+  const std::string json = stats_json(record);
+  CHECK(value(json, "mean_error_bound") == "null");
+  CHECK(value(json, "deposits_saturated") == "null");
+  CHECK(value(rendered.json(), "mean_error_bound") != "null");
+}
+
+TEST_CASE("what belongs to another strategy is null") {
+  const std::string pages = Rendered(small()).json(), copies = Rendered(small(Strategy::replicated)).json(),
+                    rays = Rendered(small(Strategy::dataflow)).json();
+  for (const std::string key : {"travel", "load", "regions", "mapping", "pairs", "ray_batch", "topology", "token_rounds"}) {
+    CAPTURE(key);
+    CHECK(value(pages.substr(key == "load" ? pages.find("\"work\"") : 0), key) == "null");
+    CHECK(value(rays.substr(key == "load" ? rays.find("\"travel\"") : 0), key) != "null");
+  }
+  for (const std::string key : {"pages", "work", "in_flight", "work_item", "count_pages"}) {
+    CAPTURE(key);
+    CHECK(value(rays.substr(key == "pages" ? rays.find("\"by_kind\"") : 0), key) == "null");
+    CHECK(value(copies.substr(key == "pages" ? copies.find("\"by_kind\"") : 0), key) != "null");
+  }
+  CHECK(value(copies, "cache_pages") == "null");
+  CHECK(value(pages, "cache_pages") != "null");
+  CHECK(value(copies, "replacement") == "null");
+}
+
+TEST_CASE("every strategy has the same keys") {
+  const auto all_keys = [](Strategy strategy) {
+    const std::string json = Rendered(small(strategy)).json();
+    return std::pair(keys(json, 1), keys(json.substr(0, json.find("\"film_hash\"")), 2));
+  };
+  CHECK(all_keys(Strategy::dataflow) == all_keys(Strategy::svm));
+  CHECK(all_keys(Strategy::dataflow) == all_keys(Strategy::replicated));
+}
+
+TEST_CASE("the strategy and the axes of the grid are told") {
+  RenderOptions options = small(Strategy::dataflow);
+  CHECK(value(Rendered(options).json(), "grid_axes") == "\"world\"");
+  options.database.axes = AxesChoice::screen;
+  const std::string json = Rendered(options).json();
+  CHECK(value(json, "grid_axes") == "\"screen\"");
+  CHECK(value(json, "strategy") == "\"dataflow\"");
+  CHECK(value(Rendered(small(Strategy::replicated)).json(), "strategy") == "\"replicated\"");
+}
+
+TEST_CASE("what was left out is told skip by skip, with its unit, and whether it was on") {
+  RenderOptions options = small(Strategy::dataflow);
+  options.picture.skips.unlit = false;
+  const Rendered rendered(options);
+  const std::string json = rendered.json(), skips = json.substr(json.find("\"skips\""));
+  const auto of = [&](const std::string& name) { return skips.substr(skips.find("\"" + name + "\"")); };
+  CHECK(value(of("unlit"), "on") == "false");
+  CHECK(value(of("unlit"), "avoided") == "0");
+  CHECK(value(of("unlit"), "unit") == "\"shadow rays\"");
+  for (const core::Skip& skip : core::all_skips) {
+    std::string name = skip.name;
+    std::replace(name.begin(), name.end(), '-', '_');
+    CAPTURE(name);
+    CHECK(value(of(name), "exact") == "true");
+    CHECK(value(of(name), "avoided") == std::to_string(account_of(*rendered.report).operations.skipped.*skip.avoided));
+  }
+  CHECK(value(of("zero_terms"), "on") == "true");
+  CHECK(value(of("zero_terms"), "avoided") != "0");
+  CHECK(value(of("cutoff"), "on") == "false");
+  CHECK(value(of("cutoff"), "exact") == "false");
+}
+
+TEST_CASE("the records of the database are told by kind") {
+  const Rendered rendered(small());
+  const std::string json = rendered.json();
+  CHECK(value(json, "bricks") == std::to_string(rendered.database.records().bricks));
+  CHECK(value(json, "sphere_blocks") != "0");
+  CHECK(value(json, "cone_blocks") == "0");
+  CHECK(value(json, "normals") == "0");
+  CHECK(value(json, "normal_reads") == "0");
+  CHECK(value(json, "lights") == "3");
+}
+
+TEST_CASE("a hash is sixteen digits") {
+  CHECK(hash_text(0) == "0000000000000000");
+  CHECK(hash_text(0xfedcba9876543210ULL) == "fedcba9876543210");
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,82 @@
+#include "apps/show/summary.h"
+
+#include <doctest/doctest.h>
+
+#include <sstream>
+#include <string>
+
+#include "tests/apps/show/rendered.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+std::string summary(const RenderOptions& options) {
+  std::ostringstream output;
+  print_summary(output, Rendered(options).record());
+  return output.str();
+}
+
+}  // namespace
+
+TEST_CASE("the closing lines name scene, computer, memory, rays, pages, times and picture") {
+  std::ostringstream output;
+  print_summary(output, Rendered(small()).record());
+  for (const std::string part :
+       {"scene    balls-1, ", "computer 3 nodes, svm, ", "memory   ", "home pages ", "rays     ", "(primary 192, ", "pages    ",
+        " look-ups: at home ", "time     load 0.500 s", "picture  ", "16x12"}) {
+    CHECK_MESSAGE(contains(output.str(), part), part);
+  }
+}
+
+TEST_CASE("the closing lines of replicated do without pages") {
+  const std::string text = summary(small(Strategy::replicated));
+  CHECK_FALSE(contains(text, "pages    "));
+  CHECK(contains(text, "computer 3 nodes, replicated, 1 pixel in flight\n"));
+}
+
+TEST_CASE("the closing lines of dataflow say how rays travelled and how evenly the work was shared") {
+  const std::string text = summary(small(Strategy::dataflow));
+  for (const std::string part :
+       {"computer 3 nodes, dataflow, 10 rays a packet, 4 credits a pair, 512 packets queued\n", "rays     ", "(primary 192, ",
+        "travel   ", " messages, ", " hops a ray, in ", " % full; overflowed ", "load     predicted ", " %, achieved ",
+        " % (mean over maximum of the nodes' work)\n", "regions  ", " copies of a record; on the hypercube ",
+        " if mapped at random\n", ", prepare 0.250 s,"}) {
+    CHECK_MESSAGE(contains(text, part), part);
+  }
+  CHECK_FALSE(contains(text, "pages    "));
+}
+
+TEST_CASE("the closing lines of a modelled machine tell virtual time and what became of it, apart from the wall clock") {
+  for (const Strategy strategy : {Strategy::svm, Strategy::replicated, Strategy::dataflow}) {
+    const std::string text = summary(modelled(strategy));
+    for (const std::string part : {"virtual  ", " s on ipsc2, ", " events; run_hash ", ", machine_digest ",
+                                   "\nlosses   computing ", " %, idle at the end ", " %\ntime     load 0.500 s"}) {
+      CHECK_MESSAGE(contains(text, part), part);
+    }
+    CHECK_FALSE(contains(summary(small(strategy)), "virtual  "));
+    CHECK_FALSE(contains(summary(small(strategy)), "losses   "));
+  }
+  CHECK(contains(summary(modelled()), ", page wait "));
+  CHECK(contains(summary(modelled(Strategy::dataflow)), ", ray wait "));
+}
+
+TEST_CASE("memory ports are told") {
+  nodes::Machine machine = find_machine_preset("cm5")->machine;
+  machine.has_memory_port = true;
+  CHECK(contains(summary(on_machine(small(), machine)), " s on cm5 with memory ports, "));
+}
+
+TEST_CASE("links that do not contend are told") {
+  nodes::Machine machine = find_machine_preset("cm5")->machine;
+  machine.has_contention = false;
+  CHECK(contains(summary(on_machine(small(), machine)), " s on cm5 without contention, "));
+}
+
+TEST_CASE("regions of equal size were predicted no load") {
+  RenderOptions options = small(Strategy::dataflow);
+  options.rays.balance.balance = dataflow::Balance::equal_size;
+  CHECK(contains(summary(options), "load     achieved "));
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,44 @@
+// Small renders with all that looks on for a page.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "apps/render/onlookers.h"
+#include "apps/run/run_strategy.h"
+#include "tests/apps/show/rendered.h"
+
+namespace dmpc::apps {
+
+/// A render with --report, and what its onlookers have seen.
+struct Watched {
+  explicit Watched(RenderOptions given, std::size_t references_max = 1'000'000) : options(std::move(given)) {
+    options.report = "page.html";
+    Subject subject = build_subject(load_scene(options.picture), options.picture, options.database);
+    database = std::move(subject.database);
+    Onlookers onlookers(options, static_cast<std::uint32_t>(database.page_count()), references_max);
+    const RunTies ties{.observer = onlookers.observer(), .reference_logs = onlookers.reference_logs()};
+    report = make_ready(options, database, subject.settings, {}, ties).start({}, {});
+    sights = onlookers.take();
+  }
+  RenderRecord record() const {
+    return {.options = options, .database = database, .report = *report, .seconds = {}, .view = &*sights.view};
+  }
+  const RunView& view() const { return *sights.view; }
+
+  RenderOptions options;
+  core::Database database;
+  std::optional<Report> report;
+  Sights sights;
+};
+
+/// With caches so small that pages are fetched.
+inline RenderOptions starved(RenderOptions options) {
+  options.picture.scene = "balls-2";
+  options.database.page_size_bytes = 512;
+  options.pages.cache_pages = 4;
+  return options;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,151 @@
+#include "apps/study/paper/tables.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "apps/study/paper/claims.h"
+#include "core/base/expect.h"
+#include "tests/support/paper_results.h"
+#include "tests/support/table_cells.h"
+
+namespace dmpc::tests {
+
+using namespace apps;
+
+namespace {
+
+std::uint64_t whole(std::uint64_t value) { return value; }
+
+}  // namespace
+
+TEST_CASE("Table 3 has 24 cells, and results as printed differ by nothing") {
+  const Catalogue catalogue = catalogue_of(16);
+  const PaperResults results = as_printed(catalogue);
+  CHECK(cells_of_table_3(catalogue, results).size() == 24);
+  CHECK(printed_cell_count() == 24);
+  const Table table = table_3(catalogue, results);
+  CHECK(table.rows().size() == 24);
+  for (const auto& row : table.rows()) {
+    CHECK(number(row[4]) == 1);
+    CHECK(number(row[7]) == 0);
+  }
+  CHECK(table.notes().back().find("0.00 points on average and 0.00 at worst, 18 cells") != std::string::npos);
+}
+
+TEST_CASE("a cell that is two points off is found") {
+  const Catalogue catalogue = catalogue_of(16);
+  PaperResults results = as_printed(catalogue);
+  PaperResult& teapot_on_64 = *results[catalogue.timed[0][6]];
+  const double printed = cells_of_table_3(catalogue, results)[6].printed_efficiency;
+  teapot_on_64.total_ns = static_cast<std::uint64_t>(static_cast<double>(teapot_on_64.total_ns) * printed / (printed - 2));
+  CHECK(cells_of_table_3(catalogue, results)[6].efficiency == doctest::Approx(printed - 2));
+  const Table table = table_3(catalogue, results);
+  CHECK(number(table.rows()[6][7]) == doctest::Approx(-2));
+  CHECK(table.notes().back() == "Predicted efficiencies differ by 0.11 points on average and 2.00 at worst, 18 cells.");
+}
+
+TEST_CASE("Table 2 has what its run counted and its database holds beside what is printed") {
+  const Catalogue catalogue = catalogue_of(8);
+  const std::size_t run = catalogue.counted[0];
+  PaperResults results(catalogue.runs.size());
+  results[run] = PaperResult{.rays = 1234, .pages_a_pixel = 5.5};
+  const std::vector<PaperSubject> subjects = paper_subjects(std::span(catalogue.runs).subspan(run, 1));
+  const core::Database& database = subjects.front().subject.database;
+  const Table table = table_2(catalogue, results, subjects);
+  REQUIRE(table.rows().size() == 1);
+  CHECK(table.rows()[0] == std::vector<Cell>{"Teapot", "teapot-8", whole(3754), whole(database.header().primitive_count),
+                                             whole(1'397'473), whole(1234), whole(793), whole(database.bytes().size() / 1024),
+                                             58.19, 5.5});
+  CHECK(table.notes() ==
+        std::vector<std::string>{"Teapot: another teapot: theirs is not published.", "Unfinished: 4 of 5 rows are missing."});
+}
+
+TEST_CASE("both algorithms are held against one node on which nothing travels, and the notes say on which computers") {
+  const Catalogue catalogue = catalogue_of(16);
+  PaperResults results = all_alike(catalogue);
+  results[catalogue.rings_by_pages[0][0]] = result_of_seconds(one_node_seconds);
+  results[catalogue.rings_by_pages[0][6]] = result_of_efficiency(80, 64);
+  results[catalogue.rings_by_rays[0][6]] = result_of_efficiency(40, 64);
+  const Table table = algorithms(catalogue, results);
+  REQUIRE(table.rows().size() == 14);
+  const std::vector<Cell>& on_64 = table.rows()[6];
+  CHECK(on_64[0] == Cell("rings-3-t1"));
+  CHECK(on_64[1] == Cell(whole(64)));
+  CHECK(number(on_64[4]) == doctest::Approx(40));
+  CHECK(number(on_64[5]) == doctest::Approx(80));
+  CHECK(has_note(table, "on nodes with memories of 4 MiB"));
+  CHECK(has_note(table, "did not fit into the memories of 2 and 4 nodes"));
+}
+
+TEST_CASE("the notes on the computers of both algorithms are true of their runs") {
+  const Catalogue catalogue = catalogue_of(16);
+  for (std::size_t column = 1; column < paper_node_counts.size(); ++column) {
+    CHECK(catalogue.rings_by_pages[1][column] == catalogue.timed[rings_row][column]);
+    for (const std::size_t run :
+         {catalogue.rings_by_pages[0][column], catalogue.rings_by_rays[0][column], catalogue.rings_by_rays[1][column]}) {
+      CHECK(catalogue.runs[run].node_memory_bytes == std::size_t{4} << 20U);
+      CHECK_FALSE(catalogue.runs[run].cache_share.has_value());
+    }
+  }
+}
+
+TEST_CASE("caches have their efficiency, faults and traffic beside what they hold") {
+  const Catalogue catalogue = catalogue_of(16);
+  PaperResults results(catalogue.runs.size());
+  CacheFigures figures;
+  figures.efficiency.fill(50);
+  figures.page_rate.fill(1e5);
+  set_caches(results, catalogue, 1, figures);
+  PaperResult& largest = *results[catalogue.cached[1].back()];
+  largest.faults = 77;
+  largest.cache_pages = 1800;
+  largest.parts.ns = {60, 30, 0, 0, 10, 0, 0, 0};
+  const Table table = caches(catalogue, results);
+  REQUIRE(table.rows().size() == 10);
+  const std::vector<Cell>& last = table.rows().back();
+  CHECK(std::vector<Cell>(last.begin(), last.begin() + 3) == std::vector<Cell>{"tetra-9", whole(2895), whole(1800)});
+  const std::pair<std::size_t, double> figures_of_last[] = {{3, 100 * 2895 / 36189.0}, {4, 50}, {6, 1e5}, {7, 30}, {8, 10}};
+  for (const auto& [column, expected] : figures_of_last) {
+    CHECK(number(last[column]) == doctest::Approx(expected));
+  }
+  CHECK(last[5] == Cell(whole(77)));
+  CHECK(table.notes().back() == "Unfinished: 10 of 20 rows are missing.");
+}
+
+TEST_CASE("a table says how many rows are missing, if any, and cannot have more than all") {
+  Table table("", {{"a"}});
+  table.add_row({std::uint64_t{1}});
+  note_missing_rows(table, 1);
+  CHECK(table.notes().empty());
+  note_missing_rows(table, 2);
+  CHECK(table.notes().back() == "Unfinished: 1 of 2 rows are missing.");
+  CHECK_THROWS_AS(note_missing_rows(table, 0), core::InternalError);
+}
+
+TEST_CASE("differences have a mean and a worst, whatever their sign, and none has neither") {
+  Differences differences;
+  CHECK(differences.mean() == 0);
+  differences.add(-3);
+  differences.add(1);
+  CHECK(differences.mean() == 2);
+  CHECK(differences.worst == 3);
+}
+
+TEST_CASE("rows whose runs are missing are left out, and so is what rests on them") {
+  const Catalogue catalogue = catalogue_of(16);
+  PaperResults results = as_printed(catalogue);
+  results[catalogue.timed[3][4]].reset();  // Tetra9's base
+  CHECK(cells_of_table_3(catalogue, results).size() == 21);
+  CHECK(table_3(catalogue, results).notes().back() == "Unfinished: 3 of 24 rows are missing.");
+  CHECK(losses(catalogue, results).notes().back() == "Unfinished: 3 of 24 rows are missing.");
+  CHECK(algorithms(catalogue, results).rows().empty());
+  CHECK(claims(catalogue, PaperResults(catalogue.runs.size())).rows().empty());
+}
+
+}  // namespace dmpc::tests

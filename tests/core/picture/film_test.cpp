@@ -1,0 +1,108 @@
+#include "core/picture/film.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "apps/bench/stability/random.h"
+#include "core/base/expect.h"
+
+using namespace dmpc::apps;
+using namespace dmpc::core;
+using dmpc::apps::Random;
+
+namespace {
+
+constexpr float infinite = std::numeric_limits<float>::infinity();
+constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+
+PixelSums even(const Color& light) { return {{to_fixed(light), FixedColor{}}}; }
+
+}  // namespace
+
+TEST_CASE("one unit of light is two to the 32nd") {
+  CHECK(to_fixed({1, 0.5F, 0}).channel == std::array<std::int64_t, 3>{1LL << 32U, 1LL << 31U, 0});
+}
+
+TEST_CASE("light below half the resolution is none") {
+  CHECK(to_fixed({0x1p-34F, 0x1.8p-33F, 0x1p-32F}).channel == std::array<std::int64_t, 3>{0, 1, 1});
+}
+
+TEST_CASE("negative light and NaN deposit nothing, too much light saturates") {
+  CHECK(to_fixed({-1, std::numeric_limits<float>::quiet_NaN(), -infinite}) == FixedColor{});
+  CHECK(to_fixed({3e38F, infinite, 0x1p31F}).channel == std::array<std::int64_t, 3>{most, most, most});
+}
+
+TEST_CASE("a sum that saturates says so and stays there") {
+  FixedColor sum = to_fixed({0x1p30F, 0, 0});
+  CHECK_FALSE(add(sum, to_fixed({0x1p29F, 0, 0})));
+  CHECK(add(sum, to_fixed({0x1p30F, 0, 0})));
+  CHECK(sum.channel[0] == most);
+  CHECK(add(sum, to_fixed({1, 0, 0})));
+  CHECK(sum.channel[0] == most);
+  CHECK(sum.channel[1] == 0);
+}
+
+TEST_CASE("sums do not depend on the order of the deposits, saturated or not") {
+  for (const double brightest : {1.0, 0x1p30}) {
+    Random random(1);
+    std::vector<Color> deposits;
+    for (int i = 0; i < 1000; ++i) {
+      deposits.push_back(Color(random.in_box(0, brightest)));
+    }
+    FixedColor forward, backward;
+    for (const Color& light : deposits) {
+      add(forward, to_fixed(light));
+    }
+    std::reverse(deposits.begin(), deposits.end());
+    for (const Color& light : deposits) {
+      add(backward, to_fixed(light));
+    }
+    CHECK(forward == backward);
+  }
+}
+
+TEST_CASE("a pixel's radiance is the mean of both planes over the samples") {
+  Film film(2, 1);
+  CHECK_FALSE(film.deposit(1, {{to_fixed({1, 2, 3}), to_fixed({3, 2, 1})}}));
+  film.add_samples(0, 1);
+  film.add_samples(1, 1);
+  film.add_samples(1, 3);
+  CHECK(film.radiance(1) == Vec3d{1, 1, 1});
+  CHECK(film.radiance(0) == Vec3d{});
+  CHECK(film.samples(1) == 4);
+  CHECK(film.samples() == 5);
+}
+
+TEST_CASE("half of the difference of a pixel's planes is between the means of its even and of its odd samples") {
+  Film film(1, 1);
+  film.deposit(0, {{to_fixed({6, 0, 2}), to_fixed({1, 1, 1})}});
+  film.add_samples(0, 3);  // two even ones, and one odd
+  CHECK(film.half_difference(0) == Vec3d{1, -0.5, 0});
+}
+
+TEST_CASE("a film tells of saturation, of pixels beyond it and of no samples") {
+  Film film(2, 2);
+  CHECK(film.deposit(3, even({infinite, 0, 0})));
+  CHECK_THROWS_AS(film.deposit(4, {}), InternalError);
+  CHECK_THROWS_AS(film.radiance(0), InternalError);
+  film.add_samples(0, 1);
+  CHECK_THROWS_AS(film.half_difference(0), InternalError);
+  CHECK_THROWS_AS(Film(0, 1), InternalError);
+}
+
+TEST_CASE("a film's hash tells its integers, its planes and its size apart") {
+  Film one(2, 2), same(2, 2), other(2, 2), odd(2, 2), row(4, 1);
+  one.deposit(0, even({1, 2, 3}));
+  same.deposit(0, even({0.5F, 2, 3}));
+  same.deposit(0, even({0.5F, 0, 0}));
+  other.deposit(1, even({1, 2, 3}));
+  odd.deposit(0, {{FixedColor{}, to_fixed({1, 2, 3})}});
+  row.deposit(0, even({1, 2, 3}));
+  CHECK(one.hash() == same.hash());
+  CHECK(one.hash() != other.hash());
+  CHECK(one.hash() != odd.hash());
+  CHECK(one.hash() != row.hash());
+}

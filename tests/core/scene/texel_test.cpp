@@ -1,0 +1,69 @@
+#include "core/scene/texel.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "core/base/srgb.h"
+
+namespace dmpc::core {
+
+namespace {
+
+constexpr auto srgb = TexelFormat::srgb;
+constexpr auto shared_exponent = TexelFormat::shared_exponent;
+
+void check_kept(TexelFormat format, std::uint32_t texel) {
+  CAPTURE(texel);
+  CHECK(encoded(format, Vec3d(decoded(format, texel))) == texel);
+}
+
+}  // namespace
+
+TEST_CASE("the bytes of an sRGB texel are red, green and blue on the curve, and encoding gives them back") {
+  CHECK(decoded(srgb, 0x000000) == Color{0, 0, 0});
+  CHECK(decoded(srgb, 0xffffff) == Color{1, 1, 1});
+  CHECK(decoded(srgb, 0x0000ff) == Color{1, 0, 0});
+  CHECK(decoded(srgb, 0xff0000) == Color{0, 0, 1});
+  CHECK(decoded(srgb, 0x008000).y == static_cast<float>(linear_from_srgb(128 / 255.0)));
+  for (std::uint32_t byte = 0; byte < 256; ++byte) {
+    check_kept(srgb, byte | (255 - byte) << 8U | (byte ^ 0x55U) << 16U);
+  }
+}
+
+TEST_CASE("a texel with a shared exponent is what OpenGL says") {
+  CHECK(decoded(shared_exponent, 0) == Color{0, 0, 0});
+  CHECK(decoded(shared_exponent, 256U | 16U << 27U) == Color{1, 0, 0});  // 256 / 512 * 2^(16 - 15)
+  CHECK(decoded(shared_exponent, 511U << 18U | 31U << 27U) == Color{0, 0, 65408});
+  CHECK(encoded(shared_exponent, {1, 0.5, 0.25}) == (256U | 128U << 9U | 64U << 18U | 16U << 27U));
+  CHECK(encoded(shared_exponent, {65408, 0, 0}) == (511U | 31U << 27U));
+}
+
+TEST_CASE("a shared exponent errs by 1 in 512 of the largest channel, at most") {
+  std::mt19937 random(7);
+  for (int i = 0; i < 2000; ++i) {
+    const auto channel = [&] { return std::exp2(static_cast<double>(random() % 2800) / 100 - 13); };
+    const Vec3d color{channel(), channel(), channel()};
+    const Vec3d off = Vec3d(decoded(shared_exponent, encoded(shared_exponent, color))) - color;
+    const double largest = std::max({color.x, color.y, color.z});
+    CHECK(std::max({std::fabs(off.x), std::fabs(off.y), std::fabs(off.z)}) <= largest / 512);
+  }
+}
+
+TEST_CASE("a mantissa that rounds up to 512 goes on with the next exponent") {
+  CHECK(decoded(shared_exponent, encoded(shared_exponent, {0.99999, 0, 0})) == Color{1, 0, 0});
+}
+
+TEST_CASE("what no texel can hold is clamped") {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  for (const TexelFormat format : {srgb, shared_exponent}) {
+    CHECK(decoded(format, encoded(format, {-1, nan, -infinity})) == Color{0, 0, 0});
+  }
+  CHECK(decoded(srgb, encoded(srgb, {7, infinity, 1})) == Color{1, 1, 1});
+  CHECK(decoded(shared_exponent, encoded(shared_exponent, {1e9, infinity, 0})) == Color{65408, 65408, 0});
+}
+
+}  // namespace dmpc::core

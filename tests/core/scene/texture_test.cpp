@@ -1,0 +1,66 @@
+#include "core/scene/texture.h"
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+#include "core/scene/texel.h"
+#include "core/record/texture_layout.h"
+#include "tests/support/noise_texture.h"
+
+namespace dmpc::core {
+
+namespace {
+
+constexpr std::uint32_t black = 0, white = 0xffffff;
+
+Texture texture_of(std::uint32_t width, std::uint32_t height, std::vector<std::uint32_t> texels) {
+  Texture texture{.levels = {{width, height, std::move(texels)}}};
+  add_levels(texture);
+  return texture;
+}
+
+Vec3d mean_of(const Texture& texture, const TextureLevel& level) {
+  Vec3d sum;
+  for (const std::uint32_t texel : level.texels) {
+    sum = sum + Vec3d(decoded(texture.format, texel));
+  }
+  return sum * (1.0 / static_cast<double>(level.texels.size()));
+}
+
+}  // namespace
+
+TEST_CASE("levels halve down to a single texel, whatever the sides") {
+  const Texture texture = tests::noise_texture(20, 5);
+  REQUIRE(texture.levels.size() == 5);
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>> sizes = {{20, 5}, {10, 2}, {5, 1}, {2, 1}, {1, 1}};
+  for (std::size_t level = 0; level < sizes.size(); ++level) {
+    CHECK(std::pair(texture.levels[level].width, texture.levels[level].height) == sizes[level]);
+    CHECK(texture.levels[level].texels.size() == sizes[level].first * sizes[level].second);
+  }
+  CHECK(level_count(1, 1) == 1);
+  CHECK(level_count(65535, 1) == 16);
+}
+
+TEST_CASE("a texture of one texel has one level") { CHECK(texture_of(1, 1, {white}).levels.size() == 1); }
+
+TEST_CASE("a coarser texel is the mean in linear light, not that of the bytes") {
+  const Texture texture = texture_of(2, 2, {black, white, white, black});
+  CHECK(texture.levels[1].texels == std::vector<std::uint32_t>{0xbcbcbc});  // half the light is 188 on the curve, not 128
+}
+
+TEST_CASE("texels of an odd side count by the share that is covered") {
+  const Texture texture = texture_of(5, 1, {white, black, white, black, black});
+  CHECK(decoded({}, texture.levels[1].texels[0]).x == doctest::Approx(1.5 / 2.5).epsilon(0.01));  // covers two texels and a half
+  CHECK(decoded({}, texture.levels[1].texels[1]).x == doctest::Approx(0.5 / 2.5).epsilon(0.01));
+  const Texture five = tests::noise_texture(5, 5, {}, {}, TexelFormat::shared_exponent);
+  CHECK(length(mean_of(five, five.levels[1]) - mean_of(five, five.levels[0])) < 0.02 * length(mean_of(five, five.levels[0])));
+}
+
+TEST_CASE("the brightest channel is that of all texels") {
+  CHECK(texture_of(2, 1, {black, black}).brightest == 0);
+  CHECK(texture_of(2, 1, {0x00ff00, black}).brightest == 1);
+  CHECK(tests::noise_texture(4, 4, {}, {}, TexelFormat::shared_exponent).brightest > 0);
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,142 @@
+// One answer whatever the way to it: any or nearest hit, with and without skipping, interrupted or not, over pages of any size.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "apps/bench/stability/crowd.h"
+#include "apps/bench/stability/random.h"
+#include "apps/bench/stability/records.h"
+#include "core/families/scenes.h"
+#include "tests/support/scaled.h"
+#include "tests/support/shooting.h"
+
+using namespace dmpc::core;
+using namespace dmpc::apps;
+using namespace dmpc::tests;
+
+namespace {
+
+Hit shoot_interrupted(const Database& database, const Ray& ray, std::size_t& interruptions) {
+  OneRecord records(database.bytes());
+  Cursor cursor;
+  Operations operations;
+  while (trace(ray, cursor, records, database.header(), {}, operations) == Traced::absent) {
+    records.fetch(cursor.absent);
+    ++interruptions;
+  }
+  return cursor.best;
+}
+
+Ray as_shadow(Ray ray, double t_max) {
+  ray.kind = RayKind::shadow;
+  ray.t_max = static_cast<float>(t_max);
+  return ray;
+}
+
+}  // namespace
+
+TEST_CASE("a shadow ray is blocked exactly where the nearest hit lies before the light") {
+  const Database database = database_of(mixed_scene());
+  Random random(1);
+  std::size_t differences = 0, hits = 0;
+  for (std::size_t i = 0; i < scaled(100'000); ++i) {
+    Ray ray = i % 2 == 0 ? random_ray(database, random) : grazing_ray(database, random);
+    ray.t_max = static_cast<float>(random.between(0.01, 1.0));
+    const bool nearest = shoot(database, ray).found();
+    differences += nearest == shoot(database, as_shadow(ray, double{ray.t_max})).found() ? 0 : 1;
+    hits += nearest ? 1 : 0;
+  }
+  CHECK(differences == 0);
+  CHECK(hits > 0);
+}
+
+TEST_CASE("a hit counts before t_max and not at it") {
+  const Database database = database_of(mixed_scene());
+  Random random(2);
+  for (std::size_t i = 0; i < scaled(2000); ++i) {
+    Ray ray = random_ray(database, random);
+    const Hit hit = shoot(database, ray);
+    if (!hit.found()) {
+      continue;
+    }
+    ray.t_max = hit.t;
+    CHECK_FALSE(shoot(database, ray).found());
+    ray.t_max = std::nextafter(hit.t, 1e30F);
+    CHECK(same_hit(shoot(database, ray), hit));
+  }
+}
+
+TEST_CASE("a walk interrupted at every record gives the bits of one that is not") {
+  const Database database = database_of(mixed_scene());
+  Random random(3);
+  std::size_t differences = 0, interruptions = 0;
+  for (std::size_t i = 0; i < scaled(50'000); ++i) {
+    const Ray ray = i % 2 == 0 ? random_ray(database, random) : grazing_ray(database, random);
+    differences += same_hit(shoot_interrupted(database, ray, interruptions), shoot(database, ray)) ? 0 : 1;
+  }
+  CHECK(differences == 0);
+  CHECK(interruptions > scaled(50'000));
+}
+
+TEST_CASE("an interrupted walk counts the work of one that is not") {
+  const Database database = database_of(mixed_scene());
+  Random random(4);
+  const Ray ray = random_ray(database, random);
+  Operations once, often;
+  Cursor cursor, resumed;
+  LocalRecords all(database.bytes());
+  OneRecord one(database.bytes());
+  trace(ray, cursor, all, database.header(), {}, once);
+  while (trace(ray, resumed, one, database.header(), {}, often) == Traced::absent) {
+    one.fetch(resumed.absent);
+  }
+  CHECK(once.cell_steps == often.cell_steps);
+  CHECK(once.brick_reads == often.brick_reads);
+  CHECK(once.primitive_tests == often.primitive_tests);
+}
+
+TEST_CASE("skipping empty space changes no bit of a hit, on grazing rays neither") {
+  const Database room = database_of(mixed_scene());
+  const Database mountain = database_of(built_in_scene({.family = "mount", .size = 4, .tessellation = 0}));
+  Random random(5);
+  std::size_t differences = 0, hits = 0;
+  const std::size_t rays = ray_count(100'000);
+  for (std::size_t i = 0; i < rays; ++i) {
+    const Database& database = i % 2 == 0 ? room : mountain;
+    const Ray ray = i % 8 == 0 ? random_ray(database, random) : grazing_ray(database, random);
+    const Hit hit = shoot(database, ray);
+    differences += same_hit(hit, shoot(database, ray, false)) ? 0 : 1;
+    hits += hit.found() ? 1 : 0;
+  }
+  MESSAGE(rays, " rays, ", hits, " hits, ", differences, " differences");
+  CHECK(differences == 0);
+}
+
+TEST_CASE("the grid finds what brute force finds, on all kinds of primitives") {
+  const Database database = database_of(mixed_scene());
+  Random random(6);
+  std::size_t differences = 0;
+  for (std::size_t i = 0; i < scaled(20'000); ++i) {
+    const Ray ray = random_ray(database, random);
+    differences += same_hit(shoot(database, ray), brute_force(database, ray)) ? 0 : 1;
+  }
+  CHECK(differences == 0);
+}
+
+TEST_CASE("pages of every size hold the same hits") {
+  const Scene scene = mixed_scene();
+  const Database expected = database_of(scene);
+  for (std::size_t page_size = 512; page_size <= 65536; page_size *= 2) {
+    CAPTURE(page_size);
+    BuildOptions options = several_top_cells(scene);
+    options.page_size_bytes = page_size;
+    const Database database = build_database(scene, options);
+    Random random(7);
+    std::size_t differences = 0;
+    for (std::size_t i = 0; i < scaled(5000); ++i) {
+      const Ray ray = random_ray(expected, random);
+      differences += same_hit(shoot(database, ray), shoot(expected, ray)) ? 0 : 1;
+    }
+    CHECK(differences == 0);
+  }
+}

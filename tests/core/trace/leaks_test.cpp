@@ -1,0 +1,116 @@
+// Closed meshes hold every ray that starts inside them.
+#include <doctest/doctest.h>
+
+#include <vector>
+
+#include "apps/bench/stability/mesh.h"
+#include "apps/bench/stability/random.h"
+#include "apps/bench/stability/targets.h"
+#include "tests/support/scaled.h"
+#include "tests/support/shooting.h"
+
+using namespace dmpc::core;
+using namespace dmpc::apps;
+using namespace dmpc::tests;
+
+namespace {
+
+/// What rays are aimed at: every vertex, five points of every edge, the middle of every triangle, as the records hold them.
+std::vector<Vec3d> targets_of(const Database& database) {
+  std::vector<Vec3d> targets;
+  for (const PrimitiveValues& triangle : database.primitives()) {
+    for (std::size_t i = 0; i < targets_per_triangle; ++i) {
+      targets.push_back(target_of(triangle, i));
+    }
+  }
+  return targets;
+}
+
+/// How many rays from `origins` (world) to the targets meet nothing.
+std::size_t leaks(const Database& database, const std::vector<Vec3d>& origins) {
+  std::size_t count = 0;
+  const std::vector<Vec3d> targets = targets_of(database);
+  for (const Vec3d& origin : origins) {
+    for (const Vec3d& target : targets) {
+      count += shoot(database, ray_through(to_local(database.header().frame, origin), target)).found() ? 0 : 1;
+    }
+  }
+  return count;
+}
+
+/// The same from `count` points within `reach` of `center`, and from `center` itself.
+std::size_t leaks(const Mesh& mesh, const Vec3d& center, double reach, std::size_t count) {
+  Random random(7);
+  std::vector<Vec3d> origins{center};
+  while (origins.size() < scaled(count)) {
+    origins.push_back(center + random.direction() * (reach * random.unit()));
+  }
+  return leaks(database_of(seen_from(scene_of(mesh), 1)), origins);
+}
+
+constexpr Vec3d far_away{148376, 1234, -223423};
+
+}  // namespace
+
+TEST_CASE("a cube of twelve triangles holds every ray") { CHECK(leaks(cube(), {}, 0.95, 2000) == 0); }
+
+TEST_CASE("a tetrahedron holds every ray") { CHECK(leaks(tetrahedron(), {}, 0.5, 2000) == 0); }
+
+TEST_CASE("a sphere of triangles holds every ray") { CHECK(leaks(sphere_mesh(16, 32, 0), {}, 0.9, 100) == 0); }
+
+TEST_CASE("a sphere with noisy radii holds every ray") { CHECK(leaks(sphere_mesh(16, 32, 0.4), {}, 0.4, 100) == 0); }
+
+TEST_CASE("a torus holds every ray from within its tube") {
+  Random random(3);
+  std::vector<Vec3d> origins;
+  while (origins.size() < scaled(100)) {
+    const double angle = 6.28 * random.unit();
+    origins.push_back(Vec3d{std::cos(angle), std::sin(angle), 0} + random.direction() * (0.15 * random.unit()));
+  }
+  CHECK(leaks(database_of(scene_of(torus(24, 12, 0.3))), origins) == 0);
+}
+
+TEST_CASE("a closed mesh far from the world's origin holds every ray") {
+  CHECK(leaks(rounded(moved(sphere_mesh(16, 32, 0), 1, far_away)), far_away, 0.8, 50) == 0);
+  CHECK(leaks(rounded(moved(cube(), 1, far_away)), far_away, 0.8, 500) == 0);
+  CHECK(leaks(rounded(moved(sphere_mesh(16, 32, 0.4), 1, {1e6, -1e6, 1e6})), {1e6, -1e6, 1e6}, 0.3, 50) == 0);
+}
+
+TEST_CASE("a closed mesh of any size holds every ray") {
+  for (const int exponent : {-40, -20, 20, 40}) {
+    CAPTURE(exponent);
+    const double factor = std::ldexp(1.0, exponent);
+    CHECK(leaks(moved(torus(24, 12, 0.9), factor, {}), {factor, 0, 0}, 0.8 * factor, 10) == 0);
+  }
+}
+
+TEST_CASE("scaling a scene by a power of two changes no bit of its primitives") {
+  const Database plain = database_of(seen_from(scene_of(sphere_mesh(8, 16, 0.2)), 1));
+  for (int exponent = -40; exponent <= 40; ++exponent) {
+    const Mesh mesh = moved(sphere_mesh(8, 16, 0.2), std::ldexp(1.0, exponent), {});
+    const Database other = database_of(seen_from(scene_of(mesh), 1));
+    REQUIRE(other.primitives().size() == plain.primitives().size());
+    std::size_t differences = 0;
+    for (std::size_t i = 0; i < plain.primitives().size(); ++i) {
+      differences += plain.primitives()[i].value == other.primitives()[i].value ? 0 : 1;
+    }
+    CHECK(differences == 0);
+  }
+}
+
+TEST_CASE("rays along the axes with zeros of both signs leave no closed mesh") {
+  const Database database = database_of(scene_of(sphere_mesh(16, 32, 0.1)));
+  Random random(5);
+  std::size_t leaked = 0;
+  for (std::size_t i = 0; i < scaled(20000); ++i) {
+    const Vec3f origin(to_local(database.header().frame, random.in_box(-0.4, 0.4)));
+    for (const float zero : {0.0F, -0.0F}) {
+      for (const float one : {1.0F, -1.0F}) {
+        for (const Vec3f& d : {Vec3f{one, zero, zero}, Vec3f{zero, one, zero}, Vec3f{zero, zero, one}}) {
+          leaked += shoot(database, ray_from(origin, d)).found() ? 0 : 1;
+        }
+      }
+    }
+  }
+  CHECK(leaked == 0);
+}

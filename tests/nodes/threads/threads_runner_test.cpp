@@ -1,0 +1,347 @@
+#include "nodes/threads/threads_runner.h"
+
+#include <doctest/doctest.h>
+#include <sys/resource.h>
+#include <time.h>
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <stdexcept>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "tests/nodes/toy_machine.h"
+
+namespace dmpc::tests {
+namespace {
+
+using namespace nodes;
+
+template <class T>
+T& program_of(ThreadsRunner& runner, std::size_t index) {
+  return dynamic_cast<T&>(runner.program(index));
+}
+
+/// What this process has used of the real computer so far.
+struct Usage {
+  double seconds;  ///< of processor time
+  long thread_switches;
+};
+
+Usage usage_now() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return {seconds(usage.ru_utime) + seconds(usage.ru_stime), usage.ru_nvcsw + usage.ru_nivcsw};
+}
+
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// ---- Toy programs
+// ------------------------------------------------------------------------------------------------------------------
+
+constexpr Channel requests = 0;
+constexpr Channel replies = 1;
+constexpr PacketKind request = 1;
+constexpr PacketKind reply = 2;
+
+/// Asks every other node `count` times, with `window` requests to each under way at most; answers by a bulk packet.
+class Asker : public ToyProgram {
+ public:
+  struct Answer {
+    std::uint64_t question;
+    std::array<std::uint64_t, 15> words;
+  };
+
+  static MailboxCapacity mailbox(std::uint32_t peer_count, std::uint32_t window) {
+    return {.small_slots = (peer_count - 1) * window,  // every other node's requests under way to this one
+            .bulk_slots = (peer_count - 1) * window,   // the replies to this node's own
+            .bulk_payload_bytes = sizeof(Answer)};
+  }
+
+  Asker(Node& node, std::uint32_t count, std::uint32_t window) : ToyProgram(node), left_(node.peer_count(), count) {
+    left_[index()] = 0;
+    for (std::uint32_t i = 0; i < node.peer_count(); ++i) {
+      node.grant(NodeId{i}, requests, window);
+    }
+    unanswered_ = std::uint64_t{count} * (node.peer_count() - 1);
+  }
+
+  void receive(const Packet& packet) override { packet.kind == request ? answer(packet) : take(packet); }
+
+  /// Sends as long as credits last; a refused question stays where it is.
+  bool work() override {
+    for (std::uint32_t i = 0; i < left_.size(); ++i) {
+      if (left_[i] > 0 && node().try_send(NodeId{i}, requests, request, std::uint64_t{left_[i]})) {
+        --left_[i];
+        return true;
+      }
+    }
+    return false;
+  }
+
+  bool finished() const override { return unanswered_ == 0; }
+  std::string describe() const override { return std::to_string(unanswered_) + " unanswered"; }
+  bool all_right() const { return wrong_ == 0; }
+
+ private:
+  void answer(const Packet& packet) {
+    const auto question = packet.as<std::uint64_t>();
+    node().grant(packet.source, replies);  // its place was reserved when the request left
+    node().send_reserved(packet.source, replies, reply, Answer{question, {question * 3}});
+  }
+  void take(const Packet& packet) {
+    const auto answer = packet.as<Answer>();
+    wrong_ += answer.words[0] == 3 * answer.question ? 0 : 1;
+    --unanswered_;
+    node().grant(packet.source, requests);
+  }
+
+  std::vector<std::uint32_t> left_;
+  std::uint64_t unanswered_ = 0;
+  std::uint64_t wrong_ = 0;
+};
+
+/// Every node sends the host `count` numbers, one credit each, returned by acknowledgement; the host checks the order.
+class AllToHost : public ToyProgram {
+ public:
+  static MailboxCapacity mailbox(std::uint32_t peer_count) { return {.small_slots = peer_count}; }
+
+  AllToHost(Node& node, std::uint32_t count) : ToyProgram(node), count_(count), next_of_(node.peer_count(), 0) {
+    node.grant(host(), 0);
+    is_host_ = node.id() == host();
+    left_ = is_host_ ? count * (node.peer_count() - 1) : count;
+  }
+
+  void receive(const Packet& packet) override { is_host_ ? collect(packet) : node().grant(host(), 0); }
+  bool work() override {
+    if (!is_host_ && left_ > 0 && node().try_send(host(), 0, 1, count_ - left_)) {
+      --left_;
+    }
+    return false;
+  }
+  bool finished() const override { return left_ == 0; }
+  bool in_order() const { return in_order_; }
+
+ private:
+  void collect(const Packet& packet) {
+    std::uint32_t& next = next_of_[index_of(packet.source)];
+    in_order_ = in_order_ && packet.as<std::uint32_t>() == next++;
+    --left_;
+    node().grant(packet.source, 1);
+    node().send_reserved(packet.source, 1, 2, std::span<const std::byte>());
+  }
+
+  std::uint32_t count_;
+  std::uint32_t left_ = 0;
+  std::vector<std::uint32_t> next_of_;
+  bool is_host_ = false;
+  bool in_order_ = true;
+};
+
+/// Waits for a packet that nobody sends.
+class Waiter : public ToyProgram {
+ public:
+  using ToyProgram::ToyProgram;
+  bool finished() const override { return index() == 0; }
+  std::string describe() const override { return "waits for Godot"; }
+};
+
+/// Works for ever, or fails in its hundredth quantum.
+class Worker : public ToyProgram {
+ public:
+  Worker(Node& node, bool fails) : ToyProgram(node), fails_(fails) {}
+  bool work() override {
+    if (fails_ && node().counters().quanta == 100) {
+      throw std::runtime_error("the hundredth quantum");
+    }
+    return true;
+  }
+  bool finished() const override { return false; }
+
+ private:
+  bool fails_;
+};
+
+/// The host works for so many seconds of its thread's processor time; everyone else has nothing to do until it says so.
+class OneWorks : public ToyProgram {
+ public:
+  OneWorks(Node& node, double seconds) : ToyProgram(node), seconds_(seconds) {
+    for (std::uint32_t i = 0; i < node.peer_count(); ++i) {
+      node.grant(NodeId{i}, 0);
+    }
+  }
+  void receive(const Packet& /*packet*/) override { done_ = true; }
+  bool work() override {
+    if (index() != index_of(host()) || done_) {
+      return false;
+    }
+    if (thread_seconds() < seconds_) {
+      return true;
+    }
+    for (std::uint32_t i = 0; i < node().peer_count(); ++i) {
+      node().send_reserved(NodeId{i}, 0, 0, 0);
+    }
+    return false;
+  }
+  bool finished() const override { return done_; }
+
+ private:
+  double seconds_;
+  bool done_ = false;
+};
+
+// ---- Sentences
+// ---------------------------------------------------------------------------------------------------------------------
+
+TEST_CASE("programs that are finished from the start end the run") {
+  for (const std::uint32_t count : {1U, 2U, 65U}) {
+    ThreadsRunner runner(equal_nodes(count, {}, making<ToyProgram>()));
+    CHECK(runner.run({}) == RunEnd::finished);
+  }
+}
+
+TEST_CASE("a token goes round the ring") {
+  for (const std::uint32_t count : {1U, 2U, 3U, 64U}) {
+    ThreadsRunner runner(equal_nodes(count, TokenRound::mailbox, making<TokenRound>(20U)));
+    CHECK(runner.run({}) == RunEnd::finished);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      CHECK(program_of<TokenRound>(runner, i).passed() == 20);
+      CHECK(runner.node(i).counters().sent[1].packets == 20);
+      CHECK(runner.node(i).counters().received[1].bytes == 20 * 12);
+    }
+  }
+}
+
+TEST_CASE("every request is answered, with one credit or many") {
+  for (const auto& [peers, window] : {std::pair{2U, 1U}, std::pair{5U, 1U}, std::pair{5U, 7U}, std::pair{24U, 1U}}) {
+    ThreadsRunner runner(equal_nodes(peers, Asker::mailbox(peers, window), making<Asker>(20U, window)));
+    CHECK(runner.run({}) == RunEnd::finished);
+    std::uint64_t refused = 0;
+    for (std::uint32_t i = 0; i < peers; ++i) {
+      CHECK(program_of<Asker>(runner, i).all_right());
+      CHECK(runner.node(i).counters().received[request].packets == 20 * (peers - 1));
+      CHECK(runner.node(i).counters().received[reply].packets == 20 * (peers - 1));
+      refused += runner.node(i).counters().refused;
+    }
+    CHECK(refused > 0);
+  }
+}
+
+TEST_CASE("many nodes send to one, each in order, each within its credit") {
+  ThreadsRunner runner(equal_nodes(33, AllToHost::mailbox(33), making<AllToHost>(50U)));
+  CHECK(runner.run({}) == RunEnd::finished);
+  CHECK(program_of<AllToHost>(runner, 32).in_order());
+  CHECK(total(runner.node(32).counters().received).packets == 32 * 50);
+}
+
+TEST_CASE("a mailbox smaller than the credits is found out") {
+  ThreadsRunner runner(equal_nodes(5, {.small_slots = 1, .bulk_slots = 1, .bulk_payload_bytes = 200}, making<Asker>(50U, 40U)));
+  CHECK_THROWS_WITH_AS(runner.run({}), doctest::Contains("credits leave room"), core::InternalError);
+}
+
+TEST_CASE("a stall ends the run with a report on every node") {
+  ThreadsRunner runner(equal_nodes(3, {}, making<Waiter>()));
+  std::string report;
+  try {
+    runner.run({});
+  } catch (const core::InternalError& error) {
+    report = error.what();
+  }
+  CHECK(report.find("all nodes sleep") != std::string::npos);
+  CHECK(report.find("node 0 (finished): waits for Godot") != std::string::npos);
+  CHECK(report.find("node 1: waits for Godot") != std::string::npos);
+  CHECK(report.find("host: waits for Godot") != std::string::npos);
+}
+
+TEST_CASE("an exception of a program ends the run and comes out of it once") {
+  ThreadsRunner runner(equal_nodes(8, {}, making<Worker>(true)));
+  CHECK_THROWS_WITH_AS(runner.run({}), "the hundredth quantum", std::runtime_error);
+}
+
+TEST_CASE("an exception wakes those that sleep") {
+  auto specifications = equal_nodes(8, {}, making<Waiter>());
+  specifications[3].make_program = making<Worker>(true);
+  ThreadsRunner runner(specifications);
+  CHECK_THROWS_WITH_AS(runner.run({}), "the hundredth quantum", std::runtime_error);
+}
+
+TEST_CASE("a stop request ends workers and sleepers alike") {
+  auto specifications = equal_nodes(8, {}, making<Waiter>());
+  specifications[0].make_program = making<Worker>(false);
+  ThreadsRunner runner(specifications);
+  std::stop_source stop;
+  std::jthread stopper([&stop] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    stop.request_stop();
+  });
+  CHECK(runner.run(stop.get_token()) == RunEnd::interrupted);
+}
+
+TEST_CASE("a stop request before the start ends the run at once") {
+  std::stop_source stop;
+  stop.request_stop();
+  ThreadsRunner runner(equal_nodes(4, {}, making<Worker>(false)));
+  CHECK(runner.run(stop.get_token()) == RunEnd::interrupted);
+}
+
+TEST_CASE("a memory is sealed before the run begins") {
+  ThreadsRunner runner(equal_nodes(2, {}, making<ToyProgram>()));
+  CHECK(runner.node(0).memory().sealed());
+  CHECK(runner.node(0).memory().used()[Category::queues] == credit_table_bytes(2));
+}
+
+TEST_CASE("a runner runs once") {
+  ThreadsRunner runner(equal_nodes(1, {}, making<ToyProgram>()));
+  CHECK(runner.run({}) == RunEnd::finished);
+  CHECK_THROWS_AS(runner.run({}), core::InternalError);
+}
+
+TEST_CASE("a computer of nothing and a thread without a stack are refused") {
+  CHECK_THROWS_AS(ThreadsRunner({}), core::InternalError);
+  auto specifications = equal_nodes(1, {}, making<ToyProgram>());
+  specifications[0].plan[Category::reserve] = thread_stack_bytes_min - 1;
+  CHECK_THROWS_AS(ThreadsRunner{specifications}, core::InternalError);
+}
+
+TEST_CASE("sixty-four idle nodes burn no processor time while one works") {
+  constexpr double work_seconds = 0.2;
+  ThreadsRunner runner(equal_nodes(65, {.small_slots = 1}, making<OneWorks>(work_seconds)));
+  const Usage before = usage_now();
+  CHECK(runner.run({}) == RunEnd::finished);
+  const Usage after = usage_now();
+  // Starting, waking once and ending 65 threads is within the margin. Nodes that spin would double the seconds on two free cores;
+  // nodes that yield where other processes want the cores cost little time, but some hundred thousand switches instead of some
+  // hundred.
+  CHECK(after.seconds - before.seconds < 1.5 * work_seconds + 0.05);
+  CHECK(after.thread_switches - before.thread_switches < 8000);
+  for (std::uint32_t i = 0; i < 64; ++i) {
+    CHECK(runner.node(i).counters().sleeps <= 2);
+  }
+}
+
+TEST_CASE("busy, asleep and wall time of a node fit together") {
+  ThreadsRunner runner(equal_nodes(3, {.small_slots = 1}, making<OneWorks>(0.05)));
+  CHECK(runner.run({}) == RunEnd::finished);
+  CHECK(runner.node(2).counters().busy_ns >= 50'000'000);
+  CHECK(runner.node(0).counters().busy_ns < 50'000'000);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const NodeCounters& counters = runner.node(i).counters();
+    CHECK(counters.asleep_ns <= counters.wall_ns);
+    CHECK(counters.quanta > 0);
+  }
+  CHECK(runner.node(0).counters().asleep_ns > 0);
+}
+
+}  // namespace
+}  // namespace dmpc::tests

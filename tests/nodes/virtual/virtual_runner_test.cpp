@@ -1,0 +1,344 @@
+#include "nodes/virtual/virtual_runner.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <stdexcept>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "tests/nodes/scripted_machine.h"
+
+namespace dmpc::tests {
+namespace {
+
+using namespace nodes;
+
+// ---- Programs ------------------------------------------------------------------------------------------------------------
+
+/// Works for ever; asks `source` to stop or fails in its hundredth quantum.
+class EndlessWorker : public ToyProgram {
+ public:
+  EndlessWorker(Node& node, std::stop_source* source) : ToyProgram(node), source_(source) {}
+  bool work() override {
+    if (++quanta_ == 100 && source_ == nullptr) {
+      throw std::runtime_error("the hundredth quantum");
+    }
+    if (quanta_ == 100) {
+      source_->request_stop();
+    }
+    return true;
+  }
+  bool finished() const override { return false; }
+
+ private:
+  std::stop_source* source_;
+  std::uint64_t quanta_ = 0;
+};
+
+constexpr std::array topologies{TopologyKind::crossbar, TopologyKind::hypercube, TopologyKind::mesh, TopologyKind::torus,
+                                TopologyKind::fat_tree};
+
+/// What interrupts are answered by.
+constexpr PacketKind thanks = 4;
+
+/// Nodes that compute, send letters of any kind and length to anybody, and answer the urgent ones and the pings.
+std::vector<Script> random_scripts(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<Script> scripts(2 + random() % 9);
+  const auto letter = [&](PacketKind kind) {
+    return Letter{static_cast<std::uint32_t>(random() % scripts.size()), kind, 12 + random() % 3 * 90};
+  };
+  const PacketKind kinds[] = {ping, urgent, 3};
+  for (Script& script : scripts) {
+    script.reactions = {{ping, {random() % 3, {letter(pong)}}}, {urgent, {random() % 2, {letter(thanks)}}}};
+    for (std::uint64_t quanta = random() % 5; quanta > 0; --quanta) {
+      Act act{random() % 300, {}};
+      for (std::uint64_t letters = random() % 3; letters > 0; --letters) {
+        act.letters.push_back(letter(kinds[random() % 3]));
+      }
+      script.quanta.push_back(act);
+    }
+  }
+  return scripts;
+}
+
+Machine random_machine(std::uint64_t seed) {
+  std::mt19937_64 random(seed + 1);
+  Machine machine = toy_model(topologies[random() % topologies.size()]);
+  machine.has_contention = random() % 4 != 0;
+  for (std::uint64_t* cost : {&machine.short_message.latency_ns, &machine.long_message.latency_ns, &machine.hop_ns,
+                              &machine.service_ns, &machine.long_message.send_ns, &machine.short_message.receive_ns}) {
+    *cost = random() % 3 * (random() % 200'000);
+  }
+  return machine;
+}
+
+/// Urgent letters, those that an interrupt sent, and all others: each come from each sender in the order in which it sent them.
+/// An interrupt is served before the others that an earlier call of the program has sent for the end of its quantum.
+bool in_order(const std::vector<ScriptedProgram::Receipt>& receipts) {
+  std::array<std::array<std::int64_t, 3>, 16> last;
+  last.fill({-1, -1, -1});
+  bool is_right = true;
+  for (const ScriptedProgram::Receipt& receipt : receipts) {
+    std::int64_t& before = last[receipt.source][receipt.kind == urgent ? 1 : receipt.kind == thanks ? 2 : 0];
+    is_right = is_right && before < receipt.number;
+    before = receipt.number;
+  }
+  return is_right;
+}
+
+/// Everything that must be equal in equal runs.
+std::vector<std::uint64_t> fingerprint(const ScriptedRun& run) {
+  const VirtualReport& report = run.report;
+  std::vector<std::uint64_t> print{report.hash,       report.events,        report.total_ns,      report.links.messages,
+                                   report.links.hops, report.links.wait_ns, report.links.busy_ns, report.links.bytes};
+  for (const LinkUse& use : report.busiest_links) {
+    print.insert(print.end(), {use.messages, use.bytes, use.busy_ns, use.wait_ns});
+  }
+  for (const VirtualTimes& times : report.nodes) {
+    print.insert(print.end(), {times.computing_ns, times.sending_ns, times.receiving_ns, times.stolen_ns, times.lent_ns,
+                               times.waiting_ns[ping], times.end_ns});
+  }
+  for (const auto& receipts : run.receipts) {
+    for (const ScriptedProgram::Receipt& receipt : receipts) {
+      print.insert(print.end(), {receipt.source, receipt.kind, receipt.number});
+    }
+  }
+  return print;
+}
+
+VirtualReport report_on(const Machine& machine) {
+  std::vector<Script> scripts(4, {.quanta = {{3, {{2, urgent}, {2, ping, 100}, {2, ping, 101}}}, {2}}});
+  scripts[2].reactions[urgent] = {1, {{0, pong}}};
+  return run_scripts(scripts, machine).report;
+}
+
+std::uint64_t hash_of(const Machine& machine) { return report_on(machine).hash; }
+
+/// Of one letter that may be changed so that no time changes: the toy's short messages all cost the same but for their bytes.
+std::uint64_t hash_of(const Letter& letter) {
+  Machine machine = toy_model();
+  machine.short_message.byte_ps = 0;
+  return run_scripts({{.quanta = {{0, {letter}}}}, {}, {}, {}}, machine).report.hash;
+}
+
+/// A run that stalls, and what it says.
+std::string stall_of(const std::vector<Script>& scripts) {
+  VirtualRunner runner(specifications_of(scripts), toy_model());
+  try {
+    runner.run({});
+  } catch (const core::InternalError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// ---- A run's end ---------------------------------------------------------------------------------------------------------
+
+TEST_CASE("programs that are finished from the start end a virtual run at time 0") {
+  for (const std::uint32_t count : {1U, 2U, 65U}) {
+    VirtualRunner runner(equal_nodes(count, {}, making<ToyProgram>()), toy_model());
+    CHECK(runner.run({}) == RunEnd::finished);
+    CHECK(runner.virtual_report()->total_ns == 0);
+    CHECK(runner.virtual_report()->events == 0);
+    CHECK(runner.virtual_report()->nodes.size() == count);
+  }
+}
+
+TEST_CASE("a token goes round the ring in virtual time") {
+  for (const std::uint32_t count : {1U, 2U, 3U, 64U}) {
+    VirtualRunner runner(equal_nodes(count, TokenRound::mailbox, making<TokenRound>(20U)), toy_model(TopologyKind::torus));
+    CHECK(runner.run({}) == RunEnd::finished);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      CHECK(dynamic_cast<TokenRound&>(runner.program(i)).passed() == 20);
+      CHECK(runner.node(i).counters().sent[1].packets == 20);
+      CHECK(runner.node(i).counters().received[1].bytes == 20 * 12);
+    }
+  }
+}
+
+TEST_CASE("a run in which nothing happens any more and somebody waits is an error that tells every node's state") {
+  const std::string report = stall_of({{.quanta = {{1, {{1}}}}}, {.packets_awaited = 2}, {.packets_awaited = 1}});
+  CHECK(report.find("unfinished") != std::string::npos);
+  CHECK(report.find("node 0 (finished): 0 of 0 packets") != std::string::npos);
+  CHECK(report.find("node 1: 1 of 2 packets") != std::string::npos);
+  CHECK(report.find("host: 0 of 1 packets") != std::string::npos);
+}
+
+TEST_CASE("a virtual run that is asked to stop is interrupted") {
+  std::stop_source source;
+  VirtualRunner runner(equal_nodes(3, {}, making<EndlessWorker>(&source)), toy_model());
+  CHECK(runner.run(source.get_token()) == RunEnd::interrupted);
+  CHECK(runner.node(0).counters().quanta < 10'000);
+}
+
+TEST_CASE("a stop request before the start interrupts a virtual run at once") {
+  std::stop_source source;
+  source.request_stop();
+  VirtualRunner runner(equal_nodes(3, {}, making<EndlessWorker>(&source)), toy_model());
+  CHECK(runner.run(source.get_token()) == RunEnd::interrupted);
+  CHECK(runner.node(0).counters().quanta <= 1);
+}
+
+TEST_CASE("a program's exception ends a virtual run and comes out of it") {
+  VirtualRunner runner(equal_nodes(3, {}, making<EndlessWorker>(nullptr)), toy_model());
+  CHECK_THROWS_WITH_AS(runner.run({}), "the hundredth quantum", std::runtime_error);
+}
+
+TEST_CASE("a virtual computer of nothing and a second run are refused") {
+  CHECK_THROWS_AS(VirtualRunner({}, toy_model()), core::InternalError);
+  VirtualRunner runner(equal_nodes(1, {}, making<ToyProgram>()), toy_model());
+  runner.run({});
+  CHECK_THROWS_AS(runner.run({}), core::InternalError);
+}
+
+TEST_CASE("a memory is sealed before a virtual run begins, and as full as on threads") {
+  const std::vector<NodeSpecification> specifications = specifications_of({{}, {}});
+  VirtualRunner runner(specifications, toy_model());
+  ThreadsRunner threads(specifications);
+  CHECK(runner.node(0).memory().sealed());
+  CHECK(runner.node(0).memory().used().bytes == threads.node(0).memory().used().bytes);
+}
+
+// ---- Mailboxes -----------------------------------------------------------------------------------------------------------
+
+TEST_CASE("a packet without room in the target's mailbox is found out, small or bulk") {
+  for (const std::uint64_t bytes : {short_bytes, long_bytes}) {
+    auto specifications = specifications_of({{.quanta = {{0, {{1, ping, bytes}, {1, ping, bytes}}}}}, {}, {}});
+    VirtualRunner roomy(specifications, toy_model());
+    CHECK(roomy.run({}) == RunEnd::finished);
+    MailboxCapacity& mailbox = specifications[1].mailbox;
+    (bytes == short_bytes ? mailbox.small_slots : mailbox.bulk_slots) = 1;
+    VirtualRunner narrow(specifications, toy_model());
+    CHECK_THROWS_WITH_AS(narrow.run({}), doctest::Contains("credits leave room"), core::InternalError);
+  }
+}
+
+TEST_CASE("a place in a mailbox is free again when its packet has been received") {
+  auto specifications = specifications_of({{.quanta = {{0, {{1, ping}}}}, .reactions = {{pong, {0, {{1, ping}}}}}},
+                                           {.reactions = {{ping, {0, {{2, pong}}}}}, .packets_awaited = 1},
+                                           {}});
+  specifications[1].mailbox.small_slots = 1;
+  VirtualRunner runner(specifications, toy_model());
+  CHECK(runner.run({}) == RunEnd::finished);
+}
+
+TEST_CASE("a packet longer than the target's bulk places is found out") {
+  auto specifications = specifications_of({{.quanta = {{0, {{1, ping, long_bytes}}}}}, {}, {}});
+  specifications[1].mailbox.bulk_payload_bytes = long_bytes - sizeof(PacketHeader) - 1;
+  VirtualRunner runner(specifications, toy_model());
+  CHECK_THROWS_AS(runner.run({}), core::InternalError);
+}
+
+// ---- Any run -------------------------------------------------------------------------------------------------------------
+
+TEST_CASE("in any run times add up, nothing is lost, and letters between two nodes keep their order") {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    CAPTURE(seed);
+    const ScriptedRun run = run_scripts(random_scripts(seed), random_machine(seed));
+    std::uint64_t sent = 0, received = 0;
+    for (std::size_t i = 0; i < run.receipts.size(); ++i) {
+      CHECK(run.report.nodes[i].total_ns() == run.report.total_ns);
+      CHECK(in_order(run.receipts[i]));
+      sent += total(run.counters[i].sent).packets;
+      received += run.receipts[i].size();
+    }
+    CHECK(sent == received);
+  }
+}
+
+TEST_CASE("equal runs have equal events, one after the other and side by side") {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    CAPTURE(seed);
+    const auto again = [seed] { return fingerprint(run_scripts(random_scripts(seed), random_machine(seed))); };
+    const std::vector<std::uint64_t> first = again();
+    CHECK(again() == first);
+    std::array<std::vector<std::uint64_t>, 2> beside;
+    {
+      std::jthread one([&] { beside[0] = again(); }), other([&] { beside[1] = again(); });
+    }
+    CHECK(beside[0] == first);
+    CHECK(beside[1] == first);
+  }
+}
+
+TEST_CASE("each cost of a machine changes the run's hash") {
+  const std::uint64_t hash = hash_of(toy_model());
+  CHECK(hash_of(toy_model()) == hash);
+  const std::vector<std::function<void(Machine&)>> changes = {
+      [](Machine& machine) { ++machine.short_message.send_ns; },
+      [](Machine& machine) { ++machine.short_message.latency_ns; },
+      [](Machine& machine) { ++machine.short_message.receive_ns; },
+      [](Machine& machine) { machine.short_message.byte_ps += 100; },
+      [](Machine& machine) { ++machine.long_message.send_ns; },
+      [](Machine& machine) { ++machine.long_message.latency_ns; },
+      [](Machine& machine) { ++machine.long_message.receive_ns; },
+      [](Machine& machine) { machine.long_message.byte_ps += 100; },
+      [](Machine& machine) { ++machine.hop_ns; },
+      [](Machine& machine) { ++machine.service_ns; },
+      [](Machine& machine) { ++machine.short_bytes_max; },
+      [](Machine& machine) { machine.cost_ps[static_cast<std::size_t>(Charge::ray_setup)] += 1000; },
+      [](Machine& machine) { machine.has_contention = false; },
+      [](Machine& machine) { machine.has_memory_port = true; },
+      [](Machine& machine) { machine.topology = TopologyKind::fat_tree; }};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    CAPTURE(i);
+    Machine machine = toy_model();
+    changes[i](machine);
+    CHECK(hash_of(machine) != hash);
+  }
+}
+
+TEST_CASE("the run's hash tells packets apart by target, kind and bytes, even where no time does") {
+  const std::uint64_t hash = hash_of(Letter{1, ping, 20});
+  CHECK(hash_of(Letter{1, ping, 20}) == hash);
+  CHECK(hash_of(Letter{2, ping, 20}) != hash);
+  CHECK(hash_of(Letter{1, pong, 20}) != hash);
+  CHECK(hash_of(Letter{1, ping, 21}) != hash);
+}
+
+TEST_CASE("a fixed run has one hash on every computer and in every build type") {
+  const VirtualReport report = report_on(toy_model(TopologyKind::hypercube));
+  CHECK(report.total_ns == 409'137);
+  CHECK(report.events == 60);
+  CHECK(report.hash == 0x519abca6e58c59f0);
+  CHECK(report.machine_digest == 0xf644d9275ad30999);
+  CHECK(report.run_hash(0) == 0xb1fc5094b54c33b6);
+}
+
+TEST_CASE("a run's hash is of its events, its machine and its product") {
+  VirtualReport report = report_on(toy_model());
+  CHECK(report.machine_digest == toy_model().digest());
+  const std::uint64_t hash = report.run_hash(1);
+  CHECK(report.run_hash(2) != hash);
+  ++report.machine_digest;
+  CHECK(report.run_hash(1) != hash);
+  --report.machine_digest;
+  ++report.hash;
+  CHECK(report.run_hash(1) != hash);
+}
+
+TEST_CASE("the busiest links are listed, as many as there is room for") {
+  const VirtualReport few = report_on(toy_model());
+  CHECK(few.links_used == few.busiest_links.size());
+  std::vector<Script> scripts(18);  // a crossbar of 17 nodes has 272 links
+  for (std::uint32_t i = 0; i < 17; ++i) {
+    scripts[i].quanta.push_back({});
+    for (std::uint32_t j = 0; j < 17; ++j) {
+      scripts[i].quanta.back().letters.push_back({j});
+    }
+  }
+  const VirtualReport many = run_scripts(scripts).report;
+  CHECK(many.links_used == 17 * 16);
+  CHECK(many.busiest_links.size() == busiest_links_max);
+}
+
+}  // namespace
+}  // namespace dmpc::tests

@@ -1,0 +1,49 @@
+#include "nodes/watch/observer_group.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "nodes/program.h"
+
+namespace dmpc::nodes {
+
+namespace {
+
+/// Writes down what it is told, in letters.
+class LetterScribe final : public Observer {
+ public:
+  explicit LetterScribe(std::string& told) : told_(told) {}
+  void ended(const Span& /*span*/, const Program& /*program*/) override { told_ += 'e'; }
+  void sent(const Passing& /*packet*/) override { told_ += 's'; }
+  void received(const Passing& /*packet*/) override { told_ += 'r'; }
+  void worked(const Worked& /*worked*/) override { told_ += 'w'; }
+
+ private:
+  std::string& told_;
+};
+
+class NoProgram final : public Program {
+ public:
+  void receive(const Packet& /*packet*/) override {}
+  bool work() override { return false; }
+  bool finished() const override { return true; }
+  std::string describe() const override { return ""; }
+};
+
+}  // namespace
+
+TEST_CASE("all who look on are told everything, in order") {
+  std::string both;
+  LetterScribe first(both), second(both);
+  ObserverGroup group({&first, &second});
+  group.ended({}, NoProgram());
+  group.sent({});
+  group.received({});
+  group.worked({});
+  CHECK(both == "eessrrww");
+}
+
+TEST_CASE("nobody can look on, too") { ObserverGroup({}).sent({}); }
+
+}  // namespace dmpc::nodes

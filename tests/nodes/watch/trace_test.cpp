@@ -1,0 +1,305 @@
+#include "nodes/watch/trace.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/sampling.h"
+#include "nodes/program.h"
+
+namespace dmpc::nodes {
+
+namespace {
+
+/// Of a program nothing but its levels.
+class Gauge final : public Program {
+ public:
+  void receive(const Packet& /*packet*/) override {}
+  bool work() override { return false; }
+  bool finished() const override { return true; }
+  std::string describe() const override { return ""; }
+  Levels levels() const override { return {{"height", height}, {"depth", 7}}; }
+
+  std::uint64_t height = 0;
+};
+
+/// Two nodes and a host that tell a recorder what the test says.
+struct Scene {
+  explicit Scene(const TraceChoice& choice = {}) : recorder(3, choice) {}
+
+  void span(std::uint32_t node, std::uint64_t begin_ns, std::uint64_t end_ns, Activity activity = Activity::work,
+            std::uint32_t call = 0) {
+    recorder.ended({.node = NodeId{node}, .activity = activity, .call = call, .begin_ns = begin_ns, .end_ns = end_ns}, gauge);
+  }
+  void sends(std::uint32_t from, std::uint32_t to, std::uint64_t time_ns, std::uint32_t call = 0, PacketKind kind = 1) {
+    recorder.sent({.node = NodeId{from},
+                   .peer = NodeId{to},
+                   .kind = kind,
+                   .call = call,
+                   .payload = payload(),
+                   .times = {.sending_ns = time_ns}});
+  }
+  void receives(std::uint32_t at, std::uint32_t from, std::uint64_t time_ns, std::uint32_t call = 0, PacketKind kind = 1) {
+    recorder.received({.node = NodeId{at},
+                       .peer = NodeId{from},
+                       .kind = kind,
+                       .call = call,
+                       .payload = payload(),
+                       .times = {.received_ns = time_ns}});
+  }
+  std::span<const std::byte> payload() const { return std::as_bytes(std::span(words)); }
+
+  TraceRecorder recorder;
+  Gauge gauge;
+  std::array<std::uint32_t, 2> words = {77, 5};
+};
+
+/// The first pixel that is chosen as one of four, or that is not.
+std::uint32_t pixel(bool is_chosen) {
+  std::uint32_t pixel = 0;
+  while ((core::mix(pixel) % 4 == 0) != is_chosen) {
+    ++pixel;
+  }
+  return pixel;
+}
+
+Doing doing(std::initializer_list<Charge> charges) {
+  Charges before, after;
+  before[Charge::shading] = after[Charge::shading] = 3;
+  for (const Charge charge : charges) {
+    after[charge] += 2;
+  }
+  return doing_between(before, after);
+}
+
+}  // namespace
+
+TEST_CASE("nothing told is a trace of nothing") {
+  const Trace trace = Scene().recorder.take();
+  CHECK(trace.nodes.size() == 3);
+  CHECK(trace.messages.empty());
+  CHECK(trace.events_lost == 0);
+}
+
+TEST_CASE("what a call was for follows from what it was charged") {
+  CHECK(doing({}) == Doing::other);
+  CHECK(doing({Charge::ray_packing}) == Doing::pack);
+  CHECK(doing({Charge::page_install}) == Doing::install);
+  CHECK(doing({Charge::page_install, Charge::cell_step}) == Doing::trace);
+  CHECK(doing({Charge::ray_setup, Charge::ray_packing}) == Doing::trace);
+  CHECK(doing({Charge::shading, Charge::cell_step}) == Doing::shade);
+  CHECK(doing({Charge::tile_read}) == Doing::shade);
+}
+
+TEST_CASE("what begins first comes first, and an interrupt behind what it interrupts") {
+  Scene scene;
+  scene.span(0, 5, 8, Activity::serve, 2);
+  scene.span(0, 5, 20, Activity::work, 1);
+  scene.span(0, 0, 5, Activity::take_over);
+  const std::vector<TraceSpan> spans = scene.recorder.take().nodes[0].spans;
+  REQUIRE(spans.size() == 3);
+  CHECK(spans[0].activity == Activity::take_over);
+  CHECK(spans[1].activity == Activity::work);
+  CHECK(spans[2].activity == Activity::serve);
+}
+
+TEST_CASE("a call has the pixel that it worked on, and an interrupt leaves it alone") {
+  Scene scene;
+  scene.recorder.worked({NodeId{1}, 42, 3});
+  scene.span(1, 2, 3, Activity::serve, 2);
+  scene.span(1, 0, 9, Activity::work, 1);
+  scene.span(1, 9, 10, Activity::work, 3);
+  const std::vector<TraceSpan> spans = scene.recorder.take().nodes[1].spans;
+  CHECK(spans[0].pixel == 42);
+  CHECK(spans[0].depth == 3);
+  CHECK(spans[1].pixel == TraceSpan::no_pixel);
+  CHECK(spans[2].pixel == TraceSpan::no_pixel);
+}
+
+TEST_CASE("of one kind between two nodes the n-th packet received is the n-th sent") {
+  Scene scene;
+  scene.sends(0, 1, 10, 1);
+  scene.sends(0, 1, 20, 2, 9);
+  scene.sends(0, 1, 30, 3);
+  scene.sends(1, 0, 15, 1);
+  scene.receives(1, 0, 25, 4, 9);
+  scene.receives(1, 0, 26, 5);
+  scene.receives(1, 0, 40, 6);
+  const std::vector<TraceMessage> messages = scene.recorder.take().messages;
+  REQUIRE(messages.size() == 3);  // the one from node 1 was not received
+  CHECK(messages[0].sent_ns == 10);
+  CHECK(messages[0].received_ns == 26);
+  CHECK(messages[0].received_call == 5);
+  CHECK(messages[0].first_word == 77);
+  CHECK(messages[0].bytes == 8);
+  CHECK(messages[1].kind == 9);
+  CHECK(messages[1].received_ns == 25);
+  CHECK(messages[2].sent_call == 3);
+  CHECK(messages[2].received_ns == 40);
+}
+
+TEST_CASE("a level is written where it changes") {
+  Scene scene;
+  scene.span(0, 0, 1);
+  scene.span(0, 1, 2);
+  scene.gauge.height = 3;
+  scene.span(0, 2, 3, Activity::send);
+  scene.span(0, 3, 4, Activity::receive);
+  const TraceNode node = scene.recorder.take().nodes[0];
+  CHECK(node.level_names == std::vector<std::string_view>{"height", "depth"});
+  REQUIRE(node.levels.size() == 3);
+  CHECK(node.levels[0].value == 0);
+  CHECK(node.levels[1].value == 7);
+  CHECK(node.levels[2].value == 3);
+  CHECK(node.levels[2].time_ns == 4);
+}
+
+TEST_CASE("a window cuts what lies across its edges and leaves out what lies beyond") {
+  Scene scene({.from_ns = 10, .to_ns = 20});
+  scene.span(0, 0, 10);
+  scene.span(0, 5, 15);
+  scene.span(0, 15, 18);
+  scene.span(0, 19, 30);
+  scene.span(0, 20, 25);
+  scene.sends(0, 1, 9);
+  scene.sends(0, 1, 10);
+  scene.sends(0, 1, 19);
+  scene.receives(1, 0, 11);
+  scene.receives(1, 0, 12);
+  scene.receives(1, 0, 20);
+  const Trace trace = scene.recorder.take();
+  const std::vector<TraceSpan>& spans = trace.nodes[0].spans;
+  REQUIRE(spans.size() == 3);
+  CHECK(spans[0].begin_ns == 10);
+  CHECK(spans[0].end_ns == 15);
+  CHECK(spans[0].is_cut);
+  CHECK_FALSE(spans[1].is_cut);
+  CHECK(spans[2].end_ns == 20);
+  CHECK(spans[2].is_cut);
+  REQUIRE(trace.messages.size() == 1);
+  CHECK(trace.messages[0].sent_ns == 10);
+  CHECK(trace.messages[0].received_ns == 12);
+  CHECK(trace.nodes[0].levels.front().time_ns == 10);
+}
+
+TEST_CASE("of some nodes there is what they do, and the messages between them") {
+  Scene scene({.nodes = {true, false, true}});
+  for (std::uint32_t node = 0; node < 3; ++node) {
+    scene.span(node, 0, 1);
+    scene.sends(node, (node + 1) % 3, 1);
+    scene.receives((node + 1) % 3, node, 2);
+  }
+  const Trace trace = scene.recorder.take();
+  CHECK(trace.nodes[0].spans.size() == 1);
+  CHECK(trace.nodes[1].spans.empty());
+  CHECK(trace.nodes[1].levels.empty());
+  CHECK(trace.nodes[2].spans.size() == 1);
+  REQUIRE(trace.messages.size() == 1);
+  CHECK(trace.messages[0].source == NodeId{2});
+  CHECK(trace.messages[0].target == NodeId{0});
+}
+
+TEST_CASE("of one pixel in four there is its call, what serves that, and the answer") {
+  Scene scene({.every = 4});
+  scene.recorder.worked({NodeId{0}, pixel(false), 1});
+  scene.recorder.worked({NodeId{0}, pixel(true), 1});
+  scene.sends(0, 1, 10, 1);
+  scene.span(0, 0, 10, Activity::work, 1);
+  scene.span(0, 10, 11, Activity::send, 1);
+  scene.receives(1, 0, 15, 8);
+  scene.sends(1, 0, 16, 8);
+  scene.span(1, 15, 17, Activity::serve, 8);
+  scene.receives(0, 1, 20, 2);
+  scene.span(0, 20, 21, Activity::receive, 2);
+  const Trace trace = scene.recorder.take();
+  CHECK(trace.nodes[0].spans.size() == 3);
+  CHECK(trace.nodes[0].spans[0].pixel == pixel(true));
+  CHECK(trace.nodes[1].spans.size() == 1);
+  CHECK(trace.messages.size() == 2);
+}
+
+TEST_CASE("what follows from a chosen pixel is found where no time passes, too") {
+  Scene scene({.every = 4});
+  scene.recorder.worked({NodeId{1}, pixel(true), 1});
+  scene.sends(1, 0, 10, 1);
+  scene.span(1, 10, 10, Activity::work, 1);
+  scene.receives(0, 1, 10, 1);
+  scene.sends(0, 2, 10, 1);
+  scene.span(0, 10, 10, Activity::receive, 1);
+  scene.receives(2, 0, 10, 1);
+  scene.span(2, 10, 10, Activity::receive, 1);
+  const Trace trace = scene.recorder.take();
+  CHECK(trace.messages.size() == 2);
+  CHECK(trace.nodes[2].spans.size() == 1);
+}
+
+TEST_CASE("of one pixel in four there is nothing that the others bring about") {
+  Scene scene({.every = 4});
+  scene.recorder.worked({NodeId{0}, pixel(false), 1});
+  scene.sends(0, 1, 10, 1);
+  scene.span(0, 0, 10, Activity::work, 1);
+  scene.span(0, 10, 11, Activity::send, 1);
+  scene.receives(1, 0, 15, 8);
+  scene.sends(1, 0, 16, 8);
+  scene.span(1, 15, 17, Activity::serve, 8);
+  scene.span(1, 20, 21, Activity::work, 9);  // on no pixel
+  scene.span(1, 21, 22, Activity::take_over, 9);
+  const Trace trace = scene.recorder.take();
+  CHECK(trace.nodes[0].spans.empty());
+  CHECK(trace.nodes[1].spans.empty());
+  CHECK(trace.messages.empty());
+}
+
+TEST_CASE("of one pixel in four what the others do takes no room") {
+  Scene scene({.every = 4, .events_max = 6});
+  for (std::uint32_t call = 1; call < 9; ++call) {
+    scene.gauge.height = call;
+    scene.recorder.worked({NodeId{0}, pixel(call == 8), 1});
+    scene.receives(0, 2, 10 * call, call);
+    scene.sends(0, 1, 10 * call, call);
+    scene.span(0, 10 * call, 10 * call + 1, call % 2 == 0 ? Activity::work : Activity::receive, call);
+    scene.span(0, 10 * call + 1, 10 * call + 2, Activity::send, call);
+  }
+  const Trace trace = scene.recorder.take();  // of the last call: two ends, two levels, two spans
+  CHECK(trace.events_lost == 0);
+  CHECK(trace.nodes[0].spans.size() == 2);
+  CHECK(trace.nodes[0].levels.size() == 2);
+}
+
+TEST_CASE("of one pixel in four a call that is interrupted keeps its message, and so does the interrupt") {
+  Scene scene({.every = 4});
+  scene.recorder.worked({NodeId{2}, pixel(true), 1});
+  scene.sends(2, 0, 1, 1);
+  scene.span(2, 0, 2, Activity::work, 1);
+  scene.recorder.worked({NodeId{0}, pixel(true), 1});
+  scene.receives(0, 2, 5, 4);
+  scene.sends(0, 2, 6, 4);
+  scene.span(0, 5, 6, Activity::serve, 4);
+  scene.sends(0, 1, 9, 3);
+  scene.span(0, 0, 9, Activity::work, 3);
+  scene.receives(1, 0, 20, 1);
+  scene.span(1, 20, 21, Activity::receive, 1);
+  scene.receives(2, 0, 20, 2);
+  scene.span(2, 20, 21, Activity::receive, 2);
+  const Trace trace = scene.recorder.take();
+  CHECK(trace.messages.size() == 3);
+  CHECK(trace.nodes[0].spans.size() == 2);
+}
+
+TEST_CASE("a full trace keeps what came first and counts the rest") {
+  Scene scene({.events_max = 4});
+  scene.span(0, 0, 1);  // and two levels
+  scene.span(0, 1, 2);
+  scene.span(0, 2, 3);
+  scene.span(1, 5, 6);  // and two levels
+  const Trace trace = scene.recorder.take();
+  CHECK(trace.nodes[0].spans.size() == 2);
+  CHECK(trace.nodes[1].spans.empty());
+  CHECK(trace.events_lost == 4);
+  CHECK(trace.lost_from_ns == 2);
+}
+
+}  // namespace dmpc::nodes

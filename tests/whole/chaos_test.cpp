@@ -1,0 +1,203 @@
+// One picture under chaos: whatever a seed does to packets, nodes, links and credits, the film equals the reference renderer's.
+//
+// A seed chooses the picture, the number of nodes, their bounds, and whether it is made in parts (tests/support/chaos_case.h). A
+// run checks its laws of conservation itself. tests/chaos has more seeds tried, by the variables DMPC_CHAOS_FIRST and
+// DMPC_CHAOS_SEEDS of the environment.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <utility>
+
+#include "core/picture/partial_picture.h"
+#include "dataflow/run.h"
+#include "nodes/chaos.h"
+#include "svm/run.h"
+#include "tests/support/chaos_case.h"
+#include "tests/support/environment.h"
+#include "tests/support/subject.h"
+
+namespace dmpc::tests {
+
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr std::uint64_t seeds_by_default = 20;
+#else
+constexpr std::uint64_t seeds_by_default = 140;
+#endif
+
+/// Small enough to render hundreds of times.
+const Subject& subject() { return chaos_subject(0); }
+
+/// Keeps what there is when light has come `every` times, and then stops the run.
+class StoppingKeeper {
+ public:
+  explicit StoppingKeeper(std::uint32_t every) : every_(every) {}
+
+  core::Continuation continuation(const std::optional<core::PartialPicture>& start) {
+    return {start ? &*start : nullptr, [this] { return ++asked_ % every_ == 0; },
+            [this](const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) {
+              kept.emplace(core::PartialPicture{film, pass.result().passes, pass.samples(), pass.pixels(), done});
+              stop_.request_stop();
+            }};
+  }
+  std::stop_token token() const { return stop_.get_token(); }
+
+  std::optional<core::PartialPicture> kept;
+
+ private:
+  std::uint32_t every_;
+  std::uint32_t asked_ = 0;
+  std::stop_source stop_;
+};
+
+svm::Report run_svm(const Subject& subject, const svm::RunOptions& options, const std::stop_token& stop) {
+  return svm::run_svm(subject.database(), subject.settings(), options, stop);
+}
+svm::Report run_replicated(const Subject& subject, const svm::RunOptions& options, const std::stop_token& stop) {
+  return svm::run_replicated(subject.database(), subject.settings(), options, stop);
+}
+dataflow::Report run_dataflow(const Subject& subject, const dataflow::RunOptions& options, const std::stop_token& stop) {
+  return dataflow::run_dataflow(subject.database(), subject.settings(), options, stop);
+}
+
+std::uint32_t credits_of(const svm::Plan& plan) { return plan.request_credits + plan.film_credits; }
+std::uint32_t credits_of(const dataflow::Plan& plan) { return plan.ray_credits + plan.host_credits + plan.film_credits; }
+
+/// What chaos did in all runs together.
+struct Damage {
+  std::uint64_t packets_held = 0, quanta_sat_out = 0, runs_with_fewer_credits = 0;
+
+  template <class Report>
+  void add(const Report& report) {
+    packets_held += report.host.held;
+    for (const auto& node : report.nodes) {
+      packets_held += node.counters.held;
+      quanta_sat_out += node.counters.sat_out;
+    }
+    auto calm = report.plan.request;
+    calm.chaos.reset();
+    runs_with_fewer_credits += credits_of(report.plan) < credits_of(make_plan(calm)) ? 1 : 0;
+  }
+};
+
+/// The whole picture in one run.
+template <class Options, class Run>
+void check_whole(ChaosCase& one, Damage& damage, const Options& options, const Run& run) {
+  const auto report = run(one.subject(), options, {});
+  REQUIRE(outcome_of(report) == one.subject().outcome());
+  damage.add(report);
+}
+
+/// Each run goes on where the one before was stopped, with options of its own.
+template <class MakeOptions, class Run>
+void check_parts(ChaosCase& one, Damage& damage, const MakeOptions& options_of, const Run& run) {
+  std::optional<core::PartialPicture> start;
+  for (std::uint32_t round = 0;; ++round) {
+    StoppingKeeper keeper(one.part() << std::min(round, 16U));  // so that few runs make a picture
+    auto options = options_of(one, round);
+    options.continuation = keeper.continuation(start);
+    const auto report = run(one.subject(), options, keeper.token());
+    damage.add(report);
+    if (report.end == nodes::RunEnd::finished) {
+      REQUIRE(report.film.hash() == one.subject().outcome().film_hash);
+      return;
+    }
+    REQUIRE(keeper.kept);
+    start = std::move(keeper.kept);
+  }
+}
+
+/// `run` renders what a seed stands for.
+template <class MakeOptions, class Run>
+void check_seeds(const MakeOptions& options_of, const Run& run) {
+  const std::uint64_t first = number_from_environment("DMPC_CHAOS_FIRST", 1);
+  const std::uint64_t count = number_from_environment("DMPC_CHAOS_SEEDS", seeds_by_default);
+  Damage damage;
+  for (std::uint64_t seed = first; seed - first < count; ++seed) {
+    CAPTURE(seed);
+    ChaosCase one(seed);
+    CAPTURE(one);
+    INFO("again: tests/chaos --seeds=1 --first=", seed);
+    if (one.is_in_parts()) {
+      check_parts(one, damage, options_of, run);
+    } else {
+      check_whole(one, damage, options_of(one, 0), run);
+    }
+  }
+  CHECK((damage.packets_held >= count || count < 20));
+  CHECK((damage.quanta_sat_out > 0 || count < 20));
+  CHECK((damage.runs_with_fewer_credits > 0 || count < 20));
+}
+
+/// Some chaos that does everything often.
+constexpr nodes::Chaos storm{.seed = 11,
+                             .held_percent = 70,
+                             .delay_quanta_max = 30,
+                             .slow_link_percent = 30,
+                             .slow_node_percent = 30,
+                             .shrinks_credits = true};
+
+/// `run` renders a small scene on 3 nodes, disturbed or not.
+template <class Run>
+void check_memory(Run run) {
+  const auto calm = run(std::nullopt), disturbed = run(storm);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(disturbed.nodes[i].memory_used.bytes == disturbed.nodes[i].memory_planned.bytes);
+    CHECK(disturbed.nodes[i].memory_used.total() == calm.nodes[i].memory_used.total() + disturbed.plan.held_bytes);
+  }
+  CHECK(disturbed.plan.held_bytes > 0);
+  CHECK(calm.plan.held_bytes == 0);
+}
+
+}  // namespace
+
+TEST_CASE("chaos: any seed leaves svm its picture") {
+  check_seeds([](ChaosCase& one, std::uint32_t round) { return one.page_options(svm::Strategy::svm, round); }, run_svm);
+}
+
+TEST_CASE("chaos: any seed leaves replicated its picture") {
+  check_seeds([](ChaosCase& one, std::uint32_t round) { return one.page_options(svm::Strategy::replicated, round); },
+              run_replicated);
+}
+
+TEST_CASE("chaos: any seed leaves dataflow its picture") {
+  check_seeds([](ChaosCase& one, std::uint32_t round) { return one.ray_options(round); }, run_dataflow);
+}
+
+TEST_CASE("under chaos a node uses exactly the memory of its plan, the packets held back included") {
+  using Chaos = std::optional<nodes::Chaos>;
+  const core::Database& database = subject().database();
+  const core::RenderSettings& settings = subject().settings();
+  check_memory([&](Chaos chaos) { return svm::run_svm(database, settings, {.node_count = 3, .chaos = chaos}, {}); });
+  check_memory([&](Chaos chaos) { return svm::run_replicated(database, settings, {.node_count = 3, .chaos = chaos}, {}); });
+  check_memory([&](Chaos chaos) {
+    if (chaos) {
+      chaos->shrinks_credits = false;  // with fewer credits a node takes less
+    }
+    return dataflow::run_dataflow(database, settings, {.node_count = 3, .chaos = chaos}, {});
+  });
+}
+
+TEST_CASE("under chaos mailboxes stay as large as the credits that were planned without it") {
+  const svm::PlanRequest calm{.page_count = 200, .node_count = 4, .in_flight = 8, .width = 8, .height = 8};
+  svm::PlanRequest disturbed = calm;
+  std::uint32_t fewest = svm::make_plan(calm).request_credits;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    disturbed.chaos = nodes::Chaos{.seed = seed};
+    const svm::Plan plan = svm::make_plan(disturbed);
+    CHECK(plan.node_mailbox.small_slots == svm::make_plan(calm).node_mailbox.small_slots);
+    CHECK(plan.node_mailbox.bulk_slots == svm::make_plan(calm).node_mailbox.bulk_slots);
+    CHECK(plan.host_mailbox.bulk_slots == svm::make_plan(calm).host_mailbox.bulk_slots);
+    fewest = std::min(fewest, plan.request_credits);
+  }
+  CHECK(fewest == 1);
+}
+
+}  // namespace dmpc::tests

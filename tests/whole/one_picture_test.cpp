@@ -1,0 +1,170 @@
+// One picture: whatever the strategy, the nodes, the pages and the schedule, the film equals the reference renderer's to the last
+// bit.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <initializer_list>
+#include <iterator>
+#include <map>
+#include <string>
+
+#include "apps/bench/stability/cells.h"
+#include "dataflow/run.h"
+#include "svm/run.h"
+#include "tests/support/pairwise.h"
+#include "tests/support/scaled.h"
+#include "tests/support/small_scenes.h"
+#include "tests/support/strategies.h"
+#include "tests/support/subject.h"
+
+namespace {
+
+using namespace dmpc;
+
+constexpr std::size_t page_sizes[] = {512, 1024, 4096, 65536};
+constexpr std::uint32_t node_counts[] = {1, 2, 3, 7, 8, 64};
+constexpr std::uint32_t in_flights[] = {1, 64};
+constexpr std::uint32_t item_sides[] = {0, 1, 3, 16};
+/// Shares of the database in the cache; 0 stands for one page.
+constexpr double cache_shares[] = {0.0, 0.05, 1.0};
+
+using tests::outcome_of;
+using tests::scaled_edge;
+using tests::Subject;
+
+/// A scene's databases by page size.
+class Subjects {
+ public:
+  Subjects(const core::Scene& scene, const Subject::Size& size) {
+    core::BuildOptions options = apps::several_top_cells(scene);
+    for (const std::size_t page_size : page_sizes) {
+      options.page_size_bytes = page_size;
+      subjects_.try_emplace(page_size, scene, size, options);
+      CHECK(subjects_.at(page_size).outcome() == subjects_.begin()->second.outcome());
+    }
+  }
+  const Subject& with_pages_of(std::size_t size_bytes) const { return subjects_.at(size_bytes); }
+
+ private:
+  std::map<std::size_t, Subject> subjects_;
+};
+
+/// Every pair of choices occurs in some run.
+void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
+  const Subjects subjects(scene, size);
+  const auto rows = tests::pairwise(
+      {std::size(node_counts), std::size(page_sizes), std::size(cache_shares), std::size(in_flights), std::size(item_sides), 2});
+  for (const auto& row : rows) {
+    const Subject& subject = subjects.with_pages_of(page_sizes[row[1]]);
+    const bool replicated = row[5] == 1;
+    svm::RunOptions options;
+    options.node_count = node_counts[row[0]];
+    options.in_flight = in_flights[row[3]];
+    options.work_item_side = item_sides[row[4]];
+    if (!replicated) {
+      const double frames = cache_shares[row[2]] * static_cast<double>(subject.database().page_count());
+      options.cache_pages = std::max(1U, static_cast<std::uint32_t>(frames));
+    }
+    CAPTURE(options.node_count);
+    CAPTURE(subject.database().page_size());
+    CAPTURE(*options.in_flight);
+    CAPTURE(options.work_item_side);
+    CAPTURE(options.cache_pages.value_or(0));
+    CAPTURE(replicated);
+    CHECK(outcome_of(replicated ? run_replicated(subject, options) : run_svm(subject, options)) == subject.outcome());
+  }
+}
+
+/// Every strategy on any number of nodes, dataflow also with one ray a message, the least credits and no queue.
+void check_strategies(const Subject& subject, std::initializer_list<std::uint32_t> counts = {1, 2, 3, 5, 8, 16, 64}) {
+  for (const std::uint32_t nodes : counts) {
+    CAPTURE(nodes);
+    const tests::Outcome svm = outcome_of(run_svm(subject, {.node_count = nodes}));
+    CHECK(svm == subject.outcome());
+    CHECK(svm == outcome_of(run_replicated(subject, {.node_count = nodes})));
+    CHECK(svm == outcome_of(run_dataflow(subject, {.node_count = nodes})));
+    const dataflow::RunOptions least{.node_count = nodes, .ray_batch = 1, .ray_credits = nodes % 2, .queue_packets = 0};
+    CHECK(svm == outcome_of(run_dataflow(subject, least)));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("mirrors, glass and every kind of primitive give one picture in every pair of choices") {
+  check_pairwise(tests::mirrors_and_glass(), {scaled_edge(40), scaled_edge(32)});
+}
+
+TEST_CASE("a thousand lights give one picture in every pair of choices") {
+  check_pairwise(tests::thousand_lights(), {scaled_edge(12), scaled_edge(12)});
+}
+
+TEST_CASE("concave and transparent gears give one picture in every pair of choices") {
+  check_pairwise(tests::built_in("gears-1"), {scaled_edge(16), scaled_edge(16)});
+}
+
+TEST_CASE("a teapot gives one picture in every pair of choices") {
+  check_pairwise(tests::built_in("teapot-4"), {scaled_edge(32), scaled_edge(32)});
+}
+
+TEST_CASE("svm, replicated and dataflow give one film along the world's axes, and one along the screen's") {
+  for (const core::Scene& scene : {tests::mirrors_and_glass(), tests::built_in("gears-1"), tests::built_in("balls-2")}) {
+    CAPTURE(scene.name);
+    for (const Subject& subject :
+         tests::along_both_axes(scene, {.width = scaled_edge(20), .height = scaled_edge(16), .samples = 2})) {
+      check_strategies(subject);
+    }
+  }
+}
+
+TEST_CASE("refined samples give one picture, whoever renders it on any number of nodes") {
+  const Subject subject(tests::mirrors_and_glass(), {.width = 24, .height = 20, .samples = 2, .refinement = {.error = 0.02}});
+  REQUIRE(subject.outcome().rays[0] > 3 * 24 * 20);
+  check_strategies(subject, {1, 3, 8});
+  for (const std::uint32_t side : {0U, 1U, 8U, 20U}) {
+    CAPTURE(side);
+    CHECK(outcome_of(run_svm(subject, {.node_count = 5, .work_item_side = side})) == subject.outcome());
+  }
+}
+
+TEST_CASE("refined samples give one picture when rays of later passes come in many packets") {
+  const Subject subject(tests::built_in("balls-2"), {.width = 70, .height = 64, .samples = 2, .refinement = {.error = 0.004}});
+  CHECK(outcome_of(run_dataflow(subject, {.node_count = 3})) == subject.outcome());
+  CHECK(outcome_of(run_svm(subject, {.node_count = 1})) == subject.outcome());
+}
+
+TEST_CASE("a cutoff gives one picture, with fewer rays than without") {
+  const core::Scene scene = tests::mirrors_and_glass();
+  const Subject exact(scene, {.width = 24, .height = 20}), cut(scene, {.width = 24, .height = 20, .cutoff = 0.05});
+  CHECK(cut.outcome().rays[1] < exact.outcome().rays[1]);
+  check_strategies(cut, {1, 5});
+}
+
+TEST_CASE("twenty runs on 64 nodes give one picture") {
+  const Subject subject(tests::mirrors_and_glass(), {scaled_edge(64), scaled_edge(64)});
+  for (int run = 0; run < 20; ++run) {
+    CAPTURE(run);
+    CHECK(outcome_of(run_svm(subject, {.node_count = 64})) == subject.outcome());
+  }
+}
+
+TEST_CASE("a picture of one pixel and a picture with fewer pixels than nodes are the reference's") {
+  for (const int width : {1, 5}) {
+    const Subject subject(tests::mirrors_and_glass(), {width, 1}, {.page_size_bytes = 512});
+    CHECK(outcome_of(run_svm(subject, {.node_count = 8})) == subject.outcome());
+    CHECK(outcome_of(run_dataflow(subject, {.node_count = 8})) == subject.outcome());
+  }
+}
+
+TEST_CASE("films keep their bits from build to build, compiler to compiler and machine to machine") {
+  struct Known {
+    std::string name;
+    std::uint64_t hash;
+  };
+  for (const Known& known : {Known{"teapot-4", 0x5d862aabaeb46d83ULL}, Known{"gears-1", 0x6073f1a89bf7cd16ULL},
+                             Known{"balls-2", 0xe54a1b2299b0cf82ULL}, Known{"rings-1", 0xb7cd7b0b8d0cf6b2ULL},
+                             Known{"mount-3", 0x469ffe01b407ec59ULL}, Known{"tree-4", 0x84a057246e2c3cddULL}}) {
+    CAPTURE(known.name);
+    CHECK(Subject(tests::built_in(known.name), {32, 32}).outcome().film_hash == known.hash);
+  }
+}

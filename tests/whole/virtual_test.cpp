@@ -1,0 +1,242 @@
+// Whole pictures in virtual time: the same film and the same counts as the reference renderer and the threads, and the same
+// events again and again.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+#include "dataflow/run.h"
+#include "nodes/watch/operation_charges.h"
+#include "svm/run.h"
+#include "tests/support/references.h"
+#include "tests/support/small_scenes.h"
+#include "tests/support/strategies.h"
+#include "tests/support/subject.h"
+
+namespace dmpc::tests {
+namespace {
+
+constexpr std::uint32_t virtual_node_counts[] = {1, 2, 5, 16};
+constexpr nodes::TopologyKind topologies[] = {nodes::TopologyKind::hypercube, nodes::TopologyKind::torus,
+                                              nodes::TopologyKind::fat_tree};
+
+/// Slow messages, slower services: about what a machine of 1990 would be to a processor a hundred times as fast.
+nodes::Machine slow_network(nodes::TopologyKind topology = nodes::TopologyKind::hypercube) {
+  nodes::Machine machine{.name = "slow", .topology = topology};
+  machine.short_message = {.send_ns = 160'000, .latency_ns = 50'000, .receive_ns = 160'000, .byte_ps = 200'000};
+  machine.long_message = {.send_ns = 160'000, .latency_ns = 430'000, .receive_ns = 160'000, .byte_ps = 353'000};
+  machine.hop_ns = 10'000;
+  machine.service_ns = 200'000;
+  for (std::size_t i = 0; i < machine.cost_ps.size(); ++i) {
+    machine.cost_ps[i] = 1'000'000 + 100'001 * i;
+  }
+  return machine;
+}
+
+/// The film and all counts are the reference renderer's, and every node's time is accounted for.
+template <class Report>
+void check(const Subject& subject, const Report& report) {
+  CHECK(outcome_of(report) == subject.outcome());
+  REQUIRE(report.virtual_time);
+  CHECK(report.virtual_time->nodes.size() == report.nodes.size() + 1);
+  for (const nodes::VirtualTimes& times : report.virtual_time->nodes) {
+    CHECK(times.total_ns() == report.virtual_time->total_ns);
+  }
+}
+
+/// Both of a run's hashes.
+template <class Report>
+std::vector<std::uint64_t> hashes(const Report& report) {
+  return {report.virtual_time->run_hash(report.film.hash()), report.virtual_time->hash, report.virtual_time->events,
+          report.virtual_time->total_ns, report.film.hash()};
+}
+
+/// What each of two threads gets when both call at one time.
+template <class Function>
+std::vector<std::vector<std::uint64_t>> side_by_side(const Function& function) {
+  std::vector<std::vector<std::uint64_t>> results(2);
+  {
+    const std::jthread one([&] { results[0] = function(); }), other([&] { results[1] = function(); });
+  }
+  return results;
+}
+
+std::vector<std::uint64_t> faults_by_node(const svm::Report& report) {
+  std::vector<std::uint64_t> faults;
+  for (const svm::NodeReport& node : report.nodes) {
+    faults.push_back(node.program.pages.faults);
+  }
+  return faults;
+}
+
+/// Every pixel at a fixed node, one after the other: the order of a node's references is known.
+svm::RunOptions fixed_assignment(std::uint32_t node_count, std::uint32_t cache_pages) {
+  return {.node_count = node_count, .cache_pages = cache_pages, .in_flight = 1, .work_item_side = 0};
+}
+
+}  // namespace
+
+// ---- Sentences -----------------------------------------------------------------------------------------------------------
+
+TEST_CASE("virtual time: svm, replicated and dataflow give the reference's picture on any nodes and topology") {
+  for (const core::Scene& scene : {mirrors_and_glass(), built_in("gears-1")}) {
+    const Subject subject(scene, {20, 16}, {.page_size_bytes = 512});
+    for (const std::uint32_t nodes : virtual_node_counts) {
+      for (const nodes::TopologyKind topology : topologies) {
+        CAPTURE(scene.name);
+        CAPTURE(nodes);
+        CAPTURE(name_of(topology));
+        check(subject, run_svm(subject, {.node_count = nodes, .cache_pages = 3, .machine = slow_network(topology)}));
+        check(subject, run_replicated(subject, {.node_count = nodes, .machine = slow_network(topology)}));
+        check(subject, run_dataflow(subject, {.node_count = nodes, .topology = topology, .machine = slow_network(topology)}));
+      }
+    }
+  }
+}
+
+TEST_CASE("virtual time: a refined picture is the same, and equal runs have equal events") {
+  const Subject subject(mirrors_and_glass(), {.width = 16, .height = 16, .samples = 2, .refinement = {.error = 0.02}});
+  const auto svm = [&] { return run_svm(subject, {.node_count = 5, .cache_pages = 2, .machine = slow_network()}); };
+  const auto dataflow = [&] { return run_dataflow(subject, {.node_count = 5, .machine = slow_network()}); };
+  check(subject, svm());
+  check(subject, dataflow());
+  CHECK(svm().refinement.passes > 2);
+  CHECK(hashes(svm()) == hashes(svm()));
+  CHECK(hashes(dataflow()) == hashes(dataflow()));
+}
+
+TEST_CASE("virtual time: starved runs give the same picture") {
+  const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
+  for (const std::uint32_t nodes : virtual_node_counts) {
+    CAPTURE(nodes);
+    check(subject, run_svm(subject, {.node_count = nodes, .cache_pages = 1, .in_flight = 1, .machine = slow_network()}));
+    check(subject, run_svm(subject, {.node_count = nodes, .cache_pages = 1, .in_flight = 64, .machine = nodes::Machine{}}));
+    for (const std::uint32_t credits : {0U, 1U}) {
+      const dataflow::RunOptions least{.node_count = nodes,
+                                       .ray_batch = 1,
+                                       .ray_credits = credits,
+                                       .queue_packets = 0,
+                                       .machine = slow_network(nodes::TopologyKind::mesh)};
+      check(subject, run_dataflow(subject, least));
+    }
+  }
+}
+
+TEST_CASE("virtual time: with contention off and on the picture is the same, and only the time differs") {
+  const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
+  svm::RunOptions options{.node_count = 16, .cache_pages = 2, .machine = slow_network(nodes::TopologyKind::mesh)};
+  const svm::Report with = run_svm(subject, options);
+  options.machine->has_contention = false;
+  const svm::Report without = run_svm(subject, options);
+  check(subject, with);
+  check(subject, without);
+  CHECK(with.virtual_time->links.wait_ns > 0);
+  CHECK(without.virtual_time->links.wait_ns == 0);
+}
+
+TEST_CASE("virtual time: equal runs have equal events and films, one after the other and side by side") {
+  const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
+  const auto svm = [&] { return hashes(run_svm(subject, {.node_count = 16, .cache_pages = 2, .machine = slow_network()})); };
+  const auto dataflow = [&] { return hashes(run_dataflow(subject, {.node_count = 16, .machine = slow_network()})); };
+  CHECK(svm() == svm());
+  CHECK(side_by_side(svm) == std::vector{svm(), svm()});
+  CHECK(dataflow() == dataflow());
+  CHECK(side_by_side(dataflow) == std::vector{dataflow(), dataflow()});
+}
+
+/// These numbers change with whatever changes the picture, the layout of records or what is charged for them, and with nothing
+/// else.
+TEST_CASE("virtual time: a fixed picture has one run hash for each strategy, on every computer and in every build type") {
+  const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
+  const auto run_hash = [](const auto& report) { return report.virtual_time->run_hash(report.film.hash()); };
+  CHECK(run_hash(run_svm(subject, {.node_count = 5, .cache_pages = 2, .machine = slow_network()})) == 0x628ad3d0336e8b87);
+  CHECK(run_hash(run_replicated(subject, {.node_count = 5, .machine = slow_network()})) == 0x594a49948e35334c);
+  CHECK(run_hash(run_dataflow(subject, {.node_count = 5, .machine = slow_network()})) == 0xbb2a4a9c6e4efd71);
+}
+
+TEST_CASE("virtual time: with memory ports the picture is the same, and more is waited for") {
+  const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
+  svm::RunOptions options{.node_count = 16, .cache_pages = 2, .machine = slow_network()};
+  const svm::Report without = run_svm(subject, options);
+  options.machine->has_memory_port = true;
+  const svm::Report with = run_svm(subject, options);
+  check(subject, with);
+  CHECK(with.virtual_time->links.wait_ns > without.virtual_time->links.wait_ns);
+}
+
+TEST_CASE("virtual time: another cost makes another run and the same film") {
+  const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
+  svm::RunOptions options{.node_count = 5, .cache_pages = 2, .machine = slow_network()};
+  const svm::Report first = run_svm(subject, options);
+  ++options.machine->service_ns;
+  const svm::Report second = run_svm(subject, options);
+  CHECK(first.virtual_time->hash != second.virtual_time->hash);
+  CHECK(first.film.hash() == second.film.hash());
+}
+
+TEST_CASE("virtual time: under fixed assignment every node has the faults that it has on threads") {
+  const Subject subject(built_in("teapot-4"), {24, 24}, {.page_size_bytes = 512});
+  for (const std::uint32_t nodes : virtual_node_counts) {
+    for (const std::uint32_t cache_pages : {1U, 4U, 20U}) {
+      svm::RunOptions options = fixed_assignment(nodes, cache_pages);
+      const std::vector<std::uint64_t> on_threads = faults_by_node(run_svm(subject, options));
+      options.machine = slow_network();
+      CHECK(faults_by_node(run_svm(subject, options)) == on_threads);
+    }
+  }
+}
+
+TEST_CASE("virtual time: under fixed assignment faults are the misses of the references in a cache of that size") {
+  const Subject subject(built_in("teapot-4"), {24, 24}, {.page_size_bytes = 512});
+  for (const std::uint32_t nodes : {2U, 5U, 16U}) {
+    for (const std::uint32_t cache_pages : {1U, 3U, 8U, 20U, 100U}) {
+      CAPTURE(nodes);
+      CAPTURE(cache_pages);
+      svm::RunOptions options = fixed_assignment(nodes, cache_pages);
+      options.machine = slow_network();
+      options.record_references = true;
+      const svm::Report report = run_svm(subject, options);
+      check(subject, report);
+      for (const svm::NodeReport& node : report.nodes) {
+        CHECK(node.program.pages.faults == lru_misses(node.references.pages(), cache_pages));
+      }
+      CHECK(report.pages().faults > 0);
+    }
+  }
+}
+
+TEST_CASE("virtual time: only homes are interrupted, by as many requests as there are faults") {
+  const Subject subject(built_in("teapot-4"), {24, 24}, {.page_size_bytes = 512});
+  const nodes::Machine machine = slow_network();
+  const svm::Report report = run_svm(subject, {.node_count = 8, .cache_pages = 4, .machine = machine});
+  std::uint64_t stolen_ns = 0;
+  for (const nodes::VirtualTimes& times : report.virtual_time->nodes) {
+    stolen_ns += times.stolen_ns + times.lent_ns;
+  }
+  const std::uint64_t service_ns = machine.short_message.receive_ns + machine.service_ns + machine.long_message.send_ns;
+  CHECK(stolen_ns == report.pages().faults * service_ns);
+  CHECK(report.virtual_time->nodes.back().stolen_ns + report.virtual_time->nodes.back().lent_ns == 0);
+}
+
+TEST_CASE("virtual time: one node alone computes what its operations cost") {
+  const Subject subject(mirrors_and_glass(), {16, 16});
+  const nodes::Machine machine = slow_network();
+  const svm::Report report = run_svm(subject, {.node_count = 1, .machine = machine});
+  nodes::Charges charges = nodes::charges_of(report.operations());
+  charges[nodes::Charge::home_lookup] = report.pages().home_hits;
+  CHECK(report.virtual_time->nodes[0].computing_ns == machine.price_ps({}, charges) / 1000);
+}
+
+TEST_CASE("virtual time: a run that is stopped on the way says so and has no time to report") {
+  const Subject subject(built_in("teapot-4"), {64, 64});
+  std::stop_source source;
+  svm::RunOptions options{.node_count = 4, .machine = slow_network()};
+  options.progress = [&](std::uint32_t, std::uint32_t) { source.request_stop(); };
+  const svm::Report report = svm::run_svm(subject.database(), subject.settings(), options, source.get_token());
+  CHECK(report.end == nodes::RunEnd::interrupted);
+  CHECK_FALSE(report.virtual_time);
+}
+
+}  // namespace dmpc::tests

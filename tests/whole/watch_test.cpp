@@ -1,0 +1,66 @@
+// Onlookers beside svm's nodes see what the nodes count, by either clock, and with messages late and out of order.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include "nodes/watch/activity_profile.h"
+#include "nodes/watch/observer_group.h"
+#include "svm/watch/fetch_watch.h"
+#include "tests/support/priced_machine.h"
+#include "tests/support/small_scenes.h"
+#include "tests/support/strategies.h"
+#include "tests/support/subject.h"
+
+namespace dmpc::tests {
+namespace {
+
+constexpr std::uint32_t watchers_nodes = 3;
+
+Subject subject_to_watch() {
+  core::BuildOptions options;
+  options.page_size_bytes = 512;
+  return Subject(core::built_in_scene(core::parse_scene_name("balls-2")), {.width = 8, .height = 8, .knows_background = true},
+                 options);
+}
+
+std::uint64_t sum_over(const std::vector<std::uint64_t>& counts) {
+  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+}
+
+/// Runs with all onlookers, and holds what they saw against what was counted.
+void check_watched(const Subject& subject, svm::RunOptions options) {
+  const auto page_count = static_cast<std::uint32_t>(subject.database().page_count());
+  nodes::ActivityProfile profile(watchers_nodes + 1);
+  svm::FetchWatch watch(watchers_nodes, page_count);
+  nodes::ObserverGroup group({&profile, &watch});
+  std::vector<svm::ReferenceLog> logs(watchers_nodes, svm::ReferenceLog(1000));
+  options.node_count = watchers_nodes;
+  options.cache_pages = 2;
+  options.observer = &group;
+  options.reference_logs = &logs;
+  const svm::Report report = run_svm(subject, options);
+  CHECK(outcome_of(report) == subject.outcome());
+  const svm::Fetches fetches = watch.take();
+  CHECK(report.pages().faults > 20);
+  CHECK(sum_over(fetches.by_pair) == report.pages().faults);
+  CHECK(sum_over(fetches.by_page) == report.pages().faults);
+  CHECK(fetches.sample.size() == report.pages().faults);
+  CHECK(std::all_of(logs.begin(), logs.end(), [](const svm::ReferenceLog& log) { return !log.pages().empty(); }));
+  CHECK(!profile.take().nodes[0].empty());
+}
+
+}  // namespace
+
+TEST_CASE("onlookers see every fetch, by threads, in virtual time and under chaos") {
+  const Subject small = subject_to_watch();
+  check_watched(small, {});
+  check_watched(small, {.machine = priced_machine()});
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    check_watched(small, {.chaos = nodes::chaos_of(seed)});
+  }
+}
+
+}  // namespace dmpc::tests
