@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "apps/help/glossary.h"
-#include "apps/machine/machines.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/help/choices.h"
+#include "apps/help/glossary.h"
 #include "apps/line/typed_line.h"
 #include "apps/line/words.h"
+#include "apps/machine/machines.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
 #include "core/families/scenes.h"

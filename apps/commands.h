@@ -5,21 +5,21 @@
 #include <string>
 #include <variant>
 
-#include "apps/bench/precision/command.h"
-#include "apps/check/command.h"
-#include "apps/line/command_line.h"
-#include "apps/picture/compare_command.h"
 #include "apps/bench/error/command.h"
-#include "apps/info/command.h"
-#include "apps/machine/machine_command.h"
-#include "apps/run/render_options.h"
-#include "apps/study/scale/command.h"
-#include "apps/scene/scene_command.h"
+#include "apps/bench/precision/command.h"
 #include "apps/bench/speed/command.h"
 #include "apps/bench/stability/command.h"
+#include "apps/check/command.h"
+#include "apps/help/list_command.h"
+#include "apps/info/command.h"
+#include "apps/line/command_line.h"
+#include "apps/machine/machine_command.h"
+#include "apps/picture/compare_command.h"
+#include "apps/run/render_options.h"
+#include "apps/scene/scene_command.h"
 #include "apps/study/options.h"
 #include "apps/study/paper/command.h"
-#include "apps/help/list_command.h"
+#include "apps/study/scale/command.h"
 
 namespace dmpc::apps {
 

@@ -7,14 +7,14 @@
 #include <stop_token>
 #include <vector>
 
+#include "core/base/forget.h"
 #include "core/build/database.h"
 #include "core/build/extract.h"
-#include "core/base/forget.h"
 #include "core/picture/pixel_task.h"
 #include "core/trace/traversal.h"
-#include "dataflow/regions/bsp.h"
 #include "dataflow/plan.h"
 #include "dataflow/primaries.h"
+#include "dataflow/regions/bsp.h"
 
 namespace dmpc::dataflow {
 

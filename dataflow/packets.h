@@ -25,11 +25,11 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "core/trace/cursor.h"
-#include "core/picture/film.h"
-#include "core/record/ray.h"
-#include "core/picture/refinement.h"
 #include "core/base/units.h"
+#include "core/picture/film.h"
+#include "core/picture/refinement.h"
+#include "core/record/ray.h"
+#include "core/trace/cursor.h"
 #include "dataflow/regions/bsp.h"
 #include "dataflow/regions/primary_run.h"
 #include "dataflow/termination.h"

@@ -12,8 +12,8 @@
 #include "dataflow/program.h"
 #include "dataflow/ray_queue.h"
 #include "dataflow/ray_task.h"
-#include "nodes/threads/held_packets.h"
 #include "nodes/size_text.h"
+#include "nodes/threads/held_packets.h"
 
 namespace dmpc::dataflow {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "core/picture/pixel_task.h"
 #include "core/picture/refinement.h"
-#include "dataflow/regions/bsp.h"
 #include "dataflow/packets.h"
+#include "dataflow/regions/bsp.h"
 #include "nodes/local_memory.h"
 
 namespace dmpc::dataflow {

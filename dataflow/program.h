@@ -20,10 +20,9 @@
 #include <vector>
 
 #include "core/build/extract.h"
-#include "core/trace/operations.h"
 #include "core/picture/pixel_task.h"
+#include "core/trace/operations.h"
 #include "dataflow/backpressure.h"
-#include "dataflow/regions/bsp.h"
 #include "dataflow/film_gather.h"
 #include "dataflow/flow_control.h"
 #include "dataflow/gather.h"
@@ -31,6 +30,7 @@
 #include "dataflow/primaries.h"
 #include "dataflow/ray_queue.h"
 #include "dataflow/ray_task.h"
+#include "dataflow/regions/bsp.h"
 #include "dataflow/termination.h"
 #include "nodes/node.h"
 #include "nodes/program.h"

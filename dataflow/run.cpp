@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "core/base/expect.h"
-#include "dataflow/regions/mapping.h"
 #include "dataflow/metered_program.h"
 #include "dataflow/packets.h"
+#include "dataflow/regions/mapping.h"
 #include "dataflow/regions/work.h"
 
 namespace dmpc::dataflow {

@@ -13,19 +13,19 @@
 #include "core/picture/partial_picture.h"
 #include "core/picture/pixel_task.h"
 #include "core/trace/traversal.h"
-#include "dataflow/regions/balance.h"
-#include "dataflow/regions/bsp.h"
 #include "dataflow/distribution.h"
 #include "dataflow/host.h"
 #include "dataflow/plan.h"
 #include "dataflow/program.h"
+#include "dataflow/regions/balance.h"
+#include "dataflow/regions/bsp.h"
 #include "nodes/chaos.h"
 #include "nodes/counters.h"
-#include "nodes/watch/heat_map.h"
 #include "nodes/machine.h"
-#include "nodes/watch/meter.h"
 #include "nodes/runner.h"
 #include "nodes/topology.h"
+#include "nodes/watch/heat_map.h"
+#include "nodes/watch/meter.h"
 
 namespace dmpc::dataflow {
 

@@ -4,9 +4,9 @@
 #include <type_traits>
 
 #include "core/base/expect.h"
-#include "svm/watch/counting_pager.h"
 #include "svm/local_copy.h"
 #include "svm/pager.h"
+#include "svm/watch/counting_pager.h"
 #include "svm/watch/recording_pager.h"
 
 namespace dmpc::svm {

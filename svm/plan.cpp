@@ -3,16 +3,16 @@
 #include <algorithm>
 
 #include "core/base/expect.h"
-#include "core/picture/pixel_task.h"
 #include "core/base/units.h"
+#include "core/picture/pixel_task.h"
 #include "nodes/threads/held_packets.h"
-#include "svm/watch/counting_pager.h"
 #include "svm/film_gather.h"
 #include "svm/host.h"
 #include "svm/local_copy.h"
 #include "svm/packets.h"
 #include "svm/pager.h"
 #include "svm/slots.h"
+#include "svm/watch/counting_pager.h"
 #include "svm/work_items.h"
 #include "svm/work_source.h"
 

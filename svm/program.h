@@ -18,8 +18,8 @@
 
 #include "core/base/expect.h"
 #include "core/picture/pixel_task.h"
-#include "nodes/watch/meter.h"
 #include "nodes/node.h"
+#include "nodes/watch/meter.h"
 #include "nodes/watch/operation_charges.h"
 #include "svm/faults.h"
 #include "svm/film_gather.h"

@@ -4,10 +4,10 @@
 #include <string>
 
 #include "core/base/expect.h"
-#include "svm/watch/counting_pager.h"
 #include "svm/host.h"
 #include "svm/metered_programs.h"
 #include "svm/pager.h"
+#include "svm/watch/counting_pager.h"
 #include "svm/watch/recording_pager.h"
 
 namespace dmpc::svm {

@@ -7,13 +7,13 @@
 #include <numeric>
 #include <string>
 
-#include "apps/render/effort.h"
-#include "apps/line/number_text.h"
 #include "apps/check/inspection.h"
+#include "apps/line/number_text.h"
+#include "apps/render/effort.h"
 #include "apps/scene/load_scene.h"
+#include "apps/scene/subject.h"
 #include "apps/system/output_file.h"
 #include "apps/system/progress.h"
-#include "apps/scene/subject.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

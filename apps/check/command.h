@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "apps/line/command_line.h"
-#include "apps/system/interrupt.h"
 #include "apps/scene/picture_options.h"
+#include "apps/system/interrupt.h"
 
 namespace dmpc::apps {
 

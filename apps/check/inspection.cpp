@@ -8,8 +8,8 @@
 #include <functional>
 
 #include "core/base/expect.h"
-#include "core/picture/render.h"
 #include "core/base/sampling.h"
+#include "core/picture/render.h"
 
 namespace dmpc::apps {
 namespace {

@@ -9,8 +9,8 @@
 #include "apps/oracle/oracle.h"
 #include "apps/oracle/referee.h"
 #include "core/build/database.h"
-#include "core/trace/operations.h"
 #include "core/picture/pixel_task.h"
+#include "core/trace/operations.h"
 
 namespace dmpc::apps {
 

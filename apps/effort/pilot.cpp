@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/system/stopwatch.h"
-#include "core/trace/operations.h"
 #include "core/picture/render.h"
+#include "core/trace/operations.h"
 
 namespace dmpc::apps {
 namespace {

@@ -19,8 +19,6 @@
 #include <string_view>
 #include <utility>
 
-#include "apps/system/byte_order_mark.h"
-#include "apps/line/number_text.h"
 #include "apps/foreign/gltf/reader.h"
 #include "apps/foreign/mesh/material.h"
 #include "apps/foreign/mesh/mtl_check.h"
@@ -28,7 +26,9 @@
 #include "apps/foreign/mesh/obj_check.h"
 #include "apps/foreign/mesh/ply_check.h"
 #include "apps/foreign/mesh/stl_check.h"
+#include "apps/line/number_text.h"
 #include "apps/line/shown_text.h"
+#include "apps/system/byte_order_mark.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -1,27 +1,16 @@
 // Reads a file by Assimp, or glTF 2 by a reader of our own.
 #pragma once
 
-#include <assimp/scene.h>
-
-#include <memory>
 #include <string>
-#include <vector>
 
+#include "apps/foreign/mesh/imported_file.h"
 #include "apps/foreign/mesh/scene_files.h"
-#include "apps/foreign/mesh/texture_place.h"
 
 namespace Assimp {
 class Importer;
 }
 
 namespace dmpc::apps {
-
-struct ImportedFile {
-  std::unique_ptr<aiScene> scene;
-  std::vector<TexturePlace> texture_places;  ///< of each material's colour texture; none where all are plain
-  std::vector<std::string> notes;            ///< what of the file is not shown as it is, a sentence each
-  std::vector<std::string> missing;          ///< sentences: which files it refers to cannot be had, in order, each once
-};
 
 /// Makes the library ready, after which it opens nothing but through SceneFiles.
 void prepare_import();

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "apps/foreign/asked_files.h"
-#include "apps/foreign/service.h"
 #include "apps/foreign/import.h"
 #include "apps/foreign/mesh_reader.h"
+#include "apps/foreign/service.h"
 #include "apps/formats/scene_blocks.h"
 #include "core/base/expect.h"
 

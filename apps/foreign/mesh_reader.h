@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/formats/mesh_options.h"
 #include "apps/foreign/mesh/scene_files.h"
+#include "apps/formats/mesh_options.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {

@@ -12,8 +12,8 @@
 #include "apps/picture/picture_format.h"
 #include "apps/picture/texture_size.h"
 #include "core/base/expect.h"
-#include "core/build/record_writer.h"
 #include "core/base/srgb.h"
+#include "core/build/record_writer.h"
 #include "core/scene/texel.h"
 
 namespace dmpc::apps {

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "apps/formats/named_file.h"
-#include "apps/system/input_memory.h"
 #include "apps/picture/texture_size.h"
+#include "apps/system/input_memory.h"
 #include "core/base/expect.h"
 #include "core/scene/texture.h"
 

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "apps/formats/mesh_file.h"
-#include "apps/system/progress.h"
-#include "apps/reader/file_access.h"
-#include "apps/picture/picture_reader.h"
-#include "apps/reader/process.h"
 #include "apps/formats/scene_blocks.h"
+#include "apps/picture/picture_reader.h"
+#include "apps/reader/file_access.h"
+#include "apps/reader/process.h"
+#include "apps/system/progress.h"
 
 namespace dmpc::apps {
 

@@ -6,7 +6,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "apps/scene/picture_options.h"
+#include "apps/formats/resolution.h"
 #include "apps/formats/view_faults.h"
 #include "core/scene/scene.h"
 

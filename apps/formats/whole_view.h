@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "apps/formats/up_axis.h"
-#include "core/scene/scene.h"
 #include "core/base/vec.h"
+#include "core/scene/scene.h"
 
 namespace dmpc::apps {
 

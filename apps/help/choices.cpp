@@ -2,15 +2,15 @@
 
 #include <array>
 
-#include "apps/line/number_text.h"
-#include "apps/machine/machines.h"
 #include "apps/formats/mesh_file.h"
-#include "apps/run/strategy_options.h"
+#include "apps/line/number_text.h"
 #include "apps/line/words.h"
+#include "apps/machine/machines.h"
+#include "apps/run/strategy_options.h"
 #include "core/families/scenes.h"
 #include "core/trace/skips.h"
-#include "nodes/watch/heat_map.h"
 #include "nodes/topology.h"
+#include "nodes/watch/heat_map.h"
 #include "svm/replacement.h"
 
 namespace dmpc::apps {

@@ -7,8 +7,8 @@
 
 #include "apps/line/command_line.h"
 #include "apps/scene/database_options.h"
-#include "apps/system/interrupt.h"
 #include "apps/scene/picture_options.h"
+#include "apps/system/interrupt.h"
 #include "dataflow/regions/balance.h"
 
 namespace dmpc::apps {

@@ -1,7 +1,7 @@
 #include "apps/info/scene_figures.h"
 
-#include "core/build/conversion.h"
 #include "core/base/parallel.h"
+#include "core/build/conversion.h"
 #include "core/record/texture_layout.h"
 
 namespace dmpc::apps {

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "apps/line/number_text.h"
-#include "apps/show/heat/scale.h"
 
 namespace dmpc::apps {
 

@@ -87,4 +87,18 @@ std::string counted(std::uint64_t count, const std::string& thing) {
   return grouped(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
+std::string legend_number(double value) {
+  char text[32];
+  static_cast<void>(std::snprintf(text, sizeof(text), "%.4g", value));
+  return text;
+}
+
+std::string hash_text(std::uint64_t hash) {
+  std::string text(16, '0');
+  for (std::size_t digit = 16; digit-- > 0; hash >>= 4U) {
+    text[digit] = "0123456789abcdef"[hash & 15U];
+  }
+  return text;
+}
+
 }  // namespace dmpc::apps

@@ -32,5 +32,9 @@ std::string percent(std::uint64_t part, std::uint64_t whole);
 std::vector<double> percent_parts(std::span<const std::uint64_t> parts);
 /// "1 node", "2 nodes".
 std::string counted(std::uint64_t count, const std::string& thing);
+/// With four significant digits at most: "12", "0.035", "1.5e+06".
+std::string legend_number(double value);
+/// 16 hexadecimal digits.
+std::string hash_text(std::uint64_t hash);
 
 }  // namespace dmpc::apps

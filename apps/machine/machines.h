@@ -37,8 +37,8 @@ std::string machine_preset_names();
 /// memory ports". Thread-safe.
 std::string name_with_links(const nodes::Machine& machine);
 
-/// What the operations cost on a processor that takes `slowdown` times as long as the core on which dataflow/regions/work.cpp's prices
-/// were measured, in picoseconds by nodes::Charge. Thread-safe.
+/// What the operations cost on a processor that takes `slowdown` times as long as the core on which dataflow/regions/work.cpp's
+/// prices were measured, in picoseconds by nodes::Charge. Thread-safe.
 std::array<std::uint64_t, nodes::charge_count> operation_costs_ps(std::uint64_t slowdown);
 
 }  // namespace dmpc::apps

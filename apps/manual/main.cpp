@@ -6,9 +6,9 @@
 #include <iostream>
 #include <string>
 
+#include "apps/commands.h"
 #include "apps/manual/completion.h"
 #include "apps/manual/man_page.h"
-#include "apps/commands.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "apps/line/exit_status.h"
+#include "apps/line/typed_line.h"
 #include "apps/manual/leaves.h"
 #include "apps/manual/lines.h"
 #include "apps/manual/roff.h"
-#include "apps/line/typed_line.h"
 
 namespace dmpc::apps {
 

@@ -7,8 +7,8 @@
 #include <span>
 
 #include "core/build/database.h"
-#include "core/record/hit.h"
 #include "core/picture/pixel_task.h"
+#include "core/record/hit.h"
 #include "core/record/records.h"
 
 namespace dmpc::apps {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "apps/system/distinct_files.h"
-#include "apps/picture/image_file.h"
-#include "apps/system/output_file.h"
-#include "apps/picture/picture_error.h"
 #include "apps/line/shown_text.h"
+#include "apps/picture/image_file.h"
+#include "apps/picture/picture_error.h"
+#include "apps/system/distinct_files.h"
+#include "apps/system/output_file.h"
 
 namespace dmpc::apps {
 namespace {

@@ -9,9 +9,9 @@
 #include <memory>
 #include <string>
 
-#include "apps/system/output_file.h"
 #include "apps/picture/picture_reader.h"
 #include "apps/system/memory_file.h"
+#include "apps/system/output_file.h"
 #include "core/base/expect.h"
 #include "core/base/srgb.h"
 

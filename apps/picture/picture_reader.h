@@ -7,9 +7,9 @@
 #include <string>
 
 #include "apps/picture/image_file.h"
-#include "apps/system/descriptor.h"
-#include "apps/reader/process.h"
 #include "apps/picture/texture_file.h"
+#include "apps/reader/process.h"
+#include "apps/system/descriptor.h"
 #include "core/scene/texture.h"
 
 namespace dmpc::apps {

@@ -4,8 +4,8 @@
 #include <system_error>
 #include <utility>
 
-#include "apps/render/checkpoint_file.h"
 #include "apps/line/number_text.h"
+#include "apps/render/checkpoint_file.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

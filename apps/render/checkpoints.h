@@ -6,9 +6,9 @@
 #include <optional>
 #include <stop_token>
 
+#include "apps/render/picture_identity.h"
 #include "apps/run/checkpoint_options.h"
 #include "apps/system/file_lock.h"
-#include "apps/render/picture_identity.h"
 #include "apps/system/files.h"
 #include "core/picture/partial_picture.h"
 

@@ -10,21 +10,22 @@
 #include <ostream>
 #include <utility>
 
+#include "apps/picture/film_image.h"
 #include "apps/render/checkpoints.h"
 #include "apps/render/effort.h"
-#include "apps/scene/load_scene.h"
 #include "apps/render/onlookers.h"
-#include "apps/system/output_file.h"
-#include "apps/render/preview.h"
-#include "apps/system/progress.h"
 #include "apps/render/outputs.h"
+#include "apps/render/preview.h"
 #include "apps/run/run_strategy.h"
-#include "apps/show/stats/stats.h"
-#include "apps/system/stopwatch.h"
+#include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
+#include "apps/show/stats/stats.h"
 #include "apps/show/summary.h"
-#include "apps/system/attempts.h"
 #include "apps/show/trace/file.h"
+#include "apps/system/attempts.h"
+#include "apps/system/output_file.h"
+#include "apps/system/progress.h"
+#include "apps/system/stopwatch.h"
 
 namespace dmpc::apps {
 
@@ -209,17 +210,6 @@ void write_others(RenderRecord record, const OutputSet<RenderRecord>& outputs, F
 }
 
 }  // namespace
-
-Image image_of(const core::Film& film) {
-  Image image(film.width(), film.height());
-  for (std::uint32_t pixel = 0; pixel < film.pixels().size(); ++pixel) {
-    const core::Vec3d radiance = film.radiance(pixel);
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      image.rgb[std::size_t{pixel} * 3 + channel] = static_cast<float>(radiance[channel]);
-    }
-  }
-  return image;
-}
 
 int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostream& output, Files& files) {
   const OutputSet<RenderRecord> outputs = outputs_of(asked);

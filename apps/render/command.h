@@ -3,16 +3,11 @@
 
 #include <iosfwd>
 
-#include "apps/picture/image_file.h"
-#include "apps/system/interrupt.h"
 #include "apps/run/render_options.h"
 #include "apps/system/files.h"
-#include "core/picture/film.h"
+#include "apps/system/interrupt.h"
 
 namespace dmpc::apps {
-
-/// Mean linear radiance of each pixel; requires samples > 0.
-Image image_of(const core::Film& film);
 
 /// Renders, writes the picture, then all else that is asked for, and prints the closing lines to `output`, the standard output,
 /// unless quiet; progress and remarks go to stderr. What can be seen beforehand (paths, scene, memory) is checked before anything

@@ -3,13 +3,13 @@
 #include <iostream>
 #include <vector>
 
-#include "apps/show/heat/files.h"
-#include "apps/show/page/render_page.h"
-#include "apps/scene/load_scene.h"
 #include "apps/machine/machines.h"
+#include "apps/scene/load_scene.h"
+#include "apps/show/heat/files.h"
 #include "apps/show/page/origin.h"
-#include "apps/system/scratch_folder.h"
+#include "apps/show/page/render_page.h"
 #include "apps/show/trace/file.h"
+#include "apps/system/scratch_folder.h"
 
 namespace dmpc::apps {
 

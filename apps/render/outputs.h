@@ -1,7 +1,7 @@
 // The files that a render leaves.
 #pragma once
 
-#include "apps/show/stats/stats.h"
+#include "apps/run/render_record.h"
 #include "apps/system/output_set.h"
 
 namespace dmpc::apps {

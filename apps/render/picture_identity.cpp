@@ -5,8 +5,9 @@
 #include <cstddef>
 #include <span>
 
+#include "apps/line/number_text.h"
+#include "apps/run/render_record.h"
 #include "apps/system/digest.h"
-#include "apps/show/stats/stats.h"
 
 namespace dmpc::apps {
 

@@ -7,15 +7,9 @@
 #include <string>
 #include <string_view>
 
+#include "apps/run/viewer_address.h"
+
 namespace dmpc::apps {
-
-struct ViewerAddress {
-  std::string host = "127.0.0.1";
-  std::string port = "14158";
-};
-
-/// "127.0.0.1:14158", "[::1]:14158". Throws core::UsageError naming `option` for anything else.
-ViewerAddress parse_viewer_address(const std::string& text, std::string_view option);
 
 /// Never throws, and never waits for longer than `patience` for a viewer that takes nothing. Not thread-safe.
 /// `gives_up` is asked again and again while it sends: once it says so, the connection is closed. May be empty.

@@ -4,8 +4,8 @@
 
 #include "apps/line/option_values.h"
 #include "apps/run/region_options.h"
+#include "apps/run/viewer_address.h"
 #include "apps/table/table_options.h"
-#include "apps/render/viewer_connection.h"
 #include "core/base/expect.h"
 #include "dataflow/packets.h"
 #include "dataflow/plan.h"

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "apps/run/checkpoint_options.h"
 #include "apps/line/command_line.h"
-#include "apps/scene/database_options.h"
+#include "apps/run/checkpoint_options.h"
 #include "apps/run/heat_options.h"
-#include "apps/scene/picture_options.h"
 #include "apps/run/strategy_options.h"
 #include "apps/run/trace_options.h"
+#include "apps/scene/database_options.h"
+#include "apps/scene/picture_options.h"
 
 namespace dmpc::apps {
 

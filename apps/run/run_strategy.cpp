@@ -5,8 +5,8 @@
 
 #include "apps/line/number_text.h"
 #include "apps/machine/machine_file.h"
-#include "apps/system/memory_room.h"
 #include "apps/oracle/oracle.h"
+#include "apps/system/memory_room.h"
 #include "core/base/expect.h"
 #include "core/record/records.h"
 

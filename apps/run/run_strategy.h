@@ -12,8 +12,8 @@
 #include "core/build/database.h"
 #include "core/picture/partial_picture.h"
 #include "core/picture/pixel_task.h"
-#include "nodes/watch/heat_map.h"
 #include "nodes/observer.h"
+#include "nodes/watch/heat_map.h"
 
 namespace dmpc::apps {
 

@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "apps/scene/picture_options.h"
 #include "apps/system/distinct_files.h"
 #include "apps/system/opened_files.h"
-#include "apps/scene/picture_options.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {
 
-/// `scene` is a built-in name (core/families/scenes.h) or else the path of a file: of a mesh file by its ending, else of an NFF file,
-/// which ends in .nff or has no ending. A file that is called like a built-in scene is reached as ./teapot-12. Throws
+/// `scene` is a built-in name (core/families/scenes.h) or else the path of a file: of a mesh file by its ending, else of an NFF
+/// file, which ends in .nff or has no ending. A file that is called like a built-in scene is reached as ./teapot-12. Throws
 /// core::InputError with advice if it is none of these, cannot be read, or has a view of more than `pixels_max` pixels. What of a
 /// mesh file is not shown as it is is said on stderr, once in a process.
 core::Scene load_scene(const std::string& scene, std::int64_t pixels_max = picture_pixels_max);

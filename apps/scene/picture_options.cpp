@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "apps/line/option_values.h"
-#include "core/picture/background.h"
 #include "core/base/expect.h"
+#include "core/picture/background.h"
 
 namespace dmpc::apps {
 

@@ -6,26 +6,20 @@
 #include <string>
 #include <string_view>
 
+#include "apps/formats/resolution.h"
 #include "apps/line/command_line.h"
 #include "apps/scene/staging.h"
 #include "core/build/database.h"
 #include "core/picture/pixel_task.h"
-#include "core/scene/scene.h"
 #include "core/picture/shade.h"
+#include "core/scene/scene.h"
 #include "core/trace/skips.h"
 
 namespace dmpc::apps {
 
-/// Pixels of one picture, whether the scene or the command line asks for them.
-inline constexpr std::int64_t picture_pixels_max = std::int64_t{1} << 28;
-
 /// In the first pass of a refined picture: two on each plane would tell more of the error, one is what most pixels of most
 /// pictures need.
 inline constexpr int refined_samples = 2;
-
-struct Resolution {
-  int width = 0, height = 0;  ///< both above 0
-};
 
 /// Names for choices of samples and cutoff, to be had without knowing them: draft shows within 5 of 255 steps, on average, what
 /// the converged picture would, standard within 2.

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/formats/view_faults.h"
 #include "apps/line/number_text.h"
 #include "apps/line/option_values.h"
-#include "apps/formats/view_faults.h"
 #include "apps/line/words.h"
 #include "core/base/expect.h"
 

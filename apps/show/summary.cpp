@@ -5,9 +5,9 @@
 #include <variant>
 
 #include "apps/line/number_text.h"
+#include "apps/line/shown_text.h"
 #include "apps/machine/machines.h"
 #include "apps/run/ray_hops.h"
-#include "apps/line/shown_text.h"
 #include "apps/run/time_parts.h"
 #include "nodes/size_text.h"
 
@@ -124,12 +124,6 @@ std::string time_text(const Seconds& seconds) {
 }
 
 }  // namespace
-
-std::string computer_text(const RenderRecord& record) {
-  const RenderOptions& options = record.options;
-  const std::string on_machine = options.computer.machine ? " of " + options.computer.machine->name : "";
-  return std::string(name_of(options.strategy)) + ", " + counted(options.computer.node_count, "node") + on_machine;
-}
 
 void print_summary(std::ostream& output, const RenderRecord& record) {
   const Account account = account_of(record.report);

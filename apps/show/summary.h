@@ -1,16 +1,11 @@
 // The closing lines of a render on the terminal.
 #pragma once
 
-#include <cstdint>
 #include <iosfwd>
-#include <string>
 
-#include "apps/show/stats/stats.h"
+#include "apps/run/render_record.h"
 
 namespace dmpc::apps {
-
-/// The computer that rendered, in words: "svm, 8 nodes of ipsc2".
-std::string computer_text(const RenderRecord& record);
 
 /// A few lines: the scene, the computer and its memory by category, rays, what the strategy is about (pages; or travel, load and
 /// regions), virtual time and its parts if a machine was modelled, times by the wall clock, the picture and its film's hash.

@@ -8,13 +8,14 @@
 #include "apps/line/number_text.h"
 #include "apps/run/run_strategy.h"
 #include "apps/system/side_by_side.h"
+#include "apps/table/geometric_sizes.h"
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
 #include "core/families/scenes.h"
-#include "svm/watch/miss_curve.h"
-#include "svm/watch/optimum.h"
 #include "svm/packets.h"
 #include "svm/run.h"
+#include "svm/watch/miss_curve.h"
+#include "svm/watch/optimum.h"
 
 namespace dmpc::apps {
 namespace {
@@ -212,25 +213,6 @@ std::string needs_note(const svm::MissCurve& lru) {
 }
 
 }  // namespace
-
-std::vector<std::uint32_t> geometric_sizes(std::uint32_t most, std::uint32_t count) {
-  core::expect(count >= 2, "sizes go from one to another");
-  if (most == 0) {
-    return {};
-  }
-  Sizes sizes;
-  const double step = core::natural_log(most) / (count - 1);
-  for (std::uint32_t i = 0; i + 1 < count; ++i) {
-    const auto size = static_cast<std::uint32_t>(core::exponential(i * step) + 0.5);
-    if (sizes.empty() || size > sizes.back()) {
-      sizes.push_back(size);
-    }
-  }
-  if (sizes.back() < most) {
-    sizes.push_back(most);
-  }
-  return sizes;
-}
 
 std::vector<Column> CacheStudy::columns() const {
   std::vector<Column> columns = {{"cache pages"}, {"share of database", "%", 2}, {"misses lru", "%", 4}, {"faults lru"}};

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/table/plot.h"
 #include "apps/study/runs.h"
+#include "apps/table/plot.h"
 #include "apps/table/table.h"
 #include "nodes/machine.h"
 
@@ -33,9 +33,5 @@ struct CacheStudy {
   /// What the columns mean, and what the 1994 paper found if `scene`, as on the command line, is one of its scenes.
   std::vector<std::string> notes(const std::string& scene) const;
 };
-
-/// At most `count` sizes from 1 to `most`, each about the same times the one before, without repetition. Requires count >= 2;
-/// nothing if `most` is 0.
-std::vector<std::uint32_t> geometric_sizes(std::uint32_t most, std::uint32_t count);
 
 }  // namespace dmpc::apps

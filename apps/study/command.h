@@ -3,8 +3,8 @@
 
 #include <iosfwd>
 
-#include "apps/system/interrupt.h"
 #include "apps/study/options.h"
+#include "apps/system/interrupt.h"
 
 namespace dmpc::apps {
 

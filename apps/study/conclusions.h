@@ -6,8 +6,8 @@
 #include "apps/study/balance.h"
 #include "apps/study/cache.h"
 #include "apps/study/speedup.h"
-#include "apps/table/table.h"
 #include "apps/study/traffic.h"
+#include "apps/table/table.h"
 
 namespace dmpc::apps {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "apps/effort/effort.h"
-#include "apps/study/options.h"
 #include "apps/scene/subject.h"
+#include "apps/study/options.h"
 
 namespace dmpc::apps {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/line/option_values.h"
 #include "apps/machine/machine_file.h"
 #include "apps/machine/machines.h"
-#include "apps/line/option_values.h"
 #include "apps/run/region_options.h"
 #include "apps/run/run_strategy.h"
 #include "apps/table/table_options.h"

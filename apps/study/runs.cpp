@@ -5,9 +5,9 @@
 #include <mutex>
 #include <utility>
 
+#include "apps/run/run_strategy.h"
 #include "apps/system/memory_room.h"
 #include "apps/system/progress.h"
-#include "apps/run/run_strategy.h"
 #include "apps/system/side_by_side.h"
 #include "core/base/expect.h"
 

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "apps/system/interrupt.h"
 #include "apps/run/report.h"
 #include "apps/run/strategy_options.h"
-#include "core/build/database.h"
+#include "apps/system/interrupt.h"
 #include "core/base/expect.h"
+#include "core/build/database.h"
 #include "core/picture/film.h"
 #include "core/picture/pixel_task.h"
 #include "dataflow/run.h"

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "apps/line/number_text.h"
+#include "apps/run/render_record.h"
 #include "apps/run/report.h"
 #include "apps/run/run_strategy.h"
-#include "apps/show/stats/stats.h"
 #include "apps/run/time_parts.h"
 #include "nodes/size_text.h"
 

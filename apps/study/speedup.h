@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "apps/machine/machines.h"
-#include "apps/table/plot.h"
 #include "apps/run/strategy_options.h"
 #include "apps/study/runs.h"
+#include "apps/table/plot.h"
 #include "apps/table/table.h"
 #include "nodes/machine.h"
 

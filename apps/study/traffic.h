@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/table/plot.h"
 #include "apps/study/runs.h"
+#include "apps/table/plot.h"
 #include "apps/table/table.h"
 
 namespace dmpc::apps {

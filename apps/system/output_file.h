@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "apps/system/interrupt.h"
 #include "apps/system/file_stream.h"
+#include "apps/system/interrupt.h"
 
 namespace dmpc::apps {
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "apps/system/attempts.h"
 #include "apps/system/distinct_files.h"
 #include "apps/system/output_file.h"
-#include "apps/system/attempts.h"
 
 namespace dmpc::apps {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
+#include "apps/system/attempts.h"
 #include "apps/table/plot.h"
 #include "apps/table/table.h"
-#include "apps/system/attempts.h"
 
 namespace dmpc::apps {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <ostream>
 
-#include "apps/system/progress.h"
 #include "apps/line/shown_text.h"
+#include "apps/system/progress.h"
 
 namespace dmpc::apps {
 

@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "apps/line/number_text.h"
 #include "apps/line/folded_text.h"
+#include "apps/line/number_text.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -3,8 +3,8 @@
 #include <ostream>
 
 #include "apps/system/output_file.h"
-#include "apps/table/plot_folder.h"
 #include "apps/system/scratch_folder.h"
+#include "apps/table/plot_folder.h"
 
 namespace dmpc::apps {
 namespace {

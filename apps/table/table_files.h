@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "apps/system/distinct_files.h"
-#include "apps/table/plot.h"
 #include "apps/system/output_set.h"
+#include "apps/table/plot.h"
 #include "apps/table/table_options.h"
 
 namespace dmpc::apps {

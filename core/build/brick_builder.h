@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "core/base/parallel.h"
+#include "core/base/region.h"
 #include "core/build/brick_tree.h"
 #include "core/build/cut_tree.h"
 #include "core/build/cutter.h"
 #include "core/build/database.h"
-#include "core/base/parallel.h"
-#include "core/base/region.h"
 
 namespace dmpc::core {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/build/database.h"
-#include "core/record/record.h"
 #include "core/build/record_writer.h"
+#include "core/record/record.h"
 
 namespace dmpc::core {
 

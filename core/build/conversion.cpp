@@ -5,9 +5,9 @@
 #include <span>
 
 #include "core/base/box.h"
+#include "core/base/units.h"
 #include "core/scene/frame.h"
 #include "core/scene/triangulate.h"
-#include "core/base/units.h"
 
 namespace dmpc::core {
 namespace {

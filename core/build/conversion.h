@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/base/box.h"
-#include "core/build/database.h"
 #include "core/base/parallel.h"
+#include "core/build/database.h"
 #include "core/record/record.h"
 #include "core/scene/scene.h"
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/build/cutter.h"
 #include "core/base/parallel.h"
+#include "core/build/cutter.h"
 #include "core/record/record.h"
 
 namespace dmpc::core {

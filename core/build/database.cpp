@@ -5,19 +5,19 @@
 #include <vector>
 
 #include "core/base/box.h"
-#include "core/build/brick_builder.h"
-#include "core/build/conversion.h"
-#include "core/record/directory.h"
-#include "core/build/empty_space.h"
 #include "core/base/expect.h"
 #include "core/base/forget.h"
-#include "core/scene/frame.h"
 #include "core/base/parallel.h"
+#include "core/build/brick_builder.h"
+#include "core/build/conversion.h"
+#include "core/build/empty_space.h"
 #include "core/build/record_writer.h"
-#include "core/record/records.h"
-#include "core/record/texture_layout.h"
 #include "core/build/texture_records.h"
 #include "core/build/top_cells.h"
+#include "core/record/directory.h"
+#include "core/record/records.h"
+#include "core/record/texture_layout.h"
+#include "core/scene/frame.h"
 
 namespace dmpc::core {
 namespace {

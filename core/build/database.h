@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/base/forget.h"
-#include "core/record/record.h"
 #include "core/build/record_order.h"
+#include "core/record/record.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::core {

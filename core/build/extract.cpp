@@ -4,11 +4,11 @@
 #include <map>
 #include <utility>
 
-#include "core/record/directory.h"
-#include "core/build/record_writer.h"
-#include "core/record/texture_layout.h"
-#include "core/build/texture_records.h"
 #include "core/base/units.h"
+#include "core/build/record_writer.h"
+#include "core/build/texture_records.h"
+#include "core/record/directory.h"
+#include "core/record/texture_layout.h"
 
 namespace dmpc::core {
 namespace {

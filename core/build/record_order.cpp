@@ -3,8 +3,8 @@
 #include <numeric>
 #include <utility>
 
-#include "core/build/record_writer.h"
 #include "core/base/sampling.h"
+#include "core/build/record_writer.h"
 
 namespace dmpc::core {
 

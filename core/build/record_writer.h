@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/base/expect.h"
+#include "core/base/units.h"
 #include "core/record/record.h"
 #include "core/record/records.h"
-#include "core/base/units.h"
 
 namespace dmpc::core {
 

@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-#include "core/record/record.h"
 #include "core/build/record_writer.h"
+#include "core/record/record.h"
 #include "core/scene/texture.h"
 
 namespace dmpc::core {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/record/directory.h"
 #include "core/base/morton.h"
-#include "core/build/overlap.h"
 #include "core/base/units.h"
+#include "core/build/overlap.h"
+#include "core/record/directory.h"
 
 namespace dmpc::core {
 namespace {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/build/database.h"
 #include "core/base/parallel.h"
+#include "core/build/database.h"
 #include "core/record/record.h"
 
 namespace dmpc::core {

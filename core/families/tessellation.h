@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/scene/scene.h"
 #include "core/families/frame.h"
+#include "core/scene/scene.h"
 
 namespace dmpc::core::scenes {
 

@@ -2,8 +2,8 @@
 
 #include <bit>
 
-#include "core/record/directory.h"
 #include "core/build/overlap.h"
+#include "core/record/directory.h"
 #include "core/record/records.h"
 
 namespace dmpc::core {

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 
-#include "core/picture/camera.h"
 #include "core/build/database.h"
+#include "core/picture/camera.h"
 #include "core/picture/tile_footprint.h"
 
 namespace dmpc::core {

@@ -4,8 +4,8 @@
 
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
-#include "core/scene/frame.h"
 #include "core/picture/sample_position.h"
+#include "core/scene/frame.h"
 
 namespace dmpc::core {
 

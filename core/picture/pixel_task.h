@@ -7,9 +7,9 @@
 #include "core/picture/background.h"
 #include "core/picture/camera.h"
 #include "core/picture/film.h"
-#include "core/trace/operations.h"
 #include "core/picture/refinement.h"
 #include "core/picture/shade.h"
+#include "core/trace/operations.h"
 #include "core/trace/traversal.h"
 
 namespace dmpc::core {

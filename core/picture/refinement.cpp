@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/base/expect.h"
-#include "core/picture/partial_picture.h"
 #include "core/base/units.h"
+#include "core/picture/partial_picture.h"
 
 namespace dmpc::core {
 namespace {

@@ -4,14 +4,14 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "core/base/vec.h"
+#include "core/picture/texture_lookup.h"
 #include "core/record/hit.h"
-#include "core/trace/operations.h"
 #include "core/record/ray.h"
 #include "core/record/record.h"
 #include "core/scene/scene.h"
+#include "core/trace/operations.h"
 #include "core/trace/skips.h"
-#include "core/picture/texture_lookup.h"
-#include "core/base/vec.h"
 
 namespace dmpc::core {
 

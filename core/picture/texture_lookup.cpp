@@ -6,8 +6,8 @@
 
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
-#include "core/scene/texel.h"
 #include "core/record/texture_layout.h"
+#include "core/scene/texel.h"
 
 namespace dmpc::core {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "core/trace/operations.h"
-#include "core/record/record.h"
 #include "core/base/vec.h"
+#include "core/record/record.h"
+#include "core/trace/operations.h"
 
 namespace dmpc::core {
 

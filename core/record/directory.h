@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "core/record/record.h"
 #include "core/base/units.h"
+#include "core/record/record.h"
 
 namespace dmpc::core {
 

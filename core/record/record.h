@@ -169,8 +169,8 @@ struct TextureTile {
 };
 static_assert(sizeof(TextureTile) == 256 && sizeof(TextureTile) <= record_bytes_max);
 
-/// A texture as its users know it (core/record/texture_layout.h): levels of tiles, the finest first, each half the size of the one
-/// before.
+/// A texture as its users know it (core/record/texture_layout.h): levels of tiles, the finest first, each half the size of the
+/// one before.
 struct TextureReference {
   Address tiles = no_address;  ///< a table of the tiles' addresses, level by level, each row by row; two share a record
   std::uint16_t width = 1, height = 1;

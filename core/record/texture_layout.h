@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/record/record.h"
 #include "core/base/units.h"
+#include "core/record/record.h"
 
 namespace dmpc::core {
 

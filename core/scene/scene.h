@@ -9,8 +9,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/scene/texture.h"
 #include "core/base/vec.h"
+#include "core/scene/texture.h"
 
 namespace dmpc::core {
 

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "core/record/record.h"
 #include "core/base/vec.h"
+#include "core/record/record.h"
 
 namespace dmpc::core {
 

@@ -5,8 +5,8 @@
 #include <cstddef>
 
 #include "core/base/expect.h"
-#include "core/scene/texel.h"
 #include "core/record/texture_layout.h"
+#include "core/scene/texel.h"
 
 namespace dmpc::core {
 namespace {

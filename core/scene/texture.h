@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/record/record.h"
 #include "core/base/vec.h"
+#include "core/record/record.h"
 
 namespace dmpc::core {
 

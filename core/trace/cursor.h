@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "core/base/region.h"
 #include "core/record/hit.h"
 #include "core/record/record.h"
-#include "core/base/region.h"
 
 namespace dmpc::core {
 

@@ -7,12 +7,12 @@
 #include <bit>
 #include <cstddef>
 
-#include "core/trace/cursor.h"
 #include "core/record/hit.h"
-#include "core/trace/operations.h"
-#include "core/trace/primitive.h"
 #include "core/record/ray.h"
 #include "core/record/record.h"
+#include "core/trace/cursor.h"
+#include "core/trace/operations.h"
+#include "core/trace/primitive.h"
 
 namespace dmpc::core {
 

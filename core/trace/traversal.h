@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "core/record/directory.h"
-#include "core/trace/kernel.h"
 #include "core/record/records.h"
+#include "core/trace/kernel.h"
 #include "core/trace/walk.h"
 
 namespace dmpc::core {

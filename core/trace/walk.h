@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/record/ray.h"
+#include "core/record/record.h"
 #include "core/trace/cursor.h"
 #include "core/trace/kernel.h"
 #include "core/trace/operations.h"
-#include "core/record/ray.h"
-#include "core/record/record.h"
 
 namespace dmpc::core {
 

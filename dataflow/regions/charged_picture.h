@@ -7,8 +7,8 @@
 #include <functional>
 #include <type_traits>
 
-#include "core/build/database.h"
 #include "core/base/expect.h"
+#include "core/build/database.h"
 #include "core/picture/pixel_task.h"
 #include "core/picture/shade.h"
 #include "core/trace/traversal.h"

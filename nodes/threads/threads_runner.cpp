@@ -12,9 +12,9 @@
 #include "core/base/expect.h"
 #include "nodes/atomics.h"
 #include "nodes/awake_count.h"
+#include "nodes/processors.h"
 #include "nodes/threads/clock.h"
 #include "nodes/threads/held_packets.h"
-#include "nodes/processors.h"
 #include "nodes/threads/thread.h"
 
 namespace dmpc::nodes {

@@ -7,9 +7,9 @@
 
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
+#include "nodes/processors.h"
 #include "nodes/virtual/event_queue.h"
 #include "nodes/virtual/links.h"
-#include "nodes/processors.h"
 #include "nodes/virtual/virtual_processor.h"
 
 namespace dmpc::nodes {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/base/sampling.h"
-#include "nodes/virtual/links.h"
 #include "nodes/packet.h"
+#include "nodes/virtual/links.h"
 
 namespace dmpc::nodes {
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 
 #include "nodes/charge.h"
-#include "nodes/watch/heat_map.h"
 #include "nodes/machine.h"
 #include "nodes/node_id.h"
+#include "nodes/watch/heat_map.h"
 
 namespace dmpc::nodes {
 

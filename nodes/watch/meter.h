@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "nodes/watch/heat_meter.h"
 #include "nodes/node_id.h"
 #include "nodes/observer.h"
+#include "nodes/watch/heat_meter.h"
 
 namespace dmpc::nodes {
 

@@ -10,8 +10,8 @@
 
 #include "apps/bench/stability/random.h"
 #include "core/base/expect.h"
-#include "core/trace/kernel.h"
 #include "core/record/records.h"
+#include "core/trace/kernel.h"
 #include "tests/bench/groups.h"
 
 namespace dmpc::bench {

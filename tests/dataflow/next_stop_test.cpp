@@ -8,8 +8,8 @@
 #include "apps/bench/stability/random.h"
 #include "core/build/database.h"
 #include "core/trace/traversal.h"
-#include "dataflow/regions/balance.h"
 #include "dataflow/distribution.h"
+#include "dataflow/regions/balance.h"
 #include "tests/support/small_scenes.h"
 
 using namespace dmpc;

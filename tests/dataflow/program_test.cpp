@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/picture/render.h"
-#include "dataflow/regions/balance.h"
 #include "dataflow/distribution.h"
 #include "dataflow/host.h"
+#include "dataflow/regions/balance.h"
 #include "dataflow/run.h"
 #include "tests/support/shuffled_machine.h"
 #include "tests/support/small_scenes.h"

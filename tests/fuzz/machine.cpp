@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "apps/line/command_line.h"
-#include "apps/machine/machine_file.h"
 #include "apps/line/option_values.h"
+#include "apps/machine/machine_file.h"
 #include "apps/run/render_options.h"
 #include "core/base/expect.h"
 

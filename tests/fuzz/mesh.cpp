@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <iostream>
 
-#include "apps/oracle/referee.h"
 #include "apps/bench/stability/children.h"
 #include "apps/bench/stability/hearing.h"
 #include "apps/bench/stability/own_kernels.h"
 #include "apps/bench/stability/rays.h"
-#include "core/build/database.h"
+#include "apps/oracle/referee.h"
 #include "core/base/expect.h"
+#include "core/build/database.h"
 #include "tests/fuzz/bytes.h"
 #include "tests/fuzz/mesh_rays.h"
 #include "tests/fuzz/mesh_scene.h"

@@ -11,8 +11,8 @@
 
 #include "apps/formats/nff_reader.h"
 #include "apps/formats/nff_writer.h"
-#include "core/build/database.h"
 #include "core/base/expect.h"
+#include "core/build/database.h"
 #include "core/picture/render.h"
 #include "core/scene/scene.h"
 #include "tests/support/same_scene.h"

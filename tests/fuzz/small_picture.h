@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/picture/camera.h"
-#include "core/build/database.h"
 #include "core/base/expect.h"
+#include "core/build/database.h"
+#include "core/picture/camera.h"
 #include "core/picture/render.h"
 #include "core/scene/scene.h"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/vec.h"
 #include "core/build/database.h"
 #include "core/record/ray.h"
-#include "core/base/vec.h"
 #include "tests/support/shooting.h"
 
 namespace dmpc::tests {

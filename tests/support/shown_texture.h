@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "core/build/record_writer.h"
+#include "core/build/texture_records.h"
+#include "core/picture/texture_lookup.h"
 #include "core/record/records.h"
+#include "core/record/texture_layout.h"
 #include "core/scene/texel.h"
 #include "core/scene/texture.h"
-#include "core/record/texture_layout.h"
-#include "core/picture/texture_lookup.h"
-#include "core/build/texture_records.h"
 
 namespace dmpc::tests {
 

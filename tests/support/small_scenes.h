@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "core/scene/scene.h"
 #include "core/families/scenes.h"
+#include "core/scene/scene.h"
 #include "tests/support/noise_texture.h"
 
 namespace dmpc::tests {

@@ -6,12 +6,12 @@
 #include <ostream>
 
 #include "apps/bench/stability/cells.h"
-#include "core/picture/background.h"
 #include "core/build/database.h"
-#include "core/scene/frame.h"
-#include "core/trace/operations.h"
+#include "core/picture/background.h"
 #include "core/picture/render.h"
+#include "core/scene/frame.h"
 #include "core/scene/scene.h"
+#include "core/trace/operations.h"
 
 namespace dmpc::tests {
 

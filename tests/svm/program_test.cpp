@@ -2,10 +2,10 @@
 
 #include <doctest/doctest.h>
 
-#include "svm/watch/counting_pager.h"
 #include "svm/local_copy.h"
 #include "svm/pager.h"
 #include "svm/run.h"
+#include "svm/watch/counting_pager.h"
 #include "tests/support/small_machine.h"
 
 using namespace dmpc;

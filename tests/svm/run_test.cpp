@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <stop_token>
 
-#include "core/picture/render.h"
 #include "core/families/scenes.h"
+#include "core/picture/render.h"
 #include "svm/watch/miss_curve.h"
 #include "svm/watch/optimum.h"
 #include "tests/support/references.h"

@@ -8,14 +8,14 @@
 #include <span>
 #include <utility>
 
-#include "apps/table/shown_rows.h"
 #include "apps/bench/error/findings.h"
 #include "apps/bench/error/table.h"
 #include "apps/line/number_text.h"
 #include "apps/scene/load_scene.h"
-#include "apps/system/real_load.h"
-#include "apps/system/output_file.h"
 #include "apps/system/attempts.h"
+#include "apps/system/output_file.h"
+#include "apps/system/real_load.h"
+#include "apps/table/shown_rows.h"
 #include "apps/table/table_files.h"
 #include "core/base/expect.h"
 #include "svm/plan.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/line/command_line.h"
 #include "apps/bench/error/measure.h"
+#include "apps/line/command_line.h"
 #include "apps/system/interrupt.h"
 #include "apps/table/table_options.h"
 

@@ -5,9 +5,9 @@
 #include <sstream>
 #include <utility>
 
-#include "apps/table/averages.h"
 #include "apps/bench/error/curve.h"
 #include "apps/line/number_text.h"
+#include "apps/table/averages.h"
 
 namespace dmpc::apps {
 namespace {

@@ -7,17 +7,17 @@
 #include <map>
 #include <utility>
 
-#include "apps/oracle/accurate/picture.h"
 #include "apps/effort/effort.h"
 #include "apps/effort/pilot.h"
-#include "apps/scene/load_scene.h"
-#include "apps/system/real_load.h"
-#include "apps/system/progress.h"
-#include "apps/render/command.h"
-#include "apps/table/rounds.h"
+#include "apps/oracle/accurate/picture.h"
+#include "apps/picture/film_image.h"
 #include "apps/run/run_strategy.h"
-#include "apps/system/stopwatch.h"
+#include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
+#include "apps/system/progress.h"
+#include "apps/system/real_load.h"
+#include "apps/system/stopwatch.h"
+#include "apps/table/rounds.h"
 #include "core/base/expect.h"
 #include "core/families/scenes.h"
 

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "apps/oracle/accurate/reference.h"
-#include "apps/system/distinct_files.h"
 #include "apps/bench/error/knob.h"
 #include "apps/bench/error/result.h"
-#include "apps/system/interrupt.h"
-#include "apps/scene/picture_options.h"
+#include "apps/oracle/accurate/reference.h"
 #include "apps/run/strategy_options.h"
+#include "apps/scene/picture_options.h"
+#include "apps/system/distinct_files.h"
+#include "apps/system/interrupt.h"
 
 namespace dmpc::apps {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/oracle/accurate/reference.h"
 #include "apps/bench/error/sweep.h"
+#include "apps/oracle/accurate/reference.h"
 #include "apps/picture/picture_error.h"
 
 namespace dmpc::apps {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "apps/table/averages.h"
 #include "apps/bench/error/curve.h"
+#include "apps/table/averages.h"
 
 namespace dmpc::apps {
 namespace {

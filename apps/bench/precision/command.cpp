@@ -7,9 +7,9 @@
 
 #include "apps/bench/precision/precision.h"
 #include "apps/effort/effort.h"
-#include "apps/table/shown_rows.h"
 #include "apps/scene/load_scene.h"
 #include "apps/system/progress.h"
+#include "apps/table/shown_rows.h"
 #include "apps/table/table_files.h"
 #include "core/families/scenes.h"
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/line/command_line.h"
-#include "apps/system/interrupt.h"
 #include "apps/scene/picture_options.h"
+#include "apps/system/interrupt.h"
 #include "apps/table/table_options.h"
 
 namespace dmpc::apps {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/scene/subject.h"
 #include "apps/system/interrupt.h"
 #include "apps/system/side_by_side.h"
-#include "apps/scene/subject.h"
 #include "core/base/expect.h"
-#include "core/record/records.h"
-#include "core/picture/render.h"
 #include "core/base/srgb.h"
+#include "core/picture/render.h"
+#include "core/record/records.h"
 
 namespace dmpc::apps {
 namespace {

@@ -7,13 +7,13 @@
 #include <iostream>
 #include <utility>
 
-#include "apps/system/progress.h"
-#include "apps/table/rounds.h"
 #include "apps/run/run_strategy.h"
-#include "apps/system/stopwatch.h"
 #include "apps/scene/subject.h"
-#include "core/picture/background.h"
+#include "apps/system/progress.h"
+#include "apps/system/stopwatch.h"
+#include "apps/table/rounds.h"
 #include "core/base/expect.h"
+#include "core/picture/background.h"
 #include "dataflow/regions/work.h"
 
 namespace dmpc::apps {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "apps/table/averages.h"
 #include "apps/bench/speed/verdict.h"
+#include "apps/table/averages.h"
 
 namespace dmpc::apps {
 namespace {

@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "apps/table/plot.h"
 #include "apps/bench/speed/ablation.h"
+#include "apps/table/plot.h"
 #include "apps/table/table.h"
 
 namespace dmpc::apps {

@@ -5,10 +5,10 @@
 #include <iostream>
 #include <string>
 
-#include "apps/system/progress.h"
-#include "apps/table/rounds.h"
 #include "apps/bench/speed/rival.h"
+#include "apps/system/progress.h"
 #include "apps/system/stopwatch.h"
+#include "apps/table/rounds.h"
 #include "core/build/database.h"
 
 namespace dmpc::apps {

@@ -7,11 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "apps/effort/effort.h"
-#include "apps/table/shown_rows.h"
-#include "apps/scene/load_scene.h"
-#include "apps/system/real_load.h"
-#include "apps/oracle/oracle.h"
 #include "apps/bench/speed/ablation.h"
 #include "apps/bench/speed/ablation_table.h"
 #include "apps/bench/speed/build_part.h"
@@ -25,7 +20,12 @@
 #include "apps/bench/speed/picture_part.h"
 #include "apps/bench/speed/table.h"
 #include "apps/bench/speed/target.h"
+#include "apps/effort/effort.h"
+#include "apps/oracle/oracle.h"
+#include "apps/scene/load_scene.h"
 #include "apps/system/attempts.h"
+#include "apps/system/real_load.h"
+#include "apps/table/shown_rows.h"
 #include "apps/table/table_files.h"
 #include "core/base/expect.h"
 

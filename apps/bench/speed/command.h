@@ -4,9 +4,9 @@
 #include <iosfwd>
 #include <set>
 
+#include "apps/bench/speed/part.h"
 #include "apps/line/command_line.h"
 #include "apps/system/interrupt.h"
-#include "apps/bench/speed/part.h"
 #include "apps/table/table_options.h"
 
 namespace dmpc::apps {

@@ -6,11 +6,11 @@
 #include <optional>
 #include <string>
 
-#include "apps/system/progress.h"
-#include "apps/table/rounds.h"
 #include "apps/run/run_strategy.h"
-#include "apps/system/stopwatch.h"
 #include "apps/scene/subject.h"
+#include "apps/system/progress.h"
+#include "apps/system/stopwatch.h"
+#include "apps/table/rounds.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <iterator>
 
-#include "apps/table/averages.h"
 #include "apps/line/number_text.h"
+#include "apps/table/averages.h"
 
 namespace dmpc::apps {
 namespace {

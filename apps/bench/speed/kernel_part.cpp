@@ -9,14 +9,14 @@
 #include <numeric>
 #include <string>
 
-#include "apps/system/progress.h"
-#include "apps/table/rounds.h"
 #include "apps/bench/speed/crew.h"
 #include "apps/bench/speed/recording.h"
 #include "apps/bench/speed/rival.h"
 #include "apps/bench/speed/warm_pager.h"
-#include "apps/system/stopwatch.h"
 #include "apps/scene/subject.h"
+#include "apps/system/progress.h"
+#include "apps/system/stopwatch.h"
+#include "apps/table/rounds.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

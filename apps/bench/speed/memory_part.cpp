@@ -3,10 +3,10 @@
 #include <iostream>
 #include <string>
 
+#include "apps/scene/subject.h"
 #include "apps/system/output_file.h"
 #include "apps/system/progress.h"
 #include "apps/system/scratch_folder.h"
-#include "apps/scene/subject.h"
 #include "apps/system/watched_process.h"
 #include "svm/run.h"
 

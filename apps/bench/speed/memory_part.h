@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "apps/system/interrupt.h"
 #include "apps/bench/speed/comparison.h"
 #include "apps/bench/speed/part.h"
+#include "apps/system/interrupt.h"
 
 namespace dmpc::apps {
 

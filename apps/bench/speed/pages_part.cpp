@@ -5,10 +5,10 @@
 #include <string>
 #include <variant>
 
-#include "apps/study/paper/data.h"
-#include "apps/system/progress.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/subject.h"
+#include "apps/study/paper/data.h"
+#include "apps/system/progress.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

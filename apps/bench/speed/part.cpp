@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 
-#include "apps/scene/load_scene.h"
-#include "apps/system/real_load.h"
 #include "apps/line/option_values.h"
-#include "apps/study/paper/data.h"
 #include "apps/line/words.h"
+#include "apps/scene/load_scene.h"
+#include "apps/study/paper/data.h"
+#include "apps/system/real_load.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/system/distinct_files.h"
 #include "apps/scene/picture_options.h"
+#include "apps/system/distinct_files.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {

@@ -4,14 +4,14 @@
 #include <iostream>
 #include <string>
 
+#include "apps/picture/film_image.h"
 #include "apps/picture/image_file.h"
-#include "apps/system/progress.h"
-#include "apps/render/command.h"
-#include "apps/table/rounds.h"
 #include "apps/run/run_strategy.h"
+#include "apps/scene/subject.h"
+#include "apps/system/progress.h"
 #include "apps/system/scratch_folder.h"
 #include "apps/system/stopwatch.h"
-#include "apps/scene/subject.h"
+#include "apps/table/rounds.h"
 
 namespace dmpc::apps {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/base/elementary.h"
-#include "core/picture/render.h"
 #include "core/base/sampling.h"
+#include "core/picture/render.h"
 #include "core/picture/shade.h"
 
 namespace dmpc::apps {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/build/database.h"
-#include "core/trace/operations.h"
 #include "core/picture/pixel_task.h"
+#include "core/trace/operations.h"
 
 namespace dmpc::apps {
 

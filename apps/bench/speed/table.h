@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/table/plot.h"
 #include "apps/bench/speed/comparison.h"
+#include "apps/table/plot.h"
 #include "apps/table/table.h"
 
 namespace dmpc::apps {

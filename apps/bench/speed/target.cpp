@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "apps/table/averages.h"
 #include "apps/line/number_text.h"
+#include "apps/table/averages.h"
 
 namespace dmpc::apps {
 namespace {

@@ -12,8 +12,8 @@
 #include "apps/bench/stability/judge.h"
 #include "apps/bench/stability/rays.h"
 #include "apps/bench/stability/targets.h"
-#include "core/scene/frame.h"
 #include "core/families/scenes.h"
+#include "core/scene/frame.h"
 
 namespace dmpc::apps {
 namespace {

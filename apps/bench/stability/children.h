@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/build/database.h"
-#include "core/record/records.h"
 #include "core/picture/shade.h"
+#include "core/record/records.h"
 
 namespace dmpc::apps {
 

@@ -5,13 +5,13 @@
 #include <limits>
 #include <memory>
 
-#include "apps/effort/effort.h"
-#include "apps/system/progress.h"
 #include "apps/bench/stability/run.h"
 #include "apps/bench/stability/state.h"
 #include "apps/bench/stability/table.h"
-#include "apps/table/table_files.h"
+#include "apps/effort/effort.h"
 #include "apps/line/words.h"
+#include "apps/system/progress.h"
+#include "apps/table/table_files.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "apps/bench/stability/random.h"
-#include "core/scene/scene.h"
 #include "core/base/vec.h"
+#include "core/scene/scene.h"
 
 namespace dmpc::apps {
 

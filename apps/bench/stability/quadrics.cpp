@@ -5,9 +5,9 @@
 #include <limits>
 #include <memory>
 
-#include "apps/oracle/curved.h"
 #include "apps/bench/stability/case.h"
 #include "apps/bench/stability/rays.h"
+#include "apps/oracle/curved.h"
 #include "core/trace/primitive.h"
 
 namespace dmpc::apps {

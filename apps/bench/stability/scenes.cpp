@@ -7,8 +7,8 @@
 #include "apps/bench/stability/case.h"
 #include "apps/bench/stability/crowd.h"
 #include "apps/bench/stability/judge.h"
-#include "core/scene/frame.h"
 #include "core/families/scenes.h"
+#include "core/scene/frame.h"
 
 namespace dmpc::apps {
 namespace {

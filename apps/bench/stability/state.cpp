@@ -3,8 +3,8 @@
 #include <cstring>
 #include <sstream>
 
-#include "apps/system/output_file.h"
 #include "apps/system/file_source.h"
+#include "apps/system/output_file.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

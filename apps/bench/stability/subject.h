@@ -1,9 +1,9 @@
 // A scene as every kernel wants it, and the referee over it.
 #pragma once
 
+#include "apps/bench/stability/cells.h"
 #include "apps/oracle/oracle.h"
 #include "apps/oracle/referee.h"
-#include "apps/bench/stability/cells.h"
 #include "core/build/database.h"
 #include "core/scene/scene.h"
 

@@ -40,7 +40,8 @@ void add_notes(Table& table, const StabilityState& state) {
       "R11 also counts as unexplained each 1,024 rays that take more than 2.5 times the steps and tests of usual ones.");
   table.add_note("The failure rate is below the figure with a confidence of 95 %.");
   table.add_note("Embree is judged by bounds for its robust mode. Its spheres and cones are ours, in double precision.");
-  table.add_note("R13, messages out of order: tests/chaos and tests/whole/chaos_test.cpp. R15, known bugs put back: tests/mutation.");
+  table.add_note(
+      "R13, messages out of order: tests/chaos and tests/whole/chaos_test.cpp. R15, known bugs put back: tests/mutation.");
 }
 
 }  // namespace

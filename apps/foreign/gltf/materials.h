@@ -10,9 +10,9 @@
 
 namespace dmpc::apps::gltf {
 
-/// Gives the scene its materials, with the keys that Assimp's own reader uses (apps/foreign/mesh/material.h looks for them), and, last,
-/// that of primitives without one. Returns each one's place on its colour's texture. Throws core::InputError, by its place in the
-/// document.
+/// Gives the scene its materials, with the keys that Assimp's own reader uses (apps/foreign/mesh/material.h looks for them), and,
+/// last, that of primitives without one. Returns each one's place on its colour's texture. Throws core::InputError, by its place
+/// in the document.
 std::vector<TexturePlace> add_materials(const Document& document, Images& images, aiScene& scene);
 
 }  // namespace dmpc::apps::gltf

@@ -110,7 +110,8 @@ void add_vertices(const Primitive& source, aiMesh& mesh) {
   }
 }
 
-/// What apps/foreign/mesh/features.h counts and nobody looks into: colours of vertices, skins and morph targets are there, or not.
+/// What apps/foreign/mesh/features.h counts and nobody looks into: colours of vertices, skins and morph targets are there, or
+/// not.
 void mark_features(const Part& primitive, aiMesh& mesh) {
   const Part attributes = primitive.get("attributes");
   if (mesh.mNumVertices > 0 && set_count(attributes, "COLOR") > 0) {

@@ -2,10 +2,10 @@
 
 #include <assimp/commonMetaData.h>
 
-#include "apps/line/number_text.h"
 #include "apps/foreign/gltf/extensions.h"
 #include "apps/foreign/gltf/materials.h"
 #include "apps/foreign/gltf/nodes.h"
+#include "apps/line/number_text.h"
 
 namespace dmpc::apps::gltf {
 namespace {
@@ -26,7 +26,7 @@ ImportedFile read_gltf(const Document& document, const OpenNamed& open) {
   ImportedFile file;
   file.scene = std::make_unique<aiScene>();
   file.scene->mMetaData = aiMetadata::Alloc(1);
-  file.scene->mMetaData->Set(0, AI_METADATA_SOURCE_FORMAT, aiString(source_format));
+  file.scene->mMetaData->Set(0, AI_METADATA_SOURCE_FORMAT, aiString(gltf_source_format));
   Buffers buffers(document, open);
   Accessors accessors(document, buffers);
   Images images(document, buffers);

@@ -3,12 +3,9 @@
 
 #include "apps/foreign/gltf/buffers.h"
 #include "apps/foreign/gltf/document.h"
-#include "apps/foreign/import.h"
+#include "apps/foreign/mesh/imported_file.h"
 
 namespace dmpc::apps::gltf {
-
-/// What the scene's metadata call its format, so that apps/foreign/mesh/lights.h knows its cameras.
-inline constexpr const char* source_format = "glTF 2.0";
 
 /// The document as a scene of Assimp's, so that what follows is the same for all formats. It is strict: what refers to something
 /// that does not exist, reaches beyond its bytes, or is required and not shown, is a core::InputError that names the place in the

@@ -8,10 +8,10 @@
 #include <cstdint>
 #include <map>
 
-#include "apps/line/number_text.h"
-#include "apps/foreign/gltf/reader.h"
+#include "apps/foreign/mesh/imported_file.h"
 #include "apps/foreign/mesh/placement.h"
 #include "apps/formats/view_faults.h"
+#include "apps/line/number_text.h"
 #include "core/base/elementary.h"
 
 namespace dmpc::apps {
@@ -88,7 +88,7 @@ bool has_vertical_angles(const aiScene& scene) {
   aiString format;
   const bool is_gltf = scene.mMetaData != nullptr && scene.mMetaData->Get(AI_METADATA_SOURCE_FORMAT, format) &&
                        std::string(format.C_Str()).find("glTF") != std::string::npos;
-  const bool is_ours = is_gltf && std::string(format.C_Str()) == gltf::source_format;
+  const bool is_ours = is_gltf && std::string(format.C_Str()) == gltf_source_format;
   return is_ours || (is_gltf && aiGetVersionMajor() * 100 + aiGetVersionMinor() < 503);
 }
 

@@ -29,7 +29,8 @@ bool is_emissive(const aiMaterial& source);
 /// glTF's alpha mode MASK.
 bool has_alpha_mask(const aiMaterial& source);
 bool has_clear_coat(const aiMaterial& source);
-/// Whether the coordinates of its colour's texture are to be transformed, of which glTF's alone are (apps/foreign/mesh/texture_place.h).
+/// Whether the coordinates of its colour's texture are to be transformed, of which glTF's alone are
+/// (apps/foreign/mesh/texture_place.h).
 bool has_moved_texture(const aiMaterial& source);
 
 }  // namespace dmpc::apps

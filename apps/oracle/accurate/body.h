@@ -9,8 +9,8 @@
 
 #include "apps/oracle/accurate/ray.h"
 #include "core/base/box.h"
-#include "core/record/record.h"
 #include "core/base/vec.h"
+#include "core/record/record.h"
 
 namespace dmpc::apps {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/record/ray.h"
 #include "core/base/vec.h"
+#include "core/record/ray.h"
 
 namespace dmpc::apps {
 

@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "core/base/expect.h"
-#include "core/picture/film.h"
-#include "core/scene/frame.h"
-#include "core/picture/render.h"
 #include "core/base/sampling.h"
+#include "core/picture/film.h"
+#include "core/picture/render.h"
+#include "core/scene/frame.h"
 
 namespace dmpc::apps {
 namespace {

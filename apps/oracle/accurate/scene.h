@@ -15,8 +15,8 @@ struct AccurateLight {
   core::Vec3d intensity;
 };
 
-/// Bodies stand in the order of the product's primitives: objects in file order, polygons as core/scene/triangulate.h splits them. The
-/// product leaves out what has no area in float; here only what has none in double is missing. Immutable once made.
+/// Bodies stand in the order of the product's primitives: objects in file order, polygons as core/scene/triangulate.h splits
+/// them. The product leaves out what has no area in float; here only what has none in double is missing. Immutable once made.
 struct AccurateScene {
   std::vector<AccurateBody> bodies;
   std::vector<core::Vec3d> normals;  ///< of smooth triangles, of unit length

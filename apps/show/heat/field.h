@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/show/stats/stats.h"
+#include "apps/run/render_record.h"
 #include "nodes/watch/heat_map.h"
 
 namespace dmpc::apps {

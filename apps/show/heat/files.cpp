@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "apps/show/heat/field.h"
-#include "apps/run/heat_options.h"
-#include "apps/show/heat/picture.h"
 #include "apps/picture/image_file.h"
-#include "apps/show/summary.h"
+#include "apps/run/heat_options.h"
+#include "apps/run/render_record.h"
+#include "apps/show/heat/field.h"
+#include "apps/show/heat/picture.h"
 
 namespace dmpc::apps {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "apps/run/heat_options.h"
-#include "apps/show/stats/stats.h"
+#include "apps/run/render_record.h"
 
 namespace dmpc::apps {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "apps/line/number_text.h"
 #include "apps/picture/color_map.h"
 #include "apps/picture/glyphs.h"
 #include "apps/show/heat/scale.h"

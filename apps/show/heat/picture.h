@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "apps/show/heat/field.h"
 #include "apps/picture/image_file.h"
+#include "apps/show/heat/field.h"
 
 namespace dmpc::apps {
 

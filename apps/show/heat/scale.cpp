@@ -107,10 +107,4 @@ HeatScale scale_for(std::span<const double> values) {
   return {false, *least, *largest};
 }
 
-std::string legend_number(double value) {
-  char text[32];
-  static_cast<void>(std::snprintf(text, sizeof(text), "%.4g", value));
-  return text;
-}
-
 }  // namespace dmpc::apps

@@ -22,7 +22,4 @@ struct HeatScale {
 /// Requires finite numbers >= 0, and at least one.
 HeatScale scale_for(std::span<const double> values);
 
-/// With four significant digits at most: "12", "0.035", "1.5e+06".
-std::string legend_number(double value);
-
 }  // namespace dmpc::apps

@@ -5,8 +5,8 @@
 #include <set>
 #include <string>
 
-#include "apps/table/plot.h"
 #include "apps/system/scratch_folder.h"
+#include "apps/table/plot.h"
 #include "apps/table/table.h"
 
 namespace dmpc::apps::html {

@@ -5,10 +5,10 @@
 #include <span>
 #include <string>
 
-#include "apps/show/heat/field.h"
+#include "apps/run/render_record.h"
 #include "apps/run/report.h"
 #include "apps/run/run_view.h"
-#include "apps/show/stats/stats.h"
+#include "apps/show/heat/field.h"
 
 namespace dmpc::apps::html {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "apps/line/amount.h"
-#include "apps/picture/color_map.h"
 #include "apps/line/number_text.h"
+#include "apps/picture/color_map.h"
 #include "apps/picture/glyphs.h"
 #include "apps/show/page/data_url.h"
 #include "apps/show/page/escaped.h"

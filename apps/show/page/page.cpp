@@ -6,13 +6,13 @@
 #include <functional>
 #include <utility>
 
-#include "apps/line/number_text.h"
 #include "apps/help/glossary.h"
+#include "apps/line/number_text.h"
+#include "apps/run/render_record.h"
 #include "apps/show/page/data_url.h"
 #include "apps/show/page/escaped.h"
 #include "apps/show/page/style.h"
 #include "apps/show/page/table.h"
-#include "apps/show/stats/stats.h"
 
 namespace dmpc::apps::html {
 

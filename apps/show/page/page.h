@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "apps/picture/image_file.h"
 #include "apps/show/page/charts.h"
 #include "apps/show/page/number_map.h"
-#include "apps/picture/image_file.h"
 #include "apps/show/page/origin.h"
 #include "apps/table/plot.h"
 #include "apps/table/table.h"

@@ -8,14 +8,14 @@
 
 #include "apps/line/amount.h"
 #include "apps/line/number_text.h"
+#include "apps/picture/film_image.h"
+#include "apps/run/render_record.h"
 #include "apps/show/heat/field.h"
 #include "apps/show/heat/picture.h"
 #include "apps/show/page/conclusions.h"
 #include "apps/show/page/page.h"
 #include "apps/show/page/render_tables.h"
 #include "apps/show/page/view_tables.h"
-#include "apps/render/command.h"
-#include "apps/show/summary.h"
 #include "nodes/size_text.h"
 
 namespace dmpc::apps::html {

@@ -4,8 +4,8 @@
 #include <iosfwd>
 #include <string>
 
+#include "apps/run/render_record.h"
 #include "apps/show/page/origin.h"
-#include "apps/show/stats/stats.h"
 
 namespace dmpc::apps::html {
 

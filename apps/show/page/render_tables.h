@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "apps/table/plot.h"
+#include "apps/run/render_record.h"
 #include "apps/run/report.h"
-#include "apps/show/stats/stats.h"
+#include "apps/table/plot.h"
 #include "apps/table/table.h"
 
 namespace dmpc::apps::html {

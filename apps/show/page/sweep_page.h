@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/show/page/page.h"
 #include "apps/show/page/origin.h"
+#include "apps/show/page/page.h"
 #include "apps/table/plot.h"
 #include "apps/table/table.h"
 

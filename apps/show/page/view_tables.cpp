@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/line/number_text.h"
-#include "apps/study/cache.h"
+#include "apps/table/geometric_sizes.h"
 
 namespace dmpc::apps::html {
 

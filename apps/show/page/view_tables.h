@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string>
 
+#include "apps/run/run_view.h"
 #include "apps/show/page/number_map.h"
 #include "apps/table/plot.h"
-#include "apps/run/run_view.h"
 #include "apps/table/table.h"
 
 namespace dmpc::apps::html {

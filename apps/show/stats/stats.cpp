@@ -8,8 +8,9 @@
 #include <string>
 #include <variant>
 
-#include "apps/show/heat/field.h"
+#include "apps/line/number_text.h"
 #include "apps/machine/machine_file.h"
+#include "apps/show/heat/field.h"
 #include "apps/show/stats/strategy.h"
 #include "apps/show/stats/virtual.h"
 #include "core/base/expect.h"
@@ -296,14 +297,6 @@ Json rays_json(const std::array<std::uint64_t, core::ray_kind_count>& rays) {
           {"refracted", count(core::RayKind::refracted)},
           {"shadow", count(core::RayKind::shadow)},
           {"total", std::accumulate(rays.begin(), rays.end(), std::uint64_t{0})}};
-}
-
-std::string hash_text(std::uint64_t hash) {
-  std::string text(16, '0');
-  for (std::size_t digit = 16; digit-- > 0; hash >>= 4U) {
-    text[digit] = "0123456789abcdef"[hash & 15U];
-  }
-  return text;
 }
 
 std::string stats_json(const RenderRecord& record) {

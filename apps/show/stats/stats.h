@@ -1,42 +1,11 @@
 // What a render counted, as JSON with stable keys. Only stats.cpp and what it stands on name nlohmann-json.
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <string>
 
-#include "apps/run/render_options.h"
-#include "apps/run/report.h"
-#include "core/build/database.h"
-#include "nodes/watch/heat_map.h"
-
-namespace dmpc::nodes {
-struct Trace;
-}
+#include "apps/run/render_record.h"
 
 namespace dmpc::apps {
-
-struct RunView;
-
-/// Seconds of wall clock by phase, and of processor time.
-struct Seconds {
-  double load = 0, build = 0, prepare = 0, render = 0, write = 0;
-  double user = 0, system = 0;                ///< of the whole process so far
-  double render_user = 0, render_system = 0;  ///< of the phase `render` alone
-};
-
-/// All that is known about one render.
-struct RenderRecord {
-  const RenderOptions& options;
-  const core::Database& database;
-  const Report& report;
-  Seconds seconds;
-  const nodes::HeatMap* heat = nullptr;            ///< what options.heat_maps ask for
-  const nodes::Trace* trace = nullptr;             ///< what options.trace asks for
-  const RunView* view = nullptr;                   ///< what options.report asks for
-  std::uint64_t samples_found_done = 0;            ///< of all pixels, in the checkpoint that the run went on from
-  std::optional<std::uint64_t> scene_digest = {};  ///< what options.report asks for
-};
 
 /// One JSON object, indented, with a line end. The keys are an interface; what does not apply is null, and no number is NaN or
 /// infinite. "rays" below stands for primary, reflected, refracted, shadow, total.
@@ -111,8 +80,5 @@ struct RenderRecord {
 ///   host           packets as of a node, deposits_saturated (on its film, over those of the nodes), seconds, sleeps; of
 ///                  dataflow: rays_kept_max (at once), kept_bytes_max (of its heap, beyond its plan), token_rounds
 std::string stats_json(const RenderRecord& record);
-
-/// 16 hexadecimal digits.
-std::string hash_text(std::uint64_t hash);
 
 }  // namespace dmpc::apps

@@ -1,6 +1,7 @@
 #include "apps/show/stats/virtual.h"
 
-#include "apps/show/stats/stats.h"
+#include "apps/line/number_text.h"
+#include "apps/run/render_record.h"
 #include "apps/run/time_parts.h"
 
 namespace dmpc::apps {

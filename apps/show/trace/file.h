@@ -4,7 +4,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "apps/show/stats/stats.h"
+#include "apps/run/render_record.h"
 #include "apps/run/trace_options.h"
 
 namespace dmpc::apps {

@@ -6,10 +6,7 @@
 #include <vector>
 
 #include "apps/effort/effort.h"
-#include "apps/table/shown_rows.h"
 #include "apps/line/number_text.h"
-#include "apps/system/real_load.h"
-#include "apps/system/output_file.h"
 #include "apps/study/paper/calibration.h"
 #include "apps/study/paper/catalogue.h"
 #include "apps/study/paper/claims.h"
@@ -19,9 +16,12 @@
 #include "apps/study/paper/runs.h"
 #include "apps/study/paper/sensitivity.h"
 #include "apps/study/paper/tables.h"
-#include "apps/system/scratch_folder.h"
 #include "apps/system/attempts.h"
+#include "apps/system/output_file.h"
 #include "apps/system/output_set.h"
+#include "apps/system/real_load.h"
+#include "apps/system/scratch_folder.h"
+#include "apps/table/shown_rows.h"
 #include "apps/table/table_options.h"
 #include "core/base/expect.h"
 

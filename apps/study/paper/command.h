@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "apps/line/command_line.h"
-#include "apps/system/interrupt.h"
 #include "apps/study/paper/catalogue.h"
 #include "apps/study/paper/sensitivity.h"
+#include "apps/system/interrupt.h"
 
 namespace dmpc::apps {
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "apps/study/paper/catalogue.h"
 #include "apps/run/time_parts.h"
+#include "apps/study/paper/catalogue.h"
 
 namespace dmpc::apps {
 namespace {

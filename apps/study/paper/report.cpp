@@ -5,12 +5,12 @@
 #include <utility>
 
 #include "apps/line/folded_text.h"
-#include "apps/show/page/sweep_page.h"
 #include "apps/show/page/origin.h"
-#include "apps/system/output_file.h"
+#include "apps/show/page/sweep_page.h"
 #include "apps/study/paper/conclusions.h"
 #include "apps/study/paper/data.h"
 #include "apps/study/paper/plots.h"
+#include "apps/system/output_file.h"
 #include "apps/table/plot_program.h"
 
 namespace dmpc::apps {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/table/table.h"
 #include "apps/system/attempts.h"
 #include "apps/system/output_set.h"
+#include "apps/table/table.h"
 
 namespace dmpc::apps {
 

@@ -7,9 +7,9 @@
 #include <numeric>
 #include <utility>
 
+#include "apps/run/report.h"
 #include "apps/scene/load_scene.h"
 #include "apps/system/progress.h"
-#include "apps/run/report.h"
 #include "apps/system/side_by_side.h"
 #include "core/base/expect.h"
 #include "dataflow/run.h"

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/system/interrupt.h"
-#include "apps/scene/subject.h"
 #include "apps/run/time_parts.h"
+#include "apps/scene/subject.h"
+#include "apps/system/interrupt.h"
 #include "core/build/record_order.h"
 #include "nodes/machine.h"
 

@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
+#include "apps/run/time_parts.h"
 #include "apps/study/paper/catalogue.h"
 #include "apps/study/paper/runs.h"
 #include "apps/table/table.h"
-#include "apps/run/time_parts.h"
 
 namespace dmpc::apps {
 

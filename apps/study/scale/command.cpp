@@ -8,15 +8,15 @@
 #include <vector>
 
 #include "apps/effort/effort.h"
-#include "apps/table/shown_rows.h"
 #include "apps/line/number_text.h"
-#include "apps/show/page/sweep_page.h"
-#include "apps/system/real_load.h"
 #include "apps/line/option_values.h"
 #include "apps/show/page/origin.h"
+#include "apps/show/page/sweep_page.h"
 #include "apps/study/scale/measure.h"
 #include "apps/study/scale/table.h"
 #include "apps/system/attempts.h"
+#include "apps/system/real_load.h"
+#include "apps/table/shown_rows.h"
 #include "apps/table/table_files.h"
 #include "core/base/expect.h"
 #include "core/families/scenes.h"

@@ -4,8 +4,8 @@
 #include <iosfwd>
 
 #include "apps/line/command_line.h"
-#include "apps/system/interrupt.h"
 #include "apps/study/scale/settings.h"
+#include "apps/system/interrupt.h"
 #include "apps/table/table_options.h"
 
 namespace dmpc::apps {

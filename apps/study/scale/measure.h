@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/system/interrupt.h"
 #include "apps/study/scale/figures.h"
 #include "apps/study/scale/settings.h"
+#include "apps/system/interrupt.h"
 
 namespace dmpc::apps {
 

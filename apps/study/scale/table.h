@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/table/plot.h"
 #include "apps/study/scale/measure.h"
 #include "apps/study/scale/settings.h"
+#include "apps/table/plot.h"
 #include "apps/table/table.h"
 
 namespace dmpc::apps {

@@ -6,8 +6,8 @@
 
 #include "apps/effort/pilot.h"
 #include "apps/render/effort.h"
-#include "apps/study/effort.h"
 #include "apps/scene/load_scene.h"
+#include "apps/study/effort.h"
 
 namespace dmpc::apps {
 

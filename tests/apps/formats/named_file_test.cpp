@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <string>
 
-#include "apps/picture/image_file.h"
 #include "apps/formats/mesh_file.h"
+#include "apps/picture/image_file.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"

@@ -12,8 +12,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "apps/scene/load_scene.h"
 #include "apps/formats/nff_reader.h"
+#include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
 #include "core/families/scenes.h"
 #include "tests/support/same_scene.h"

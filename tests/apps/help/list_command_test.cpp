@@ -6,10 +6,10 @@
 #include <set>
 #include <sstream>
 
-#include "apps/scene/load_scene.h"
-#include "apps/machine/machines.h"
 #include "apps/commands.h"
 #include "apps/help/choices.h"
+#include "apps/machine/machines.h"
+#include "apps/scene/load_scene.h"
 #include "tests/support/text.h"
 
 namespace dmpc::apps {

@@ -5,8 +5,8 @@
 #include <set>
 #include <sstream>
 
-#include "apps/manual/leaves.h"
 #include "apps/commands.h"
+#include "apps/manual/leaves.h"
 #include "tests/apps/manual/painter.h"
 #include "tests/apps/manual/shell.h"
 #include "tests/support/temporary_folder.h"

@@ -2,9 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include "apps/commands.h"
 #include "apps/manual/leaves.h"
 #include "apps/manual/roff.h"
-#include "apps/commands.h"
 #include "tests/apps/manual/painter.h"
 #include "tests/apps/manual/shell.h"
 #include "tests/support/temporary_folder.h"

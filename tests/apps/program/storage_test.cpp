@@ -16,13 +16,13 @@
 #include <string>
 #include <vector>
 
-#include "apps/oracle/accurate/reference_file.h"
-#include "apps/render/checkpoint_file.h"
+#include "apps/bench/stability/state.h"
+#include "apps/formats/nff_reader.h"
 #include "apps/machine/machine_file.h"
 #include "apps/machine/machines.h"
-#include "apps/formats/nff_reader.h"
+#include "apps/oracle/accurate/reference_file.h"
+#include "apps/render/checkpoint_file.h"
 #include "apps/render/command.h"
-#include "apps/bench/stability/state.h"
 #include "core/base/expect.h"
 #include "tests/support/environment.h"
 #include "tests/support/simulated_files.h"

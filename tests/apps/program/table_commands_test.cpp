@@ -7,14 +7,14 @@
 #include <variant>
 #include <vector>
 
-#include "apps/bench/precision/command.h"
 #include "apps/bench/error/command.h"
-#include "apps/commands.h"
-#include "apps/study/scale/command.h"
+#include "apps/bench/precision/command.h"
 #include "apps/bench/speed/command.h"
 #include "apps/bench/stability/command.h"
+#include "apps/commands.h"
 #include "apps/study/command.h"
 #include "apps/study/paper/command.h"
+#include "apps/study/scale/command.h"
 #include "core/base/expect.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"

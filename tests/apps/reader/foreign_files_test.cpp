@@ -17,11 +17,11 @@
 #include <sstream>
 #include <string>
 
-#include "apps/picture/image_file.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/formats/nff_reader.h"
-#include "apps/reader/file_access.h"
+#include "apps/picture/image_file.h"
 #include "apps/picture/picture_reader.h"
+#include "apps/reader/file_access.h"
 #include "apps/reader/process.h"
 #include "apps/system/text_input.h"
 #include "core/base/expect.h"

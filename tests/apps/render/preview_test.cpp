@@ -1,4 +1,5 @@
 #include "apps/render/preview.h"
+#include "apps/picture/film_image.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +9,6 @@
 #include <thread>
 #include <vector>
 
-#include "apps/render/command.h"
 #include "tests/support/child_process.h"
 #include "tests/support/loopback_viewer.h"
 #include "tests/support/temporary_folder.h"

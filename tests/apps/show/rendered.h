@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "apps/scene/load_scene.h"
 #include "apps/machine/machines.h"
 #include "apps/run/run_strategy.h"
-#include "apps/show/stats/stats.h"
+#include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
+#include "apps/show/stats/stats.h"
 #include "tests/support/text.h"
 
 namespace dmpc::apps {

@@ -1,4 +1,5 @@
 #include "apps/study/cache.h"
+#include "apps/table/geometric_sizes.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,5 @@
 #include "apps/study/speedup.h"
+#include "apps/line/number_text.h"
 
 #include <doctest/doctest.h>
 
@@ -9,8 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "apps/run/render_record.h"
 #include "apps/run/run_strategy.h"
-#include "apps/show/stats/stats.h"
 #include "tests/support/study_subject.h"
 #include "tests/support/table_cells.h"
 

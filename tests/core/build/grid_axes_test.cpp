@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "core/build/database.h"
-#include "core/scene/frame.h"
 #include "core/picture/render.h"
+#include "core/scene/frame.h"
 #include "tests/support/small_scenes.h"
 
 namespace {

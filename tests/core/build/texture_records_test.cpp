@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/base/expect.h"
-#include "core/record/texture_layout.h"
 #include "core/picture/texture_lookup.h"
+#include "core/record/texture_layout.h"
 #include "tests/support/noise_texture.h"
 #include "tests/support/shown_texture.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/build/database.h"
 #include "core/base/expect.h"
+#include "core/build/database.h"
 #include "core/picture/render.h"
 #include "tests/support/small_scenes.h"
 

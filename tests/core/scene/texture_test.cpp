@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "core/scene/texel.h"
 #include "core/record/texture_layout.h"
+#include "core/scene/texel.h"
 #include "tests/support/noise_texture.h"
 
 namespace dmpc::core {

@@ -7,10 +7,10 @@
 
 #include "core/families/scenes.h"
 #include "nodes/threads/threads_runner.h"
-#include "svm/watch/counting_pager.h"
 #include "svm/local_copy.h"
 #include "svm/pager.h"
 #include "svm/run.h"
+#include "svm/watch/counting_pager.h"
 #include "tests/support/allocation_guard.h"
 
 namespace dmpc::tests {

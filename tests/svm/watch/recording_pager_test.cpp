@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "svm/watch/miss_curve.h"
 #include "svm/packets.h"
+#include "svm/watch/miss_curve.h"
 #include "tests/support/references.h"
 #include "tests/support/small_machine.h"
 #include "tests/support/small_pages.h"

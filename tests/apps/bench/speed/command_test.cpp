@@ -10,12 +10,12 @@
 #include <thread>
 #include <vector>
 
-#include "apps/commands.h"
 #include "apps/bench/speed/ablation.h"
 #include "apps/bench/speed/command.h"
 #include "apps/bench/speed/emulation_part.h"
 #include "apps/bench/speed/kernel_part.h"
 #include "apps/bench/speed/table.h"
+#include "apps/commands.h"
 #include "core/base/expect.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene/load_scene.h"
 #include "apps/bench/speed/crew.h"
 #include "apps/bench/speed/recording.h"
 #include "apps/bench/speed/rival.h"
 #include "apps/bench/speed/warm_pager.h"
+#include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 
 namespace dmpc::tests {

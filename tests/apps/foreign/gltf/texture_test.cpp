@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/picture/image_file.h"
 #include "apps/formats/mesh_file.h"
+#include "apps/picture/image_file.h"
 #include "tests/support/packed_gltf.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"

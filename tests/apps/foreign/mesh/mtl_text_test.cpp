@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "apps/picture/image_file.h"
 #include "apps/formats/mesh_file.h"
+#include "apps/picture/image_file.h"
 #include "core/scene/scene.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"

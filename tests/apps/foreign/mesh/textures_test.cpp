@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/picture/image_file.h"
 #include "apps/formats/mesh_file.h"
+#include "apps/picture/image_file.h"
 #include "core/scene/scene.h"
 #include "tests/support/temporary_folder.h"
 

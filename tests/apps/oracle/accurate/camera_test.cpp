@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "core/picture/camera.h"
 #include "core/base/expect.h"
+#include "core/picture/camera.h"
 
 namespace dmpc::tests {
 namespace {

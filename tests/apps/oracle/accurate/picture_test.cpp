@@ -9,8 +9,8 @@
 
 #include "apps/system/interrupt.h"
 #include "core/build/database.h"
-#include "core/record/records.h"
 #include "core/picture/render.h"
+#include "core/record/records.h"
 #include "tests/support/small_scenes.h"
 
 namespace dmpc::tests {

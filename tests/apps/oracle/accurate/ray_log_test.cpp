@@ -6,8 +6,8 @@
 #include <set>
 #include <string>
 
-#include "core/record/records.h"
 #include "core/picture/render.h"
+#include "core/record/records.h"
 #include "tests/apps/oracle/accurate/workbench.h"
 #include "tests/support/small_scenes.h"
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "apps/oracle/accurate/reference_key.h"
-#include "apps/system/interrupt.h"
 #include "apps/picture/picture_error.h"
+#include "apps/system/interrupt.h"
 #include "core/base/expect.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/temporary_folder.h"

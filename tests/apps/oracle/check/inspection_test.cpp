@@ -5,9 +5,9 @@
 #include <string>
 
 #include "apps/bench/stability/cells.h"
-#include "core/record/records.h"
-#include "core/picture/render.h"
 #include "core/families/scenes.h"
+#include "core/picture/render.h"
+#include "core/record/records.h"
 
 namespace dmpc::tests {
 namespace {

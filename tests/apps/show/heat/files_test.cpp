@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/show/heat/field.h"
 #include "apps/picture/image_file.h"
+#include "apps/show/heat/field.h"
 #include "tests/apps/show/rendered.h"
 #include "tests/support/temporary_folder.h"
 

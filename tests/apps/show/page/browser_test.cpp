@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/show/page/render_page.h"
 #include "apps/picture/image_file.h"
+#include "apps/show/page/render_page.h"
 #include "tests/apps/show/watched.h"
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene/load_scene.h"
 #include "apps/render/picture_identity.h"
+#include "apps/scene/load_scene.h"
 #include "tests/support/text.h"
 
 namespace dmpc::apps {

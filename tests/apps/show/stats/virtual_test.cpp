@@ -1,4 +1,5 @@
 #include "apps/show/stats/virtual.h"
+#include "apps/line/number_text.h"
 
 #include <doctest/doctest.h>
 

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "apps/scene/load_scene.h"
 #include "apps/machine/machines.h"
+#include "apps/run/render_record.h"
 #include "apps/run/run_strategy.h"
-#include "apps/show/stats/stats.h"
+#include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "apps/show/trace/file.h"
 #include "nodes/watch/trace.h"

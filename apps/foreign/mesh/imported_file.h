@@ -1,0 +1,24 @@
+// What was read of a mesh file, by whatever reader.
+#pragma once
+
+#include <assimp/scene.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/foreign/mesh/texture_place.h"
+
+namespace dmpc::apps {
+
+/// What a scene's metadata call its format that our own reader of glTF made: lights.h knows its cameras by it.
+inline constexpr const char* gltf_source_format = "glTF 2.0";
+
+struct ImportedFile {
+  std::unique_ptr<aiScene> scene;
+  std::vector<TexturePlace> texture_places;  ///< of each material's colour texture; none where all are plain
+  std::vector<std::string> notes;            ///< what of the file is not shown as it is, a sentence each
+  std::vector<std::string> missing;          ///< sentences: which files it refers to cannot be had, in order, each once
+};
+
+}  // namespace dmpc::apps

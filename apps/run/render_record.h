@@ -1,0 +1,44 @@
+// What is known of one render once it is done.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "apps/run/render_options.h"
+#include "apps/run/report.h"
+#include "core/build/database.h"
+#include "nodes/watch/heat_map.h"
+
+namespace dmpc::nodes {
+struct Trace;
+}
+
+namespace dmpc::apps {
+
+struct RunView;
+
+/// Seconds of wall clock by phase, and of processor time.
+struct Seconds {
+  double load = 0, build = 0, prepare = 0, render = 0, write = 0;
+  double user = 0, system = 0;                ///< of the whole process so far
+  double render_user = 0, render_system = 0;  ///< of the phase `render` alone
+};
+
+/// All that is known about one render.
+struct RenderRecord {
+  const RenderOptions& options;
+  const core::Database& database;
+  const Report& report;
+  Seconds seconds;
+  const nodes::HeatMap* heat = nullptr;            ///< what options.heat_maps ask for
+  const nodes::Trace* trace = nullptr;             ///< what options.trace asks for
+  const RunView* view = nullptr;                   ///< what options.report asks for
+  std::uint64_t samples_found_done = 0;            ///< of all pixels, in the checkpoint that the run went on from
+  std::optional<std::uint64_t> scene_digest = {};  ///< what options.report asks for
+};
+
+/// The computer that rendered, in words: "svm, 8 nodes of ipsc2".
+std::string computer_text(const RenderRecord& record);
+
+}  // namespace dmpc::apps
