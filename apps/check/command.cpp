@@ -9,7 +9,7 @@
 
 #include "apps/check/inspection.h"
 #include "apps/line/number_text.h"
-#include "apps/render/effort.h"
+#include "apps/effort/render_effort.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "apps/system/output_file.h"

@@ -12,7 +12,7 @@
 
 #include "apps/picture/film_image.h"
 #include "apps/render/checkpoints.h"
-#include "apps/render/effort.h"
+#include "apps/effort/render_effort.h"
 #include "apps/render/onlookers.h"
 #include "apps/render/outputs.h"
 #include "apps/render/preview.h"

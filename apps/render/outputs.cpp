@@ -2,6 +2,7 @@
 
 #include <iostream>
 #include <vector>
+#include "apps/picture/image_file.h"
 
 #include "apps/machine/machines.h"
 #include "apps/scene/load_scene.h"
@@ -29,26 +30,26 @@ std::vector<NamedFile> inputs_of(const RenderOptions& options) {
 OutputSet<RenderRecord> outputs_of(const RenderOptions& options) {
   using Record = const RenderRecord&;
   OutputSet<RenderRecord> outputs;
-  outputs.add("-o", options.image, OutputKind::picture, nullptr);
+  outputs.add("-o", options.image, check_image_path, nullptr);
   if (options.stats) {
     const auto write = [](Record record, std::ostream& stream) { stream << stats_json(record); };
-    outputs.add("--stats", *options.stats, OutputKind::text,
+    outputs.add("--stats", *options.stats, check_output_path,
                 has_counters_on_standard_output(options) ? OutputSet<RenderRecord>::Write() : write);
   }
   if (options.trace.path) {
-    outputs.add("--trace", *options.trace.path, OutputKind::text, write_trace);
+    outputs.add("--trace", *options.trace.path, check_output_path, write_trace);
   }
   if (options.report) {
-    outputs.add("--report", *options.report, OutputKind::text, [](Record record, std::ostream& stream) {
+    outputs.add("--report", *options.report, check_output_path, [](Record record, std::ostream& stream) {
       stream << html::render_page(record, this_origin(record.scene_digest), std::cerr);
     });
   }
   for (const HeatRequest& request : options.heat_maps) {
-    outputs.add("--heatmap", request.path, OutputKind::picture,
+    outputs.add("--heatmap", request.path, check_image_path,
                 [request](Record record, std::ostream& stream) { stream << heat_file(request, record); });
   }
   if (options.checkpoint.file) {
-    outputs.add("--checkpoint", *options.checkpoint.file, OutputKind::text, nullptr);
+    outputs.add("--checkpoint", *options.checkpoint.file, check_output_path, nullptr);
   }
   return outputs;
 }

@@ -11,11 +11,6 @@
 namespace dmpc::apps {
 namespace {
 
-// Measured on a server's core in November 2026, by processor time: what a run takes for each second of the one-thread renderer,
-// and beside that for each node and each pair of nodes.
-constexpr double svm_factor = 1.6, dataflow_factor = 2.5;
-constexpr double node_seconds = 2e-3, dataflow_pair_seconds = 2e-4;
-
 /// So many runs of each node count.
 std::vector<PlannedRun> repeated(const std::vector<std::uint32_t>& node_counts, const std::vector<PlannedRun>& each) {
   std::vector<PlannedRun> runs;
@@ -67,12 +62,6 @@ std::size_t bytes_at_once(const std::vector<PlannedRun>& runs, const Subject& su
 }
 
 }  // namespace
-
-double seconds_of(const PlannedRun& run, double picture_seconds) {
-  const double nodes = run.node_count;
-  const double by_rays = dataflow_factor * picture_seconds + dataflow_pair_seconds * nodes * nodes;
-  return run.times * ((run.strategy == Strategy::dataflow ? by_rays : svm_factor * picture_seconds) + node_seconds * nodes);
-}
 
 std::vector<PlannedRun> planned_runs(const Study& study) { return std::visit(Plan{}, study); }
 

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstring>
 
-#include "apps/picture/image_file.h"
 #include "apps/system/shortage.h"
 #include "core/base/expect.h"
 
@@ -31,8 +30,7 @@ std::vector<NamedFile> files_of(const std::vector<OutputName>& outputs) {
 void check_outputs(const std::vector<NamedFile>& inputs, const std::vector<OutputName>& outputs) {
   check_distinct(inputs, files_of(outputs));
   for (const OutputName& output : outputs) {
-    const auto check = output.kind == OutputKind::picture ? check_image_path : check_output_path;
-    check(output.file.path, output.file.name);
+    output.check(output.file.path, output.file.name);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <iosfwd>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,12 +15,13 @@
 
 namespace dmpc::apps {
 
-enum class OutputKind { text, picture };
+/// Throws core::UsageError or core::InputError unless such a file can be made at the path; the option's name is for the message.
+using OutputCheck = void (*)(const std::filesystem::path&, std::string_view);
 
 /// What a set is tried by, whatever its files hold.
 struct OutputName {
   NamedFile file;
-  OutputKind kind = OutputKind::text;
+  OutputCheck check = check_output_path;
 };
 
 /// Throws core::UsageError or core::InputError unless all of them can be made, as far as can be known beforehand, and none falls
@@ -42,8 +44,8 @@ class OutputSet {
   /// What the file holds; nothing if something else writes it.
   using Write = std::function<void(const Result&, std::ostream&)>;
 
-  void add(std::string option, std::filesystem::path path, OutputKind kind, Write write) {
-    names_.push_back({{std::move(option), std::move(path)}, kind});
+  void add(std::string option, std::filesystem::path path, OutputCheck check, Write write) {
+    names_.push_back({{std::move(option), std::move(path)}, check});
     writes_.push_back(std::move(write));
   }
 

@@ -13,7 +13,7 @@ constexpr const char* script_ending = ".gnuplot";
 constexpr const char* picture_ending = ".svg";
 
 void add_plots(const std::filesystem::path& folder, const std::vector<PlottedNames>& plotted, OutputSet<TableResult>& files) {
-  const auto add = [&](const std::string& name) { files.add("--plots", folder / name, OutputKind::text, nullptr); };
+  const auto add = [&](const std::string& name) { files.add("--plots", folder / name, check_output_path, nullptr); };
   for (const PlottedNames& names : plotted) {
     add(names.data_file);
     for (const std::string& plot : names.plots) {
@@ -26,10 +26,10 @@ void add_plots(const std::filesystem::path& folder, const std::vector<PlottedNam
 OutputSet<TableResult> files_of(const TableOutput& asked, const std::vector<PlottedNames>& plotted) {
   OutputSet<TableResult> files;
   if (asked.file) {
-    files.add("-o", *asked.file, OutputKind::text, [](const TableResult& result, std::ostream& file) { file << result.text; });
+    files.add("-o", *asked.file, check_output_path, [](const TableResult& result, std::ostream& file) { file << result.text; });
   }
   if (asked.report) {
-    files.add("--report", *asked.report, OutputKind::text,
+    files.add("--report", *asked.report, check_output_path,
               [](const TableResult& result, std::ostream& file) { file << result.page(); });
   }
   if (asked.plots) {
@@ -56,7 +56,7 @@ TableFiles::TableFiles(const TableOutput& asked, const std::vector<PlottedNames>
   }
   std::vector<OutputName> outputs = files_.names();
   for (const NamedFile& other : others.outputs) {
-    outputs.push_back({other, OutputKind::text});
+    outputs.push_back({other, check_output_path});
   }
   check_outputs(others.inputs, outputs);
   if (asked.report) {

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "apps/effort/pilot.h"
-#include "apps/render/effort.h"
+#include "apps/effort/render_effort.h"
 #include "apps/scene/load_scene.h"
 #include "apps/study/effort.h"
 

@@ -1,9 +1,9 @@
-#include "apps/render/effort.h"
+#include "apps/effort/render_effort.h"
 
 #include <algorithm>
 
 #include "apps/effort/pilot.h"
-#include "apps/study/effort.h"
+#include "apps/effort/planned_run.h"
 #include "apps/system/real_load.h"
 
 namespace dmpc::apps {
