@@ -84,7 +84,7 @@ bool RayTask::next_child(PartTracer& tracer, const core::RenderSettings& setting
     }
     const core::Address address = core::record_needed(hit, settings.header);
     const std::byte* const record = address == core::no_address ? nullptr : tracer.find(address);
-    if (core::shade_step(hit, record, settings.header, settings.shade, settings.skips, child, operations)) {
+    if (core::Shader(settings.header, settings.shade, settings.skips, operations).step(hit, record, child)) {
       return true;
     }
   }

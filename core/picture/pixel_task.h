@@ -134,7 +134,7 @@ TaskState PixelTask::shade(T& tracer, const RenderSettings& settings, Operations
       return TaskState::absent;
     }
     Ray child;
-    if (shade_step(state, record, settings.header, settings.shade, settings.skips, child, operations)) {
+    if (Shader(settings.header, settings.shade, settings.skips, operations).step(state, record, child)) {
       shoot(child, operations);
       return TaskState::more;
     }

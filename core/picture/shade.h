@@ -1,12 +1,11 @@
 // What a hit does: NFF's surface (diffuse, Phong highlight, mirror, transmission), one child ray a step.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
 #include "core/base/vec.h"
-#include "core/picture/texture_lookup.h"
-#include "core/record/hit.h"
+#include "core/picture/hit_state.h"
 #include "core/record/ray.h"
 #include "core/record/record.h"
 #include "core/scene/scene.h"
@@ -34,50 +33,40 @@ struct ShadeOptions {
 /// all lights that its material allows, and passes on at most its share of what a ray of the next depth finds.
 double radiance_bound(const Scene& scene, int depth_max);
 
-/// A hit being shaded: a record on the ray stack, resumable between any two of its records. Each step reads exactly one record.
-struct HitState {
-  enum class Stage : std::uint8_t {
-    geometry,
-    normals,
-    texture,
-    material,
-    textured_material,  ///< whose colour is multiplied by what the look-up gave
-    light,
-    reflected,
-    refracted,
-    finished
-  };
+/// Shades hits, one record a step. What it is made from outlives it.
+class Shader {
+ public:
+  Shader(const DatabaseHeader& header, const ShadeOptions& options, const Skips& skips, Operations& operations)
+      : header_(header), options_(options), skips_(skips), operations_(operations) {}
 
-  HitState() : material() {}
+  /// One step. `record` is the record of record_needed() (nullptr if that was no_address). Returns whether `child` was set to a
+  /// ray to be shot; the caller shoots it, then goes on, until state.stage is finished.
+  bool step(HitState& state, const std::byte* record, Ray& child) const;
 
-  Ray ray;  ///< the ray that hit
-  Hit hit;
-  Vec3d point;             ///< on the primitive
-  Vec3d geometric_normal;  ///< true normal, unit length
-  Vec3d normal;            ///< shading normal on the ray's side, unit length
-  double u = 0, v = 0;     ///< barycentric weights of vertices 1 and 2 (triangles); the place on the texture, once it is known
-  union {
-    MaterialRecord material;  ///< once it has been read
-    TextureLookup lookup;     ///< before that, if there is a texture
-  };
-  ShadingReference shading;
-  std::uint32_t next_light = 0;
-  bool curved = false;          ///< a ray from here may meet the same primitive again
-  bool leaving = false;         ///< the ray goes along the true normal: out of the body
-  bool has_refraction = false;  ///< Snell's law has an answer: known if this hit may have children
-  Stage stage = Stage::geometry;
+ private:
+  void read_normals(HitState& state, const std::byte* record) const;
+  void begin_texture(HitState& state, const std::byte* record) const;
+  void step_texture(HitState& state, const std::byte* record) const;
+  void read_material(HitState& state, const std::byte* record) const;
+  /// Whether `child` was set.
+  bool read_light(HitState& state, const std::byte* record, Ray& child) const;
+  void reflect(HitState& state, Ray& child) const;
+  void refract(HitState& state, Ray& child) const;
+
+  bool reflects(const HitState& state) const;
+  bool refracts(const HitState& state) const;
+  HitState::Stage after_lights(const HitState& state) const;
+  HitState::Stage after_reflection(const HitState& state) const;
+  void judge_children(HitState& state) const;
+  bool leaves_out(bool is_lit, const Color& weight) const;
+  bool is_worth_it(const Ray& child) const;
+  double cone_at_hit(const HitState& state) const;
+  void widen(const HitState& state, Ray& child) const;
+
+  const DatabaseHeader& header_;
+  const ShadeOptions& options_;
+  const Skips& skips_;
+  Operations& operations_;
 };
-static_assert(std::is_trivially_copyable_v<HitState>);
-
-/// The state of a fresh hit.
-HitState begin_shading(const Ray& ray, const Hit& hit);
-
-/// The record that the next step reads, or no_address if it reads none.
-Address record_needed(const HitState& state, const DatabaseHeader& header);
-
-/// One step. `record` is the record of record_needed() (nullptr if that was no_address). Returns whether `child` was set to a ray
-/// to be shot; the caller shoots it, then goes on, until state.stage is finished.
-bool shade_step(HitState& state, const std::byte* record, const DatabaseHeader& header, const ShadeOptions& options,
-                const Skips& skips, Ray& child, Operations& operations);
 
 }  // namespace dmpc::core

@@ -107,7 +107,7 @@ class ChargedPicture {
       const std::byte* record = address == core::no_address ? nullptr : records_.find(address);
       core::Ray child;
       const bool has_child =
-          core::shade_step(state, record, settings_.header, settings_.shade, settings_.skips, child, operations_);
+          core::Shader(settings_.header, settings_.shade, settings_.skips, operations_).step(state, record, child);
       settle();
       if (has_child) {
         shoot(child);

@@ -100,13 +100,16 @@ core::Ray bounce_ray(const core::Ray& primary, const core::Hit& hit, const core:
                      const core::DatabaseHeader& header, std::uint64_t number) {
   core::HitState state = core::begin_shading(primary, hit);
   core::Operations unused;
+  const core::ShadeOptions options;
+  const core::Skips skips;
+  const core::Shader shader(header, options, skips, unused);
   core::Ray bounce;
-  core::shade_step(state, records.find(core::record_needed(state, header)), header, {}, {}, bounce, unused);
+  shader.step(state, records.find(core::record_needed(state, header)), bounce);
   // A mirror that turns the ray into the direction drawn makes the child that starts there.
   const Vec3d normal = state.leaving ? -state.geometric_normal : state.geometric_normal;
   state.normal = core::normalize(direction_about(normal, number) - Vec3d(primary.direction));
   state.stage = core::HitState::Stage::reflected;
-  core::shade_step(state, nullptr, header, {}, {}, bounce, unused);
+  shader.step(state, nullptr, bounce);
   return bounce;
 }
 

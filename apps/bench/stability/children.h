@@ -18,11 +18,14 @@ inline std::vector<core::Ray> children_of(const core::Database& database, const 
   }
   core::HitState state = core::begin_shading(ray, hit);
   core::Operations operations;
+  const core::ShadeOptions options;
+  const core::Skips skips;
+  const core::Shader shader(database.header(), options, skips, operations);
   while (state.stage != core::HitState::Stage::finished) {
     const core::Address needed = record_needed(state, database.header());
     core::Ray child;
     const std::byte* record = needed == core::no_address ? nullptr : records.find(needed);
-    if (core::shade_step(state, record, database.header(), {}, {}, child, operations)) {
+    if (shader.step(state, record, child)) {
       children.push_back(child);
     }
   }

@@ -32,11 +32,11 @@ Shaded shaded(const Database& database, const Ray& ray, const ShadeOptions& opti
   REQUIRE(hit.found());
   Shaded result;
   HitState state = begin_shading(ray, hit);
+  const Shader shader(database.header(), options, skips, result.operations);
   while (state.stage != HitState::Stage::finished) {
     const Address needed = record_needed(state, database.header());
     Ray child;
-    if (shade_step(state, needed == no_address ? nullptr : records.find(needed), database.header(), options, skips, child,
-                   result.operations)) {
+    if (shader.step(state, needed == no_address ? nullptr : records.find(needed), child)) {
       result.children.push_back(child);
     }
   }

@@ -108,8 +108,8 @@ TEST_CASE("bounces leave a wall on the ray's side, by the cosine, and ignore the
   REQUIRE(tracer.trace(primary, cursor, operations) == core::Traced::hit);
   core::HitState state = core::begin_shading(primary, cursor.best);
   core::Ray unused;
-  core::shade_step(state, records.find(core::record_needed(state, subject.settings.header)), subject.settings.header, {}, {},
-                   unused, operations);
+  const core::Shader shader(subject.settings.header, subject.settings.shade, subject.settings.skips, operations);
+  shader.step(state, records.find(core::record_needed(state, subject.settings.header)), unused);
   double sum = 0;
   constexpr int count = 4000;
   for (int i = 0; i < count; ++i) {

@@ -1,0 +1,80 @@
+#include "core/picture/hit_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace dmpc::core {
+namespace {
+
+/// One lane of a block's values, in double.
+struct Lane {
+  const float* rows;
+  std::size_t stride, lane;
+
+  double value(std::size_t row) const { return double{rows[row * stride + lane]}; }
+  Vec3d vector(std::size_t row) const { return {value(row), value(row + 1), value(row + 2)}; }
+};
+
+Vec3d along(const Ray& ray, double t) { return Vec3d(ray.origin) + Vec3d(ray.direction) * t; }
+
+/// Point, true normal and barycentric weights in double, after T. Moeller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle
+/// Intersection", 1997; weights clamped, so that the point lies on the triangle even where the float test let the ray in by
+/// rounding.
+void triangle_geometry(HitState& state, const Lane& lane) {
+  const Vec3d v0 = lane.vector(0), edge1 = lane.vector(3) - v0, edge2 = lane.vector(6) - v0;
+  const Vec3d direction(state.ray.direction), p = cross(direction, edge2);
+  const double determinant = dot(edge1, p);
+  if (determinant != 0.0) {
+    const Vec3d from_v0 = Vec3d(state.ray.origin) - v0;
+    state.u = std::clamp(dot(from_v0, p) / determinant, 0.0, 1.0);
+    state.v = std::clamp(dot(direction, cross(from_v0, edge1)) / determinant, 0.0, 1.0 - state.u);
+  }
+  state.point = v0 + edge1 * state.u + edge2 * state.v;
+  state.geometric_normal = normalize(cross(edge1, edge2));
+}
+
+void sphere_geometry(HitState& state, const Lane& lane) {
+  const Vec3d center = lane.vector(0);
+  state.geometric_normal = normalize(along(state.ray, double{state.hit.t}) - center);
+  state.point = center + state.geometric_normal * std::fabs(lane.value(3));
+}
+
+void cone_geometry(HitState& state, const Lane& lane) {
+  const Vec3d base = lane.vector(0), axis = lane.vector(4) - base, from_base = along(state.ray, double{state.hit.t}) - base;
+  const double base_radius = std::fabs(lane.value(3)), widening = std::fabs(lane.value(7)) - base_radius;
+  const double height = std::clamp(dot(from_base, axis) / dot(axis, axis), 0.0, 1.0);
+  const Vec3d outward = from_base - axis * height;
+  const double distance = length(outward), radius = base_radius + widening * height;
+  const Vec3d radial = distance > 0.0 ? outward * (1.0 / distance) : Vec3d{};
+  state.point = base + axis * height + radial * radius;
+  const Vec3d normal = radial * dot(axis, axis) - axis * widening;
+  state.geometric_normal = normalize(normal);
+}
+
+}  // namespace
+
+void read_geometry(HitState& state, const std::byte* record) {
+  const auto header = read<BlockHeader>(record);
+  const auto* rows = reinterpret_cast<const float*>(record + sizeof(BlockHeader));
+  const Lane lane{rows, header.count, state.hit.lane};
+  switch (header.kind) {
+    case PrimitiveKind::triangle:
+      triangle_geometry(state, lane);
+      break;
+    case PrimitiveKind::sphere:
+      sphere_geometry(state, lane);
+      break;
+    case PrimitiveKind::cone:
+      cone_geometry(state, lane);
+      break;
+  }
+  const std::size_t references = (value_count(header.kind) + 1) * header.count;
+  state.shading = read<ShadingReference>(record + sizeof(BlockHeader) + 4 * (references + state.hit.lane));
+  state.curved = header.kind != PrimitiveKind::triangle;
+  state.leaving = dot(Vec3d(state.ray.direction), state.geometric_normal) > 0.0;
+  state.normal = state.leaving ? -state.geometric_normal : state.geometric_normal;
+  state.stage = state.shading.is_smooth() ? HitState::Stage::normals : HitState::Stage::material;
+}
+
+}  // namespace dmpc::core

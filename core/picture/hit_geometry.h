@@ -1,0 +1,14 @@
+// Where a ray hit: the point, the normals, and what of the material is known from the block alone.
+#pragma once
+
+#include <cstddef>
+
+#include "core/picture/hit_state.h"
+
+namespace dmpc::core {
+
+/// From the block of the primitive that was hit: sets all that `state` says of the surface, and the stage that follows. The point
+/// lies on the primitive, whatever rounding let the ray in.
+void read_geometry(HitState& state, const std::byte* record);
+
+}  // namespace dmpc::core

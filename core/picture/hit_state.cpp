@@ -1,0 +1,30 @@
+#include "core/picture/hit_state.h"
+
+namespace dmpc::core {
+
+HitState begin_shading(const Ray& ray, const Hit& hit) {
+  HitState state;
+  state.ray = ray;
+  state.hit = hit;
+  return state;
+}
+
+Address record_needed(const HitState& state, const DatabaseHeader& header) {
+  switch (state.stage) {
+    case HitState::Stage::geometry:
+      return state.hit.block;
+    case HitState::Stage::normals:
+      return state.shading.normals();
+    case HitState::Stage::texture:
+      return record_needed(state.lookup);
+    case HitState::Stage::material:
+    case HitState::Stage::textured_material:
+      return advance(header.materials, state.shading.material() * sizeof(MaterialRecord));
+    case HitState::Stage::light:
+      return advance(header.lights, state.next_light * sizeof(LightRecord));
+    default:
+      return no_address;
+  }
+}
+
+}  // namespace dmpc::core

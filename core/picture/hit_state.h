@@ -1,0 +1,56 @@
+// A hit being shaded: what of it is known, and what comes next.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "core/base/vec.h"
+#include "core/picture/texture_lookup.h"
+#include "core/record/hit.h"
+#include "core/record/ray.h"
+#include "core/record/record.h"
+
+namespace dmpc::core {
+
+/// A hit being shaded: a record on the ray stack, resumable between any two of its records. Each step reads exactly one record.
+struct HitState {
+  enum class Stage : std::uint8_t {
+    geometry,
+    normals,
+    texture,
+    material,
+    textured_material,  ///< whose colour is multiplied by what the look-up gave
+    light,
+    reflected,
+    refracted,
+    finished
+  };
+
+  HitState() : material() {}
+
+  Ray ray;  ///< the ray that hit
+  Hit hit;
+  Vec3d point;             ///< on the primitive
+  Vec3d geometric_normal;  ///< true normal, unit length
+  Vec3d normal;            ///< shading normal on the ray's side, unit length
+  double u = 0, v = 0;     ///< barycentric weights of vertices 1 and 2 (triangles); the place on the texture, once it is known
+  union {
+    MaterialRecord material;  ///< once it has been read
+    TextureLookup lookup;     ///< before that, if there is a texture
+  };
+  ShadingReference shading;
+  std::uint32_t next_light = 0;
+  bool curved = false;          ///< a ray from here may meet the same primitive again
+  bool leaving = false;         ///< the ray goes along the true normal: out of the body
+  bool has_refraction = false;  ///< Snell's law has an answer: known if this hit may have children
+  Stage stage = Stage::geometry;
+};
+static_assert(std::is_trivially_copyable_v<HitState>);
+
+/// The state of a fresh hit.
+HitState begin_shading(const Ray& ray, const Hit& hit);
+
+/// The record that the next step reads, or no_address if it reads none.
+Address record_needed(const HitState& state, const DatabaseHeader& header);
+
+}  // namespace dmpc::core
