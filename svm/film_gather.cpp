@@ -12,20 +12,20 @@ using nodes::LocalMemory;
 
 /// A packet that is being gathered, and behind it the pixels in flight, which may all finish before it can leave; and the
 /// header.
-std::size_t FilmGather::room_bytes(std::uint32_t film_entries, std::uint32_t in_flight) {
-  return sizeof(FilmEntry) * (std::size_t{film_entries} + in_flight + header_entries);
+std::size_t FilmGather::room_bytes(const FilmCapacity& capacity) {
+  return sizeof(FilmEntry) * (std::size_t{capacity.packet_entries} + capacity.in_flight + header_entries);
 }
 
-void FilmGather::add_needs(nodes::MemoryPlan& plan, std::uint32_t film_entries, std::uint32_t in_flight) {
-  plan[Category::film_tiles] += LocalMemory::bytes_for<std::byte>(room_bytes(film_entries, in_flight));
+void FilmGather::add_needs(nodes::MemoryPlan& plan, const FilmCapacity& capacity) {
+  plan[Category::film_tiles] += LocalMemory::bytes_for<std::byte>(room_bytes(capacity));
 }
 
-FilmGather::FilmGather(nodes::Node& node, const Plan& plan)
+FilmGather::FilmGather(nodes::Node& node, const FilmCapacity& capacity)
     : node_(&node),
-      host_(nodes::NodeId{plan.request.node_count}),
-      packet_entries_(plan.film_entries),
-      room_(node.memory().allocate<std::byte>(Category::film_tiles, room_bytes(plan.film_entries, plan.in_flight))) {
-  node.grant(host_, bulk_channel, plan.film_credits);
+      host_(capacity.host),
+      packet_entries_(capacity.packet_entries),
+      room_(node.memory().allocate<std::byte>(Category::film_tiles, room_bytes(capacity))) {
+  node.grant(host_, bulk_channel, capacity.credits);
 }
 
 void FilmGather::add(std::uint32_t pixel, const core::PixelSums& sums) {

@@ -8,18 +8,25 @@
 #include "core/picture/film.h"
 #include "nodes/node.h"
 #include "svm/packets.h"
-#include "svm/plan.h"
 
 namespace dmpc::svm {
+
+/// For which pixels there is room.
+struct FilmCapacity {
+  nodes::NodeId host{};
+  std::uint32_t packet_entries = 1;  ///< pixels in a full packet
+  std::uint32_t credits = 1;         ///< packets that may be under way to the host
+  std::uint32_t in_flight = 1;       ///< pixels that may all finish before a packet can leave
+};
 
 /// Never refuses a finished pixel: a pixel may start only while has_room_for() the pixels in flight and it. Thread safety:
 /// none.
 class FilmGather {
  public:
   /// Takes the credits for film packets.
-  FilmGather(nodes::Node& node, const Plan& plan);
+  FilmGather(nodes::Node& node, const FilmCapacity& capacity);
   /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t film_entries, std::uint32_t in_flight);
+  static void add_needs(nodes::MemoryPlan& plan, const FilmCapacity& capacity);
 
   bool has_room_for(std::uint32_t pixels) const { return count_ + pixels <= capacity(); }
   /// Adds a finished pixel, and sends a packet if one is full and a credit is left.
@@ -41,7 +48,7 @@ class FilmGather {
 
   /// The header and the entries stand in one run of bytes; the header takes the room of one entry.
   static constexpr std::uint32_t header_entries = 1;
-  static std::size_t room_bytes(std::uint32_t film_entries, std::uint32_t in_flight);
+  static std::size_t room_bytes(const FilmCapacity& capacity);
 
   nodes::Node* node_;
   nodes::NodeId host_;

@@ -14,23 +14,22 @@ std::size_t words_for(std::uint32_t pixel_count) { return core::ceil_divide<std:
 
 }  // namespace
 
-HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, Progress progress,
+HostProgram::HostProgram(nodes::Node& node, const HostShape& shape, core::Film& film, Progress progress,
                          const core::Continuation& continuation)
     : node_(&node),
       film_(&film),
       progress_(std::move(progress)),
       continuation_(continuation),
-      refinement_(plan.request.refinement, plan.request.first_samples, film.width(), film.height()),
-      arrived_(node.memory().allocate<std::uint64_t>(nodes::Category::film_tiles,
-                                                     words_for(plan.request.width * plan.request.height))),
-      words_sent_(plan.request.refinement.is_wanted() ? plan.request.node_count : 0),
-      node_count_(plan.request.node_count),
-      width_(plan.request.width),
-      height_(plan.request.height) {
+      refinement_(shape.refinement, shape.first_samples, film.width(), film.height()),
+      arrived_(node.memory().allocate<std::uint64_t>(nodes::Category::film_tiles, words_for(shape.pixel_count()))),
+      words_sent_(shape.refinement.is_wanted() ? shape.node_count : 0),
+      node_count_(shape.node_count),
+      width_(shape.width),
+      height_(shape.height) {
   for (std::uint32_t i = 0; i < node_count_; ++i) {
     node.grant(nodes::NodeId{i}, control_channel, 1);  // for Stop; an acknowledgement's place is reserved by its film packet
   }
-  if (const core::PartialPicture* const start = plan.request.start) {
+  if (const core::PartialPicture* const start = shape.start) {
     refinement_.resume(*start);
     const std::span<const std::uint64_t> done = start->done.words();
     std::copy(done.begin(), done.end(), arrived_.begin());
@@ -38,8 +37,8 @@ HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, 
   }
 }
 
-void HostProgram::add_needs(nodes::MemoryPlan& plan, std::uint32_t pixel_count) {
-  plan[nodes::Category::film_tiles] += nodes::LocalMemory::bytes_for<std::uint64_t>(words_for(pixel_count));
+void HostProgram::add_needs(nodes::MemoryPlan& plan, const HostShape& shape) {
+  plan[nodes::Category::film_tiles] += nodes::LocalMemory::bytes_for<std::uint64_t>(words_for(shape.pixel_count()));
 }
 
 void HostProgram::receive(const nodes::Packet& packet) {

@@ -13,7 +13,6 @@
 #include "nodes/node.h"
 #include "nodes/program.h"
 #include "svm/packets.h"
-#include "svm/plan.h"
 
 namespace dmpc::svm {
 
@@ -21,17 +20,28 @@ namespace dmpc::svm {
 /// ends with that.
 using Progress = std::function<void(std::uint32_t, std::uint32_t)>;
 
+/// A picture and who renders it.
+struct HostShape {
+  std::uint32_t node_count = 1;
+  std::uint32_t width = 1, height = 1;
+  std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
+  core::RefinementOptions refinement;
+  const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; read by the constructor alone
+
+  std::uint32_t pixel_count() const { return width * height; }
+};
+
 /// Every pixel of a pass arrives exactly once, which it checks, and whole: what has arrived can be kept at any time. When every
 /// node is done and the film complete, it ends the pass; if another follows, it sends each node its submap's part of the mask,
 /// and begins it when all have theirs; else it sends each node a Stop.
 class HostProgram final : public nodes::Program {
  public:
-  /// `film` outlives the program and is written by it alone until the run's end; it is as plan.request.start has it.
+  /// `film` outlives the program and is written by it alone until the run's end; it is as shape.start has it.
   /// `progress` may be empty.
-  HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, Progress progress,
+  HostProgram(nodes::Node& node, const HostShape& shape, core::Film& film, Progress progress,
               const core::Continuation& continuation = {});
   /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t pixel_count);
+  static void add_needs(nodes::MemoryPlan& plan, const HostShape& shape);
 
   void receive(const nodes::Packet& packet) override;
   bool work() override { return false; }

@@ -9,7 +9,7 @@
 #include "core/record/records.h"
 #include "nodes/node.h"
 #include "svm/node_program.h"
-#include "svm/plan.h"
+#include "svm/page_capacity.h"
 
 namespace dmpc::svm {
 
@@ -19,10 +19,10 @@ class LocalCopy {
   static constexpr bool pages_travel = false;
 
   /// Copies `database` into the node's local memory.
-  LocalCopy(nodes::Node& node, const Plan& plan, std::span<const std::byte> database)
+  LocalCopy(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database)
       : bytes_(node.memory().allocate<std::byte>(nodes::Category::home_pages, database.size() + core::overread_bytes)),
         database_(bytes_.first(database.size())) {
-    core::expect(database.size() == plan.request.page_count * plan.request.page_size_bytes, "the plan is the database's");
+    core::expect(database.size() == capacity.database_bytes(), "the plan is the database's");
     std::copy(database.begin(), database.end(), bytes_.begin());
   }
   /// Adds to `plan` exactly what the constructor takes.

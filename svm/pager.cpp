@@ -17,32 +17,32 @@ std::size_t home_bytes(std::uint32_t page_count, std::size_t page_size_bytes) {
 
 }  // namespace
 
-void Pager::add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index) {
-  const std::size_t page_size_bytes = plan.request.page_size_bytes;
-  memory[Category::home_pages] += LocalMemory::bytes_for<std::byte>(home_bytes(plan.pages_at(index), page_size_bytes));
+void Pager::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index) {
+  const std::size_t page_size_bytes = capacity.page_size_bytes();
+  memory[Category::home_pages] += LocalMemory::bytes_for<std::byte>(home_bytes(capacity.pages_at(index), page_size_bytes));
   memory[Category::queues] += LocalMemory::bytes_for<std::byte>(sizeof(PageReplyHeader) + page_size_bytes);
   memory[Category::page_table] += LocalMemory::bytes_for<Translation>(translation_count);
-  Cache::add_needs(memory, plan.cache());
-  Faults::add_needs(memory, plan.in_flight, plan.faults_max());
+  Cache::add_needs(memory, capacity.cache);
+  Faults::add_needs(memory, capacity.in_flight, capacity.faults_max);
 }
 
-Pager::Pager(nodes::Node& node, const Plan& plan, std::span<const std::byte> database)
-    : geometry_(plan.request.page_size_bytes),
+Pager::Pager(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database)
+    : geometry_(capacity.page_size_bytes()),
       translations_(node.memory().allocate<Translation>(Category::page_table, translation_count)),
-      homes_(plan.request.node_count),
+      homes_(capacity.node_count),
       self_(nodes::index_of(node.id())),
       home_bytes_(node.memory().allocate<std::byte>(
-          Category::home_pages, home_bytes(plan.pages_at(nodes::index_of(node.id())), plan.request.page_size_bytes))),
-      cache_(node.memory(), plan.cache(), self_),
-      faults_(node.memory(), plan.in_flight, plan.faults_max()),
+          Category::home_pages, home_bytes(capacity.pages_at(nodes::index_of(node.id())), capacity.page_size_bytes()))),
+      cache_(node.memory(), capacity.cache, self_),
+      faults_(node.memory(), capacity.in_flight, capacity.faults_max),
       node_(&node),
-      reply_(node.memory().allocate<std::byte>(Category::queues, sizeof(PageReplyHeader) + plan.request.page_size_bytes)),
-      home_page_count_(plan.pages_at(nodes::index_of(node.id()))) {
-  core::expect(database.size() == plan.request.page_count * plan.request.page_size_bytes, "the plan is the database's");
+      reply_(node.memory().allocate<std::byte>(Category::queues, sizeof(PageReplyHeader) + capacity.page_size_bytes())),
+      home_page_count_(capacity.pages_at(nodes::index_of(node.id()))) {
+  core::expect(database.size() == capacity.database_bytes(), "the plan is the database's");
   copy_home_pages(database);
-  for (std::uint32_t home = 0; home < plan.request.node_count; ++home) {
+  for (std::uint32_t home = 0; home < capacity.node_count; ++home) {
     if (home != self_) {
-      node.grant(nodes::NodeId{home}, request_channel, plan.request_credits);
+      node.grant(nodes::NodeId{home}, request_channel, capacity.request_credits);
     }
   }
 }

@@ -12,7 +12,7 @@
 #include "svm/home.h"
 #include "svm/node_program.h"
 #include "svm/page.h"
-#include "svm/plan.h"
+#include "svm/page_capacity.h"
 
 namespace dmpc::svm {
 
@@ -25,9 +25,9 @@ class Pager {
   static constexpr bool pages_travel = true;
 
   /// Copies the node's home pages from `database` into its local memory and takes the credits for its requests.
-  Pager(nodes::Node& node, const Plan& plan, std::span<const std::byte> database);
+  Pager(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database);
   /// Adds to `memory` exactly what the constructor takes at node `index`.
-  static void add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index);
+  static void add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index);
 
   /// One reference. The pointer is valid until the next call of install(). Repeated references of one page, the usual case,
   /// do not change the order of use, so they cost a comparison.

@@ -6,15 +6,12 @@
 #include "core/base/units.h"
 #include "core/picture/pixel_task.h"
 #include "nodes/threads/held_packets.h"
-#include "svm/film_gather.h"
-#include "svm/host.h"
 #include "svm/local_copy.h"
 #include "svm/packets.h"
 #include "svm/pager.h"
 #include "svm/slots.h"
 #include "svm/watch/counting_pager.h"
 #include "svm/work_items.h"
-#include "svm/work_source.h"
 
 namespace dmpc::svm {
 namespace {
@@ -258,6 +255,38 @@ void note_reductions(Plan& plan) {
 
 std::uint32_t Plan::faults_max() const { return std::min(in_flight, foreign_pages_max(request)); }
 
+PageCapacity Plan::pages() const {
+  return {.page_count = request.page_count,
+          .node_count = request.node_count,
+          .cache = {frames, request.page_size_bytes, request.replacement},
+          .in_flight = in_flight,
+          .faults_max = faults_max(),
+          .request_credits = request_credits};
+}
+
+FilmCapacity Plan::film() const {
+  return {
+      .host = nodes::NodeId{request.node_count}, .packet_entries = film_entries, .credits = film_credits, .in_flight = in_flight};
+}
+
+WorkShape Plan::work() const {
+  return {.node_count = request.node_count,
+          .width = request.width,
+          .height = request.height,
+          .item_side = request.work_item_side,
+          .is_masked = request.is_masked(),
+          .start = request.start};
+}
+
+HostShape Plan::host() const {
+  return {.node_count = request.node_count,
+          .width = request.width,
+          .height = request.height,
+          .first_samples = request.first_samples,
+          .refinement = request.refinement,
+          .start = request.start};
+}
+
 std::uint32_t Plan::pages_at(std::uint32_t node) const {
   return request.strategy == Strategy::replicated ? request.page_count
                                                   : Homes(request.node_count).count_at(node, request.page_count);
@@ -266,16 +295,16 @@ std::uint32_t Plan::pages_at(std::uint32_t node) const {
 nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
   nodes::MemoryPlan plan;
   if (request.strategy == Strategy::svm) {
-    Pager::add_needs(plan, *this, index);
+    Pager::add_needs(plan, pages(), index);
   } else {
-    LocalCopy::add_needs(plan, request.page_count * request.page_size_bytes);
+    LocalCopy::add_needs(plan, pages().database_bytes());
   }
   if (request.count_pages) {
-    CountingPager::add_needs(plan, request.page_count, in_flight);
+    CountingPager::add_needs(plan, pages());
   }
   Slots<core::PixelTask>::add_needs(plan, in_flight, static_cast<std::uint32_t>(request.depth_max));
-  FilmGather::add_needs(plan, film_entries, in_flight);
-  WorkSource::add_needs(plan, request, index);
+  FilmGather::add_needs(plan, film());
+  WorkSource::add_needs(plan, work(), index);
   plan[Category::constants] += LocalMemory::bytes_for<std::byte>(sizeof(core::RenderSettings));
   plan[Category::mailbox] += node_mailbox.bytes();
   plan[Category::queues] += nodes::credit_table_bytes(request.node_count + 1) + held_bytes;
@@ -293,7 +322,7 @@ std::size_t Plan::node_memory_max_bytes() const {
 
 nodes::MemoryPlan Plan::host_memory() const {
   nodes::MemoryPlan plan;
-  HostProgram::add_needs(plan, request.width * request.height);
+  HostProgram::add_needs(plan, host());
   plan[Category::mailbox] += host_mailbox.bytes();
   plan[Category::queues] += nodes::credit_table_bytes(request.node_count + 1) + held_bytes;
   plan[Category::reserve] += host_stack_bytes;

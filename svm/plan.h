@@ -13,9 +13,11 @@
 #include "nodes/local_memory.h"
 #include "nodes/runner.h"
 #include "nodes/size_text.h"
-#include "svm/cache.h"
-#include "svm/home.h"
+#include "svm/film_gather.h"
+#include "svm/host.h"
 #include "svm/page.h"
+#include "svm/page_capacity.h"
+#include "svm/work_source.h"
 
 namespace dmpc::svm {
 
@@ -78,8 +80,12 @@ struct Plan {
   /// The most that any node takes.
   std::size_t node_memory_max_bytes() const;
   nodes::MemoryPlan host_memory() const;
-  /// Each node's.
-  CacheShape cache() const { return {frames, request.page_size_bytes, request.replacement}; }
+
+  /// What each part is made for.
+  PageCapacity pages() const;
+  FilmCapacity film() const;
+  WorkShape work() const;
+  HostShape host() const;
 
   std::uint32_t pages_at(std::uint32_t node) const;
   /// Faults under way at a node: a fault has at least one pixel in flight, a pixel waits for one page, and a page that is not at

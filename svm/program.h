@@ -46,11 +46,11 @@ class ControlProgram final : public NodeProgram {
             settings)),
         node_(&node),
         host_(nodes::NodeId{plan.request.node_count}),
-        records_(node, plan, database),
+        records_(node, plan.pages(), database),
         tracer_(make_tracer(records_)),
         slots_(node.memory(), plan.in_flight, static_cast<std::uint32_t>(plan.request.depth_max)),
-        work_(node, plan),
-        film_(node, plan),
+        work_(node, plan.work()),
+        film_(node, plan.film()),
         samples_(plan.request.start_samples()),
         meter_(meter) {
     node.grant(host_, control_channel, 1);  // for Done

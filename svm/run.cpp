@@ -177,7 +177,7 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
   }
   specifications.push_back({plan.host_memory(), plan.host_mailbox,
                             [&plan, &film, &progress, continuation](nodes::Node& node) {
-                              return std::make_unique<HostProgram>(node, plan, film, progress, continuation);
+                              return std::make_unique<HostProgram>(node, plan.host(), film, progress, continuation);
                             },
                             plan.held_bytes});
   return specifications;

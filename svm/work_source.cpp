@@ -8,38 +8,38 @@
 namespace dmpc::svm {
 namespace {
 
-PixelRectangle own_submap(const PlanRequest& request, std::uint32_t index) {
-  return submap_of({0, 0, request.width, request.height}, index, request.node_count);
+PixelRectangle own_submap(const WorkShape& shape, std::uint32_t index) {
+  return submap_of({0, 0, shape.width, shape.height}, index, shape.node_count);
 }
 
 /// A bit a pixel; at least a word, so that a node without pixels has a mask, too.
-std::size_t mask_words(const PlanRequest& request, std::uint32_t index) {
-  const std::uint64_t pixels = std::max<std::uint64_t>(own_submap(request, index).pixel_count(), 1);
-  return request.is_masked() ? core::ceil_divide<std::size_t>(pixels, 64) : 0;
+std::size_t mask_words(const WorkShape& shape, std::uint32_t index) {
+  const std::uint64_t pixels = std::max<std::uint64_t>(own_submap(shape, index).pixel_count(), 1);
+  return shape.is_masked ? core::ceil_divide<std::size_t>(pixels, 64) : 0;
 }
 
 /// A node that gives no work away has its submap as one item, or in masked ones.
-std::uint32_t item_side_of(const PlanRequest& request) {
-  return request.is_masked() && request.work_item_side == 0 ? masked_side_max : request.work_item_side;
+std::uint32_t item_side_of(const WorkShape& shape) {
+  return shape.is_masked && shape.item_side == 0 ? masked_side_max : shape.item_side;
 }
 
 }  // namespace
 
-WorkSource::WorkSource(nodes::Node& node, const Plan& plan)
+WorkSource::WorkSource(nodes::Node& node, const WorkShape& shape)
     : node_(&node),
-      node_count_(plan.request.node_count),
+      node_count_(shape.node_count),
       self_(nodes::index_of(node.id())),
-      image_width_(plan.request.width),
-      item_side_(item_side_of(plan.request)),
-      submap_(own_submap(plan.request, self_)),
-      mask_(node.memory().allocate<std::uint64_t>(nodes::Category::queues, mask_words(plan.request, self_))),
+      image_width_(shape.width),
+      item_side_(item_side_of(shape)),
+      submap_(own_submap(shape, self_)),
+      mask_(node.memory().allocate<std::uint64_t>(nodes::Category::queues, mask_words(shape, self_))),
       items_(submap_, item_side_),
       last_giver_((self_ + 1) % node_count_),
-      is_alone_(plan.request.work_item_side == 0 || node_count_ == 1),
+      is_alone_(shape.item_side == 0 || node_count_ == 1),
       no_more_(is_alone_) {
   std::fill(mask_.begin(), mask_.end(), ~std::uint64_t{0});
-  if (plan.request.start != nullptr) {
-    want_only(plan.request.start->missing());
+  if (shape.start != nullptr) {
+    want_only(shape.start->missing());
   }
 }
 
@@ -53,8 +53,8 @@ void WorkSource::want_only(const core::PixelMask& pixels) {
   skip_unwanted();
 }
 
-void WorkSource::add_needs(nodes::MemoryPlan& memory, const PlanRequest& request, std::uint32_t index) {
-  memory[nodes::Category::queues] += nodes::LocalMemory::bytes_for<std::uint64_t>(mask_words(request, index));
+void WorkSource::add_needs(nodes::MemoryPlan& memory, const WorkShape& shape, std::uint32_t index) {
+  memory[nodes::Category::queues] += nodes::LocalMemory::bytes_for<std::uint64_t>(mask_words(shape, index));
 }
 
 void WorkSource::take_mask(const MaskPart& part) {

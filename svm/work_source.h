@@ -6,13 +6,22 @@
 #include <span>
 #include <string>
 
+#include "core/picture/partial_picture.h"
 #include "nodes/node.h"
 #include "svm/node_program.h"
 #include "svm/packets.h"
-#include "svm/plan.h"
 #include "svm/work_items.h"
 
 namespace dmpc::svm {
+
+/// A picture whose pixels are shared out; the same on all nodes.
+struct WorkShape {
+  std::uint32_t node_count = 1;
+  std::uint32_t width = 1, height = 1;
+  std::uint32_t item_side = 3;                  ///< pixels along the side of a work item; 0: no node gives work to another
+  bool is_masked = false;                       ///< some pass may leave pixels out
+  const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; read by the constructor alone
+};
 
 /// A node without pixels sends one work request at a time. It hops along the ring of nodes, from i to i + 1 mod N; the first
 /// that has items left answers the asker directly; the last of all others to be asked tells it that there is no more work,
@@ -24,10 +33,10 @@ namespace dmpc::svm {
 /// was begun by another run, the first one has those that are missing.
 class WorkSource {
  public:
-  /// In the first pass all pixels are wanted that plan.request.start lacks.
-  WorkSource(nodes::Node& node, const Plan& plan);
+  /// In the first pass all pixels are wanted that shape.start lacks.
+  WorkSource(nodes::Node& node, const WorkShape& shape);
   /// Adds to `memory` exactly what the constructor takes at node `index`.
-  static void add_needs(nodes::MemoryPlan& memory, const PlanRequest& request, std::uint32_t index);
+  static void add_needs(nodes::MemoryPlan& memory, const WorkShape& shape, std::uint32_t index);
 
   /// A pixel of the current item, of the submap, or of an item received is left.
   bool has_pixel() const { return !scan_.empty() || !items_.empty(); }

@@ -16,14 +16,15 @@ namespace dmpc::svm {
 /// in it. Thread safety: none.
 class CountingPager : public Pager {
  public:
-  CountingPager(nodes::Node& node, const Plan& plan, std::span<const std::byte> database)
-      : Pager(node, plan, database),
-        geometry_(plan.request.page_size_bytes),
-        words_per_slot_(words_for(plan.request.page_count)),
-        seen_(node.memory().allocate<std::uint64_t>(nodes::Category::queues, plan.in_flight * words_per_slot_)) {}
+  CountingPager(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database)
+      : Pager(node, capacity, database),
+        geometry_(capacity.page_size_bytes()),
+        words_per_slot_(words_for(capacity.page_count)),
+        seen_(node.memory().allocate<std::uint64_t>(nodes::Category::queues, capacity.in_flight * words_per_slot_)) {}
   /// Adds to `plan` exactly what the constructor takes beside Pager's.
-  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t page_count, std::uint32_t in_flight) {
-    plan[nodes::Category::queues] += nodes::LocalMemory::bytes_for<std::uint64_t>(in_flight * words_for(page_count));
+  static void add_needs(nodes::MemoryPlan& plan, const PageCapacity& capacity) {
+    plan[nodes::Category::queues] +=
+        nodes::LocalMemory::bytes_for<std::uint64_t>(capacity.in_flight * words_for(capacity.page_count));
   }
 
   /// Hides Pager's: counts the page, then looks it up.

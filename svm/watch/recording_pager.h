@@ -15,10 +15,10 @@ namespace dmpc::svm {
 /// are left out: they need no frame. Takes as much local memory as a Pager; the log lies outside. Thread safety: none.
 class RecordingPager : public Pager {
  public:
-  RecordingPager(nodes::Node& node, const Plan& plan, std::span<const std::byte> database)
-      : Pager(node, plan, database),
-        geometry_(plan.request.page_size_bytes),
-        homes_(plan.request.node_count),
+  RecordingPager(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database)
+      : Pager(node, capacity, database),
+        geometry_(capacity.page_size_bytes()),
+        homes_(capacity.node_count),
         self_(nodes::index_of(node.id())) {}
 
   /// To be called once, before the first reference. `log` outlives this.

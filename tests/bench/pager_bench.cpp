@@ -86,7 +86,7 @@ class Round {
 class FilledPager {
  public:
   FilledPager(const PageSet& set, const Round& round)
-      : plan_(svm::make_plan(request_for(set))), lone_(plan_, 0), pager_(lone_.node, plan_, round.database()) {
+      : plan_(svm::make_plan(request_for(set))), lone_(plan_, 0), pager_(lone_.node, plan_.pages(), round.database()) {
     for (std::uint32_t i = 0; !set.at_home && i < set.count; ++i) {
       install(set.page(i), round);
     }

@@ -20,7 +20,7 @@ struct SmallGather {
       : plan(svm::make_plan(
             {.page_count = 4, .page_size_bytes = 512, .node_count = 2, .in_flight = in_flight, .width = 100, .height = 1})),
         lone(plan, 1),
-        film(lone.node, plan) {}
+        film(lone.node, plan.film()) {}
   void add(std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t pixel = first; pixel < first + count; ++pixel) {
       core::PixelSums sums;

@@ -22,7 +22,7 @@ struct SmallHost {
       : plan(svm::make_plan({.page_count = 4, .node_count = 2, .width = 3, .height = 1})),
         lone(plan, 2),
         film(3, 1),
-        host(lone.node, plan, film, std::move(progress)) {}
+        host(lone.node, plan.host(), film, std::move(progress)) {}
   void film_from(std::uint32_t node, const std::vector<std::uint32_t>& pixels) {
     Parcel parcel = parcel_of(node, Kind::film_sums, svm::FilmHeader{static_cast<std::uint32_t>(pixels.size())});
     for (const std::uint32_t pixel : pixels) {
@@ -55,7 +55,7 @@ TEST_CASE("where the error is too large each node gets its mask part by part, an
       {.page_count = 4, .node_count = 2, .width = 8000, .height = 1, .first_samples = 2, .refinement = {.error = 1e-9}});
   LoneNode lone(plan, 2);
   core::Film film(8000, 1);
-  svm::HostProgram host(lone.node, plan, film, {});
+  svm::HostProgram host(lone.node, plan.host(), film, {});
   const auto sent = [&](Kind kind) {
     return std::count_if(lone.post.parcels.begin(), lone.post.parcels.end(),
                          [&](const Parcel& parcel) { return parcel.kind == svm::number_of(kind); });

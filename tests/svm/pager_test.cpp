@@ -33,7 +33,7 @@ struct SmallPager {
       : plan(plan_with(nodes, cache_pages, in_flight)),
         lone(plan, 0),
         pages(page_count, page_size),
-        pager(lone.node, plan, pages.bytes()) {}
+        pager(lone.node, plan.pages(), pages.bytes()) {}
 
   bool finds(std::uint32_t page) {
     const std::byte* record = pager.find(core::advance(start_of(page), 16));

@@ -20,7 +20,7 @@ struct SmallSource {
   SmallSource(std::uint32_t index, std::uint32_t nodes, std::uint32_t side)
       : plan(svm::make_plan({.page_count = 4, .node_count = nodes, .work_item_side = side, .width = 3 * nodes, .height = 3})),
         lone(plan, index),
-        work(lone.node, plan) {}
+        work(lone.node, plan.work()) {}
   void use_up() {
     while (work.has_pixel()) {
       work.next_pixel();
@@ -124,7 +124,7 @@ TEST_CASE("a later pass has the pixels of the mask alone") {
                                    .first_samples = 2,
                                    .refinement = {.error = 1}});
   LoneNode lone(plan, 0);
-  svm::WorkSource work(lone.node, plan);
+  svm::WorkSource work(lone.node, plan.work());
   std::set<std::uint32_t> first, second;
   while (work.has_pixel()) {
     first.insert(work.next_pixel());
@@ -154,7 +154,7 @@ TEST_CASE("an item that is given away takes its part of the mask along, and item
                                          .first_samples = 2,
                                          .refinement = {.error = 1}});
   LoneNode giver_node(plan, 0), taker_node(plan, 1);
-  svm::WorkSource giver(giver_node.node, plan), taker(taker_node.node, plan);
+  svm::WorkSource giver(giver_node.node, plan.work()), taker(taker_node.node, plan.work());
   for (svm::WorkSource* work : {&giver, &taker}) {
     while (work->has_pixel()) {
       work->next_pixel();

@@ -26,7 +26,7 @@ WarmPager::WarmPager(const core::Database& database, const core::RenderSettings&
     : plan_(plan_for(database, settings, node_count)),
       memory_(plan_.node_memory(0)),
       node_(nodes::NodeId{0}, node_count + 1, memory_, network_),
-      pager_(node_, plan_, database.bytes()) {
+      pager_(node_, plan_.pages(), database.bytes()) {
   for (std::uint32_t page = 0; page < database.page_count(); ++page) {
     fetch(database, svm::PageId{page});
   }

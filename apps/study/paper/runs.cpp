@@ -69,7 +69,7 @@ PaperResult result_of(const Report& report) {
                      .film_hash = account.film.hash()};
   if (const auto* pages = std::get_if<svm::Report>(&report)) {
     result.faults = pages->pages().faults;
-    result.cache_pages = pages->plan.cache().frame_count;
+    result.cache_pages = pages->plan.pages().cache.frame_count;
     result.page_bytes = account.sent[svm::number_of(svm::Kind::page_reply)].bytes;
     result.pages_a_pixel = static_cast<double>(pages->pages().distinct_pages) / static_cast<double>(account.film.pixels().size());
   }

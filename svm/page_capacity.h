@@ -1,0 +1,27 @@
+// How many pages there are, and for how many of them and of pixels a node has room.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "svm/cache.h"
+#include "svm/home.h"
+
+namespace dmpc::svm {
+
+/// What a node's part of the database is made for; alike on all nodes.
+struct PageCapacity {
+  std::uint32_t page_count = 0;  ///< of the database
+  std::uint32_t node_count = 1;
+  CacheShape cache;                   ///< whose pages are as large as all
+  std::uint32_t in_flight = 1;        ///< pixels under way
+  std::uint32_t faults_max = 0;       ///< under way at a time
+  std::uint32_t request_credits = 0;  ///< page requests that may be under way to one home
+
+  std::size_t page_size_bytes() const { return cache.page_size_bytes; }
+  std::size_t database_bytes() const { return page_count * page_size_bytes(); }
+  /// Pages at home at node `index`.
+  std::uint32_t pages_at(std::uint32_t index) const { return Homes(node_count).count_at(index, page_count); }
+};
+
+}  // namespace dmpc::svm
