@@ -1,18 +1,39 @@
 #include "apps/commands.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <memory>
+#include <optional>
+#include <ostream>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include "apps/bench/error/command.h"
+#include "apps/bench/precision/command.h"
+#include "apps/bench/speed/command.h"
+#include "apps/bench/stability/command.h"
+#include "apps/check/command.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/help/choices.h"
 #include "apps/help/glossary.h"
+#include "apps/help/list_command.h"
+#include "apps/info/command.h"
 #include "apps/line/typed_line.h"
 #include "apps/line/words.h"
+#include "apps/machine/machine_command.h"
 #include "apps/machine/machines.h"
+#include "apps/picture/compare_command.h"
+#include "apps/render/command.h"
+#include "apps/scene/scene_command.h"
+#include "apps/study/command.h"
+#include "apps/study/paper/command.h"
+#include "apps/study/scale/command.h"
+#include "apps/system/output_file.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
 #include "core/families/scenes.h"
@@ -22,13 +43,28 @@ namespace dmpc::apps {
 
 namespace {
 
+Command help_command(const HelpText& help) {
+  return {help, false, [help](Interrupt&, std::ostream& output) {
+            output << help.text;
+            finish_output(output, "the help");
+            return 0;
+          }};
+}
+
+template <class Options>
+bool is_quiet(const Options& options) {
+  if constexpr (requires { options.quiet; }) {
+    return options.quiet;
+  }
+  return false;
+}
+
 /// All commands, declared, and what a line sets.
 class Commands {
  public:
   Commands() {
-    declare_simple_commands();
-    declare_studies();
-    declare_benches();
+    declare_commands();
+    declare_help();
     declare_values();
   }
   // Options are bound to the members.
@@ -37,46 +73,72 @@ class Commands {
 
   CommandLine& line() { return line_; }
 
-  /// What `dmpc help` with the words given prints. Throws core::UsageError for a topic that there is none.
-  static HelpText help_about(std::vector<std::string> topic) {
-    static const std::vector<std::string> words_topic = {"glossary"};
-    check_is_one_topic(topic, words_topic.front());
-    if (topic == words_topic) {
-      return {glossary_text()};
-    }
-    if (const std::string meant = core::did_you_mean(topic.empty() ? "" : topic.front(), words_topic); !meant.empty()) {
-      throw core::UsageError("there is no help about " + topic.front() + "." + meant + hint_at_help("help"));
-    }
-    topic.emplace_back("--help");
-    return std::get<HelpText>(Commands().line().parse(topic));
-  }
-
   /// What was set for the command that the line names.
-  Command named(const std::string& name) const {
-    if (name == "help") {
-      return help_about(topic_);
-    }
-    const std::map<std::string, Command> commands = {{"render", render_},
-                                                     {"info", info_},
-                                                     {"scene", scene_},
-                                                     {"check", check_},
-                                                     {"compare", compare_},
-                                                     {"machine", machine_},
-                                                     {"list", list_},
-                                                     {"study balance", balance_},
-                                                     {"study traffic", traffic_},
-                                                     {"study cache", cache_},
-                                                     {"study speedup", speedup_},
-                                                     {"study paper", paper_},
-                                                     {"study scale", scale_},
-                                                     {"bench stability", stability_},
-                                                     {"bench precision", precision_},
-                                                     {"bench error", error_},
-                                                     {"bench speed", speed_}};
-    return commands.at(name);
-  }
+  Command named(const std::string& name) const { return name == "help" ? help_command(help_about(topic_)) : rows_.at(name)(); }
 
  private:
+  void declare_commands() {
+    add("render", "Render a scene on N nodes", RenderOptions(),
+        [](const RenderOptions& options, Interrupt& interrupt, std::ostream& output) {
+          return render_command(options, interrupt, output);
+        });
+    add("info", "Tell what a scene is, and what a render of it would take", InfoOptions(), info_command);
+    add("scene", "Write a built-in scene as an NFF file, or a landscape as glTF", SceneOptions(), scene_command);
+    add("check", "Trace every ray of a render with Embree too, and let a referee settle differences", CheckOptions(),
+        check_command);
+    add("compare", "Measure how far two pictures lie apart", CompareOptions(), compare_command);
+    add("machine", "Print a machine's figures as JSON, to read or to start from", MachineOptions(), machine_command);
+    add("list", "Tell what scenes, machines, policies and others there are", ListOptions(), list_command);
+    begin("study", "Render a scene on several computers and print a table");
+    add(BalanceStudy::name, BalanceStudy::description, StudyOptions{.study = BalanceStudy()}, study_command);
+    add(TrafficStudy::name, TrafficStudy::description, StudyOptions{.study = TrafficStudy()}, study_command);
+    add(CacheStudy::name, CacheStudy::description, StudyOptions{.study = CacheStudy()}, study_command);
+    add(SpeedupStudy::name, SpeedupStudy::description, StudyOptions{.study = SpeedupStudy()}, study_command);
+    add("paper", "Regenerate the tables and claims of the 1994 article", PaperStudyOptions(), study_paper_command);
+    add("scale", "What larger scenes and more nodes take, and how fast that grows", ScaleOptions(), study_scale_command);
+    begin("bench", "Put our own arithmetic to the test and print a table");
+    add("stability", "Stress tests of numerical stability, beside Embree on the same rays", StabilityOptions(),
+        bench_stability_command);
+    add("precision", "The picture in float against double precision, every differing pixel explained", PrecisionOptions(),
+        bench_precision_command);
+    add("error", "What every knob costs, and does to the picture's error", ErrorOptions(), bench_error_command);
+    add("speed", "Our grid, pictures, computers and databases beside Embree and each other", SpeedOptions(), bench_speed_command);
+  }
+
+  /// The commands added from now on are words behind this one.
+  void begin(const std::string& name, const std::string& description) {
+    group_ = {name + " ", line_.add_command(name, description)};
+    topics_.words.push_back(name);
+  }
+
+  /// `run` takes the options, Interrupt& unless it is done at once, and the std::ostream& that it prints to.
+  template <class Options, class Run>
+  void add(const std::string& name, const std::string& description, Options defaults, Run run) {
+    const auto options = std::make_shared<Options>(std::move(defaults));
+    add_options(group_ ? group_->second.add_command(name, description) : line_.add_command(name, description), *options);
+    rows_[(group_ ? group_->first : "") + name] = [options, run] {
+      return Command(*options, is_quiet(*options), [options, run](Interrupt& interrupt, std::ostream& output) {
+        if constexpr (std::is_invocable_v<Run, const Options&, std::ostream&>) {
+          return run(*options, output);
+        } else {
+          return run(*options, interrupt, output);
+        }
+      });
+    };
+    if (!group_) {
+      topics_.words.push_back(name);
+    }
+  }
+
+  void declare_help() {
+    OptionSet help = line_.add_command("help", "Explain a command, or what dmpc's words mean");
+    help.add_arguments(
+        "TOPIC", [this](const std::string& word) { topic_.push_back(word); },
+        "A command, such as render or study cache; or glossary, the list of dmpc's words");
+    help.set_examples("Examples:\n  dmpc help render\n  dmpc help study cache\n  dmpc help glossary");
+    topics_.words.emplace_back("glossary");
+  }
+
   /// Throws core::UsageError for words behind the glossary, or behind a command that has none within it.
   static void check_is_one_topic(std::span<const std::string> topic, const std::string& glossary) {
     const CommandDescription program = Commands().line().describe();
@@ -97,44 +159,18 @@ class Commands {
     }
   }
 
-  void declare_simple_commands() {
-    add_options(line_.add_command("render", "Render a scene on N nodes"), render_);
-    add_options(line_.add_command("info", "Tell what a scene is, and what a render of it would take"), info_);
-    add_options(line_.add_command("scene", "Write a built-in scene as an NFF file, or a landscape as glTF"), scene_);
-    add_options(line_.add_command("check", "Trace every ray of a render with Embree too, and let a referee settle differences"),
-                check_);
-    add_options(line_.add_command("compare", "Measure how far two pictures lie apart"), compare_);
-    add_options(line_.add_command("machine", "Print a machine's figures as JSON, to read or to start from"), machine_);
-    add_options(line_.add_command("list", "Tell what scenes, machines, policies and others there are"), list_);
-    declare_help();
-  }
-
-  void declare_help() {
-    OptionSet help = line_.add_command("help", "Explain a command, or what dmpc's words mean");
-    help.add_arguments(
-        "TOPIC", [this](const std::string& word) { topic_.push_back(word); },
-        "A command, such as render or study cache; or glossary, the list of dmpc's words");
-    help.set_examples("Examples:\n  dmpc help render\n  dmpc help study cache\n  dmpc help glossary");
-  }
-
-  void declare_studies() {
-    OptionSet study = line_.add_command("study", "Render a scene on several computers and print a table");
-    add_options(study.add_command(BalanceStudy::name, BalanceStudy::description), balance_);
-    add_options(study.add_command(TrafficStudy::name, TrafficStudy::description), traffic_);
-    add_options(study.add_command(CacheStudy::name, CacheStudy::description), cache_);
-    add_options(study.add_command(SpeedupStudy::name, SpeedupStudy::description), speedup_);
-    add_options(study.add_command("paper", "Regenerate the tables and claims of the 1994 article"), paper_);
-    add_options(study.add_command("scale", "What larger scenes and more nodes take, and how fast that grows"), scale_);
-  }
-
-  void declare_benches() {
-    OptionSet bench = line_.add_command("bench", "Put our own arithmetic to the test and print a table");
-    add_options(bench.add_command("stability", "Stress tests of numerical stability, beside Embree on the same rays"),
-                stability_);
-    add_options(bench.add_command("precision", "The picture in float against double precision, every differing pixel explained"),
-                precision_);
-    add_options(bench.add_command("error", "What every knob costs, and does to the picture's error"), error_);
-    add_options(bench.add_command("speed", "Our grid, pictures, computers and databases beside Embree and each other"), speed_);
+  /// What `dmpc help` with the words given prints. Throws core::UsageError for a topic that there is none.
+  static HelpText help_about(std::vector<std::string> topic) {
+    static const std::vector<std::string> words_topic = {"glossary"};
+    check_is_one_topic(topic, words_topic.front());
+    if (topic == words_topic) {
+      return {glossary_text()};
+    }
+    if (const std::string meant = core::did_you_mean(topic.empty() ? "" : topic.front(), words_topic); !meant.empty()) {
+      throw core::UsageError("there is no help about " + topic.front() + "." + meant + hint_at_help("help"));
+    }
+    topic.emplace_back("--help");
+    return std::get<HelpText>(Commands().line().parse(topic));
   }
 
   void declare_values() {
@@ -159,8 +195,7 @@ class Commands {
     line_.suggest("SCENE", scenes);
     line_.suggest("FAMILY", families);
     line_.suggest("MACHINE", machines);
-    line_.suggest("TOPIC",
-                  {.words = {"render", "info", "scene", "check", "compare", "machine", "list", "study", "bench", "glossary"}});
+    line_.suggest("TOPIC", topics_);
     line_.suggest("KIND", kinds);
     line_.suggest("KIND:FILE", heats);
     line_.suggest("FOLDER", {.folders = true});
@@ -172,22 +207,10 @@ class Commands {
   CommandLine line_{"dmpc: a distributed-memory parallel computer on one machine, for ray tracing", "dmpc " DMPC_VERSION,
                     "dmpc COMMAND --help says more, with examples; dmpc list what there is, dmpc help glossary what words "
                     "mean.\nStart with: dmpc render teapot-12 --nodes=8 -o teapot.png"};
-  RenderOptions render_;
-  InfoOptions info_;
-  SceneOptions scene_;
-  CheckOptions check_;
-  CompareOptions compare_;
-  MachineOptions machine_;
-  ListOptions list_;
-  std::vector<std::string> topic_;  ///< of `help`
-  StudyOptions balance_{.study = BalanceStudy()}, traffic_{.study = TrafficStudy()}, cache_{.study = CacheStudy()},
-      speedup_{.study = SpeedupStudy()};
-  PaperStudyOptions paper_;
-  ScaleOptions scale_;
-  StabilityOptions stability_;
-  PrecisionOptions precision_;
-  ErrorOptions error_;
-  SpeedOptions speed_;
+  std::optional<std::pair<std::string, OptionSet>> group_;  ///< of the commands being added
+  std::map<std::string, std::function<Command()>> rows_;    ///< by the words of a line that name them
+  std::vector<std::string> topic_;                          ///< of `help`
+  Suggestion topics_;                                       ///< that `help` explains
 };
 
 }  // namespace
@@ -196,7 +219,7 @@ Command parse_command_line(std::span<const std::string> arguments) {
   Commands commands;
   const std::variant<HelpText, std::string> parsed = commands.line().parse(arguments);
   if (const auto* help = std::get_if<HelpText>(&parsed)) {
-    return *help;
+    return help_command(*help);
   }
   return commands.named(std::get<std::string>(parsed));
 }

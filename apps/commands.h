@@ -1,31 +1,41 @@
-// The command line as one struct a command.
+// What dmpc can be told to do: one row a command.
 #pragma once
 
+#include <any>
+#include <functional>
+#include <iosfwd>
 #include <span>
 #include <string>
-#include <variant>
+#include <utility>
 
-#include "apps/bench/error/command.h"
-#include "apps/bench/precision/command.h"
-#include "apps/bench/speed/command.h"
-#include "apps/bench/stability/command.h"
-#include "apps/check/command.h"
-#include "apps/help/list_command.h"
-#include "apps/info/command.h"
 #include "apps/line/command_line.h"
-#include "apps/machine/machine_command.h"
-#include "apps/picture/compare_command.h"
-#include "apps/run/render_options.h"
-#include "apps/scene/scene_command.h"
-#include "apps/study/options.h"
-#include "apps/study/paper/command.h"
-#include "apps/study/scale/command.h"
+#include "apps/system/interrupt.h"
 
 namespace dmpc::apps {
 
-using Command =
-    std::variant<HelpText, RenderOptions, InfoOptions, SceneOptions, CheckOptions, CompareOptions, MachineOptions, StudyOptions,
-                 PaperStudyOptions, ScaleOptions, StabilityOptions, PrecisionOptions, ErrorOptions, SpeedOptions, ListOptions>;
+/// A command with its options, as a line asks for it.
+class Command {
+ public:
+  /// Returns the exit status; what it prints goes to the stream.
+  using Run = std::function<int(Interrupt&, std::ostream&)>;
+
+  Command(std::any options, bool is_quiet, Run run) : options_(std::move(options)), is_quiet_(is_quiet), run_(std::move(run)) {}
+
+  /// Throws as the command itself does.
+  int run(Interrupt& interrupt, std::ostream& output) const { return run_(interrupt, output); }
+  /// Whether progress is not wanted.
+  bool is_quiet() const { return is_quiet_; }
+  /// Requires that the command's options are of this type; HelpText where help is asked for.
+  template <class Options>
+  Options options() const {
+    return std::any_cast<Options>(options_);
+  }
+
+ private:
+  std::any options_;
+  bool is_quiet_;
+  Run run_;
+};
 
 /// `arguments` without the program's name. Throws core::UsageError, whose message ends with a hint at the right --help, for
 /// anything wrong that can be seen without reading a file.

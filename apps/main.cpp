@@ -10,25 +10,11 @@
 #include <string>
 #include <string_view>
 #include <system_error>
-#include <variant>
 #include <vector>
 
-#include "apps/bench/error/command.h"
-#include "apps/bench/precision/command.h"
-#include "apps/bench/speed/command.h"
-#include "apps/bench/stability/command.h"
-#include "apps/check/command.h"
 #include "apps/commands.h"
-#include "apps/help/list_command.h"
-#include "apps/info/command.h"
 #include "apps/line/exit_status.h"
 #include "apps/line/shown_text.h"
-#include "apps/machine/machine_command.h"
-#include "apps/picture/compare_command.h"
-#include "apps/render/command.h"
-#include "apps/scene/scene_command.h"
-#include "apps/study/command.h"
-#include "apps/study/scale/command.h"
 #include "apps/system/interrupt.h"
 #include "apps/system/last_words.h"
 #include "apps/system/memory_room.h"
@@ -40,40 +26,6 @@
 namespace dmpc::apps {
 
 namespace {
-
-/// One overload a command.
-struct Execute {
-  Interrupt& interrupt;
-
-  int operator()(const HelpText& help) const {
-    std::cout << help.text;
-    finish_output(std::cout, "the help");
-    return 0;
-  }
-  int operator()(const RenderOptions& options) const { return render_command(options, interrupt, std::cout); }
-  int operator()(const InfoOptions& options) const { return info_command(options, interrupt, std::cout); }
-  int operator()(const SceneOptions& options) const { return scene_command(options, interrupt, std::cout); }
-  int operator()(const CheckOptions& options) const { return check_command(options, interrupt); }
-  int operator()(const CompareOptions& options) const { return compare_command(options, interrupt, std::cout); }
-  int operator()(const MachineOptions& options) const { return machine_command(options, std::cout); }
-  int operator()(const ListOptions& options) const { return list_command(options, std::cout); }
-  int operator()(const PaperStudyOptions& options) const { return study_paper_command(options, interrupt, std::cout); }
-  int operator()(const ScaleOptions& options) const { return study_scale_command(options, interrupt, std::cout); }
-  int operator()(const ErrorOptions& options) const { return bench_error_command(options, interrupt, std::cout); }
-  int operator()(const SpeedOptions& options) const { return bench_speed_command(options, interrupt, std::cout); }
-  int operator()(const StabilityOptions& options) const { return bench_stability_command(options, interrupt, std::cout); }
-  int operator()(const PrecisionOptions& options) const { return bench_precision_command(options, interrupt, std::cout); }
-  int operator()(const StudyOptions& options) const { return study_command(options, interrupt, std::cout); }
-};
-
-/// Commands that show progress have a field `quiet`.
-constexpr auto obey_quiet = [](const auto& options) {
-  if constexpr (requires { options.quiet; }) {
-    if (options.quiet) {
-      silence_progress();
-    }
-  }
-};
 
 int complain(const std::string& message, int status) {
   std::cerr << "dmpc: " << message << std::endl;
@@ -104,8 +56,10 @@ int complain_of_bug(const std::exception& error) {
 int run(const std::vector<std::string>& arguments, Interrupt& interrupt, bool& has_broken_pipe) {
   try {
     const Command command = parse_command_line(arguments);
-    std::visit(obey_quiet, command);
-    return std::visit(Execute{interrupt}, command);
+    if (command.is_quiet()) {
+      silence_progress();
+    }
+    return command.run(interrupt, std::cout);
   } catch (const Interrupted&) {
     return complain(std::string("interrupted, ") + interrupt.consequence(), interrupted_status);
   } catch (const BrokenPipe&) {

@@ -102,17 +102,17 @@ void check_use(bool right, const std::string& sentence) {
 
 void check(const PlanRequest& request) {
   check_use(request.node_count() >= 1 && request.node_count() <= region_count_max,
-            "--nodes=" + std::to_string(request.node_count()) + ": from 1 to " + std::to_string(region_count_max) +
-                " nodes with --strategy=dataflow");
+            "node_count=" + std::to_string(request.node_count()) + ": from 1 to " + std::to_string(region_count_max) +
+                " nodes with strategy=dataflow");
   const std::uint32_t batch = request.ray_batch.value_or(1);
   check_use(batch >= 1 && batch <= ray_batch_max,
-            "--ray-batch=" + std::to_string(batch) + ": from 1 to " + std::to_string(ray_batch_max) + " rays");
+            "ray_batch=" + std::to_string(batch) + ": from 1 to " + std::to_string(ray_batch_max) + " rays");
   const std::uint32_t credits = request.ray_credits.value_or(1);
   check_use(credits <= ray_credits_max,
-            "--ray-credits=" + std::to_string(credits) + ": at most " + std::to_string(ray_credits_max) + " packets");
+            "ray_credits=" + std::to_string(credits) + ": at most " + std::to_string(ray_credits_max) + " packets");
   const std::uint32_t queue = request.queue_packets.value_or(0);
   check_use(queue <= queue_packets_max,
-            "--ray-queue=" + std::to_string(queue) + ": at most " + std::to_string(queue_packets_max) + " packets");
+            "queue_packets=" + std::to_string(queue) + ": at most " + std::to_string(queue_packets_max) + " packets");
   core::expect(request.depth_max >= 1 && request.depth_max <= 255, "a ray has a depth that fits its record");
   core::expect(request.width >= 1 && request.height >= 1, "a picture has a pixel");
 }
@@ -153,14 +153,14 @@ Plan fitting_plan(const PlanRequest& request, std::size_t memory_bytes) {
 [[noreturn]] void say_too_small(const PlanRequest& request, const OtherNodeCount& other_node_count) {
   const Plan smallest = smallest_plan(request);
   const std::uint32_t largest = smallest.largest_node();
-  std::string sentence = "--node-memory=" + size_text(*request.node_memory_bytes) +
-                         " is too small for --nodes=" + std::to_string(request.node_count()) + ": node " +
+  std::string sentence = "node_memory_bytes=" + size_text(*request.node_memory_bytes) +
+                         " is too small for node_count=" + std::to_string(request.node_count()) + ": node " +
                          std::to_string(largest) + " needs at least " + std::to_string(smallest.node_memory_max_bytes()) +
                          " bytes, " + std::to_string(request.shares[largest].part_bytes) +
-                         " of them for its part of the scene; the smallest that works is --node-memory=" +
+                         " of them for its part of the scene; the smallest that works is node_memory_bytes=" +
                          size_text(smallest.node_memory_max_bytes());
   const std::optional<std::uint32_t> other = other_node_count ? other_node_count() : std::nullopt;
-  throw core::RoomError(other ? sentence + ", or with this memory --nodes=" + std::to_string(*other) : sentence);
+  throw core::RoomError(other ? sentence + ", or with this memory node_count=" + std::to_string(*other) : sentence);
 }
 
 void note_reductions(Plan& plan) {

@@ -5,6 +5,7 @@
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "core/picture/pixel_task.h"
+#include "nodes/size_text.h"
 #include "nodes/threads/held_packets.h"
 #include "svm/local_copy.h"
 #include "svm/packets.h"
@@ -18,6 +19,7 @@ namespace {
 
 using nodes::Category;
 using nodes::LocalMemory;
+using nodes::size_text;
 
 constexpr std::uint32_t default_in_flight = 16;
 constexpr std::uint32_t auto_cache_pages_min = 64;
@@ -136,29 +138,31 @@ void check_use(bool right, const std::string& sentence) {
 /// Work that moves, or a pixel that goes on while another waits, would make the order of references depend on page misses.
 void check_recording(const PlanRequest& request) {
   if (request.record_references) {
-    check_use(request.strategy == Strategy::svm, "page references are recorded with --strategy=svm only");
-    check_use(request.work_item_side == 0, "page references are recorded only if no node gives work away: --work-item=0");
-    check_use(request.in_flight == 1U, "page references are recorded only with one pixel in flight: --in-flight=1");
+    check_use(request.strategy == Strategy::svm, "page references are recorded with strategy=svm only");
+    check_use(request.work_item_side == 0, "page references are recorded only if no node gives work away: work_item_side=0");
+    check_use(request.in_flight == 1U, "page references are recorded only with one pixel in flight: in_flight=1");
     check_use(!request.count_pages, "page references are recorded, or distinct pages counted, not both");
   }
 }
 
 void check(const PlanRequest& request) {
   check_use(is_page_size(request.page_size_bytes),
-            "--page-size=" + size_text(request.page_size_bytes) + ": a page is a power of two from 512B to 64KiB");
+            "page_size_bytes=" + size_text(request.page_size_bytes) + ": a page is a power of two from 512B to 64KiB");
   check_use(request.node_count >= 1 && request.node_count <= node_count_max,
-            "--nodes=" + std::to_string(request.node_count) + ": from 1 to " + std::to_string(node_count_max) + " nodes");
+            "node_count=" + std::to_string(request.node_count) + ": from 1 to " + std::to_string(node_count_max) + " nodes");
   const std::uint32_t in_flight = request.in_flight.value_or(1);
   check_use(in_flight >= 1 && in_flight <= in_flight_max,
-            "--in-flight=" + std::to_string(in_flight) + ": from 1 to " + std::to_string(in_flight_max) + " pixels");
+            "in_flight=" + std::to_string(in_flight) + ": from 1 to " + std::to_string(in_flight_max) + " pixels");
   check_use(request.strategy == Strategy::svm || !request.cache_pages,
-            "--cache-pages goes with --strategy=svm: replicated has no cache, every node holds the whole database");
+            "cache_pages=" + std::to_string(request.cache_pages.value_or(0)) +
+                " goes with strategy=svm: replicated has no cache, every node holds the whole database");
   check_use(request.strategy == Strategy::svm || request.replacement == Replacement::lru,
-            "--replacement goes with --strategy=svm: replicated has no cache, every node holds the whole database");
-  check_use(request.strategy == Strategy::svm || !request.count_pages, "distinct pages are counted with --strategy=svm only");
+            "replacement=" + std::string(name_of(request.replacement)) +
+                " goes with strategy=svm: replicated has no cache, every node holds the whole database");
+  check_use(request.strategy == Strategy::svm || !request.count_pages, "distinct pages are counted with strategy=svm only");
   check_use(!request.count_pages || !request.refinement.is_wanted(),
-            "distinct pages are counted where all pixels have the same samples, not with --samples=auto");
-  check_use(request.cache_pages.value_or(1) >= 1, "--cache-pages=0: a node needs at least one frame for the pages of others");
+            "distinct pages are counted where all pixels have the same samples, not with refinement");
+  check_use(request.cache_pages.value_or(1) >= 1, "cache_pages=0: a node needs at least one frame for the pages of others");
   check_recording(request);
   core::expect(request.page_count >= 1 && request.depth_max >= 1, "a database has a page, and a ray a depth");
   core::expect(request.width >= 1 && request.height >= 1, "a picture has a pixel");
@@ -217,13 +221,13 @@ std::optional<std::uint32_t> smallest_node_count(PlanRequest request) {
 }
 
 [[noreturn]] void say_too_small(const PlanRequest& request) {
-  std::string sentence = "--node-memory=" + size_text(*request.node_memory_bytes) +
-                         " is too small for --nodes=" + std::to_string(request.node_count) +
-                         ": the smallest that works is --node-memory=" + size_text(smallest_node_memory_bytes(request));
+  std::string sentence = "node_memory_bytes=" + size_text(*request.node_memory_bytes) +
+                         " is too small for node_count=" + std::to_string(request.node_count) +
+                         ": the smallest that works is node_memory_bytes=" + size_text(smallest_node_memory_bytes(request));
   if (const auto nodes = smallest_node_count(request)) {
-    sentence += ", or with this memory --nodes=" + std::to_string(*nodes);
+    sentence += ", or with this memory node_count=" + std::to_string(*nodes);
   } else if (request.strategy == Strategy::replicated) {
-    sentence += "; every node of --strategy=replicated holds the whole database, --strategy=svm spreads it";
+    sentence += "; every node of strategy=replicated holds the whole database, strategy=svm spreads it";
   } else {
     sentence += "; no number of nodes up to " + std::to_string(node_count_max) + " works with this memory";
   }

@@ -12,7 +12,6 @@
 #include "nodes/chaos.h"
 #include "nodes/local_memory.h"
 #include "nodes/runner.h"
-#include "nodes/size_text.h"
 #include "svm/film_gather.h"
 #include "svm/host.h"
 #include "svm/page.h"
@@ -100,7 +99,5 @@ Plan make_plan(const PlanRequest& request);
 
 /// The smallest node memory with which make_plan(request) succeeds, whatever request.node_memory_bytes says.
 std::size_t smallest_node_memory_bytes(const PlanRequest& request);
-
-using nodes::size_text;
 
 }  // namespace dmpc::svm

@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <iostream>
 #include <numeric>
+#include <ostream>
 #include <string>
 
 #include "apps/check/inspection.h"
@@ -40,15 +41,15 @@ constexpr int name_width = 10;
 constexpr int number_width = 13;
 
 template <class... Cells>
-void print_row(const std::string& name, const Cells&... cells) {
-  std::cout << std::left << std::setw(name_width) << name << std::right;
-  ((std::cout << std::setw(number_width) << cells), ...);
-  std::cout << '\n';
+void print_row(std::ostream& output, const std::string& name, const Cells&... cells) {
+  output << std::left << std::setw(name_width) << name << std::right;
+  ((output << std::setw(number_width) << cells), ...);
+  output << '\n';
 }
 
-void print_tally(const std::string& name, const Tally& tally) {
+void print_tally(std::ostream& output, const std::string& name, const Tally& tally) {
   const auto& verdicts = tally.verdicts;
-  print_row(name, tally.rays, tally.differences, verdicts[0], verdicts[1], verdicts[2], verdicts[3], tally.favours_grid,
+  print_row(output, name, tally.rays, tally.differences, verdicts[0], verdicts[1], verdicts[2], verdicts[3], tally.favours_grid,
             tally.favours_oracle, tally.unexplained);
 }
 
@@ -60,50 +61,51 @@ std::string answer_text(const Answer& answer, bool shadow) {
 }
 
 /// One primitive that somebody named, as the referee sees it.
-void print_named(const Referee& referee, const core::Ray& ray, const char* who, const Answer& answer) {
+void print_named(std::ostream& output, const Referee& referee, const core::Ray& ray, const char* who, const Answer& answer) {
   if (!answer.hit || answer.primitive == core::no_primitive) {
     return;
   }
   const Encounter seen = referee.examine(ray, answer.primitive);
-  std::cout << "    " << who << " #" << answer.primitive << ": t " << std::setprecision(9) << answer.t << ", referee's t "
-            << std::setprecision(17) << seen.t << " +- " << std::setprecision(3) << seen.t_error << ", margin " << seen.margin[0]
-            << " (grid's roundings), " << seen.margin[1] << " (Embree's)\n";
+  output << "    " << who << " #" << answer.primitive << ": t " << std::setprecision(9) << answer.t << ", referee's t "
+         << std::setprecision(17) << seen.t << " +- " << std::setprecision(3) << seen.t_error << ", margin " << seen.margin[0]
+         << " (grid's roundings), " << seen.margin[1] << " (Embree's)\n";
 }
 
-void print_doubtful(const Referee& referee, const core::Ray& ray) {
+void print_doubtful(std::ostream& output, const Referee& referee, const core::Ray& ray) {
   for (const Encounter& seen : referee.encounters(ray)) {
-    std::cout << "    may block: #" << seen.primitive << " at t " << std::setprecision(17) << seen.t << " +- "
-              << std::setprecision(3) << seen.t_error << " of " << std::setprecision(9) << ray.t_max << ", margin "
-              << std::setprecision(3) << seen.margin[0] << ", " << seen.margin[1] << '\n';
+    output << "    may block: #" << seen.primitive << " at t " << std::setprecision(17) << seen.t << " +- "
+           << std::setprecision(3) << seen.t_error << " of " << std::setprecision(9) << ray.t_max << ", margin "
+           << std::setprecision(3) << seen.margin[0] << ", " << seen.margin[1] << '\n';
   }
 }
 
-void print_difference(const Referee& referee, const SettledRay& settled, std::uint32_t width) {
+void print_difference(std::ostream& output, const Referee& referee, const SettledRay& settled, std::uint32_t width) {
   const core::Ray& ray = settled.traced.ray;
   const bool shadow = ray.kind == core::RayKind::shadow;
   const std::string exact = answer_text(settled.ruling.exact, shadow);
-  std::cout << "  pixel (" << ray.pixel % width << ", " << ray.pixel / width << ") ray " << settled.traced.number << ", depth "
-            << int{ray.depth} << ", " << kind_names[static_cast<std::size_t>(ray.kind)] << ": grid "
-            << answer_text(settled.traced.grid, shadow) << ", Embree " << answer_text(settled.traced.oracle, shadow)
-            << ", exactly " << exact << ": " << name_of(settled.ruling.verdict) << '\n';
+  output << "  pixel (" << ray.pixel % width << ", " << ray.pixel / width << ") ray " << settled.traced.number << ", depth "
+         << int{ray.depth} << ", " << kind_names[static_cast<std::size_t>(ray.kind)] << ": grid "
+         << answer_text(settled.traced.grid, shadow) << ", Embree " << answer_text(settled.traced.oracle, shadow) << ", exactly "
+         << exact << ": " << name_of(settled.ruling.verdict) << '\n';
   if (shadow) {
-    print_doubtful(referee, ray);
+    print_doubtful(output, referee, ray);
   } else {
-    print_named(referee, ray, "grid", settled.traced.grid);
-    print_named(referee, ray, "Embree", settled.traced.oracle);
+    print_named(output, referee, ray, "grid", settled.traced.grid);
+    print_named(output, referee, ray, "Embree", settled.traced.oracle);
   }
 }
 
 /// The first `most`, unexplained ones before all others.
-void print_list(const Referee& referee, std::vector<SettledRay> rays, std::uint32_t most, std::uint32_t width) {
+void print_list(std::ostream& output, const Referee& referee, std::vector<SettledRay> rays, std::uint32_t most,
+                std::uint32_t width) {
   std::stable_partition(rays.begin(), rays.end(), [](const SettledRay& ray) { return !explained(ray.ruling.verdict); });
   for (std::size_t index = 0; index < std::min<std::size_t>(most, rays.size()); ++index) {
-    print_difference(referee, rays[index], width);
+    print_difference(output, referee, rays[index], width);
   }
 }
 
-std::uint64_t print_table(const Inspection& inspection) {
-  print_row("rays", "traced", "differ", "ties", "silhouettes", "ray ends", "oracle wrong", "grid exact", "oracle exact",
+std::uint64_t print_table(std::ostream& output, const Inspection& inspection) {
+  print_row(output, "rays", "traced", "differ", "ties", "silhouettes", "ray ends", "oracle wrong", "grid exact", "oracle exact",
             "unexplained");
   Tally all;
   std::array<Tally, core::ray_kind_count> tallies{};
@@ -114,9 +116,9 @@ std::uint64_t print_table(const Inspection& inspection) {
   for (std::size_t kind = 0; kind < core::ray_kind_count; ++kind) {
     tallies[kind].rays = inspection.operations.rays[kind];
     all.rays += tallies[kind].rays;
-    print_tally(kind_names[kind], tallies[kind]);
+    print_tally(output, kind_names[kind], tallies[kind]);
   }
-  print_tally("all", all);
+  print_tally(output, "all", all);
   return all.unexplained;
 }
 
@@ -128,24 +130,25 @@ std::vector<SettledRay> refused(const std::vector<SettledRay>& rays) {
   return result;
 }
 
-std::uint64_t print_brute_force(const Inspection& inspection, const Referee& referee, std::uint32_t list, std::uint32_t width) {
+std::uint64_t print_brute_force(std::ostream& output, const Inspection& inspection, const Referee& referee, std::uint32_t list,
+                                std::uint32_t width) {
   if (inspection.brute_forced.empty()) {
     return 0;
   }
   const std::vector<SettledRay> bad = refused(inspection.brute_forced);
   const auto exact = std::count_if(inspection.brute_forced.begin(), inspection.brute_forced.end(),
                                    [](const SettledRay& ray) { return ray.ruling.favours_grid; });
-  std::cout << "Brute force: " << inspection.brute_forced.size() << " random rays against all primitives: " << exact
-            << " answers of the grid exact, " << inspection.brute_forced.size() - static_cast<std::size_t>(exact) - bad.size()
-            << " within rounding, " << bad.size() << " unexplained\n";
-  print_list(referee, bad, list, width);
+  output << "Brute force: " << inspection.brute_forced.size() << " random rays against all primitives: " << exact
+         << " answers of the grid exact, " << inspection.brute_forced.size() - static_cast<std::size_t>(exact) - bad.size()
+         << " within rounding, " << bad.size() << " unexplained\n";
+  print_list(output, referee, bad, list, width);
   return bad.size();
 }
 
 /// Of the picture as Embree would make it.
-void print_pixels(std::uint64_t differing, std::uint64_t pixels) {
-  std::cout << "Pixels that Embree would change: " << differing << " of " << pixels << ", "
-            << fixed(1e6 * static_cast<double>(differing) / static_cast<double>(pixels), 1) << " ppm\n";
+void print_pixels(std::ostream& output, std::uint64_t differing, std::uint64_t pixels) {
+  output << "Pixels that Embree would change: " << differing << " of " << pixels << ", "
+         << fixed(1e6 * static_cast<double>(differing) / static_cast<double>(pixels), 1) << " ppm\n";
 }
 
 Inspection inspect_shown(const CheckOptions& options, const core::Database& database, const core::RenderSettings& settings) {
@@ -158,17 +161,17 @@ Inspection inspect_shown(const CheckOptions& options, const core::Database& data
 }
 
 /// Returns the number of unexplained rays.
-std::uint64_t print_report(const CheckOptions& options, const core::Database& database, const core::Camera& camera,
-                           const Inspection& inspection) {
+std::uint64_t print_report(std::ostream& output, const CheckOptions& options, const core::Database& database,
+                           const core::Camera& camera, const Inspection& inspection) {
   const auto width = static_cast<std::uint32_t>(camera.width());
-  std::cout << options.picture.scene << ": " << database.primitives().size() << " primitives, " << width << "x" << camera.height()
-            << " pixels, our grid against Embree " << embree_version() << " (robust)\n";
+  output << options.picture.scene << ": " << database.primitives().size() << " primitives, " << width << "x" << camera.height()
+         << " pixels, our grid against Embree " << embree_version() << " (robust)\n";
   const Referee referee(database.primitives());
-  std::uint64_t unexplained = print_table(inspection);
-  print_list(referee, inspection.differences, options.list, width);
-  print_pixels(inspection.differing_pixels, camera.pixel_count());
-  unexplained += print_brute_force(inspection, referee, options.list, width);
-  std::cout << (unexplained == 0 ? "Every ray is explained.\n" : "UNEXPLAINED rays: our grid has an error.\n");
+  std::uint64_t unexplained = print_table(output, inspection);
+  print_list(output, referee, inspection.differences, options.list, width);
+  print_pixels(output, inspection.differing_pixels, camera.pixel_count());
+  unexplained += print_brute_force(output, inspection, referee, options.list, width);
+  output << (unexplained == 0 ? "Every ray is explained.\n" : "UNEXPLAINED rays: our grid has an error.\n");
   return unexplained;
 }
 
@@ -202,7 +205,7 @@ void add_options(OptionSet options, CheckOptions& check) {
       "Exit status 3 says that a difference stays unexplained.");
 }
 
-int check_command(const CheckOptions& options, Interrupt& interrupt) {
+int check_command(const CheckOptions& options, Interrupt& interrupt, std::ostream& output) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   core::Scene scene = load_scene(options.picture);
   const Subject subject = build_subject(std::move(scene), options.picture, {}, true);
@@ -210,8 +213,8 @@ int check_command(const CheckOptions& options, Interrupt& interrupt) {
   const auto& [database, settings] = subject;
   const Inspection inspection = inspect_shown(options, database, settings);
   interrupt.set_consequence("the report is incomplete");
-  const std::uint64_t unexplained = print_report(options, database, settings.camera, inspection);
-  finish_output(std::cout, "the report");
+  const std::uint64_t unexplained = print_report(output, options, database, settings.camera, inspection);
+  finish_output(output, "the report");
   return unexplained == 0 ? 0 : unexplained_status;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 
 #include "apps/line/command_line.h"
 #include "apps/scene/picture_options.h"
@@ -22,6 +23,6 @@ void add_options(OptionSet options, CheckOptions& check);
 /// Prints the report to stdout, remarks and progress to stderr. A signal ends the process. Returns the exit status: 0 if no
 /// difference is unexplained, 3 otherwise. Throws core::InputError for a scene that cannot be read or a report that cannot be
 /// written, Interrupted if a signal came before.
-int check_command(const CheckOptions& options, Interrupt& interrupt);
+int check_command(const CheckOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

@@ -9,6 +9,7 @@
 #include "apps/show/heat/files.h"
 #include "apps/show/page/origin.h"
 #include "apps/show/page/render_page.h"
+#include "apps/show/stats/stats.h"
 #include "apps/show/trace/file.h"
 #include "apps/system/scratch_folder.h"
 

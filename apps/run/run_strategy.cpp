@@ -6,6 +6,7 @@
 #include "apps/line/number_text.h"
 #include "apps/machine/machine_file.h"
 #include "apps/oracle/oracle.h"
+#include "apps/run/option_words.h"
 #include "apps/system/memory_room.h"
 #include "core/base/expect.h"
 #include "core/record/records.h"
@@ -89,7 +90,7 @@ ReadyRun ready_with_pages(const StrategyOptions& options, const core::Database& 
                  : svm::run_replicated(database, settings, watched, std::move(stop));
   };
   const auto strategy = paged ? svm::Strategy::svm : svm::Strategy::replicated;
-  const svm::Plan plan = svm::plan_of(strategy, database, settings, run);
+  const svm::Plan plan = with_options_named([&] { return svm::plan_of(strategy, database, settings, run); });
   check_room(plan, run.node_count);
   return {plan.notes, start};
 }
@@ -98,7 +99,8 @@ ReadyRun ready_with_rays(const StrategyOptions& options, const core::Database& d
                          const std::stop_token& stop, const RunTies& ties) {
   dataflow::RunOptions run = dataflow_options(options);
   tie(run, ties);
-  const auto prepared = std::make_shared<dataflow::Prepared>(dataflow::prepare(database, settings, run, stop));
+  const auto prepared =
+      std::make_shared<dataflow::Prepared>(with_options_named([&] { return dataflow::prepare(database, settings, run, stop); }));
   check_room(prepared->plan, run.node_count);
   if (ties.distributed) {
     ties.distributed();

@@ -45,12 +45,12 @@ inline constexpr std::array all_skips{
     // Those whose boxes the ray enters before that hit.
     Skip{"any-hit", "a shadow ray ends at the first hit it finds, not at the nearest",
          "children of bricks that still waited in front of the hit", &Skips::any_hit, &SkippedWork::any_hit},
-    Skip{"unlit", "no shadow ray to a light behind the surface (--convention=paper shoots it)", "shadow rays", &Skips::unlit,
+    Skip{"unlit", "no shadow ray to a light behind the surface (the paper's convention shoots it)", "shadow rays", &Skips::unlit,
          &SkippedWork::unlit},
     // What those rays would have spawned is not counted.
     Skip{"zero-terms",
          "no ray whose light would count for nothing: off a surface that does not mirror, through one that lets "
-         "nothing pass, to a light that is black or shows nothing (--convention=paper shoots the last)",
+         "nothing pass, to a light that is black or shows nothing (the paper's convention shoots the last)",
          "rays", &Skips::zero_terms, &SkippedWork::zero_terms},
     Skip{"empty-regions", "rays pass by the owners of regions that hold nothing (dataflow)", "regions passed by",
          &Skips::empty_regions, &SkippedWork::empty_regions},

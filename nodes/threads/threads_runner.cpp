@@ -203,7 +203,7 @@ struct ThreadsRunner::Implementation final : Network {
   std::string too_few_threads(std::size_t started) const {
     return "a computer of " + std::to_string(processors_.size() - 1) + " nodes takes " + std::to_string(processors_.size()) +
            " threads, and this one lets dmpc start but " + std::to_string(started) +
-           ": ask for fewer --nodes, or for a higher limit (ulimit -u, pids.max of a container)";
+           ": ask for fewer nodes, or for a higher limit (ulimit -u, pids.max of a container)";
   }
 
   static void enter(void* start) {

@@ -56,7 +56,7 @@ TEST_CASE("the smallest memory that is named works, and one byte less does not")
     CHECK(plan.queue_packets == 0);
     CHECK(plan.notes.size() == (nodes == 1 ? 2 : 3));
     request.node_memory_bytes = smallest - 1;
-    CHECK(error_of(request).find("--node-memory=" + nodes::size_text(smallest)) != std::string::npos);
+    CHECK(error_of(request).find("node_memory_bytes=" + nodes::size_text(smallest)) != std::string::npos);
   }
 }
 
@@ -99,7 +99,7 @@ TEST_CASE("a memory that is too small names the node that needs most, what it ne
   CHECK(error.find("node 1 needs") != std::string::npos);
   CHECK(error.find(std::to_string(dataflow::smallest_node_memory_bytes(request))) != std::string::npos);
   CHECK(error.find("2097152") != std::string::npos);
-  CHECK(error.find("--nodes=12") != std::string::npos);
+  CHECK(error.find("node_count=12") != std::string::npos);
   CHECK(error_of(request, [] { return std::optional<std::uint32_t>(); }).find("with this memory --nodes") == std::string::npos);
 }
 

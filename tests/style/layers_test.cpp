@@ -1,4 +1,5 @@
-// Who stands on whom: core <- nodes <- {svm, dataflow} <- apps <- tests, and which file alone names a foreign library.
+// Who stands on whom: core <- nodes <- {svm, dataflow} <- apps <- tests, and within core and apps room upon room; which file
+// alone names a foreign library; and that no layer but the edge knows the command line.
 
 #include <doctest/doctest.h>
 
@@ -6,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
+#include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -28,6 +31,22 @@ const std::map<std::string, Names> stands_on = {
     {"tests", {"tests", "apps", "svm", "dataflow", "nodes", "core"}},
 };
 
+/// Rooms from the ground up: each uses those that stand before it. What lies on the floor of the layer itself uses all.
+const std::map<std::string, Names> rooms = {
+    {"core", {"base", "record", "scene", "build", "trace", "picture", "families"}},
+    {"apps", {"line",   "system", "reader", "picture", "formats", "scene", "table", "machine", "oracle",  "run",
+              "effort", "help",   "show",   "render",  "info",    "check", "study", "bench",   "foreign", "manual"}},
+};
+
+/// Rooms of other layers, and the files of their floor, by how they begin, that look down into them.
+const std::map<std::string, Names> looked_into_by = {
+    {"nodes/threads", {"nodes/runner.cpp"}},
+    {"nodes/virtual", {"nodes/runner."}},
+    {"nodes/watch", {}},
+    {"svm/watch", {"svm/run.", "svm/metered_programs.", "svm/plan."}},
+    {"dataflow/regions", {"dataflow/"}},
+};
+
 /// What begins so may be included by files that begin so, and by no others.
 struct Foreign {
   std::string_view header;
@@ -38,20 +57,21 @@ const std::vector<Foreign> foreign = {
     {"OpenImageIO/",
      {"apps/picture/image_file.cpp", "apps/foreign/picture_decoder.cpp", "tests/apps/picture/texture_file_test.cpp",
       "tests/fuzz/picture.cpp", "tests/apps/oracle/texture_lookup_test.cpp"}},
-    {"assimp/", {"apps/mesh/", "apps/gltf/", "tests/apps/foreign/import_test.cpp"}},
-    {"meshoptimizer.h", {"apps/foreign/gltf/meshopt.cpp", "tests/mesh/"}},
-    {"draco/", {"apps/foreign/gltf/draco.cpp", "tests/mesh/"}},
+    {"assimp/", {"apps/foreign/", "tests/apps/foreign/"}},
+    {"meshoptimizer.h", {"apps/foreign/gltf/meshopt.cpp", "tests/apps/foreign/"}},
+    {"draco/", {"apps/foreign/gltf/draco.cpp", "tests/apps/foreign/"}},
     {"seccomp.h", {"apps/foreign/sandbox.cpp", "tests/apps/reader/foreign_files_test.cpp"}},
     {"CLI/", {"apps/line/command_line.cpp", "apps/line/command_description.cpp"}},
     {"nlohmann/",
-     {"apps/show/stats/stats", "apps/machine/machine_file.", "apps/table/table.cpp", "apps/picture/compare_command.cpp",
-      "apps/oracle/accurate/reference_file.cpp", "apps/gltf/", "apps/info/json.cpp", "apps/formats/landscape/gltf.cpp",
+     {"apps/show/stats/", "apps/machine/machine_file.", "apps/table/table.cpp", "apps/picture/compare_command.cpp",
+      "apps/oracle/accurate/reference_file.cpp", "apps/foreign/gltf/", "apps/info/json.cpp", "apps/formats/landscape/gltf.cpp",
       "apps/study/scale/figures.cpp", "apps/show/trace/chrome.cpp", "tests/apps/"}},
     {"oneapi/",
-     {"apps/check/inspection.cpp", "apps/system/side_by_side.cpp", "apps/oracle/accurate/picture.cpp", "tests/accurate/"}},
+     {"apps/check/inspection.cpp", "apps/system/side_by_side.cpp", "apps/oracle/accurate/picture.cpp",
+      "tests/apps/oracle/accurate/"}},
     {"tbb/",
      {"core/base/parallel.cpp", "apps/check/inspection.cpp", "apps/system/side_by_side.cpp", "apps/oracle/accurate/picture.cpp",
-      "tests/accurate/", "tests/bench/rivals.h"}},
+      "tests/apps/oracle/accurate/", "tests/bench/rivals.h"}},
     {"benchmark/", {"tests/bench/"}},
     {"boost/", {"tests/bench/rivals.h"}},
     {"concurrentqueue/", {"tests/bench/rivals.h"}},
@@ -87,8 +107,38 @@ bool may_include_foreign(std::string_view file, std::string_view header) {
   });
 }
 
+/// "build" of "core/build/cutter.h", empty of "apps/main.cpp".
+std::string room_of(std::string_view path) {
+  const std::size_t first = path.find('/'), second = path.find('/', first + 1);
+  return second == std::string_view::npos ? std::string() : std::string(path.substr(first + 1, second - first - 1));
+}
+
+std::size_t height(const std::string& layer, const std::string& room) {
+  const Names& names = rooms.at(layer);
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), room) - names.begin());
+}
+
+/// Of two files of one layer.
+bool may_look_into(std::string_view file, std::string_view header) {
+  const std::string layer = first_folder(header), room = room_of(header), own = room_of(file);
+  if (room == own) {
+    return true;
+  }
+  if (rooms.contains(layer)) {
+    const bool is_program = file.ends_with("main.cpp");
+    return own.empty() || is_program || (!room.empty() && height(layer, room) < height(layer, own));
+  }
+  const auto onlookers = looked_into_by.find(layer + "/" + room);
+  return !own.empty() || onlookers == looked_into_by.end() ||
+         std::any_of(onlookers->second.begin(), onlookers->second.end(),
+                     [&](const std::string& beginning) { return begins_with(file, beginning); });
+}
+
 bool may_include(std::string_view file, std::string_view header) {
   const std::string folder = first_folder(header);
+  if (folder == first_folder(file) && folder != "tests") {
+    return may_look_into(file, header);
+  }
   if (header.find('/') == std::string_view::npos || !stands_on.contains(folder)) {
     return may_include_foreign(file, header);
   }
@@ -191,6 +241,44 @@ TEST_CASE("an upward include is found, with file and line") {
   CHECK(violations_in("core/record/ray.h", "#include <svm/page.h>") == Names{"core/record/ray.h:1: svm/page.h"});
   CHECK(violations_in("nodes/node.h", "  #  include \"apps/commands.h\"").size() == 1);
   CHECK(violations_in("svm/run.cpp", "#include \"tests/support/small_machine.h\"").size() == 1);
+}
+
+TEST_CASE("a room uses only those below it") {
+  CHECK(violations_in("core/base/vec.h", "#include \"core/scene/scene.h\"").size() == 1);
+  CHECK(violations_in("apps/line/words.cpp", "#include \"apps/study/runs.h\"").size() == 1);
+  CHECK(violations_in("apps/line/words.cpp", "#include \"apps/commands.h\"").size() == 1);
+  CHECK(violations_in("nodes/node.h", "#include \"nodes/watch/trace.h\"").size() == 1);
+  CHECK(violations_in("svm/pager.h", "#include \"svm/watch/miss_curve.h\"").size() == 1);
+  CHECK(
+      violations_in("apps/bench/speed/part.h", "#include \"apps/line/words.h\"\n#include \"apps/bench/speed/table.h\"").empty());
+  CHECK(violations_in("apps/main.cpp", "#include \"apps/study/runs.h\"").empty());
+  CHECK(violations_in("nodes/runner.cpp", "#include \"nodes/threads/clock.h\"").empty());
+}
+
+TEST_CASE("every room has its place in the house") {
+  std::map<std::string, std::set<std::string>> found;
+  for (const std::string& file : source_files(fs::path(DMPC_SOURCE_DIR))) {
+    if (rooms.contains(first_folder(file)) && !room_of(file).empty()) {
+      found[first_folder(file)].insert(room_of(file));
+    }
+  }
+  for (const auto& [layer, names] : rooms) {
+    CHECK(found[layer] == std::set<std::string>(names.begin(), names.end()));
+  }
+}
+
+TEST_CASE("no layer below the edge speaks of the command line's options") {
+  const std::regex option("\"[^\"]*--[a-z]");
+  CHECK(std::regex_search(std::string("throw core::UsageError(\"--nodes=0\");"), option));
+  const fs::path root = DMPC_SOURCE_DIR;
+  for (const std::string& file : source_files(root)) {
+    const std::string layer = first_folder(file);
+    std::ifstream text(root / file);
+    for (std::string line; layer != "apps" && layer != "tests" && std::getline(text, line);) {
+      INFO(file << ": " << line);
+      CHECK_FALSE(std::regex_search(line, option));
+    }
+  }
 }
 
 TEST_CASE("the two families never meet") {

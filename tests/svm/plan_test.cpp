@@ -7,6 +7,7 @@
 
 #include "core/base/expect.h"
 #include "core/base/units.h"
+#include "nodes/size_text.h"
 
 using namespace dmpc;
 using core::operator""_KiB;
@@ -83,7 +84,7 @@ TEST_CASE("the smallest memory that is named works, and one byte less does not")
       request.node_memory_bytes = smallest - 1;
       const std::string error = error_of(request);
       INFO(error);
-      CHECK(error.find("--node-memory=" + svm::size_text(smallest)) != std::string::npos);
+      CHECK(error.find("node_memory_bytes=" + nodes::size_text(smallest)) != std::string::npos);
     }
   }
 }
@@ -92,7 +93,7 @@ TEST_CASE("a memory that is too small names the smallest node count that works w
   PlanRequest request = request_with(2, 10000);
   request.node_memory_bytes = 2_MiB;
   const std::string error = error_of(request);
-  const std::size_t at = error.find("with this memory --nodes=");
+  const std::size_t at = error.find("with this memory node_count=");
   REQUIRE(at != std::string::npos);
   request.node_count = static_cast<std::uint32_t>(std::stoul(error.substr(at + 25)));
   CHECK(request.node_count > 2);
@@ -105,7 +106,7 @@ TEST_CASE("where the mailboxes of many nodes are what is too large, fewer nodes 
   PlanRequest request = request_with(4096, 1338);
   request.node_memory_bytes = 600_KiB;
   const std::string error = error_of(request);
-  const std::size_t at = error.find("--nodes=", error.find("or with this memory"));
+  const std::size_t at = error.find("node_count=", error.find("or with this memory"));
   REQUIRE(at != std::string::npos);
   request.node_count = static_cast<std::uint32_t>(std::stoul(error.substr(at + 8)));
   CHECK(request.node_count < 4096);
@@ -132,7 +133,7 @@ TEST_CASE("in-flight is reduced to leave each pixel a frame, and that is noted")
   CHECK(plan.frames >= plan.in_flight);
   REQUIRE(plan.notes.size() == 1);
   CHECK(plan.notes[0] == "in-flight reduced from 64 to " + std::to_string(plan.in_flight) + " to fit " +
-                             svm::size_text(*request.node_memory_bytes));
+                             nodes::size_text(*request.node_memory_bytes));
 }
 
 TEST_CASE("a cache that was asked for is kept, or refused if it does not fit") {
@@ -143,7 +144,7 @@ TEST_CASE("a cache that was asked for is kept, or refused if it does not fit") {
   CHECK(make_plan(request).frames == 1);
   CHECK(make_plan(request).in_flight == 64);
   request.cache_pages = 5000;
-  CHECK(error_of(request).find("--node-memory=4MiB is too small") != std::string::npos);
+  CHECK(error_of(request).find("node_memory_bytes=4MiB is too small") != std::string::npos);
 }
 
 TEST_CASE("a cache larger than all pages that are not at home is reduced, and that is noted") {
@@ -260,19 +261,10 @@ TEST_CASE("values out of range and wrong combinations are wrong use") {
   });
 }
 
-TEST_CASE("sizes are written exactly, in the largest unit that divides them") {
-  CHECK(svm::size_text(0) == "0B");
-  CHECK(svm::size_text(1000) == "1000B");
-  CHECK(svm::size_text(300_KiB) == "300KiB");
-  CHECK(svm::size_text(4_MiB) == "4MiB");
-  CHECK(svm::size_text(4_MiB + 1) == "4194305B");
-  CHECK(svm::size_text(2048_MiB) == "2GiB");
-}
-
 TEST_CASE("a replacement policy needs a cache") {
   PlanRequest request = request_with(4, 100);
   request.replacement = svm::Replacement::clock;
-  CHECK(make_plan(request).cache().replacement == svm::Replacement::clock);
+  CHECK(make_plan(request).pages().cache.replacement == svm::Replacement::clock);
   request.strategy = svm::Strategy::replicated;
   CHECK_THROWS_AS(make_plan(request), core::UsageError);
 }

@@ -208,7 +208,7 @@ TEST_CASE("dataflow: a scene that does not fit says which number of nodes works,
     error = e.what();
   }
   INFO(error);
-  const std::size_t at = error.find("with this memory --nodes=");
+  const std::size_t at = error.find("with this memory node_count=");
   REQUIRE(at != std::string::npos);
   options.node_count = static_cast<std::uint32_t>(std::stoul(error.substr(at + 25)));
   CHECK(options.node_count > 1);

@@ -27,7 +27,7 @@ namespace {
 InfoOptions info(const std::string& scene, std::initializer_list<std::string> more = {}) {
   std::vector<std::string> arguments = {"info", scene};
   arguments.insert(arguments.end(), more);
-  return std::get<InfoOptions>(parse_command_line(arguments));
+  return parse_command_line(arguments).options<InfoOptions>();
 }
 
 std::vector<std::string> keys_of(const Json& object) {

@@ -53,4 +53,11 @@ TEST_CASE("one thing stands in the singular") {
   CHECK(counted(2000, "ray") == "2,000 rays");
 }
 
+TEST_CASE("numbers are short") {
+  CHECK(legend_number(0) == "0");
+  CHECK(legend_number(12) == "12");
+  CHECK(legend_number(0.03512345) == "0.03512");
+  CHECK(legend_number(1500000) == "1.5e+06");
+}
+
 }  // namespace dmpc::apps

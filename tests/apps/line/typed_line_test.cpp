@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/line/command_line.h"
 #include "apps/line/words.h"
 #include "core/base/expect.h"
 #include "tests/support/text.h"
@@ -179,12 +180,12 @@ TEST_CASE("help is given whatever else is wrong, but not about a command that th
 }
 
 TEST_CASE("the version is told whatever follows") {
-  CHECK(std::get<HelpText>(parse_command_line(typed("--version"))).text.starts_with("dmpc "));
+  CHECK(parse_command_line(typed("--version")).options<HelpText>().text.starts_with("dmpc "));
   CHECK(tests::contains(answer_to("--verison"), "Did you mean --version?"));
 }
 
 TEST_CASE("help about a command is what the command says of itself, and about words the glossary") {
-  const auto text = [](const std::string& line) { return std::get<HelpText>(parse_command_line(typed(line))).text; };
+  const auto text = [](const std::string& line) { return parse_command_line(typed(line)).options<HelpText>().text; };
   CHECK(text("help render") == text("render --help"));
   CHECK(text("help study cache") == text("study cache --help"));
   CHECK(text("help") == text("--help"));

@@ -1,4 +1,9 @@
 #include "apps/commands.h"
+#include "apps/check/command.h"
+#include "apps/line/command_line.h"
+#include "apps/machine/machine_command.h"
+#include "apps/picture/compare_command.h"
+#include "apps/scene/scene_command.h"
 
 #include <doctest/doctest.h>
 
@@ -32,34 +37,34 @@ std::string command_complaint(std::initializer_list<std::string> arguments) {
 }  // namespace
 
 TEST_CASE("scene, check and compare take their own options") {
-  const auto scene = std::get<SceneOptions>(parse({"scene", "rings-4-t1"}));
+  const auto scene = parse({"scene", "rings-4-t1"}).options<SceneOptions>();
   CHECK(scene.name == "rings-4-t1");
   CHECK_FALSE(scene.output);
-  CHECK(std::get<SceneOptions>(parse({"scene", "balls-4", "-o", "b.nff"})).output == "b.nff");
-  const auto check = std::get<CheckOptions>(parse({"check", "tetra-6", "--list=3", "--brute-force=100", "--resolution=8x8"}));
+  CHECK(parse({"scene", "balls-4", "-o", "b.nff"}).options<SceneOptions>().output == "b.nff");
+  const auto check = parse({"check", "tetra-6", "--list=3", "--brute-force=100", "--resolution=8x8"}).options<CheckOptions>();
   CHECK(check.picture.scene == "tetra-6");
   CHECK(check.list == 3);
   CHECK(check.brute_force == 100);
-  const auto compare = std::get<CompareOptions>(parse({"compare", "a.exr", "b.exr", "--difference=d.png"}));
+  const auto compare = parse({"compare", "a.exr", "b.exr", "--difference=d.png"}).options<CompareOptions>();
   CHECK(compare.picture == "a.exr");
   CHECK(compare.reference == "b.exr");
   CHECK(compare.difference == "d.png");
 }
 
 TEST_CASE("machine takes a name") {
-  CHECK(std::get<MachineOptions>(parse({"machine", "cm5"})).machine == "cm5");
+  CHECK(parse({"machine", "cm5"}).options<MachineOptions>().machine == "cm5");
   CHECK(contains(command_complaint({"machine"}), "Try: dmpc machine --help"));
-  CHECK(contains(std::get<HelpText>(parse({"machine", "--help"})).text, "ipsc2, ipsc860, paragon, cm5, cs2, gigabit, hdr"));
+  CHECK(contains(parse({"machine", "--help"}).options<HelpText>().text, "ipsc2, ipsc860, paragon, cm5, cs2, gigabit, hdr"));
 }
 
 TEST_CASE("help shows examples and every command") {
-  const std::string general = std::get<HelpText>(parse({"--help"})).text;
+  const std::string general = parse({"--help"}).options<HelpText>().text;
   for (const std::string word : {"render", "scene", "check", "compare", "machine", "study", "dmpc render teapot-12"}) {
     CHECK_MESSAGE(contains(general, word), word);
   }
 }
 
-TEST_CASE("the version can be asked for") { CHECK(std::get<HelpText>(parse({"--version"})).text.find("dmpc ") == 0); }
+TEST_CASE("the version can be asked for") { CHECK(parse({"--version"}).options<HelpText>().text.find("dmpc ") == 0); }
 
 TEST_CASE("help is given about one thing, and words that are none of it are refused") {
   CHECK(contains(command_complaint({"help", "render", "x", "y"}),
@@ -91,8 +96,8 @@ TEST_CASE("every command that shows progress can be told not to") {
                     inner.name);
     }
   }
-  CHECK(std::get<CheckOptions>(parse_command_line(std::vector<std::string>{"check", "tetra-3", "--quiet"})).quiet);
-  CHECK_FALSE(std::get<CheckOptions>(parse_command_line(std::vector<std::string>{"check", "tetra-3"})).quiet);
+  CHECK(parse_command_line(std::vector<std::string>{"check", "tetra-3", "--quiet"}).options<CheckOptions>().quiet);
+  CHECK_FALSE(parse_command_line(std::vector<std::string>{"check", "tetra-3"}).options<CheckOptions>().quiet);
 }
 
 }  // namespace dmpc::apps

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/run/render_options.h"
 #include "core/base/expect.h"
 #include "tests/support/text.h"
 #include "tests/support/usage.h"
@@ -19,7 +20,7 @@ namespace {
 
 CheckpointOptions parse(std::vector<std::string> more) {
   more.insert(more.begin(), {"render", "teapot-12", "-o", "a.png"});
-  return std::get<RenderOptions>(parse_command_line(more)).checkpoint;
+  return parse_command_line(more).options<RenderOptions>().checkpoint;
 }
 
 }  // namespace

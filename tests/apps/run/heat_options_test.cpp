@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/run/render_options.h"
 #include "core/base/expect.h"
 #include "tests/support/text.h"
 #include "tests/support/usage.h"
@@ -21,7 +22,7 @@ namespace {
 RenderOptions render(const std::vector<std::string>& more) {
   std::vector<std::string> arguments = {"render", "teapot-12", "-o", "a.png"};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return std::get<RenderOptions>(parse_command_line(arguments));
+  return parse_command_line(arguments).options<RenderOptions>();
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/line/command_line.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "tests/support/text.h"
@@ -23,7 +24,7 @@ namespace {
 RenderOptions render(std::initializer_list<std::string> more = {}) {
   std::vector<std::string> arguments = {"render", "teapot-12", "-o", "a.png"};
   arguments.insert(arguments.end(), more);
-  return std::get<RenderOptions>(parse_command_line(arguments));
+  return parse_command_line(arguments).options<RenderOptions>();
 }
 
 std::string render_complaint(std::initializer_list<std::string> more) {
@@ -296,7 +297,7 @@ TEST_CASE("options that do not go together are refused with the reason") {
 }
 
 TEST_CASE("the help of render names every option and its default") {
-  const std::string text = std::get<HelpText>(parse_command_line(std::vector<std::string>{"render", "--help"})).text;
+  const std::string text = parse_command_line(std::vector<std::string>{"render", "--help"}).options<HelpText>().text;
   for (const std::string word : {"Examples:",
                                  "SCENE",
                                  "--nodes",

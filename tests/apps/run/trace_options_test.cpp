@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/run/render_options.h"
 #include "core/base/expect.h"
 #include "nodes/watch/trace.h"
 #include "tests/support/text.h"
@@ -21,7 +22,7 @@ namespace {
 RenderOptions traced_render(const std::vector<std::string>& more) {
   std::vector<std::string> arguments = {"render", "teapot-12", "--nodes=6", "-o", "a.png"};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return std::get<RenderOptions>(parse_command_line(arguments));
+  return parse_command_line(arguments).options<RenderOptions>();
 }
 
 nodes::TraceChoice choice(std::vector<std::string> more) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/run/render_options.h"
 #include "core/base/expect.h"
 #include "tests/support/text.h"
 
@@ -21,7 +22,7 @@ namespace {
 Staging staged(std::initializer_list<std::string> options) {
   std::vector<std::string> arguments = {"render", "teapot-12", "-o", "a.png"};
   arguments.insert(arguments.end(), options);
-  return std::get<RenderOptions>(parse_command_line(arguments)).picture.staging;
+  return parse_command_line(arguments).options<RenderOptions>().picture.staging;
 }
 
 }  // namespace

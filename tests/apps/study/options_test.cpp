@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/line/command_line.h"
 #include "core/base/expect.h"
 #include "tests/support/usage.h"
 
@@ -22,7 +23,7 @@ using Counts = std::vector<std::uint32_t>;
 StudyOptions study(const std::string& name, std::initializer_list<std::string> more = {}) {
   std::vector<std::string> arguments = {"study", name, "teapot-12"};
   arguments.insert(arguments.end(), more);
-  return std::get<StudyOptions>(parse_command_line(arguments));
+  return parse_command_line(arguments).options<StudyOptions>();
 }
 
 BalanceStudy balance(std::initializer_list<std::string> more = {}) {
@@ -127,7 +128,7 @@ TEST_CASE("the options of the study of speedup are those of a run") {
 }
 
 TEST_CASE("the help of the study of speedup tells its own defaults") {
-  const std::string text = std::get<HelpText>(parse_command_line(std::vector<std::string>{"study", "speedup", "--help"})).text;
+  const std::string text = parse_command_line(std::vector<std::string>{"study", "speedup", "--help"}).options<HelpText>().text;
   CHECK(text.find("--in-flight 1..4096 [1]") != std::string::npos);
   CHECK(text.find("[a quarter of the database") != std::string::npos);
   CHECK(text.find("replicated 1") == std::string::npos);

@@ -25,7 +25,7 @@ using Words = std::vector<std::string>;
 
 ErrorOptions error_options(Words arguments) {
   arguments.insert(arguments.begin(), {"bench", "error"});
-  return std::get<ErrorOptions>(apps::parse_command_line(arguments));
+  return apps::parse_command_line(arguments).options<ErrorOptions>();
 }
 
 /// Of tetra-2 at 16x16 against a rough reference.

@@ -32,7 +32,7 @@ using Words = std::vector<std::string>;
 
 SpeedOptions speed_options(Words arguments) {
   arguments.insert(arguments.begin(), {"bench", "speed"});
-  return std::get<SpeedOptions>(apps::parse_command_line(arguments));
+  return apps::parse_command_line(arguments).options<SpeedOptions>();
 }
 
 SpeedOptions tiny_speed(Words more = {}) {

@@ -18,7 +18,7 @@ namespace {
 
 StabilityOptions stability_options(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"bench", "stability"});
-  return std::get<StabilityOptions>(apps::parse_command_line(arguments));
+  return apps::parse_command_line(arguments).options<StabilityOptions>();
 }
 
 std::string output_of(const StabilityOptions& options) {

@@ -19,18 +19,9 @@ struct Said {
 
 Said check(const apps::CheckOptions& options) {
   std::ostringstream output;
-  std::streambuf* const before = std::cout.rdbuf(output.rdbuf());
-  Said said;
-  try {
-    apps::Interrupt interrupt;
-    said.status = apps::check_command(options, interrupt);
-  } catch (...) {
-    std::cout.rdbuf(before);
-    throw;
-  }
-  std::cout.rdbuf(before);
-  said.text = output.str();
-  return said;
+  apps::Interrupt interrupt;
+  const int status = apps::check_command(options, interrupt, output);
+  return {status, output.str()};
 }
 
 apps::CheckOptions small(const std::string& scene) {

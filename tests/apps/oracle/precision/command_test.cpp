@@ -18,7 +18,7 @@ using apps::PrecisionOptions;
 
 PrecisionOptions parse(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"bench", "precision"});
-  return std::get<PrecisionOptions>(apps::parse_command_line(arguments));
+  return apps::parse_command_line(arguments).options<PrecisionOptions>();
 }
 
 std::string output_of(const PrecisionOptions& options) {

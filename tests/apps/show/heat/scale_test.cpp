@@ -54,11 +54,4 @@ TEST_CASE("ticks are round numbers within the scale") {
   CHECK(small.back() == doctest::Approx(0.3));
 }
 
-TEST_CASE("numbers are short") {
-  CHECK(legend_number(0) == "0");
-  CHECK(legend_number(12) == "12");
-  CHECK(legend_number(0.03512345) == "0.03512");
-  CHECK(legend_number(1500000) == "1.5e+06");
-}
-
 }  // namespace dmpc::apps

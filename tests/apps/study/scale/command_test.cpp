@@ -30,7 +30,7 @@ namespace {
 
 ScaleOptions scale_options(Words words) {
   words.insert(words.begin(), {"study", "scale"});
-  return std::get<ScaleOptions>(apps::parse_command_line(words));
+  return apps::parse_command_line(words).options<ScaleOptions>();
 }
 
 ScaleOptions tiny_scale(const Words& more = {}) {
