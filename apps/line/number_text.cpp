@@ -66,9 +66,7 @@ std::string bytes_text(std::size_t bytes) {
 
 std::string mebibytes_text(std::uint64_t bytes) { return std::to_string(bytes >> 20U) + " MiB"; }
 
-std::string percent(std::uint64_t part, std::uint64_t whole) {
-  return fixed(whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole), 2) + " %";
-}
+std::string percent_text(double percent, int digits) { return fixed(percent, digits) + " %"; }
 
 std::vector<double> percent_parts(std::span<const std::uint64_t> parts) {
   const auto whole = static_cast<double>(std::accumulate(parts.begin(), parts.end(), std::uint64_t{0}));

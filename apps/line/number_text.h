@@ -25,8 +25,13 @@ std::string seconds_text(double seconds);
 std::string bytes_text(std::size_t bytes);
 /// Whole ones, rounded down: "16 MiB".
 std::string mebibytes_text(std::uint64_t bytes);
-/// "12.34 %"; 0 of 0 is "0.00 %".
-std::string percent(std::uint64_t part, std::uint64_t whole);
+/// Of numbers of one kind; 0 of 0 is 0.
+template <class Number>
+double percent_of(Number part, Number whole) {
+  return whole > Number{} ? 100 * static_cast<double>(part) / static_cast<double>(whole) : 0;
+}
+/// With so many digits after the point: "12.3 %".
+std::string percent_text(double percent, int digits = 1);
 /// What each part is of the whole, in percent with one decimal place: rounded so that they add up to 100 as they stand. All 0 if
 /// there is nothing.
 std::vector<double> percent_parts(std::span<const std::uint64_t> parts);

@@ -48,9 +48,10 @@ std::string rays_text(const core::Operations& operations, double render_seconds)
 
 std::string pages_text(const svm::Report& report) {
   const svm::PageCounters pages = report.pages();
-  std::string text = grouped(pages.references) + " look-ups: at home " + percent(pages.home_hits, pages.references) +
-                     ", cached " + percent(pages.cache_hits, pages.references) + ", missed " +
-                     percent(pages.misses, pages.references) + "; " + grouped(pages.faults) + " faults, " +
+  std::string text = grouped(pages.references) + " look-ups: at home " +
+                     percent_text(percent_of(pages.home_hits, pages.references), 2) + ", cached " +
+                     percent_text(percent_of(pages.cache_hits, pages.references), 2) + ", missed " +
+                     percent_text(percent_of(pages.misses, pages.references), 2) + "; " + grouped(pages.faults) + " faults, " +
                      grouped(pages.evictions) + " evictions";
   if (report.plan.request.count_pages) {
     const auto pixels = static_cast<double>(std::max<std::uint64_t>(report.work().pixels_rendered, 1));  // of this run
@@ -83,7 +84,7 @@ std::string travel_text(const dataflow::Report& report) {
   const dataflow::Gather::Counters sent = report.gathers();
   return grouped(sent.rays) + " messages, " + fixed(report.messages_per_ray(), 2) + " hops a ray, in " +
          counted(sent.packets, "packet") + " " + fixed(100 * report.mean_fill(), 1) + " % full; overflowed " +
-         percent(sent.rays_overflowed, sent.rays);
+         percent_text(percent_of(sent.rays_overflowed, sent.rays), 2);
 }
 
 std::string load_text(const dataflow::Report& report) {

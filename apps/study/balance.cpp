@@ -23,8 +23,6 @@ dataflow::RunOptions options_for(const BalanceStudy& study, std::uint32_t node_c
   return options;
 }
 
-double percent(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
-
 /// Nothing where no load is known.
 Cell average_load_cell(std::span<const double> loads) {
   return loads.empty() ? Cell() : Cell(100 * dataflow::average_load(loads));
@@ -46,7 +44,7 @@ std::vector<Cell> summary_row(const dataflow::Report& report, const BalanceStudy
 
 /// The share of `node` in all work; nothing where no load is known.
 Cell share_cell(std::span<const double> loads, std::uint32_t node) {
-  return loads.empty() ? Cell() : Cell(percent(loads[node], std::accumulate(loads.begin(), loads.end(), 0.0)));
+  return loads.empty() ? Cell() : Cell(percent_of(loads[node], std::accumulate(loads.begin(), loads.end(), 0.0)));
 }
 
 void add_node_rows(const dataflow::Report& report, const BalanceStudy& study, Balance balance, Table& table) {

@@ -80,10 +80,6 @@ bool has_choice(std::uint32_t cache_pages, const Curves& curves) {
   return cache_pages > 1 && cache_pages < curves.lru.distinct_pages();
 }
 
-double percent(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
-}
-
 /// The rows of the table on their way: each is added if all of its runs have ended.
 class Sweep {
  public:
@@ -160,8 +156,8 @@ class Sweep {
     const std::uint64_t misses = curves.lru.misses(cache_pages);
     std::vector<Cell>& row = rows_.emplace_back(Row{std::vector<Cell>(time_at)}).cells;
     row[cache_pages_at] = std::uint64_t{cache_pages};
-    row[share_at] = percent(cache_pages, page_count);
-    row[miss_ratio_at] = percent(misses, curves.references);
+    row[share_at] = percent_of<std::uint64_t>(cache_pages, page_count);
+    row[miss_ratio_at] = percent_of<std::uint64_t>(misses, curves.references);
     row[lru_at] = misses;
     row[optimum_at] = optimum;
   }
@@ -191,7 +187,8 @@ class Sweep {
     const std::uint64_t page_bytes = report.sent()[svm::number_of(svm::Kind::page_reply)].bytes;
     const bool takes_time = total_ns(report) > 0;
     row[time_at] = seconds;
-    row[time_at + 1] = takes_time && one_node_ns_ ? Cell(percent(*one_node_ns_, node_count_ * total_ns(report))) : Cell();
+    row[time_at + 1] =
+        takes_time && one_node_ns_ ? Cell(percent_of<std::uint64_t>(*one_node_ns_, node_count_ * total_ns(report))) : Cell();
     row[time_at + 2] =
         takes_time ? Cell(static_cast<std::uint64_t>(static_cast<double>(page_bytes) / node_count_ / seconds)) : Cell();
   }

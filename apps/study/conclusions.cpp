@@ -34,8 +34,6 @@ std::string nodes_text(const Table& table, const Row& row) {
   return counted(static_cast<std::uint64_t>(number_in(table, row, "nodes").value_or(0)), "node");
 }
 
-std::string percent_text(double percent) { return fixed(percent, 1) + " %"; }
-
 /// The row of the same number of nodes with the other regions.
 const Row* row_of_regions(const Table& table, double node_count, const std::string& regions) {
   const auto found = std::find_if(table.rows().rbegin(), table.rows().rend(), [&](const Row& row) {

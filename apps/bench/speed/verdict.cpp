@@ -35,16 +35,14 @@ struct Summary {
   }
 };
 
-std::string percent(double share) { return fixed(100 * share, 1) + " %"; }
-
 std::string sentence_on(const Summary& summary) {
   const bool wins = effect_of(summary.best) == Effect::wins, loses = effect_of(summary.worst) == Effect::loses;
   std::string sentence = summary.name + (wins && !loses ? ": kept, " : ": to be dropped, ");
-  sentence +=
-      wins ? "wins up to " + percent(summary.best - 1) + " (" + summary.best_scene + ")"
-           : "wins " + percent(win_share) + " nowhere (at most " + percent(summary.best - 1) + ", " + summary.best_scene + ")";
-  sentence += loses ? ", loses up to " + percent(1 - summary.worst) + " (" + summary.worst_scene + ")"
-                    : ", loses " + percent(loss_share) + " nowhere";
+  sentence += wins ? "wins up to " + percent_text(100 * (summary.best - 1)) + " (" + summary.best_scene + ")"
+                   : "wins " + percent_text(100 * win_share) + " nowhere (at most " + percent_text(100 * (summary.best - 1)) +
+                         ", " + summary.best_scene + ")";
+  sentence += loses ? ", loses up to " + percent_text(100 * (1 - summary.worst)) + " (" + summary.worst_scene + ")"
+                    : ", loses " + percent_text(100 * loss_share) + " nowhere";
   return sentence +
          (summary.is_exact ? "." : "; bounded, errs by up to " + fixed(255 * summary.error, 3) + "/255 (root mean square).");
 }

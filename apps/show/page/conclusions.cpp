@@ -35,7 +35,7 @@ std::string share_text(double share) {
     return "more than 99.9 %";
   }
   const bool is_whole = percent >= 10 || percent == 0;
-  return (percent < 100 && percent >= 99.5 ? fixed(percent, 1) : fixed(percent, is_whole ? 0 : 1)) + " %";
+  return percent_text(percent, is_whole && !(percent < 100 && percent >= 99.5) ? 0 : 1);
 }
 
 std::string times_text(double factor) { return fixed(factor, 2) + " times"; }

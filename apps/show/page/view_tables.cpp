@@ -21,8 +21,6 @@ constexpr std::size_t pages_listed = 20;
 constexpr std::uint32_t sampled_pages_least = 4;
 constexpr std::size_t part_count = svm::fetch_part_names.size();
 
-double percent_of(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
-
 double microseconds(double ns) { return ns / 1000; }
 
 // ---- Time

@@ -34,9 +34,9 @@ TEST_CASE("bytes are rounded to the unit that suits them") {
 }
 
 TEST_CASE("a share of nothing is nothing") {
-  CHECK(percent(0, 0) == "0.00 %");
-  CHECK(percent(1, 3) == "33.33 %");
-  CHECK(percent(7, 7) == "100.00 %");
+  CHECK(percent_text(percent_of(0, 0), 2) == "0.00 %");
+  CHECK(percent_text(percent_of(1, 3), 2) == "33.33 %");
+  CHECK(percent_text(percent_of(7, 7)) == "100.0 %");
 }
 
 TEST_CASE("parts in percent add up to a hundred as they stand") {
