@@ -1,8 +1,10 @@
 #include "apps/study/balance.h"
 
 #include <numeric>
+
 #include <span>
 #include <utility>
+#include "apps/line/number_text.h"
 
 #include "apps/run/ray_hops.h"
 #include "core/families/scenes.h"
