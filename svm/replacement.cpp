@@ -33,8 +33,6 @@ std::string_view name_of(Replacement replacement) {
   return "";
 }
 
-// ---- Least recently used -------------------------------------------------------------------------------------------------
-
 std::size_t LeastRecentlyUsed::candidate_capacity(std::uint32_t frame_count) {
   return std::min(frame_count, candidate_count_max);
 }
@@ -78,8 +76,6 @@ void LeastRecentlyUsed::seek_candidates(Stamps stamps) {
   next_candidate_ = 0;
 }
 
-// ---- The others ----------------------------------------------------------------------------------------------------------
-
 std::uint32_t Clock::victim(Stamps stamps) {
   while (stamps[hand_] != 0) {
     stamps[hand_] = 0;
@@ -103,8 +99,6 @@ std::uint32_t RandomVictim::victim(Stamps stamps) {
   const std::uint64_t drawn = core::mix(++state_) >> 32U;
   return static_cast<std::uint32_t>((drawn * stamps.size()) >> 32U);
 }
-
-// ---- One of them ---------------------------------------------------------------------------------------------------------
 
 VictimChoice::Policy VictimChoice::make(LocalMemory& memory, Replacement replacement, std::uint32_t frame_count,
                                         std::uint32_t seed) {

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "apps/check/inspection.h"
-#include "apps/line/number_text.h"
 #include "apps/effort/render_effort.h"
+#include "apps/line/number_text.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "apps/system/output_file.h"

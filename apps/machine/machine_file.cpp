@@ -30,8 +30,6 @@ constexpr std::uint64_t operation_ps_max = 100'000'000'000;
 /// One millisecond.
 constexpr std::uint64_t byte_ps_max = 1'000'000'000;
 
-// ---- Printing --------------------------------------------------------------------------------------------------------------
-
 Json message_json(const nodes::MessageCost& cost) {
   return {{"send_ns", cost.send_ns}, {"latency_ns", cost.latency_ns}, {"receive_ns", cost.receive_ns}, {"byte_ps", cost.byte_ps}};
 }
@@ -43,8 +41,6 @@ Json operations_json(const nodes::Machine& machine) {
   }
   return costs;
 }
-
-// ---- Reading ---------------------------------------------------------------------------------------------------------------
 
 /// A value as a message shows it.
 std::string shown(const Json& value) {

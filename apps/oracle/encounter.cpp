@@ -43,8 +43,6 @@ constexpr double denormal_rounding = 0x1p-150;
 constexpr Long double_rounding = 0x1p-53L;
 constexpr double tiny = std::numeric_limits<double>::min();
 
-// ---- Triangles -----------------------------------------------------------------------------------------------------------
-
 /// A vertex as seen from the ray's origin.
 struct Sight {
   Vec3d position;
@@ -159,8 +157,6 @@ Encounter meet_triangle(const Ray& ray, const core::PrimitiveValues& values, con
   encounter.exact = encounter.margin[0] >= 0 && seen.area != 0;
   return encounter;
 }
-
-// ---- Spheres and cones ---------------------------------------------------------------------------------------------------
 
 /// A t^2 + 2 B t + C and the bounds of what double precision makes of it.
 struct Quadratic {

@@ -16,8 +16,6 @@ namespace {
 using Color = std::array<double, 3>;
 using Plane = std::vector<double>;
 
-// ---- Colours (the paper, section 4.1) ------------------------------------------------------------------------------------
-
 /// Linear sRGB to XYZ of a white at (1, 1, 1) under D65, and that white.
 constexpr std::array<Color, 3> to_xyz = {{{10135552.0 / 24577794.0, 8788810.0 / 24577794.0, 4435075.0 / 24577794.0},
                                           {2613072.0 / 12288897.0, 8788810.0 / 12288897.0, 887015.0 / 12288897.0},
@@ -73,8 +71,6 @@ double spread(double distance) {
   const double low = knee * most;
   return distance < low ? at_knee * distance / low : at_knee + (distance - low) / (most - low) * (1 - at_knee);
 }
-
-// ---- Filters --------------------------------------------------------------------------------------------------------------
 
 /// An odd number of weights, the middle one for the pixel itself.
 using Kernel = std::vector<double>;
@@ -168,8 +164,6 @@ Plane blurred(const Plane& plane, const Sharpness& eye, const Filter& filter, do
   }
   return result;
 }
-
-// ---- Pictures -------------------------------------------------------------------------------------------------------------
 
 /// The three opponent planes of a picture.
 std::array<Plane, 3> planes_of(const Image& image) {

@@ -10,9 +10,9 @@
 #include <ostream>
 #include <utility>
 
+#include "apps/effort/render_effort.h"
 #include "apps/picture/film_image.h"
 #include "apps/render/checkpoints.h"
-#include "apps/effort/render_effort.h"
 #include "apps/render/onlookers.h"
 #include "apps/render/outputs.h"
 #include "apps/render/preview.h"

@@ -46,8 +46,6 @@ T read(const std::byte* from) {
   return value;
 }
 
-// ---- The grid ------------------------------------------------------------------------------------------------------------
-
 /// Space is measured in cells, whose number follows that of the primitives; the lattice on which regions are cut is finer, and
 /// the cells of the directory, which a ray walks, are coarser.
 inline constexpr int finest_per_cell = 64;
@@ -102,8 +100,6 @@ constexpr double place_of(const Brick& brick, std::size_t row, std::size_t child
 }
 static_assert(sizeof(Brick) == 104 && std::is_trivially_copyable_v<Brick> && sizeof(Brick) <= record_bytes_max);
 
-// ---- Primitive blocks ----------------------------------------------------------------------------------------------------
-
 enum class PrimitiveKind : std::uint8_t { triangle, sphere, cone };
 inline constexpr std::size_t primitive_kind_count = 3;
 
@@ -139,8 +135,6 @@ struct ShadingReference {
   constexpr std::uint32_t material() const { return bits; }
   constexpr Address normals() const { return Address{bits & ~smooth_flag}; }
 };
-
-// ---- Shading data --------------------------------------------------------------------------------------------------------
 
 /// Vertex normals of a smooth triangle, of unit length to rounding; all 0 if it is flat. Begins a TexturedNormals if its flag
 /// says so.
@@ -202,8 +196,6 @@ struct LightRecord {
   std::array<std::uint32_t, 2> padding{};
 };
 static_assert(sizeof(LightRecord) == 32);
-
-// ---- What every node knows without asking --------------------------------------------------------------------------------
 
 /// Three unit vectors of the world at right angles, right-handed.
 using GridAxes = std::array<Vec3d, 3>;

@@ -63,8 +63,6 @@ Rectangle rectangle_of(const core::Region& region, const CutAxes& axes) {
 
 }  // namespace
 
-// ---- The tree ------------------------------------------------------------------------------------------------------------
-
 std::uint32_t Bsp::region_index_of(const core::Corner& cell) const {
   std::uint32_t first = 0, count = region_count_;
   while (count > 1) {
@@ -102,8 +100,6 @@ void Bsp::assign(std::span<const std::uint32_t> node_of_region) {
     owner_[region] = static_cast<std::uint16_t>(node);
   }
 }
-
-// ---- Building ------------------------------------------------------------------------------------------------------------
 
 /// Cuts one box after the other, the larger share of the regions always on the high side.
 class BspBuilder {
@@ -224,8 +220,6 @@ Bsp equal_size_bsp(const core::Corner& grid_size, const CutAxes& axes, std::uint
   constexpr std::int32_t columns_max = 1024;
   return build_bsp(ColumnLoads(ColumnLattice(grid_size, axes, std::min(longest, columns_max))), region_count, options);
 }
-
-// ---- What came of it -----------------------------------------------------------------------------------------------------
 
 std::vector<double> loads_of_regions(const Bsp& bsp, const ColumnLoads& loads) {
   std::vector<double> sums;

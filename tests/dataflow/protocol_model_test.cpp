@@ -53,8 +53,6 @@ void check_found(const ProtocolSettings& settings, const std::string& words) {
   CHECK_FALSE(report.way.empty());
 }
 
-// ---- One rule broken each --------------------------------------------------------------------------------------------------
-
 struct WithoutOverflow : ProtocolRules {
   static dataflow::Way way_of(bool owner, bool queue, bool) { return dataflow::way_of(owner, queue, false); }
 };

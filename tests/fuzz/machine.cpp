@@ -35,8 +35,6 @@ auto accepted(const Parse& parse) -> std::optional<decltype(parse())> {
   }
 }
 
-// ---- Machine files ---------------------------------------------------------------------------------------------------------
-
 void try_machine(const std::string& text) {
   const auto parse = [](const std::string& json) {
     return accepted<core::InputError>([&] { return apps::parse_machine(json, "input"); });
@@ -52,8 +50,6 @@ void try_machine(const std::string& text) {
     expect(again->machine.name == machine->machine.name && again->sources == machine->sources, "names and sources stay");
   }
 }
-
-// ---- Values and options ----------------------------------------------------------------------------------------------------
 
 bool is_possible(const apps::Resolution& size) {
   return size.width > 0 && size.height > 0 && std::int64_t{size.width} * size.height <= apps::picture_pixels_max;

@@ -20,8 +20,6 @@ namespace {
 
 using namespace nodes;
 
-// ---- Draws ---------------------------------------------------------------------------------------------------------------
-
 template <class Draw>
 std::vector<std::uint32_t> draws(Draw draw, int count = 1000) {
   std::vector<std::uint32_t> values;
@@ -149,8 +147,6 @@ TEST_CASE("settings out of range are broken invariants") {
   CHECK_THROWS_AS(ChaosDelays({.slow_link_factor = 32769}, NodeId{0}), core::InternalError);
   CHECK_THROWS_AS(ChaosPauses({.idle_quanta_max = 1U << 31U}, NodeId{0}), core::InternalError);
 }
-
-// ---- Under threads -------------------------------------------------------------------------------------------------------
 
 /// Nodes with room for packets held back, small ones.
 std::vector<NodeSpecification> disturbed_nodes(std::uint32_t count, const MailboxCapacity& mailbox, const ProgramMaker& maker) {

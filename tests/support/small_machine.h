@@ -25,8 +25,6 @@
 
 namespace dmpc::tests {
 
-// ---- A node alone --------------------------------------------------------------------------------------------------------
-
 template <class T>
 Parcel parcel_of(std::uint32_t source, svm::Kind kind, const T& value) {
   const std::span<const std::byte> bytes = std::as_bytes(std::span(&value, 1));
@@ -43,8 +41,6 @@ struct LoneNode {
   nodes::LocalMemory memory;
   nodes::Node node;
 };
-
-// ---- Pages without a scene -----------------------------------------------------------------------------------------------
 
 inline std::uint64_t mixed(std::uint64_t value) {
   value = (value ^ (value >> 30U)) * 0xbf58476d1ce4e5b9U;

@@ -78,8 +78,6 @@ svm::RunOptions fixed_assignment(std::uint32_t node_count, std::uint32_t cache_p
 
 }  // namespace
 
-// ---- Sentences -----------------------------------------------------------------------------------------------------------
-
 TEST_CASE("virtual time: svm, replicated and dataflow give the reference's picture on any nodes and topology") {
   for (const core::Scene& scene : {mirrors_and_glass(), built_in("gears-1")}) {
     const Subject subject(scene, {20, 16}, {.page_size_bytes = 512});

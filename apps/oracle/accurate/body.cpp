@@ -18,8 +18,6 @@ bool is_usable(const Vec3d& v) {
 
 double squared(const Vec3d& v) { return dot(v, v); }
 
-// ---- Triangles -----------------------------------------------------------------------------------------------------------
-
 /// Volumes of the ray's direction with each corner's opposite edge, as seen from the ray's origin. Swapping an edge's ends
 /// changes the sign and nothing else, in floating point as well.
 std::array<double, 3> volumes(const AccurateBody& body, const AccurateRay& ray) {
@@ -52,8 +50,6 @@ AccurateSurface on_triangle(const AccurateBody& body, const AccurateRay& ray) {
   surface.normal = normalize(cross(body.place[1] - body.place[0], body.place[2] - body.place[0]));
   return surface;
 }
-
-// ---- Spheres and cones ---------------------------------------------------------------------------------------------------
 
 /// The real roots of a t^2 + 2 b t + c in ascending order, neither by a difference of numbers that are nearly equal (W. Press and
 /// others, Numerical Recipes, section 5.6). `quarter` is b^2 - a c. NaN stands for a root that there is not.

@@ -64,8 +64,6 @@ std::vector<double> by_node(const Account& account, const ValueOf& value_of) {
   return values;
 }
 
-// ---- Losses
-
 /// Of virtual time; never computing.
 std::size_t largest_loss(const TimeParts& parts) {
   return 1 + static_cast<std::size_t>(std::max_element(parts.ns.begin() + 1, parts.ns.end()) - (parts.ns.begin() + 1));
@@ -102,8 +100,6 @@ std::string wall_losses(const Account& account) {
          " of their time, slept for want of packets for " + share_text(share_of(asleep, wall)) +
          " and waited for a core of this computer for " + share_text(share_of(std::max(0.0, wall - busy - asleep), wall)) + ".";
 }
-
-// ---- Time
 
 std::vector<double> busy_shares(const nodes::ActivitySteps& steps) {
   const std::size_t node_count = steps.nodes.size() - 1;  // the host is the last

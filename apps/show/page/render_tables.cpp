@@ -22,9 +22,6 @@ void append(std::vector<Cell>& row, std::initializer_list<std::uint64_t> numbers
   row.insert(row.end(), numbers.begin(), numbers.end());
 }
 
-// ---- Nodes
-// ---------------------------------------------------------------------------------------------------------------------
-
 std::vector<Column> own_columns(const svm::Report&, Strategy strategy) {
   std::vector<Column> columns = {{"pixels", "", 0}};
   if (strategy == Strategy::svm) {
@@ -50,9 +47,6 @@ void append_own(std::vector<Cell>& row, const dataflow::NodeReport& node, Strate
   append(row, {node.primary_rays, sum(node.program.rays.in), sum(node.program.rays.out), node.program.backlog_high_water});
 }
 
-// ---- Plots by node
-// --------------------------------------------------------------------------------------------------------------
-
 /// Bars side by side, or upon one another.
 Plot bars_by_node(std::string name, std::string title, PlotAxis y, std::vector<PlotSeries> series, bool is_stacked) {
   for (PlotSeries& one : series) {
@@ -71,9 +65,6 @@ std::vector<PlotSeries> series_of(const std::vector<Column>& columns) {
   }
   return series;
 }
-
-// ---- Losses
-// --------------------------------------------------------------------------------------------------------------------
 
 /// Numbers of the parts of which any node has some; computing is always among them.
 std::vector<std::size_t> parts_found(const nodes::VirtualReport& report, const WaitKinds& waits) {
@@ -120,9 +111,6 @@ void add_shares(Table& table, const std::string& name, std::span<const std::uint
   }
   table.add_row(std::move(row));
 }
-
-// ---- Memory
-// --------------------------------------------------------------------------------------------------------------------
 
 /// Categories of which any node has some bytes.
 std::vector<nodes::Category> categories_of(const Account& account) {

@@ -23,14 +23,8 @@ constexpr std::size_t part_count = svm::fetch_part_names.size();
 
 double microseconds(double ns) { return ns / 1000; }
 
-// ---- Time
-// ----------------------------------------------------------------------------------------------------------------------
-
 std::size_t node_count_of(const nodes::ActivitySteps& steps) { return steps.nodes.size() - 1; }  // the host is the last
 std::size_t step_count_of(const nodes::ActivitySteps& steps) { return steps.nodes.front().size(); }
-
-// ---- Fetches
-// -------------------------------------------------------------------------------------------------------------------
 
 /// As columns and series: the parts of which any fetch has some.
 std::vector<std::size_t> parts_found(const Fetches& fetches) {
@@ -102,9 +96,6 @@ std::string sample_note(const Fetches& fetches) {
   const std::string count = grouped(fetches.sample.size()) + (fetches.sample.size() == 1 ? " fetch" : " fetches");
   return fetches.every == 1 ? "All " + count : "One fetch in " + std::to_string(fetches.every) + ", " + count;
 }
-
-// ---- Pages
-// ---------------------------------------------------------------------------------------------------------------------
 
 /// Numbers of the pages, the most fetched first.
 std::vector<std::uint32_t> by_heat(const Fetches& fetches) {

@@ -47,9 +47,6 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// ---- Toy programs
-// ------------------------------------------------------------------------------------------------------------------
-
 constexpr Channel requests = 0;
 constexpr Channel replies = 1;
 constexpr PacketKind request = 1;
@@ -200,9 +197,6 @@ class OneWorks : public ToyProgram {
   double seconds_;
   bool done_ = false;
 };
-
-// ---- Sentences
-// ---------------------------------------------------------------------------------------------------------------------
 
 TEST_CASE("programs that are finished from the start end the run") {
   for (const std::uint32_t count : {1U, 2U, 65U}) {

@@ -20,8 +20,6 @@ namespace {
 
 using namespace nodes;
 
-// ---- Programs ------------------------------------------------------------------------------------------------------------
-
 /// Works for ever; asks `source` to stop or fails in its hundredth quantum.
 class EndlessWorker : public ToyProgram {
  public:
@@ -140,8 +138,6 @@ std::string stall_of(const std::vector<Script>& scripts) {
   return "";
 }
 
-// ---- A run's end ---------------------------------------------------------------------------------------------------------
-
 TEST_CASE("programs that are finished from the start end a virtual run at time 0") {
   for (const std::uint32_t count : {1U, 2U, 65U}) {
     VirtualRunner runner(equal_nodes(count, {}, making<ToyProgram>()), toy_model());
@@ -207,8 +203,6 @@ TEST_CASE("a memory is sealed before a virtual run begins, and as full as on thr
   CHECK(runner.node(0).memory().used().bytes == threads.node(0).memory().used().bytes);
 }
 
-// ---- Mailboxes -----------------------------------------------------------------------------------------------------------
-
 TEST_CASE("a packet without room in the target's mailbox is found out, small or bulk") {
   for (const std::uint64_t bytes : {short_bytes, long_bytes}) {
     auto specifications = specifications_of({{.quanta = {{0, {{1, ping, bytes}, {1, ping, bytes}}}}}, {}, {}});
@@ -236,8 +230,6 @@ TEST_CASE("a packet longer than the target's bulk places is found out") {
   VirtualRunner runner(specifications, toy_model());
   CHECK_THROWS_AS(runner.run({}), core::InternalError);
 }
-
-// ---- Any run -------------------------------------------------------------------------------------------------------------
 
 TEST_CASE("in any run times add up, nothing is lost, and letters between two nodes keep their order") {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {

@@ -53,8 +53,6 @@ std::vector<Script> all_to_node_0(std::uint32_t node_count, std::uint64_t bytes)
   return scripts;
 }
 
-// ---- Messages ------------------------------------------------------------------------------------------------------------
-
 TEST_CASE("a ping-pong takes twice what a message takes, over each number of hops, short and long") {
   struct Case {
     TopologyKind topology;
@@ -245,8 +243,6 @@ TEST_CASE("an urgent message does not overtake a long one that the same node sen
   CHECK(run.receipts[1][1].kind == urgent);
 }
 
-// ---- Processors ----------------------------------------------------------------------------------------------------------
-
 TEST_CASE("packets of one quantum leave at its end, one after the other, and each costs its sender") {
   const Machine machine = toy_model();
   const ScriptedRun run = run_scripts({{.quanta = {{5, {{1}, {2}, {3}}}}}, {}, {}, {}, {}});
@@ -349,8 +345,6 @@ TEST_CASE("rates are summed in picoseconds: what is less than a nanosecond is no
     CHECK(run.report.nodes[0].computing_ns == quanta * 300 / 1000);
   }
 }
-
-// ---- Where the time has gone ---------------------------------------------------------------------------------------------
 
 TEST_CASE("waiting is charged to the kind of packet that ended it") {
   const Machine machine = toy_model();

@@ -18,7 +18,9 @@ namespace {
 
 /// The recording pager of node 0 of 4, with two frames.
 struct SmallRecorder {
-  SmallRecorder() : lone(plan, 0), pages(page_count, page_size), pager(lone.node, plan.pages(), pages.bytes()) { pager.record_into(log); }
+  SmallRecorder() : lone(plan, 0), pages(page_count, page_size), pager(lone.node, plan.pages(), pages.bytes()) {
+    pager.record_into(log);
+  }
   /// A reference, with the page's journey if it is absent.
   void refer(std::uint32_t page) {
     while (pager.find(start_of(page)) == nullptr) {
