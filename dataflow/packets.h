@@ -16,8 +16,9 @@
 //   primaries              host -> node          film      bulk   the host's credits for dealing to that node
 //   primaries_taken        node -> host          control   small  the packet of primaries whose credit it gives back
 //
-// The last two exist only where the picture is refined: the host deals the primary rays of every pass but the first, a packet
-// that counts as one of rays for the proof of the end. Finish and done then come once a pass.
+// The last two exist only where the host deals primary rays after the start (PlanRequest::is_dealt()): those of later passes, and
+// those of the first in a run that is kept or goes on. A packet of them counts as one of rays for the proof of the end. Finish and
+// done then come once a pass.
 #pragma once
 
 #include <array>

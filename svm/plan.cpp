@@ -234,7 +234,7 @@ std::optional<std::uint32_t> smallest_node_count(PlanRequest request) {
   throw core::RoomError(sentence);
 }
 
-/// With an item's pixels in a word where they are masked.
+/// Where a pass may leave pixels out, a work item travels with a mask of one word: items are then no larger than that.
 PlanRequest with_small_items(PlanRequest request) {
   request.work_item_side = request.is_masked() ? std::min(request.work_item_side, masked_side_max) : request.work_item_side;
   return request;
