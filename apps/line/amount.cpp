@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "apps/line/number_text.h"
+#include "apps/line/scale.h"
 
 namespace dmpc::apps {
 
@@ -85,7 +86,7 @@ std::vector<Tick> amount_ticks(double least, double largest, bool is_logarithmic
   const bool has_words = shown_units(unit).size() > 1;  // of any other unit an axis speaks itself
   std::vector<Tick> ticks;
   const ShownUnit common = has_words ? shown_unit(unit, 10 * largest) : ShownUnit{};
-  const HeatScale scale{is_logarithmic, least / common.size, largest / common.size};
+  const NumberScale scale{is_logarithmic, least / common.size, largest / common.size};
   for (const double value : scale.ticks()) {
     const double position = value * common.size;
     const ShownUnit own = has_words && is_logarithmic ? shown_unit(unit, 10 * position) : common;

@@ -4,9 +4,9 @@
 #include <array>
 
 #include "apps/line/number_text.h"
+#include "apps/line/scale.h"
 #include "apps/picture/color_map.h"
 #include "apps/picture/glyphs.h"
-#include "apps/show/heat/scale.h"
 
 namespace dmpc::apps {
 
@@ -28,11 +28,11 @@ std::string mean_of(const HeatField& field) {
                                              : ", mean " + legend_number(field.sum() / static_cast<double>(field.values.size()));
 }
 
-std::string name_of(const HeatScale& scale, const HeatField& field) {
+std::string name_of(const NumberScale& scale, const HeatField& field) {
   return !scale.is_logarithmic ? "linear scale" : field.least() > 0 ? "logarithmic scale" : "logarithmic scale (0: black)";
 }
 
-std::array<std::string, 3> lines_of(const HeatField& field, const HeatScale& scale, const std::string& source) {
+std::array<std::string, 3> lines_of(const HeatField& field, const NumberScale& scale, const std::string& source) {
   return {std::string(nodes::name_of(field.kind)) + ": " + field.meaning + ", " +
               (field.clock.empty() ? "" : field.clock + ", ") + "unit " + field.unit,
           "least " + legend_number(field.least()) + ", largest " + legend_number(field.largest()) + mean_of(field) + ", " +
@@ -49,11 +49,11 @@ int width_of_legend(const std::array<std::string, 3>& lines) {
   return width + 2 * margin;
 }
 
-core::Color color_of(double value, const HeatScale& scale) {
+core::Color color_of(double value, const NumberScale& scale) {
   return scale.is_logarithmic && value <= 0 ? black : color_map(scale.position(value));
 }
 
-void draw_values(Image& image, const HeatField& field, const HeatScale& scale) {
+void draw_values(Image& image, const HeatField& field, const NumberScale& scale) {
   std::size_t pixel = 0;
   for (int y = 0; y < field.height; ++y) {
     for (int x = 0; x < field.width; ++x) {
@@ -77,7 +77,7 @@ void draw_colors(Image& image, const Bar& bar) {
 }
 
 /// Numbers that would touch the one before are left out, but not their ticks.
-void draw_ticks(Image& image, const Bar& bar, const HeatScale& scale) {
+void draw_ticks(Image& image, const Bar& bar, const NumberScale& scale) {
   const int top = bar.y + bar_height * bar.dot;
   int free_from = 0;
   for (const double tick : scale.ticks()) {
@@ -95,7 +95,7 @@ void draw_ticks(Image& image, const Bar& bar, const HeatScale& scale) {
 }  // namespace
 
 Image heat_picture(const HeatField& field, const std::string& source) {
-  const HeatScale scale = scale_for(field.values);
+  const NumberScale scale = scale_for(field.values);
   const std::array<std::string, 3> lines = lines_of(field, scale, source);
   const int dots = width_of_legend(lines);
   const int dot = std::max(1, field.width / dots);

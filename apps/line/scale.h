@@ -1,4 +1,4 @@
-// Which number of a heat map gets which place on the colour map.
+// Which number gets which place on a scale of colours or along an axis, and the round numbers that are written there.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 namespace dmpc::apps {
 
 /// Linear from the least number to the largest, or logarithmic from the least above 0 to the largest.
-struct HeatScale {
+struct NumberScale {
   bool is_logarithmic = false;
   double least = 0, largest = 0;
 
@@ -20,6 +20,6 @@ struct HeatScale {
 
 /// Logarithmic where a linear scale would show little: where half of the numbers above 0 lie below a sixteenth of the largest.
 /// Requires finite numbers >= 0, and at least one.
-HeatScale scale_for(std::span<const double> values);
+NumberScale scale_for(std::span<const double> values);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-#include "apps/show/heat/scale.h"
+#include "apps/line/scale.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -74,7 +74,7 @@ std::vector<double> logarithmic_ticks(double least, double largest) {
 
 }  // namespace
 
-double HeatScale::position(double value) const {
+double NumberScale::position(double value) const {
   if (!(largest > least)) {
     return 0;
   }
@@ -83,17 +83,17 @@ double HeatScale::position(double value) const {
                         : (inside - least) / (largest - least);
 }
 
-std::vector<double> HeatScale::ticks() const {
+std::vector<double> NumberScale::ticks() const {
   if (!(largest > least)) {
     return {least};
   }
   return is_logarithmic ? logarithmic_ticks(least, largest) : linear_ticks(least, largest);
 }
 
-HeatScale scale_for(std::span<const double> values) {
+NumberScale scale_for(std::span<const double> values) {
   core::expect(!values.empty(), "a scale is made for some numbers");
   const auto [least, largest] = std::minmax_element(values.begin(), values.end());
-  core::expect(*least >= 0 && *largest <= 1e300, "a heat map has finite numbers that are not negative");
+  core::expect(*least >= 0 && *largest <= 1e300, "a scale is of finite numbers that are not negative");
   std::vector<double> above_zero;
   std::copy_if(values.begin(), values.end(), std::back_inserter(above_zero), [](double value) { return value > 0; });
   if (above_zero.empty()) {

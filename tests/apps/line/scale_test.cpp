@@ -1,4 +1,4 @@
-#include "apps/show/heat/scale.h"
+#include "apps/line/scale.h"
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,7 @@ namespace dmpc::apps {
 using Numbers = std::vector<double>;
 
 TEST_CASE("a linear scale goes from the least to the largest") {
-  const HeatScale scale = scale_for(Numbers{3, 7, 5});
+  const NumberScale scale = scale_for(Numbers{3, 7, 5});
   CHECK_FALSE(scale.is_logarithmic);
   CHECK(scale.position(3) == 0);
   CHECK(scale.position(5) == 0.5);
@@ -21,7 +21,7 @@ TEST_CASE("a linear scale goes from the least to the largest") {
 }
 
 TEST_CASE("a few numbers far above the others make a scale logarithmic, which leaves 0 out") {
-  const HeatScale scale = scale_for(Numbers{0, 0, 1, 2, 4, 1024});
+  const NumberScale scale = scale_for(Numbers{0, 0, 1, 2, 4, 1024});
   CHECK(scale.is_logarithmic);
   CHECK(scale.least == 1);
   CHECK(scale.position(1) == 0);
@@ -32,7 +32,7 @@ TEST_CASE("a few numbers far above the others make a scale logarithmic, which le
 
 TEST_CASE("equal numbers all stand at the beginning of their scale") {
   for (const double value : {0.0, 4.0}) {
-    const HeatScale scale = scale_for(Numbers{value, value});
+    const NumberScale scale = scale_for(Numbers{value, value});
     CHECK(scale.position(value) == 0);
     CHECK(scale.ticks() == Numbers{value});
   }
@@ -45,11 +45,11 @@ TEST_CASE("a scale needs a number, and none below 0 or without end") {
 }
 
 TEST_CASE("ticks are round numbers within the scale") {
-  CHECK(HeatScale{false, 0, 10}.ticks() == Numbers{0, 2, 4, 6, 8, 10});
-  CHECK(HeatScale{false, 3, 27}.ticks() == Numbers{5, 10, 15, 20, 25});
-  CHECK(HeatScale{true, 1, 100}.ticks() == Numbers{1, 2, 5, 10, 20, 50, 100});
-  CHECK(HeatScale{true, 3, 7000}.ticks() == Numbers{10, 100, 1000});
-  const Numbers small = HeatScale{false, 0, 0.3}.ticks();
+  CHECK(NumberScale{false, 0, 10}.ticks() == Numbers{0, 2, 4, 6, 8, 10});
+  CHECK(NumberScale{false, 3, 27}.ticks() == Numbers{5, 10, 15, 20, 25});
+  CHECK(NumberScale{true, 1, 100}.ticks() == Numbers{1, 2, 5, 10, 20, 50, 100});
+  CHECK(NumberScale{true, 3, 7000}.ticks() == Numbers{10, 100, 1000});
+  const Numbers small = NumberScale{false, 0, 0.3}.ticks();
   CHECK(small.size() == 7);
   CHECK(small.back() == doctest::Approx(0.3));
 }
