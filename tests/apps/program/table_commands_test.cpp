@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <sstream>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "apps/bench/error/command.h"
@@ -26,33 +25,23 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-struct TableCommand {
-  apps::Interrupt& interrupt;
-  std::ostream& output;
+/// Of those commands that call dmpc themselves, another one than the test's.
+template <class Options>
+Options with_program(const apps::Command& command) {
+  auto options = command.options<Options>();
+  options.settings.program = DMPC_PROGRAM;
+  return options;
+}
 
-  int operator()(const apps::StudyOptions& options) const { return apps::study_command(options, interrupt, output); }
-  int operator()(const apps::PaperStudyOptions& options) const { return apps::study_paper_command(options, interrupt, output); }
-  int operator()(apps::ScaleOptions options) const {
-    options.settings.program = DMPC_PROGRAM;
-    return apps::study_scale_command(options, interrupt, output);
+int run_by(const Words& words, const apps::Command& command, apps::Interrupt& interrupt, std::ostream& output) {
+  if (words[1] == "scale") {
+    return apps::study_scale_command(with_program<apps::ScaleOptions>(command), interrupt, output);
   }
-  int operator()(apps::SpeedOptions options) const {
-    options.settings.program = DMPC_PROGRAM;
-    return apps::bench_speed_command(options, interrupt, output);
+  if (words[1] == "speed") {
+    return apps::bench_speed_command(with_program<apps::SpeedOptions>(command), interrupt, output);
   }
-  int operator()(const apps::ErrorOptions& options) const { return apps::bench_error_command(options, interrupt, output); }
-  int operator()(const apps::StabilityOptions& options) const {
-    return apps::bench_stability_command(options, interrupt, output);
-  }
-  int operator()(const apps::PrecisionOptions& options) const {
-    return apps::bench_precision_command(options, interrupt, output);
-  }
-  template <class Other>
-  int operator()(const Other&) const {
-    core::expect(false, "a command that prints a table");
-    return 0;
-  }
-};
+  return command.run(interrupt, output);
+}
 
 struct TableRun {
   int status = 0;
@@ -63,7 +52,7 @@ TableRun run_table(Words words, const Words& more = {}) {
   words.insert(words.end(), more.begin(), more.end());
   apps::Interrupt interrupt;
   std::ostringstream output;
-  const int status = std::visit(TableCommand{interrupt, output}, apps::parse_command_line(words));
+  const int status = run_by(words, apps::parse_command_line(words), interrupt, output);
   return {status, output.str()};
 }
 
