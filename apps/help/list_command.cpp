@@ -42,7 +42,7 @@ std::vector<ChoiceList> chosen(const ListOptions& options) {
   return some;
 }
 
-std::string text_of(const ChoiceList& list) {
+std::string text_of_list(const ChoiceList& list) {
   std::size_t width = 0;
   for (const Choice& entry : list.entries) {
     width = std::max(width, entry.name.size() + 2);
@@ -86,7 +86,7 @@ int list_command(const ListOptions& options, std::ostream& output) {
     output << text_of(table_of(lists), TableFormat::json);
   }
   for (std::size_t i = 0; options.format == ListFormat::text && i < lists.size(); ++i) {
-    output << (i == 0 ? "" : "\n") << text_of(lists[i]);
+    output << (i == 0 ? "" : "\n") << text_of_list(lists[i]);
   }
   finish_output(output, "the list");
   return 0;

@@ -5,7 +5,7 @@ namespace dmpc::apps {
 
 namespace {
 
-constexpr const char* head = R"(# Completion of dmpc in bash, written from the declarations of its options.
+constexpr const char* bash_head = R"(# Completion of dmpc in bash, written from the declarations of its options.
 # Sets words, files, endings (of files), folders and is_list to what may stand for an argument or, if there is a $2, for the value of this option of
 # command $1.
 _dmpc_value() {
@@ -22,7 +22,7 @@ _dmpc_declared() {
   case "$1" in
 )";
 
-constexpr const char* engine = R"(  esac
+constexpr const char* bash_engine = R"(  esac
 }
 
 # Prints the files that go on from $1, with $2 before them: folders, and what has one of the endings set, if any are.
@@ -153,7 +153,7 @@ std::string declaration_cases(const CommandDescription& command, const std::stri
 }  // namespace
 
 std::string bash_completion(const CommandDescription& program) {
-  return head + value_cases(program, "") + declarations + declaration_cases(program, "") + engine;
+  return bash_head + value_cases(program, "") + declarations + declaration_cases(program, "") + bash_engine;
 }
 
 }  // namespace dmpc::apps

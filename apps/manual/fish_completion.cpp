@@ -5,7 +5,7 @@ namespace dmpc::apps {
 
 namespace {
 
-constexpr const char* head = R"(# Completion of dmpc in fish, written from the declarations of its options.
+constexpr const char* fish_head = R"(# Completion of dmpc in fish, written from the declarations of its options.
 # Whether the commands typed so far are those given.
 function __dmpc_command_is
   set -l path
@@ -13,7 +13,7 @@ function __dmpc_command_is
     switch "$path $word"
 )";
 
-constexpr const char* engine = R"(        set path (string trim "$path $word")
+constexpr const char* fish_engine = R"(        set path (string trim "$path $word")
     end
   end
   test "$path" = "$argv"
@@ -94,7 +94,7 @@ std::string lines(const CommandDescription& command, const std::string& path) {
 }  // namespace
 
 std::string fish_completion(const CommandDescription& program) {
-  return head + ("      case" + command_patterns(program, "")) + "\n" + engine + lines(program, "");
+  return fish_head + ("      case" + command_patterns(program, "")) + "\n" + fish_engine + lines(program, "");
 }
 
 }  // namespace dmpc::apps

@@ -5,7 +5,7 @@ namespace dmpc::apps {
 
 namespace {
 
-constexpr const char* head = "#compdef dmpc\n# Completion of dmpc in zsh, written from the declarations of its options.\n";
+constexpr const char* zsh_head = "#compdef dmpc\n# Completion of dmpc in zsh, written from the declarations of its options.\n";
 
 /// For _arguments and _describe, between single quotation marks: what means something to them stands for itself.
 std::string plain(const std::string& text) {
@@ -99,6 +99,6 @@ std::string functions(const CommandDescription& command, const std::string& path
 
 }  // namespace
 
-std::string zsh_completion(const CommandDescription& program) { return head + functions(program, "") + "\n_dmpc \"$@\"\n"; }
+std::string zsh_completion(const CommandDescription& program) { return zsh_head + functions(program, "") + "\n_dmpc \"$@\"\n"; }
 
 }  // namespace dmpc::apps

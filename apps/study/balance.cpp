@@ -17,7 +17,7 @@ namespace {
 
 using dataflow::Balance;
 
-const char* name_of(Balance balance) { return balance == Balance::subsampled ? "subsampled" : "equal size"; }
+const char* name_of_regions(Balance balance) { return balance == Balance::subsampled ? "subsampled" : "equal size"; }
 
 dataflow::RunOptions options_for(const BalanceStudy& study, std::uint32_t node_count, Balance balance) {
   dataflow::RunOptions options{.node_count = node_count, .balance = study.regions, .topology = study.topology};
@@ -34,7 +34,7 @@ std::vector<Cell> summary_row(const dataflow::Report& report, const BalanceStudy
   const RayHops hops = ray_hops_of(report, study.topology);
   const bool has_hops = report.messages_per_ray() > 0;
   std::vector<Cell> row = {std::uint64_t{report.plan.node_count()},
-                           name_of(balance),
+                           name_of_regions(balance),
                            average_load_cell(report.predicted),
                            average_load_cell(report.work()),
                            report.duplication,
@@ -54,7 +54,7 @@ void add_node_rows(const dataflow::Report& report, const BalanceStudy& study, Ba
   for (std::uint32_t node = 0; node < work.size(); ++node) {
     std::vector<Cell> row(study.columns().size());
     row[0] = std::uint64_t{report.plan.node_count()};
-    row[1] = name_of(balance);
+    row[1] = name_of_regions(balance);
     row[row.size() - 3] = std::uint64_t{node};
     row[row.size() - 2] = share_cell(report.predicted, node);
     row[row.size() - 1] = share_cell(work, node);
@@ -87,7 +87,7 @@ std::vector<Column> BalanceStudy::columns() const {
 std::vector<Plot> BalanceStudy::plots() const {
   std::vector<PlotSeries> series;
   for (const Balance balance : {Balance::subsampled, Balance::equal_size}) {
-    const std::string kind = name_of(balance);
+    const std::string kind = name_of_regions(balance);
     const std::size_t color = series.size() / 2;
     series.push_back({kind + ", predicted", "average load predicted", {{"regions", kind}}, PlotMark::points, color});
     series.push_back({kind + ", achieved", "average load achieved", {{"regions", kind}}, PlotMark::line, color});
@@ -99,7 +99,7 @@ std::vector<Plot> BalanceStudy::plots() const {
 void BalanceStudy::measure(StudyRuns& runs, Table& table) const {
   for (const std::uint32_t node_count : node_counts) {
     for (const Balance balance : {Balance::subsampled, Balance::equal_size}) {
-      const std::string computer = std::to_string(node_count) + " nodes, regions " + name_of(balance);
+      const std::string computer = std::to_string(node_count) + " nodes, regions " + name_of_regions(balance);
       const dataflow::Report report = runs.run(computer, options_for(*this, node_count, balance));
       table.add_row(summary_row(report, *this, balance));
       if (per_node) {
@@ -115,7 +115,8 @@ std::vector<std::string> BalanceStudy::notes(const std::string& scene) const {
       "Average load: mean over maximum of the nodes' work, which is counted operations at measured prices.",
       "Predicted: by the picture of one pixel of every " + step + "x" + step + ".",
       "Duplication: copies of primitives in all regions over those in the database's bricks.",
-      "Hops: links that a ray sent from node to node passes on a machine wired as a " + std::string(nodes::name_of(topology)) +
+      "Hops: links that a ray sent from node to node passes on a machine wired as a " +
+          std::string(nodes::name_of(topology)) +
           ", by counted rays, with the regions where they are put and as the mean of random mappings."};
   if (is_rings_3(scene)) {
     notes.emplace_back(

@@ -8,11 +8,12 @@ namespace dmpc::apps {
 
 namespace {
 
-constexpr std::size_t kept_bytes = 65536;
+constexpr std::size_t read_bytes_kept = 65536;
 
 }  // namespace
 
-FileSource::FileSource(const std::filesystem::path& path, Files& files) : std::istream(this), files_(files), kept_(kept_bytes) {
+FileSource::FileSource(const std::filesystem::path& path, Files& files)
+    : std::istream(this), files_(files), kept_(read_bytes_kept) {
   do {
     file_ = files.open(path, O_RDONLY);
   } while (file_ < 0 && errno == EINTR);

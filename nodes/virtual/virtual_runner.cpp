@@ -18,8 +18,6 @@ namespace {
 /// Events between two looks at a request to stop.
 constexpr std::uint64_t events_per_look = 1024;
 
-using Processor = VirtualProcessor;
-
 }  // namespace
 
 struct VirtualRunner::Implementation {
@@ -40,7 +38,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     core::expect(!specifications.empty(), "a computer has at least the host");
     const auto peer_count = static_cast<std::uint32_t>(specifications.size());
     for (std::uint32_t i = 0; i < peer_count; ++i) {
-      computer.processors.push_back(std::make_unique<Processor>(specifications[i], NodeId{i}, peer_count, computer));
+      computer.processors.push_back(std::make_unique<VirtualProcessor>(specifications[i], NodeId{i}, peer_count, computer));
     }
   }
 
@@ -88,12 +86,12 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     }
   }
 
-  void post(Processor& source, Event::Kind kind, std::uint64_t time_ns, std::uint32_t packet = 0) {
+  void post(VirtualProcessor& source, Event::Kind kind, std::uint64_t time_ns, std::uint32_t packet = 0) {
     events.push({time_ns, source.sequence++, index_of(source.node.id()), kind, packet});
   }
 
   /// A processor has sent a message, which enters the network after its latency, behind those to the same target.
-  void leave(Processor& self, std::uint32_t number, std::uint64_t time_ns, std::uint32_t call) {
+  void leave(VirtualProcessor& self, std::uint32_t number, std::uint64_t time_ns, std::uint32_t call) {
     const Message& message = computer.messages[number];
     if constexpr (is_watched) {
       tell_sent(number, time_ns, call);
@@ -107,7 +105,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   void enter(std::uint32_t number) {
     const Message& message = computer.messages[number];
     const NodeId source{message.header.source};
-    Processor& sender = *computer.processors[index_of(source)];
+    VirtualProcessor& sender = *computer.processors[index_of(source)];
     std::uint64_t& arrives_ns = sender.ways[index_of(message.target)].last_arrives_ns;
     [[maybe_unused]] const std::uint64_t waited_ns = links.traffic().wait_ns;
     arrives_ns = std::max(arrives_ns, links.pass(source, message.target, events.now_ns(), message.bytes()));
@@ -122,7 +120,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
 
   void arrive(std::uint32_t number) {
     const Message& message = computer.messages[number];
-    Processor& target = *computer.processors[index_of(message.target)];
+    VirtualProcessor& target = *computer.processors[index_of(message.target)];
     target.node.counters().received[message.header.kind].add(message.payload.size());
     if ((target.interrupt_kinds >> message.header.kind & 1U) != 0) {
       return serve(target, number);
@@ -140,14 +138,14 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   }
 
   /// From having nothing to do to having something, once the services that have been asked for are over: returns when.
-  std::uint64_t end_wait(Processor& self, PacketKind kind) const {
+  std::uint64_t end_wait(VirtualProcessor& self, PacketKind kind) const {
     const std::uint64_t begin_ns = std::max(events.now_ns(), self.served_until_ns);
     self.times.waiting_ns[kind] += begin_ns - self.idle_since_ns - (self.times.lent_ns - self.lent_before_ns);
     return begin_ns;
   }
 
   /// An interrupt: first come, first served, whatever the program was doing.
-  void serve(Processor& self, std::uint32_t number) {
+  void serve(VirtualProcessor& self, std::uint32_t number) {
     const std::uint64_t receive_ns = machine.cost_of_message(computer.messages[number].bytes()).receive_ns;
     const std::uint64_t start_ns = std::max(events.now_ns(), self.served_until_ns);
     begin(self, self.service, Activity::serve, computer.messages[number].header.kind, start_ns);
@@ -170,7 +168,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   }
 
   /// What was under way is done: its packets leave, then the program goes on.
-  void become_free(Processor& self) {
+  void become_free(VirtualProcessor& self) {
     self.is_occupied = false;
     const bool sends = !self.outgoing.empty();
     std::uint64_t sent_ns = events.now_ns();
@@ -189,7 +187,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   }
 
   /// The next packet, or the next quantum, or nothing.
-  void go_on(Processor& self) {
+  void go_on(VirtualProcessor& self) {
     const std::uint64_t now_ns = events.now_ns();
     if (!self.inbox.empty()) {
       const std::uint32_t number = self.inbox.front();
@@ -213,14 +211,14 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     occupy(self, now_ns + computing_ns);
   }
 
-  void occupy(Processor& self, std::uint64_t until_ns) {
+  void occupy(VirtualProcessor& self, std::uint64_t until_ns) {
     self.is_occupied = true;
     self.occupied_until_ns = until_ns;
     post(self, Event::Kind::is_free, until_ns);
   }
 
   /// What the operations take that the program has charged since the last call.
-  std::uint64_t charge(Processor& self) {
+  std::uint64_t charge(VirtualProcessor& self) {
     const Charges now = self.program->charges();
     const std::uint64_t price_ps = self.remainder_ps + machine.price_ps(self.charged, now);
     self.charged = now;
@@ -230,7 +228,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
 
   // ---- For an observer -----------------------------------------------------------------------------------------------------
 
-  void receive(Processor& self, std::uint32_t number, const Span& span) {
+  void receive(VirtualProcessor& self, std::uint32_t number, const Span& span) {
     if constexpr (is_watched) {
       Message& message = computer.messages[number];
       message.times.received_ns = span.begin_ns;
@@ -241,7 +239,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   }
 
   /// Of what is no call of the program, `own_ns` is known.
-  void begin(Processor& self, Span& span, Activity activity, PacketKind packet, std::uint64_t begin_ns,
+  void begin(VirtualProcessor& self, Span& span, Activity activity, PacketKind packet, std::uint64_t begin_ns,
              std::uint64_t own_ns = 0) const {
     if constexpr (is_watched) {
       const bool is_call = activity != Activity::send && activity != Activity::take_over;
@@ -259,14 +257,14 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   }
 
   /// The call has been made, and its operations are priced.
-  void charged(const Processor& self, Span& span, std::uint64_t own_ns) const {
+  void charged(const VirtualProcessor& self, Span& span, std::uint64_t own_ns) const {
     if constexpr (is_watched) {
       span.own_ns = own_ns;
       span.after = self.charged;
     }
   }
 
-  void end(const Processor& self, Span& span, std::uint64_t end_ns) const {
+  void end(const VirtualProcessor& self, Span& span, std::uint64_t end_ns) const {
     if constexpr (is_watched) {
       span.end_ns = end_ns;
       observer->ended(span, *self.program);

@@ -13,7 +13,7 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::uint32_t node_count = 8;
+constexpr std::uint32_t memory_node_count = 8;
 constexpr const char* one_triangle =
     "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 1\nresolution 512 512\n"
     "l 2 2 5\nf 1 0.5 0.5 1 0 1 0 1\np 3\n-1 -1 0\n1 -1 0\n0 1 0\n";
@@ -24,7 +24,7 @@ std::size_t peak_of(const std::string& scene, const SpeedSettings& settings, con
                     const Interrupt& interrupt) {
   const PictureOptions picture = settings.picture_of(SpeedPart::memory, scene);
   return peak_anonymous_bytes(settings.program,
-                              {"render", scene, "--nodes=" + std::to_string(node_count), "--quiet",
+                              {"render", scene, "--nodes=" + std::to_string(memory_node_count), "--quiet",
                                "--resolution=" + text_of(*picture.resolution), "-o", (folder / "picture.exr").string()},
                               interrupt);
 }
@@ -33,9 +33,9 @@ std::size_t peak_of(const std::string& scene, const SpeedSettings& settings, con
 std::size_t local_bytes(const std::string& scene, const SpeedSettings& settings) {
   const PictureOptions picture = settings.picture_of(SpeedPart::memory, scene);
   const Subject subject = build_subject(settings.load(picture), picture);
-  const svm::Plan plan = svm::plan_of(svm::Strategy::svm, subject.database, subject.settings, {.node_count = node_count});
+  const svm::Plan plan = svm::plan_of(svm::Strategy::svm, subject.database, subject.settings, {.node_count = memory_node_count});
   std::size_t sum = 0;
-  for (std::uint32_t node = 0; node < node_count; ++node) {
+  for (std::uint32_t node = 0; node < memory_node_count; ++node) {
     sum += plan.node_memory(node).total();
   }
   return sum;
@@ -59,7 +59,7 @@ void measure_memory(const SpeedSettings& settings, const Interrupt& interrupt, s
                        .scene = scenes[i],
                        .what = "anonymous memory",
                        .detail = "",
-                       .threads = node_count,
+                       .threads = memory_node_count,
                        .subject = "process above that of one triangle",
                        .rival = "local memories",
                        .unit = "MiB",

@@ -16,7 +16,7 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::uint32_t node_count = 2;
+constexpr std::uint32_t picture_node_count = 2;
 constexpr std::array<const char*, 6> phase_names = {"load", "build", "prepare", "render", "write", "whole picture"};
 using Phases = std::array<Times, phase_names.size()>;
 
@@ -24,7 +24,7 @@ StrategyOptions strategy_of(bool is_rival) {
   StrategyOptions options;
   options.strategy = is_rival ? Strategy::replicated : Strategy::svm;
   options.tracer = is_rival ? TracerChoice::embree : TracerChoice::grid;
-  options.computer.node_count = node_count;
+  options.computer.node_count = picture_node_count;
   return options;
 }
 
@@ -58,7 +58,7 @@ void add_comparisons(const std::string& scene, std::vector<Comparison>& results)
                .scene = scene,
                .what = phase,
                .detail = "",
-               .threads = node_count,
+               .threads = picture_node_count,
                .subject = "svm",
                .rival = "replicated with Embree",
                .unit = "s"},

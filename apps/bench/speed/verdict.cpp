@@ -35,7 +35,7 @@ struct Summary {
   }
 };
 
-std::string sentence_on(const Summary& summary) {
+std::string sentence_about(const Summary& summary) {
   const bool wins = effect_of(summary.best) == Effect::wins, loses = effect_of(summary.worst) == Effect::loses;
   std::string sentence = summary.name + (wins && !loses ? ": kept, " : ": to be dropped, ");
   sentence += wins ? "wins up to " + percent_text(100 * (summary.best - 1)) + " (" + summary.best_scene + ")"
@@ -75,7 +75,7 @@ std::vector<std::string> verdicts_on(std::span<const Ablation> ablations) {
     found->add(ablation);
   }
   std::vector<std::string> sentences(summaries.size());
-  std::transform(summaries.begin(), summaries.end(), sentences.begin(), sentence_on);
+  std::transform(summaries.begin(), summaries.end(), sentences.begin(), sentence_about);
   return sentences;
 }
 

@@ -8,7 +8,7 @@
 namespace dmpc::apps::gltf {
 namespace {
 
-std::unique_ptr<draco::Mesh> unpacked(const Part& packing, std::span<const std::byte> bytes) {
+std::unique_ptr<draco::Mesh> unpacked_mesh(const Part& packing, std::span<const std::byte> bytes) {
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   auto mesh = draco::Decoder().DecodeMeshFromBuffer(&buffer);
@@ -39,7 +39,7 @@ Values values_of(const draco::Mesh& mesh, const Part& id, std::size_t width) {
 
 Primitive read_draco(const Part& packing, Buffers& buffers, const std::map<std::string, std::size_t>& widths) {
   const View view = buffers.view(packing.required_index("bufferView", buffers.view_count(), "bufferViews"));
-  const auto mesh = unpacked(packing, view.bytes);
+  const auto mesh = unpacked_mesh(packing, view.bytes);
   Primitive result;
   for (const auto& [name, width] : widths) {
     result.attributes[name] = values_of(*mesh, packing.get("attributes").get(name), width);

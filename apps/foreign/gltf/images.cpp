@@ -11,15 +11,15 @@
 namespace dmpc::apps::gltf {
 namespace {
 
-using Bytes = std::vector<std::byte>;
+using ImageBytes = std::vector<std::byte>;
 
-bool begins_with(const Bytes& bytes, std::string_view beginning, std::size_t at = 0) {
+bool begins_with(const ImageBytes& bytes, std::string_view beginning, std::size_t at = 0) {
   return bytes.size() >= at + beginning.size() &&
          std::string_view(reinterpret_cast<const char*>(bytes.data()) + at, beginning.size()) == beginning;
 }
 
 /// How files of this kind end, by what the bytes begin with: what a document says of them need not be true.
-std::string ending_of(const Bytes& bytes) {
+std::string ending_of(const ImageBytes& bytes) {
   if (begins_with(bytes, "\x89PNG")) {
     return "png";
   }
@@ -32,7 +32,7 @@ std::string ending_of(const Bytes& bytes) {
   return begins_with(bytes, "\xabKTX") ? "ktx2" : begins_with(bytes, "GIF8") ? "gif" : begins_with(bytes, "BM") ? "bmp" : "png";
 }
 
-aiTexture* texture_of(const Bytes& bytes) {
+aiTexture* texture_of(const ImageBytes& bytes) {
   core::expect(bytes.size() <= std::numeric_limits<unsigned>::max(), "a picture within a file was checked for its size");
   auto* const texture = new aiTexture;
   texture->pcData = new aiTexel[bytes.size() / sizeof(aiTexel) + 1];
@@ -71,7 +71,7 @@ void Images::give_to(aiScene& scene) {
     return;
   }
   scene.mTextures = new aiTexture*[within_.size()];
-  for (const Bytes& bytes : within_) {
+  for (const ImageBytes& bytes : within_) {
     scene.mTextures[scene.mNumTextures] = texture_of(bytes);
     ++scene.mNumTextures;
   }

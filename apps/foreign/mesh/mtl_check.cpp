@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstddef>
 
+#include "apps/foreign/mesh/trimmed.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -12,12 +13,6 @@ namespace {
 constexpr std::string_view keyword = "map_kd";
 /// Of a name, with the options before it; Assimp holds no more.
 constexpr std::size_t name_bytes_max = 1023;
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r";
-  const std::size_t begin = std::min(text.find_first_not_of(blanks), text.size());
-  return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
-}
 
 bool is_map(std::string_view line) {
   return line.size() >= keyword.size() &&

@@ -12,6 +12,8 @@
 
 #include "apps/system/byte_order_mark.h"
 
+#include "apps/foreign/mesh/trimmed.h"
+
 namespace dmpc::apps {
 namespace {
 
@@ -38,11 +40,6 @@ std::string in_small_letters(std::string_view text) {
   std::transform(small.begin(), small.end(), small.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
   return small;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = std::min(text.find_first_not_of(blanks), text.size());
-  return text.substr(first, text.find_last_not_of(blanks) + 1 - first);
 }
 
 /// The first word, and what follows it.

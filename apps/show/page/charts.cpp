@@ -13,7 +13,7 @@ namespace dmpc::apps::html {
 namespace {
 
 /// A style is stronger than the attributes that gnuplot writes.
-constexpr const char* style =
+constexpr const char* chart_style =
     "<style>rect[fill='#ffffff']{fill:none}"
     "@media(prefers-color-scheme:dark){[fill='black']{fill:#e4e4e4}[stroke='black']{stroke:#e4e4e4}[color='black']{color:#e4e4e4}"
     "[fill='rgb(  0,   0,   0)']{fill:#fff}[stroke='rgb(  0,   0,   0)']{stroke:#fff}[color='rgb(  0,   0,   0)']{color:#fff}"
@@ -46,7 +46,7 @@ Chart Charts::draw(Plot plot, const Table& table) {
 
 std::string themed(std::string svg) {
   if (const std::size_t at = svg.find("<g id=\"gnuplot_canvas\">"); at != std::string::npos) {
-    svg.insert(at, style);
+    svg.insert(at, chart_style);
   }
   return svg;
 }

@@ -27,7 +27,7 @@ constexpr std::size_t ticks_max = 8, scale_steps = 64;
 /// Above this share of the scale a square is so light that what is written in it has to be dark.
 constexpr double light_share = 0.55;
 
-constexpr const char* style =
+constexpr const char* map_style =
     "<style>text{font:12px sans-serif;fill:#1a1a1a}.title{font-size:13px}.in{font-size:11px}.dark{fill:#111}.light{fill:#fff}"
     "line,rect.frame{stroke:#5c5c5c;fill:none}image{image-rendering:pixelated}"
     "@media(prefers-color-scheme:dark){text{fill:#e4e4e4}.dark{fill:#111}.light{fill:#fff}line,rect.frame{stroke:#a5a9b0}}"
@@ -176,7 +176,7 @@ std::string svg_of(const NumberMap& map) {
   const Field field(map);
   const std::string size = rounded(width) + " " + rounded(field.height());
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + size + "\"" + attribute("width", width) +
-         attribute("height", field.height()) + " role=\"img\">\n<title>" + escaped(map.title) + "</title>\n" + style +
+         attribute("height", field.height()) + " role=\"img\">\n<title>" + escaped(map.title) + "</title>\n" + map_style +
          text_at({left + field_width / 2, 18}, map.title, "class=\"title\" text-anchor=\"middle\"") + field.text() + "</svg>\n";
 }
 

@@ -11,14 +11,14 @@ namespace dmpc::apps {
 
 namespace {
 
-using Traffic = std::array<nodes::Traffic, nodes::packet_kind_count>;
+using TrafficByKind = std::array<nodes::Traffic, nodes::packet_kind_count>;
 
 /// What the rays of one node, or of all, did on their way.
 struct Travel {
   std::uint64_t rays_shot = 0;
   dataflow::RayCounters rays;
   dataflow::Gather::Counters gather;
-  Traffic sent;
+  TrafficByKind sent;
   std::uint32_t backlog_max = 0;
 };
 
