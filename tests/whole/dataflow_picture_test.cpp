@@ -210,7 +210,8 @@ TEST_CASE("dataflow: a scene that does not fit says which number of nodes works,
   INFO(error);
   const std::size_t at = error.find("with this memory node_count=");
   REQUIRE(at != std::string::npos);
-  options.node_count = static_cast<std::uint32_t>(std::stoul(error.substr(at + 25)));
+  options.node_count =
+      static_cast<std::uint32_t>(std::stoul(error.substr(at + std::string("with this memory node_count=").size())));
   CHECK(options.node_count > 1);
   check(subject, options);
 }
