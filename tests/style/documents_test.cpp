@@ -3,11 +3,13 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dmpc::tests {
@@ -149,6 +151,29 @@ Faults faults_of_names(const Place& place) {
   return faults;
 }
 
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Options behind a script of ours that the script does not know.
+Faults faults_of_scripts(const Place& place) {
+  static const std::regex calls(R"((?:^    |`)(tests/[a-z_/]+)( [^`]*))"), options(R"((--[a-z_]+))");
+  Faults faults;
+  for (std::size_t i = 0; i < place.document.lines.size(); ++i) {
+    const std::string& line = place.document.lines[i];
+    for (auto call = std::sregex_iterator(line.begin(), line.end(), calls); call != std::sregex_iterator(); ++call) {
+      const std::string script = text_of(place.root / (*call)[1].str());
+      for (const std::string& option : found_in((*call)[2], options)) {
+        if (script.find(option) == std::string::npos) {
+          faults.push_back(place.text(i, (*call)[1].str() + " does not know " + option));
+        }
+      }
+    }
+  }
+  return faults;
+}
+
 /// History is git's to tell; the present tense is ours.
 Faults faults_of_tense(const Place& place) {
   static const std::regex words(R"(\b(formerly|used to|no longer|at first|previously|originally|in the past)\b)");
@@ -207,7 +232,26 @@ bool calls(const Lines& lines, const std::string& layer, const std::string& room
   });
 }
 
-Faults check_all(Faults (*faults_of)(const Place&)) {
+/// Sources of nodes, but for those that the plan of the house excepts, in which one of the strategies' words stands.
+Faults strategies_words_in_nodes(const fs::path& root) {
+  static const std::regex words(R"(\b([Pp]ages?|[Rr]ays?|[Pp]ixels?)\b)");
+  static const std::regex excepted(R"(.*/(watch/.*|observer\.h|charge\.h|local_memory\.(h|cpp)))");
+  Faults faults;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / "nodes")) {
+    const std::string file = entry.path();
+    if ((file.ends_with(".h") || file.ends_with(".cpp")) && !std::regex_match(file, excepted)) {
+      const Lines lines = lines_of(file);
+      for (std::size_t i = 0; i < lines.size(); ++i) {
+        for (const std::string& word : found_in(lines[i], words)) {
+          faults.push_back(file + ":" + std::to_string(i + 1) + ": " + word);
+        }
+      }
+    }
+  }
+  return faults;
+}
+
+void check_all(Faults (*faults_of)(const Place&)) {
   Faults all;
   for (const Document& document : all_documents(DMPC_SOURCE_DIR)) {
     const Faults faults = faults_of({.document = document});
@@ -216,7 +260,6 @@ Faults check_all(Faults (*faults_of)(const Place&)) {
   for (const std::string& fault : all) {
     FAIL_CHECK(fault);
   }
-  return all;
 }
 
 Place room_that_says(const Lines& lines, const fs::path& path = "core/README.md") { return {.document = {path, lines}}; }
@@ -253,6 +296,13 @@ TEST_CASE("every file that a document names is there") {
   CHECK(faults_of_names(room_that_says({"    tests/gallop"})).size() == 1);
 }
 
+TEST_CASE("every option of a script that a document names is one that it takes") {
+  check_all(faults_of_scripts);
+  CHECK(faults_of_scripts(room_that_says({"    tests/chaos --seeds=10 --build=asan"})).empty());
+  CHECK(faults_of_scripts(room_that_says({"Try `tests/chaos --meekly`."})) ==
+        Faults{"core/README.md:1: tests/chaos does not know --meekly"});
+}
+
 TEST_CASE("documents speak of the present") {
   check_all(faults_of_tense);
   CHECK(faults_of_tense(room_that_says({"It is what at first it was."})).size() == 1);
@@ -282,6 +332,12 @@ TEST_CASE("every room is on the plan of the house, or in its layer's README") {
   }
   CHECK_FALSE(calls({"a cellar, and an `attic`"}, "core", "cellar"));
   CHECK(calls({"`core/cellar/rats.h`"}, "core", "cellar"));
+}
+
+TEST_CASE("nodes speaks of pages, rays and pixels only where the plan of the house says so") {
+  for (const std::string& fault : strategies_words_in_nodes(DMPC_SOURCE_DIR)) {
+    FAIL_CHECK(fault);
+  }
 }
 
 }  // namespace dmpc::tests
