@@ -5,72 +5,18 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "tests/support/documents.h"
 
 namespace dmpc::tests {
 
 namespace {
 
 namespace fs = std::filesystem;
-using Lines = std::vector<std::string>;
-
-/// A Markdown file of ours; its path is relative to the root.
-struct Document {
-  fs::path path;
-  Lines lines;
-
-  bool is_front() const { return path == "README.md" || path == "ARCHITECTURE.md"; }
-  bool is_results() const { return path.filename() == "RESULTS.md"; }
-};
-
-/// What a document is found guilty of: "core/README.md:12: ...".
-using Faults = std::vector<std::string>;
-
-Lines lines_of(const fs::path& file) {
-  std::ifstream stream(file);
-  Lines lines;
-  for (std::string line; std::getline(stream, line);) {
-    lines.push_back(line);
-  }
-  return lines;
-}
-
-std::vector<Document> all_documents(const fs::path& root) {
-  std::vector<Document> documents;
-  for (auto entry = fs::recursive_directory_iterator(root); entry != fs::recursive_directory_iterator(); ++entry) {
-    const std::string name = entry->path().filename();
-    if (entry->is_directory() && (name.front() == '.' || name == "build")) {
-      entry.disable_recursion_pending();
-    } else if (entry->path().extension() == ".md") {
-      documents.push_back({fs::relative(entry->path(), root), lines_of(entry->path())});
-    }
-  }
-  return documents;
-}
-
-/// Of the project, or of a text of its own for those who test the tests.
-struct Place {
-  fs::path root = DMPC_SOURCE_DIR;
-  Document document;
-
-  std::string text(std::size_t line, const std::string& fault) const {
-    return document.path.string() + ":" + std::to_string(line + 1) + ": " + fault;
-  }
-};
-
-/// What `expression` finds in a line, its first group.
-Lines found_in(const std::string& line, const std::regex& expression) {
-  Lines found;
-  for (auto match = std::sregex_iterator(line.begin(), line.end(), expression); match != std::sregex_iterator(); ++match) {
-    found.push_back((*match)[1]);
-  }
-  return found;
-}
 
 /// Letters of UTF-8.
 std::size_t width_of(const std::string& line) {
@@ -132,48 +78,6 @@ Faults faults_of_links(const Place& place) {
   return faults;
 }
 
-/// Whether `name` is a file or folder, or a file but for its ending.
-bool is_there(const fs::path& root, const std::string& name) {
-  return fs::exists(root / name) || fs::exists(root / (name + ".h")) || fs::exists(root / (name + ".cpp"));
-}
-
-/// Files and folders that stand in `code`, the first word of it, or are run in a line of its own.
-Faults faults_of_names(const Place& place) {
-  static const std::regex names(R"((?:^    |`)((?:core|nodes|svm|dataflow|apps|tests)/[A-Za-z0-9_./]+)(?=[` ]|$))");
-  Faults faults;
-  for (std::size_t i = 0; i < place.document.lines.size(); ++i) {
-    for (const std::string& name : found_in(place.document.lines[i], names)) {
-      if (!is_there(place.root, name)) {
-        faults.push_back(place.text(i, "a file that does not exist: " + name));
-      }
-    }
-  }
-  return faults;
-}
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-/// Options behind a script of ours that the script does not know.
-Faults faults_of_scripts(const Place& place) {
-  static const std::regex calls(R"((?:^    |`)(tests/[a-z_/]+)( [^`]*))"), options(R"((--[a-z_]+))");
-  Faults faults;
-  for (std::size_t i = 0; i < place.document.lines.size(); ++i) {
-    const std::string& line = place.document.lines[i];
-    for (auto call = std::sregex_iterator(line.begin(), line.end(), calls); call != std::sregex_iterator(); ++call) {
-      const std::string script = text_of(place.root / (*call)[1].str());
-      for (const std::string& option : found_in((*call)[2], options)) {
-        if (script.find(option) == std::string::npos) {
-          faults.push_back(place.text(i, (*call)[1].str() + " does not know " + option));
-        }
-      }
-    }
-  }
-  return faults;
-}
-
 /// History is git's to tell; the present tense is ours.
 Faults faults_of_tense(const Place& place) {
   static const std::regex words(R"(\b(formerly|used to|no longer|at first|previously|originally|in the past)\b)");
@@ -213,56 +117,15 @@ Faults faults_of_results(const Place& place) {
   return faults;
 }
 
-/// Rooms of a layer: its folders with sources.
-Lines rooms_of(const fs::path& layer) {
-  Lines rooms;
-  for (const fs::directory_entry& entry : fs::directory_iterator(layer)) {
-    if (entry.is_directory()) {
-      rooms.push_back(entry.path().filename());
-    }
-  }
-  return rooms;
-}
-
-/// Whether a text calls a room by its name: `room`, `layer/room`, or [room](its README).
-bool calls(const Lines& lines, const std::string& layer, const std::string& room) {
-  return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
-    return line.find("`" + room + "`") != std::string::npos || line.find("`" + layer + "/" + room) != std::string::npos ||
-           line.find("[" + room + "](") != std::string::npos;
-  });
-}
-
-/// Sources of nodes, but for those that the plan of the house excepts, in which one of the strategies' words stands.
-Faults strategies_words_in_nodes(const fs::path& root) {
-  static const std::regex words(R"(\b([Pp]ages?|[Rr]ays?|[Pp]ixels?)\b)");
-  static const std::regex excepted(R"(.*/(watch/.*|observer\.h|charge\.h|local_memory\.(h|cpp)))");
-  Faults faults;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / "nodes")) {
-    const std::string file = entry.path();
-    if ((file.ends_with(".h") || file.ends_with(".cpp")) && !std::regex_match(file, excepted)) {
-      const Lines lines = lines_of(file);
-      for (std::size_t i = 0; i < lines.size(); ++i) {
-        for (const std::string& word : found_in(lines[i], words)) {
-          faults.push_back(file + ":" + std::to_string(i + 1) + ": " + word);
-        }
-      }
-    }
-  }
-  return faults;
-}
-
 void check_all(Faults (*faults_of)(const Place&)) {
-  Faults all;
   for (const Document& document : all_documents(DMPC_SOURCE_DIR)) {
-    const Faults faults = faults_of({.document = document});
-    all.insert(all.end(), faults.begin(), faults.end());
-  }
-  for (const std::string& fault : all) {
-    FAIL_CHECK(fault);
+    for (const std::string& fault : faults_of({DMPC_SOURCE_DIR, document})) {
+      FAIL_CHECK(fault);
+    }
   }
 }
 
-Place room_that_says(const Lines& lines, const fs::path& path = "core/README.md") { return {.document = {path, lines}}; }
+Place room_that_says(const Lines& lines, const fs::path& path = "core/README.md") { return {DMPC_SOURCE_DIR, {path, lines}}; }
 
 }  // namespace
 
@@ -287,22 +150,6 @@ TEST_CASE("every link of a document leads to a file, and to a heading of it") {
   CHECK(anchor_of("## What is skipped, and why?") == "what-is-skipped-and-why");
 }
 
-TEST_CASE("every file that a document names is there") {
-  check_all(faults_of_names);
-  CHECK(faults_of_names(room_that_says({"`core/picture/film` and `tests/chaos --seeds=3`, in `core/picture`.", "    tests/run"}))
-            .empty());
-  CHECK(faults_of_names(room_that_says({"`core/film.h`"})) ==
-        Faults{"core/README.md:1: a file that does not exist: core/film.h"});
-  CHECK(faults_of_names(room_that_says({"    tests/gallop"})).size() == 1);
-}
-
-TEST_CASE("every option of a script that a document names is one that it takes") {
-  check_all(faults_of_scripts);
-  CHECK(faults_of_scripts(room_that_says({"    tests/chaos --seeds=10 --build=asan"})).empty());
-  CHECK(faults_of_scripts(room_that_says({"Try `tests/chaos --meekly`."})) ==
-        Faults{"core/README.md:1: tests/chaos does not know --meekly"});
-}
-
 TEST_CASE("documents speak of the present") {
   check_all(faults_of_tense);
   CHECK(faults_of_tense(room_that_says({"It is what at first it was."})).size() == 1);
@@ -317,27 +164,6 @@ TEST_CASE("results have a date, a commit and a command") {
   CHECK(faults_of_results(room_that_says({"On 2026-11-23, commit 59ba5d7.", "## Load", "    dmpc study"}, results)).empty());
   CHECK(faults_of_results(room_that_says({"## Load", "    dmpc study"}, results)).size() == 2);
   CHECK(faults_of_results(room_that_says({"## A", "2026-11-23, commit 59ba5d7", "    x", "## B"}, results)).size() == 3);
-}
-
-TEST_CASE("every room is on the plan of the house, or in its layer's README") {
-  const fs::path root = DMPC_SOURCE_DIR;
-  for (const std::string layer : {"core", "nodes", "svm", "dataflow", "apps"}) {
-    Lines lines = lines_of(root / "ARCHITECTURE.md");
-    const Lines own = lines_of(root / layer / "README.md");
-    lines.insert(lines.end(), own.begin(), own.end());
-    CHECK(calls(lines, layer, layer));
-    for (const std::string& room : rooms_of(root / layer)) {
-      CHECK_MESSAGE(calls(lines, layer, room), layer, "/", room);
-    }
-  }
-  CHECK_FALSE(calls({"a cellar, and an `attic`"}, "core", "cellar"));
-  CHECK(calls({"`core/cellar/rats.h`"}, "core", "cellar"));
-}
-
-TEST_CASE("nodes speaks of pages, rays and pixels only where the plan of the house says so") {
-  for (const std::string& fault : strategies_words_in_nodes(DMPC_SOURCE_DIR)) {
-    FAIL_CHECK(fault);
-  }
 }
 
 }  // namespace dmpc::tests

@@ -3,8 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -13,12 +11,12 @@
 #include "apps/commands.h"
 #include "apps/manual/leaves.h"
 #include "core/base/expect.h"
+#include "tests/support/documents.h"
 
 namespace dmpc::apps {
 
 namespace {
 
-namespace fs = std::filesystem;
 using Texts = std::vector<std::string>;
 
 Texts words_in(const std::string& text) {
@@ -67,9 +65,8 @@ Texts all_options() {
 
 /// Those of our scripts, of CMake and of what else documents have the reader type.
 bool is_foreign(const std::string& option) {
-  static const Texts foreign = {"--preset", "--prefix", "--install", "--test-case", "--format",
-                                "--tidy",   "--only",   "--seeds",   "--calls",     "--minutes",
-                                "--replay", "--shrink", "--keep",    "--clang",     "--benchmark_filter"};
+  static const Texts foreign = {"--preset", "--prefix", "--install", "--test-case", "--format", "--tidy", "--only",
+                                "--seeds",  "--calls",  "--minutes", "--replay",    "--shrink", "--keep", "--clang"};
   return std::find(foreign.begin(), foreign.end(), option) != foreign.end();
 }
 
@@ -78,8 +75,7 @@ Texts unknown_options(const std::string& line) {
   static const Texts known = all_options();
   static const std::regex options(R"([ `(](--[a-z][a-z_-]*))");
   Texts unknown;
-  for (auto match = std::sregex_iterator(line.begin(), line.end(), options); match != std::sregex_iterator(); ++match) {
-    const std::string option = (*match)[1];
+  for (const std::string& option : tests::found_in(line, options)) {
     if (std::find(known.begin(), known.end(), option) == known.end() && !is_foreign(option)) {
       unknown.push_back(option);
     }
@@ -87,43 +83,59 @@ Texts unknown_options(const std::string& line) {
   return unknown;
 }
 
+const CommandDescription* find_command(const CommandDescription& outer, const std::string& name) {
+  const auto found = std::find_if(outer.commands.begin(), outer.commands.end(),
+                                  [&](const CommandDescription& command) { return command.name == name; });
+  return found == outer.commands.end() ? nullptr : &*found;
+}
+
+bool has_option(const CommandDescription& command, const std::string& option) {
+  return std::any_of(command.options.begin(), command.options.end(), [&](const OptionDescription& each) {
+    return std::find(each.names.begin(), each.names.end(), option) != each.names.end();
+  });
+}
+
+/// What is wrong with `dmpc study balance --nodes=8` within a text, which may leave out what a command must have. In capitals
+/// words stand for any others.
+std::string complaint_about_quoted(const std::string& typed) {
+  static const CommandDescription program = describe_command_line();
+  const CommandDescription* command = &program;
+  for (const std::string& word : words_in(typed)) {
+    const bool is_option = word.rfind("--", 0) == 0;
+    if (is_option ? !has_option(*command, word.substr(0, word.find('=')))
+                  : command == &program && find_command(program, word) == nullptr) {
+      return "there is no dmpc " + typed;
+    }
+    const CommandDescription* const inner = find_command(*command, word);
+    command = inner != nullptr ? inner : command;
+  }
+  return "";
+}
+
+/// What is wrong with commands within a line's text, in `code`.
+std::string complaint_about_text(const std::string& line) {
+  static const std::regex quoted(R"(`dmpc ([a-z][^`]*))");
+  std::string complaint;
+  for (const std::string& typed : tests::found_in(line, quoted)) {
+    complaint += complaint_about_quoted(typed);
+  }
+  return complaint;
+}
+
 /// What is wrong with a line of a document, if anything is.
 std::string fault_of(const std::string& line) {
   const Texts unknown = unknown_options(line);
-  return unknown.empty() ? complaint_about(line) : "no command has " + unknown.front();
-}
-
-std::vector<fs::path> documents() {
-  std::vector<fs::path> found;
-  for (auto entry = fs::recursive_directory_iterator(DMPC_SOURCE_DIR); entry != fs::recursive_directory_iterator(); ++entry) {
-    const std::string name = entry->path().filename();
-    if (entry->is_directory() && (name.front() == '.' || name == "build")) {
-      entry.disable_recursion_pending();
-    } else if (entry->path().extension() == ".md") {
-      found.push_back(entry->path());
-    }
-  }
-  return found;
-}
-
-/// What examples name exists for a moment only: nothing may depend on what lies in the folder of the tests.
-void check_lines(const fs::path& file) {
-  std::ifstream stream(file);
-  std::string line;
-  for (int number = 1; std::getline(stream, line); ++number) {
-    if (const std::string fault = fault_of(line); !fault.empty()) {
-      FAIL_CHECK(file.string() << ":" << number << ": " << fault);
-    }
-  }
+  return unknown.empty() ? complaint_about(line) + complaint_about_text(line) : "no command has " + unknown.front();
 }
 
 }  // namespace
 
 TEST_CASE("every command and option in a document is one that dmpc takes") {
-  const std::vector<fs::path> files = documents();
-  CHECK(files.size() > 10);
-  for (const fs::path& file : files) {
-    check_lines(file);
+  for (const tests::Document& document : tests::all_documents(DMPC_SOURCE_DIR)) {
+    for (std::size_t i = 0; i < document.lines.size(); ++i) {
+      const std::string fault = fault_of(document.lines[i]);
+      CHECK_MESSAGE(fault.empty(), document.path, ":", i + 1, ": ", fault);
+    }
   }
 }
 
@@ -133,6 +145,10 @@ TEST_CASE("a command or option in a document that dmpc does not take is found") 
   CHECK(fault_of("    dmpc render teapot-12 --colour=red -o teapot.png") == "no command has --colour");
   CHECK(fault_of("    dmpc study traffic teapot-12 --resume") != "");
   CHECK(fault_of("With `--bogus` nothing is as it was.") == "no command has --bogus");
+  CHECK(fault_of("See `dmpc COMMAND --help`, `dmpc machine NAME`.").empty());
+  CHECK(fault_of("See `dmpc study balance --nodes=8`.").empty());
+  CHECK(fault_of("See `dmpc study balance --resume`.") == "there is no dmpc study balance --resume");
+  CHECK(fault_of("See `dmpc jugglery`.") == "there is no dmpc jugglery");
   CHECK(fault_of("With `--nodes=8` it is, and --strategy=svm; a dash -- is none.").empty());
 }
 
