@@ -46,7 +46,7 @@ std::string complaint_about(const std::string& line) {
       parse_command_line(words);
     }
     return "";
-  } catch (const core::InputError& error) {
+  } catch (const core::UsageError& error) {
     return error.what();
   }
 }
