@@ -99,7 +99,8 @@ Faults faults_of_results(const Place& place) {
   static const std::vector<std::pair<std::string, std::regex>> wanted = {
       {"a date", std::regex(R"(\b20\d\d-\d\d-\d\d\b)")},
       {"a commit", std::regex(R"(\bcommit [0-9a-f]{7,40}\b)")},
-      {"a command, in a line of its own behind four blanks", std::regex(R"(^    \S)")}};
+      {"a command in a line of its own behind four blanks, or that no command prints it",
+       std::regex(R"(^    \S|no command prints)")}};
   Faults faults;
   const Lines& lines = place.document.lines;
   const auto is_heading = [](const std::string& line) { return line.rfind("## ", 0) == 0; };

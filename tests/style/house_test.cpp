@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <string>
 
@@ -36,11 +34,6 @@ Faults faults_of_names(const Place& place) {
   return faults;
 }
 
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// Options behind a script of ours that the script does not know.
 Faults faults_of_scripts(const Place& place) {
   static const std::regex calls(R"((?:^    |`)(tests/[a-z_/]+)( [^`]*))"), options(R"((--[a-z_]+))");
@@ -48,9 +41,10 @@ Faults faults_of_scripts(const Place& place) {
   for (std::size_t i = 0; i < place.document.lines.size(); ++i) {
     const std::string& line = place.document.lines[i];
     for (auto call = std::sregex_iterator(line.begin(), line.end(), calls); call != std::sregex_iterator(); ++call) {
-      const std::string script = text_of(place.root / (*call)[1].str());
+      const Lines script = lines_of(place.root / (*call)[1].str());
       for (const std::string& option : found_in((*call)[2], options)) {
-        if (script.find(option) == std::string::npos) {
+        if (std::none_of(script.begin(), script.end(),
+                         [&](const std::string& said) { return said.find(option) != std::string::npos; })) {
           faults.push_back(place.text(i, (*call)[1].str() + " does not know " + option));
         }
       }
