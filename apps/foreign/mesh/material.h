@@ -14,7 +14,7 @@ namespace dmpc::apps {
 /// Of each channel of a surface of which a file says no colour.
 inline constexpr double plain_grey = 0.6;
 
-/// By the table in ARCHITECTURE.md. Colours are linear. Reflects and transmits no more light than arrives, in any channel.
+/// By the table in apps/foreign/README.md. Colours are linear. Reflects and transmits no more light than arrives, in any channel.
 core::Material material_of(const aiMaterial& source);
 
 /// Phong's exponent for glTF's roughness, 0 to 1: half-vector exponent 2 / alpha^2 - 2 with alpha = roughness^2 (B. Walter and

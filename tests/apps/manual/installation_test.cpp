@@ -19,8 +19,9 @@ namespace fs = std::filesystem;
 void check_installed(const fs::path& root, const std::string& zsh_folder) {
   const fs::path share = root / "share";
   for (const fs::path& file : {share / "doc/dmpc/README.md", share / "doc/dmpc/ARCHITECTURE.md", share / "doc/dmpc/LICENSE",
-                               share / "doc/dmpc/apps/teapot.png", share / "fish/vendor_completions.d/dmpc.fish",
-                               share / "zsh" / zsh_folder / "_dmpc"}) {
+                               share / "doc/dmpc/apps/teapot.png", share / "doc/dmpc/apps/teapot-heat.png",
+                               share / "doc/dmpc/core/README.md", share / "doc/dmpc/apps/study/paper/RESULTS.md",
+                               share / "fish/vendor_completions.d/dmpc.fish", share / "zsh" / zsh_folder / "_dmpc"}) {
     CHECK_MESSAGE(fs::file_size(file) > 0, file);
   }
   const Said completed = run({"bash", "--norc", "-c",

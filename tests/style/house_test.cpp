@@ -1,0 +1,144 @@
+// The plan of the house and what documents call by name are there.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+#include <string>
+
+#include "tests/support/documents.h"
+
+namespace dmpc::tests {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether `name` is a file or folder, or a file but for its ending.
+bool is_there(const fs::path& root, const std::string& name) {
+  return fs::exists(root / name) || fs::exists(root / (name + ".h")) || fs::exists(root / (name + ".cpp"));
+}
+
+/// Files and folders that stand in `code`, the first word of it, or are run in a line of its own.
+Faults faults_of_names(const Place& place) {
+  static const std::regex names(R"((?:^    |`)((?:core|nodes|svm|dataflow|apps|tests)/[A-Za-z0-9_./]+)(?=[` ]|$))");
+  Faults faults;
+  for (std::size_t i = 0; i < place.document.lines.size(); ++i) {
+    for (const std::string& name : found_in(place.document.lines[i], names)) {
+      if (!is_there(place.root, name)) {
+        faults.push_back(place.text(i, "a file that does not exist: " + name));
+      }
+    }
+  }
+  return faults;
+}
+
+/// Options behind a script of ours that the script does not know.
+Faults faults_of_scripts(const Place& place) {
+  static const std::regex calls(R"((?:^    |`)(tests/[a-z_/]+)( [^`]*))"), options(R"((--[a-z_]+))");
+  Faults faults;
+  for (std::size_t i = 0; i < place.document.lines.size(); ++i) {
+    const std::string& line = place.document.lines[i];
+    for (auto call = std::sregex_iterator(line.begin(), line.end(), calls); call != std::sregex_iterator(); ++call) {
+      const Lines script = lines_of(place.root / (*call)[1].str());
+      for (const std::string& option : found_in((*call)[2], options)) {
+        if (std::none_of(script.begin(), script.end(),
+                         [&](const std::string& said) { return said.find(option) != std::string::npos; })) {
+          faults.push_back(place.text(i, (*call)[1].str() + " does not know " + option));
+        }
+      }
+    }
+  }
+  return faults;
+}
+
+/// Rooms of a layer: its folders with sources.
+Lines rooms_of(const fs::path& layer) {
+  Lines rooms;
+  for (const fs::directory_entry& entry : fs::directory_iterator(layer)) {
+    if (entry.is_directory()) {
+      rooms.push_back(entry.path().filename());
+    }
+  }
+  return rooms;
+}
+
+/// Whether a text calls a room by its name: `room`, `layer/room`, or [room](its README).
+bool calls(const Lines& lines, const std::string& layer, const std::string& room) {
+  return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
+    return line.find("`" + room + "`") != std::string::npos || line.find("`" + layer + "/" + room) != std::string::npos ||
+           line.find("[" + room + "](") != std::string::npos;
+  });
+}
+
+/// Sources of nodes, but for those that the plan of the house excepts, in which one of the strategies' words stands.
+Faults strategies_words_in_nodes(const fs::path& root) {
+  static const std::regex words(R"(\b([Pp]ages?|[Rr]ays?|[Pp]ixels?)\b)");
+  static const std::regex excepted(R"(.*/(watch/.*|observer\.h|charge\.h|local_memory\.(h|cpp)))");
+  Faults faults;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / "nodes")) {
+    const std::string file = entry.path();
+    if ((file.ends_with(".h") || file.ends_with(".cpp")) && !std::regex_match(file, excepted)) {
+      const Lines lines = lines_of(file);
+      for (std::size_t i = 0; i < lines.size(); ++i) {
+        for (const std::string& word : found_in(lines[i], words)) {
+          faults.push_back(file + ":" + std::to_string(i + 1) + ": " + word);
+        }
+      }
+    }
+  }
+  return faults;
+}
+
+void check_all_names(Faults (*faults_of)(const Place&)) {
+  for (const Document& document : all_documents(DMPC_SOURCE_DIR)) {
+    for (const std::string& fault : faults_of({DMPC_SOURCE_DIR, document})) {
+      FAIL_CHECK(fault);
+    }
+  }
+}
+
+Place readme_that_says(const Lines& lines) { return {DMPC_SOURCE_DIR, {"core/README.md", lines}}; }
+
+}  // namespace
+
+TEST_CASE("every file that a document names is there") {
+  check_all_names(faults_of_names);
+  CHECK(
+      faults_of_names(readme_that_says({"`core/picture/film` and `tests/chaos --seeds=3`, in `core/picture`.", "    tests/run"}))
+          .empty());
+  CHECK(faults_of_names(readme_that_says({"`core/film.h`"})) ==
+        Faults{"core/README.md:1: a file that does not exist: core/film.h"});
+  CHECK(faults_of_names(readme_that_says({"    tests/gallop"})).size() == 1);
+}
+
+TEST_CASE("every option of a script that a document names is one that it takes") {
+  check_all_names(faults_of_scripts);
+  CHECK(faults_of_scripts(readme_that_says({"    tests/chaos --seeds=10 --build=asan"})).empty());
+  CHECK(faults_of_scripts(readme_that_says({"Try `tests/chaos --meekly`."})) ==
+        Faults{"core/README.md:1: tests/chaos does not know --meekly"});
+}
+
+TEST_CASE("every room is on the plan of the house, or in its layer's README") {
+  const fs::path root = DMPC_SOURCE_DIR;
+  for (const std::string layer : {"core", "nodes", "svm", "dataflow", "apps"}) {
+    Lines lines = lines_of(root / "ARCHITECTURE.md");
+    const Lines own = lines_of(root / layer / "README.md");
+    lines.insert(lines.end(), own.begin(), own.end());
+    CHECK(calls(lines, layer, layer));
+    for (const std::string& room : rooms_of(root / layer)) {
+      CHECK_MESSAGE(calls(lines, layer, room), layer, "/", room);
+    }
+  }
+  CHECK_FALSE(calls({"a cellar, and an `attic`"}, "core", "cellar"));
+  CHECK(calls({"`core/cellar/rats.h`"}, "core", "cellar"));
+}
+
+TEST_CASE("nodes speaks of pages, rays and pixels only where the plan of the house says so") {
+  for (const std::string& fault : strategies_words_in_nodes(DMPC_SOURCE_DIR)) {
+    FAIL_CHECK(fault);
+  }
+}
+
+}  // namespace dmpc::tests
