@@ -1,4 +1,4 @@
-// Pictures in files. Its .cpp is the only one that names OpenImageIO.
+// Pictures in files. Its .cpp and that of the colours alone name OpenImageIO.
 #pragma once
 
 #include <cstddef>

@@ -55,8 +55,8 @@ struct Foreign {
 const std::vector<Foreign> foreign = {
     {"embree", {"apps/oracle/embree.h"}},
     {"OpenImageIO/",
-     {"apps/picture/image_file.cpp", "apps/foreign/picture_decoder.cpp", "tests/apps/picture/texture_file_test.cpp",
-      "tests/fuzz/picture.cpp", "tests/apps/oracle/texture_lookup_test.cpp"}},
+     {"apps/picture/color_map.cpp", "apps/picture/image_file.cpp", "apps/foreign/picture_decoder.cpp",
+      "tests/apps/picture/texture_file_test.cpp", "tests/fuzz/picture.cpp", "tests/apps/oracle/texture_lookup_test.cpp"}},
     {"assimp/", {"apps/foreign/", "tests/apps/foreign/"}},
     {"meshoptimizer.h", {"apps/foreign/gltf/meshopt.cpp", "tests/apps/foreign/"}},
     {"draco/", {"apps/foreign/gltf/draco.cpp", "tests/apps/foreign/"}},
