@@ -144,7 +144,7 @@ void add_geometry(core::Scene& scene, aiScene& file, const Placements& placement
 std::string text_of(const core::Vec3d& point) { return rounded(point.x) + "," + rounded(point.y) + "," + rounded(point.z); }
 
 /// The whole in view; says how, as a start for a camera of one's own.
-core::View plain_view(const Bounds& bounds, const MeshOptions& options, std::vector<std::string>& notes) {
+core::View plain_view(const BoundingSphere& bounds, const MeshOptions& options, std::vector<std::string>& notes) {
   const core::View view = whole_view(bounds, options.up.value_or(UpAxis{}));
   notes.push_back("the whole is in view, as by --camera=" + text_of(view.from) + "/" + text_of(view.at) + "/" + text_of(view.up));
   return view;
@@ -152,7 +152,7 @@ core::View plain_view(const Bounds& bounds, const MeshOptions& options, std::vec
 
 void add_surroundings(core::Scene& scene, const aiScene& file, const MeshOptions& options, std::vector<std::string>& notes) {
   const double scale = options.scale.value_or(1);
-  const Bounds bounds = bounds_of_vertices(scene);
+  const BoundingSphere bounds = sphere_around_vertices(scene);
   scene.background = plain_background;
   // What is said of a view or of lights that others are put in place of would be untrue.
   std::vector<std::string> unsaid;

@@ -12,12 +12,12 @@ namespace dmpc::apps {
 
 using core::Vec3d;
 
-Bounds bounds_of_vertices(const core::Scene& scene) {
+BoundingSphere sphere_around_vertices(const core::Scene& scene) {
   core::Box box;
   for (const Vec3d& vertex : scene.vertices) {
     box.include(vertex);
   }
-  Bounds bounds{box.center(), 0};
+  BoundingSphere bounds{box.center(), 0};
   double square = 0;
   for (const Vec3d& vertex : scene.vertices) {
     const Vec3d offset = vertex - bounds.center;
@@ -27,7 +27,7 @@ Bounds bounds_of_vertices(const core::Scene& scene) {
   return bounds;
 }
 
-core::View whole_view(const Bounds& bounds, const UpAxis& up) {
+core::View whole_view(const BoundingSphere& bounds, const UpAxis& up) {
   struct Frame {
     Vec3d right, up, front;
   };
@@ -43,7 +43,7 @@ core::View whole_view(const Bounds& bounds, const UpAxis& up) {
   return view;
 }
 
-std::vector<core::PointLight> plain_lights(const Bounds& bounds, const core::View& view) {
+std::vector<core::PointLight> plain_lights(const BoundingSphere& bounds, const core::View& view) {
   constexpr double distance_radii = 1000, key = 0.8, fill = 0.3;
   const core::GridAxes screen = core::screen_axes(view);
   const Vec3d towards_key = normalize(screen[0] * 0.7 + screen[1] + screen[2]);

@@ -10,21 +10,21 @@
 namespace dmpc::apps {
 
 /// A sphere around all vertices of a scene.
-struct Bounds {
+struct BoundingSphere {
   core::Vec3d center;
   double radius = 0;
 };
 /// About the middle of their box. Requires a vertex.
-Bounds bounds_of_vertices(const core::Scene& scene);
+BoundingSphere sphere_around_vertices(const core::Scene& scene);
 
 /// Light grey-blue, linear: dark and bright surfaces stand out from it.
 inline constexpr core::Vec3d plain_background{0.45, 0.55, 0.7};
 
 /// The whole sphere in a picture of 512x512 over 45 degrees, from a direction between front, right and above.
-core::View whole_view(const Bounds& bounds, const UpAxis& up);
+core::View whole_view(const BoundingSphere& bounds, const UpAxis& up);
 
 /// Two white lights: the key light 1,000 radii away, above and to the right of the eye, and a weak fill in the eye, so that
 /// nothing in view is black.
-std::vector<core::PointLight> plain_lights(const Bounds& bounds, const core::View& view);
+std::vector<core::PointLight> plain_lights(const BoundingSphere& bounds, const core::View& view);
 
 }  // namespace dmpc::apps

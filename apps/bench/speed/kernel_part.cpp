@@ -46,7 +46,7 @@ std::uint64_t trace_by_grid(std::span<const core::Ray> rays, R& records, const c
 }
 
 /// What came of some rays.
-struct Traced {
+struct RaysTraced {
   std::uint64_t hits = 0;
   double seconds = 0;  ///< processor time of the thread that had most to do
 };
@@ -77,9 +77,9 @@ class Arena {
   }
 
   /// All rays of the class.
-  Traced trace(Contender contender, RayClass ray_class, Query query, std::uint32_t threads) {
+  RaysTraced trace(Contender contender, RayClass ray_class, Query query, std::uint32_t threads) {
     const std::span<const core::Ray> rays = recording_.of(ray_class);
-    std::vector<Traced> shares(threads);
+    std::vector<RaysTraced> shares(threads);
     on_threads(threads, [&](std::size_t thread) {
       ProcessorStopwatch stopwatch(CLOCK_THREAD_CPUTIME_ID);
       std::uint64_t hits = 0;
@@ -88,8 +88,8 @@ class Arena {
       }
       shares[thread] = {hits, stopwatch.lap()};
     });
-    return std::accumulate(shares.begin(), shares.end(), Traced{}, [](const Traced& a, const Traced& b) {
-      return Traced{a.hits + b.hits, std::max(a.seconds, b.seconds)};
+    return std::accumulate(shares.begin(), shares.end(), RaysTraced{}, [](const RaysTraced& a, const RaysTraced& b) {
+      return RaysTraced{a.hits + b.hits, std::max(a.seconds, b.seconds)};
     });
   }
 
@@ -192,7 +192,7 @@ class KernelBench {
   void time(Match& match, std::size_t contender) {
     Arena& arena = *match.arena;
     arena.ask(match.ray_class, match.query);
-    const Traced traced =
+    const RaysTraced traced =
         arena.trace(Contender{static_cast<std::uint8_t>(contender)}, match.ray_class, match.query, match.threads);
     match.hits[contender] = traced.hits;
     note(match, contender, static_cast<double>(arena.ray_count(match.ray_class)) / std::max(traced.seconds, 1e-9) / 1e6);

@@ -31,7 +31,7 @@ Vec3d color_of(const aiLight& light) {
   return {clean(light.mColorDiffuse.r), clean(light.mColorDiffuse.g), clean(light.mColorDiffuse.b)};
 }
 
-Vec3d position_of(const aiLight& light, const Transform& world, const Bounds& bounds) {
+Vec3d position_of(const aiLight& light, const Transform& world, const BoundingSphere& bounds) {
   if (light.mType != aiLightSource_DIRECTIONAL) {
     return world.point(to_vec(light.mPosition));
   }
@@ -120,7 +120,8 @@ bool is_perspective(const aiCamera& camera) { return camera.mHorizontalFOV > 0 &
 
 }  // namespace
 
-std::vector<PointLight> lights_of(const aiScene& scene, const Bounds& bounds, double scale, std::vector<std::string>& notes) {
+std::vector<PointLight> lights_of(const aiScene& scene, const BoundingSphere& bounds, double scale,
+                                  std::vector<std::string>& notes) {
   std::vector<PointLight> lights;
   std::map<aiLightSourceType, std::uint64_t> counts;
   for (std::size_t i = 0; i < scene.mNumLights; ++i) {

@@ -16,7 +16,7 @@ namespace dmpc::apps {
 /// ambient lights are left out. Fall-off is ignored, since ours have none; so colours are scaled down together until the squares
 /// of their brightest channels sum up to 1, as lights without a colour do. `notes` gets a sentence for each kind that is not
 /// shown as it is.
-std::vector<core::PointLight> lights_of(const aiScene& scene, const Bounds& bounds, double scale,
+std::vector<core::PointLight> lights_of(const aiScene& scene, const BoundingSphere& bounds, double scale,
                                         std::vector<std::string>& notes);
 
 /// The first camera, if there is one that makes a picture; its picture's shorter side has 512 pixels. `notes` gets a sentence if

@@ -10,13 +10,13 @@ using core::Vec3d;
 
 TEST_CASE("the bounds are a sphere about the middle of the box") {
   const core::Scene scene{.vertices = {{-1, 0, 0}, {3, 0, 0}, {1, 1, 0}}};
-  const Bounds bounds = bounds_of_vertices(scene);
+  const BoundingSphere bounds = sphere_around_vertices(scene);
   CHECK(bounds.center == Vec3d{1, 0.5, 0});
   CHECK(bounds.radius == doctest::Approx(2.0615528));
 }
 
 TEST_CASE("one vertex has bounds without a radius") {
-  CHECK(bounds_of_vertices(core::Scene{.vertices = {{5, 6, 7}}}).radius == 0);
+  CHECK(sphere_around_vertices(core::Scene{.vertices = {{5, 6, 7}}}).radius == 0);
 }
 
 TEST_CASE("the sphere touches the picture's edge, for every axis that may be up") {
