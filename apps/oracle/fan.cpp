@@ -112,7 +112,10 @@ bool cover_circle(std::vector<Sector> sectors) {
 Sector sector_of(const Across::Point& a, const Across::Point& b) {
   const double angle_a = std::atan2(a.y, a.x), angle_b = std::atan2(b.y, b.x);
   const double first = turn(a, b) >= 0 ? angle_a : angle_b, last = turn(a, b) >= 0 ? angle_b : angle_a;
-  return {first, last >= first ? last - first : last - first + 2 * std::numbers::pi};
+  const double extent = last >= first ? last - first : last - first + 2 * std::numbers::pi;
+  // A triangle covers less than half a circle. One that is seen edge-on covers nothing, though rounding of the two angles may say
+  // that it goes round.
+  return {first, extent < 1.5 * std::numbers::pi ? extent : 0};
 }
 
 /// Whether the ray is within `near` of the segment between a and b.
