@@ -17,8 +17,8 @@
 //   primaries_taken        node -> host          control   small  the packet of primaries whose credit it gives back
 //
 // The last two exist only where the host deals primary rays after the start (PlanRequest::is_dealt()): those of later passes, and
-// those of the first in a run that is kept or goes on. A packet of them counts as one of rays for the proof of the end. Finish and
-// done then come once a pass.
+// those of the first in a run that is kept or goes on. A packet of them counts as one of rays for the proof of the end. Finish
+// and done then come once a pass.
 #pragma once
 
 #include <array>

@@ -115,8 +115,7 @@ std::vector<std::string> BalanceStudy::notes(const std::string& scene) const {
       "Average load: mean over maximum of the nodes' work, which is counted operations at measured prices.",
       "Predicted: by the picture of one pixel of every " + step + "x" + step + ".",
       "Duplication: copies of primitives in all regions over those in the database's bricks.",
-      "Hops: links that a ray sent from node to node passes on a machine wired as a " +
-          std::string(nodes::name_of(topology)) +
+      "Hops: links that a ray sent from node to node passes on a machine wired as a " + std::string(nodes::name_of(topology)) +
           ", by counted rays, with the regions where they are put and as the mean of random mappings."};
   if (is_rings_3(scene)) {
     notes.emplace_back(
