@@ -291,11 +291,6 @@ HostShape Plan::host() const {
           .start = request.start};
 }
 
-std::uint32_t Plan::pages_at(std::uint32_t node) const {
-  return request.strategy == Strategy::replicated ? request.page_count
-                                                  : Homes(request.node_count).count_at(node, request.page_count);
-}
-
 nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
   nodes::MemoryPlan plan;
   if (request.strategy == Strategy::svm) {

@@ -86,7 +86,6 @@ struct Plan {
   WorkShape work() const;
   HostShape host() const;
 
-  std::uint32_t pages_at(std::uint32_t node) const;
   /// Faults under way at a node: a fault has at least one pixel in flight, a pixel waits for one page, and a page that is not at
   /// home has one fault at most.
   std::uint32_t faults_max() const;

@@ -10,9 +10,8 @@
 #include <system_error>
 #include <vector>
 
-#include "apps/system/byte_order_mark.h"
-
 #include "apps/foreign/mesh/trimmed.h"
+#include "apps/system/byte_order_mark.h"
 
 namespace dmpc::apps {
 namespace {
