@@ -53,11 +53,17 @@ Faults faults_of_scripts(const Place& place) {
   return faults;
 }
 
+/// What git moves away leaves empty folders in old checkouts.
+bool has_sources(const fs::path& folder) {
+  using Entries = fs::recursive_directory_iterator;
+  return std::any_of(Entries(folder), Entries(), [](const fs::directory_entry& entry) { return entry.is_regular_file(); });
+}
+
 /// Rooms of a layer: its folders with sources.
 Lines rooms_of(const fs::path& layer) {
   Lines rooms;
   for (const fs::directory_entry& entry : fs::directory_iterator(layer)) {
-    if (entry.is_directory()) {
+    if (entry.is_directory() && has_sources(entry.path())) {
       rooms.push_back(entry.path().filename());
     }
   }
