@@ -37,7 +37,7 @@ using core::Vec3f;
 using Long = long double;
 using Vec3l = core::Vec3<long double>;
 
-constexpr double float_rounding = 0x1p-24;
+constexpr double unit_rounding = 0x1p-24;
 /// Half a unit in the last place of floats that are denormal, which rounding to float costs at least.
 constexpr double denormal_rounding = 0x1p-150;
 constexpr Long double_rounding = 0x1p-53L;
@@ -82,7 +82,7 @@ bool quickly_outside(const Ray& ray, const std::array<Vec3d, 3>& at) {
   const std::array<double, 3> area{dot(d, cross(at[0], at[1])), dot(d, cross(at[1], at[2])), dot(d, cross(at[2], at[0]))};
   const double reach = std::sqrt(std::max({dot(at[0], at[0]), dot(at[1], at[1]), dot(at[2], at[2])}));
   // More than any bound above: every length in them is at most 2 reach, and |D| at most 2 in a ray of unit length.
-  const double bound = 64 * float_rounding * reach * reach * (1 + dot(d, d));
+  const double bound = 64 * unit_rounding * reach * reach * (1 + dot(d, d));
   return std::min({area[0], area[1], area[2]}) < -bound && std::max({area[0], area[1], area[2]}) > bound;
 }
 
@@ -93,8 +93,8 @@ Sight see(const Vec3d& at, const Vec3d& direction, double direction_length) {
 std::array<double, 2> area_bounds(const Sight& a, const Sight& b, double direction_length, double area_sum) {
   const double moved = a.distance * b.across + b.distance * a.across;
   const double rounded = length(a.position - b.position) * length(a.position + b.position);
-  return {float_rounding * direction_length * (7 * moved + 2 * a.across * b.across) + tiny,
-          float_rounding * (direction_length * (moved + 3.5 * rounded) + 2 * std::fabs(area_sum)) + tiny};
+  return {unit_rounding * direction_length * (7 * moved + 2 * a.across * b.across) + tiny,
+          unit_rounding * (direction_length * (moved + 3.5 * rounded) + 2 * std::fabs(area_sum)) + tiny};
 }
 
 SeenTriangle see_triangle(const Ray& ray, const core::PrimitiveValues& values, const std::array<Vec3d, 3>& at) {
@@ -131,8 +131,8 @@ double margin_of(const SeenTriangle& seen, Renderer renderer) {
 double distance_error(const SeenTriangle& seen, double cosine) {
   const double area = std::fabs(seen.area) + tiny;
   const double tilt = 6 * seen.longest * seen.longest * seen.longest * seen.direction_length / area;
-  const double moved = float_rounding * (8 * seen.reach / (cosine + tiny) + tilt);
-  return (std::min(seen.longest, moved) + 8 * float_rounding * seen.reach) / seen.direction_length;
+  const double moved = unit_rounding * (8 * seen.reach / (cosine + tiny) + tilt);
+  return (std::min(seen.longest, moved) + 8 * unit_rounding * seen.reach) / seen.direction_length;
 }
 
 /// t of the vertices' projections onto the ray.
@@ -274,7 +274,7 @@ Encounter meet_curved(const Curved& curved, Long t) {
   }
   Encounter encounter;
   encounter.t = static_cast<double>(t);
-  encounter.t_error = static_cast<double>(error + static_cast<Long>(float_rounding) * std::fabs(t)) + denormal_rounding;
+  encounter.t_error = static_cast<double>(error + static_cast<Long>(unit_rounding) * std::fabs(t)) + denormal_rounding;
   encounter.margin.fill(static_cast<double>(margin));
   encounter.exact = margin >= 0;
   return encounter;

@@ -49,7 +49,7 @@ constexpr const char* colors[] = {"0.27 0.51 0.71", "0.95 0.61 0.18", "0.46 0.72
                                   "0.65 0.65 0.65", "0.84 0.24 0.31", "0.35 0.35 0.35", "0.80 0.80 0.50"};
 static_assert(std::size(colors) == span_names.size());
 
-std::string seconds(std::uint64_t time_ns) {
+std::string decimal_seconds(std::uint64_t time_ns) {
   const std::string rest = std::to_string(time_ns % 1'000'000'000);
   return std::to_string(time_ns / 1'000'000'000) + "." + std::string(9 - rest.size(), '0') + rest;
 }
@@ -72,7 +72,7 @@ class PajeWriter {
     for (const TraceItem& item : all) {
       write(item);
     }
-    const std::string end = seconds(all.empty() ? 0 : all.back().time_ns);
+    const std::string end = decimal_seconds(all.empty() ? 0 : all.back().time_ns);
     for (std::size_t node = 0; node < view_.trace.nodes.size(); ++node) {
       output_ << "6 " << end << " N " << alias(node) << '\n';
     }
@@ -136,7 +136,7 @@ class PajeWriter {
       return;
     }
     const bool begins = item.moment == TraceMoment::span_begin;
-    output_ << (begins ? "7 " : "8 ") << seconds(item.time_ns) << " S " << alias(item.node);
+    output_ << (begins ? "7 " : "8 ") << decimal_seconds(item.time_ns) << " S " << alias(item.node);
     if (begins) {
       output_ << " s" << static_cast<std::size_t>(name_of(span));
     }
@@ -145,7 +145,7 @@ class PajeWriter {
 
   void write_link(const TraceItem& item) {
     const bool begins = item.moment == TraceMoment::sent;
-    output_ << (begins ? "10 " : "11 ") << seconds(item.time_ns) << " L R " << alias(item.node) << " k"
+    output_ << (begins ? "10 " : "11 ") << decimal_seconds(item.time_ns) << " L R " << alias(item.node) << " k"
             << std::size_t{view_.trace.messages[item.index].kind} << " m" << item.index << '\n';
   }
 
@@ -153,7 +153,7 @@ class PajeWriter {
     const nodes::TraceNode& node = view_.trace.nodes[item.node];
     const nodes::TraceLevel& level = node.levels[item.index];
     const auto name = std::find(level_names_.begin(), level_names_.end(), node.level_names[level.number]);
-    output_ << "9 " << seconds(item.time_ns) << " v" << name - level_names_.begin() << ' ' << alias(item.node) << ' '
+    output_ << "9 " << decimal_seconds(item.time_ns) << " v" << name - level_names_.begin() << ' ' << alias(item.node) << ' '
             << level.value << '\n';
   }
 
