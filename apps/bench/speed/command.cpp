@@ -18,6 +18,8 @@
 #include "apps/bench/speed/memory_part.h"
 #include "apps/bench/speed/pages_part.h"
 #include "apps/bench/speed/picture_part.h"
+#include "apps/bench/speed/plain_part.h"
+#include "apps/bench/speed/plain_table.h"
 #include "apps/bench/speed/table.h"
 #include "apps/bench/speed/target.h"
 #include "apps/effort/effort.h"
@@ -60,6 +62,8 @@ TableFiles files_of(const SpeedOptions& options) {
 
 void measure_part(SpeedPart part, const SpeedSettings& settings, const Interrupt& interrupt, Results& results) {
   switch (part) {
+    case SpeedPart::plain:
+      return measure_plain(settings, interrupt, results.comparisons);
     case SpeedPart::kernel:
       return measure_kernel(settings, interrupt, results.comparisons);
     case SpeedPart::picture:
@@ -77,10 +81,16 @@ void measure_part(SpeedPart part, const SpeedSettings& settings, const Interrupt
   }
 }
 
+/// The one of both tables that part plain has its rows in, or all others.
+Table rows_of(const Results& results) {
+  Table others = headline_of(results.comparisons, "");
+  return others.rows().empty() ? plain_table(results.comparisons, "") : others;
+}
+
 /// Of what was measured so far, as the table in the end has them.
 void show_rows(const SpeedOptions& options, const Results& results, ShownRows& shown) {
   if (shown.is_shown()) {
-    shown.show(options.is_ablation ? table_of(results.ablations, "") : headline_of(results.comparisons, ""));
+    shown.show(options.is_ablation ? table_of(results.ablations, "") : rows_of(results));
   }
 }
 
@@ -104,6 +114,12 @@ std::exception_ptr measure_all(const SpeedOptions& options, const TableFiles& fi
 /// How each part's figures come about.
 const char* explanation_of(SpeedPart part) {
   switch (part) {
+    case SpeedPart::plain:
+      return "plain: the phase render of each, of the same rays. The plain renderer is recursive, in single precision, over one "
+             "Embree tree (robust, high quality) in memory that its threads share; it asks for one ray at a time and emulates "
+             "nothing. Ours are as `render` has them by default; nodes share the same cores, and a ray's time is a picture's "
+             "over "
+             "all its rays, whatever the number of threads.";
     case SpeedPart::kernel:
       return "kernel: rays of one render, up to so many a class, and bounces at random from what the eye sees; all contenders "
              "trace the same rays as closest and as any hit, in the processor time of the busiest thread. Embree is asked by "
@@ -155,6 +171,23 @@ void add_notes(const SpeedOptions& options, const Results& results, double load,
   }
 }
 
+/// All our own beside a plain renderer, if that was measured; what else was measured; the notes come under the last of both.
+std::string means_text(const SpeedOptions& options, const Results& results, double load, bool is_whole, const Table& details) {
+  Table plain = plain_table(results.comparisons, "Beside a plain renderer over Embree, geometric means over scenes");
+  Table others = headline_of(results.comparisons, title() + ", geometric means over scenes and kinds");
+  for (std::string& note : plain_notes(results.comparisons)) {
+    plain.add_note(std::move(note));
+  }
+  const bool has_others = !others.rows().empty() || plain.rows().empty();
+  Table& last = has_others ? others : plain;
+  add_notes(options, results, load, is_whole, last);
+  if (!options.has_details && !options.table.file) {
+    last.add_note("--details, or a file (-o), has all " + std::to_string(details.rows().size()) + " comparisons.");
+  }
+  const std::string before = plain.rows().empty() ? "" : text_of(plain, TableFormat::markdown);
+  return !has_others ? before : (before.empty() ? "" : before + "\n") + text_of(others, TableFormat::markdown);
+}
+
 /// What is to be read first, then all, if that is asked for or goes to a file.
 std::string comparisons_text(const SpeedOptions& options, const Results& results, double load, bool is_whole) {
   Table details = table_of(results.comparisons, title());
@@ -162,13 +195,9 @@ std::string comparisons_text(const SpeedOptions& options, const Results& results
     add_notes(options, results, load, is_whole, details);
     return text_of(details, options.table.format);
   }
-  Table headline = headline_of(results.comparisons, title() + ", geometric means over scenes and kinds");
-  add_notes(options, results, load, is_whole, headline);
   const bool has_details = options.has_details || options.table.file;
-  if (!has_details) {
-    headline.add_note("--details, or a file (-o), has all " + std::to_string(details.rows().size()) + " comparisons.");
-  }
-  return text_of(headline, options.table.format) + (has_details ? "\n" + text_of(details, options.table.format) : "");
+  return means_text(options, results, load, is_whole, details) +
+         (has_details ? "\n" + text_of(details, options.table.format) : "");
 }
 
 std::string text_of_all(const SpeedOptions& options, const Results& results, double load, bool is_whole) {
@@ -181,15 +210,19 @@ std::string text_of_all(const SpeedOptions& options, const Results& results, dou
 }
 
 /// By processor time of a server's core in November 2026 with the default scenes and parts. A bench that is not quick shoots ten
-/// times the rays, renders sixteen times the pixels, and takes more than twice the rounds.
+/// times the rays, renders sixteen times the pixels (part plain 64 times), and takes more than twice the rounds.
 Effort effort_of(const SpeedOptions& options) {
   constexpr double quick_seconds = 12, quick_ablation_seconds = 19, quick_factor = 25, standard_scenes = 4;
+  constexpr double quick_plain_seconds = 4, plain_factor = 90;
   constexpr std::size_t with_embree_bytes = std::size_t{1300} << 20U;
   const double scenes =
       options.settings.scenes.empty() ? 1 : static_cast<double>(options.settings.scenes.size()) / standard_scenes;
-  const double parts = static_cast<double>(options.parts.size()) / static_cast<double>(all_speed_parts().size());
+  const bool has_plain = options.parts.contains(SpeedPart::plain);
+  const double parts =
+      static_cast<double>(options.parts.size() - (has_plain ? 1 : 0)) / static_cast<double>(all_speed_parts().size() - 1);
   const double quick = scenes * (options.is_ablation ? quick_ablation_seconds : parts * quick_seconds);
-  return {.seconds = options.settings.is_quick ? quick : quick_factor * quick,
+  const double plain = has_plain ? scenes * quick_plain_seconds : 0;
+  return {.seconds = options.settings.is_quick ? quick + plain : quick_factor * quick + plain_factor * plain,
           .bytes = options.is_ablation || !options.settings.scenes.empty() ? 0 : with_embree_bytes};
 }
 
@@ -225,10 +258,11 @@ void add_options(OptionSet set, SpeedOptions& options) {
       "SCENE", [&settings](const std::string& text) { settings.scenes.push_back(text); },
       "NFF or mesh files, or built-in scenes such as teapot-12, rings-3, tetra-6; without any teapot-12, mount-6-t6, rings-4-t1 "
       "and "
-      "tetra-9, with tetra-10 for build and memory, and for pages those of the 1994 article");
+      "tetra-9, with balls-2-t4 for plain, tetra-10 for build and memory, and for pages those of the 1994 article");
   set.add_text(
       "--parts", "NAME,NAME,... [all]", [&options](const std::string& text) { options.parts = parse_speed_parts(text); },
-      "What is measured: kernel (rays a second), picture (a whole render), emulation (many nodes, small caches), build "
+      "What is measured: plain (all beside a plain renderer), kernel (rays a second), picture (a whole render), emulation (many "
+      "nodes, small caches), build "
       "(databases), memory (of the real computer), pages (against the article)");
   set.add_flag("--ablation", options.is_ablation,
                "Instead: what each skip (render --no-skip) is worth. Without SCENE balls-4 and tree-8, too");
@@ -240,7 +274,7 @@ void add_options(OptionSet set, SpeedOptions& options) {
       [&settings](const std::string& text) { settings.thread_counts = parse_thread_counts(text); },
       "Threads that trace in kernel, and that build in build");
   set.add_text(
-      "--resolution", "WxH [512x512, emulation 1024x1024]",
+      "--resolution", "WxH [512x512, plain and emulation 1024x1024]",
       [&settings](const std::string& text) { settings.resolution = parse_resolution(text); }, "Pixels of the pictures");
   set.add_flag("--details", options.has_details, "Print every comparison, too, not the means of them alone");
   add_options(set, options.table, TableExtras::plots);

@@ -16,7 +16,7 @@ struct Group {
 
 bool is_shown(const Comparison& comparison) {
   const bool is_timed = comparison.part == SpeedPart::picture || comparison.part == SpeedPart::emulation;
-  return comparison.rounds() > 0 && (!is_timed || comparison.is_by_wall_clock());
+  return comparison.part != SpeedPart::plain && comparison.rounds() > 0 && (!is_timed || comparison.is_by_wall_clock());
 }
 
 bool are_alike(const Comparison& a, const Comparison& b) {

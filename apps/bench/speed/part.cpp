@@ -14,7 +14,7 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::array<const char*, 7> names = {"kernel", "picture", "emulation", "build", "memory", "pages", "ablation"};
+constexpr std::array<const char*, 8> names = {"plain", "kernel", "picture", "emulation", "build", "memory", "pages", "ablation"};
 /// The others come before it.
 constexpr auto comparing_count = static_cast<std::ptrdiff_t>(SpeedPart::ablation);
 constexpr std::uint32_t thread_count_max = 1024;
@@ -27,7 +27,7 @@ SpeedPart parse_part(const std::string& word) {
     const std::vector<std::string> all(names.begin(), end);
     const std::string meant = core::did_you_mean(word, all);
     throw core::UsageError("--parts=" + word +
-                           ": expected kernel, picture, emulation, build, memory, pages, with commas between" +
+                           ": expected plain, kernel, picture, emulation, build, memory, pages, with commas between" +
                            (meant.empty() ? "" : ".") + meant);
   }
   return SpeedPart{static_cast<std::uint8_t>(found - names.begin())};
@@ -47,6 +47,8 @@ std::vector<std::string> default_scenes(SpeedPart part) {
       return article_scenes();
     case SpeedPart::memory:
       return {"tetra-9", big_scene};
+    case SpeedPart::plain:
+      return {"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9", "balls-2-t4"};
     case SpeedPart::build:
       return {"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9", big_scene};
     case SpeedPart::ablation:
@@ -56,7 +58,9 @@ std::vector<std::string> default_scenes(SpeedPart part) {
   }
 }
 
-int default_side(SpeedPart part) { return part == SpeedPart::emulation ? 1024 : static_cast<int>(paper_resolution); }
+int default_side(SpeedPart part) {
+  return part == SpeedPart::plain || part == SpeedPart::emulation ? 1024 : static_cast<int>(paper_resolution);
+}
 
 }  // namespace
 

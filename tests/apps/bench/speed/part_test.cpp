@@ -44,6 +44,7 @@ TEST_CASE("without scenes each part has its own, in haste none of a million tria
   CHECK(settings.scenes_of(SpeedPart::kernel) == Words{"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9"});
   CHECK(has(settings.scenes_of(SpeedPart::build), "tetra-10"));
   CHECK(settings.scenes_of(SpeedPart::pages).size() == 5);
+  CHECK(settings.scenes_of(SpeedPart::plain).back() == "balls-2-t4");
   settings.is_quick = true;
   for (const SpeedPart part : apps::all_speed_parts()) {
     CHECK_FALSE(has(settings.scenes_of(part), "tetra-10"));
