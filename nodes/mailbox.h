@@ -25,6 +25,8 @@
 // (3) A slot is on the free list, with one sender, on the inbox, or with the receiver. The receiver gives a slot back
 //     as soon as its packet has been received, before it receives the next: at most one slot is held beyond those
 //     that credits account for. That is the one spare slot a class has above its capacity.
+//     A batch's slots are with its sender, chained as the inbox will have them, newest to oldest; handing over is one
+//     publication of all, so whatever holds for one packet holds for a batch.
 // (4) What senders of small, senders of bulk and sleepers change lies on different cache lines: the inbox, the two heads,
 //     the links of the two classes, the slots. The links of 16 slots of one class share a line.
 #pragma once
@@ -68,10 +70,30 @@ class BasicMailbox {
         small_(make_pool(memory, 0, capacity.small_slots, small_slot_bytes)),
         bulk_(make_pool(memory, first_bulk(capacity), capacity.bulk_slots, bulk_slot_bytes(capacity))) {}
 
+  /// Packets of one sender that lie in slots, and that the receiver does not see yet. Belongs to its sender, who hands it over.
+  class Batch {
+   public:
+    bool is_empty() const { return newest_ == empty; }
+
+   private:
+    friend class BasicMailbox;
+    SlotIndex oldest_ = empty, newest_ = empty;
+  };
+
   /// Copies the packet in, wakes the receiver if it sleeps, and returns true; false if the class has no free slot (then nothing
   /// has happened). A payload of at most small_payload_bytes takes a small slot, a longer one a bulk slot; expects that it fits.
   /// `awake` counts the receiver; the caller is counted itself.
   [[nodiscard]] bool push(const PacketHeader& header, std::span<const std::byte> payload, BasicAwakeCount<Atomics>& awake) {
+    Batch batch;
+    if (!add(batch, header, payload)) {
+      return false;
+    }
+    hand_over(batch, awake);
+    return true;
+  }
+
+  /// Copies the packet in, behind those of the batch; returns and expects as push().
+  [[nodiscard]] bool add(Batch& batch, const PacketHeader& header, std::span<const std::byte> payload) {
     core::expect(header.bytes == payload.size(), "a header says how long its payload is");
     const bool is_small = payload.size() <= small_payload_bytes;
     core::expect(is_small || payload.size() <= bulk_payload_bytes_, "a payload fits the slots of its class");
@@ -81,8 +103,21 @@ class BasicMailbox {
       return false;
     }
     fill(pool.slot(slot), header, payload);
-    publish(slot, awake);
+    links_[slot].store(batch.newest_, std::memory_order_relaxed);
+    batch.oldest_ = batch.is_empty() ? slot : batch.oldest_;
+    batch.newest_ = slot;
     return true;
+  }
+
+  /// Gives all packets of the batch to the receiver, in their order, and wakes it if it sleeps. `awake` as push()'s.
+  void hand_over(Batch& batch, BasicAwakeCount<Atomics>& awake) {
+    if (batch.is_empty()) {
+      return;
+    }
+    SlotIndex head = inbox_->load(std::memory_order_relaxed);
+    while (!try_publish(batch, head, awake)) {
+    }
+    batch = {};
   }
 
   /// Takes all packets at once and calls receive(packet) for each, oldest first; returns how many. Packets that come meanwhile
@@ -208,21 +243,16 @@ class BasicMailbox {
     receive(Packet{NodeId{header.source}, header.kind, slot.subspan(sizeof(header), header.bytes)});
   }
 
-  void publish(SlotIndex slot, BasicAwakeCount<Atomics>& awake) {
-    SlotIndex head = inbox_->load(std::memory_order_relaxed);
-    while (!try_publish(slot, head, awake)) {
-    }
-  }
-
-  /// One attempt to put `slot` on the inbox whose word was `head`; sets `head` anew if that failed.
-  bool try_publish(SlotIndex slot, SlotIndex& head, BasicAwakeCount<Atomics>& awake) {
+  /// One attempt to put `batch` on the inbox whose word was `head`; sets `head` anew if that failed.
+  bool try_publish(const Batch& batch, SlotIndex& head, BasicAwakeCount<Atomics>& awake) {
     const bool wakes = head == asleep;
-    links_[slot].store(wakes ? empty : head, std::memory_order_relaxed);
+    links_[batch.oldest_].store(wakes ? empty : head, std::memory_order_relaxed);
     if (wakes) {
       awake.raise();
     }
-    // Release: partner of the acquire in drain(), for the slot's bytes and its link.
-    const bool published = inbox_->compare_exchange_weak(head, slot, std::memory_order_release, std::memory_order_relaxed);
+    // Release: partner of the acquire in drain(), for the slots' bytes and their links.
+    const bool published =
+        inbox_->compare_exchange_weak(head, batch.newest_, std::memory_order_release, std::memory_order_relaxed);
     if (wakes) {
       published ? Atomics::wake(*inbox_) : awake.withdraw();
     }

@@ -19,6 +19,13 @@
 
 namespace dmpc::nodes {
 
+/// Packets that need not reach their target while their sender has other things to do: it is not woken for each. All are for one
+/// target.
+struct Patience {
+  std::uint32_t kinds = 0;    ///< a bit for each
+  std::uint32_t packets = 1;  ///< at so many the target gets them; the sender's credits last longer than that
+};
+
 /// One node or the host as a runner needs it. `make_program` is called once, on the calling thread, before the start, and may
 /// allocate from node.memory(); the memory is sealed after it.
 struct NodeSpecification {
@@ -30,6 +37,8 @@ struct NodeSpecification {
   /// A bit for each kind of packet that a runner with a clock delivers at once, by an interrupt, whatever the program is
   /// computing. Only for kinds whose receive() reads nothing but what never changes, and changes nothing but counters.
   std::uint32_t interrupt_kinds = 0;
+  /// What may wait at a sender on threads, where waking a thread costs as much as tracing some rays. A model knows no wake-ups.
+  Patience patience = {};
 };
 static_assert(packet_kind_count <= 32);
 

@@ -23,8 +23,9 @@ using nodes::size_text;
 
 constexpr std::uint32_t default_in_flight = 16;
 constexpr std::uint32_t auto_cache_pages_min = 64;
-/// Two film packets a node: one travels while the next is gathered.
-constexpr std::uint32_t film_credits = 2;
+/// Film packets that a node may have under way: on a modelled machine one travels while the next is gathered. On threads the host
+/// is not woken for each, and so there are more, as far as the host has about so many places for those of all nodes.
+constexpr std::uint32_t modelled_film_credits = 2, film_credits_min = 4, film_credits_max = 32, film_slots_wanted = 256;
 /// Longer film packets would save nothing worth the memory of their mailbox slots.
 constexpr std::size_t film_packet_max_bytes = 4096;
 /// Small slots that a home keeps for page requests, about; 16 KiB of them.
@@ -64,6 +65,11 @@ std::uint32_t request_credits_of(const PlanRequest& request, std::uint32_t fault
                    std::clamp(request_slots_wanted / (request.node_count - 1), 1U, request_credits_max)});
 }
 
+std::uint32_t film_credits_of(const PlanRequest& request) {
+  return request.is_modelled ? modelled_film_credits
+                             : std::clamp(film_slots_wanted / request.node_count, film_credits_min, film_credits_max);
+}
+
 std::uint32_t film_entries_of(const PlanRequest& request) {
   const std::size_t packet_bytes = std::min(request.page_size_bytes, film_packet_max_bytes);
   return static_cast<std::uint32_t>((packet_bytes - sizeof(FilmHeader)) / sizeof(FilmEntry));
@@ -75,11 +81,11 @@ nodes::MailboxCapacity node_mailbox_of(const PlanRequest& request, std::uint32_t
   const std::uint32_t others = request.node_count - 1;
   const bool ring = request.work_item_side > 0;
   nodes::MailboxCapacity capacity;
-  capacity.small_slots = others * request_credits  // page requests: each other node's credits for this home
-                         + (ring ? others : 0)     // work requests: each other node has at most one on the ring
-                         + (ring ? 1 : 0)          // the reply to this node's own work request
-                         + film_credits            // acknowledgements: one for each film packet of this node's
-                         + 1;                      // Stop
+  capacity.small_slots = others * request_credits    // page requests: each other node's credits for this home
+                         + (ring ? others : 0)       // work requests: each other node has at most one on the ring
+                         + (ring ? 1 : 0)            // the reply to this node's own work request
+                         + film_credits_of(request)  // acknowledgements: one for each film packet of this node's
+                         + 1;                        // Stop
   if (request.refinement.is_wanted()) {
     capacity.small_slots += 1;  // BeginPass
     capacity.bulk_slots = 1;    // a part of the mask: the next one follows its acknowledgement
@@ -95,8 +101,8 @@ nodes::MailboxCapacity node_mailbox_of(const PlanRequest& request, std::uint32_t
 nodes::MailboxCapacity host_mailbox_of(const PlanRequest& request, std::uint32_t film_entries) {
   return {.small_slots = request.node_count  // Done: one from each node
                          + (request.refinement.is_wanted() ? request.node_count
-                                                           : 0),  // acknowledgements: one for each node's part of the mask
-          .bulk_slots = request.node_count * film_credits,        // film packets: each node's credits
+                                                           : 0),        // acknowledgements: one for each node's part of the mask
+          .bulk_slots = request.node_count * film_credits_of(request),  // film packets: each node's credits
           .bulk_payload_bytes = sizeof(FilmHeader) + film_entries * sizeof(FilmEntry)};
 }
 
@@ -115,7 +121,7 @@ Plan plan_with(const PlanRequest& request, std::uint32_t frames, std::uint32_t i
   plan.frames = frames;
   plan.in_flight = in_flight;
   plan.request_credits = request_credits_of(request, plan.faults_max());
-  plan.film_credits = film_credits;
+  plan.film_credits = film_credits_of(request);
   plan.film_entries = film_entries_of(request);
   plan.node_mailbox = node_mailbox_of(request, plan.faults_max(), plan.request_credits);
   plan.host_mailbox = host_mailbox_of(request, plan.film_entries);
@@ -289,6 +295,10 @@ HostShape Plan::host() const {
           .first_samples = request.first_samples,
           .refinement = request.refinement,
           .start = request.start};
+}
+
+nodes::Patience Plan::patience() const {
+  return {.kinds = 1U << number_of(Kind::film_sums), .packets = std::max(film_credits * 3 / 4, 1U)};
 }
 
 nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {

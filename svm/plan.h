@@ -52,6 +52,7 @@ struct PlanRequest {
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;  ///< of each node's thread
   /// Fewer credits, and room for packets held back; mailboxes stay as they are.
   std::optional<nodes::Chaos> chaos = std::nullopt;
+  bool is_modelled = false;  ///< a model of a machine runs it, in which waking a host costs nothing
 
   /// Some pass may leave pixels out, so that each node keeps a bit for each pixel of its submap.
   bool is_masked() const { return refinement.is_wanted() || start != nullptr; }
@@ -85,6 +86,8 @@ struct Plan {
   FilmCapacity film() const;
   WorkShape work() const;
   HostShape host() const;
+  /// Which packets need not wake their target each.
+  nodes::Patience patience() const;
 
   /// Faults under way at a node: a fault has at least one pixel in flight, a pixel waits for one page, and a page that is not at
   /// home has one fault at most.

@@ -37,7 +37,8 @@ PlanRequest request_of(Strategy strategy, const core::Database& database, const 
           .count_pages = counts_pages(options),
           .record_references = options.record_references,
           .stack_reserve_bytes = options.stack_reserve_bytes,
-          .chaos = options.chaos};
+          .chaos = options.chaos,
+          .is_modelled = options.machine.has_value()};
 }
 
 NodeReport report_of(nodes::Node& node, const nodes::Program& program) {
@@ -173,7 +174,7 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
   for (std::uint32_t i = 0; i < plan.request.node_count; ++i) {
     specifications.push_back({plan.node_memory(i), plan.node_mailbox,
                               [&make_program, i](nodes::Node& node) { return make_program(i, node); }, plan.held_bytes,
-                              interrupt_kinds});
+                              interrupt_kinds, plan.patience()});
   }
   specifications.push_back({plan.host_memory(), plan.host_mailbox,
                             [&plan, &film, &progress, continuation](nodes::Node& node) {

@@ -81,6 +81,7 @@ struct alignas(cache_line_bytes) Processor {
       : memory(specification.plan),
         mailbox(specification.mailbox, memory),
         held(held_packets_of(computer.chaos, specification, id, memory, computer.network)),
+        patience(specification.patience),
         node(id, computer.peer_count, memory, way_out(computer)) {
     core::expect(specification.plan[Category::reserve] >= thread_stack_bytes_min, "a plan reserves room for the thread's stack");
     if (computer.chaos) {
@@ -130,6 +131,10 @@ struct alignas(cache_line_bytes) Processor {
   LocalMemory memory;
   Mailbox mailbox;
   std::optional<HeldPackets> held;
+  Patience patience;
+  Mailbox::Batch waiting;  ///< packets sent that may wait, in slots of their target
+  NodeId waiting_for{};    ///< their target
+  std::uint32_t waiting_count = 0;
   std::optional<Telling> telling;  ///< if somebody looks on
   Node node;
   std::unique_ptr<Program> program;
@@ -157,6 +162,12 @@ struct ThreadsRunner::Implementation final : Network {
   }
 
   void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) override {
+    Processor& source = *processors_[header.source];
+    const bool may_wait = (source.patience.kinds >> header.kind & 1U) != 0;
+    // What a sender sends one target arrives in order, so nothing overtakes what waits.
+    if (may_wait || (source.waiting_count > 0 && source.waiting_for == target)) {
+      return add_waiting(source, target, header, payload, may_wait);
+    }
     core::expect(processors_[index_of(target)]->mailbox.push(header, payload, awake_),
                  "credits leave room in the target's mailbox");
   }
@@ -185,6 +196,22 @@ struct ThreadsRunner::Implementation final : Network {
     Implementation* runner;
     Processor* processor;
   };
+
+  void add_waiting(Processor& source, NodeId target, const PacketHeader& header, std::span<const std::byte> payload,
+                   bool may_wait) {
+    core::expect(source.waiting_count == 0 || source.waiting_for == target, "packets that may wait have one target");
+    core::expect(processors_[index_of(target)]->mailbox.add(source.waiting, header, payload),
+                 "credits leave room in the target's mailbox");
+    source.waiting_for = target;
+    if (++source.waiting_count >= source.patience.packets || !may_wait) {
+      hand_over(source);
+    }
+  }
+
+  void hand_over(Processor& source) {
+    processors_[index_of(source.waiting_for)]->mailbox.hand_over(source.waiting, awake_);
+    source.waiting_count = 0;
+  }
 
   void start_threads() {
     starts_.reserve(processors_.size());
@@ -240,6 +267,9 @@ struct ThreadsRunner::Implementation final : Network {
     });
     const bool has_more = work(self);
     const bool holds_packets = self.holds_packets();
+    if (!has_more) {
+      hand_over(self);  // before it sleeps, for an awake node alone keeps the others from finding that all is over
+    }
     if (!has_more && holds_packets) {
       self.pass_idly();
     } else if (!has_more && !packet_comes_soon(self.mailbox)) {

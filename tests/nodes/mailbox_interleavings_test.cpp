@@ -31,13 +31,16 @@ nodes::MemoryPlan plan_for(const MailboxCapacity& capacity, std::size_t count) {
   return plan;
 }
 
-bool push_number(Mailbox& mailbox, AwakeCount& awake, std::uint32_t source, std::uint32_t number) {
-  const PacketHeader header{.bytes = sizeof(number), .source = static_cast<std::uint16_t>(source), .kind = 0};
-  return mailbox.push(header, std::as_bytes(std::span(&number, 1)), awake);
+PacketHeader header_of(std::uint32_t source) {
+  return {.bytes = sizeof(std::uint32_t), .source = static_cast<std::uint16_t>(source), .kind = 0};
 }
 
-/// Two senders push numbers while there is room, then say that they are done and rouse the receiver, which ends when both have.
-/// Slots are few, so that they come back in the middle.
+bool push_number(Mailbox& mailbox, AwakeCount& awake, std::uint32_t source, std::uint32_t number) {
+  return mailbox.push(header_of(source), std::as_bytes(std::span(&number, 1)), awake);
+}
+
+/// Two senders push numbers while there is room, the second all at once, then say that they are done and rouse the receiver,
+/// which ends when both have. Slots are few, so that they come back in the middle.
 struct TwoSenders {
   static constexpr std::size_t thread_count = 3;
   static constexpr std::size_t receiver = 0;
@@ -49,9 +52,14 @@ struct TwoSenders {
   void thread(std::size_t index) { index == receiver ? receive() : send(index); }
 
   void send(std::size_t index) {
+    Mailbox::Batch batch;
     for (std::uint32_t number = 0; number < per_sender; ++number) {
-      pushed[index] += push_number(mailbox, awake, static_cast<std::uint32_t>(index), pushed[index]) ? 1 : 0;
+      const PacketHeader header = header_of(static_cast<std::uint32_t>(index));
+      const auto payload = std::as_bytes(std::span(&pushed[index], 1));
+      const bool fits = index == 2 ? mailbox.add(batch, header, payload) : mailbox.push(header, payload, awake);
+      pushed[index] += fits ? 1 : 0;
     }
+    mailbox.hand_over(batch, awake);
     done.fetch_sub(1, std::memory_order_relaxed);
     mailbox.rouse();
   }

@@ -75,6 +75,39 @@ TEST_CASE("packets come out in the order in which they went in") {
   CHECK(box.take() == Taken{{1, 10}, {2, 20}, {1, 11}});
 }
 
+TEST_CASE("packets of a batch come out when it is handed over, in their order, behind those that came before") {
+  OneMailbox box({.small_slots = 4});
+  Mailbox::Batch batch;
+  for (const std::byte number : {std::byte{1}, std::byte{2}}) {
+    const std::vector<std::byte> payload{number};
+    CHECK(box.mailbox.add(batch, {.bytes = 1, .source = 7, .kind = 0}, payload));
+  }
+  CHECK(box.mailbox.is_empty());
+  CHECK(box.push_number(8, 3));
+  CHECK(box.take() == Taken{{8, 3}});
+  CHECK(box.push_number(8, 4));
+  box.mailbox.hand_over(batch, box.awake);
+  CHECK(batch.is_empty());
+  CHECK(box.push_number(8, 5));
+  CHECK(box.take() == Taken{{8, 4}, {7, 1}, {7, 2}, {8, 5}});
+}
+
+TEST_CASE("a batch of nothing wakes nobody, and one of packets counts a sleeper once") {
+  OneMailbox box({.small_slots = 2});
+  Mailbox::Batch batch;
+  REQUIRE(box.mailbox.fall_asleep());
+  CHECK_FALSE(box.awake.leave());
+  box.mailbox.hand_over(batch, box.awake);
+  CHECK_FALSE(box.mailbox.has_packets());
+  CHECK(box.mailbox.add(batch, {}, {}));
+  CHECK(box.mailbox.add(batch, {}, {}));
+  box.mailbox.hand_over(batch, box.awake);
+  box.mailbox.wait();  // returns at once
+  CHECK(box.take().size() == 2);
+  CHECK_FALSE(box.awake.leave());
+  CHECK(box.awake.leave());
+}
+
 TEST_CASE("a packet that comes while others are received waits for the next time") {
   OneMailbox box({.small_slots = 2});
   CHECK(box.push_number(1, 1));

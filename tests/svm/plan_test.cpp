@@ -169,12 +169,27 @@ TEST_CASE("a mailbox has room for everything that may be under way to it") {
   request.in_flight = 3;
   const svm::Plan plan = make_plan(request);
   CHECK(plan.request_credits == 3);
-  CHECK(plan.node_mailbox.small_slots == 4 * 3 + 4 + 1 + 2 + 1);
+  CHECK(plan.film_credits == 32);
+  CHECK(plan.node_mailbox.small_slots == 4 * 3 + 4 + 1 + 32 + 1);
   CHECK(plan.node_mailbox.bulk_slots == 3);
   CHECK(plan.node_mailbox.bulk_payload_bytes == 1024 + 8);
   CHECK(plan.host_mailbox.small_slots == 5);
-  CHECK(plan.host_mailbox.bulk_slots == 10);
+  CHECK(plan.host_mailbox.bulk_slots == 5 * 32);
   CHECK(plan.host_mailbox.bulk_payload_bytes <= 1024);
+}
+
+TEST_CASE("film credits are few where nodes are many, and on a modelled machine, and fewer packets wait at a node") {
+  PlanRequest request = request_with(1, 100);
+  for (const auto& [nodes, credits] : {std::pair{1U, 32U}, {16U, 16U}, {64U, 4U}, {4096U, 4U}}) {
+    request.node_count = nodes;
+    const svm::Plan plan = make_plan(request);
+    CHECK(plan.film_credits == credits);
+    CHECK(plan.patience().packets == credits * 3 / 4);
+    CHECK(plan.patience().kinds == 1U << number_of(svm::Kind::film_sums));
+  }
+  request.is_modelled = true;
+  CHECK(make_plan(request).film_credits == 2);
+  CHECK(make_plan(request).patience().packets == 1);
 }
 
 TEST_CASE("no node plans for more pixels in flight than it ever has") {

@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <numeric>
 #include <stdexcept>
 #include <stop_token>
 #include <string>
@@ -198,6 +199,55 @@ class OneWorks : public ToyProgram {
   bool done_ = false;
 };
 
+/// Sends its numbers to the host, one in a quantum: kind 1 may wait, kind 2 not.
+class Patient : public ToyProgram {
+ public:
+  static constexpr MailboxCapacity mailbox{.small_slots = 40};
+  static constexpr std::uint32_t count = 38;
+
+  Patient(Node& node, std::uint32_t hasty_one) : ToyProgram(node), hasty_one_(hasty_one), is_host_(node.id() == host()) {
+    node.grant(host(), 0, count);
+  }
+
+  void receive(const Packet& packet) override { received_.push_back(packet.as<std::uint32_t>()); }
+  bool work() override {
+    if (is_host_ || sent_ == count) {
+      return false;
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(100));  // so that the host goes to sleep again
+    const PacketKind kind = sent_ == hasty_one_ ? 2 : 1;
+    node().send_reserved(host(), 0, kind, sent_++);
+    return sent_ < count;
+  }
+  bool finished() const override { return is_host_ ? received_.size() == count : sent_ == count; }
+  const std::vector<std::uint32_t>& received() const { return received_; }
+
+ private:
+  std::uint32_t hasty_one_;
+  std::uint32_t sent_ = 0;
+  bool is_host_;
+  std::vector<std::uint32_t> received_;
+};
+
+/// Sends packets that may wait to two targets.
+class TwoTargets : public ToyProgram {
+ public:
+  explicit TwoTargets(Node& node) : ToyProgram(node) {
+    node.grant(NodeId{0}, 0);
+    node.grant(NodeId{1}, 0);
+  }
+  bool work() override {
+    node().send_reserved(NodeId{0}, 0, 1, std::uint32_t{1});
+    node().send_reserved(NodeId{1}, 0, 1, std::uint32_t{1});
+    has_sent_ = true;
+    return false;
+  }
+  bool finished() const override { return has_sent_; }
+
+ private:
+  bool has_sent_ = false;
+};
+
 TEST_CASE("programs that are finished from the start end the run") {
   for (const std::uint32_t count : {1U, 2U, 65U}) {
     ThreadsRunner runner(equal_nodes(count, {}, making<ToyProgram>()));
@@ -237,6 +287,33 @@ TEST_CASE("many nodes send to one, each in order, each within its credit") {
   CHECK(runner.run({}) == RunEnd::finished);
   CHECK(program_of<AllToHost>(runner, 32).in_order());
   CHECK(total(runner.node(32).counters().received).packets == 32 * 50);
+}
+
+TEST_CASE("packets that may wait arrive in order, overtaken by none, and before their sender sleeps") {
+  std::vector<std::uint32_t> expected(Patient::count);
+  std::iota(expected.begin(), expected.end(), 0);
+  for (const std::uint32_t hasty_one : {0U, 6U, 37U, 99U}) {
+    auto specifications = equal_nodes(2, Patient::mailbox, making<Patient>(hasty_one));
+    specifications[0].patience = {.kinds = 1U << 1U, .packets = 5};
+    ThreadsRunner runner(specifications);
+    CHECK(runner.run({}) == RunEnd::finished);
+    CHECK(program_of<Patient>(runner, 1).received() == expected);
+  }
+}
+
+TEST_CASE("a target is not woken for each packet that may wait") {
+  auto specifications = equal_nodes(2, Patient::mailbox, making<Patient>(99U));
+  specifications[0].patience = {.kinds = 1U << 1U, .packets = 10};
+  ThreadsRunner runner(specifications);
+  CHECK(runner.run({}) == RunEnd::finished);
+  CHECK(runner.node(1).counters().sleeps <= 5);  // before each of four batches, and after
+}
+
+TEST_CASE("packets that may wait have one target") {
+  auto specifications = equal_nodes(2, {.small_slots = 4}, making<TwoTargets>());
+  specifications[0].patience = {.kinds = 1U << 1U, .packets = 10};
+  ThreadsRunner runner(specifications);
+  CHECK_THROWS_WITH_AS(runner.run({}), doctest::Contains("packets that may wait have one target"), core::InternalError);
 }
 
 TEST_CASE("a mailbox smaller than the credits is found out") {
