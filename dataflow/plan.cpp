@@ -12,6 +12,7 @@
 #include "dataflow/program.h"
 #include "dataflow/ray_queue.h"
 #include "dataflow/ray_task.h"
+#include "nodes/patience.h"
 #include "nodes/size_text.h"
 #include "nodes/threads/held_packets.h"
 
@@ -30,8 +31,6 @@ constexpr std::uint32_t default_ray_credits_in_all = 512;
 /// Where many nodes share a core, a receiver may not run for milliseconds, and the others go on until the announcement of a long
 /// queue reaches them. 8 to 64 nodes on two cores that others used, too, queued up to 464 packets on seven scenes at 512x512.
 constexpr std::uint32_t default_queue_packets = 512;
-/// Two film packets a node: one travels while the next is gathered.
-constexpr std::uint32_t film_credits = 2;
 constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 
 /// What a node's mailbox must be able to hold, whoever sends when; the mailbox itself adds the slot of the packet being received.
@@ -85,7 +84,7 @@ Plan plan_with(const PlanRequest& request, const Bounds& bounds) {
   plan.ray_credits = bounds.ray_credits;
   plan.host_credits = std::max(1U, bounds.ray_credits);
   plan.queue_packets = bounds.ray_credits == 0 || request.node_count() == 1 ? 0 : bounds.queue_packets;
-  plan.film_credits = film_credits;
+  plan.film_credits = nodes::patient_credits(request.node_count(), request.is_modelled);
   plan.node_mailbox = node_mailbox_of(plan);
   plan.host_mailbox = host_mailbox_of(plan);
   if (request.chaos) {

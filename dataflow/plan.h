@@ -43,6 +43,7 @@ struct PlanRequest {
   std::size_t stack_reserve_bytes = std::size_t{256} << 10U;  ///< of each node's thread
   /// Fewer credits, and room for packets held back; mailboxes stay as they are.
   std::optional<nodes::Chaos> chaos = std::nullopt;
+  bool is_modelled = false;  ///< a model of a machine runs it, in which waking a host costs nothing
 
   std::uint32_t node_count() const { return static_cast<std::uint32_t>(shares.size()); }
   /// The host deals primary rays after the start, for which nodes have room.

@@ -30,7 +30,8 @@ PlanRequest request_of(const Distribution& distribution, const core::RenderSetti
           .refinement = settings.refinement,
           .is_dealt_on_the_way = is_dealt_on_the_way(options),
           .stack_reserve_bytes = options.stack_reserve_bytes,
-          .chaos = options.chaos};
+          .chaos = options.chaos,
+          .is_modelled = options.machine.has_value()};
 }
 
 /// Regions on their nodes, and the predicted load of each node if there is one.
@@ -284,7 +285,8 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
     const auto make_program = [&, i](nodes::Node& node) {
       return make_program_of(node, plan, {distribution.parts[i], distribution.primaries[i], settings, distribution.bsp}, options);
     };
-    specifications.push_back({plan.node_memory(i), plan.node_mailbox, make_program, plan.held_bytes});
+    specifications.push_back({plan.node_memory(i), plan.node_mailbox, make_program, plan.held_bytes, 0,
+                              nodes::patience_of(number_of(Kind::film), plan.film_credits)});
   }
   const auto deal = [&settings, &distribution, stop](const core::SampleRange& samples, const core::PixelMask& pixels) {
     std::optional runs = deal_primaries(settings, distribution.bsp, samples, pixels, stop);

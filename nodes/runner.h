@@ -14,17 +14,11 @@
 #include "nodes/mailbox.h"
 #include "nodes/node.h"
 #include "nodes/observer.h"
+#include "nodes/patience.h"
 #include "nodes/program.h"
 #include "nodes/virtual/virtual_times.h"
 
 namespace dmpc::nodes {
-
-/// Packets that need not reach their target while their sender has other things to do: it is not woken for each. All are for one
-/// target.
-struct Patience {
-  std::uint32_t kinds = 0;    ///< a bit for each
-  std::uint32_t packets = 1;  ///< at so many the target gets them; the sender's credits last longer than that
-};
 
 /// One node or the host as a runner needs it. `make_program` is called once, on the calling thread, before the start, and may
 /// allocate from node.memory(); the memory is sealed after it.

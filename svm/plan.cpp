@@ -23,9 +23,6 @@ using nodes::size_text;
 
 constexpr std::uint32_t default_in_flight = 16;
 constexpr std::uint32_t auto_cache_pages_min = 64;
-/// Film packets that a node may have under way: on a modelled machine one travels while the next is gathered. On threads the host
-/// is not woken for each, and so there are more, as far as the host has about so many places for those of all nodes.
-constexpr std::uint32_t modelled_film_credits = 2, film_credits_min = 4, film_credits_max = 32, film_slots_wanted = 256;
 /// Longer film packets would save nothing worth the memory of their mailbox slots.
 constexpr std::size_t film_packet_max_bytes = 4096;
 /// Small slots that a home keeps for page requests, about; 16 KiB of them.
@@ -66,8 +63,7 @@ std::uint32_t request_credits_of(const PlanRequest& request, std::uint32_t fault
 }
 
 std::uint32_t film_credits_of(const PlanRequest& request) {
-  return request.is_modelled ? modelled_film_credits
-                             : std::clamp(film_slots_wanted / request.node_count, film_credits_min, film_credits_max);
+  return nodes::patient_credits(request.node_count, request.is_modelled);
 }
 
 std::uint32_t film_entries_of(const PlanRequest& request) {
@@ -297,9 +293,7 @@ HostShape Plan::host() const {
           .start = request.start};
 }
 
-nodes::Patience Plan::patience() const {
-  return {.kinds = 1U << number_of(Kind::film_sums), .packets = std::max(film_credits * 3 / 4, 1U)};
-}
+nodes::Patience Plan::patience() const { return nodes::patience_of(number_of(Kind::film_sums), film_credits); }
 
 nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
   nodes::MemoryPlan plan;

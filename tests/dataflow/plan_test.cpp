@@ -135,6 +135,13 @@ TEST_CASE("one node, or nodes without credits, need no queue") {
   CHECK(make_plan(request).queue_packets == 0);
 }
 
+TEST_CASE("film credits are many where nodes are few, but for a modelled machine") {
+  PlanRequest request = request_with(2, 1000);
+  CHECK(make_plan(request).film_credits == 32);
+  request.is_modelled = true;
+  CHECK(make_plan(request).film_credits == 2);
+}
+
 TEST_CASE("chaos leaves at least one credit and the mailboxes as they were") {
   PlanRequest request = request_with(4, 1000);
   const Plan calm = make_plan(request);
