@@ -6,6 +6,7 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -15,15 +16,11 @@
 #include "nodes/processors.h"
 #include "nodes/threads/clock.h"
 #include "nodes/threads/held_packets.h"
+#include "nodes/threads/looks.h"
 #include "nodes/threads/thread.h"
 
 namespace dmpc::nodes {
 namespace {
-
-/// Looks at an empty mailbox, with a sched_yield before each, before a node goes to sleep. A sleep and a wake-up cost some
-/// microseconds (tens across cores), a yield a fraction of one when other nodes have work; more looks gain nothing and burn an
-/// idle node's core.
-constexpr int looks_before_sleep = 4;
 
 /// Quanta that pass at a node which pauses, or only waits for packets held back to fall due, until it gives its core to others.
 /// Giving it away in each would cost a time slice each where other processes want the core.
@@ -153,7 +150,10 @@ struct alignas(cache_line_bytes) Processor {
 /// thread exists.
 struct ThreadsRunner::Implementation final : Network {
   Implementation(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos, Observer* observer)
-      : chaos_(chaos), observer_(observer), awake_(static_cast<std::uint32_t>(specifications.size())) {
+      : chaos_(chaos),
+        observer_(observer),
+        looks_before_sleep_(looks_before_sleep(specifications.size(), std::thread::hardware_concurrency())),
+        awake_(static_cast<std::uint32_t>(specifications.size())) {
     core::expect(!specifications.empty(), "a computer has at least the host");
     const Computer computer{static_cast<std::uint32_t>(specifications.size()), *this, chaos_, observer_, start_ns_};
     for (std::uint32_t i = 0; i < computer.peer_count; ++i) {
@@ -325,8 +325,8 @@ struct ThreadsRunner::Implementation final : Network {
     observer_->ended(span, *self.program);
   }
 
-  static bool packet_comes_soon(const Mailbox& mailbox) {
-    for (int i = 0; i < looks_before_sleep && mailbox.is_empty(); ++i) {
+  bool packet_comes_soon(const Mailbox& mailbox) const {
+    for (int i = 0; i < looks_before_sleep_ && mailbox.is_empty(); ++i) {
       sched_yield();
     }
     return !mailbox.is_empty();
@@ -390,6 +390,7 @@ struct ThreadsRunner::Implementation final : Network {
 
   std::optional<Chaos> chaos_;
   Observer* observer_;
+  int looks_before_sleep_;
   std::uint64_t start_ns_ = 0;  ///< of the run; written before the threads start
   AwakeCount awake_;
   alignas(cache_line_bytes) std::atomic<Ending> ending_{Ending::none};

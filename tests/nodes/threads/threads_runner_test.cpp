@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "nodes/threads/looks.h"
 #include "tests/nodes/toy_machine.h"
 
 namespace dmpc::tests {
@@ -314,6 +315,14 @@ TEST_CASE("packets that may wait have one target") {
   specifications[0].patience = {.kinds = 1U << 1U, .packets = 10};
   ThreadsRunner runner(specifications);
   CHECK_THROWS_WITH_AS(runner.run({}), doctest::Contains("packets that may wait have one target"), core::InternalError);
+}
+
+TEST_CASE("an idle thread looks again where many share a core, and sleeps at once where few do") {
+  CHECK(looks_before_sleep(3, 2) == 0);
+  CHECK(looks_before_sleep(5, 2) == 0);
+  CHECK(looks_before_sleep(9, 2) > 0);
+  CHECK(looks_before_sleep(65, 64) == 0);
+  CHECK(looks_before_sleep(3, 0) > 0);
 }
 
 TEST_CASE("a mailbox smaller than the credits is found out") {
