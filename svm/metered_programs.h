@@ -9,7 +9,7 @@
 
 namespace dmpc::svm {
 
-/// Makes the programs of the plan's strategy, with our grid. Requires options.metering().is_wanted(). All arguments outlive the
+/// Makes the programs of the plan's strategy, with our grid. Requires options.watching.is_metered(). All arguments outlive the
 /// result.
 MakeProgram metered_programs(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
                              const RunOptions& options);

@@ -45,7 +45,7 @@ class ControlProgram final : public NodeProgram {
                 node.memory().template allocate<std::byte>(nodes::Category::constants, sizeof(settings)).data()),
             settings)),
         node_(&node),
-        host_(nodes::NodeId{plan.request.node_count}),
+        host_(nodes::NodeId{plan.request.computer.node_count}),
         records_(node, plan.pages(), database),
         tracer_(make_tracer(records_)),
         slots_(node.memory(), plan.in_flight, static_cast<std::uint32_t>(plan.request.depth_max)),

@@ -13,8 +13,12 @@
 namespace dmpc::svm {
 namespace {
 
-bool counts_pages(const RunOptions& options) {
-  return options.count_pages || (options.heat != nullptr && options.heat->has(nodes::HeatKind::pages));
+/// A heat map of pages has them counted.
+PageOptions pages_of(const RunOptions& options) {
+  const nodes::HeatMap* const heat = options.watching.heat;
+  PageOptions pages = options.pages;
+  pages.count_pages = pages.count_pages || (heat != nullptr && heat->has(nodes::HeatKind::pages));
+  return pages;
 }
 
 PlanRequest request_of(Strategy strategy, const core::Database& database, const core::RenderSettings& settings,
@@ -22,22 +26,14 @@ PlanRequest request_of(Strategy strategy, const core::Database& database, const 
   return {.strategy = strategy,
           .page_count = static_cast<std::uint32_t>(database.page_count()),
           .page_size_bytes = database.page_size(),
-          .node_count = options.node_count,
-          .node_memory_bytes = options.node_memory_bytes,
-          .cache_pages = options.cache_pages,
-          .replacement = options.replacement,
-          .in_flight = options.in_flight,
-          .work_item_side = options.work_item_side,
+          .computer = options.computer,
+          .pages = pages_of(options),
           .depth_max = settings.shade.depth_max,
           .width = static_cast<std::uint32_t>(settings.camera.width()),
           .height = static_cast<std::uint32_t>(settings.camera.height()),
           .first_samples = settings.first_samples().count,
           .refinement = settings.refinement,
-          .start = options.continuation.start,
-          .count_pages = counts_pages(options),
-          .record_references = options.record_references,
-          .stack_reserve_bytes = options.stack_reserve_bytes,
-          .chaos = options.chaos};
+          .start = options.continuation.start};
 }
 
 NodeReport report_of(nodes::Node& node, const nodes::Program& program) {
@@ -96,8 +92,8 @@ MakeProgram maker(const core::Database& database, const core::RenderSettings& se
 
 Report run_recording(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                      const Plan& plan, std::stop_token stop) {
-  core::expect(!options.metering().is_wanted(), "references are recorded, or there are meters, not both");
-  std::vector<ReferenceLog> logs(plan.request.node_count);
+  core::expect(!options.watching.is_metered(), "references are recorded, or there are meters, not both");
+  std::vector<ReferenceLog> logs(plan.request.computer.node_count);
   const auto record = [&logs](std::uint32_t index, RecordingPager& pager) { pager.record_into(logs[index]); };
   Report report = run_programs(plan, maker<RecordingPager>(database, settings, plan, record), options, std::move(stop));
   for (std::size_t i = 0; i < logs.size(); ++i) {
@@ -168,9 +164,9 @@ Plan plan_of(Strategy strategy, const core::Database& database, const core::Rend
 }
 
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const MakeProgram& make_program, core::Film& film,
-                                                        const Progress& progress, const core::Continuation& continuation) {
+                                                        const nodes::Progress& progress, const core::Continuation& continuation) {
   std::vector<nodes::NodeSpecification> specifications;
-  for (std::uint32_t i = 0; i < plan.request.node_count; ++i) {
+  for (std::uint32_t i = 0; i < plan.request.computer.node_count; ++i) {
     specifications.push_back({plan.node_memory(i), plan.node_mailbox,
                               [&make_program, i](nodes::Node& node) { return make_program(i, node); }, plan.held_bytes,
                               interrupt_kinds});
@@ -192,20 +188,20 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
                 .plan = plan,
                 .nodes = {},
                 .host = {}};
-  core::expect(options.heat == nullptr || options.heat->pixel_count() == report.film.pixels().size(),
+  core::expect(options.watching.heat == nullptr || options.watching.heat->pixel_count() == report.film.pixels().size(),
                "a heat map is of the picture's size");
   const auto runner =
-      nodes::make_runner(specifications_of(plan, make_program, report.film, options.progress, options.continuation),
-                         {plan.request.chaos, options.machine, options.observer});
-  if (options.distributed) {
-    options.distributed();
+      nodes::make_runner(specifications_of(plan, make_program, report.film, options.watching.progress, options.continuation),
+                         options.computer, options.watching.observer);
+  if (options.watching.distributed) {
+    options.watching.distributed();
   }
   report.end = runner->run(std::move(stop));
-  for (std::uint32_t i = 0; i < plan.request.node_count; ++i) {
+  for (std::uint32_t i = 0; i < plan.request.computer.node_count; ++i) {
     report.nodes.push_back(report_of(runner->node(i), runner->program(i)));
   }
-  report.host = runner->node(plan.request.node_count).counters();
-  const auto& host = dynamic_cast<const HostProgram&>(runner->program(plan.request.node_count));
+  report.host = runner->node(plan.request.computer.node_count).counters();
+  const auto& host = dynamic_cast<const HostProgram&>(runner->program(plan.request.computer.node_count));
   report.host_deposits_saturated = host.deposits_saturated();
   report.pixels_done = host.pixels_done();
   report.refinement = host.refinement().result();
@@ -221,20 +217,20 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
 Report run_svm(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                std::stop_token stop) {
   const Plan plan = plan_of(Strategy::svm, database, settings, options);
-  if (options.record_references) {
+  if (options.pages.record_references) {
     return run_recording(database, settings, options, plan, std::move(stop));
   }
-  const MakeProgram make_program = options.metering().is_wanted() ? metered_programs(database, settings, plan, options)
-                                   : plan.request.count_pages     ? maker<CountingPager>(database, settings, plan)
-                                                                  : maker<Pager>(database, settings, plan);
+  const MakeProgram make_program = options.watching.is_metered()    ? metered_programs(database, settings, plan, options)
+                                   : plan.request.pages.count_pages ? maker<CountingPager>(database, settings, plan)
+                                                                    : maker<Pager>(database, settings, plan);
   return run_programs(plan, make_program, options, std::move(stop));
 }
 
 Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                       std::stop_token stop) {
   const Plan plan = plan_of(Strategy::replicated, database, settings, options);
-  const MakeProgram make_program = options.metering().is_wanted() ? metered_programs(database, settings, plan, options)
-                                                                  : maker<LocalCopy>(database, settings, plan);
+  const MakeProgram make_program = options.watching.is_metered() ? metered_programs(database, settings, plan, options)
+                                                                 : maker<LocalCopy>(database, settings, plan);
   return run_programs(plan, make_program, options, std::move(stop));
 }
 

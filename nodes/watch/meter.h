@@ -7,6 +7,7 @@
 #include "nodes/node_id.h"
 #include "nodes/observer.h"
 #include "nodes/watch/heat_meter.h"
+#include "nodes/watch/watching.h"
 
 namespace dmpc::nodes {
 
@@ -15,24 +16,15 @@ struct NoMeter {
   static constexpr bool is_on = false;
 };
 
-/// What a run's options ask of meters: a heat map, an observer, both or neither, and the machine whose prices are time. All
-/// outlive the meters.
-struct Metering {
-  HeatMap* heat = nullptr;
-  Observer* observer = nullptr;
-  const Machine* machine = nullptr;  ///< without one nodes are threads
-
-  bool is_wanted() const { return heat != nullptr || observer != nullptr; }
-};
-
 /// One node's. Thread safety: belongs to one node.
 class Meter {
  public:
   static constexpr bool is_on = true;
 
-  Meter(const Metering& metering, NodeId self) : observer_(metering.observer), self_(self) {
-    if (metering.heat != nullptr) {
-      heat_.emplace(*metering.heat, self, metering.machine);
+  /// For whoever of `watching` wants one. `machine`, whose prices are time, outlives the meter; without it nodes are threads.
+  Meter(const Watching& watching, const Machine* machine, NodeId self) : observer_(watching.observer), self_(self) {
+    if (watching.heat != nullptr) {
+      heat_.emplace(*watching.heat, self, machine);
     }
   }
 
