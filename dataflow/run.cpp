@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/base/expect.h"
-#include "dataflow/metered_program.h"
 #include "dataflow/packets.h"
 #include "dataflow/regions/mapping.h"
 #include "dataflow/regions/work.h"
@@ -82,15 +81,6 @@ NodeReport report_of(nodes::Node& node, const nodes::Program& program, const Dis
     report.primary_rays += run.count;
   }
   return report;
-}
-
-std::unique_ptr<nodes::Program> make_program_of(nodes::Node& node, const Plan& plan, const NodeDeal& deal,
-                                                const RunOptions& options) {
-  if (options.watching.is_metered()) {
-    return std::make_unique<MeteredProgram>(node, plan, deal,
-                                            nodes::Meter(options.watching, options.computer.model(), node.id()));
-  }
-  return std::make_unique<NodeProgram>(node, plan, deal);
 }
 
 void add(TrafficByKind& sum, const TrafficByKind& more) {
@@ -279,7 +269,9 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
   std::vector<nodes::NodeSpecification> specifications;
   for (std::uint32_t i = 0; i < plan.node_count(); ++i) {
     const auto make_program = [&, i](nodes::Node& node) {
-      return make_program_of(node, plan, {distribution.parts[i], distribution.primaries[i], settings, distribution.bsp}, options);
+      return std::make_unique<NodeProgram>(node, plan,
+                                           NodeDeal{distribution.parts[i], distribution.primaries[i], settings, distribution.bsp},
+                                           nodes::meter_for(options.watching, options.computer, node.id()));
     };
     specifications.push_back({plan.node_memory(i), plan.node_mailbox, make_program, plan.held_bytes});
   }

@@ -25,8 +25,8 @@ struct PageOptions {
   /// Record every node's page references, run_svm() only: an instrument, whose memory is no node's and grows with the run. Needs
   /// work_item_side = 0 and in_flight = 1, else the references would depend on the cache and the schedule. Not with count_pages.
   bool record_references = false;
-  /// One for each node, where run_svm() notes what the node references, with an observer and unless different pages are counted,
-  /// in whatever order it comes. Outlive the run.
+  /// One for each node, where run_svm() notes what the node references, in whatever order it comes, unless different pages are
+  /// counted. Outlive the run.
   std::vector<ReferenceLog>* reference_logs = nullptr;
 };
 

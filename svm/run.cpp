@@ -2,10 +2,10 @@
 
 #include <memory>
 #include <string>
+#include <type_traits>
 
 #include "core/base/expect.h"
 #include "svm/host.h"
-#include "svm/metered_programs.h"
 #include "svm/pager.h"
 #include "svm/watch/counting_pager.h"
 #include "svm/watch/recording_pager.h"
@@ -71,31 +71,27 @@ void check_conservation(const Report& report) {
 /// Serving a page reads pages that never change: a home may be interrupted for it at any time.
 constexpr std::uint32_t interrupt_kinds = 1U << number_of(Kind::page_request);
 
-/// prepare(index, records) is called for each node before its first reference.
-template <class Records, class Prepare>
+template <class Records>
 MakeProgram maker(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
-                  const Prepare& prepare) {
-  return [&, prepare](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
+                  const RunOptions& options) {
+  return [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
     const auto make_tracer = [&](Records& records) {
-      prepare(index, records);
+      if constexpr (std::is_same_v<Records, RecordingPager>) {
+        records.record_into(options.pages.reference_logs->at(index));
+      }
       return core::GridTracer<Records>(records, settings.header, settings.skips);
     };
-    return std::make_unique<ControlProgram<Records, core::GridTracer<Records>>>(node, plan, settings, database.bytes(),
-                                                                                make_tracer);
+    return std::make_unique<ControlProgram<Records, core::GridTracer<Records>>>(
+        node, plan, settings, database.bytes(), make_tracer, nodes::meter_for(options.watching, options.computer, node.id()));
   };
 }
 
-template <class Records>
-MakeProgram maker(const core::Database& database, const core::RenderSettings& settings, const Plan& plan) {
-  return maker<Records>(database, settings, plan, [](std::uint32_t, Records&) {});
-}
-
-Report run_recording(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
-                     const Plan& plan, std::stop_token stop) {
-  core::expect(!options.watching.is_metered(), "references are recorded, or there are meters, not both");
+/// The references of each node become a part of its report.
+Report run_recording(const core::Database& database, const core::RenderSettings& settings, const Plan& plan, RunOptions options,
+                     std::stop_token stop) {
   std::vector<ReferenceLog> logs(plan.request.computer.node_count);
-  const auto record = [&logs](std::uint32_t index, RecordingPager& pager) { pager.record_into(logs[index]); };
-  Report report = run_programs(plan, maker<RecordingPager>(database, settings, plan, record), options, std::move(stop));
+  options.pages.reference_logs = &logs;
+  Report report = run_programs(plan, maker<RecordingPager>(database, settings, plan, options), options, std::move(stop));
   for (std::size_t i = 0; i < logs.size(); ++i) {
     report.nodes[i].references = std::move(logs[i]);
   }
@@ -218,20 +214,19 @@ Report run_svm(const core::Database& database, const core::RenderSettings& setti
                std::stop_token stop) {
   const Plan plan = plan_of(Strategy::svm, database, settings, options);
   if (options.pages.record_references) {
-    return run_recording(database, settings, options, plan, std::move(stop));
+    return run_recording(database, settings, plan, options, std::move(stop));
   }
-  const MakeProgram make_program = options.watching.is_metered()    ? metered_programs(database, settings, plan, options)
-                                   : plan.request.pages.count_pages ? maker<CountingPager>(database, settings, plan)
-                                                                    : maker<Pager>(database, settings, plan);
+  const MakeProgram make_program = plan.request.pages.count_pages ? maker<CountingPager>(database, settings, plan, options)
+                                   : options.pages.reference_logs != nullptr
+                                       ? maker<RecordingPager>(database, settings, plan, options)
+                                       : maker<Pager>(database, settings, plan, options);
   return run_programs(plan, make_program, options, std::move(stop));
 }
 
 Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                       std::stop_token stop) {
   const Plan plan = plan_of(Strategy::replicated, database, settings, options);
-  const MakeProgram make_program = options.watching.is_metered() ? metered_programs(database, settings, plan, options)
-                                                                 : maker<LocalCopy>(database, settings, plan);
-  return run_programs(plan, make_program, options, std::move(stop));
+  return run_programs(plan, maker<LocalCopy>(database, settings, plan, options), options, std::move(stop));
 }
 
 }  // namespace dmpc::svm

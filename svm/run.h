@@ -84,27 +84,6 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
                                                         const nodes::Progress& progress,
                                                         const core::Continuation& continuation = {});
 
-/// The program of a node with a meter.
-template <class Records, class Tracer, class MakeTracer>
-std::unique_ptr<NodeProgram> make_metered_program(nodes::Node& node, const Plan& plan, const core::RenderSettings& settings,
-                                                  std::span<const std::byte> database, const MakeTracer& make_tracer,
-                                                  const RunOptions& options) {
-  using Metered = ControlProgram<Records, Tracer, core::PixelTask, nodes::Meter>;
-  return std::make_unique<Metered>(node, plan, settings, database, make_tracer,
-                                   nodes::Meter(options.watching, options.computer.model(), node.id()));
-}
-
-/// The program of a node: with a meter if one is asked for, without any trace of one if not. `options` outlives it.
-template <class Records, class Tracer, class MakeTracer>
-std::unique_ptr<NodeProgram> make_control_program(nodes::Node& node, const Plan& plan, const core::RenderSettings& settings,
-                                                  std::span<const std::byte> database, const MakeTracer& make_tracer,
-                                                  const RunOptions& options) {
-  if (options.watching.is_metered()) {
-    return make_metered_program<Records, Tracer>(node, plan, settings, database, make_tracer, options);
-  }
-  return std::make_unique<ControlProgram<Records, Tracer>>(node, plan, settings, database, make_tracer);
-}
-
 /// Runs any programs of this family under `plan`, checks the laws of conservation and reports.
 Report run_programs(const Plan& plan, const MakeProgram& make_program, const RunOptions& options, std::stop_token stop);
 
@@ -118,7 +97,8 @@ Report run_replicated(const core::Database& database, const core::RenderSettings
   const Plan plan = plan_of(Strategy::replicated, database, settings, options);
   const auto make_program = [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
     const auto tracer_over = [&](LocalCopy& copy) { return make_tracer(index, copy.bytes()); };
-    return make_control_program<LocalCopy, Tracer>(node, plan, settings, database.bytes(), tracer_over, options);
+    return std::make_unique<ControlProgram<LocalCopy, Tracer>>(node, plan, settings, database.bytes(), tracer_over,
+                                                               nodes::meter_for(options.watching, options.computer, node.id()));
   };
   return run_programs(plan, make_program, options, std::move(stop));
 }

@@ -1,9 +1,10 @@
-// What programs tell of the pixels that they work on: a template parameter of theirs, so that without one nothing is compiled.
+// What programs tell of the pixels that they work on, asked for twice a quantum.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 
+#include "nodes/computer_request.h"
 #include "nodes/node_id.h"
 #include "nodes/observer.h"
 #include "nodes/watch/heat_meter.h"
@@ -11,16 +12,9 @@
 
 namespace dmpc::nodes {
 
-/// A program without one costs nothing: what it would do for a meter is not compiled.
-struct NoMeter {
-  static constexpr bool is_on = false;
-};
-
 /// One node's. Thread safety: belongs to one node.
 class Meter {
  public:
-  static constexpr bool is_on = true;
-
   /// For whoever of `watching` wants one. `machine`, whose prices are time, outlives the meter; without it nodes are threads.
   Meter(const Watching& watching, const Machine* machine, NodeId self) : observer_(watching.observer), self_(self) {
     if (watching.heat != nullptr) {
@@ -56,5 +50,10 @@ class Meter {
   Observer* observer_;
   NodeId self_;
 };
+
+/// The meter of node `self`, if one is wanted. `watching` and `computer` outlive it.
+inline std::optional<Meter> meter_for(const Watching& watching, const ComputerRequest& computer, NodeId self) {
+  return watching.is_metered() ? std::optional<Meter>(std::in_place, watching, computer.model(), self) : std::nullopt;
+}
 
 }  // namespace dmpc::nodes

@@ -108,6 +108,7 @@ class FakeTask {
 
   core::Address absent() const { return absent_; }
   std::uint32_t pixel() const { return pixel_; }
+  core::Ray ray() const { return {}; }
   core::PixelSums sums() const {
     core::PixelSums sums;
     for (std::size_t i = 0; i < 6; ++i) {
