@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "apps/system/companion_path.h"
+#include "apps/system/last_words.h"
 #include "apps/system/shortage.h"
 
 namespace dmpc::apps {
@@ -16,12 +17,18 @@ std::string loader_complaint() {
   return complaint == nullptr ? "the dynamic loader does not say why" : complaint;
 }
 
+/// Its libraries may start threads as they are loaded.
+void* load(const std::string& path) {
+  const LoadsLibrary loads_library;
+  return ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+}
+
 }  // namespace
 
 const void* open_module(const std::string& name, const std::string& purpose) {
   const std::string file = "dmpc_" + name + ".so", what = "the module " + file + ", with which dmpc " + purpose + ",";
   const std::string path = companion_path(file, "../lib/dmpc", what).lexically_normal().string();
-  void* const opened = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  void* const opened = load(path);
   if (opened == nullptr) {
     const std::string complaint = loader_complaint();
     throw_if_short(complaint, what + " cannot be opened");
