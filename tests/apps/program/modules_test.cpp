@@ -145,7 +145,7 @@ TEST_CASE("a module is looked for at its places alone, not where one happens to 
   fs::create_directories(elsewhere);
   for (const Wanted& wanted : all_wanted) {
     fs::copy_file(built / wanted.module, elsewhere / wanted.module);
-    const Ending end = installation.render(wanted, {"LD_LIBRARY_PATH=" + elsewhere.string(), "-C", elsewhere});
+    const Ending end = installation.render(wanted, {"-C", elsewhere, "LD_LIBRARY_PATH=" + elsewhere.string()});
     CHECK(end.status == 3);
     CHECK_MESSAGE(contains(end.errors, "is in none of its places"), end.errors);
   }
