@@ -1,11 +1,8 @@
 #include "apps/picture/color_map.h"
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -51,22 +48,6 @@ TEST_CASE("the colours are those that people know as inferno") {
   CHECK(core::srgb_byte(color_map(0.5).x) == 188);  // #bc3754
   CHECK(core::srgb_byte(color_map(0.5).y) == 55);
   CHECK(core::srgb_byte(color_map(0.5).z) == 84);
-}
-
-TEST_CASE("the colours are those of OpenImageIO's map of that name") {
-  OIIO::ImageBuf positions(OIIO::ImageSpec(steps + 1, 1, 1, OIIO::TypeDesc::FLOAT));
-  for (int i = 0; i <= steps; ++i) {
-    const auto position = static_cast<float>(at(i));
-    positions.setpixel(i, 0, OIIO::cspan<float>(&position, 1));
-  }
-  const OIIO::ImageBuf theirs = OIIO::ImageBufAlgo::color_map(positions, 0, "inferno", {}, 1);
-  for (int i = 0; i <= steps; ++i) {
-    std::array<float, 3> color{};
-    theirs.getpixel(i, 0, color.data(), 3);
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      CHECK(color_map(at(i))[channel] == doctest::Approx(double{color[channel]}).epsilon(1e-5));
-    }
-  }
 }
 
 TEST_CASE("positions beyond the ends are the ends, and what is no number the lower one") {

@@ -1,7 +1,5 @@
 #include "apps/picture/exr_file.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -12,6 +10,7 @@
 
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
+#include "tests/apps/modules/read_file.h"
 
 namespace dmpc::tests {
 
@@ -20,20 +19,9 @@ namespace {
 using apps::exr_file;
 using apps::ExrPicture;
 
-/// As OpenImageIO reads it.
-struct ReadFile {
-  std::string bytes;
-  OIIO::Filesystem::IOMemReader memory{bytes.data(), bytes.size()};
-  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open("a.exr", nullptr, &memory);
+ReadFile read(const ExrPicture& picture) { return ReadFile("a.exr", exr_file(picture)); }
 
-  explicit ReadFile(const ExrPicture& picture) : bytes(exr_file(picture)) { REQUIRE(input != nullptr); }
-  const OIIO::ImageSpec& spec() const { return input->spec(); }
-  std::vector<float> values() const {
-    std::vector<float> all(spec().image_pixels() * static_cast<std::size_t>(spec().nchannels));
-    REQUIRE(input->read_image(0, 0, 0, spec().nchannels, OIIO::TypeDesc::FLOAT, all.data()));
-    return all;
-  }
-};
+std::vector<float> values_of(const ReadFile& file) { return file.values<float>(OIIO::TypeDesc::FLOAT); }
 
 std::vector<float> noise(std::size_t count) {
   std::vector<float> values(count);
@@ -65,9 +53,9 @@ TEST_CASE("OpenImageIO reads the floats that were written, whatever packs well, 
       CAPTURE(height);
       const auto count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3;
       for (const std::vector<float>& rgb : {noise(count), slope(count), std::vector<float>(count, 0.5F)}) {
-        const ReadFile file(color_picture(width, height, rgb));
+        const ReadFile file = read(color_picture(width, height, rgb));
         CHECK((file.spec().width == width && file.spec().height == height));
-        CHECK(file.values() == rgb);
+        CHECK(values_of(file) == rgb);
       }
     }
   }
@@ -76,14 +64,14 @@ TEST_CASE("OpenImageIO reads the floats that were written, whatever packs well, 
 TEST_CASE("infinities, zeros of both signs and what is no number come back") {
   const float infinity = std::numeric_limits<float>::infinity();
   const std::vector<float> rgb = {infinity, -infinity, -0.0F, std::numeric_limits<float>::quiet_NaN(), 0, 1e-40F};
-  const std::vector<float> values = ReadFile(color_picture(2, 1, rgb)).values();
+  const std::vector<float> values = values_of(read(color_picture(2, 1, rgb)));
   CHECK((values[0] == infinity && values[1] == -infinity && std::signbit(values[2])));
   CHECK((std::isnan(values[3]) && values[4] == 0 && values[5] == 1e-40F));
 }
 
 TEST_CASE("a picture of colours has red, green and blue, as linear light, packed by zip") {
   const std::vector<float> rgb = slope(12);
-  const ReadFile file(color_picture(2, 2, rgb));
+  const ReadFile file = read(color_picture(2, 2, rgb));
   CHECK(file.spec().channelnames == std::vector<std::string>{"R", "G", "B"});
   CHECK(file.spec().get_string_attribute("compression") == "zip");
   CHECK(file.spec().get_string_attribute("Software") == "dmpc");
@@ -92,8 +80,8 @@ TEST_CASE("a picture of colours has red, green and blue, as linear light, packed
 
 TEST_CASE("a channel of numbers keeps its name and its remarks") {
   const std::vector<float> values = slope(6);
-  const ReadFile file({3, 2, {{"references", values}}, {{"dmpc:unit", "references"}, {"dmpc:nodes", "8"}}});
-  CHECK(file.values() == values);
+  const ReadFile file = read({3, 2, {{"references", values}}, {{"dmpc:unit", "references"}, {"dmpc:nodes", "8"}}});
+  CHECK(values_of(file) == values);
   CHECK(file.spec().channelnames == std::vector<std::string>{"references"});
   CHECK(file.spec().get_string_attribute("dmpc:unit") == "references");
   CHECK(file.spec().get_string_attribute("dmpc:nodes") == "8");

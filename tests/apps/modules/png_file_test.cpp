@@ -1,17 +1,15 @@
 #include "apps/picture/png_file.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
+#include "tests/apps/modules/read_file.h"
 
 namespace dmpc::tests {
 
@@ -19,21 +17,6 @@ namespace {
 
 using apps::png_file;
 using Bytes = std::vector<std::uint8_t>;
-
-/// As OpenImageIO reads it.
-struct ReadFile {
-  std::string bytes;
-  OIIO::Filesystem::IOMemReader memory{bytes.data(), bytes.size()};
-  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open("a.png", nullptr, &memory);
-
-  explicit ReadFile(std::string file) : bytes(std::move(file)) { REQUIRE(input != nullptr); }
-  const OIIO::ImageSpec& spec() const { return input->spec(); }
-  Bytes values() const {
-    Bytes all(spec().image_pixels() * 3);
-    REQUIRE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, all.data()));
-    return all;
-  }
-};
 
 /// value(column, row, channel) for each.
 Bytes painted(int width, int height, const std::function<int(int, int, int)>& value) {
@@ -68,15 +51,15 @@ TEST_CASE("OpenImageIO reads the bytes that were written, whichever filter the r
     CAPTURE(width);
     CAPTURE(height);
     for (const Bytes& rgb : paintings(width, height)) {
-      const ReadFile file(png_file(width, height, rgb));
+      const ReadFile file("a.png", png_file(width, height, rgb));
       CHECK((file.spec().width == width && file.spec().height == height && file.spec().nchannels == 3));
-      CHECK(file.values() == rgb);
+      CHECK(file.values<std::uint8_t>(OIIO::TypeDesc::UINT8) == rgb);
     }
   }
 }
 
 TEST_CASE("a PNG says that it is of the sRGB curve, and who made it") {
-  const ReadFile file(png_file(1, 1, Bytes{1, 2, 3}));
+  const ReadFile file("a.png", png_file(1, 1, Bytes{1, 2, 3}));
   CHECK(file.spec().get_string_attribute("oiio:ColorSpace") == "sRGB");
   CHECK(file.spec().get_string_attribute("Software") == "dmpc");
 }
