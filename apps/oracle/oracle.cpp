@@ -165,6 +165,8 @@ core::Traced EmbreeTracer::trace(const core::Ray& ray, core::Cursor& cursor, cor
   return core::Traced::hit;
 }
 
+void open_embree() { static_cast<void>(embree::library()); }
+
 const char* embree_version() { return RTC_VERSION_STRING; }
 
 }  // namespace dmpc::apps
