@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "apps/effort/render_effort.h"
+#include "apps/oracle/oracle.h"
 #include "apps/picture/film_image.h"
 #include "apps/render/checkpoints.h"
 #include "apps/render/onlookers.h"
@@ -214,6 +215,9 @@ void write_others(RenderRecord record, const OutputSet<RenderRecord>& outputs, F
 int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostream& output, Files& files) {
   const OutputSet<RenderRecord> outputs = outputs_of(asked);
   check_outputs(asked, outputs);
+  if (asked.tracer == TracerChoice::embree) {
+    open_embree();
+  }
   const std::optional<FileLock> lock = claim_checkpoint(asked.checkpoint);
   RenderOptions options = asked;
   choose_machine(options);

@@ -27,20 +27,21 @@ std::optional<float> distance(const embree::CurvedQuery& query) {
 
 struct EmbreeRival::Parts {
   Parts(std::span<const core::PrimitiveValues> primitives, std::uint32_t thread_count)
-      : device(rtcNewDevice(thread_count == 0 ? nullptr : ("threads=" + std::to_string(thread_count)).c_str())),
+      : device(library.new_device(thread_count == 0 ? nullptr : ("threads=" + std::to_string(thread_count)).c_str())),
         shapes(primitives) {
     core::expect(device != nullptr, "Embree opens its device");
-    scene = rtcNewScene(device);
+    scene = library.new_scene(device);
   }
   ~Parts() {
-    rtcReleaseScene(scene);
-    rtcReleaseDevice(device);
+    library.release_scene(scene);
+    library.release_device(device);
   }
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
 
   void build(EmbreeMode mode, EmbreeQuality quality);
 
+  const embree::Library& library = embree::library();
   RTCDevice device;
   RTCScene scene = nullptr;
   embree::Shapes shapes;
@@ -49,8 +50,8 @@ struct EmbreeRival::Parts {
 
 void EmbreeRival::Parts::build(EmbreeMode mode, EmbreeQuality quality) {
   const RTCBuildQuality effort = quality == EmbreeQuality::high ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
-  rtcSetSceneFlags(scene, mode == EmbreeMode::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
-  rtcSetSceneBuildQuality(scene, effort);
+  library.set_scene_flags(scene, mode == EmbreeMode::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+  library.set_scene_build_quality(scene, effort);
   if (!shapes.triangles.empty()) {
     embree::attach(scene, embree::triangle_mesh(device, shapes), effort);
   }
@@ -58,9 +59,9 @@ void EmbreeRival::Parts::build(EmbreeMode mode, EmbreeQuality quality) {
     embree::attach(scene, embree::curved_geometry<distance>(device, shapes), effort);
   }
   DoubleStopwatch stopwatch;
-  rtcCommitScene(scene);
+  library.commit_scene(scene);
   build_times = stopwatch.lap();
-  core::expect(rtcGetDeviceError(device) == RTC_ERROR_NONE, "Embree builds the scene without an error");
+  core::expect(library.device_error(device) == RTC_ERROR_NONE, "Embree builds the scene without an error");
 }
 
 EmbreeRival::EmbreeRival(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode, EmbreeQuality quality,
@@ -78,13 +79,13 @@ std::uint64_t EmbreeRival::trace(std::span<const core::Ray> rays, Query query) c
   for (const core::Ray& ray : rays) {
     if (query == Query::any) {
       RTCRay asked = embree::ray_of(ray);
-      embree::occlude(parts_->scene, context, asked);
+      embree::occlude(parts_->library, parts_->scene, context, asked);
       hits += asked.tfar < 0 ? 1 : 0;
     } else {
       RTCRayHit asked;
       asked.ray = embree::ray_of(ray);
       asked.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      embree::intersect(parts_->scene, context, asked);
+      embree::intersect(parts_->library, parts_->scene, context, asked);
       hits += asked.hit.geomID != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
     }
   }

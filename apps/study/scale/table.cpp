@@ -137,7 +137,7 @@ std::vector<Cell> row_of(const ScaleResult& result, const ScaleSettings& setting
   row[scene_at] = run.scene.text();
   row[method_at] = settings.name_of(run.method);
   row[nodes_at] = std::uint64_t{run.node_count};
-  row[primitives_at] = result.figures ? Cell(result.figures->primitives) : Cell(core::primitive_count(run.scene));
+  row[primitives_at] = result.figures ? result.figures->primitives : core::primitive_count(run.scene);
   for (const ScaleFigure figure : all_scale_figures()) {
     if (result.figures && (*result.figures)[figure]) {
       row[figures_at + static_cast<std::size_t>(figure)] = *(*result.figures)[figure];
