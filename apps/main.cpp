@@ -15,6 +15,7 @@
 #include "apps/commands.h"
 #include "apps/line/exit_status.h"
 #include "apps/line/shown_text.h"
+#include "apps/system/companion_path.h"
 #include "apps/system/interrupt.h"
 #include "apps/system/last_words.h"
 #include "apps/system/memory_room.h"
@@ -73,6 +74,8 @@ int run(const std::vector<std::string>& arguments, Interrupt& interrupt, bool& h
     return complain(error.what(), usage_status);
   } catch (const std::bad_alloc&) {
     return complain_of_memory();
+  } catch (const InstallationError& error) {
+    return complain(error.what(), internal_status);
   } catch (const std::exception& error) {
     return complain_of_bug(error);
   }

@@ -8,7 +8,7 @@ constexpr std::uint32_t node_count_tried_max = 256;
 
 bool fits(PlanRequest& request, std::uint32_t node_count, const MakeShares& make_shares) {
   request.shares = make_shares(node_count);
-  return smallest_node_memory_bytes(request) <= *request.node_memory_bytes;
+  return smallest_node_memory_bytes(request) <= *request.computer.node_memory_bytes;
 }
 
 }  // namespace

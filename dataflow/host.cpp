@@ -22,7 +22,7 @@ std::size_t light_words(const Plan& plan) {
 
 }  // namespace
 
-HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, Progress progress, DealPrimaries deal,
+HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, nodes::Progress progress, DealPrimaries deal,
                          const core::Continuation& continuation)
     : node_(&node),
       film_(&film),

@@ -19,12 +19,9 @@
 #include "dataflow/undealt.h"
 #include "nodes/node.h"
 #include "nodes/program.h"
+#include "nodes/watch/watching.h"
 
 namespace dmpc::dataflow {
-
-/// Called on the host's thread whenever light arrives: (pixels that have light, pixels in all) of the pass, and at the end with
-/// all. If it throws, the run ends with that.
-using Progress = std::function<void(std::uint32_t, std::uint32_t)>;
 
 /// The primary rays of a pass, by node: all of them, or nothing if a stop of the run was requested meanwhile.
 using DealPrimaries = std::function<std::optional<std::vector<std::vector<PrimaryRun>>>(const core::SampleRange& samples,
@@ -51,7 +48,7 @@ class HostProgram final : public nodes::Program {
   /// `film` outlives the program and is written by it alone until the run's end; it is as continuation.start has it.
   /// `progress` may be empty. `deal` finds whose the primary rays are that are dealt after the start; nothing is kept unless the
   /// plan says that all are.
-  HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, Progress progress, DealPrimaries deal,
+  HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, nodes::Progress progress, DealPrimaries deal,
               const core::Continuation& continuation = {});
   /// Adds to `memory` exactly what the constructor takes of the local memory.
   static void add_needs(nodes::MemoryPlan& memory, const Plan& plan);
@@ -86,7 +83,7 @@ class HostProgram final : public nodes::Program {
 
   nodes::Node* node_;
   core::Film* film_;
-  Progress progress_;
+  nodes::Progress progress_;
   DealPrimaries deal_;
   core::Continuation continuation_;
   core::Refinement refinement_;

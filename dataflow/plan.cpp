@@ -84,11 +84,11 @@ Plan plan_with(const PlanRequest& request, const Bounds& bounds) {
   plan.ray_credits = bounds.ray_credits;
   plan.host_credits = std::max(1U, bounds.ray_credits);
   plan.queue_packets = bounds.ray_credits == 0 || request.node_count() == 1 ? 0 : bounds.queue_packets;
-  plan.film_credits = nodes::patient_credits(request.node_count(), request.is_modelled);
+  plan.film_credits = nodes::patient_credits(request.node_count(), request.computer.machine.has_value());
   plan.node_mailbox = node_mailbox_of(plan);
   plan.host_mailbox = host_mailbox_of(plan);
-  if (request.chaos) {
-    plan_chaos(plan, *request.chaos);
+  if (request.computer.chaos) {
+    plan_chaos(plan, *request.computer.chaos);
   }
   return plan;
 }
@@ -103,13 +103,13 @@ void check(const PlanRequest& request) {
   check_use(request.node_count() >= 1 && request.node_count() <= region_count_max,
             "node_count=" + std::to_string(request.node_count()) + ": from 1 to " + std::to_string(region_count_max) +
                 " nodes with strategy=dataflow");
-  const std::uint32_t batch = request.ray_batch.value_or(1);
+  const std::uint32_t batch = request.rays.ray_batch.value_or(1);
   check_use(batch >= 1 && batch <= ray_batch_max,
             "ray_batch=" + std::to_string(batch) + ": from 1 to " + std::to_string(ray_batch_max) + " rays");
-  const std::uint32_t credits = request.ray_credits.value_or(1);
+  const std::uint32_t credits = request.rays.ray_credits.value_or(1);
   check_use(credits <= ray_credits_max,
             "ray_credits=" + std::to_string(credits) + ": at most " + std::to_string(ray_credits_max) + " packets");
-  const std::uint32_t queue = request.queue_packets.value_or(0);
+  const std::uint32_t queue = request.rays.queue_packets.value_or(0);
   check_use(queue <= queue_packets_max,
             "queue_packets=" + std::to_string(queue) + ": at most " + std::to_string(queue_packets_max) + " packets");
   core::expect(request.depth_max >= 1 && request.depth_max <= 255, "a ray has a depth that fits its record");
@@ -121,13 +121,15 @@ std::uint32_t default_credits(std::uint32_t node_count) {
 }
 
 Bounds wanted(const PlanRequest& request) {
-  return {request.ray_batch.value_or(rays_in(packet_bytes)), request.ray_credits.value_or(default_credits(request.node_count())),
-          request.queue_packets.value_or(default_queue_packets)};
+  return {request.rays.ray_batch.value_or(rays_in(packet_bytes)),
+          request.rays.ray_credits.value_or(default_credits(request.node_count())),
+          request.rays.queue_packets.value_or(default_queue_packets)};
 }
 
 /// With the least of what the request leaves open.
 Plan smallest_plan(const PlanRequest& request) {
-  return plan_with(request, {request.ray_batch.value_or(1), request.ray_credits.value_or(1), request.queue_packets.value_or(0)});
+  return plan_with(request, {request.rays.ray_batch.value_or(1), request.rays.ray_credits.value_or(1),
+                             request.rays.queue_packets.value_or(0)});
 }
 
 /// Gives up queued packets first, then credits, then the length of packets, as far as the request leaves them open and the memory
@@ -136,12 +138,12 @@ Plan fitting_plan(const PlanRequest& request, std::size_t memory_bytes) {
   Bounds bounds = wanted(request);
   Plan plan = plan_with(request, bounds);
   while (plan.node_memory_max_bytes() > memory_bytes) {
-    if (!request.queue_packets && bounds.queue_packets > 0) {
+    if (!request.rays.queue_packets && bounds.queue_packets > 0) {
       --bounds.queue_packets;
-    } else if (!request.ray_credits && bounds.ray_credits > 1) {
+    } else if (!request.rays.ray_credits && bounds.ray_credits > 1) {
       --bounds.ray_credits;
     } else {
-      core::expect(!request.ray_batch && bounds.ray_batch > 1, "the smallest plan fits");
+      core::expect(!request.rays.ray_batch && bounds.ray_batch > 1, "the smallest plan fits");
       --bounds.ray_batch;
     }
     plan = plan_with(request, bounds);
@@ -152,7 +154,7 @@ Plan fitting_plan(const PlanRequest& request, std::size_t memory_bytes) {
 [[noreturn]] void say_too_small(const PlanRequest& request, const OtherNodeCount& other_node_count) {
   const Plan smallest = smallest_plan(request);
   const std::uint32_t largest = smallest.largest_node();
-  std::string sentence = "node_memory_bytes=" + size_text(*request.node_memory_bytes) +
+  std::string sentence = "node_memory_bytes=" + size_text(*request.computer.node_memory_bytes) +
                          " is too small for node_count=" + std::to_string(request.node_count()) + ": node " +
                          std::to_string(largest) + " needs at least " + std::to_string(smallest.node_memory_max_bytes()) +
                          " bytes, " + std::to_string(request.shares[largest].part_bytes) +
@@ -167,7 +169,7 @@ void note_reductions(Plan& plan) {
   const auto note = [&](const std::string& what, std::uint32_t wanted, std::uint32_t planned) {
     if (planned < wanted) {
       plan.notes.push_back(what + " reduced from " + std::to_string(wanted) + " to " + std::to_string(planned) + " to fit " +
-                           size_text(*request.node_memory_bytes));
+                           size_text(*request.computer.node_memory_bytes));
     }
   };
   const Plan unbounded = plan_with(request, wanted(request));
@@ -185,7 +187,7 @@ nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
   NodeProgram::add_needs(plan, *this, index);
   plan[Category::mailbox] += node_mailbox.bytes();
   plan[Category::queues] += nodes::credit_table_bytes(node_count() + 1) + held_bytes;
-  plan[Category::reserve] += request.stack_reserve_bytes;
+  plan[Category::reserve] += request.computer.stack_reserve_bytes;
   return plan;
 }
 
@@ -213,14 +215,14 @@ std::size_t smallest_node_memory_bytes(const PlanRequest& request) { return smal
 
 Plan make_plan(const PlanRequest& request, const OtherNodeCount& other_node_count) {
   check(request);
-  if (!request.node_memory_bytes) {
+  if (!request.computer.node_memory_bytes) {
     return plan_with(request, wanted(request));
   }
-  if (smallest_node_memory_bytes(request) > *request.node_memory_bytes) {
+  if (smallest_node_memory_bytes(request) > *request.computer.node_memory_bytes) {
     say_too_small(request, other_node_count);
   }
-  Plan plan = fitting_plan(request, *request.node_memory_bytes);
-  if (!request.chaos) {
+  Plan plan = fitting_plan(request, *request.computer.node_memory_bytes);
+  if (!request.computer.chaos) {
     note_reductions(plan);
   }
   return plan;

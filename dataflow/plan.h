@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "core/picture/refinement.h"
+#include "dataflow/ray_options.h"
 #include "dataflow/regions/bsp.h"
-#include "nodes/chaos.h"
+#include "nodes/computer_request.h"
 #include "nodes/local_memory.h"
 #include "nodes/runner.h"
 
@@ -24,27 +25,14 @@ struct Share {
 
 /// What a plan is made from. `optional` without a value means: choose.
 struct PlanRequest {
-  std::vector<Share> shares;  ///< one a node: from 1 to region_count_max
-  /// The bound of each node's local memory. Without it a plan takes what it needs.
-  std::optional<std::size_t> node_memory_bytes = std::nullopt;
-  /// Rays in a full packet. Without it what fills a packet of 1 KiB, or fewer if the memory is scarce.
-  std::optional<std::uint32_t> ray_batch = std::nullopt;
-  /// Packets of rays that may be under way, or in the receiver's backlog, for each sender and receiver. Without it 4, or fewer
-  /// among more than 128 nodes or if the memory is scarce. 0: no node sends to another, every ray goes by way of the host.
-  std::optional<std::uint32_t> ray_credits = std::nullopt;
-  /// Full packets that may wait at their sender for credits before rays overflow. Without it 512, or fewer if the memory is
-  /// scarce. Of no use without credits.
-  std::optional<std::uint32_t> queue_packets = std::nullopt;
+  std::vector<Share> shares;             ///< one a node: from 1 to region_count_max
+  nodes::ComputerRequest computer = {};  ///< its nodes are as many as the shares, whatever it says
+  RayOptions rays = {};
   std::uint32_t depth_max = 5;  ///< of a ray
   std::uint32_t width = 0, height = 0;
   std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
   core::RefinementOptions refinement;
   bool is_dealt_on_the_way = false;  ///< the host deals the primary rays of the first pass as nodes have room for them
-  std::size_t stack_reserve_bytes = std::size_t{256} << 10U;  ///< of each node's thread
-  /// Fewer credits, and room for packets held back; mailboxes stay as they are.
-  std::optional<nodes::Chaos> chaos = std::nullopt;
-  bool is_modelled = false;  ///< a model of a machine runs it, in which waking a host costs nothing
-
   std::uint32_t node_count() const { return static_cast<std::uint32_t>(shares.size()); }
   /// The host deals primary rays after the start, for which nodes have room.
   bool is_dealt() const { return is_dealt_on_the_way || refinement.is_wanted(); }

@@ -66,8 +66,9 @@ Gather::Capacity NodeProgram::gather_capacity(const Plan& plan) {
           .queue_packets = plan.queue_packets};
 }
 
-NodeProgram::NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& deal)
-    : node_(&node),
+NodeProgram::NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& deal, const std::optional<nodes::Meter>& meter)
+    : meter_(meter),
+      node_(&node),
       host_(plan.host()),
       return_batch_(return_batch(plan.ray_credits)),
       return_batch_host_(return_batch(plan.host_credits)),
@@ -174,16 +175,30 @@ NodeState NodeProgram::state() const {
 }
 
 bool NodeProgram::work() {
-  perform(next_task(state()));
-  return rest_or_more();
-}
-
-bool NodeProgram::rest_or_more() {
+  const Task task = next_task(state());
+  if (meter_) [[unlikely]] {
+    perform_metered(task);
+  } else {
+    perform(task);
+  }
   const Task next = next_task(state());
   if (next == Task::rest) {
     rest();
   }
   return next != Task::rest && next != Task::send_waiting;
+}
+
+void NodeProgram::perform_metered(Task task) {
+  if (task != Task::start_primary && task != Task::take_received && task != Task::go_on) {
+    perform(task);
+    return;
+  }
+  meter_->begin(totals());
+  perform(task);
+  meter_->end(newest_.pixel, newest_.depth, totals());
+  if (task == Task::start_primary && newest_.sample == 0) {
+    meter_->claim(newest_.pixel);
+  }
 }
 
 void NodeProgram::perform(Task task) {

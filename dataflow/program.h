@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,6 +35,7 @@
 #include "dataflow/termination.h"
 #include "nodes/node.h"
 #include "nodes/program.h"
+#include "nodes/watch/meter.h"
 
 namespace dmpc::dataflow {
 
@@ -65,10 +67,11 @@ struct NodeDeal {
   const Bsp& bsp;
 };
 
-class NodeProgram : public nodes::Program {
+class NodeProgram final : public nodes::Program {
  public:
-  /// Takes all its memory and credits from `node`.
-  NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& deal);
+  /// Takes all its memory and credits from `node`. `meter` is there where somebody wants to know what is done for which pixel: a
+  /// quantum that works on a ray is that ray's pixel's; what rays cost when they come in, and sending what waits, is nobody's.
+  NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& deal, const std::optional<nodes::Meter>& meter = std::nullopt);
   /// Adds to `memory` exactly what the constructor takes at node `index`.
   static void add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index);
 
@@ -82,22 +85,11 @@ class NodeProgram : public nodes::Program {
   /// Call it only while the program is not running.
   ProgramReport report() const;
 
- protected:
+ private:
   /// Of the ray that was started, taken up or made last; `sample`: that of the primary ray started last.
   struct Newest {
     std::uint32_t pixel = 0, sample = 0, depth = 1;
   };
-
-  // A quantum is perform(next_task(state())), then, in the end, rest_or_more().
-  NodeState state() const;
-  void perform(Task task);
-  /// What work() returns.
-  bool rest_or_more();
-  const core::Operations& operations() const { return operations_; }
-  /// Of the quantum under way or just over, if it was one that works on a ray.
-  const Newest& newest() const { return newest_; }
-
- private:
   /// What never changes, in local memory.
   struct Constants {
     core::RenderSettings settings;  ///< header: the part's
@@ -107,6 +99,10 @@ class NodeProgram : public nodes::Program {
   static RayQueue::Capacity backlog_capacity(const Plan& plan);
   static Gather::Capacity gather_capacity(const Plan& plan);
 
+  NodeState state() const;
+  void perform(Task task);
+  void perform_metered(Task task);
+  nodes::HeatTotals totals() const { return {.rays = operations_.ray_count(), .charges = charges()}; }
   void wake();
   void receive_primaries(const DealtPrimaries& dealt);
   void receive_rays(const nodes::Packet& packet);
@@ -132,6 +128,7 @@ class NodeProgram : public nodes::Program {
   void be_passive();
   void settle();
 
+  std::optional<nodes::Meter> meter_;
   nodes::Node* node_;
   nodes::NodeId host_;
   std::uint32_t return_batch_, return_batch_host_;
@@ -148,7 +145,7 @@ class NodeProgram : public nodes::Program {
   Termination termination_ = Termination::member();
   core::Operations operations_;
   RayCounters counters_;
-  Newest newest_;
+  Newest newest_;           ///< of the quantum under way or just over, if it was one that works on a ray
   bool finishing_ = false;  ///< the host has proved that no ray of the pass is left
   bool done_ = false;
   bool stopped_ = false;

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/base/expect.h"
-#include "dataflow/metered_program.h"
 #include "dataflow/packets.h"
 #include "dataflow/regions/mapping.h"
 #include "dataflow/regions/work.h"
@@ -19,19 +18,14 @@ bool is_dealt_on_the_way(const RunOptions& options) { return options.continuatio
 
 PlanRequest request_of(const Distribution& distribution, const core::RenderSettings& settings, const RunOptions& options) {
   return {.shares = distribution.shares(),
-          .node_memory_bytes = options.node_memory_bytes,
-          .ray_batch = options.ray_batch,
-          .ray_credits = options.ray_credits,
-          .queue_packets = options.queue_packets,
+          .computer = options.computer,
+          .rays = options.rays,
           .depth_max = static_cast<std::uint32_t>(settings.shade.depth_max),
           .width = static_cast<std::uint32_t>(settings.camera.width()),
           .height = static_cast<std::uint32_t>(settings.camera.height()),
           .first_samples = settings.first_samples().count,
           .refinement = settings.refinement,
-          .is_dealt_on_the_way = is_dealt_on_the_way(options),
-          .stack_reserve_bytes = options.stack_reserve_bytes,
-          .chaos = options.chaos,
-          .is_modelled = options.machine.has_value()};
+          .is_dealt_on_the_way = is_dealt_on_the_way(options)};
 }
 
 /// Regions on their nodes, and the predicted load of each node if there is one.
@@ -54,11 +48,11 @@ Regions regions_for(std::uint32_t node_count, const ColumnLoads& loads, const co
   if (options.make_bsp) {
     return {options.make_bsp(node_count), {}};
   }
-  Balanced balanced = share_out(loads, node_count, options.balance);
-  if (options.topology) {
-    map_onto(balanced.bsp, *options.topology, axes_facing(settings.camera));
+  Balanced balanced = share_out(loads, node_count, options.rays.balance);
+  if (options.rays.topology) {
+    map_onto(balanced.bsp, *options.rays.topology, axes_facing(settings.camera));
   }
-  const bool is_predicted = options.balance.balance == Balance::subsampled;
+  const bool is_predicted = options.rays.balance.balance == Balance::subsampled;
   return {balanced.bsp, is_predicted ? by_node(balanced.bsp, balanced.predicted) : std::vector<double>()};
 }
 
@@ -87,14 +81,6 @@ NodeReport report_of(nodes::Node& node, const nodes::Program& program, const Dis
     report.primary_rays += run.count;
   }
   return report;
-}
-
-std::unique_ptr<nodes::Program> make_program_of(nodes::Node& node, const Plan& plan, const NodeDeal& deal,
-                                                const RunOptions& options) {
-  if (options.metering().is_wanted()) {
-    return std::make_unique<MeteredProgram>(node, plan, deal, nodes::Meter(options.metering(), node.id()));
-  }
-  return std::make_unique<NodeProgram>(node, plan, deal);
 }
 
 void add(TrafficByKind& sum, const TrafficByKind& more) {
@@ -243,8 +229,8 @@ nodes::Traffic ray_traffic(const TrafficByKind& by_kind) {
 
 Prepared prepare(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                  const std::stop_token& stop, bool with_records) {
-  const ColumnLoads loads = column_loads(database, settings, options.balance, stop);
-  Regions regions = regions_for(options.node_count, loads, settings, options);
+  const ColumnLoads loads = column_loads(database, settings, options.rays.balance, stop);
+  Regions regions = regions_for(options.computer.node_count, loads, settings, options);
   Prepared prepared{
       .distribution = distribute(database, settings, regions.bsp, stop, {!is_dealt_on_the_way(options), with_records}),
       .predicted = std::move(regions.predicted)};
@@ -264,13 +250,13 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
                 .bsp = prepared.distribution.bsp,
                 .predicted = prepared.predicted,
                 .duplication = prepared.duplication};
-  core::expect(options.heat == nullptr || options.heat->pixel_count() == report.film.pixels().size(),
+  core::expect(options.watching.heat == nullptr || options.watching.heat->pixel_count() == report.film.pixels().size(),
                "a heat map is of the picture's size");
   const auto runner =
       nodes::make_runner(specifications_of(report.plan, prepared.distribution, settings, report.film, options, stop),
-                         {options.chaos, options.machine, options.observer});
-  if (options.distributed) {
-    options.distributed();
+                         options.computer, options.watching.observer);
+  if (options.watching.distributed) {
+    options.watching.distributed();
   }
   report.end = runner->run(std::move(stop));
   fill(report, *runner, prepared.distribution);
@@ -283,7 +269,9 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
   std::vector<nodes::NodeSpecification> specifications;
   for (std::uint32_t i = 0; i < plan.node_count(); ++i) {
     const auto make_program = [&, i](nodes::Node& node) {
-      return make_program_of(node, plan, {distribution.parts[i], distribution.primaries[i], settings, distribution.bsp}, options);
+      return std::make_unique<NodeProgram>(node, plan,
+                                           NodeDeal{distribution.parts[i], distribution.primaries[i], settings, distribution.bsp},
+                                           nodes::meter_for(options.watching, options.computer, node.id()));
     };
     specifications.push_back({plan.node_memory(i), plan.node_mailbox, make_program, plan.held_bytes, 0,
                               nodes::patience_of(number_of(Kind::film), plan.film_credits)});
@@ -293,7 +281,7 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
     return stop.stop_requested() ? std::nullopt : std::move(runs);
   };
   const auto make_host = [&, deal](nodes::Node& node) {
-    return std::make_unique<HostProgram>(node, plan, film, options.progress, deal, options.continuation);
+    return std::make_unique<HostProgram>(node, plan, film, options.watching.progress, deal, options.continuation);
   };
   specifications.push_back({plan.host_memory(), plan.host_mailbox, make_host, plan.held_bytes});
   return specifications;

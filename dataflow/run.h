@@ -17,47 +17,24 @@
 #include "dataflow/host.h"
 #include "dataflow/plan.h"
 #include "dataflow/program.h"
-#include "dataflow/regions/balance.h"
+#include "dataflow/ray_options.h"
 #include "dataflow/regions/bsp.h"
-#include "nodes/chaos.h"
+#include "nodes/computer_request.h"
 #include "nodes/counters.h"
-#include "nodes/machine.h"
 #include "nodes/runner.h"
-#include "nodes/topology.h"
-#include "nodes/watch/heat_map.h"
-#include "nodes/watch/meter.h"
+#include "nodes/watch/watching.h"
 
 namespace dmpc::dataflow {
 
-/// What the user may choose; the fields of PlanRequest that the database and the picture do not give.
+/// A run, but for the database and the picture.
 struct RunOptions {
-  std::uint32_t node_count = 8;
-  std::optional<std::size_t> node_memory_bytes = std::nullopt;
-  std::optional<std::uint32_t> ray_batch = std::nullopt;      ///< rays in a message
-  std::optional<std::uint32_t> ray_credits = std::nullopt;    ///< packets of rays for each pair; 0: all by way of the host
-  std::optional<std::uint32_t> queue_packets = std::nullopt;  ///< packets that wait at their sender for credits
-  BalanceOptions balance = {};                                ///< how the regions are cut
-  /// Neighbouring regions are put on nodes that are few hops apart in this machine. Without it region i is node i's.
-  std::optional<nodes::TopologyKind> topology = std::nullopt;
-  MakeBsp make_bsp = {};  ///< regions of one's own, in place of `balance` and `topology`
-  std::size_t stack_reserve_bytes = std::size_t{256} << 10U;
-  std::optional<nodes::Chaos> chaos = std::nullopt;  ///< disturbs the run; the film stays the same
-  /// A modelled machine, in virtual time, in place of threads. Not with chaos.
-  std::optional<nodes::Machine> machine = std::nullopt;
-  Progress progress = {};  ///< called by the host's thread
-  /// What each pixel takes is added to it, of the kinds that it records but `samples`. Rays look up no pages: those kinds stay
-  /// zero. Of the size of the picture; outlives the run.
-  nodes::HeatMap* heat = nullptr;
-  nodes::Observer* observer = nullptr;  ///< sees the run happen; outlives it
+  nodes::ComputerRequest computer = {};
+  RayOptions rays = {};
+  MakeBsp make_bsp = {};          ///< regions of one's own, in place of those that `rays` asks for
+  nodes::Watching watching = {};  ///< rays look up no pages: those kinds of a heat map stay zero
   /// Where the picture is begun, and what of it is kept on the way: at points to which the host brings the run by dealing no more
   /// primary rays until none is left. So with any of it the host deals all of them after the start.
   core::Continuation continuation = {};
-  /// Called on the calling thread when the nodes hold their parts of the database, which are not read again, before any node
-  /// starts.
-  std::function<void()> distributed = {};
-
-  /// What the nodes' meters are for. The options outlive it.
-  nodes::Metering metering() const { return {heat, observer, machine ? &*machine : nullptr}; }
 };
 
 struct NodeReport {

@@ -6,12 +6,13 @@
 
 namespace dmpc::nodes {
 
-std::unique_ptr<Runner> make_runner(std::span<const NodeSpecification> specifications, const RunnerChoice& choice) {
-  if (choice.machine) {
-    core::expect(!choice.chaos, "chaos disturbs threads only");
-    return std::make_unique<VirtualRunner>(specifications, *choice.machine, choice.observer);
+std::unique_ptr<Runner> make_runner(std::span<const NodeSpecification> specifications, const ComputerRequest& computer,
+                                    Observer* observer) {
+  if (computer.machine) {
+    core::expect(!computer.chaos, "chaos disturbs threads only");
+    return std::make_unique<VirtualRunner>(specifications, *computer.machine, observer);
   }
-  return std::make_unique<ThreadsRunner>(specifications, choice.chaos, choice.observer);
+  return std::make_unique<ThreadsRunner>(specifications, computer.chaos, observer);
 }
 
 }  // namespace dmpc::nodes

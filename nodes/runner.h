@@ -9,8 +9,7 @@
 #include <span>
 #include <stop_token>
 
-#include "nodes/chaos.h"
-#include "nodes/machine.h"
+#include "nodes/computer_request.h"
 #include "nodes/mailbox.h"
 #include "nodes/node.h"
 #include "nodes/observer.h"
@@ -55,13 +54,9 @@ class Runner {
   virtual std::optional<VirtualReport> virtual_report() const { return std::nullopt; }
 };
 
-/// Where a computer comes from: threads and wall clock, or a model and virtual time.
-struct RunnerChoice {
-  std::optional<Chaos> chaos = std::nullopt;      ///< with threads only
-  std::optional<Machine> machine = std::nullopt;  ///< the model; without it threads
-  Observer* observer = nullptr;                   ///< looks on, and outlives the run
-};
-/// `specifications`: the nodes in order, then the host, last.
-std::unique_ptr<Runner> make_runner(std::span<const NodeSpecification> specifications, const RunnerChoice& choice);
+/// Threads and the wall clock, or, with a machine, a model and virtual time. `specifications`: the nodes in order, then the host,
+/// last. `observer`, if given, looks on, and outlives the run.
+std::unique_ptr<Runner> make_runner(std::span<const NodeSpecification> specifications, const ComputerRequest& computer,
+                                    Observer* observer = nullptr);
 
 }  // namespace dmpc::nodes

@@ -14,7 +14,7 @@ std::size_t words_for(std::uint32_t pixel_count) { return core::ceil_divide<std:
 
 }  // namespace
 
-HostProgram::HostProgram(nodes::Node& node, const HostShape& shape, core::Film& film, Progress progress,
+HostProgram::HostProgram(nodes::Node& node, const HostShape& shape, core::Film& film, nodes::Progress progress,
                          const core::Continuation& continuation)
     : node_(&node),
       film_(&film),

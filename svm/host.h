@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,13 +11,10 @@
 #include "core/picture/refinement.h"
 #include "nodes/node.h"
 #include "nodes/program.h"
+#include "nodes/watch/watching.h"
 #include "svm/packets.h"
 
 namespace dmpc::svm {
-
-/// Called on the host's thread whenever finished pixels arrive: (pixels done, pixels in all) of the pass. If it throws, the run
-/// ends with that.
-using Progress = std::function<void(std::uint32_t, std::uint32_t)>;
 
 /// A picture and who renders it.
 struct HostShape {
@@ -38,7 +34,7 @@ class HostProgram final : public nodes::Program {
  public:
   /// `film` outlives the program and is written by it alone until the run's end; it is as shape.start has it.
   /// `progress` may be empty.
-  HostProgram(nodes::Node& node, const HostShape& shape, core::Film& film, Progress progress,
+  HostProgram(nodes::Node& node, const HostShape& shape, core::Film& film, nodes::Progress progress,
               const core::Continuation& continuation = {});
   /// Adds to `plan` exactly what the constructor takes.
   static void add_needs(nodes::MemoryPlan& plan, const HostShape& shape);
@@ -68,7 +64,7 @@ class HostProgram final : public nodes::Program {
 
   nodes::Node* node_;
   core::Film* film_;
-  Progress progress_;
+  nodes::Progress progress_;
   core::Continuation continuation_;
   core::Refinement refinement_;
   std::span<std::uint64_t> arrived_;       ///< a bit a pixel

@@ -31,23 +31,23 @@ constexpr std::uint32_t request_slots_wanted = 256;
 constexpr std::uint32_t request_credits_max = 4;
 constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 
-bool pages_travel(const PlanRequest& request) { return request.strategy == Strategy::svm && request.node_count > 1; }
+bool pages_travel(const PlanRequest& request) { return request.strategy == Strategy::svm && request.computer.node_count > 1; }
 
 /// Pages that are not at home, at the node that has the fewest at home.
 std::uint32_t foreign_pages_max(const PlanRequest& request) {
-  return pages_travel(request) ? request.page_count - request.page_count / request.node_count : 0;
+  return pages_travel(request) ? request.page_count - request.page_count / request.computer.node_count : 0;
 }
 
 /// The most pixels that are ever under way on a node: all of the picture where work moves, else the largest submap's. A node may
 /// have none, but has a place for one.
 std::uint64_t node_pixels_max(const PlanRequest& request) {
   const PixelRectangle image{0, 0, request.width, request.height};
-  if (request.work_item_side > 0) {
+  if (request.pages.work_item_side > 0) {
     return image.pixel_count();
   }
   std::uint64_t most = 1;
-  for (std::uint32_t index = 0; index < request.node_count; ++index) {
-    most = std::max(most, submap_of(image, index, request.node_count).pixel_count());
+  for (std::uint32_t index = 0; index < request.computer.node_count; ++index) {
+    most = std::max(most, submap_of(image, index, request.computer.node_count).pixel_count());
   }
   return most;
 }
@@ -58,12 +58,12 @@ std::uint32_t request_credits_of(const PlanRequest& request, std::uint32_t fault
   if (!pages_travel(request)) {
     return 0;
   }
-  return std::min({faults_max, core::ceil_divide(request.page_count, request.node_count),
-                   std::clamp(request_slots_wanted / (request.node_count - 1), 1U, request_credits_max)});
+  return std::min({faults_max, core::ceil_divide(request.page_count, request.computer.node_count),
+                   std::clamp(request_slots_wanted / (request.computer.node_count - 1), 1U, request_credits_max)});
 }
 
 std::uint32_t film_credits_of(const PlanRequest& request) {
-  return nodes::patient_credits(request.node_count, request.is_modelled);
+  return nodes::patient_credits(request.computer.node_count, request.computer.machine.has_value());
 }
 
 std::uint32_t film_entries_of(const PlanRequest& request) {
@@ -74,8 +74,8 @@ std::uint32_t film_entries_of(const PlanRequest& request) {
 /// What a node's mailbox must be able to hold, whoever sends when; the mailbox itself adds the slot of the packet being
 /// received.
 nodes::MailboxCapacity node_mailbox_of(const PlanRequest& request, std::uint32_t faults_max, std::uint32_t request_credits) {
-  const std::uint32_t others = request.node_count - 1;
-  const bool ring = request.work_item_side > 0;
+  const std::uint32_t others = request.computer.node_count - 1;
+  const bool ring = request.pages.work_item_side > 0;
   nodes::MailboxCapacity capacity;
   capacity.small_slots = others * request_credits    // page requests: each other node's credits for this home
                          + (ring ? others : 0)       // work requests: each other node has at most one on the ring
@@ -95,10 +95,10 @@ nodes::MailboxCapacity node_mailbox_of(const PlanRequest& request, std::uint32_t
 }
 
 nodes::MailboxCapacity host_mailbox_of(const PlanRequest& request, std::uint32_t film_entries) {
-  return {.small_slots = request.node_count  // Done: one from each node
-                         + (request.refinement.is_wanted() ? request.node_count
-                                                           : 0),        // acknowledgements: one for each node's part of the mask
-          .bulk_slots = request.node_count * film_credits_of(request),  // film packets: each node's credits
+  return {.small_slots = request.computer.node_count  // Done: one from each node
+                         + (request.refinement.is_wanted() ? request.computer.node_count
+                                                           : 0),  // acknowledgements: one for each node's part of the mask
+          .bulk_slots = request.computer.node_count * film_credits_of(request),  // film packets: each node's credits
           .bulk_payload_bytes = sizeof(FilmHeader) + film_entries * sizeof(FilmEntry)};
 }
 
@@ -121,8 +121,8 @@ Plan plan_with(const PlanRequest& request, std::uint32_t frames, std::uint32_t i
   plan.film_entries = film_entries_of(request);
   plan.node_mailbox = node_mailbox_of(request, plan.faults_max(), plan.request_credits);
   plan.host_mailbox = host_mailbox_of(request, plan.film_entries);
-  if (request.chaos) {
-    plan_chaos(plan, *request.chaos);
+  if (request.computer.chaos) {
+    plan_chaos(plan, *request.computer.chaos);
   }
   return plan;
 }
@@ -139,32 +139,34 @@ void check_use(bool right, const std::string& sentence) {
 
 /// Work that moves, or a pixel that goes on while another waits, would make the order of references depend on page misses.
 void check_recording(const PlanRequest& request) {
-  if (request.record_references) {
+  if (request.pages.record_references) {
     check_use(request.strategy == Strategy::svm, "page references are recorded with strategy=svm only");
-    check_use(request.work_item_side == 0, "page references are recorded only if no node gives work away: work_item_side=0");
-    check_use(request.in_flight == 1U, "page references are recorded only with one pixel in flight: in_flight=1");
-    check_use(!request.count_pages, "page references are recorded, or distinct pages counted, not both");
+    check_use(request.pages.work_item_side == 0,
+              "page references are recorded only if no node gives work away: work_item_side=0");
+    check_use(request.pages.in_flight == 1U, "page references are recorded only with one pixel in flight: in_flight=1");
+    check_use(!request.pages.count_pages, "page references are recorded, or distinct pages counted, not both");
   }
 }
 
 void check(const PlanRequest& request) {
   check_use(is_page_size(request.page_size_bytes),
             "page_size_bytes=" + size_text(request.page_size_bytes) + ": a page is a power of two from 512B to 64KiB");
-  check_use(request.node_count >= 1 && request.node_count <= node_count_max,
-            "node_count=" + std::to_string(request.node_count) + ": from 1 to " + std::to_string(node_count_max) + " nodes");
-  const std::uint32_t in_flight = request.in_flight.value_or(1);
+  check_use(
+      request.computer.node_count >= 1 && request.computer.node_count <= node_count_max,
+      "node_count=" + std::to_string(request.computer.node_count) + ": from 1 to " + std::to_string(node_count_max) + " nodes");
+  const std::uint32_t in_flight = request.pages.in_flight.value_or(1);
   check_use(in_flight >= 1 && in_flight <= in_flight_max,
             "in_flight=" + std::to_string(in_flight) + ": from 1 to " + std::to_string(in_flight_max) + " pixels");
-  check_use(request.strategy == Strategy::svm || !request.cache_pages,
-            "cache_pages=" + std::to_string(request.cache_pages.value_or(0)) +
+  check_use(request.strategy == Strategy::svm || !request.pages.cache_pages,
+            "cache_pages=" + std::to_string(request.pages.cache_pages.value_or(0)) +
                 " goes with strategy=svm: replicated has no cache, every node holds the whole database");
-  check_use(request.strategy == Strategy::svm || request.replacement == Replacement::lru,
-            "replacement=" + std::string(name_of(request.replacement)) +
+  check_use(request.strategy == Strategy::svm || request.pages.replacement == Replacement::lru,
+            "replacement=" + std::string(name_of(request.pages.replacement)) +
                 " goes with strategy=svm: replicated has no cache, every node holds the whole database");
-  check_use(request.strategy == Strategy::svm || !request.count_pages, "distinct pages are counted with strategy=svm only");
-  check_use(!request.count_pages || !request.refinement.is_wanted(),
+  check_use(request.strategy == Strategy::svm || !request.pages.count_pages, "distinct pages are counted with strategy=svm only");
+  check_use(!request.pages.count_pages || !request.refinement.is_wanted(),
             "distinct pages are counted where all pixels have the same samples, not with refinement");
-  check_use(request.cache_pages.value_or(1) >= 1, "cache_pages=0: a node needs at least one frame for the pages of others");
+  check_use(request.pages.cache_pages.value_or(1) >= 1, "cache_pages=0: a node needs at least one frame for the pages of others");
   check_recording(request);
   core::expect(request.page_count >= 1 && request.depth_max >= 1, "a database has a page, and a ray a depth");
   core::expect(request.width >= 1 && request.height >= 1, "a picture has a pixel");
@@ -174,24 +176,24 @@ void check(const PlanRequest& request) {
 
 /// What the user asked for, or our choice, as far as there are pixels, before the memory is looked at.
 std::uint32_t wanted_in_flight(const PlanRequest& request) {
-  const std::uint32_t asked = request.in_flight.value_or(request.strategy == Strategy::svm ? default_in_flight : 1);
+  const std::uint32_t asked = request.pages.in_flight.value_or(request.strategy == Strategy::svm ? default_in_flight : 1);
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(asked, node_pixels_max(request)));
 }
 
 /// The fewest frames that this request can do with.
 std::uint32_t frames_min(const PlanRequest& request) {
-  return std::min(request.cache_pages.value_or(1), foreign_pages_max(request));
+  return std::min(request.pages.cache_pages.value_or(1), foreign_pages_max(request));
 }
 
 std::uint32_t auto_frames(const PlanRequest& request) {
   const std::uint32_t quarter = core::ceil_divide(request.page_count, 4U);
-  return std::min(request.cache_pages.value_or(std::max(quarter, auto_cache_pages_min)), foreign_pages_max(request));
+  return std::min(request.pages.cache_pages.value_or(std::max(quarter, auto_cache_pages_min)), foreign_pages_max(request));
 }
 
 /// The most frames that fit, at least frames_min() of which are known to fit.
 std::uint32_t most_frames(const PlanRequest& request, std::uint32_t in_flight, std::size_t memory_bytes) {
   std::uint32_t fits = frames_min(request);
-  std::uint32_t too_many = (request.cache_pages ? fits : foreign_pages_max(request)) + 1;
+  std::uint32_t too_many = (request.pages.cache_pages ? fits : foreign_pages_max(request)) + 1;
   while (too_many - fits > 1) {
     const std::uint32_t middle = fits + (too_many - fits) / 2;
     (bytes_with(request, middle, in_flight) <= memory_bytes ? fits : too_many) = middle;
@@ -204,7 +206,7 @@ std::uint32_t most_frames(const PlanRequest& request, std::uint32_t in_flight, s
 std::uint32_t most_in_flight(const PlanRequest& request, std::size_t memory_bytes) {
   std::uint32_t in_flight = wanted_in_flight(request);
   const auto frames_for = [&](std::uint32_t pixels) {
-    return request.cache_pages ? frames_min(request) : std::min(pixels, foreign_pages_max(request));
+    return request.pages.cache_pages ? frames_min(request) : std::min(pixels, foreign_pages_max(request));
   };
   while (in_flight > 1 && bytes_with(request, frames_for(in_flight), in_flight) > memory_bytes) {
     --in_flight;
@@ -214,17 +216,17 @@ std::uint32_t most_in_flight(const PlanRequest& request, std::size_t memory_byte
 
 /// More nodes hold fewer pages each, but larger mailboxes and credit tables, so fewer nodes may be what helps.
 std::optional<std::uint32_t> smallest_node_count(PlanRequest request) {
-  for (request.node_count = 1; request.node_count <= node_count_max; ++request.node_count) {
-    if (smallest_node_memory_bytes(request) <= *request.node_memory_bytes) {
-      return request.node_count;
+  for (request.computer.node_count = 1; request.computer.node_count <= node_count_max; ++request.computer.node_count) {
+    if (smallest_node_memory_bytes(request) <= *request.computer.node_memory_bytes) {
+      return request.computer.node_count;
     }
   }
   return std::nullopt;
 }
 
 [[noreturn]] void say_too_small(const PlanRequest& request) {
-  std::string sentence = "node_memory_bytes=" + size_text(*request.node_memory_bytes) +
-                         " is too small for node_count=" + std::to_string(request.node_count) +
+  std::string sentence = "node_memory_bytes=" + size_text(*request.computer.node_memory_bytes) +
+                         " is too small for node_count=" + std::to_string(request.computer.node_count) +
                          ": the smallest that works is node_memory_bytes=" + size_text(smallest_node_memory_bytes(request));
   if (const auto nodes = smallest_node_count(request)) {
     sentence += ", or with this memory node_count=" + std::to_string(*nodes);
@@ -238,22 +240,23 @@ std::optional<std::uint32_t> smallest_node_count(PlanRequest request) {
 
 /// Where a pass may leave pixels out, a work item travels with a mask of one word: items are then no larger than that.
 PlanRequest with_small_items(PlanRequest request) {
-  request.work_item_side = request.is_masked() ? std::min(request.work_item_side, masked_side_max) : request.work_item_side;
+  request.pages.work_item_side =
+      request.is_masked() ? std::min(request.pages.work_item_side, masked_side_max) : request.pages.work_item_side;
   return request;
 }
 
 void note_reductions(Plan& plan) {
   const PlanRequest& request = plan.request;
-  const std::uint32_t wanted = wanted_in_flight(request), asked = request.in_flight.value_or(wanted);
+  const std::uint32_t wanted = wanted_in_flight(request), asked = request.pages.in_flight.value_or(wanted);
   const std::string reduced = "in-flight reduced from " + std::to_string(asked) + " to " + std::to_string(plan.in_flight);
   if (plan.in_flight < wanted) {
-    plan.notes.push_back(reduced + " to fit " + size_text(*request.node_memory_bytes));
+    plan.notes.push_back(reduced + " to fit " + size_text(*request.computer.node_memory_bytes));
   } else if (wanted < asked) {
     plan.notes.push_back(reduced + (wanted == 1 ? " pixel" : " pixels") + ": no node ever has more");
   }
-  if (request.cache_pages && plan.frames < *request.cache_pages) {
-    plan.notes.push_back("cache reduced from " + std::to_string(*request.cache_pages) + " to " + std::to_string(plan.frames) +
-                         " pages: no more are not at home");
+  if (request.pages.cache_pages && plan.frames < *request.pages.cache_pages) {
+    plan.notes.push_back("cache reduced from " + std::to_string(*request.pages.cache_pages) + " to " +
+                         std::to_string(plan.frames) + " pages: no more are not at home");
   }
 }
 
@@ -263,29 +266,31 @@ std::uint32_t Plan::faults_max() const { return std::min(in_flight, foreign_page
 
 PageCapacity Plan::pages() const {
   return {.page_count = request.page_count,
-          .node_count = request.node_count,
-          .cache = {frames, request.page_size_bytes, request.replacement},
+          .node_count = request.computer.node_count,
+          .cache = {frames, request.page_size_bytes, request.pages.replacement},
           .in_flight = in_flight,
           .faults_max = faults_max(),
           .request_credits = request_credits};
 }
 
 FilmCapacity Plan::film() const {
-  return {
-      .host = nodes::NodeId{request.node_count}, .packet_entries = film_entries, .credits = film_credits, .in_flight = in_flight};
+  return {.host = nodes::NodeId{request.computer.node_count},
+          .packet_entries = film_entries,
+          .credits = film_credits,
+          .in_flight = in_flight};
 }
 
 WorkShape Plan::work() const {
-  return {.node_count = request.node_count,
+  return {.node_count = request.computer.node_count,
           .width = request.width,
           .height = request.height,
-          .item_side = request.work_item_side,
+          .item_side = request.pages.work_item_side,
           .is_masked = request.is_masked(),
           .start = request.start};
 }
 
 HostShape Plan::host() const {
-  return {.node_count = request.node_count,
+  return {.node_count = request.computer.node_count,
           .width = request.width,
           .height = request.height,
           .first_samples = request.first_samples,
@@ -302,7 +307,7 @@ nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
   } else {
     LocalCopy::add_needs(plan, pages().database_bytes());
   }
-  if (request.count_pages) {
+  if (request.pages.count_pages) {
     CountingPager::add_needs(plan, pages());
   }
   Slots<core::PixelTask>::add_needs(plan, in_flight, static_cast<std::uint32_t>(request.depth_max));
@@ -310,14 +315,14 @@ nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
   WorkSource::add_needs(plan, work(), index);
   plan[Category::constants] += LocalMemory::bytes_for<std::byte>(sizeof(core::RenderSettings));
   plan[Category::mailbox] += node_mailbox.bytes();
-  plan[Category::queues] += nodes::credit_table_bytes(request.node_count + 1) + held_bytes;
-  plan[Category::reserve] += request.stack_reserve_bytes;
+  plan[Category::queues] += nodes::credit_table_bytes(request.computer.node_count + 1) + held_bytes;
+  plan[Category::reserve] += request.computer.stack_reserve_bytes;
   return plan;
 }
 
 std::size_t Plan::node_memory_max_bytes() const {
   std::size_t most = node_memory(0).total();  // it has as many pages at home as any
-  for (std::uint32_t index = 1; request.is_masked() && index < request.node_count; ++index) {
+  for (std::uint32_t index = 1; request.is_masked() && index < request.computer.node_count; ++index) {
     most = std::max(most, node_memory(index).total());
   }
   return most;
@@ -327,7 +332,7 @@ nodes::MemoryPlan Plan::host_memory() const {
   nodes::MemoryPlan plan;
   HostProgram::add_needs(plan, host());
   plan[Category::mailbox] += host_mailbox.bytes();
-  plan[Category::queues] += nodes::credit_table_bytes(request.node_count + 1) + held_bytes;
+  plan[Category::queues] += nodes::credit_table_bytes(request.computer.node_count + 1) + held_bytes;
   plan[Category::reserve] += host_stack_bytes;
   return plan;
 }
@@ -339,19 +344,19 @@ Plan make_plan(const PlanRequest& asked) {
   const PlanRequest request = with_small_items(asked);
   std::uint32_t in_flight = wanted_in_flight(request);
   std::uint32_t frames = auto_frames(request);
-  if (request.node_memory_bytes) {
-    if (smallest_node_memory_bytes(request) > *request.node_memory_bytes) {
+  if (request.computer.node_memory_bytes) {
+    if (smallest_node_memory_bytes(request) > *request.computer.node_memory_bytes) {
       say_too_small(request);
     }
-    in_flight = most_in_flight(request, *request.node_memory_bytes);
-    frames = most_frames(request, in_flight, *request.node_memory_bytes);
+    in_flight = most_in_flight(request, *request.computer.node_memory_bytes);
+    frames = most_frames(request, in_flight, *request.computer.node_memory_bytes);
   }
   Plan plan = plan_with(request, frames, in_flight);
-  core::expect(plan.node_memory_max_bytes() <= request.node_memory_bytes.value_or(plan.node_memory_max_bytes()),
+  core::expect(plan.node_memory_max_bytes() <= request.computer.node_memory_bytes.value_or(plan.node_memory_max_bytes()),
                "a plan keeps within the node's memory");
   note_reductions(plan);
-  if (request.work_item_side < asked.work_item_side) {
-    plan.notes.push_back("work items reduced from " + std::to_string(asked.work_item_side) + " to " +
+  if (request.pages.work_item_side < asked.pages.work_item_side) {
+    plan.notes.push_back("work items reduced from " + std::to_string(asked.pages.work_item_side) + " to " +
                          std::to_string(masked_side_max) + " pixels a side: where pixels are left out none is larger");
   }
   return plan;

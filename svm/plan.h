@@ -9,7 +9,7 @@
 
 #include "core/picture/partial_picture.h"
 #include "core/picture/refinement.h"
-#include "nodes/chaos.h"
+#include "nodes/computer_request.h"
 #include "nodes/local_memory.h"
 #include "nodes/mailbox.h"
 #include "nodes/patience.h"
@@ -17,6 +17,7 @@
 #include "svm/host.h"
 #include "svm/page.h"
 #include "svm/page_capacity.h"
+#include "svm/page_options.h"
 #include "svm/work_source.h"
 
 namespace dmpc::svm {
@@ -29,31 +30,14 @@ struct PlanRequest {
   Strategy strategy = Strategy::svm;
   std::uint32_t page_count = 0;
   std::size_t page_size_bytes = 1024;
-  std::uint32_t node_count = 8;
-  /// The bound of each node's local memory. Without it the plan is the sum of all categories, for svm with a cache of a
-  /// quarter of the database, at least 64 pages and at most all pages that are not at home.
-  std::optional<std::size_t> node_memory_bytes = std::nullopt;
-  /// Frames of each node's cache; svm only. With a memory bound and without this, the cache takes all that is left.
-  std::optional<std::uint32_t> cache_pages = std::nullopt;
-  Replacement replacement = Replacement::lru;  ///< which page of the cache makes room; svm only
-  /// Pixels under way on a node. Without it 16 for svm: a node whose pixel waits for a page has others to go on with, while
-  /// the stacks and reply slots of 16 pixels take about 1 % of a 4 MiB node; and 1 for replicated, where nothing is ever
-  /// waited for.
-  std::optional<std::uint32_t> in_flight = std::nullopt;
-  std::uint32_t work_item_side = 3;  ///< pixels along the side of a work item; 0: no node gives work to another
-  int depth_max = 5;                 ///< entries of a pixel's ray stack
+  nodes::ComputerRequest computer = {};  ///< without a bound of memory, svm's caches have a quarter of the database each, at
+                                         ///< least 64 pages and at most all pages that are not at home
+  PageOptions pages = {};
+  int depth_max = 5;  ///< entries of a pixel's ray stack
   std::uint32_t width = 0, height = 0;
   std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
   core::RefinementOptions refinement;
   const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; outlives plan and run
-  bool count_pages = false;  ///< count the distinct pages of each pixel; costs a bit a page for each pixel in flight
-  /// Record every node's page references. Only where these depend on neither the cache nor the schedule: without work given
-  /// from node to node, and with one pixel in flight. Not with count_pages.
-  bool record_references = false;
-  std::size_t stack_reserve_bytes = std::size_t{256} << 10U;  ///< of each node's thread
-  /// Fewer credits, and room for packets held back; mailboxes stay as they are.
-  std::optional<nodes::Chaos> chaos = std::nullopt;
-  bool is_modelled = false;  ///< a model of a machine runs it, in which waking a host costs nothing
 
   /// Some pass may leave pixels out, so that each node keeps a bit for each pixel of its submap.
   bool is_masked() const { return refinement.is_wanted() || start != nullptr; }

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -31,21 +32,21 @@
 
 namespace dmpc::svm {
 
-/// `Records` is Pager, CountingPager or LocalCopy; `Tracer` reads them; `Task` is core::PixelTask, or a test's. `Meter` is
-/// nodes::Meter where somebody wants to know what is done for which pixel.
-template <class Records, class Tracer, class Task = core::PixelTask, class Meter = nodes::NoMeter>
+/// `Records` is Pager, CountingPager or LocalCopy; `Tracer` reads them; `Task` is core::PixelTask, or a test's.
+template <class Records, class Tracer, class Task = core::PixelTask>
 class ControlProgram final : public NodeProgram {
  public:
-  /// Takes all its memory from `node`. `database` is read here and never again. make_tracer(Records&) returns the tracer.
+  /// Takes all its memory from `node`. `database` is read here and never again. make_tracer(Records&) returns the tracer. `meter`
+  /// is there where somebody wants to know what is done for which pixel.
   template <class MakeTracer>
   ControlProgram(nodes::Node& node, const Plan& plan, const core::RenderSettings& settings, std::span<const std::byte> database,
-                 const MakeTracer& make_tracer, const Meter& meter = {})
+                 const MakeTracer& make_tracer, const std::optional<nodes::Meter>& meter = std::nullopt)
       : settings_(*std::construct_at(
             reinterpret_cast<core::RenderSettings*>(
                 node.memory().template allocate<std::byte>(nodes::Category::constants, sizeof(settings)).data()),
             settings)),
         node_(&node),
-        host_(nodes::NodeId{plan.request.node_count}),
+        host_(nodes::NodeId{plan.request.computer.node_count}),
         records_(node, plan.pages(), database),
         tracer_(make_tracer(records_)),
         slots_(node.memory(), plan.in_flight, static_cast<std::uint32_t>(plan.request.depth_max)),
@@ -170,19 +171,20 @@ class ControlProgram final : public NodeProgram {
 
   /// What the node counts from here to end_metering() is one pixel's.
   void begin_metering() {
-    if constexpr (Meter::is_on) {
-      meter_.begin(heat_totals());
+    if (meter_) [[unlikely]] {
+      meter_->begin(heat_totals());
     }
   }
 
   void end_metering(const Task& task) {
-    if constexpr (Meter::is_on) {
-      meter_.end(task.pixel(), task.ray().depth, heat_totals());
-      meter_.claim(task.pixel());  // of several passes the last one's node stays
+    if (meter_) [[unlikely]] {
+      meter_->end(task.pixel(), task.ray().depth, heat_totals());
+      meter_->claim(task.pixel());  // of several passes the last one's node stays
     }
   }
 
-  nodes::HeatTotals heat_totals() const {
+  // Out of line, so that a quantum without a meter is no longer for it.
+  [[gnu::noinline]] nodes::HeatTotals heat_totals() const {
     const PageCounters pages = records_.counters();
     return {operations_.ray_count(), pages.references, pages.faults, pages.distinct_pages, charges()};
   }
@@ -283,7 +285,7 @@ class ControlProgram final : public NodeProgram {
   std::uint64_t rays_ended_ = 0;
   bool done_ = false;
   bool stopped_ = false;
-  [[no_unique_address]] Meter meter_;
+  std::optional<nodes::Meter> meter_;
 };
 
 }  // namespace dmpc::svm

@@ -2,10 +2,10 @@
 
 #include <memory>
 #include <string>
+#include <type_traits>
 
 #include "core/base/expect.h"
 #include "svm/host.h"
-#include "svm/metered_programs.h"
 #include "svm/pager.h"
 #include "svm/watch/counting_pager.h"
 #include "svm/watch/recording_pager.h"
@@ -13,8 +13,12 @@
 namespace dmpc::svm {
 namespace {
 
-bool counts_pages(const RunOptions& options) {
-  return options.count_pages || (options.heat != nullptr && options.heat->has(nodes::HeatKind::pages));
+/// A heat map of pages has them counted.
+PageOptions pages_of(const RunOptions& options) {
+  const nodes::HeatMap* const heat = options.watching.heat;
+  PageOptions pages = options.pages;
+  pages.count_pages = pages.count_pages || (heat != nullptr && heat->has(nodes::HeatKind::pages));
+  return pages;
 }
 
 PlanRequest request_of(Strategy strategy, const core::Database& database, const core::RenderSettings& settings,
@@ -22,23 +26,14 @@ PlanRequest request_of(Strategy strategy, const core::Database& database, const 
   return {.strategy = strategy,
           .page_count = static_cast<std::uint32_t>(database.page_count()),
           .page_size_bytes = database.page_size(),
-          .node_count = options.node_count,
-          .node_memory_bytes = options.node_memory_bytes,
-          .cache_pages = options.cache_pages,
-          .replacement = options.replacement,
-          .in_flight = options.in_flight,
-          .work_item_side = options.work_item_side,
+          .computer = options.computer,
+          .pages = pages_of(options),
           .depth_max = settings.shade.depth_max,
           .width = static_cast<std::uint32_t>(settings.camera.width()),
           .height = static_cast<std::uint32_t>(settings.camera.height()),
           .first_samples = settings.first_samples().count,
           .refinement = settings.refinement,
-          .start = options.continuation.start,
-          .count_pages = counts_pages(options),
-          .record_references = options.record_references,
-          .stack_reserve_bytes = options.stack_reserve_bytes,
-          .chaos = options.chaos,
-          .is_modelled = options.machine.has_value()};
+          .start = options.continuation.start};
 }
 
 NodeReport report_of(nodes::Node& node, const nodes::Program& program) {
@@ -76,31 +71,27 @@ void check_conservation(const Report& report) {
 /// Serving a page reads pages that never change: a home may be interrupted for it at any time.
 constexpr std::uint32_t interrupt_kinds = 1U << number_of(Kind::page_request);
 
-/// prepare(index, records) is called for each node before its first reference.
-template <class Records, class Prepare>
+template <class Records>
 MakeProgram maker(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
-                  const Prepare& prepare) {
-  return [&, prepare](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
+                  const RunOptions& options) {
+  return [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
     const auto make_tracer = [&](Records& records) {
-      prepare(index, records);
+      if constexpr (std::is_same_v<Records, RecordingPager>) {
+        records.record_into(options.pages.reference_logs->at(index));
+      }
       return core::GridTracer<Records>(records, settings.header, settings.skips);
     };
-    return std::make_unique<ControlProgram<Records, core::GridTracer<Records>>>(node, plan, settings, database.bytes(),
-                                                                                make_tracer);
+    return std::make_unique<ControlProgram<Records, core::GridTracer<Records>>>(
+        node, plan, settings, database.bytes(), make_tracer, nodes::meter_for(options.watching, options.computer, node.id()));
   };
 }
 
-template <class Records>
-MakeProgram maker(const core::Database& database, const core::RenderSettings& settings, const Plan& plan) {
-  return maker<Records>(database, settings, plan, [](std::uint32_t, Records&) {});
-}
-
-Report run_recording(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
-                     const Plan& plan, std::stop_token stop) {
-  core::expect(!options.metering().is_wanted(), "references are recorded, or there are meters, not both");
-  std::vector<ReferenceLog> logs(plan.request.node_count);
-  const auto record = [&logs](std::uint32_t index, RecordingPager& pager) { pager.record_into(logs[index]); };
-  Report report = run_programs(plan, maker<RecordingPager>(database, settings, plan, record), options, std::move(stop));
+/// The references of each node become a part of its report.
+Report run_recording(const core::Database& database, const core::RenderSettings& settings, const Plan& plan, RunOptions options,
+                     std::stop_token stop) {
+  std::vector<ReferenceLog> logs(plan.request.computer.node_count);
+  options.pages.reference_logs = &logs;
+  Report report = run_programs(plan, maker<RecordingPager>(database, settings, plan, options), options, std::move(stop));
   for (std::size_t i = 0; i < logs.size(); ++i) {
     report.nodes[i].references = std::move(logs[i]);
   }
@@ -169,9 +160,9 @@ Plan plan_of(Strategy strategy, const core::Database& database, const core::Rend
 }
 
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const MakeProgram& make_program, core::Film& film,
-                                                        const Progress& progress, const core::Continuation& continuation) {
+                                                        const nodes::Progress& progress, const core::Continuation& continuation) {
   std::vector<nodes::NodeSpecification> specifications;
-  for (std::uint32_t i = 0; i < plan.request.node_count; ++i) {
+  for (std::uint32_t i = 0; i < plan.request.computer.node_count; ++i) {
     specifications.push_back({plan.node_memory(i), plan.node_mailbox,
                               [&make_program, i](nodes::Node& node) { return make_program(i, node); }, plan.held_bytes,
                               interrupt_kinds, plan.patience()});
@@ -193,20 +184,20 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
                 .plan = plan,
                 .nodes = {},
                 .host = {}};
-  core::expect(options.heat == nullptr || options.heat->pixel_count() == report.film.pixels().size(),
+  core::expect(options.watching.heat == nullptr || options.watching.heat->pixel_count() == report.film.pixels().size(),
                "a heat map is of the picture's size");
   const auto runner =
-      nodes::make_runner(specifications_of(plan, make_program, report.film, options.progress, options.continuation),
-                         {plan.request.chaos, options.machine, options.observer});
-  if (options.distributed) {
-    options.distributed();
+      nodes::make_runner(specifications_of(plan, make_program, report.film, options.watching.progress, options.continuation),
+                         options.computer, options.watching.observer);
+  if (options.watching.distributed) {
+    options.watching.distributed();
   }
   report.end = runner->run(std::move(stop));
-  for (std::uint32_t i = 0; i < plan.request.node_count; ++i) {
+  for (std::uint32_t i = 0; i < plan.request.computer.node_count; ++i) {
     report.nodes.push_back(report_of(runner->node(i), runner->program(i)));
   }
-  report.host = runner->node(plan.request.node_count).counters();
-  const auto& host = dynamic_cast<const HostProgram&>(runner->program(plan.request.node_count));
+  report.host = runner->node(plan.request.computer.node_count).counters();
+  const auto& host = dynamic_cast<const HostProgram&>(runner->program(plan.request.computer.node_count));
   report.host_deposits_saturated = host.deposits_saturated();
   report.pixels_done = host.pixels_done();
   report.refinement = host.refinement().result();
@@ -222,21 +213,20 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
 Report run_svm(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                std::stop_token stop) {
   const Plan plan = plan_of(Strategy::svm, database, settings, options);
-  if (options.record_references) {
-    return run_recording(database, settings, options, plan, std::move(stop));
+  if (options.pages.record_references) {
+    return run_recording(database, settings, plan, options, std::move(stop));
   }
-  const MakeProgram make_program = options.metering().is_wanted() ? metered_programs(database, settings, plan, options)
-                                   : plan.request.count_pages     ? maker<CountingPager>(database, settings, plan)
-                                                                  : maker<Pager>(database, settings, plan);
+  const MakeProgram make_program = plan.request.pages.count_pages ? maker<CountingPager>(database, settings, plan, options)
+                                   : options.pages.reference_logs != nullptr
+                                       ? maker<RecordingPager>(database, settings, plan, options)
+                                       : maker<Pager>(database, settings, plan, options);
   return run_programs(plan, make_program, options, std::move(stop));
 }
 
 Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                       std::stop_token stop) {
   const Plan plan = plan_of(Strategy::replicated, database, settings, options);
-  const MakeProgram make_program = options.metering().is_wanted() ? metered_programs(database, settings, plan, options)
-                                                                  : maker<LocalCopy>(database, settings, plan);
-  return run_programs(plan, make_program, options, std::move(stop));
+  return run_programs(plan, maker<LocalCopy>(database, settings, plan, options), options, std::move(stop));
 }
 
 }  // namespace dmpc::svm

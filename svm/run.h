@@ -18,52 +18,28 @@
 #include "core/picture/partial_picture.h"
 #include "core/picture/pixel_task.h"
 #include "core/trace/traversal.h"
-#include "nodes/chaos.h"
+#include "nodes/computer_request.h"
 #include "nodes/counters.h"
-#include "nodes/machine.h"
 #include "nodes/runner.h"
-#include "nodes/watch/heat_map.h"
 #include "nodes/watch/meter.h"
+#include "nodes/watch/watching.h"
 #include "svm/host.h"
 #include "svm/local_copy.h"
 #include "svm/node_program.h"
+#include "svm/page_options.h"
 #include "svm/plan.h"
 #include "svm/program.h"
 #include "svm/watch/reference_log.h"
 
 namespace dmpc::svm {
 
-/// What the user may choose; the fields of PlanRequest that the database and the picture do not give.
+/// A run, but for the database and the picture.
 struct RunOptions {
-  std::uint32_t node_count = 8;
-  std::optional<std::size_t> node_memory_bytes = std::nullopt;
-  std::optional<std::uint32_t> cache_pages = std::nullopt;
-  Replacement replacement = Replacement::lru;
-  std::optional<std::uint32_t> in_flight = std::nullopt;
-  std::uint32_t work_item_side = 3;
-  bool count_pages = false;
-  /// Record every node's page references, run_svm() only: an instrument, whose memory is no node's and grows with the run. Needs
-  /// work_item_side = 0 and in_flight = 1: else the references would depend on the cache and the schedule.
-  bool record_references = false;
-  std::size_t stack_reserve_bytes = std::size_t{256} << 10U;
-  std::optional<nodes::Chaos> chaos = std::nullopt;  ///< disturbs the run; the film stays the same
-  /// A modelled machine, in virtual time, in place of threads. Not with chaos.
-  std::optional<nodes::Machine> machine = std::nullopt;
-  Progress progress = {};  ///< called by the host's thread
-  /// What each pixel takes is added to it, of the kinds that it records but `samples`; `pages` are then counted, whatever
-  /// count_pages says. Of the size of the picture; outlives the run.
-  nodes::HeatMap* heat = nullptr;
-  nodes::Observer* observer = nullptr;  ///< sees the run happen; outlives it
-  /// One for each node, where run_svm() notes what the node references, with an observer and unless different pages are counted,
-  /// in whatever order it comes. Outlive the run.
-  std::vector<ReferenceLog>* reference_logs = nullptr;
+  nodes::ComputerRequest computer = {};
+  PageOptions pages = {};
+  nodes::Watching watching = {};  ///< if it has a heat map of pages, these are counted, whatever `pages` says
   /// Where the picture is begun, and what of it is kept on the way. An interrupted run keeps what it has.
   core::Continuation continuation = {};
-  /// Called on the calling thread when the nodes hold the database, which is not read again, before any node starts.
-  std::function<void()> distributed = {};
-
-  /// What the nodes' meters are for. The options outlive it.
-  nodes::Metering metering() const { return {heat, observer, machine ? &*machine : nullptr}; }
 };
 
 struct NodeReport {
@@ -105,27 +81,8 @@ using MakeProgram = std::function<std::unique_ptr<NodeProgram>(std::uint32_t ind
 /// What a runner needs for `plan`: the nodes in order, then the host, which writes `film`. All arguments but `continuation`
 /// outlive the runner.
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const MakeProgram& make_program, core::Film& film,
-                                                        const Progress& progress, const core::Continuation& continuation = {});
-
-/// The program of a node with a meter.
-template <class Records, class Tracer, class MakeTracer>
-std::unique_ptr<NodeProgram> make_metered_program(nodes::Node& node, const Plan& plan, const core::RenderSettings& settings,
-                                                  std::span<const std::byte> database, const MakeTracer& make_tracer,
-                                                  const nodes::Metering& metering) {
-  using Metered = ControlProgram<Records, Tracer, core::PixelTask, nodes::Meter>;
-  return std::make_unique<Metered>(node, plan, settings, database, make_tracer, nodes::Meter(metering, node.id()));
-}
-
-/// The program of a node: with a meter if one is asked for, without any trace of one if not. `options` outlives it.
-template <class Records, class Tracer, class MakeTracer>
-std::unique_ptr<NodeProgram> make_control_program(nodes::Node& node, const Plan& plan, const core::RenderSettings& settings,
-                                                  std::span<const std::byte> database, const MakeTracer& make_tracer,
-                                                  const RunOptions& options) {
-  if (options.metering().is_wanted()) {
-    return make_metered_program<Records, Tracer>(node, plan, settings, database, make_tracer, options.metering());
-  }
-  return std::make_unique<ControlProgram<Records, Tracer>>(node, plan, settings, database, make_tracer);
-}
+                                                        const nodes::Progress& progress,
+                                                        const core::Continuation& continuation = {});
 
 /// Runs any programs of this family under `plan`, checks the laws of conservation and reports.
 Report run_programs(const Plan& plan, const MakeProgram& make_program, const RunOptions& options, std::stop_token stop);
@@ -140,7 +97,8 @@ Report run_replicated(const core::Database& database, const core::RenderSettings
   const Plan plan = plan_of(Strategy::replicated, database, settings, options);
   const auto make_program = [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
     const auto tracer_over = [&](LocalCopy& copy) { return make_tracer(index, copy.bytes()); };
-    return make_control_program<LocalCopy, Tracer>(node, plan, settings, database.bytes(), tracer_over, options);
+    return std::make_unique<ControlProgram<LocalCopy, Tracer>>(node, plan, settings, database.bytes(), tracer_over,
+                                                               nodes::meter_for(options.watching, options.computer, node.id()));
   };
   return run_programs(plan, make_program, options, std::move(stop));
 }

@@ -15,7 +15,7 @@ constexpr double check_factor = 1.5;
 }  // namespace
 
 Effort render_effort(const StrategyOptions& options, const Subject& subject) {
-  const bool is_virtual = options.computer.runner == RunnerKind::virtual_time;
+  const bool is_virtual = options.runner.kind == RunnerKind::virtual_time;
   const double seconds = seconds_of({options.strategy, options.computer.node_count, is_virtual},
                                     picture_seconds(subject.database, subject.settings));
   return {.seconds = is_virtual ? seconds : seconds / std::min(core_count(), options.computer.node_count)};

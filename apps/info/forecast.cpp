@@ -41,19 +41,20 @@ class Forecaster {
 
  private:
   MemoryForecast with_pages(svm::Strategy strategy, std::uint32_t node_count) const {
-    return forecast_of(svm::plan_of(strategy, database_, settings_, {.node_count = node_count}), node_count);
+    return forecast_of(svm::plan_of(strategy, database_, settings_, {.computer = {.node_count = node_count}}), node_count);
   }
 
   /// From the loads known already; on their nodes, since some primary rays are dealt to nodes by number.
   dataflow::Bsp regions(std::uint32_t node_count) const {
     dataflow::Bsp bsp = dataflow::share_out(loads_, node_count, balance_).bsp;
-    dataflow::map_onto(bsp, RayOptions().topology, dataflow::axes_facing(settings_.camera));
+    dataflow::map_onto(bsp, nodes::TopologyKind::hypercube, dataflow::axes_facing(settings_.camera));
     return bsp;
   }
 
   void add_rays(ComputerForecast& result) {
     stopwatch_.lap();
-    dataflow::RunOptions run{.node_count = result.nodes, .balance = {.balance = dataflow::Balance::equal_size}};
+    dataflow::RunOptions run{.computer = {.node_count = result.nodes},
+                             .rays = {.balance = {.balance = dataflow::Balance::equal_size}}};
     run.make_bsp = [&](std::uint32_t count) { return regions(count); };
     const dataflow::Prepared prepared = dataflow::prepare(database_, settings_, run, {}, false);
     result.dataflow = forecast_of(prepared.plan, result.nodes);

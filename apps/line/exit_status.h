@@ -16,7 +16,7 @@ inline constexpr ExitStatus exit_statuses[] = {
     {0, "The job is done."},
     {input_status, "Bad input, or an output that cannot be written: the message says what, where, and what would do."},
     {usage_status, "Wrong usage: the message ends with the right --help."},
-    {internal_status, "An error of dmpc's own, or a difference that check cannot explain."},
+    {internal_status, "An error of dmpc's own, a part of it that is missing, or a difference that check cannot explain."},
     {no_room_status, "There is no room for the input, on this computer or in the nodes' memory."},
     {interrupted_status, "Interrupted by a signal: the message says what became of the output."},
 };

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "apps/oracle/curved.h"
+#include "apps/system/module.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::embree {
@@ -19,6 +20,11 @@ void set_bounds(const RTCBoundsFunctionArguments* arguments) {
 
 }  // namespace
 
+const Library& library() {
+  static const auto* const opened = static_cast<const Library*>(open_module("embree", "asks Embree what rays hit"));
+  return *opened;
+}
+
 Shapes::Shapes(std::span<const core::PrimitiveValues> given) : primitives(given) {
   for (std::uint32_t id = 0; id < given.size(); ++id) {
     (given[id].kind == core::PrimitiveKind::triangle ? triangles : curved).push_back(id);
@@ -27,11 +33,12 @@ Shapes::Shapes(std::span<const core::PrimitiveValues> given) : primitives(given)
 
 RTCGeometry triangle_mesh(RTCDevice device, const Shapes& shapes) {
   const std::vector<std::uint32_t>& ids = shapes.triangles;
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  const Library& embree = library();
+  RTCGeometry geometry = embree.new_geometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<float*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * ids.size()));
+      embree.set_new_geometry_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * ids.size()));
   auto* indices = static_cast<unsigned*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), ids.size()));
+      embree.set_new_geometry_buffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), ids.size()));
   core::expect(vertices != nullptr && indices != nullptr, "Embree has memory for the triangles");
   for (std::size_t index = 0; index < ids.size(); ++index) {
     for (std::size_t k = 0; k < 9; ++k) {
@@ -46,20 +53,22 @@ RTCGeometry triangle_mesh(RTCDevice device, const Shapes& shapes) {
 
 RTCGeometry curved_geometry(RTCDevice device, const Shapes& shapes, RTCIntersectFunctionN intersect,
                             RTCOccludedFunctionN occlude) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(shapes.curved.size()));
-  rtcSetGeometryUserData(geometry, const_cast<Shapes*>(&shapes));
-  rtcSetGeometryBoundsFunction(geometry, set_bounds, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, intersect);
-  rtcSetGeometryOccludedFunction(geometry, occlude);
+  const Library& embree = library();
+  RTCGeometry geometry = embree.new_geometry(device, RTC_GEOMETRY_TYPE_USER);
+  embree.set_geometry_user_primitive_count(geometry, static_cast<unsigned>(shapes.curved.size()));
+  embree.set_geometry_user_data(geometry, const_cast<Shapes*>(&shapes));
+  embree.set_geometry_bounds_function(geometry, set_bounds, nullptr);
+  embree.set_geometry_intersect_function(geometry, intersect);
+  embree.set_geometry_occluded_function(geometry, occlude);
   return geometry;
 }
 
 void attach(RTCScene scene, RTCGeometry geometry, RTCBuildQuality quality) {
-  rtcSetGeometryBuildQuality(geometry, quality);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
+  const Library& embree = library();
+  embree.set_geometry_build_quality(geometry, quality);
+  embree.commit_geometry(geometry);
+  embree.attach_geometry(scene, geometry);
+  embree.release_geometry(geometry);
 }
 
 }  // namespace dmpc::apps::embree

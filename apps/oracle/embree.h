@@ -1,4 +1,4 @@
-// The only file that includes Embree: its geometries, and one ray asked of its version 3 or 4.
+// The only file that includes Embree, version 3 or 4: what dmpc calls of it, its geometries, and one ray asked of it.
 #pragma once
 
 #include <cstdint>
@@ -18,30 +18,64 @@
 
 namespace dmpc::apps::embree {
 
+/// Embree's functions, which the module dmpc_embree.so is linked with, and nothing else.
+struct Library {
+  decltype(&rtcNewDevice) new_device;
+  decltype(&rtcReleaseDevice) release_device;
+  decltype(&rtcGetDeviceError) device_error;
+  decltype(&rtcNewScene) new_scene;
+  decltype(&rtcReleaseScene) release_scene;
+  decltype(&rtcSetSceneFlags) set_scene_flags;
+  decltype(&rtcSetSceneBuildQuality) set_scene_build_quality;
+  decltype(&rtcCommitScene) commit_scene;
+  decltype(&rtcAttachGeometry) attach_geometry;
+  decltype(&rtcNewGeometry) new_geometry;
+  decltype(&rtcReleaseGeometry) release_geometry;
+  decltype(&rtcCommitGeometry) commit_geometry;
+  decltype(&rtcSetGeometryBuildQuality) set_geometry_build_quality;
+  decltype(&rtcSetNewGeometryBuffer) set_new_geometry_buffer;
+  decltype(&rtcSetGeometryUserData) set_geometry_user_data;
+  decltype(&rtcSetGeometryUserPrimitiveCount) set_geometry_user_primitive_count;
+  decltype(&rtcSetGeometryBoundsFunction) set_geometry_bounds_function;
+  decltype(&rtcSetGeometryIntersectFunction) set_geometry_intersect_function;
+  decltype(&rtcSetGeometryOccludedFunction) set_geometry_occluded_function;
+  decltype(&rtcSetGeometryIntersectFilterFunction) set_geometry_intersect_filter_function;
+  decltype(&rtcSetGeometryOccludedFilterFunction) set_geometry_occluded_filter_function;
+  decltype(&rtcIntersect1) intersect;
+  decltype(&rtcOccluded1) occluded;
+};
+
+/// Opened at the first call, as open_module() says. Thread-safe.
+const Library& library();
+
 // Embree 4 renamed the context and moved it into an arguments structure. That branch is untested: Debian 12 has 3.13.
 #if RTC_VERSION_MAJOR >= 4
 using Context = RTCRayQueryContext;
 inline void start(Context& context) { rtcInitRayQueryContext(&context); }
-inline void intersect(RTCScene scene, Context& context, RTCRayHit& ray_hit) {
+inline void intersect(const Library& library, RTCScene scene, Context& context, RTCRayHit& ray_hit) {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
   arguments.context = &context;
-  rtcIntersect1(scene, &ray_hit, &arguments);
+  library.intersect(scene, &ray_hit, &arguments);
 }
-inline void occlude(RTCScene scene, Context& context, RTCRay& ray) {
+inline void occlude(const Library& library, RTCScene scene, Context& context, RTCRay& ray) {
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);
   arguments.context = &context;
-  rtcOccluded1(scene, &ray, &arguments);
+  library.occluded(scene, &ray, &arguments);
 }
 #else
 /// What a query's callbacks are handed: make it the first member of a structure to let them find more.
 using Context = RTCIntersectContext;
 inline void start(Context& context) { rtcInitIntersectContext(&context); }
 /// The closest hit.
-inline void intersect(RTCScene scene, Context& context, RTCRayHit& ray_hit) { rtcIntersect1(scene, &context, &ray_hit); }
+inline void intersect(const Library& library, RTCScene scene, Context& context, RTCRayHit& ray_hit) {
+  library.intersect(scene, &context, &ray_hit);
+}
 /// Any hit.
-inline void occlude(RTCScene scene, Context& context, RTCRay& ray) { rtcOccluded1(scene, &context, &ray); }
+inline void occlude(const Library& library, RTCScene scene, Context& context, RTCRay& ray) {
+  library.occluded(scene, &context, &ray);
+}
 #endif
 
 /// The ray as Embree takes it: from 0 to its t_max, seen by all geometries.

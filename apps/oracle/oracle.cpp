@@ -54,16 +54,17 @@ std::optional<float> improving_distance(const embree::CurvedQuery& asked) {
 }  // namespace
 
 struct EmbreeScene::Parts {
-  RTCDevice device = rtcNewDevice(nullptr);
+  const embree::Library& library = embree::library();
+  RTCDevice device = library.new_device(nullptr);
   RTCScene scene = nullptr;
   embree::Shapes shapes;
 
   explicit Parts(std::span<const core::PrimitiveValues> primitives) : shapes(primitives) {}
   ~Parts() {
     if (scene != nullptr) {
-      rtcReleaseScene(scene);
+      library.release_scene(scene);
     }
-    rtcReleaseDevice(device);
+    library.release_device(device);
   }
   RTCGeometry triangles();
 };
@@ -83,27 +84,28 @@ bool can_hit(const core::Ray& ray) { return is_finite(ray.origin) && is_finite(r
 
 RTCGeometry EmbreeScene::Parts::triangles() {
   RTCGeometry geometry = embree::triangle_mesh(device, shapes);
-  rtcSetGeometryUserData(geometry, shapes.triangles.data());
-  rtcSetGeometryIntersectFilterFunction(geometry, filter_triangle);
-  rtcSetGeometryOccludedFilterFunction(geometry, filter_triangle);
+  library.set_geometry_user_data(geometry, shapes.triangles.data());
+  library.set_geometry_intersect_filter_function(geometry, filter_triangle);
+  library.set_geometry_occluded_filter_function(geometry, filter_triangle);
   return geometry;
 }
 
 EmbreeScene::EmbreeScene(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode)
     : parts_(std::make_unique<Parts>(primitives)) {
   core::expect(parts_->device != nullptr, "Embree opens its device");
+  const embree::Library& library = parts_->library;
   const embree::Shapes& shapes = parts_->shapes;
-  RTCScene scene = parts_->scene = rtcNewScene(parts_->device);
-  rtcSetSceneFlags(scene, mode == EmbreeMode::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
-  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+  RTCScene scene = parts_->scene = library.new_scene(parts_->device);
+  library.set_scene_flags(scene, mode == EmbreeMode::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+  library.set_scene_build_quality(scene, RTC_BUILD_QUALITY_HIGH);
   if (!shapes.triangles.empty()) {
     embree::attach(scene, parts_->triangles(), RTC_BUILD_QUALITY_HIGH);
   }
   if (!shapes.curved.empty()) {
     embree::attach(scene, embree::curved_geometry<improving_distance>(parts_->device, shapes), RTC_BUILD_QUALITY_HIGH);
   }
-  rtcCommitScene(scene);
-  core::expect(rtcGetDeviceError(parts_->device) == RTC_ERROR_NONE, "Embree builds the scene without an error");
+  library.commit_scene(scene);
+  core::expect(library.device_error(parts_->device) == RTC_ERROR_NONE, "Embree builds the scene without an error");
 }
 
 EmbreeScene::~EmbreeScene() = default;
@@ -114,7 +116,7 @@ core::Hit EmbreeScene::closest(const core::Ray& ray) const {
     RTCRayHit ray_hit{};
     ray_hit.ray = embree::ray_of(ray);
     ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    embree::intersect(parts_->scene, query.context, ray_hit);
+    embree::intersect(parts_->library, parts_->scene, query.context, ray_hit);
   }
   return query.best;
 }
@@ -125,7 +127,7 @@ bool EmbreeScene::occluded(const core::Ray& ray) const {
   }
   Query query = start_query(ray);
   RTCRay asked = embree::ray_of(ray);
-  embree::occlude(parts_->scene, query.context, asked);
+  embree::occlude(parts_->library, parts_->scene, query.context, asked);
   return query.best.found();
 }
 
@@ -162,6 +164,8 @@ core::Traced EmbreeTracer::trace(const core::Ray& ray, core::Cursor& cursor, cor
   best.t = own_distance(ray, find(place.block), place.lane, best.t);
   return core::Traced::hit;
 }
+
+void open_embree() { static_cast<void>(embree::library()); }
 
 const char* embree_version() { return RTC_VERSION_STRING; }
 

@@ -56,7 +56,10 @@ class EmbreeTracer {
   core::LocalRecords local_;
 };
 
-/// Version of the Embree library that is linked, for reports: "3.13.5".
+/// Opens Embree, as the first scene would. Throws as open_module() does.
+void open_embree();
+
+/// Version of the Embree library that the module is linked with, for reports: "3.13.5".
 const char* embree_version();
 
 }  // namespace dmpc::apps

@@ -1,16 +1,15 @@
 #include "apps/picture/image_file.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
-#include <memory>
+#include <span>
 #include <string>
 
+#include "apps/picture/exr_file.h"
+#include "apps/picture/picture_library.h"
 #include "apps/picture/picture_reader.h"
-#include "apps/system/memory_file.h"
+#include "apps/picture/png_file.h"
 #include "apps/system/output_file.h"
 #include "core/base/expect.h"
 #include "core/base/srgb.h"
@@ -21,8 +20,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int channels = 3;
-
 std::string lower_extension(const fs::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -30,43 +27,18 @@ std::string lower_extension(const fs::path& path) {
   return extension;
 }
 
-bool takes_floats(const fs::path& path) {
-  const std::string extension = lower_extension(path);
-  for (const char* known : {".exr", ".tif", ".tiff", ".hdr"}) {
-    if (extension == known) {
-      return true;
-    }
-  }
-  return false;
+bool takes_floats(std::string_view extension) {
+  return extension == ".exr" || extension == ".tif" || extension == ".tiff" || extension == ".hdr";
 }
 
-std::unique_ptr<OIIO::ImageOutput> create_output(const fs::path& path) {
-  // OpenImageIO's "null" and "term" write no file.
+/// A library that takes long to load is asked about all but these two.
+void check_extension(const fs::path& path) {
   const std::string extension = lower_extension(path);
-  std::unique_ptr<OIIO::ImageOutput> output;
-  if (!extension.empty() && extension != ".null" && extension != ".term") {
-    output = OIIO::ImageOutput::create(path.string());
-  }
-  if (!output) {
-    static_cast<void>(OIIO::geterror());  // clears OpenImageIO's message
+  if (extension != ".exr" && extension != ".png" && (extension.empty() || !picture_library().writes(extension))) {
     throw core::InputError(path.string() + ": cannot write pictures " +
                            (extension.empty() ? "without an extension" : "of the kind " + extension) +
                            ", use .exr or .tif (linear floats), .png or .jpg (8 bits, sRGB)");
   }
-  return output;
-}
-
-OIIO::ImageSpec specification(const fs::path& path, const Image& image) {
-  const bool floats = takes_floats(path);
-  OIIO::ImageSpec spec(image.width, image.height, channels, floats ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", floats ? "Linear" : "sRGB");
-  spec.attribute("Software", "dmpc");
-  if (floats) {
-    spec.attribute("compression", "zip");
-  } else {
-    spec.attribute("CompressionQuality", 95);
-  }
-  return spec;
 }
 
 std::vector<std::uint8_t> srgb_bytes(const Image& image) {
@@ -75,42 +47,33 @@ std::vector<std::uint8_t> srgb_bytes(const Image& image) {
   return bytes;
 }
 
-bool write_pixels(OIIO::ImageOutput& output, const fs::path& path, const Image& image) {
-  return takes_floats(path) ? output.write_image(OIIO::TypeDesc::FLOAT, image.rgb.data())
-                            : output.write_image(OIIO::TypeDesc::UINT8, srgb_bytes(image).data());
+std::string exr_of(const Image& image) {
+  const std::span<const float> values(image.rgb);
+  return exr_file({.width = image.width,
+                   .height = image.height,
+                   .channels = {{"R", values, 3}, {"G", values.subspan(1), 3}, {"B", values.subspan(2), 3}},
+                   .remarks = {}});
 }
 
-OIIO::ImageSpec specification(const Channel& channel) {
-  OIIO::ImageSpec spec(channel.width, channel.height, 1, OIIO::TypeDesc::FLOAT);
-  spec.channelnames = {channel.name};
-  spec.attribute("Software", "dmpc");
-  spec.attribute("compression", "zip");
-  for (const auto& [name, text] : channel.remarks) {
-    spec.attribute(name, text);
+std::string file_of(const fs::path& path, const Image& image) {
+  const bool are_floats = takes_floats(lower_extension(path));
+  const std::vector<std::uint8_t> bytes = are_floats ? std::vector<std::uint8_t>() : srgb_bytes(image);
+  const PictureValues picture{.width = image.width,
+                              .height = image.height,
+                              .are_floats = are_floats,
+                              .values = are_floats ? static_cast<const void*>(image.rgb.data()) : bytes.data()};
+  std::string error;
+  std::string file = picture_library().file_of(path.string(), picture, error);
+  if (file.empty()) {
+    throw core::InputError(path.string() + ": cannot be written: " + error);
   }
-  return spec;
-}
-
-/// What a file in the format that `path` asks for has in it; write_all(output) returns whether its writing succeeded.
-template <class WriteAll>
-std::string file_of(const fs::path& path, const OIIO::ImageSpec& spec, const WriteAll& write_all) {
-  const std::unique_ptr<OIIO::ImageOutput> output = create_output(path);
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput into_bytes(bytes);
-  const MemoryFile file;
-  const bool takes_bytes = output->supports("ioproxy") && output->set_ioproxy(&into_bytes);
-  const bool is_written = output->open(takes_bytes ? path.string() : file.path(), spec) && write_all(*output) && output->close();
-  std::string text = takes_bytes ? std::string(bytes.begin(), bytes.end()) : file.bytes();
-  if (!is_written || text.empty()) {
-    throw core::InputError(path.string() + ": cannot be written: " + output->geterror());
-  }
-  return text;
+  return file;
 }
 
 }  // namespace
 
 void check_image_path(const fs::path& path, std::string_view option) {
-  static_cast<void>(create_output(path));
+  check_extension(path);
   check_output_path(path, option);
   if (is_special(path)) {
     throw core::InputError(
@@ -122,14 +85,23 @@ void check_image_path(const fs::path& path, std::string_view option) {
 
 std::string encoded_picture(const fs::path& path, const Image& image) {
   core::expect(image.width > 0 && image.height > 0, "a picture to be written has at least one pixel");
-  return file_of(path, specification(path, image), [&](OIIO::ImageOutput& output) { return write_pixels(output, path, image); });
+  const std::string extension = lower_extension(path);
+  if (extension == ".exr") {
+    return exr_of(image);
+  }
+  if (extension == ".png") {
+    return png_file(image.width, image.height, srgb_bytes(image));
+  }
+  check_extension(path);
+  return file_of(path, image);
 }
 
 std::string encoded_picture(const fs::path& path, const Channel& channel) {
-  core::expect(channel.values.size() == static_cast<std::size_t>(channel.width) * static_cast<std::size_t>(channel.height),
-               "a channel has a number for each pixel");
-  return file_of(path, specification(channel),
-                 [&](OIIO::ImageOutput& output) { return output.write_image(OIIO::TypeDesc::FLOAT, channel.values.data()); });
+  core::expect(lower_extension(path) == ".exr", "numbers are kept in EXR files");
+  return exr_file({.width = channel.width,
+                   .height = channel.height,
+                   .channels = {{channel.name, channel.values}},
+                   .remarks = channel.remarks});
 }
 
 void write_image(const fs::path& path, const Image& image) { write_file(path, encoded_picture(path, image)); }

@@ -17,7 +17,7 @@
 #include <utility>
 
 #include "apps/line/number_text.h"
-#include "apps/reader/program_path.h"
+#include "apps/system/companion_path.h"
 #include "apps/system/memory_file.h"
 #include "apps/system/shortage.h"
 #include "core/base/expect.h"
@@ -82,7 +82,8 @@ int spawn(pid_t& id, const std::string& program, int line, int errors) {
 
 ReaderProcess::ReaderProcess(const std::string& program, std::uint64_t memory_bytes, const ReaderLimits& limits)
     : memory_bytes_(memory_bytes), line_(Descriptor()) {
-  const std::string path = reader_program(program).string();
+  const std::string path =
+      companion_path(program, "../libexec/dmpc", "the program " + program + ", which reads foreign files for dmpc,").string();
   auto [ours, its] = make_ends();
   line_ = Line(std::move(ours));
   const MemoryFile errors;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "apps/effort/render_effort.h"
+#include "apps/oracle/oracle.h"
 #include "apps/picture/film_image.h"
 #include "apps/render/checkpoints.h"
 #include "apps/render/onlookers.h"
@@ -144,11 +145,11 @@ void announce_effort(const RenderOptions& options, const Subject& subject, const
 }
 
 /// Plans, and says what the user should know before waiting for the picture; a signal ends the process here and now.
-ReadyRun prepare(const RenderOptions& options, const Subject& subject, const RunTies& ties, Interrupt& interrupt,
-                 Seconds& seconds) {
+ReadyRun prepare(const RenderOptions& options, const Subject& subject, const nodes::Watching& watching,
+                 const core::Continuation& continuation, Interrupt& interrupt, Seconds& seconds) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   Stopwatch stopwatch;
-  ReadyRun run = make_ready(options, subject.database, subject.settings, {}, ties);
+  ReadyRun run = make_ready(options, subject.database, subject.settings, {}, watching, continuation);
   seconds.prepare = stopwatch.lap();
   for (const std::string& note : run.notes) {
     if (!options.quiet) {
@@ -214,6 +215,9 @@ void write_others(RenderRecord record, const OutputSet<RenderRecord>& outputs, F
 int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostream& output, Files& files) {
   const OutputSet<RenderRecord> outputs = outputs_of(asked);
   check_outputs(asked, outputs);
+  if (asked.tracer == TracerChoice::embree) {
+    open_embree();
+  }
   const std::optional<FileLock> lock = claim_checkpoint(asked.checkpoint);
   RenderOptions options = asked;
   choose_machine(options);
@@ -225,13 +229,13 @@ int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostrea
   Onlookers onlookers(options, static_cast<std::uint32_t>(subject.database.page_count()));
   const std::unique_ptr<Preview> preview =
       make_preview(options, subject.settings.camera, checkpoints ? checkpoints->start() : nullptr, interrupt.token());
-  const RunTies ties{.distributed = [&subject] { subject.database.forget_records(); },  // the nodes have theirs
-                     .heat = heat ? &*heat : nullptr,
-                     .observer = onlookers.observer(),
-                     .reference_logs = onlookers.reference_logs(),
-                     .continuation = continuation_of(checkpoints ? &*checkpoints : nullptr, preview.get(), interrupt)};
+  const nodes::Watching watching{.heat = heat ? &*heat : nullptr, .observer = onlookers.observer(), .distributed = [&subject] {
+                                   subject.database.forget_records();  // the nodes have theirs
+                                 }};
+  options.pages.reference_logs = onlookers.reference_logs();
+  const core::Continuation continuation = continuation_of(checkpoints ? &*checkpoints : nullptr, preview.get(), interrupt);
   announce_effort(options, subject, checkpoints ? &*checkpoints : nullptr, interrupt);
-  const ReadyRun run = prepare(options, subject, ties, interrupt, seconds);
+  const ReadyRun run = prepare(options, subject, watching, continuation, interrupt, seconds);
   if (checkpoints) {
     interrupt.set_consequence(consequence_of(*checkpoints));
   }

@@ -20,8 +20,8 @@ namespace {
 std::vector<NamedFile> inputs_of(const RenderOptions& options) {
   std::vector<NamedFile> inputs;
   add_scene_file(options.picture.scene, inputs);
-  if (options.computer.runner == RunnerKind::virtual_time && find_machine_preset(options.computer.machine_name) == nullptr) {
-    inputs.push_back({"--machine", options.computer.machine_name});
+  if (options.runner.kind == RunnerKind::virtual_time && find_machine_preset(options.runner.machine_name) == nullptr) {
+    inputs.push_back({"--machine", options.runner.machine_name});
   }
   return inputs;
 }

@@ -18,7 +18,7 @@ namespace {
 using core::UsageError;
 
 void add_computer_options(OptionSet& options, RenderOptions& render) {
-  ComputerOptions& computer = render.computer;
+  nodes::ComputerRequest& computer = render.computer;
   options.begin_group("The computer");
   options.add_number("--nodes", computer.node_count, 1, svm::node_count_max, "8",
                      "Nodes, each with a memory of its own; dataflow takes up to " + std::to_string(dataflow::region_count_max));
@@ -27,15 +27,15 @@ void add_computer_options(OptionSet& options, RenderOptions& render) {
   add_options(options, render.database);
 }
 
-void add_runner_options(OptionSet& options, ComputerOptions& computer) {
+void add_runner_options(OptionSet& options, RenderOptions& render) {
   options.begin_group("What drives the computer");
   options.add_choice<RunnerKind>(
-      "--runner", computer.runner, {{"threads", RunnerKind::threads}, {"virtual", RunnerKind::virtual_time}},
+      "--runner", render.runner.kind, {{"threads", RunnerKind::threads}, {"virtual", RunnerKind::virtual_time}},
       "threads: a thread for each node. virtual: the model of a machine, in its own time, the same whenever it is repeated");
-  add_machine_options(options, computer, " (virtual)");
+  add_machine_options(options, render.runner, " (virtual)");
   options.add_text(
       "--chaos", "SEED [calm]",
-      [&computer](const std::string& text) { computer.chaos = nodes::chaos_of(parse_seed(text, "--chaos")); },
+      [&render](const std::string& text) { render.computer.chaos = nodes::chaos_of(parse_seed(text, "--chaos")); },
       "Disturb the computer by this seed (threads): packets late and out of order, slow nodes and links, few credits; the "
       "picture stays");
 }
@@ -78,7 +78,7 @@ constexpr Conflict conflicts[] = {
 };
 
 void check_runner(const OptionSet& options, const RenderOptions& render) {
-  const RunnerKind runner = render.computer.runner;
+  const RunnerKind runner = render.runner.kind;
   for (const Conflict& conflict : conflicts) {
     if (options.is_given(conflict.option) && conflict.runner == runner) {
       throw UsageError(std::string(conflict.option) + " does not go with --runner=" + name_of(runner) + ": " + conflict.reason);
@@ -115,12 +115,12 @@ void add_options(OptionSet options, RenderOptions& render) {
       "-o,--output", "IMAGE", [&render](const std::string& text) { render.image = text; },
       "The picture: .exr, .tif (linear floats), .png, .jpg (8 bits, sRGB), ...");
   add_computer_options(options, render);
-  add_runner_options(options, render.computer);
+  add_runner_options(options, render);
   add_page_options(options, render.pages);
   options.add_flag("--count-pages", render.pages.count_pages,
                    "Count the distinct pages of each pixel for --stats (svm; takes memory and time)");
   add_ray_options(options, render.rays);
-  add_topology_option(options, render.rays.topology);
+  add_topology_option(options, *render.rays.topology);
   add_study_options(options, render);
   add_options(options, render.checkpoint);
   options.check_in_the_end([options, &render] { check(options, render); });

@@ -44,7 +44,7 @@ Account account_of_strategy(const StrategyReport& report) {
   Account account{.film = report.film,
                   .end = report.end,
                   .node_memory_max_bytes = report.plan.node_memory_max_bytes(),
-                  .chaos = report.plan.request.chaos,
+                  .chaos = report.plan.request.computer.chaos,
                   .nodes = {},
                   .operations = report.operations(),
                   .host = report.host,

@@ -91,16 +91,16 @@ void add_memory_option(OptionSet options, std::optional<std::size_t>& node_memor
   options.add_text("--node-memory", "SIZE|auto [auto]", take, "Bound of each node's memory, such as 4MiB");
 }
 
-void add_machine_options(OptionSet options, ComputerOptions& computer, const std::string& when) {
+void add_machine_options(OptionSet options, RunnerOptions& runner, const std::string& when) {
   options.add_text(
-      "--machine", "MACHINE|FILE.json [ipsc2]", [&computer](const std::string& name) { computer.machine_name = name; },
+      "--machine", "MACHINE|FILE.json [ipsc2]", [&runner](const std::string& name) { runner.machine_name = name; },
       "The machine that is modelled" + when + ": " + machine_preset_names() + " or a file such as dmpc machine prints");
-  options.add_flag("--no-contention", computer.no_contention, "A link carries any number of messages at once" + when);
-  options.add_flag("--memory-port", computer.memory_port,
+  options.add_flag("--no-contention", runner.no_contention, "A link carries any number of messages at once" + when);
+  options.add_flag("--memory-port", runner.memory_port,
                    "A node sends one message at a time and receives one at a time, over whatever links" + when);
 }
 
-void add_page_options(OptionSet options, PageOptions& pages, const std::string& in_flight_default) {
+void add_page_options(OptionSet options, svm::PageOptions& pages, const std::string& in_flight_default) {
   options.begin_group("Strategies svm and replicated");
   options.add_number("--cache-pages", pages.cache_pages, 1, 0x7fffffff,
                      "a quarter of the database; with --node-memory what it holds",
@@ -116,7 +116,7 @@ void add_page_options(OptionSet options, PageOptions& pages, const std::string& 
                      "Side in pixels of what a node gives to an idle one; 0: nothing is given");
 }
 
-void add_ray_options(OptionSet options, RayOptions& rays) {
+void add_ray_options(OptionSet options, dataflow::RayOptions& rays) {
   options.begin_group("Strategy dataflow");
   add_balance_option(options, rays.balance.balance);
   add_region_options(options, rays.balance);
@@ -129,7 +129,7 @@ void add_ray_options(OptionSet options, RayOptions& rays) {
 
 void check_together(const OptionSet& options, const StrategyOptions& run) {
   check_strategy(options, run);
-  if (run.computer.no_contention && run.computer.memory_port) {
+  if (run.runner.no_contention && run.runner.memory_port) {
     throw UsageError("--memory-port does not go with --no-contention: without contention no message waits for a port");
   }
 }

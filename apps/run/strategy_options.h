@@ -7,11 +7,9 @@
 #include <string>
 
 #include "apps/line/command_line.h"
-#include "dataflow/regions/balance.h"
-#include "nodes/chaos.h"
-#include "nodes/machine.h"
-#include "nodes/topology.h"
-#include "svm/replacement.h"
+#include "dataflow/ray_options.h"
+#include "nodes/computer_request.h"
+#include "svm/page_options.h"
 
 namespace dmpc::apps {
 
@@ -28,42 +26,21 @@ enum class RunnerKind : std::uint8_t { threads, virtual_time };
 /// As the command line calls it.
 const char* name_of(RunnerKind runner);
 
-/// What every strategy asks of the computer.
-struct ComputerOptions {
-  std::uint32_t node_count = 8;
-  std::optional<std::size_t> node_memory_bytes;  ///< of each node; without it what the strategy needs
-  std::optional<nodes::Chaos> chaos;             ///< disturbs the run
-  RunnerKind runner = RunnerKind::threads;
-  std::string machine_name = "ipsc2";     ///< to be modelled: a preset's name or a machine file
-  bool no_contention = false;             ///< on the modelled machine
-  bool memory_port = false;               ///< on the modelled machine, even if its file says that it has none
-  std::optional<nodes::Machine> machine;  ///< the model itself, once it is read (run_strategy.h)
-};
-
-/// Of svm, and as far as no page travels of replicated; svm/plan.h says more.
-struct PageOptions {
-  std::optional<std::uint32_t> cache_pages;
-  svm::Replacement replacement = svm::Replacement::lru;
-  std::optional<std::uint32_t> in_flight;
-  std::uint32_t work_item_side = 3;
-  bool count_pages = false;
-};
-
-/// Of dataflow; dataflow/plan.h says more.
-struct RayOptions {
-  dataflow::BalanceOptions balance;
-  std::optional<std::uint32_t> ray_batch;
-  std::optional<std::uint32_t> ray_credits;
-  std::optional<std::uint32_t> queue_packets;
-  nodes::TopologyKind topology = nodes::TopologyKind::hypercube;  ///< onto which the regions are mapped
+/// What calls the nodes' programs, and which machine is modelled if one is.
+struct RunnerOptions {
+  RunnerKind kind = RunnerKind::threads;
+  std::string machine_name = "ipsc2";  ///< to be modelled: a preset's name or a machine file
+  bool no_contention = false;          ///< on the modelled machine
+  bool memory_port = false;            ///< on the modelled machine, even if its file says that it has none
 };
 
 /// A strategy, and all that it asks of the computer.
 struct StrategyOptions {
   Strategy strategy = Strategy::svm;
-  ComputerOptions computer;
-  PageOptions pages;
-  RayOptions rays;
+  nodes::ComputerRequest computer;  ///< with the machine, once it is read (run_strategy.h)
+  RunnerOptions runner;
+  svm::PageOptions pages;
+  dataflow::RayOptions rays = {.topology = nodes::TopologyKind::hypercube};
   TracerChoice tracer = TracerChoice::grid;
 };
 
@@ -72,13 +49,13 @@ void add_strategy_option(OptionSet options, Strategy& strategy);
 /// Declares --node-memory.
 void add_memory_option(OptionSet options, std::optional<std::size_t>& node_memory_bytes);
 /// Declares --machine, --no-contention and --memory-port; `when` is what their help says of when they go, such as " (virtual)".
-void add_machine_options(OptionSet options, ComputerOptions& computer, const std::string& when);
+void add_machine_options(OptionSet options, RunnerOptions& runner, const std::string& when);
 /// Declares the options of svm and replicated but --count-pages, in a group of their own. `in_flight_default` is what help says
 /// of the default of --in-flight; as it stands here it covers every runner.
-void add_page_options(OptionSet options, PageOptions& pages,
+void add_page_options(OptionSet options, svm::PageOptions& pages,
                       const std::string& in_flight_default = "16, replicated 1, runner virtual 1");
 /// Declares the options of dataflow but --topology in a group of their own.
-void add_ray_options(OptionSet options, RayOptions& rays);
+void add_ray_options(OptionSet options, dataflow::RayOptions& rays);
 
 /// For OptionSet::check_in_the_end(): throws core::UsageError for options, of those declared above or --topology or
 /// --count-pages, that do not go with the strategy, the machine or each other.

@@ -13,10 +13,11 @@ const char* name_of(core::RecordOrder order) { return order == core::RecordOrder
 
 void add_options(OptionSet options, DatabaseOptions& database) {
   options.add_text(
-      "--page-size", "SIZE [1KiB]", [&database](const std::string& text) { database.page_size_bytes = parse_page_size(text); },
+      "--page-size", "SIZE [1KiB]",
+      [&database](const std::string& text) { database.build.page_size_bytes = parse_page_size(text); },
       "Size of a page, a power of two from 512B to 64KiB; no record crosses its border");
   using core::RecordOrder;
-  options.add_choice<RecordOrder>("--record-order", database.record_order,
+  options.add_choice<RecordOrder>("--record-order", database.build.record_order,
                                   {{"spatial", RecordOrder::spatial}, {"scattered", RecordOrder::scattered}},
                                   "Which records share a page: neighbours in space, or any (another traffic, the same picture)");
   options.add_choice<AxesChoice>("--grid-axes", database.axes, {{"world", AxesChoice::world}, {"screen", AxesChoice::screen}},

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "apps/line/command_line.h"
-#include "core/build/record_order.h"
+#include "core/build/database.h"
 
 namespace dmpc::apps {
 
@@ -18,9 +18,8 @@ const char* name_of(AxesChoice axes);
 const char* name_of(core::RecordOrder order);
 
 struct DatabaseOptions {
-  std::size_t page_size_bytes = 1024;  ///< a power of two, 512 B to 64 KiB
-  core::RecordOrder record_order = core::RecordOrder::spatial;
-  AxesChoice axes = AxesChoice::world;
+  core::BuildOptions build;             ///< but for the axes, which follow from the scene
+  AxesChoice axes = AxesChoice::world;  ///< which those are to be
 };
 
 /// Declares them.

@@ -11,20 +11,18 @@ namespace dmpc::apps {
 
 namespace {
 
-core::Database build(core::Scene&& scene, const DatabaseOptions& options, const core::GridAxes& axes, bool shows_progress) {
+core::Database build(core::Scene&& scene, core::BuildOptions options, const core::GridAxes& axes, bool shows_progress) {
   Progress progress(std::cerr, shows_progress && stderr_is_terminal(), "Building:", "primitives");
-  return core::build_database(
-      std::move(scene), {.page_size_bytes = options.page_size_bytes,
-                         .record_order = options.record_order,
-                         .axes = axes,
-                         .progress = [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); }});
+  options.axes = axes;
+  options.progress = [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); };
+  return core::build_database(std::move(scene), options);
 }
 
 }  // namespace
 
 Subject build_subject(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options, bool shows_progress) {
   const core::GridAxes axes = options.axes == AxesChoice::screen ? core::screen_axes(scene.view) : core::world_axes;
-  core::Database database = build(std::move(scene), options, axes, shows_progress);
+  core::Database database = build(std::move(scene), options.build, axes, shows_progress);
   const core::RenderSettings settings = render_settings(picture, scene, database);
   if (database.dropped() > 0) {
     std::cerr << "dmpc: " << dropped_text(database.dropped()) << '\n';

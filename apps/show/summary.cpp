@@ -53,7 +53,7 @@ std::string pages_text(const svm::Report& report) {
                      percent_text(percent_of(pages.cache_hits, pages.references), 2) + ", missed " +
                      percent_text(percent_of(pages.misses, pages.references), 2) + "; " + grouped(pages.faults) + " faults, " +
                      grouped(pages.evictions) + " evictions";
-  if (report.plan.request.count_pages) {
+  if (report.plan.request.pages.count_pages) {
     const auto pixels = static_cast<double>(std::max<std::uint64_t>(report.work().pixels_rendered, 1));  // of this run
     text += ", " + fixed(static_cast<double>(pages.distinct_pages) / pixels, 2) + " distinct pages a pixel";
   }
@@ -94,8 +94,8 @@ std::string load_text(const dataflow::Report& report) {
 }
 
 std::string regions_text(const RenderOptions& options, const dataflow::Report& report) {
-  const RayHops hops = ray_hops_of(report, options.rays.topology);
-  return fixed(report.duplication, 2) + " copies of a record; on the " + std::string(name_of(options.rays.topology)) + " " +
+  const RayHops hops = ray_hops_of(report, *options.rays.topology);
+  return fixed(report.duplication, 2) + " copies of a record; on the " + std::string(name_of(*options.rays.topology)) + " " +
          fixed(hops.mean, 2) + " links a message, " + fixed(hops.mean_of_random, 2) + " if mapped at random";
 }
 

@@ -20,8 +20,9 @@ using dataflow::Balance;
 const char* name_of_regions(Balance balance) { return balance == Balance::subsampled ? "subsampled" : "equal size"; }
 
 dataflow::RunOptions options_for(const BalanceStudy& study, std::uint32_t node_count, Balance balance) {
-  dataflow::RunOptions options{.node_count = node_count, .balance = study.regions, .topology = study.topology};
-  options.balance.balance = balance;
+  dataflow::RunOptions options{.computer = {.node_count = node_count},
+                               .rays = {.balance = study.regions, .topology = study.topology}};
+  options.rays.balance.balance = balance;
   return options;
 }
 

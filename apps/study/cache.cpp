@@ -47,7 +47,8 @@ StrategyOptions fixed_order(std::uint32_t node_count) {
 
 /// The same with all references recorded.
 svm::RunOptions recording(std::uint32_t node_count) {
-  return {.node_count = node_count, .in_flight = 1, .work_item_side = 0, .record_references = true, .machine = nodes::Machine()};
+  return {.computer = {.node_count = node_count, .machine = nodes::Machine()},
+          .pages = {.in_flight = 1, .work_item_side = 0, .record_references = true}};
 }
 
 /// What follows from the references, by size.

@@ -72,7 +72,7 @@ std::string title_of(const std::string& study, const StudyOptions& options, cons
   return "Study " + study + " of " + picture.scene + ": " + std::to_string(camera.width()) + "x" +
          std::to_string(camera.height()) + " pixels, " + samples_text(picture) + ", depth " + std::to_string(picture.depth) +
          ", convention " + (picture.convention == core::Convention::haines ? "haines" : "paper") + ", grid axes " +
-         name_of(options.database.axes) + ", record order " + name_of(options.database.record_order) + ", " +
+         name_of(options.database.axes) + ", record order " + name_of(options.database.build.record_order) + ", " +
          counted(subject.database.header().primitive_count, "primitive");
 }
 

@@ -88,11 +88,11 @@ struct AddOwn {
     add_node_counts(set, study.node_counts, svm::node_count_max);
     add_strategy_option(set, study.run.strategy);
     add_memory_option(set, study.run.computer.node_memory_bytes);
-    add_machine_options(set, study.run.computer, "");
+    add_machine_options(set, study.run.runner, "");
     add_page_options(set, study.run.pages, "1");
     add_ray_options(set, study.run.rays);
     set.check_in_the_end([set = set, &study, &file = machine_name] {
-      file = study.run.computer.machine_name;
+      file = study.run.runner.machine_name;
       finish(set, study);
     });
     set.set_examples(

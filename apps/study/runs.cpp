@@ -57,7 +57,7 @@ template <class Options, class Render>
 auto StudyRuns::run_shown(const std::string& computer, Options options, const Render& render) {
   interrupt_.check();
   Progress progress(progress_.output, progress_.is_shown, "run " + numbers(1) + ", " + computer + ": ");
-  options.progress = [&progress](std::uint32_t done, std::uint32_t total) { progress.update(done, total); };
+  options.watching.progress = [&progress](std::uint32_t done, std::uint32_t total) { progress.update(done, total); };
   auto report = render(database_, settings_, options, interrupt_.token());
   interrupt_.check();
   core::expect(report.end == nodes::RunEnd::finished, "a run that nobody stopped is finished");

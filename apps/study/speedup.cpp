@@ -75,7 +75,7 @@ std::string pages_text(const StrategyOptions& run) {
          " in flight, " + (run.pages.work_item_side == 0 ? "no work given away" : "work items of " + side + "x" + side);
 }
 
-std::string rays_text(const RayOptions& rays) {
+std::string rays_text(const dataflow::RayOptions& rays) {
   const bool subsampled = rays.balance.balance == dataflow::Balance::subsampled;
   return "regions " + std::string(subsampled ? "by the subsampled picture" : "of equal size") + ", mapped onto the machine";
 }

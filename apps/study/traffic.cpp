@@ -82,12 +82,13 @@ void TrafficStudy::measure(StudyRuns& runs, Table& table) const {
   for (const std::uint32_t node_count : node_counts) {
     const auto run_dataflow = [&](Balance balance, const char* regions) {
       return runs.run(std::to_string(node_count) + " nodes, dataflow, regions " + regions,
-                      {.node_count = node_count, .balance = {.balance = balance}});
+                      dataflow::RunOptions{.computer = {.node_count = node_count}, .rays = {.balance = {.balance = balance}}});
     };
     std::vector<Cell> row = {std::uint64_t{node_count}};
     append(row, ray_cells(run_dataflow(Balance::subsampled, "subsampled")));
     row.emplace_back(average_load_percent(run_dataflow(Balance::equal_size, "equal size")));
-    append(row, page_cells(runs.run(std::to_string(node_count) + " nodes, svm", svm::RunOptions{.node_count = node_count})));
+    append(row, page_cells(runs.run(std::to_string(node_count) + " nodes, svm",
+                                    svm::RunOptions{.computer = {.node_count = node_count}})));
     table.add_row(std::move(row));
   }
 }

@@ -18,7 +18,7 @@ namespace dmpc::apps {
 
 namespace {
 
-std::atomic<bool> has_run_out = false;
+std::atomic<bool> has_run_out = false, is_loading = false;
 
 /// As without a handler, but noted.
 void note_end_of_memory() {
@@ -36,6 +36,13 @@ void say(std::initializer_list<const char*> words) {
 int complain_of(const std::exception_ptr& thrown) {
   if (memory_has_run_out()) {
     return complain_of_memory();
+  }
+  if (is_loading) {
+    say(
+        {"dmpc: a library that is loaded for this job lacks threads or memory: ask for higher limits (ulimit -u, ulimit -v, "
+         "pids.max "
+         "of a container)\n"});
+    return no_room_status;
   }
   try {
     if (thrown) {
@@ -70,6 +77,9 @@ bool is_sent_by_another(const siginfo_t& info) { return info.si_code <= 0 && inf
 }  // namespace
 
 bool memory_has_run_out() { return has_run_out; }
+
+LoadsLibrary::LoadsLibrary() { is_loading = true; }
+LoadsLibrary::~LoadsLibrary() { is_loading = false; }
 
 int complain_of_memory() {
   say(

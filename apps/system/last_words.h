@@ -9,6 +9,15 @@ int complain_of_memory();
 /// An allocation has failed since end_without_abort(): what seems to be a bug may come of that.
 bool memory_has_run_out();
 
+/// While one lives, std::terminate() comes of a library that wants threads or memory as it is loaded, where nothing can be
+/// caught: the status is 4.
+struct LoadsLibrary {
+  LoadsLibrary();
+  ~LoadsLibrary();
+  LoadsLibrary(const LoadsLibrary&) = delete;
+  LoadsLibrary& operator=(const LoadsLibrary&) = delete;
+};
+
 /// From now on std::terminate() removes the files under way, says why, and ends the process with the status of what was thrown,
 /// rather than to abort it: libraries call it where memory runs out. So does a crash for want of memory; any other stays a crash.
 void end_without_abort();

@@ -1,38 +1,24 @@
-// What programs tell of the pixels that they work on: a template parameter of theirs, so that without one nothing is compiled.
+// What programs tell of the pixels that they work on, asked for twice a quantum.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 
+#include "nodes/computer_request.h"
 #include "nodes/node_id.h"
 #include "nodes/observer.h"
 #include "nodes/watch/heat_meter.h"
+#include "nodes/watch/watching.h"
 
 namespace dmpc::nodes {
-
-/// A program without one costs nothing: what it would do for a meter is not compiled.
-struct NoMeter {
-  static constexpr bool is_on = false;
-};
-
-/// What a run's options ask of meters: a heat map, an observer, both or neither, and the machine whose prices are time. All
-/// outlive the meters.
-struct Metering {
-  HeatMap* heat = nullptr;
-  Observer* observer = nullptr;
-  const Machine* machine = nullptr;  ///< without one nodes are threads
-
-  bool is_wanted() const { return heat != nullptr || observer != nullptr; }
-};
 
 /// One node's. Thread safety: belongs to one node.
 class Meter {
  public:
-  static constexpr bool is_on = true;
-
-  Meter(const Metering& metering, NodeId self) : observer_(metering.observer), self_(self) {
-    if (metering.heat != nullptr) {
-      heat_.emplace(*metering.heat, self, metering.machine);
+  /// For whoever of `watching` wants one. `machine`, whose prices are time, outlives the meter; without it nodes are threads.
+  Meter(const Watching& watching, const Machine* machine, NodeId self) : observer_(watching.observer), self_(self) {
+    if (watching.heat != nullptr) {
+      heat_.emplace(*watching.heat, self, machine);
     }
   }
 
@@ -64,5 +50,10 @@ class Meter {
   Observer* observer_;
   NodeId self_;
 };
+
+/// The meter of node `self`, if one is wanted. `watching` and `computer` outlive it.
+inline std::optional<Meter> meter_for(const Watching& watching, const ComputerRequest& computer, NodeId self) {
+  return watching.is_metered() ? std::optional<Meter>(std::in_place, watching, computer.model(), self) : std::nullopt;
+}
 
 }  // namespace dmpc::nodes

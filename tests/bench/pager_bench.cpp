@@ -99,20 +99,20 @@ class FilledPager {
   static svm::PlanRequest request_for(const PageSet& set) {
     svm::PlanRequest request{.page_count = set.page_count(),
                              .page_size_bytes = page_size_bytes,
-                             .node_count = set.node_count,
-                             .in_flight = 1,
+                             .computer = {.node_count = set.node_count},
+                             .pages = {.in_flight = 1},
                              .width = 1,
                              .height = 1};
     if (!set.at_home) {
-      request.cache_pages = set.count;
+      request.pages.cache_pages = set.count;
     }
     return request;
   }
   void install(std::uint32_t page, const Round& round) {
     pager_.park(0, core::advance(core::Address{0}, std::uint64_t{page} * page_size_bytes));
     lone_.post.parcels.clear();
-    tests::Parcel reply =
-        tests::parcel_of(page % plan_.request.node_count, svm::Kind::page_reply, svm::PageReplyHeader{svm::PageId{page}});
+    tests::Parcel reply = tests::parcel_of(page % plan_.request.computer.node_count, svm::Kind::page_reply,
+                                           svm::PageReplyHeader{svm::PageId{page}});
     reply.payload.insert(reply.payload.end(), round.page(page).begin(), round.page(page).end());
     static_cast<void>(pager_.install(reply.packet()));
   }

@@ -32,7 +32,7 @@ double duplication(const Subject& subject, std::uint32_t node_count) {
 }
 
 PlanRequest request_of(const Subject& subject, std::uint32_t node_count) {
-  return {.shares = dealt(subject, node_count).shares(), .ray_batch = 1, .ray_credits = 1, .width = 8, .height = 8};
+  return {.shares = dealt(subject, node_count).shares(), .rays = {.ray_batch = 1, .ray_credits = 1}, .width = 8, .height = 8};
 }
 
 std::size_t needed_bytes(const Subject& subject, std::uint32_t node_count) {
@@ -41,7 +41,7 @@ std::size_t needed_bytes(const Subject& subject, std::uint32_t node_count) {
 
 std::optional<std::uint32_t> smallest_above(const Subject& subject, std::uint32_t node_count, std::size_t memory_bytes) {
   PlanRequest request = request_of(subject, node_count);
-  request.node_memory_bytes = memory_bytes;
+  request.computer.node_memory_bytes = memory_bytes;
   return dataflow::smallest_node_count(request, [&](std::uint32_t count) { return dealt(subject, count).shares(); });
 }
 

@@ -20,12 +20,12 @@ namespace {
 
 dataflow::Plan plan_for(std::uint32_t nodes, std::uint32_t batch) {
   return dataflow::make_plan(
-      {.shares = std::vector<dataflow::Share>(nodes), .ray_batch = batch, .ray_credits = 1, .width = 4, .height = 2});
+      {.shares = std::vector<dataflow::Share>(nodes), .rays = {.ray_batch = batch, .ray_credits = 1}, .width = 4, .height = 2});
 }
 
 /// The host of two nodes, alone.
 struct LoneHost {
-  explicit LoneHost(std::uint32_t batch = 2, dataflow::Progress progress = {})
+  explicit LoneHost(std::uint32_t batch = 2, nodes::Progress progress = {})
       : plan(plan_for(2, batch)),
         film(4, 2),
         single(plan.host_memory(), 2, 3),

@@ -48,14 +48,14 @@ TEST_CASE("the smallest memory that is named works, and one byte less does not")
   for (const std::uint32_t nodes : {1U, 2U, 7U, 64U}) {
     PlanRequest request = request_with(nodes, 100_KiB);
     const std::size_t smallest = dataflow::smallest_node_memory_bytes(request);
-    request.node_memory_bytes = smallest;
+    request.computer.node_memory_bytes = smallest;
     const Plan plan = make_plan(request);
     CHECK(plan.node_memory_max_bytes() == smallest);
     CHECK(plan.ray_credits == 1);
     CHECK(plan.ray_batch == 1);
     CHECK(plan.queue_packets == 0);
     CHECK(plan.notes.size() == (nodes == 1 ? 2 : 3));
-    request.node_memory_bytes = smallest - 1;
+    request.computer.node_memory_bytes = smallest - 1;
     CHECK(error_of(request).find("node_memory_bytes=" + nodes::size_text(smallest)) != std::string::npos);
   }
 }
@@ -65,7 +65,7 @@ TEST_CASE("scarce memory costs queued packets first, then credits, then the leng
   const std::size_t all = make_plan(request).node_memory_max_bytes();
   std::uint32_t queue = 512, credits = 4, batch = 10;
   for (std::size_t memory = all; memory >= dataflow::smallest_node_memory_bytes(request); memory -= 1_KiB) {
-    request.node_memory_bytes = memory;
+    request.computer.node_memory_bytes = memory;
     const Plan plan = make_plan(request);
     CHECK(plan.node_memory_max_bytes() <= memory);
     CHECK(plan.ray_credits <= credits);
@@ -81,19 +81,19 @@ TEST_CASE("scarce memory costs queued packets first, then credits, then the leng
 
 TEST_CASE("what was asked for is not reduced") {
   PlanRequest request = request_with(4, 100_KiB);
-  request.ray_batch = 10;
-  request.ray_credits = 8;
-  request.queue_packets = 100;
+  request.rays.ray_batch = 10;
+  request.rays.ray_credits = 8;
+  request.rays.queue_packets = 100;
   const std::size_t needed = make_plan(request).node_memory_max_bytes();
   CHECK(dataflow::smallest_node_memory_bytes(request) == needed);
-  request.node_memory_bytes = needed - 1;
+  request.computer.node_memory_bytes = needed - 1;
   CHECK_FALSE(error_of(request).empty());
 }
 
 TEST_CASE("a memory that is too small names the node that needs most, what it needs, and the node count that works") {
   PlanRequest request = request_with(3, 100_KiB);
   request.shares[1].part_bytes = 2_MiB;
-  request.node_memory_bytes = 1_MiB;
+  request.computer.node_memory_bytes = 1_MiB;
   const std::string error = error_of(request, [] { return std::optional<std::uint32_t>(12); });
   INFO(error);
   CHECK(error.find("node 1 needs") != std::string::npos);
@@ -108,17 +108,17 @@ TEST_CASE("values out of range are wrong usage") {
   check_wrong(request_with(0, 1));
   check_wrong(request_with(1025, 1));
   PlanRequest request = request_with(2, 1);
-  request.ray_batch = 0;
+  request.rays.ray_batch = 0;
   check_wrong(request);
-  request.ray_batch = dataflow::ray_batch_max + 1;
+  request.rays.ray_batch = dataflow::ray_batch_max + 1;
   check_wrong(request);
-  request.ray_batch = dataflow::ray_batch_max;
+  request.rays.ray_batch = dataflow::ray_batch_max;
   CHECK(make_plan(request).ray_batch == dataflow::ray_batch_max);
   CHECK(dataflow::ray_packet_bytes(dataflow::ray_batch_max) <= 64_KiB);
-  request.ray_credits = dataflow::ray_credits_max + 1;
+  request.rays.ray_credits = dataflow::ray_credits_max + 1;
   check_wrong(request);
-  request.ray_credits = dataflow::ray_credits_max;
-  request.queue_packets = dataflow::queue_packets_max + 1;
+  request.rays.ray_credits = dataflow::ray_credits_max;
+  request.rays.queue_packets = dataflow::queue_packets_max + 1;
   check_wrong(request);
 }
 
@@ -131,14 +131,14 @@ TEST_CASE("among many nodes there are fewer credits for each pair") {
 TEST_CASE("one node, or nodes without credits, need no queue") {
   CHECK(make_plan(request_with(1, 1000)).queue_packets == 0);
   PlanRequest request = request_with(4, 1000);
-  request.ray_credits = 0;
+  request.rays.ray_credits = 0;
   CHECK(make_plan(request).queue_packets == 0);
 }
 
 TEST_CASE("film credits are many where nodes are few, but for a modelled machine") {
   PlanRequest request = request_with(2, 1000);
   CHECK(make_plan(request).film_credits == 32);
-  request.is_modelled = true;
+  request.computer.machine = nodes::Machine();
   CHECK(make_plan(request).film_credits == 2);
 }
 
@@ -147,7 +147,7 @@ TEST_CASE("chaos leaves at least one credit and the mailboxes as they were") {
   const Plan calm = make_plan(request);
   std::uint32_t fewest = 99;
   for (std::uint64_t seed = 1; seed < 30; ++seed) {
-    request.chaos = nodes::chaos_of(seed);
+    request.computer.chaos = nodes::chaos_of(seed);
     const Plan plan = make_plan(request);
     CHECK(plan.ray_credits >= 1);
     CHECK(plan.host_credits >= 1);

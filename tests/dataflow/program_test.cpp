@@ -182,7 +182,7 @@ TEST_CASE("a node refuses what is not sent to nodes, and rays that are not its o
 }
 
 TEST_CASE("a node that holds its primary rays back gives back credits but keeps the token") {
-  const Stage stage(tests::mirrors_and_glass(), 2, 16, {.ray_batch = 1, .ray_credits = 1});
+  const Stage stage(tests::mirrors_and_glass(), 2, 16, {.rays = {.ray_batch = 1, .ray_credits = 1}});
   LoneProgram node(stage, 0, stage.distribution.primaries[0]);
   node.work_to_rest();  // a ray has left for node 1, which does not answer
   CHECK(node.program.describe().find("0 primary rays") != 0);
@@ -217,7 +217,7 @@ TEST_CASE("a node that is asked to hold its primary rays back acknowledges, and 
 }
 
 TEST_CASE("a node whose queue gets long asks the others to hold their primary rays back") {
-  const Stage stage(tests::mirrors_and_glass(), 3, 16, {.ray_batch = 1, .ray_credits = 1, .queue_packets = 1});
+  const Stage stage(tests::mirrors_and_glass(), 3, 16, {.rays = {.ray_batch = 1, .ray_credits = 1, .queue_packets = 1}});
   LoneProgram node(stage, 1, stage.distribution.primaries[1]);
   node.work_to_rest();  // nobody answers
   std::uint32_t asked = 0;
@@ -280,9 +280,9 @@ void run_shuffled(const Stage& stage, std::uint64_t seed) {
 TEST_CASE("any legal order of events gives the same film, and no mailbox overflows") {
   for (std::uint64_t seed = 0; seed < 24; ++seed) {
     dataflow::PlanRequest bounds;
-    bounds.ray_batch = seed % 3 == 0 ? 1 : seed % 3 == 1 ? 3 : 10;
-    bounds.ray_credits = seed % 4;
-    bounds.queue_packets = seed % 5 * 2;
+    bounds.rays.ray_batch = seed % 3 == 0 ? 1 : seed % 3 == 1 ? 3 : 10;
+    bounds.rays.ray_credits = seed % 4;
+    bounds.rays.queue_packets = seed % 5 * 2;
     run_shuffled(Stage(tests::mirrors_and_glass(), static_cast<std::uint32_t>(1 + seed % 7), 8, bounds), seed);
   }
 }

@@ -43,7 +43,7 @@ RunOptions cut_across_x(const Subject& subject, std::uint32_t node_count) {
   const dataflow::MakeBsp make_bsp = [=](std::uint32_t count) {
     return dataflow::equal_size_bsp(size, {0, 1}, count, {.order = dataflow::CutOrder::alternating});
   };
-  return {.node_count = node_count, .make_bsp = make_bsp};
+  return {.computer = {.node_count = node_count}, .make_bsp = make_bsp};
 }
 
 }  // namespace
@@ -68,8 +68,8 @@ TEST_CASE("a ray that passes from one region to the other is one message in a pa
 TEST_CASE("the same ray by way of the host is one message, too") {
   const Subject subject = lone_ray();
   RunOptions options = cut_across_x(subject, 2);
-  options.ray_batch = 1;
-  options.ray_credits = 0;
+  options.rays.ray_batch = 1;
+  options.rays.ray_credits = 0;
   const Report report = run(subject, options);
   CHECK(report.ray_matrix() == std::vector<std::uint64_t>{0, 1, 0, 0});
   CHECK(report.messages_per_ray() == 1.0);
@@ -112,7 +112,7 @@ TEST_CASE("a node whose region is empty holds next to nothing and takes part in 
     loads.load.back() = 1;  // all of the load lies in one corner
     return dataflow::build_bsp(loads, count);
   };
-  const Report report = run(subject, {.node_count = 3, .make_bsp = make_bsp});
+  const Report report = run(subject, {.computer = {.node_count = 3}, .make_bsp = make_bsp});
   CHECK(tests::outcome_of(report) == subject.outcome());
   int empty = 0;
   for (const NodeReport& node : report.nodes) {
@@ -124,7 +124,7 @@ TEST_CASE("a node whose region is empty holds next to nothing and takes part in 
 
 TEST_CASE("one node keeps every ray, and holds every record once") {
   const Subject subject(tests::mirrors_and_glass(), {12, 12});
-  const Report report = run(subject, {.node_count = 1});
+  const Report report = run(subject, {.computer = {.node_count = 1}});
   CHECK(tests::outcome_of(report) == subject.outcome());
   CHECK(report.ray_matrix() == std::vector<std::uint64_t>{0});
   CHECK(report.messages_per_ray() == 0.0);
@@ -140,7 +140,7 @@ TEST_CASE("one node keeps every ray, and holds every record once") {
 
 TEST_CASE("a report's sums are those of its nodes") {
   const Subject subject(tests::mirrors_and_glass(), {16, 16});
-  const Report report = run(subject, {.node_count = 5});
+  const Report report = run(subject, {.computer = {.node_count = 5}});
   const std::vector<std::uint64_t> matrix = report.ray_matrix();
   const std::vector<double> work = report.work();
   REQUIRE(matrix.size() == 25);
@@ -171,7 +171,7 @@ TEST_CASE("a report's sums are those of its nodes") {
 
 TEST_CASE("what is prepared is what runs, as often as one likes") {
   const Subject subject(tests::mirrors_and_glass(), {12, 12});
-  const RunOptions options{.node_count = 3, .topology = nodes::TopologyKind::mesh};
+  const RunOptions options{.computer = {.node_count = 3}, .rays = {.topology = nodes::TopologyKind::mesh}};
   const dataflow::Prepared prepared = dataflow::prepare(subject.database(), subject.settings(), options);
   for (int i = 0; i < 2; ++i) {
     const Report report = dataflow::run_prepared(prepared, subject.settings(), options, {});
@@ -187,11 +187,11 @@ TEST_CASE("what is prepared is what runs, as often as one likes") {
 
 TEST_CASE("the host may forget the parts once they are distributed, and the outcome is the same") {
   const Subject subject(tests::mirrors_and_glass(), {12, 12});
-  RunOptions options{.node_count = 3};
+  RunOptions options{.computer = {.node_count = 3}};
   dataflow::Prepared prepared = dataflow::prepare(subject.database(), subject.settings(), options);
   const std::size_t part_bytes = prepared.distribution.parts[1].record_bytes;
   int times = 0;
-  options.distributed = [&] {
+  options.watching.distributed = [&] {
     ++times;
     prepared.distribution.forget_records();
   };

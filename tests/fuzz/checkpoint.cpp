@@ -90,8 +90,9 @@ class Picture {
     };
     const auto machine = tests::priced_machine();
     const nodes::RunEnd end =
-        by_dataflow ? tests::run_dataflow(subject_, {.node_count = 2, .machine = machine, .continuation = continuation}).end
-                    : tests::run_svm(subject_, {.node_count = 2, .machine = machine, .continuation = continuation}).end;
+        by_dataflow
+            ? tests::run_dataflow(subject_, {.computer = {.node_count = 2, .machine = machine}, .continuation = continuation}).end
+            : tests::run_svm(subject_, {.computer = {.node_count = 2, .machine = machine}, .continuation = continuation}).end;
     core::expect(end == nodes::RunEnd::finished, "who goes on comes to the end");
   }
 
@@ -100,7 +101,7 @@ class Picture {
   void keep(std::uint32_t keeps) {
     const tests::TemporaryFolder folder;
     std::stop_source stop;
-    svm::RunOptions options{.node_count = 1, .work_item_side = 1, .machine = tests::priced_machine()};
+    svm::RunOptions options{.computer = {.node_count = 1, .machine = tests::priced_machine()}, .pages = {.work_item_side = 1}};
     options.continuation = {nullptr, [] { return true; },
                             [&](const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) {
                               if (keeps > 0 && --keeps == 0) {

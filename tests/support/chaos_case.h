@@ -37,27 +37,27 @@ class ChaosCase {
 
   /// Of svm; replicated has no cache. `round` tells the parts of one picture apart.
   svm::RunOptions page_options(svm::Strategy strategy, std::uint32_t round = 0) {
-    svm::RunOptions options{.node_count = nodes_};
-    options.in_flight = one_of<std::optional<std::uint32_t>>({1, 1, 2, 3, 5, 8, 64, 4096, std::nullopt});
-    options.work_item_side = one_of({0U, 1U, 2U, 3U, 3U, 7U, 100U});
+    svm::RunOptions options{.computer = {.node_count = nodes_}};
+    options.pages.in_flight = one_of<std::optional<std::uint32_t>>({1, 1, 2, 3, 5, 8, 64, 4096, std::nullopt});
+    options.pages.work_item_side = one_of({0U, 1U, 2U, 3U, 3U, 7U, 100U});
     if (strategy == svm::Strategy::svm) {
-      options.cache_pages = one_of<std::optional<std::uint32_t>>({1, 1, 2, 3, 16, std::nullopt});
-      options.replacement = one_of({svm::Replacement::lru, svm::Replacement::lru, svm::Replacement::clock, svm::Replacement::fifo,
-                                    svm::Replacement::random});
-      options.count_pages = draws_.chance(10) && !subject().settings().refinement.is_wanted();
+      options.pages.cache_pages = one_of<std::optional<std::uint32_t>>({1, 1, 2, 3, 16, std::nullopt});
+      options.pages.replacement = one_of({svm::Replacement::lru, svm::Replacement::lru, svm::Replacement::clock,
+                                          svm::Replacement::fifo, svm::Replacement::random});
+      options.pages.count_pages = draws_.chance(10) && !subject().settings().refinement.is_wanted();
     }
     disturb(options, round);
     return options;
   }
 
   dataflow::RunOptions ray_options(std::uint32_t round = 0) {
-    dataflow::RunOptions options{.node_count = nodes_};
-    options.ray_batch = one_of<std::optional<std::uint32_t>>({1, 1, 2, 5, 10, 40, std::nullopt});
-    options.ray_credits = one_of<std::optional<std::uint32_t>>({0, 1, 1, 2, std::nullopt});
-    options.queue_packets = one_of<std::optional<std::uint32_t>>({0, 1, 2, 7, std::nullopt});
-    options.balance = {.balance = draws_.chance(50) ? dataflow::Balance::subsampled : dataflow::Balance::equal_size,
-                       .subsample = 4};
-    options.topology =
+    dataflow::RunOptions options{.computer = {.node_count = nodes_}};
+    options.rays.ray_batch = one_of<std::optional<std::uint32_t>>({1, 1, 2, 5, 10, 40, std::nullopt});
+    options.rays.ray_credits = one_of<std::optional<std::uint32_t>>({0, 1, 1, 2, std::nullopt});
+    options.rays.queue_packets = one_of<std::optional<std::uint32_t>>({0, 1, 2, 7, std::nullopt});
+    options.rays.balance = {.balance = draws_.chance(50) ? dataflow::Balance::subsampled : dataflow::Balance::equal_size,
+                            .subsample = 4};
+    options.rays.topology =
         one_of<std::optional<nodes::TopologyKind>>({std::nullopt, nodes::TopologyKind::hypercube, nodes::TopologyKind::mesh});
     disturb(options, round);
     return options;
@@ -78,7 +78,7 @@ class ChaosCase {
   template <class Options>
   void disturb(Options& options, std::uint32_t round) {
     if (!is_modelled_) {
-      options.chaos = nodes::chaos_of(core::mix(seed_) + round);
+      options.computer.chaos = nodes::chaos_of(core::mix(seed_) + round);
       return;
     }
     nodes::Machine machine{.topology = one_of({nodes::TopologyKind::crossbar, nodes::TopologyKind::mesh,
@@ -94,7 +94,7 @@ class ChaosCase {
     }
     machine.has_contention = draws_.chance(50);
     machine.has_memory_port = draws_.chance(30);
-    options.machine = machine;
+    options.computer.machine = machine;
   }
 
   std::uint64_t seed_;

@@ -34,8 +34,8 @@ Parcel parcel_of(std::uint32_t source, svm::Kind kind, const T& value) {
 /// Node `index` of a plan, without a thread, and what it sends.
 struct LoneNode {
   LoneNode(const svm::Plan& plan, std::uint32_t index)
-      : memory(index == plan.request.node_count ? plan.host_memory() : plan.node_memory(index)),
-        node(nodes::NodeId{index}, plan.request.node_count + 1, memory, post) {}
+      : memory(index == plan.request.computer.node_count ? plan.host_memory() : plan.node_memory(index)),
+        node(nodes::NodeId{index}, plan.request.computer.node_count + 1, memory, post) {}
 
   Post post;
   nodes::LocalMemory memory;
@@ -108,6 +108,7 @@ class FakeTask {
 
   core::Address absent() const { return absent_; }
   std::uint32_t pixel() const { return pixel_; }
+  core::Ray ray() const { return {}; }
   core::PixelSums sums() const {
     core::PixelSums sums;
     for (std::size_t i = 0; i < 6; ++i) {

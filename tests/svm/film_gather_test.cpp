@@ -19,11 +19,10 @@ struct SmallGather {
   explicit SmallGather(std::uint32_t in_flight)
       : plan(svm::make_plan({.page_count = 4,
                              .page_size_bytes = 512,
-                             .node_count = 2,
-                             .in_flight = in_flight,
+                             .computer = {.node_count = 2, .machine = nodes::Machine()},
+                             .pages = {.in_flight = in_flight},
                              .width = 100,
-                             .height = 1,
-                             .is_modelled = true})),
+                             .height = 1})),
         lone(plan, 1),
         film(lone.node, plan.film()) {}
   void add(std::uint32_t first, std::uint32_t count) {

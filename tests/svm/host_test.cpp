@@ -18,8 +18,8 @@ namespace {
 
 /// The host of two nodes and a picture of 3x1 pixels.
 struct SmallHost {
-  explicit SmallHost(svm::Progress progress = {})
-      : plan(svm::make_plan({.page_count = 4, .node_count = 2, .width = 3, .height = 1})),
+  explicit SmallHost(nodes::Progress progress = {})
+      : plan(svm::make_plan({.page_count = 4, .computer = {.node_count = 2}, .width = 3, .height = 1})),
         lone(plan, 2),
         film(3, 1),
         host(lone.node, plan.host(), film, std::move(progress)) {}
@@ -51,8 +51,12 @@ struct SmallHost {
 }  // namespace
 
 TEST_CASE("where the error is too large each node gets its mask part by part, and the pass begins when all have theirs") {
-  const svm::Plan plan = svm::make_plan(
-      {.page_count = 4, .node_count = 2, .width = 8000, .height = 1, .first_samples = 2, .refinement = {.error = 1e-9}});
+  const svm::Plan plan = svm::make_plan({.page_count = 4,
+                                         .computer = {.node_count = 2},
+                                         .width = 8000,
+                                         .height = 1,
+                                         .first_samples = 2,
+                                         .refinement = {.error = 1e-9}});
   LoneNode lone(plan, 2);
   core::Film film(8000, 1);
   svm::HostProgram host(lone.node, plan.host(), film, {});

@@ -20,9 +20,8 @@ namespace {
 svm::Plan plan_with(std::uint32_t nodes, std::uint32_t cache_pages, std::uint32_t in_flight) {
   return svm::make_plan({.page_count = page_count,
                          .page_size_bytes = page_size,
-                         .node_count = nodes,
-                         .cache_pages = cache_pages,
-                         .in_flight = in_flight,
+                         .computer = {.node_count = nodes},
+                         .pages = {.cache_pages = cache_pages, .in_flight = in_flight},
                          .width = 64,
                          .height = 1});
 }
@@ -41,7 +40,7 @@ struct SmallPager {
   }
   /// The reply that the page's home would send; returns the slots that go on.
   std::vector<std::uint32_t> reply(std::uint32_t page) {
-    Parcel parcel = parcel_of(page % plan.request.node_count, Kind::page_reply, svm::PageReplyHeader{PageId{page}});
+    Parcel parcel = parcel_of(page % plan.request.computer.node_count, Kind::page_reply, svm::PageReplyHeader{PageId{page}});
     parcel.payload.insert(parcel.payload.end(), pages.page(page).begin(), pages.page(page).end());
     std::vector<std::uint32_t> slots;
     for (std::uint32_t slot = pager.install(parcel.packet()); slot != svm::no_slot; slot = pager.next_waiting(slot)) {
@@ -54,7 +53,7 @@ struct SmallPager {
     std::vector<std::uint32_t> asked;
     for (const Parcel& parcel : lone.post.parcels) {
       const auto page = svm::index_of(parcel.packet().as<svm::PageRequest>().page);
-      CHECK(parcel.target == nodes::NodeId{page % plan.request.node_count});
+      CHECK(parcel.target == nodes::NodeId{page % plan.request.computer.node_count});
       asked.push_back(page);
     }
     lone.post.parcels.clear();

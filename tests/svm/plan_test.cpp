@@ -18,7 +18,7 @@ using svm::PlanRequest;
 namespace {
 
 PlanRequest request_with(std::uint32_t nodes, std::uint32_t pages) {
-  return {.page_count = pages, .node_count = nodes, .width = 64, .height = 64};
+  return {.page_count = pages, .computer = {.node_count = nodes}, .width = 64, .height = 64};
 }
 
 std::string error_of(const PlanRequest& request) {
@@ -43,11 +43,11 @@ TEST_CASE(
 TEST_CASE("in-flight is 16 for svm and 1 for replicated unless it is given") {
   PlanRequest request = request_with(4, 100);
   CHECK(make_plan(request).in_flight == 16);
-  request.in_flight = 3;
+  request.pages.in_flight = 3;
   CHECK(make_plan(request).in_flight == 3);
   request.strategy = svm::Strategy::replicated;
   CHECK(make_plan(request).in_flight == 3);
-  request.in_flight.reset();
+  request.pages.in_flight.reset();
   CHECK(make_plan(request).in_flight == 1);
 }
 
@@ -55,7 +55,7 @@ TEST_CASE("with a memory bound the cache takes all that is left, and not a page 
   for (const std::size_t page_size : {512U, 1024U, 4096U}) {
     PlanRequest request = request_with(8, 20000);
     request.page_size_bytes = page_size;
-    request.node_memory_bytes = 16_MiB;
+    request.computer.node_memory_bytes = 16_MiB;
     const svm::Plan plan = make_plan(request);
     CHECK(plan.node_memory_max_bytes() <= 16_MiB);
     svm::Plan larger = plan;
@@ -66,7 +66,7 @@ TEST_CASE("with a memory bound the cache takes all that is left, and not a page 
 
 TEST_CASE("the cache never takes more than all pages that are not at home") {
   PlanRequest request = request_with(3, 100);
-  request.node_memory_bytes = 16_MiB;
+  request.computer.node_memory_bytes = 16_MiB;
   CHECK(make_plan(request).frames == 67);
   CHECK(make_plan(request).notes.empty());
 }
@@ -77,11 +77,11 @@ TEST_CASE("the smallest memory that is named works, and one byte less does not")
       PlanRequest request = request_with(nodes, 3000);
       request.strategy = strategy;
       const std::size_t smallest = svm::smallest_node_memory_bytes(request);
-      request.node_memory_bytes = smallest;
+      request.computer.node_memory_bytes = smallest;
       const svm::Plan plan = make_plan(request);
       CHECK(plan.node_memory_max_bytes() == smallest);
       CHECK(plan.in_flight == 1);
-      request.node_memory_bytes = smallest - 1;
+      request.computer.node_memory_bytes = smallest - 1;
       const std::string error = error_of(request);
       INFO(error);
       CHECK(error.find("node_memory_bytes=" + nodes::size_text(smallest)) != std::string::npos);
@@ -91,34 +91,34 @@ TEST_CASE("the smallest memory that is named works, and one byte less does not")
 
 TEST_CASE("a memory that is too small names the smallest node count that works with it") {
   PlanRequest request = request_with(2, 10000);
-  request.node_memory_bytes = 2_MiB;
+  request.computer.node_memory_bytes = 2_MiB;
   const std::string error = error_of(request);
   const std::size_t at = error.find("with this memory node_count=");
   REQUIRE(at != std::string::npos);
-  request.node_count =
+  request.computer.node_count =
       static_cast<std::uint32_t>(std::stoul(error.substr(at + std::string("with this memory node_count=").size())));
-  CHECK(request.node_count > 2);
+  CHECK(request.computer.node_count > 2);
   CHECK(error_of(request).empty());
-  --request.node_count;
+  --request.computer.node_count;
   CHECK_FALSE(error_of(request).empty());
 }
 
 TEST_CASE("where the mailboxes of many nodes are what is too large, fewer nodes are named") {
   PlanRequest request = request_with(4096, 1338);
-  request.node_memory_bytes = 600_KiB;
+  request.computer.node_memory_bytes = 600_KiB;
   const std::string error = error_of(request);
   const std::size_t at = error.find("node_count=", error.find("or with this memory"));
   REQUIRE(at != std::string::npos);
-  request.node_count = static_cast<std::uint32_t>(std::stoul(error.substr(at + std::string("node_count=").size())));
-  CHECK(request.node_count < 4096);
+  request.computer.node_count = static_cast<std::uint32_t>(std::stoul(error.substr(at + std::string("node_count=").size())));
+  CHECK(request.computer.node_count < 4096);
   CHECK(make_plan(request).frames > 0);
-  --request.node_count;
+  --request.computer.node_count;
   CHECK(!error_of(request).empty());
 }
 
 TEST_CASE("where no number of nodes helps, the message says so") {
   PlanRequest request = request_with(2, 10000);
-  request.node_memory_bytes = 100_KiB;
+  request.computer.node_memory_bytes = 100_KiB;
   CHECK(error_of(request).find("no number of nodes") != std::string::npos);
   request.strategy = svm::Strategy::replicated;
   CHECK(error_of(request).find("strategy=svm") != std::string::npos);
@@ -126,31 +126,31 @@ TEST_CASE("where no number of nodes helps, the message says so") {
 
 TEST_CASE("in-flight is reduced to leave each pixel a frame, and that is noted") {
   PlanRequest request = request_with(8, 10000);
-  request.node_memory_bytes = svm::smallest_node_memory_bytes(request) + 20_KiB;
-  request.in_flight = 64;
+  request.computer.node_memory_bytes = svm::smallest_node_memory_bytes(request) + 20_KiB;
+  request.pages.in_flight = 64;
   const svm::Plan plan = make_plan(request);
   CHECK(plan.in_flight > 1);
   CHECK(plan.in_flight < 64);
   CHECK(plan.frames >= plan.in_flight);
   REQUIRE(plan.notes.size() == 1);
   CHECK(plan.notes[0] == "in-flight reduced from 64 to " + std::to_string(plan.in_flight) + " to fit " +
-                             nodes::size_text(*request.node_memory_bytes));
+                             nodes::size_text(*request.computer.node_memory_bytes));
 }
 
 TEST_CASE("a cache that was asked for is kept, or refused if it does not fit") {
   PlanRequest request = request_with(8, 10000);
-  request.cache_pages = 1;
-  request.in_flight = 64;
-  request.node_memory_bytes = 4_MiB;
+  request.pages.cache_pages = 1;
+  request.pages.in_flight = 64;
+  request.computer.node_memory_bytes = 4_MiB;
   CHECK(make_plan(request).frames == 1);
   CHECK(make_plan(request).in_flight == 64);
-  request.cache_pages = 5000;
+  request.pages.cache_pages = 5000;
   CHECK(error_of(request).find("node_memory_bytes=4MiB is too small") != std::string::npos);
 }
 
 TEST_CASE("a cache larger than all pages that are not at home is reduced, and that is noted") {
   PlanRequest request = request_with(2, 10);
-  request.cache_pages = 50;
+  request.pages.cache_pages = 50;
   const svm::Plan plan = make_plan(request);
   CHECK(plan.frames == 5);
   CHECK(plan.notes.size() == 1);
@@ -166,7 +166,7 @@ TEST_CASE("home pages differ by one page between nodes, and node 0 takes the mos
 
 TEST_CASE("a mailbox has room for everything that may be under way to it") {
   PlanRequest request = request_with(5, 100);
-  request.in_flight = 3;
+  request.pages.in_flight = 3;
   const svm::Plan plan = make_plan(request);
   CHECK(plan.request_credits == 3);
   CHECK(plan.film_credits == 32);
@@ -181,20 +181,20 @@ TEST_CASE("a mailbox has room for everything that may be under way to it") {
 TEST_CASE("film credits are few where nodes are many, and on a modelled machine, and fewer packets wait at a node") {
   PlanRequest request = request_with(1, 100);
   for (const auto& [nodes, credits] : {std::pair{1U, 32U}, {16U, 16U}, {64U, 4U}, {4096U, 4U}}) {
-    request.node_count = nodes;
+    request.computer.node_count = nodes;
     const svm::Plan plan = make_plan(request);
     CHECK(plan.film_credits == credits);
     CHECK(plan.patience().packets == credits * 3 / 4);
     CHECK(plan.patience().kinds == 1U << number_of(svm::Kind::film_sums));
   }
-  request.is_modelled = true;
+  request.computer.machine = nodes::Machine();
   CHECK(make_plan(request).film_credits == 2);
   CHECK(make_plan(request).patience().packets == 1);
 }
 
 TEST_CASE("no node plans for more pixels in flight than it ever has") {
   PlanRequest request = request_with(4, 5000);
-  request.in_flight = 4096;
+  request.pages.in_flight = 4096;
   request.width = 7;
   request.height = 3;
   const svm::Plan plan = make_plan(request);
@@ -202,20 +202,20 @@ TEST_CASE("no node plans for more pixels in flight than it ever has") {
   CHECK(plan.node_mailbox.bulk_slots == 21);
   REQUIRE(plan.notes.size() == 1);
   CHECK(plan.notes[0] == "in-flight reduced from 4096 to 21 pixels: no node ever has more");
-  request.work_item_side = 0;
+  request.pages.work_item_side = 0;
   CHECK(make_plan(request).in_flight == 6);
   request.strategy = svm::Strategy::replicated;
   CHECK(make_plan(request).in_flight == 6);
   request.width = request.height = 1;
   CHECK(make_plan(request).in_flight == 1);
   CHECK(make_plan(request).notes.at(0) == "in-flight reduced from 4096 to 1 pixel: no node ever has more");
-  request.in_flight.reset();
+  request.pages.in_flight.reset();
   CHECK(make_plan(request).notes.empty());
 }
 
 TEST_CASE("a node has no more faults than pages that live elsewhere, nor requests to a home than it has pages") {
   PlanRequest request = request_with(4, 10);
-  request.in_flight = 64;
+  request.pages.in_flight = 64;
   const svm::Plan plan = make_plan(request);
   CHECK(plan.in_flight == 64);
   CHECK(plan.faults_max() == 8);
@@ -224,19 +224,19 @@ TEST_CASE("a node has no more faults than pages that live elsewhere, nor request
   request.page_count = 3;
   CHECK(make_plan(request).faults_max() == 3);
   CHECK(make_plan(request).request_credits == 1);
-  request.node_count = 1;
+  request.computer.node_count = 1;
   CHECK(make_plan(request).faults_max() == 0);
 }
 
 TEST_CASE("two pixels take room for two replies, however many were asked for") {
   PlanRequest request = request_with(8, 5000);
   request.page_size_bytes = 64_KiB;
-  request.cache_pages = 1;
+  request.pages.cache_pages = 1;
   request.width = 2;
   request.height = 1;
-  request.in_flight = 2;
+  request.pages.in_flight = 2;
   const nodes::MemoryPlan two = make_plan(request).node_memory(0);
-  request.in_flight = svm::in_flight_max;
+  request.pages.in_flight = svm::in_flight_max;
   const nodes::MemoryPlan many = make_plan(request).node_memory(0);
   CHECK(many.total() == two.total());
   CHECK(many[nodes::Category::mailbox] < 3 * (64_KiB + 64) + 8_KiB);
@@ -266,20 +266,20 @@ TEST_CASE("values out of range and wrong combinations are wrong use") {
     CHECK_THROWS_AS(make_plan(request), core::UsageError);
   };
   is_wrong([](PlanRequest& request) { request.page_size_bytes = 1000; });
-  is_wrong([](PlanRequest& request) { request.node_count = 0; });
-  is_wrong([](PlanRequest& request) { request.node_count = svm::node_count_max + 1; });
-  is_wrong([](PlanRequest& request) { request.in_flight = 0; });
-  is_wrong([](PlanRequest& request) { request.in_flight = svm::in_flight_max + 1; });
-  is_wrong([](PlanRequest& request) { request.cache_pages = 0; });
+  is_wrong([](PlanRequest& request) { request.computer.node_count = 0; });
+  is_wrong([](PlanRequest& request) { request.computer.node_count = svm::node_count_max + 1; });
+  is_wrong([](PlanRequest& request) { request.pages.in_flight = 0; });
+  is_wrong([](PlanRequest& request) { request.pages.in_flight = svm::in_flight_max + 1; });
+  is_wrong([](PlanRequest& request) { request.pages.cache_pages = 0; });
   is_wrong([](PlanRequest& request) {
     request.strategy = svm::Strategy::replicated;
-    request.cache_pages = 3;
+    request.pages.cache_pages = 3;
   });
 }
 
 TEST_CASE("a replacement policy needs a cache") {
   PlanRequest request = request_with(4, 100);
-  request.replacement = svm::Replacement::clock;
+  request.pages.replacement = svm::Replacement::clock;
   CHECK(make_plan(request).pages().cache.replacement == svm::Replacement::clock);
   request.strategy = svm::Strategy::replicated;
   CHECK_THROWS_AS(make_plan(request), core::UsageError);
@@ -288,23 +288,23 @@ TEST_CASE("a replacement policy needs a cache") {
 TEST_CASE("a policy that needs no memory of its own leaves it to the cache") {
   PlanRequest request = request_with(4, 2000);
   const std::size_t lru = make_plan(request).node_memory_max_bytes();
-  request.replacement = svm::Replacement::fifo;
+  request.pages.replacement = svm::Replacement::fifo;
   CHECK(make_plan(request).node_memory_max_bytes() < lru);
 }
 
 TEST_CASE("page references are recorded only where they depend on neither cache nor schedule") {
   PlanRequest right = request_with(4, 100);
-  right.record_references = true;
-  right.work_item_side = 0;
-  right.in_flight = 1;
+  right.pages.record_references = true;
+  right.pages.work_item_side = 0;
+  right.pages.in_flight = 1;
   CHECK_NOTHROW(make_plan(right));
   std::array<PlanRequest, 5> wrong;
   wrong.fill(right);
-  wrong[0].work_item_side = 3;
-  wrong[1].in_flight = 2;
-  wrong[2].in_flight.reset();
+  wrong[0].pages.work_item_side = 3;
+  wrong[1].pages.in_flight = 2;
+  wrong[2].pages.in_flight.reset();
   wrong[3].strategy = svm::Strategy::replicated;
-  wrong[4].count_pages = true;
+  wrong[4].pages.count_pages = true;
   for (const PlanRequest& request : wrong) {
     CHECK_THROWS_AS(make_plan(request), core::UsageError);
   }

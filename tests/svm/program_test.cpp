@@ -16,13 +16,14 @@ namespace {
 constexpr std::uint32_t side = 12;
 
 svm::PlanRequest request_with(std::uint32_t nodes, std::size_t page_size, std::uint32_t page_count) {
-  return {.page_count = page_count, .page_size_bytes = page_size, .node_count = nodes, .width = side, .height = side};
+  return {
+      .page_count = page_count, .page_size_bytes = page_size, .computer = {.node_count = nodes}, .width = side, .height = side};
 }
 
 svm::MakeProgram maker(const svm::Plan& plan, const core::RenderSettings& settings, const FakePages& pages) {
   return [&](std::uint32_t, nodes::Node& node) {
     return plan.request.strategy == svm::Strategy::replicated ? fake_program<svm::LocalCopy>(node, plan, settings, pages)
-           : plan.request.count_pages                         ? fake_program<svm::CountingPager>(node, plan, settings, pages)
+           : plan.request.pages.count_pages                   ? fake_program<svm::CountingPager>(node, plan, settings, pages)
                                                               : fake_program<svm::Pager>(node, plan, settings, pages);
   };
 }
@@ -44,7 +45,7 @@ void run_shuffled(const svm::PlanRequest& request, std::uint64_t seed) {
   const svm::Plan plan = svm::make_plan(request);
   core::Film film(settings.camera.width(), settings.camera.height());
   const svm::MakeProgram make_program = maker(plan, settings, pages);
-  const svm::Progress progress;
+  const nodes::Progress progress;
   ShuffledComputer computer(svm::specifications_of(plan, make_program, film, progress), seed);
   CAPTURE(seed);
   computer.run();
@@ -61,11 +62,11 @@ TEST_CASE("every number of nodes, page size, cache, pixels in flight and work it
     for (const std::uint32_t in_flight : {1U, 64U}) {
       for (const std::uint32_t cache_pages : {1U, 5U, 1000U}) {
         svm::PlanRequest request = request_with(nodes, page_sizes[turn % 4], turn % 4 == 3 ? 9 : 50);
-        request.in_flight = in_flight;
-        request.cache_pages = cache_pages;
-        request.work_item_side = sides[(turn / 4 + turn) % 4];
+        request.pages.in_flight = in_flight;
+        request.pages.cache_pages = cache_pages;
+        request.pages.work_item_side = sides[(turn / 4 + turn) % 4];
         INFO("nodes ", nodes, ", in_flight ", in_flight, ", cache_pages ", cache_pages, ", page_size_bytes ",
-             request.page_size_bytes, ", work_item_side ", request.work_item_side);
+             request.page_size_bytes, ", work_item_side ", request.pages.work_item_side);
         run_on_threads(request);
         ++turn;
       }
@@ -77,9 +78,9 @@ TEST_CASE("any legal order of packets and quanta gives the same film, and no mai
   const std::uint32_t sides[] = {0, 1, 3, 16};
   for (std::uint64_t seed = 0; seed < 120; ++seed) {
     svm::PlanRequest request = request_with(static_cast<std::uint32_t>(1 + seed % 9), 512, 30);
-    request.in_flight = seed % 3 == 0 ? 1 : seed % 3 == 1 ? 5 : 64;
-    request.cache_pages = seed % 2 == 0 ? 1 : 6;
-    request.work_item_side = sides[seed / 9 % 4];
+    request.pages.in_flight = seed % 3 == 0 ? 1 : seed % 3 == 1 ? 5 : 64;
+    request.pages.cache_pages = seed % 2 == 0 ? 1 : 6;
+    request.pages.work_item_side = sides[seed / 9 % 4];
     run_shuffled(request, seed);
   }
 }
@@ -88,7 +89,7 @@ TEST_CASE("replicated gives the same film without a page travelling") {
   for (const std::uint32_t nodes : {1U, 3U, 8U}) {
     svm::PlanRequest request = request_with(nodes, 1024, 20);
     request.strategy = svm::Strategy::replicated;
-    request.in_flight = nodes == 3 ? 4 : 1;
+    request.pages.in_flight = nodes == 3 ? 4 : 1;
     const svm::Report report = run_on_threads(request);
     CHECK(report.pages().references == 0);
     CHECK(report.sent()[svm::number_of(svm::Kind::page_request)].packets == 0);
@@ -117,11 +118,11 @@ TEST_CASE("one node alone finds every page at home and asks nobody") {
 
 TEST_CASE("references are counted once, however often their pages are evicted") {
   svm::PlanRequest request = request_with(4, 512, 40);
-  request.work_item_side = 0;
+  request.pages.work_item_side = 0;
   const std::uint64_t references = run_on_threads(request).pages().references;
   for (const std::uint32_t in_flight : {1U, 8U, 64U}) {
-    request.in_flight = in_flight;
-    request.cache_pages = 1;
+    request.pages.in_flight = in_flight;
+    request.pages.cache_pages = 1;
     const svm::PageCounters pages = run_on_threads(request).pages();
     CHECK(pages.references == references);
     CHECK(pages.references == pages.home_hits + pages.cache_hits + pages.misses);
@@ -132,9 +133,9 @@ TEST_CASE("references are counted once, however often their pages are evicted") 
 
 TEST_CASE("with one pixel in flight and static submaps the counters repeat exactly") {
   svm::PlanRequest request = request_with(5, 512, 60);
-  request.in_flight = 1;
-  request.cache_pages = 7;
-  request.work_item_side = 0;
+  request.pages.in_flight = 1;
+  request.pages.cache_pages = 7;
+  request.pages.work_item_side = 0;
   const svm::PageCounters first = run_on_threads(request).pages();
   const svm::PageCounters second = run_on_threads(request).pages();
   CHECK(first.faults == second.faults);
@@ -144,12 +145,12 @@ TEST_CASE("with one pixel in flight and static submaps the counters repeat exact
 
 TEST_CASE("distinct pages do not depend on cache or pixels in flight") {
   svm::PlanRequest request = request_with(3, 512, 70);
-  request.count_pages = true;
+  request.pages.count_pages = true;
   const svm::PageCounters pages = run_on_threads(request).pages();
   CHECK(pages.distinct_pages > 0);
   CHECK(pages.distinct_pages < pages.references);
-  request.cache_pages = 1;
-  request.in_flight = 1;
+  request.pages.cache_pages = 1;
+  request.pages.in_flight = 1;
   CHECK(run_on_threads(request).pages().distinct_pages == pages.distinct_pages);
 }
 
@@ -158,7 +159,7 @@ TEST_CASE("a node uses exactly the memory of its plan, in every category") {
     for (const bool count_pages : {false, true}) {
       svm::PlanRequest request = request_with(3, 1024, 25);
       request.strategy = strategy;
-      request.count_pages = count_pages && strategy == svm::Strategy::svm;
+      request.pages.count_pages = count_pages && strategy == svm::Strategy::svm;
       for (const svm::NodeReport& node : run_on_threads(request).nodes) {
         if (node.memory_used.bytes != node.memory_planned.bytes) {
           // A fake task is smaller than a real one, for which memory is planned.
@@ -193,7 +194,7 @@ TEST_CASE("progress ends with every pixel") {
     grew = grew && done > last && done <= total;
     last = done;
   };
-  svm::run_programs(plan, maker(plan, settings, pages), {.progress = progress}, {});
+  svm::run_programs(plan, maker(plan, settings, pages), {.watching = {.progress = progress}}, {});
   CHECK(grew);
   CHECK(last == side * side);
 }

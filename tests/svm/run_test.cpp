@@ -36,15 +36,15 @@ struct SmallScene {
 /// Nothing in the order of references depends on the cache.
 svm::RunOptions fixed_order(std::uint32_t node_count) {
   svm::RunOptions options;
-  options.node_count = node_count;
-  options.work_item_side = 0;
-  options.in_flight = 1;
+  options.computer.node_count = node_count;
+  options.pages.work_item_side = 0;
+  options.pages.in_flight = 1;
   return options;
 }
 
 svm::Report recorded_run(const SmallScene& small, std::uint32_t node_count) {
   svm::RunOptions options = fixed_order(node_count);
-  options.record_references = true;
+  options.pages.record_references = true;
   return svm::run_svm(small.database, small.settings, options, {});
 }
 
@@ -56,9 +56,9 @@ TEST_CASE("svm and replicated give the reference renderer's film and its counts 
   const std::uint64_t hash = small.reference(reference).hash();
   for (const std::uint32_t nodes : {1U, 3U, 8U}) {
     svm::RunOptions options;
-    options.node_count = nodes;
+    options.computer.node_count = nodes;
     const svm::Report replicated = svm::run_replicated(small.database, small.settings, options, {});
-    options.cache_pages = 1;
+    options.pages.cache_pages = 1;
     const svm::Report paged = svm::run_svm(small.database, small.settings, options, {});
     CHECK(replicated.film.hash() == hash);
     CHECK(paged.film.hash() == hash);
@@ -71,9 +71,9 @@ TEST_CASE("svm and replicated give the reference renderer's film and its counts 
 TEST_CASE("a node uses exactly the memory of its plan, category by category, with real tasks") {
   const SmallScene small("balls-2", 1024, 8);
   svm::RunOptions options;
-  options.node_count = 3;
+  options.computer.node_count = 3;
   for (const bool count_pages : {false, true}) {
-    options.count_pages = count_pages;
+    options.pages.count_pages = count_pages;
     for (const svm::NodeReport& node : svm::run_svm(small.database, small.settings, options, {}).nodes) {
       CHECK(node.memory_used.bytes == node.memory_planned.bytes);
     }
@@ -86,15 +86,15 @@ TEST_CASE("a node uses exactly the memory of its plan, category by category, wit
 TEST_CASE("the smallest memory that is named renders the picture") {
   const SmallScene small("tetra-4", 512, 16);
   svm::RunOptions options;
-  options.node_count = 5;
+  options.computer.node_count = 5;
   core::Operations operations;
   const svm::Plan plan = svm::plan_of(svm::Strategy::svm, small.database, small.settings, options);
-  options.node_memory_bytes = svm::smallest_node_memory_bytes(plan.request);
+  options.computer.node_memory_bytes = svm::smallest_node_memory_bytes(plan.request);
   const svm::Report report = svm::run_svm(small.database, small.settings, options, {});
   CHECK(report.film.hash() == small.reference(operations).hash());
   CHECK(report.plan.frames == 1);
   CHECK(report.plan.in_flight == 1);
-  *options.node_memory_bytes -= 1;
+  *options.computer.node_memory_bytes -= 1;
   CHECK_THROWS_AS(svm::run_svm(small.database, small.settings, options, {}), core::InputError);
 }
 
@@ -109,7 +109,7 @@ TEST_CASE("a tracer of one's own may stand in for the grid in replicated") {
     const std::byte* find(core::Address address) { return records.find(address); }
   };
   svm::RunOptions options;
-  options.node_count = 2;
+  options.computer.node_count = 2;
   const auto make_tracer = [&](std::uint32_t index, std::span<const std::byte> copy) {
     CHECK(index < 2);
     CHECK(copy.size() == small.database.bytes().size());
@@ -125,8 +125,8 @@ TEST_CASE("a run that is stopped on the way says so and has not every pixel") {
   const SmallScene small("balls-3", 1024, 64);
   std::stop_source source;
   svm::RunOptions options;
-  options.node_count = 2;
-  options.progress = [&](std::uint32_t, std::uint32_t) { source.request_stop(); };
+  options.computer.node_count = 2;
+  options.watching.progress = [&](std::uint32_t, std::uint32_t) { source.request_stop(); };
   const svm::Report report = svm::run_svm(small.database, small.settings, options, source.get_token());
   CHECK(report.end == nodes::RunEnd::interrupted);
   CHECK(report.work().pixels_rendered < 64 * 64);
@@ -135,7 +135,7 @@ TEST_CASE("a run that is stopped on the way says so and has not every pixel") {
 TEST_CASE("an exception of the progress function ends the run and comes out") {
   const SmallScene small("balls-2", 1024, 8);
   svm::RunOptions options;
-  options.progress = [](std::uint32_t, std::uint32_t) { throw core::InputError("enough"); };
+  options.watching.progress = [](std::uint32_t, std::uint32_t) { throw core::InputError("enough"); };
   CHECK_THROWS_AS(svm::run_svm(small.database, small.settings, options, {}), core::InputError);
 }
 
@@ -144,7 +144,7 @@ TEST_CASE("the references recorded in one run give every node's faults in runs w
   const svm::Report recorded = recorded_run(small, 4);
   for (const std::uint32_t cache_pages : {1U, 3U, 8U, 20U, 60U}) {
     svm::RunOptions options = fixed_order(4);
-    options.cache_pages = cache_pages;
+    options.pages.cache_pages = cache_pages;
     const svm::Report report = svm::run_svm(small.database, small.settings, options, {});
     for (std::size_t i = 0; i < report.nodes.size(); ++i) {
       CAPTURE(cache_pages);
@@ -165,9 +165,9 @@ TEST_CASE("recording changes neither film nor counters, and does not depend on t
   CHECK(recorded.pages().references == plain.pages().references);
   CHECK(recorded.pages().faults == plain.pages().faults);
   CHECK(plain.nodes[0].references.pages().empty());
-  options.record_references = true;
-  options.cache_pages = 2;
-  options.replacement = svm::Replacement::random;
+  options.pages.record_references = true;
+  options.pages.cache_pages = 2;
+  options.pages.replacement = svm::Replacement::random;
   const svm::Report starved = svm::run_svm(small.database, small.settings, options, {});
   for (std::size_t i = 0; i < starved.nodes.size(); ++i) {
     const auto one = recorded.nodes[i].references.pages(), other = starved.nodes[i].references.pages();
@@ -185,8 +185,8 @@ TEST_CASE("under every replacement policy the film is the same and no node misse
   for (const auto replacement :
        {svm::Replacement::lru, svm::Replacement::clock, svm::Replacement::fifo, svm::Replacement::random}) {
     svm::RunOptions options = fixed_order(4);
-    options.cache_pages = 8;
-    options.replacement = replacement;
+    options.pages.cache_pages = 8;
+    options.pages.replacement = replacement;
     const svm::Report report = svm::run_svm(small.database, small.settings, options, {});
     CHECK(report.film.hash() == recorded.film.hash());
     for (std::size_t i = 0; i < report.nodes.size(); ++i) {
@@ -204,7 +204,7 @@ TEST_CASE("the host may forget the database once it is distributed, and the film
     SmallScene small("rings-2", 512, 24);
     int times = 0;
     svm::RunOptions options;
-    options.distributed = [&] {
+    options.watching.distributed = [&] {
       ++times;
       small.database.forget_records();
       small.database.forget_primitives();

@@ -18,7 +18,11 @@ namespace {
 /// Node `index` of `nodes`, each with 3x3 pixels: one item, or with side 1 nine.
 struct SmallSource {
   SmallSource(std::uint32_t index, std::uint32_t nodes, std::uint32_t side)
-      : plan(svm::make_plan({.page_count = 4, .node_count = nodes, .work_item_side = side, .width = 3 * nodes, .height = 3})),
+      : plan(svm::make_plan({.page_count = 4,
+                             .computer = {.node_count = nodes},
+                             .pages = {.work_item_side = side},
+                             .width = 3 * nodes,
+                             .height = 3})),
         lone(plan, index),
         work(lone.node, plan.work()) {}
   void use_up() {
@@ -117,8 +121,8 @@ TEST_CASE("an empty item ends the asking") {
 
 TEST_CASE("a later pass has the pixels of the mask alone") {
   svm::Plan plan = svm::make_plan({.page_count = 4,
-                                   .node_count = 1,
-                                   .work_item_side = 3,
+                                   .computer = {.node_count = 1},
+                                   .pages = {.work_item_side = 3},
                                    .width = 12,
                                    .height = 8,
                                    .first_samples = 2,
@@ -147,8 +151,8 @@ TEST_CASE("a later pass has the pixels of the mask alone") {
 
 TEST_CASE("an item that is given away takes its part of the mask along, and items without wanted pixels stay") {
   const svm::Plan plan = svm::make_plan({.page_count = 4,
-                                         .node_count = 2,
-                                         .work_item_side = 2,
+                                         .computer = {.node_count = 2},
+                                         .pages = {.work_item_side = 2},
                                          .width = 8,
                                          .height = 2,
                                          .first_samples = 2,

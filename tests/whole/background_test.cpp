@@ -44,13 +44,13 @@ void check_strategies(const Subject& subject, std::uint32_t nodes) {
   const std::uint64_t rays = background_rays(skipping);
   REQUIRE(rays > 100);
   CHECK(background_rays(tracing) == 0);
-  const svm::RunOptions pages{.node_count = nodes, .cache_pages = 1};
+  const svm::RunOptions pages{.computer = {.node_count = nodes}, .pages = {.cache_pages = 1}};
   check_skip(svm::run_svm(subject.database(), skipping, pages, {}), svm::run_svm(subject.database(), tracing, pages, {}), subject,
              rays);
-  const svm::RunOptions copies{.node_count = nodes};
+  const svm::RunOptions copies{.computer = {.node_count = nodes}};
   check_skip(svm::run_replicated(subject.database(), skipping, copies, {}),
              svm::run_replicated(subject.database(), tracing, copies, {}), subject, rays);
-  const dataflow::RunOptions regions{.node_count = nodes};
+  const dataflow::RunOptions regions{.computer = {.node_count = nodes}};
   check_skip(dataflow::run_dataflow(subject.database(), skipping, regions, {}),
              dataflow::run_dataflow(subject.database(), tracing, regions, {}), subject, rays);
 }
@@ -82,12 +82,12 @@ TEST_CASE("in virtual time a ray of the background is charged no setup and no st
   const core::RenderSettings skipping = subject.settings(), tracing = without_skip(subject);
   nodes::Machine machine{.name = "slow steps"};
   std::fill(machine.cost_ps.begin(), machine.cost_ps.end(), 1'000'000);
-  const svm::RunOptions options{.node_count = 4, .in_flight = 1, .machine = machine};
+  const svm::RunOptions options{.computer = {.node_count = 4, .machine = machine}, .pages = {.in_flight = 1}};
   const auto fast = svm::run_svm(subject.database(), skipping, options, {});
   const auto slow = svm::run_svm(subject.database(), tracing, options, {});
   check_skip(fast, slow, subject, background_rays(skipping));
   CHECK(fast.virtual_time->total_ns < slow.virtual_time->total_ns);
-  const dataflow::RunOptions rays{.node_count = 4, .machine = machine};
+  const dataflow::RunOptions rays{.computer = {.node_count = 4, .machine = machine}};
   check_skip(dataflow::run_dataflow(subject.database(), skipping, rays, {}),
              dataflow::run_dataflow(subject.database(), tracing, rays, {}), subject, background_rays(skipping));
 }
@@ -97,10 +97,11 @@ TEST_CASE("a picture of nothing but background needs no page and sends no ray") 
   scene.view.at = scene.view.from * 2.0 - scene.view.at;
   const Subject subject(scene, {.width = 32, .height = 32, .knows_background = true});
   const core::RenderSettings settings = subject.settings();
-  const svm::Report pages = svm::run_svm(subject.database(), settings, {.node_count = 3, .cache_pages = 1}, {});
+  const svm::Report pages =
+      svm::run_svm(subject.database(), settings, {.computer = {.node_count = 3}, .pages = {.cache_pages = 1}}, {});
   CHECK(outcome_of(pages) == subject.outcome());
   CHECK(pages.pages().references == 0);
-  const dataflow::Report rays = dataflow::run_dataflow(subject.database(), settings, {.node_count = 3}, {});
+  const dataflow::Report rays = dataflow::run_dataflow(subject.database(), settings, {.computer = {.node_count = 3}}, {});
   CHECK(outcome_of(rays) == subject.outcome());
   CHECK(rays.messages_per_ray() == 0);
   CHECK(rays.operations().skipped.background == 32 * 32);
@@ -110,7 +111,8 @@ TEST_CASE("nodes of dataflow share out the rays of the background evenly") {
   core::Scene scene = built_in("tetra-3");
   scene.view.at = scene.view.from * 2.0 - scene.view.at;
   const Subject subject(scene, {.width = 32, .height = 32, .knows_background = true});
-  const dataflow::Report report = dataflow::run_dataflow(subject.database(), subject.settings(), {.node_count = 4}, {});
+  const dataflow::Report report =
+      dataflow::run_dataflow(subject.database(), subject.settings(), {.computer = {.node_count = 4}}, {});
   for (const dataflow::NodeReport& node : report.nodes) {
     CHECK(node.program.operations.skipped.background == 32 * 32 / 4);
   }

@@ -82,7 +82,7 @@ struct Damage {
       quanta_sat_out += node.counters.sat_out;
     }
     auto calm = report.plan.request;
-    calm.chaos.reset();
+    calm.computer.chaos.reset();
     runs_with_fewer_credits += credits_of(report.plan) < credits_of(make_plan(calm)) ? 1 : 0;
   }
 };
@@ -175,22 +175,25 @@ TEST_CASE("under chaos a node uses exactly the memory of its plan, the packets h
   using Chaos = std::optional<nodes::Chaos>;
   const core::Database& database = subject().database();
   const core::RenderSettings& settings = subject().settings();
-  check_memory([&](Chaos chaos) { return svm::run_svm(database, settings, {.node_count = 3, .chaos = chaos}, {}); });
-  check_memory([&](Chaos chaos) { return svm::run_replicated(database, settings, {.node_count = 3, .chaos = chaos}, {}); });
+  check_memory(
+      [&](Chaos chaos) { return svm::run_svm(database, settings, {.computer = {.node_count = 3, .chaos = chaos}}, {}); });
+  check_memory(
+      [&](Chaos chaos) { return svm::run_replicated(database, settings, {.computer = {.node_count = 3, .chaos = chaos}}, {}); });
   check_memory([&](Chaos chaos) {
     if (chaos) {
       chaos->shrinks_credits = false;  // with fewer credits a node takes less
     }
-    return dataflow::run_dataflow(database, settings, {.node_count = 3, .chaos = chaos}, {});
+    return dataflow::run_dataflow(database, settings, {.computer = {.node_count = 3, .chaos = chaos}}, {});
   });
 }
 
 TEST_CASE("under chaos mailboxes stay as large as the credits that were planned without it") {
-  const svm::PlanRequest calm{.page_count = 200, .node_count = 4, .in_flight = 8, .width = 8, .height = 8};
+  const svm::PlanRequest calm{
+      .page_count = 200, .computer = {.node_count = 4}, .pages = {.in_flight = 8}, .width = 8, .height = 8};
   svm::PlanRequest disturbed = calm;
   std::uint32_t fewest = svm::make_plan(calm).request_credits;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    disturbed.chaos = nodes::Chaos{.seed = seed};
+    disturbed.computer.chaos = nodes::Chaos{.seed = seed};
     const svm::Plan plan = svm::make_plan(disturbed);
     CHECK(plan.node_mailbox.small_slots == svm::make_plan(calm).node_mailbox.small_slots);
     CHECK(plan.node_mailbox.bulk_slots == svm::make_plan(calm).node_mailbox.bulk_slots);

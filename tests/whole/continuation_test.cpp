@@ -44,11 +44,13 @@ struct Run {
 
 Part run(const Subject& subject, const Run& run, const std::stop_token& stop = {}) {
   if (run.strategy == Strategy::dataflow) {
-    const dataflow::RunOptions options{.node_count = run.nodes, .chaos = run.chaos, .continuation = run.continuation};
+    const dataflow::RunOptions options{.computer = {.node_count = run.nodes, .chaos = run.chaos},
+                                       .continuation = run.continuation};
     return part_of(dataflow::run_dataflow(subject.database(), subject.settings(), options, stop));
   }
-  const svm::RunOptions options{
-      .node_count = run.nodes, .work_item_side = run.work_item_side, .chaos = run.chaos, .continuation = run.continuation};
+  const svm::RunOptions options{.computer = {.node_count = run.nodes, .chaos = run.chaos},
+                                .pages = {.work_item_side = run.work_item_side},
+                                .continuation = run.continuation};
   return part_of(run.strategy == Strategy::svm ? svm::run_svm(subject.database(), subject.settings(), options, stop)
                                                : svm::run_replicated(subject.database(), subject.settings(), options, stop));
 }
@@ -187,8 +189,8 @@ TEST_CASE("a run that is interrupted where pixels come whole keeps all that has 
   const Subject subject(tests::mirrors_and_glass(), {96, 80});
   Keeper keeper(~0U);
   std::stop_source stop;
-  svm::RunOptions options{.node_count = 3, .continuation = keeper.continuation()};
-  options.progress = [&](std::uint32_t done, std::uint32_t) { done > 1000 ? stop.request_stop() : false; };
+  svm::RunOptions options{.computer = {.node_count = 3}, .continuation = keeper.continuation()};
+  options.watching.progress = [&](std::uint32_t done, std::uint32_t) { done > 1000 ? stop.request_stop() : false; };
   const svm::Report report = svm::run_svm(subject.database(), subject.settings(), options, stop.get_token());
   CHECK(report.end == nodes::RunEnd::interrupted);
   CHECK(keeper.count() == 1);

@@ -30,7 +30,7 @@ dataflow::Report run(const Subject& subject, const RunOptions& options, const co
 
 /// Runs and holds film, rays and hits to the reference renderer's.
 dataflow::Report check(const Subject& subject, const RunOptions& options, const core::Skips& skips = {}) {
-  CAPTURE(options.node_count);
+  CAPTURE(options.computer.node_count);
   dataflow::Report report = run(subject, options, skips);
   CHECK(outcome_of(report) == subject.outcome());
   return report;
@@ -68,14 +68,14 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
   const std::array<Subject, 2> subjects = along_both_axes(scene, size);
   for (const auto& row :
        pairwise({std::size(node_counts), std::size(ray_batches), std::size(ray_credits), std::size(queues), 2, 2, 2, 2})) {
-    RunOptions options{.node_count = node_counts[row[0]]};
-    options.ray_batch = ray_batches[row[1]];
-    options.ray_credits = ray_credits[row[2]];
-    options.queue_packets = queues[row[3]];
-    options.balance = {.balance = row[4] == 0 ? Balance::subsampled : Balance::equal_size, .subsample = 4};
+    RunOptions options{.computer = {.node_count = node_counts[row[0]]}};
+    options.rays.ray_batch = ray_batches[row[1]];
+    options.rays.ray_credits = ray_credits[row[2]];
+    options.rays.queue_packets = queues[row[3]];
+    options.rays.balance = {.balance = row[4] == 0 ? Balance::subsampled : Balance::equal_size, .subsample = 4};
     const core::Skips skips{.empty_space = row[5] == 0, .any_hit = row[5] == 0, .empty_regions = row[5] == 0};
     if (row[6] == 1) {
-      options.topology = nodes::TopologyKind::hypercube;
+      options.rays.topology = nodes::TopologyKind::hypercube;
     }
     CAPTURE(row[1]);
     CAPTURE(row[2]);
@@ -101,7 +101,7 @@ TEST_CASE("dataflow: nodes whose regions are empty stay idle unless that skip is
   const core::Scene hat = built_in("sombrero-1");
   const Subject subject(hat, {24, 24}, apps::several_top_cells(hat));
   for (const bool skips : {true, false}) {
-    const RunOptions options{.node_count = 24, .balance = {.balance = Balance::equal_size}};
+    const RunOptions options{.computer = {.node_count = 24}, .rays = {.balance = {.balance = Balance::equal_size}}};
     const dataflow::Report report = check(subject, options, {.empty_regions = skips});
     std::uint64_t empty = 0, steps = 0, rays = 0;
     for (const dataflow::NodeReport& node : report.nodes) {
@@ -119,20 +119,21 @@ TEST_CASE("dataflow: nodes whose regions are empty stay idle unless that skip is
 TEST_CASE("dataflow: a thousand lights need no more memory for rays and give the same picture") {
   const Subject subject(thousand_lights(), {6, 6});
   for (const std::uint32_t nodes : {2U, 7U}) {
-    const dataflow::Report report = check(subject, {.node_count = nodes});
+    const dataflow::Report report = check(subject, {.computer = {.node_count = nodes}});
     CHECK(report.nodes[0].memory_planned[nodes::Category::ray_stacks] < 4096);
   }
 }
 
 TEST_CASE("dataflow: several samples a pixel reach both planes of the film") {
   const Subject subject(mirrors_and_glass(), {12, 12, 5});
-  check(subject, {.node_count = 5});
+  check(subject, {.computer = {.node_count = 5}});
 }
 
 TEST_CASE("dataflow: when every ray overflows the picture is the same and all of them come back from the host") {
   const Subject subject(mirrors_and_glass(), {20, 20});
   for (const std::uint32_t nodes : {2U, 5U, 16U}) {
-    const dataflow::Report report = check(subject, {.node_count = nodes, .ray_batch = 1, .ray_credits = 0});
+    const dataflow::Report report =
+        check(subject, {.computer = {.node_count = nodes}, .rays = {.ray_batch = 1, .ray_credits = 0}});
     CHECK(report.gathers().rays_overflowed == report.gathers().rays);
     CHECK(report.host_rays.rays_out > 0);
     CHECK(report.sent()[dataflow::number_of(dataflow::Kind::rays)].packets == 0);
@@ -145,7 +146,8 @@ TEST_CASE("dataflow: triangles in border planes and rays along border edges are 
   REQUIRE(size == core::Corner{BorderScene::size, BorderScene::size, BorderScene::size});
   for (const std::uint32_t nodes : {2U, 4U, 13U, 16U, 64U}) {
     for (const dataflow::CutAxes& axes : {dataflow::CutAxes{0, 1}, dataflow::CutAxes{0, 2}, dataflow::CutAxes{1, 2}}) {
-      check(subject, {.node_count = nodes, .make_bsp = [&](std::uint32_t n) { return dataflow::equal_size_bsp(size, axes, n); }});
+      check(subject, {.computer = {.node_count = nodes},
+                      .make_bsp = [&](std::uint32_t n) { return dataflow::equal_size_bsp(size, axes, n); }});
     }
   }
 }
@@ -157,7 +159,7 @@ TEST_CASE("dataflow: a hit beside the region of its triangle, which its owner ca
   for (const std::uint32_t nodes : {6U, 9U, 64U}) {
     const dataflow::MakeBsp make_bsp = [&](std::uint32_t n) { return dataflow::equal_size_bsp(size, {1, 2}, n); };
     for (const Wish& credits : ray_credits) {
-      const RunOptions options{.node_count = nodes, .ray_credits = credits, .make_bsp = make_bsp};
+      const RunOptions options{.computer = {.node_count = nodes}, .rays = {.ray_credits = credits}, .make_bsp = make_bsp};
       CHECK(check(subject, options, {.empty_space = false, .empty_regions = false}).rays().hits_sent_back == 1);
       CHECK(check(subject, options).rays().hits_sent_back == 1);
     }
@@ -166,7 +168,8 @@ TEST_CASE("dataflow: a hit beside the region of its triangle, which its owner ca
 
 TEST_CASE("dataflow: repeated runs give one picture and the same counts of rays between each two nodes") {
   const Subject subject(mirrors_and_glass(), {scaled_edge(16), scaled_edge(16)});
-  const RunOptions ample{.node_count = 6}, starved{.node_count = 64, .ray_batch = 1, .ray_credits = 1, .queue_packets = 0};
+  const RunOptions ample{.computer = {.node_count = 6}},
+      starved{.computer = {.node_count = 64}, .rays = {.ray_batch = 1, .ray_credits = 1, .queue_packets = 0}};
   for (const RunOptions& options : {ample, starved}) {
     const std::vector<std::uint64_t> matrix = check(subject, options).ray_matrix();
     for (int i = 0; i < 20; ++i) {
@@ -177,7 +180,8 @@ TEST_CASE("dataflow: repeated runs give one picture and the same counts of rays 
 
 TEST_CASE("dataflow: the report's figures fit together") {
   const Subject subject(mirrors_and_glass(), {20, 20});
-  const dataflow::Report report = check(subject, {.node_count = 8, .topology = nodes::TopologyKind::mesh});
+  const dataflow::Report report =
+      check(subject, {.computer = {.node_count = 8}, .rays = {.topology = nodes::TopologyKind::mesh}});
   std::uint64_t rays = 0;
   const std::vector<std::uint64_t> matrix = report.ray_matrix();
   REQUIRE(matrix.size() == 64);
@@ -199,8 +203,9 @@ TEST_CASE("dataflow: the report's figures fit together") {
 
 TEST_CASE("dataflow: a scene that does not fit says which number of nodes works, and it does") {
   const Subject subject(built_in("tetra-5"), {8, 8});
-  RunOptions options{.node_count = 1, .ray_batch = 1, .ray_credits = 1, .balance = {.balance = Balance::equal_size}};
-  options.node_memory_bytes = run(subject, options).plan.node_memory_max_bytes() - (std::size_t{40} << 10U);
+  RunOptions options{.computer = {.node_count = 1},
+                     .rays = {.balance = {.balance = Balance::equal_size}, .ray_batch = 1, .ray_credits = 1}};
+  options.computer.node_memory_bytes = run(subject, options).plan.node_memory_max_bytes() - (std::size_t{40} << 10U);
   std::string error;
   try {
     run(subject, options);
@@ -210,19 +215,19 @@ TEST_CASE("dataflow: a scene that does not fit says which number of nodes works,
   INFO(error);
   const std::size_t at = error.find("with this memory node_count=");
   REQUIRE(at != std::string::npos);
-  options.node_count =
+  options.computer.node_count =
       static_cast<std::uint32_t>(std::stoul(error.substr(at + std::string("with this memory node_count=").size())));
-  CHECK(options.node_count > 1);
+  CHECK(options.computer.node_count > 1);
   check(subject, options);
 }
 
 TEST_CASE("dataflow: the smallest memory that a plan names renders the same picture") {
   const Subject subject(built_in("teapot-4"), {16, 16});
   for (const std::uint32_t nodes : {1U, 3U, 16U}) {
-    RunOptions options{.node_count = nodes};
+    RunOptions options{.computer = {.node_count = nodes}};
     const dataflow::Plan ample = dataflow::prepare(subject.database(), subject.settings(), options).plan;
-    options.node_memory_bytes = dataflow::smallest_node_memory_bytes(ample.request);
-    CHECK(check(subject, options).plan.node_memory_max_bytes() == options.node_memory_bytes);
+    options.computer.node_memory_bytes = dataflow::smallest_node_memory_bytes(ample.request);
+    CHECK(check(subject, options).plan.node_memory_max_bytes() == options.computer.node_memory_bytes);
   }
 }
 
@@ -232,7 +237,7 @@ TEST_CASE("dataflow: light beyond what a film holds gives the same picture in wh
   scene.lights[0] = {scene.lights[0].position, {-1e12, 2e9, 0.5}, true};
   const Subject subject(scene, {12, 12, 3});
   for (const std::uint32_t nodes : {1U, 3U, 16U}) {
-    const dataflow::Report report = check(subject, {.node_count = nodes, .ray_batch = 1});
+    const dataflow::Report report = check(subject, {.computer = {.node_count = nodes}, .rays = {.ray_batch = 1}});
     CHECK(report.operations().deposits_saturated + report.host_rays.deposits_saturated > 0);
   }
 }
@@ -242,7 +247,7 @@ TEST_CASE("dataflow: a scene without a primitive is the background on any number
   scene.background = {0.2, 0, 0.1};
   const Subject subject(scene, {5, 4});
   for (const std::uint32_t nodes : {1U, 4U, 64U}) {
-    CHECK(check(subject, {.node_count = nodes}).gathers().rays == 0);
+    CHECK(check(subject, {.computer = {.node_count = nodes}}).gathers().rays == 0);
   }
 }
 
@@ -251,7 +256,7 @@ TEST_CASE("dataflow: a stop request interrupts the run") {
   std::stop_source source;
   source.request_stop();
   const dataflow::Report report =
-      dataflow::run_dataflow(subject.database(), subject.settings(), {.node_count = 3}, source.get_token());
+      dataflow::run_dataflow(subject.database(), subject.settings(), {.computer = {.node_count = 3}}, source.get_token());
   CHECK(report.end == nodes::RunEnd::interrupted);
 }
 

@@ -44,37 +44,37 @@ Values values(const HeatMap& map, HeatKind kind) { return {map.values(kind).begi
 
 svm::RunOptions small_cache(std::uint32_t node_count) {
   svm::RunOptions options;
-  options.node_count = node_count;
-  options.cache_pages = 2;
+  options.computer.node_count = node_count;
+  options.pages.cache_pages = 2;
   return options;
 }
 
 /// Pixels stay where they are, and one at a time is under way on a node.
 svm::RunOptions fixed_order(std::uint32_t node_count) {
   svm::RunOptions options = small_cache(node_count);
-  options.work_item_side = 0;
-  options.in_flight = 1;
+  options.pages.work_item_side = 0;
+  options.pages.in_flight = 1;
   return options;
 }
 
 HeatMap svm_map(const Subject& heated, svm::RunOptions options) {
   HeatMap map = empty_map();
-  options.heat = &map;
+  options.watching.heat = &map;
   CHECK(outcome_of(run_svm(heated, options)) == heated.outcome());
   return map;
 }
 
 HeatMap replicated_map(const Subject& heated, svm::RunOptions options) {
   HeatMap map = empty_map(false);
-  options.cache_pages = std::nullopt;
-  options.heat = &map;
+  options.pages.cache_pages = std::nullopt;
+  options.watching.heat = &map;
   CHECK(outcome_of(run_replicated(heated, options)) == heated.outcome());
   return map;
 }
 
 HeatMap dataflow_map(const Subject& heated, dataflow::RunOptions options) {
   HeatMap map = empty_map(false);
-  options.heat = &map;
+  options.watching.heat = &map;
   CHECK(outcome_of(run_dataflow(heated, options)) == heated.outcome());
   return map;
 }
@@ -100,7 +100,7 @@ TEST_CASE("over all pixels the heat of pages adds up to the run's counters, with
   for (const std::uint32_t node_count : {1U, 2U, 5U}) {
     HeatMap map = empty_map();
     svm::RunOptions options = small_cache(node_count);
-    options.heat = &map;
+    options.watching.heat = &map;
     const svm::Report report = run_svm(small, options);
     CHECK(map.sum(HeatKind::rays) == report.operations().ray_count());
     CHECK(map.sum(HeatKind::references) == report.pages().references);
@@ -116,8 +116,8 @@ TEST_CASE("in virtual time the pixels' times add up to the nodes' computing") {
   const Subject small = heated();
   HeatMap map = empty_map(false);
   svm::RunOptions options = small_cache(3);
-  options.heat = &map;
-  options.machine = priced_machine();
+  options.watching.heat = &map;
+  options.computer.machine = priced_machine();
   const svm::Report report = run_svm(small, options);
   check_time(map.sum(HeatKind::time), computing_ns(*report.virtual_time), 3);
 }
@@ -125,7 +125,7 @@ TEST_CASE("in virtual time the pixels' times add up to the nodes' computing") {
 TEST_CASE("where rays travel the pixels' virtual times are all computing but unpacking") {
   const Subject small = heated();
   HeatMap map = empty_map(false);
-  dataflow::RunOptions options{.node_count = 3, .machine = priced_machine(), .heat = &map};
+  dataflow::RunOptions options{.computer = {.node_count = 3, .machine = priced_machine()}, .watching = {.heat = &map}};
   const dataflow::Report report = run_dataflow(small, options);
   std::uint64_t unpacked = 0;
   for (const std::uint64_t rays : report.rays().in) {
@@ -133,7 +133,7 @@ TEST_CASE("where rays travel the pixels' virtual times are all computing but unp
   }
   CHECK(unpacked > 0);
   CHECK(map.sum(HeatKind::rays) == report.operations().ray_count());
-  const std::uint64_t packing_ps = options.machine->cost_ps[static_cast<std::size_t>(nodes::Charge::ray_packing)];
+  const std::uint64_t packing_ps = options.computer.machine->cost_ps[static_cast<std::size_t>(nodes::Charge::ray_packing)];
   check_time(map.sum(HeatKind::time) + unpacked * packing_ps, computing_ns(*report.virtual_time), 3);
 }
 
@@ -142,7 +142,7 @@ TEST_CASE("rays and depths of a pixel are the same for every strategy and number
   const HeatMap one = svm_map(small, small_cache(1));
   CHECK(values(one, HeatKind::depth).size() == side * side);
   for (const std::uint32_t node_count : {2U, 5U}) {
-    const dataflow::RunOptions rays{.node_count = node_count};
+    const dataflow::RunOptions rays{.computer = {.node_count = node_count}};
     for (const HeatMap& map :
          {svm_map(small, small_cache(node_count)), replicated_map(small, small_cache(node_count)), dataflow_map(small, rays)}) {
       CHECK(values(map, HeatKind::rays) == values(one, HeatKind::rays));
@@ -155,7 +155,7 @@ TEST_CASE("references and distinct pages of a pixel are the same for every numbe
   const Subject small = heated();
   const HeatMap one = svm_map(small, small_cache(1));
   svm::RunOptions disturbed = small_cache(5);
-  disturbed.chaos = nodes::chaos_of(7);
+  disturbed.computer.chaos = nodes::chaos_of(7);
   for (const svm::RunOptions& options : {small_cache(2), small_cache(5), disturbed}) {
     const HeatMap map = svm_map(small, options);
     CHECK(values(map, HeatKind::references) == values(one, HeatKind::references));
@@ -166,7 +166,7 @@ TEST_CASE("references and distinct pages of a pixel are the same for every numbe
 TEST_CASE("with pixels that stay and wait alone, threads and virtual time fault for the same pixels on the same nodes") {
   const Subject small = heated();
   svm::RunOptions modelled = fixed_order(4);
-  modelled.machine = priced_machine();
+  modelled.computer.machine = priced_machine();
   const HeatMap threads = svm_map(small, fixed_order(4)), virtually = svm_map(small, modelled);
   CHECK(values(threads, HeatKind::faults) == values(virtually, HeatKind::faults));
   CHECK(values(threads, HeatKind::node) == values(virtually, HeatKind::node));
@@ -176,9 +176,9 @@ TEST_CASE("with pixels that stay and wait alone, threads and virtual time fault 
 TEST_CASE("in virtual time every kind is the same again") {
   const Subject small = heated();
   svm::RunOptions options = small_cache(4);
-  options.machine = priced_machine();
+  options.computer.machine = priced_machine();
   const HeatMap first = svm_map(small, options), second = svm_map(small, options);
-  const dataflow::RunOptions rays{.node_count = 4, .machine = priced_machine()};
+  const dataflow::RunOptions rays{.computer = {.node_count = 4, .machine = priced_machine()}};
   const HeatMap first_rays = dataflow_map(small, rays), second_rays = dataflow_map(small, rays);
   for (const HeatKind kind : all_kinds) {
     CHECK(values(first, kind) == values(second, kind));
@@ -188,9 +188,9 @@ TEST_CASE("in virtual time every kind is the same again") {
 
 TEST_CASE("where rays travel a pixel's node is the same in every run") {
   const Subject small = heated();
-  const dataflow::RunOptions calm{.node_count = 4};
+  const dataflow::RunOptions calm{.computer = {.node_count = 4}};
   dataflow::RunOptions disturbed = calm;
-  disturbed.chaos = nodes::chaos_of(5);
+  disturbed.computer.chaos = nodes::chaos_of(5);
   const Values nodes = values(dataflow_map(small, calm), HeatKind::node);
   CHECK(nodes == values(dataflow_map(small, disturbed), HeatKind::node));
   CHECK(*std::max_element(nodes.begin(), nodes.end()) > 0);
@@ -200,7 +200,7 @@ TEST_CASE("a metered node uses exactly the memory of its plan") {
   const Subject small = heated();
   HeatMap map = empty_map();
   svm::RunOptions options = small_cache(3);
-  options.heat = &map;
+  options.watching.heat = &map;
   for (const svm::NodeReport& node : run_svm(small, options).nodes) {
     CHECK(node.memory_used.bytes == node.memory_planned.bytes);
   }
@@ -211,9 +211,9 @@ TEST_CASE("a refined picture's heat is that of all its passes") {
                         {.width = side, .height = side, .samples = 2, .refinement = {.error = 0.02, .samples_max = 8}});
   HeatMap pages = empty_map(false), rays = empty_map(false);
   svm::RunOptions options = small_cache(3);
-  options.heat = &pages;
+  options.watching.heat = &pages;
   const svm::Report report = run_svm(refined, options);
-  static_cast<void>(run_dataflow(refined, {.node_count = 3, .heat = &rays}));
+  static_cast<void>(run_dataflow(refined, {.computer = {.node_count = 3}, .watching = {.heat = &rays}}));
   CHECK(report.refinement.passes > 1);
   CHECK(pages.sum(HeatKind::rays) == report.operations().ray_count());
   CHECK(values(pages, HeatKind::rays) == values(rays, HeatKind::rays));
@@ -224,9 +224,9 @@ TEST_CASE("a heat map of another size than the picture's is an error") {
   const Subject small = heated();
   HeatMap map(side * side - 1, all_kinds);
   svm::RunOptions options = small_cache(2);
-  options.heat = &map;
+  options.watching.heat = &map;
   CHECK_THROWS_AS(run_svm(small, options), core::InternalError);
-  CHECK_THROWS_AS(run_dataflow(small, {.node_count = 2, .heat = &map}), core::InternalError);
+  CHECK_THROWS_AS(run_dataflow(small, {.computer = {.node_count = 2}, .watching = {.heat = &map}}), core::InternalError);
 }
 
 }  // namespace dmpc::tests

@@ -126,18 +126,18 @@ TEST_CASE("one triangle under one light does nothing that it does not need, on o
   check_zero(features_of(subject.database()));
   for (const std::uint32_t nodes : {1U, 4U}) {
     CAPTURE(nodes);
-    check_zero(features_of(run_svm(subject, {.node_count = nodes})));
-    check_zero(features_of(run_replicated(subject, {.node_count = nodes})));
-    check_zero(features_of(run_dataflow(subject, {.node_count = nodes})));
+    check_zero(features_of(run_svm(subject, {.computer = {.node_count = nodes}})));
+    check_zero(features_of(run_replicated(subject, {.computer = {.node_count = nodes}})));
+    check_zero(features_of(run_dataflow(subject, {.computer = {.node_count = nodes}})));
   }
 }
 
 TEST_CASE("one node alone asks nobody for one triangle, nor for anything else") {
   for (const core::Scene& scene : {one_triangle(), too_much()}) {
     const Subject subject(scene, {16, 16});
-    check_zero(lonely_features_of(run_svm(subject, {.node_count = 1})));
-    check_zero(lonely_features_of(run_replicated(subject, {.node_count = 1})));
-    check_zero(lonely_features_of(run_dataflow(subject, {.node_count = 1})));
+    check_zero(lonely_features_of(run_svm(subject, {.computer = {.node_count = 1}})));
+    check_zero(lonely_features_of(run_replicated(subject, {.computer = {.node_count = 1}})));
+    check_zero(lonely_features_of(run_dataflow(subject, {.computer = {.node_count = 1}})));
   }
 }
 
@@ -146,14 +146,12 @@ TEST_CASE("what one triangle does not need other scenes do") {
       too_much(), {.width = 24, .height = 20, .samples = 2, .refinement = {.error = 0.02, .samples_max = 8}, .cutoff = 0.001},
       {.page_size_bytes = 512, .cells_per_primitive = 4096});
   check_used(features_of(subject.database()));
-  const svm::Report svm = run_svm(subject, {.node_count = 5, .cache_pages = 2});
+  const svm::Report svm = run_svm(subject, {.computer = {.node_count = 5}, .pages = {.cache_pages = 2}});
   check_used(features_of(svm));
   check_used(lonely_features_of(svm));
-  const dataflow::RunOptions starved{.node_count = 24,
-                                     .ray_batch = 1,
-                                     .ray_credits = 1,
-                                     .queue_packets = 1,
-                                     .balance = {.balance = dataflow::Balance::equal_size}};
+  const dataflow::RunOptions starved{
+      .computer = {.node_count = 24},
+      .rays = {.balance = {.balance = dataflow::Balance::equal_size}, .ray_batch = 1, .ray_credits = 1, .queue_packets = 1}};
   const dataflow::Report dataflow = run_dataflow(subject, starved);
   check_used(features_of(dataflow));
   check_used(lonely_features_of(dataflow));

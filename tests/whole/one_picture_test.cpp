@@ -59,18 +59,18 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
     const Subject& subject = subjects.with_pages_of(page_sizes[row[1]]);
     const bool replicated = row[5] == 1;
     svm::RunOptions options;
-    options.node_count = node_counts[row[0]];
-    options.in_flight = in_flights[row[3]];
-    options.work_item_side = item_sides[row[4]];
+    options.computer.node_count = node_counts[row[0]];
+    options.pages.in_flight = in_flights[row[3]];
+    options.pages.work_item_side = item_sides[row[4]];
     if (!replicated) {
       const double frames = cache_shares[row[2]] * static_cast<double>(subject.database().page_count());
-      options.cache_pages = std::max(1U, static_cast<std::uint32_t>(frames));
+      options.pages.cache_pages = std::max(1U, static_cast<std::uint32_t>(frames));
     }
-    CAPTURE(options.node_count);
+    CAPTURE(options.computer.node_count);
     CAPTURE(subject.database().page_size());
-    CAPTURE(*options.in_flight);
-    CAPTURE(options.work_item_side);
-    CAPTURE(options.cache_pages.value_or(0));
+    CAPTURE(*options.pages.in_flight);
+    CAPTURE(options.pages.work_item_side);
+    CAPTURE(options.pages.cache_pages.value_or(0));
     CAPTURE(replicated);
     CHECK(outcome_of(replicated ? run_replicated(subject, options) : run_svm(subject, options)) == subject.outcome());
   }
@@ -80,11 +80,12 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
 void check_strategies(const Subject& subject, std::initializer_list<std::uint32_t> counts = {1, 2, 3, 5, 8, 16, 64}) {
   for (const std::uint32_t nodes : counts) {
     CAPTURE(nodes);
-    const tests::Outcome svm = outcome_of(run_svm(subject, {.node_count = nodes}));
+    const tests::Outcome svm = outcome_of(run_svm(subject, {.computer = {.node_count = nodes}}));
     CHECK(svm == subject.outcome());
-    CHECK(svm == outcome_of(run_replicated(subject, {.node_count = nodes})));
-    CHECK(svm == outcome_of(run_dataflow(subject, {.node_count = nodes})));
-    const dataflow::RunOptions least{.node_count = nodes, .ray_batch = 1, .ray_credits = nodes % 2, .queue_packets = 0};
+    CHECK(svm == outcome_of(run_replicated(subject, {.computer = {.node_count = nodes}})));
+    CHECK(svm == outcome_of(run_dataflow(subject, {.computer = {.node_count = nodes}})));
+    const dataflow::RunOptions least{.computer = {.node_count = nodes},
+                                     .rays = {.ray_batch = 1, .ray_credits = nodes % 2, .queue_packets = 0}};
     CHECK(svm == outcome_of(run_dataflow(subject, least)));
   }
 }
@@ -123,14 +124,14 @@ TEST_CASE("refined samples give one picture, whoever renders it on any number of
   check_strategies(subject, {1, 3, 8});
   for (const std::uint32_t side : {0U, 1U, 8U, 20U}) {
     CAPTURE(side);
-    CHECK(outcome_of(run_svm(subject, {.node_count = 5, .work_item_side = side})) == subject.outcome());
+    CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 5}, .pages = {.work_item_side = side}})) == subject.outcome());
   }
 }
 
 TEST_CASE("refined samples give one picture when rays of later passes come in many packets") {
   const Subject subject(tests::built_in("balls-2"), {.width = 70, .height = 64, .samples = 2, .refinement = {.error = 0.004}});
-  CHECK(outcome_of(run_dataflow(subject, {.node_count = 3})) == subject.outcome());
-  CHECK(outcome_of(run_svm(subject, {.node_count = 1})) == subject.outcome());
+  CHECK(outcome_of(run_dataflow(subject, {.computer = {.node_count = 3}})) == subject.outcome());
+  CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 1}})) == subject.outcome());
 }
 
 TEST_CASE("a cutoff gives one picture, with fewer rays than without") {
@@ -144,15 +145,15 @@ TEST_CASE("twenty runs on 64 nodes give one picture") {
   const Subject subject(tests::mirrors_and_glass(), {scaled_edge(64), scaled_edge(64)});
   for (int run = 0; run < 20; ++run) {
     CAPTURE(run);
-    CHECK(outcome_of(run_svm(subject, {.node_count = 64})) == subject.outcome());
+    CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 64}})) == subject.outcome());
   }
 }
 
 TEST_CASE("a picture of one pixel and a picture with fewer pixels than nodes are the reference's") {
   for (const int width : {1, 5}) {
     const Subject subject(tests::mirrors_and_glass(), {width, 1}, {.page_size_bytes = 512});
-    CHECK(outcome_of(run_svm(subject, {.node_count = 8})) == subject.outcome());
-    CHECK(outcome_of(run_dataflow(subject, {.node_count = 8})) == subject.outcome());
+    CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 8}})) == subject.outcome());
+    CHECK(outcome_of(run_dataflow(subject, {.computer = {.node_count = 8}})) == subject.outcome());
   }
 }
 

@@ -48,7 +48,9 @@ Operations reference(const Subject& subject, const core::RenderSettings& setting
 }
 
 /// As many regions as make some of them empty.
-dataflow::RunOptions many_regions() { return {.node_count = 24, .balance = {.balance = dataflow::Balance::equal_size}}; }
+dataflow::RunOptions many_regions() {
+  return {.computer = {.node_count = 24}, .rays = {.balance = {.balance = dataflow::Balance::equal_size}}};
+}
 
 std::uint64_t count_of(const Operations& operations, RayKind kind) { return operations.rays[static_cast<std::size_t>(kind)]; }
 
@@ -62,11 +64,13 @@ TEST_CASE("skips: whichever is off, svm, replicated and dataflow give one film, 
     const Subject subject = subject_of(scene, {scaled_edge(16), scaled_edge(12)});
     const std::uint64_t film = subject.outcome().film_hash;
     for (const Skips& skips : switched_off()) {
-      CHECK(run_svm(subject, {.node_count = 3}, skips).film.hash() == film);
-      CHECK(run_svm(subject, {.node_count = 3, .cache_pages = 1}, skips).film.hash() == film);
-      CHECK(run_replicated(subject, {.node_count = 2}, skips).film.hash() == film);
+      CHECK(run_svm(subject, {.computer = {.node_count = 3}}, skips).film.hash() == film);
+      CHECK(run_svm(subject, {.computer = {.node_count = 3}, .pages = {.cache_pages = 1}}, skips).film.hash() == film);
+      CHECK(run_replicated(subject, {.computer = {.node_count = 2}}, skips).film.hash() == film);
       CHECK(run_dataflow(subject, many_regions(), skips).film.hash() == film);
-      CHECK(run_dataflow(subject, {.node_count = 3, .ray_batch = 1, .ray_credits = 0}, skips).film.hash() == film);
+      CHECK(
+          run_dataflow(subject, {.computer = {.node_count = 3}, .rays = {.ray_batch = 1, .ray_credits = 0}}, skips).film.hash() ==
+          film);
     }
   }
 }
@@ -75,9 +79,10 @@ TEST_CASE("skips: whichever is off, a modelled machine gives the same film") {
   const Subject subject = subject_of(everything(), {8, 8});
   const std::uint64_t film = subject.outcome().film_hash;
   for (const Skips& skips : switched_off()) {
-    CHECK(run_svm(subject, {.node_count = 3, .cache_pages = 1, .machine = nodes::Machine{}}, skips).film.hash() == film);
+    CHECK(run_svm(subject, {.computer = {.node_count = 3, .machine = nodes::Machine{}}, .pages = {.cache_pages = 1}}, skips)
+              .film.hash() == film);
     dataflow::RunOptions options = many_regions();
-    options.machine = nodes::Machine{};
+    options.computer.machine = nodes::Machine{};
     CHECK(run_dataflow(subject, options, skips).film.hash() == film);
   }
 }
@@ -88,10 +93,11 @@ TEST_CASE("skips: refined pictures and the paper's convention keep their films, 
   core::RenderSettings paper = refined.settings();
   paper.shade.convention = core::Convention::paper;
   for (const Skips& skips : switched_off()) {
-    CHECK(run_svm(refined, {.node_count = 3}, skips).film.hash() == refined.outcome().film_hash);
+    CHECK(run_svm(refined, {.computer = {.node_count = 3}}, skips).film.hash() == refined.outcome().film_hash);
     CHECK(run_dataflow(refined, many_regions(), skips).film.hash() == refined.outcome().film_hash);
     paper.skips = skips;
-    CHECK(svm::run_svm(refined.database(), paper, {.node_count = 2}, {}).film.hash() == refined.outcome().film_hash);
+    CHECK(svm::run_svm(refined.database(), paper, {.computer = {.node_count = 2}}, {}).film.hash() ==
+          refined.outcome().film_hash);
   }
 }
 
@@ -108,7 +114,8 @@ TEST_CASE("skips: each counts what it leaves out, and nothing when it is off") {
 TEST_CASE("skips: rays left out are as many whoever renders, and cells and children as many with a cache of one page") {
   const Subject subject = subject_of(everything());
   const core::SkippedWork expected = reference(subject, subject.settings()).skipped;
-  const core::SkippedWork svm = run_svm(subject, {.node_count = 3, .cache_pages = 1}).operations().skipped;
+  const core::SkippedWork svm =
+      run_svm(subject, {.computer = {.node_count = 3}, .pages = {.cache_pages = 1}}).operations().skipped;
   const core::SkippedWork dataflow = run_dataflow(subject, many_regions()).operations().skipped;
   for (const core::SkippedWork& skipped : {svm, dataflow}) {
     CHECK(skipped.unlit == expected.unlit);
@@ -123,7 +130,7 @@ TEST_CASE("skips: rays left out are as many whoever renders, and cells and child
 TEST_CASE("skips: rays and hits are as many with empty space, empty regions and hits behind the first skipped or not") {
   const Subject subject = subject_of(everything());
   const Skips skips{.empty_space = false, .any_hit = false, .empty_regions = false};
-  CHECK(outcome_of(run_svm(subject, {.node_count = 3}, skips)) == subject.outcome());
+  CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 3}}, skips)) == subject.outcome());
   CHECK(outcome_of(run_dataflow(subject, many_regions(), skips)) == subject.outcome());
 }
 
@@ -171,7 +178,7 @@ TEST_CASE("skips: zero terms that are shot go on to the depth allowed and leave 
   REQUIRE(few.total_internal_reflections > 0);
   CHECK(many.total_internal_reflections >= few.total_internal_reflections);
   CHECK(many.ray_count() > few.ray_count() + few.skipped.zero_terms);
-  CHECK(run_svm(subject, {.node_count = 1}, core::no_skips()).operations().deposits_saturated == 0);
+  CHECK(run_svm(subject, {.computer = {.node_count = 1}}, core::no_skips()).operations().deposits_saturated == 0);
 }
 
 TEST_CASE("skips: the paper's convention shoots shadow rays that bring nothing, whatever is skipped") {

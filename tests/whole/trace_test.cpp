@@ -71,16 +71,17 @@ enum class Way { pages, rays, copies };
 /// One run with somebody who looks on, or nobody.
 Counted run(const Subject& subject, Way way, const std::optional<nodes::Machine>& machine, nodes::Observer* observer) {
   if (way == Way::rays) {
-    const dataflow::Report report = run_dataflow(subject, {.node_count = traced_nodes, .machine = machine, .observer = observer});
+    const dataflow::Report report =
+        run_dataflow(subject, {.computer = {.node_count = traced_nodes, .machine = machine}, .watching = {.observer = observer}});
     CHECK(outcome_of(report) == subject.outcome());
     return counted(report);
   }
   svm::RunOptions options;
-  options.node_count = traced_nodes;
-  options.machine = machine;
-  options.observer = observer;
+  options.computer.node_count = traced_nodes;
+  options.computer.machine = machine;
+  options.watching.observer = observer;
   if (way == Way::pages) {
-    options.cache_pages = 2;
+    options.pages.cache_pages = 2;
   }
   const svm::Report report = way == Way::pages ? run_svm(subject, options) : run_replicated(subject, options);
   CHECK(outcome_of(report) == subject.outcome());

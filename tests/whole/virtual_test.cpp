@@ -73,7 +73,7 @@ std::vector<std::uint64_t> faults_by_node(const svm::Report& report) {
 
 /// Every pixel at a fixed node, one after the other: the order of a node's references is known.
 svm::RunOptions fixed_assignment(std::uint32_t node_count, std::uint32_t cache_pages) {
-  return {.node_count = node_count, .cache_pages = cache_pages, .in_flight = 1, .work_item_side = 0};
+  return {.computer = {.node_count = node_count}, .pages = {.cache_pages = cache_pages, .in_flight = 1, .work_item_side = 0}};
 }
 
 }  // namespace
@@ -86,9 +86,11 @@ TEST_CASE("virtual time: svm, replicated and dataflow give the reference's pictu
         CAPTURE(scene.name);
         CAPTURE(nodes);
         CAPTURE(name_of(topology));
-        check(subject, run_svm(subject, {.node_count = nodes, .cache_pages = 3, .machine = slow_network(topology)}));
-        check(subject, run_replicated(subject, {.node_count = nodes, .machine = slow_network(topology)}));
-        check(subject, run_dataflow(subject, {.node_count = nodes, .topology = topology, .machine = slow_network(topology)}));
+        check(subject, run_svm(subject, {.computer = {.node_count = nodes, .machine = slow_network(topology)},
+                                         .pages = {.cache_pages = 3}}));
+        check(subject, run_replicated(subject, {.computer = {.node_count = nodes, .machine = slow_network(topology)}}));
+        check(subject, run_dataflow(subject, {.computer = {.node_count = nodes, .machine = slow_network(topology)},
+                                              .rays = {.topology = topology}}));
       }
     }
   }
@@ -96,8 +98,10 @@ TEST_CASE("virtual time: svm, replicated and dataflow give the reference's pictu
 
 TEST_CASE("virtual time: a refined picture is the same, and equal runs have equal events") {
   const Subject subject(mirrors_and_glass(), {.width = 16, .height = 16, .samples = 2, .refinement = {.error = 0.02}});
-  const auto svm = [&] { return run_svm(subject, {.node_count = 5, .cache_pages = 2, .machine = slow_network()}); };
-  const auto dataflow = [&] { return run_dataflow(subject, {.node_count = 5, .machine = slow_network()}); };
+  const auto svm = [&] {
+    return run_svm(subject, {.computer = {.node_count = 5, .machine = slow_network()}, .pages = {.cache_pages = 2}});
+  };
+  const auto dataflow = [&] { return run_dataflow(subject, {.computer = {.node_count = 5, .machine = slow_network()}}); };
   check(subject, svm());
   check(subject, dataflow());
   CHECK(svm().refinement.passes > 2);
@@ -109,14 +113,13 @@ TEST_CASE("virtual time: starved runs give the same picture") {
   const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
   for (const std::uint32_t nodes : virtual_node_counts) {
     CAPTURE(nodes);
-    check(subject, run_svm(subject, {.node_count = nodes, .cache_pages = 1, .in_flight = 1, .machine = slow_network()}));
-    check(subject, run_svm(subject, {.node_count = nodes, .cache_pages = 1, .in_flight = 64, .machine = nodes::Machine{}}));
+    check(subject, run_svm(subject, {.computer = {.node_count = nodes, .machine = slow_network()},
+                                     .pages = {.cache_pages = 1, .in_flight = 1}}));
+    check(subject, run_svm(subject, {.computer = {.node_count = nodes, .machine = nodes::Machine{}},
+                                     .pages = {.cache_pages = 1, .in_flight = 64}}));
     for (const std::uint32_t credits : {0U, 1U}) {
-      const dataflow::RunOptions least{.node_count = nodes,
-                                       .ray_batch = 1,
-                                       .ray_credits = credits,
-                                       .queue_packets = 0,
-                                       .machine = slow_network(nodes::TopologyKind::mesh)};
+      const dataflow::RunOptions least{.computer = {.node_count = nodes, .machine = slow_network(nodes::TopologyKind::mesh)},
+                                       .rays = {.ray_batch = 1, .ray_credits = credits, .queue_packets = 0}};
       check(subject, run_dataflow(subject, least));
     }
   }
@@ -124,9 +127,10 @@ TEST_CASE("virtual time: starved runs give the same picture") {
 
 TEST_CASE("virtual time: with contention off and on the picture is the same, and only the time differs") {
   const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
-  svm::RunOptions options{.node_count = 16, .cache_pages = 2, .machine = slow_network(nodes::TopologyKind::mesh)};
+  svm::RunOptions options{.computer = {.node_count = 16, .machine = slow_network(nodes::TopologyKind::mesh)},
+                          .pages = {.cache_pages = 2}};
   const svm::Report with = run_svm(subject, options);
-  options.machine->has_contention = false;
+  options.computer.machine->has_contention = false;
   const svm::Report without = run_svm(subject, options);
   check(subject, with);
   check(subject, without);
@@ -136,8 +140,12 @@ TEST_CASE("virtual time: with contention off and on the picture is the same, and
 
 TEST_CASE("virtual time: equal runs have equal events and films, one after the other and side by side") {
   const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
-  const auto svm = [&] { return hashes(run_svm(subject, {.node_count = 16, .cache_pages = 2, .machine = slow_network()})); };
-  const auto dataflow = [&] { return hashes(run_dataflow(subject, {.node_count = 16, .machine = slow_network()})); };
+  const auto svm = [&] {
+    return hashes(run_svm(subject, {.computer = {.node_count = 16, .machine = slow_network()}, .pages = {.cache_pages = 2}}));
+  };
+  const auto dataflow = [&] {
+    return hashes(run_dataflow(subject, {.computer = {.node_count = 16, .machine = slow_network()}}));
+  };
   CHECK(svm() == svm());
   CHECK(side_by_side(svm) == std::vector{svm(), svm()});
   CHECK(dataflow() == dataflow());
@@ -149,16 +157,17 @@ TEST_CASE("virtual time: equal runs have equal events and films, one after the o
 TEST_CASE("virtual time: a fixed picture has one run hash for each strategy, on every computer and in every build type") {
   const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
   const auto run_hash = [](const auto& report) { return report.virtual_time->run_hash(report.film.hash()); };
-  CHECK(run_hash(run_svm(subject, {.node_count = 5, .cache_pages = 2, .machine = slow_network()})) == 0x628ad3d0336e8b87);
-  CHECK(run_hash(run_replicated(subject, {.node_count = 5, .machine = slow_network()})) == 0x594a49948e35334c);
-  CHECK(run_hash(run_dataflow(subject, {.node_count = 5, .machine = slow_network()})) == 0xbb2a4a9c6e4efd71);
+  CHECK(run_hash(run_svm(subject, {.computer = {.node_count = 5, .machine = slow_network()}, .pages = {.cache_pages = 2}})) ==
+        0x628ad3d0336e8b87);
+  CHECK(run_hash(run_replicated(subject, {.computer = {.node_count = 5, .machine = slow_network()}})) == 0x594a49948e35334c);
+  CHECK(run_hash(run_dataflow(subject, {.computer = {.node_count = 5, .machine = slow_network()}})) == 0xbb2a4a9c6e4efd71);
 }
 
 TEST_CASE("virtual time: with memory ports the picture is the same, and more is waited for") {
   const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
-  svm::RunOptions options{.node_count = 16, .cache_pages = 2, .machine = slow_network()};
+  svm::RunOptions options{.computer = {.node_count = 16, .machine = slow_network()}, .pages = {.cache_pages = 2}};
   const svm::Report without = run_svm(subject, options);
-  options.machine->has_memory_port = true;
+  options.computer.machine->has_memory_port = true;
   const svm::Report with = run_svm(subject, options);
   check(subject, with);
   CHECK(with.virtual_time->links.wait_ns > without.virtual_time->links.wait_ns);
@@ -166,9 +175,9 @@ TEST_CASE("virtual time: with memory ports the picture is the same, and more is 
 
 TEST_CASE("virtual time: another cost makes another run and the same film") {
   const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
-  svm::RunOptions options{.node_count = 5, .cache_pages = 2, .machine = slow_network()};
+  svm::RunOptions options{.computer = {.node_count = 5, .machine = slow_network()}, .pages = {.cache_pages = 2}};
   const svm::Report first = run_svm(subject, options);
-  ++options.machine->service_ns;
+  ++options.computer.machine->service_ns;
   const svm::Report second = run_svm(subject, options);
   CHECK(first.virtual_time->hash != second.virtual_time->hash);
   CHECK(first.film.hash() == second.film.hash());
@@ -180,7 +189,7 @@ TEST_CASE("virtual time: under fixed assignment every node has the faults that i
     for (const std::uint32_t cache_pages : {1U, 4U, 20U}) {
       svm::RunOptions options = fixed_assignment(nodes, cache_pages);
       const std::vector<std::uint64_t> on_threads = faults_by_node(run_svm(subject, options));
-      options.machine = slow_network();
+      options.computer.machine = slow_network();
       CHECK(faults_by_node(run_svm(subject, options)) == on_threads);
     }
   }
@@ -193,8 +202,8 @@ TEST_CASE("virtual time: under fixed assignment faults are the misses of the ref
       CAPTURE(nodes);
       CAPTURE(cache_pages);
       svm::RunOptions options = fixed_assignment(nodes, cache_pages);
-      options.machine = slow_network();
-      options.record_references = true;
+      options.computer.machine = slow_network();
+      options.pages.record_references = true;
       const svm::Report report = run_svm(subject, options);
       check(subject, report);
       for (const svm::NodeReport& node : report.nodes) {
@@ -208,7 +217,7 @@ TEST_CASE("virtual time: under fixed assignment faults are the misses of the ref
 TEST_CASE("virtual time: only homes are interrupted, by as many requests as there are faults") {
   const Subject subject(built_in("teapot-4"), {24, 24}, {.page_size_bytes = 512});
   const nodes::Machine machine = slow_network();
-  const svm::Report report = run_svm(subject, {.node_count = 8, .cache_pages = 4, .machine = machine});
+  const svm::Report report = run_svm(subject, {.computer = {.node_count = 8, .machine = machine}, .pages = {.cache_pages = 4}});
   std::uint64_t stolen_ns = 0;
   for (const nodes::VirtualTimes& times : report.virtual_time->nodes) {
     stolen_ns += times.stolen_ns + times.lent_ns;
@@ -221,7 +230,7 @@ TEST_CASE("virtual time: only homes are interrupted, by as many requests as ther
 TEST_CASE("virtual time: one node alone computes what its operations cost") {
   const Subject subject(mirrors_and_glass(), {16, 16});
   const nodes::Machine machine = slow_network();
-  const svm::Report report = run_svm(subject, {.node_count = 1, .machine = machine});
+  const svm::Report report = run_svm(subject, {.computer = {.node_count = 1, .machine = machine}});
   nodes::Charges charges = nodes::charges_of(report.operations());
   charges[nodes::Charge::home_lookup] = report.pages().home_hits;
   CHECK(report.virtual_time->nodes[0].computing_ns == machine.price_ps({}, charges) / 1000);
@@ -230,8 +239,8 @@ TEST_CASE("virtual time: one node alone computes what its operations cost") {
 TEST_CASE("virtual time: a run that is stopped on the way says so and has no time to report") {
   const Subject subject(built_in("teapot-4"), {64, 64});
   std::stop_source source;
-  svm::RunOptions options{.node_count = 4, .machine = slow_network()};
-  options.progress = [&](std::uint32_t, std::uint32_t) { source.request_stop(); };
+  svm::RunOptions options{.computer = {.node_count = 4, .machine = slow_network()}};
+  options.watching.progress = [&](std::uint32_t, std::uint32_t) { source.request_stop(); };
   const svm::Report report = svm::run_svm(subject.database(), subject.settings(), options, source.get_token());
   CHECK(report.end == nodes::RunEnd::interrupted);
   CHECK_FALSE(report.virtual_time);

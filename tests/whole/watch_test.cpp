@@ -37,10 +37,10 @@ void check_watched(const Subject& subject, svm::RunOptions options) {
   svm::FetchWatch watch(watchers_nodes, page_count);
   nodes::ObserverGroup group({&profile, &watch});
   std::vector<svm::ReferenceLog> logs(watchers_nodes, svm::ReferenceLog(1000));
-  options.node_count = watchers_nodes;
-  options.cache_pages = 2;
-  options.observer = &group;
-  options.reference_logs = &logs;
+  options.computer.node_count = watchers_nodes;
+  options.pages.cache_pages = 2;
+  options.watching.observer = &group;
+  options.pages.reference_logs = &logs;
   const svm::Report report = run_svm(subject, options);
   CHECK(outcome_of(report) == subject.outcome());
   const svm::Fetches fetches = watch.take();
@@ -57,9 +57,9 @@ void check_watched(const Subject& subject, svm::RunOptions options) {
 TEST_CASE("onlookers see every fetch, by threads, in virtual time and under chaos") {
   const Subject small = subject_to_watch();
   check_watched(small, {});
-  check_watched(small, {.machine = priced_machine()});
+  check_watched(small, {.computer = {.machine = priced_machine()}});
   for (const std::uint64_t seed : {1, 2, 3}) {
-    check_watched(small, {.chaos = nodes::chaos_of(seed)});
+    check_watched(small, {.computer = {.chaos = nodes::chaos_of(seed)}});
   }
 }
 

@@ -26,13 +26,13 @@ std::optional<float> distance(const embree::CurvedQuery& query) {
 
 EmbreeTree::EmbreeTree(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode, EmbreeQuality quality,
                        std::uint32_t thread_count)
-    : device_(rtcNewDevice(thread_count == 0 ? nullptr : ("threads=" + std::to_string(thread_count)).c_str())),
-      scene_(device_ == nullptr ? nullptr : rtcNewScene(device_)),
+    : device_(library_.new_device(thread_count == 0 ? nullptr : ("threads=" + std::to_string(thread_count)).c_str())),
+      scene_(device_ == nullptr ? nullptr : library_.new_scene(device_)),
       shapes_(primitives) {
   core::expect(scene_ != nullptr, "Embree opens its device");
   const RTCBuildQuality effort = quality == EmbreeQuality::high ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
-  rtcSetSceneFlags(scene_, mode == EmbreeMode::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
-  rtcSetSceneBuildQuality(scene_, effort);
+  library_.set_scene_flags(scene_, mode == EmbreeMode::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+  library_.set_scene_build_quality(scene_, effort);
   if (!shapes_.triangles.empty()) {
     embree::attach(scene_, embree::triangle_mesh(device_, shapes_), effort);
   }
@@ -40,14 +40,14 @@ EmbreeTree::EmbreeTree(std::span<const core::PrimitiveValues> primitives, Embree
     embree::attach(scene_, embree::curved_geometry<distance>(device_, shapes_), effort);
   }
   DoubleStopwatch stopwatch;
-  rtcCommitScene(scene_);
+  library_.commit_scene(scene_);
   build_times_ = stopwatch.lap();
-  core::expect(rtcGetDeviceError(device_) == RTC_ERROR_NONE, "Embree builds the scene without an error");
+  core::expect(library_.device_error(device_) == RTC_ERROR_NONE, "Embree builds the scene without an error");
 }
 
 EmbreeTree::~EmbreeTree() {
-  rtcReleaseScene(scene_);
-  rtcReleaseDevice(device_);
+  library_.release_scene(scene_);
+  library_.release_device(device_);
 }
 
 }  // namespace dmpc::apps

@@ -19,12 +19,14 @@ class EmbreeTree {
   EmbreeTree(const EmbreeTree&) = delete;
   EmbreeTree& operator=(const EmbreeTree&) = delete;
 
+  const embree::Library& library() const { return library_; }
   RTCScene scene() const { return scene_; }
   const embree::Shapes& shapes() const { return shapes_; }
   /// From vertices that lay ready.
   const Times& build_times() const { return build_times_; }
 
  private:
+  const embree::Library& library_ = embree::library();
   RTCDevice device_;
   RTCScene scene_;
   embree::Shapes shapes_;

@@ -33,7 +33,8 @@ std::size_t peak_of(const std::string& scene, const SpeedSettings& settings, con
 std::size_t local_bytes(const std::string& scene, const SpeedSettings& settings) {
   const PictureOptions picture = settings.picture_of(SpeedPart::memory, scene);
   const Subject subject = build_subject(settings.load(picture), picture);
-  const svm::Plan plan = svm::plan_of(svm::Strategy::svm, subject.database, subject.settings, {.node_count = memory_node_count});
+  const svm::Plan plan =
+      svm::plan_of(svm::Strategy::svm, subject.database, subject.settings, {.computer = {.node_count = memory_node_count}});
   std::size_t sum = 0;
   for (std::uint32_t node = 0; node < memory_node_count; ++node) {
     sum += plan.node_memory(node).total();

@@ -43,7 +43,7 @@ StrategyOptions strategy_of(const Contender& contender) {
   StrategyOptions options;
   options.strategy = *contender.strategy;
   options.computer.node_count = contender.count;
-  options.computer.runner = contender.runner;
+  options.runner.kind = contender.runner;
   if (contender.runner == RunnerKind::virtual_time) {
     choose_machine(options);
   }

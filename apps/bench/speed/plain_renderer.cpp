@@ -124,7 +124,7 @@ class PlainRenderer::Painter {
     RTCRayHit asked;
     asked.ray = ray_from(origin, direction, std::numeric_limits<float>::infinity());
     asked.hit.geomID = asked.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    embree::intersect(stage_.tree.scene(), context_, asked);
+    embree::intersect(stage_.tree.library(), stage_.tree.scene(), context_, asked);
     if (asked.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
       return stage_.settings.header.background;
     }
@@ -206,7 +206,7 @@ class PlainRenderer::Painter {
   bool is_blocked(const Vec3f& start, const Vec3f& light) {
     ++rays_;
     RTCRay ray = ray_from(start, light - start, light_end);
-    embree::occlude(stage_.tree.scene(), context_, ray);
+    embree::occlude(stage_.tree.library(), stage_.tree.scene(), context_, ray);
     return ray.tfar < 0;
   }
 

@@ -21,13 +21,13 @@ std::uint64_t EmbreeRival::trace(std::span<const core::Ray> rays, Query query) c
   for (const core::Ray& ray : rays) {
     if (query == Query::any) {
       RTCRay asked = embree::ray_of(ray);
-      embree::occlude(parts_->tree.scene(), context, asked);
+      embree::occlude(parts_->tree.library(), parts_->tree.scene(), context, asked);
       hits += asked.tfar < 0 ? 1 : 0;
     } else {
       RTCRayHit asked;
       asked.ray = embree::ray_of(ray);
       asked.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      embree::intersect(parts_->tree.scene(), context, asked);
+      embree::intersect(parts_->tree.library(), parts_->tree.scene(), context, asked);
       hits += asked.hit.geomID != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
     }
   }

@@ -17,7 +17,7 @@ core::Address start_of(svm::PageId page, std::size_t page_size_bytes) {
 svm::Plan plan_for(const core::Database& database, const core::RenderSettings& settings, std::uint32_t node_count) {
   const auto page_count = static_cast<std::uint32_t>(database.page_count());
   return svm::plan_of(svm::Strategy::svm, database, settings,
-                      {.node_count = node_count, .cache_pages = std::max(page_count, 1U)});
+                      {.computer = {.node_count = node_count}, .pages = {.cache_pages = std::max(page_count, 1U)}});
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ void WarmPager::fetch(const core::Database& database, svm::PageId page) {
   const std::span<const std::byte> bytes = database.page(svm::index_of(page));
   std::vector<std::byte> payload(first_bytes.begin(), first_bytes.end());
   payload.insert(payload.end(), bytes.begin(), bytes.end());
-  const nodes::NodeId home{svm::Homes(plan_.request.node_count).place_of(page).node};
+  const nodes::NodeId home{svm::Homes(plan_.request.computer.node_count).place_of(page).node};
   pager_.install({home, svm::number_of(svm::Kind::page_reply), payload});
 }
 

@@ -31,13 +31,13 @@ struct Header {
   std::vector<Element> elements;
 };
 
-bool is_blank(char letter) { return letter == ' ' || letter == '\t' || letter == '\r' || letter == '\n'; }
+bool is_white(char letter) { return letter == ' ' || letter == '\t' || letter == '\r' || letter == '\n'; }
 
 Words words_of(std::string_view line) {
   Words words;
   for (std::size_t at = 0; at < line.size();) {
     std::size_t end = at;
-    while (end < line.size() && !is_blank(line[end])) {
+    while (end < line.size() && !is_white(line[end])) {
       ++end;
     }
     if (end > at) {
@@ -173,11 +173,11 @@ void Reader::check_binary(const Element& element, bool is_big_endian) {
 /// The next word; nothing at the end. Comments are passed over, as Assimp does.
 std::string_view Reader::word() {
   for (;;) {
-    while (!rest_.empty() && is_blank(rest_.front())) {
+    while (!rest_.empty() && is_white(rest_.front())) {
       rest_.remove_prefix(1);
     }
     std::size_t end = 0;
-    while (end < rest_.size() && !is_blank(rest_[end])) {
+    while (end < rest_.size() && !is_white(rest_[end])) {
       ++end;
     }
     const std::string_view word = rest_.substr(0, end);

@@ -33,14 +33,15 @@ struct AccurateFinder::Parts {
   const AccurateScene* scene = nullptr;
   Vec3d middle;
   double unit = 1, margin = box_margin;  ///< a unit of Embree's in the world's; `margin` in Embree's
-  RTCDevice device = rtcNewDevice(nullptr);
+  const embree::Library& library = embree::library();
+  RTCDevice device = library.new_device(nullptr);
   RTCScene boxes = nullptr;
 
   ~Parts() {
     if (boxes != nullptr) {
-      rtcReleaseScene(boxes);
+      library.release_scene(boxes);
     }
-    rtcReleaseDevice(device);
+    library.release_device(device);
   }
 
   void build();
@@ -57,21 +58,21 @@ struct AccurateFinder::Parts {
 };
 
 void AccurateFinder::Parts::build() {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(scene->bodies.size()));
-  rtcSetGeometryUserData(geometry, this);
-  rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, intersect_callback);
-  rtcSetGeometryOccludedFunction(geometry, occluded_callback);
-  rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
-  rtcCommitGeometry(geometry);
-  boxes = rtcNewScene(device);
-  rtcSetSceneFlags(boxes, RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(boxes, RTC_BUILD_QUALITY_HIGH);
-  rtcAttachGeometry(boxes, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(boxes);
-  core::expect(rtcGetDeviceError(device) == RTC_ERROR_NONE, "Embree builds the scene without an error");
+  RTCGeometry geometry = library.new_geometry(device, RTC_GEOMETRY_TYPE_USER);
+  library.set_geometry_user_primitive_count(geometry, static_cast<unsigned>(scene->bodies.size()));
+  library.set_geometry_user_data(geometry, this);
+  library.set_geometry_bounds_function(geometry, bounds_callback, nullptr);
+  library.set_geometry_intersect_function(geometry, intersect_callback);
+  library.set_geometry_occluded_function(geometry, occluded_callback);
+  library.set_geometry_build_quality(geometry, RTC_BUILD_QUALITY_HIGH);
+  library.commit_geometry(geometry);
+  boxes = library.new_scene(device);
+  library.set_scene_flags(boxes, RTC_SCENE_FLAG_ROBUST);
+  library.set_scene_build_quality(boxes, RTC_BUILD_QUALITY_HIGH);
+  library.attach_geometry(boxes, geometry);
+  library.release_geometry(geometry);
+  library.commit_scene(boxes);
+  core::expect(library.device_error(device) == RTC_ERROR_NONE, "Embree builds the scene without an error");
 }
 
 float AccurateFinder::Parts::end_of(double t) const {
@@ -150,7 +151,7 @@ AccurateHit AccurateFinder::closest(const AccurateRay& ray) const {
   RTCRayHit ray_hit{};
   ray_hit.ray = parts_->embree_ray(ray);
   ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  embree::intersect(parts_->boxes, query.context, ray_hit);
+  embree::intersect(parts_->library, parts_->boxes, query.context, ray_hit);
   return query.best;
 }
 
@@ -158,7 +159,7 @@ AccurateHit AccurateFinder::any(const AccurateRay& ray) const {
   Query query{.context = {}, .ray = &ray, .best = {}};
   embree::start(query.context);
   RTCRay asked = parts_->embree_ray(ray);
-  embree::occlude(parts_->boxes, query.context, asked);
+  embree::occlude(parts_->library, parts_->boxes, query.context, asked);
   return query.best;
 }
 

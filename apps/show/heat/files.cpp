@@ -20,7 +20,7 @@ Channel channel_of(const HeatField& field, const RenderRecord& record) {
                      {"dmpc:scene", record.options.picture.scene},
                      {"dmpc:strategy", name_of(record.options.strategy)},
                      {"dmpc:nodes", std::to_string(record.options.computer.node_count)},
-                     {"dmpc:runner", name_of(record.options.computer.runner)},
+                     {"dmpc:runner", name_of(record.options.runner.kind)},
                      {"dmpc:repeatable", field.is_repeatable ? "yes" : "no"}};
   if (!field.clock.empty()) {
     channel.remarks.push_back({"dmpc:clock", field.clock});

@@ -125,7 +125,7 @@ Json mapping_json(const dataflow::Report& report, nodes::TopologyKind topology) 
   return {{"topology", std::string(name_of(topology))}, {"mean_hops", hops.mean}, {"mean_hops_random", hops.mean_of_random}};
 }
 
-Json options_json(const RayOptions& rays, const dataflow::Plan& plan) {
+Json options_json(const dataflow::RayOptions& rays, const dataflow::Plan& plan) {
   const bool subsampled = rays.balance.balance == dataflow::Balance::subsampled;
   return {{"balance", name_of(rays.balance.balance)},
           {"subsample", subsampled ? Json(rays.balance.subsample) : Json()},
@@ -133,7 +133,7 @@ Json options_json(const RayOptions& rays, const dataflow::Plan& plan) {
           {"ray_batch", plan.ray_batch},
           {"ray_credits", plan.ray_credits},
           {"ray_queue", plan.queue_packets},
-          {"topology", std::string(name_of(rays.topology))}};
+          {"topology", std::string(name_of(*rays.topology))}};
 }
 
 Json host_json(const dataflow::HostCounters& host) {
@@ -150,7 +150,7 @@ StrategyStats strategy_stats(const RenderOptions& options, const dataflow::Repor
       .all = {{"travel", travel_json(travel_of(report), plan.ray_batch)},
               {"load", loads_json(work, report.predicted)},
               {"regions", regions_json(report)},
-              {"mapping", mapping_json(report, options.rays.topology)},
+              {"mapping", mapping_json(report, *options.rays.topology)},
               {"pairs", pairs_json(report)}},
       .chaos = {{"ray_credits", plan.ray_credits}, {"host_credits", plan.host_credits}, {"film_credits", plan.film_credits}},
       .host = host_json(report.host_rays),

@@ -228,7 +228,7 @@ Json options_json(const RenderRecord& record, const Account& account, const Json
                  {"convention", options.picture.convention == core::Convention::haines ? "haines" : "paper"},
                  {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
                  {"grid_axes", name_of(options.database.axes)},
-                 {"record_order", name_of(options.database.record_order)},
+                 {"record_order", name_of(options.database.build.record_order)},
                  {"strategy", name_of(options.strategy)},
                  {"nodes", account.nodes.size()},
                  {"node_memory", account.node_memory_max_bytes},
@@ -307,7 +307,7 @@ std::string stats_json(const RenderRecord& record) {
       std::visit([&](const auto& report) { return strategy_stats(record.options, report); }, record.report);
   Json all = {{"program", "dmpc " DMPC_VERSION},
               {"options", options_json(record, account, special.options)},
-              {"runner", name_of(record.options.computer.runner)},
+              {"runner", name_of(record.options.runner.kind)},
               {"machine", machine ? machine_json(*machine) : Json()},
               {"film_hash", hash_text(account.film.hash())},
               {"sampling", sampling_json(record, account)},

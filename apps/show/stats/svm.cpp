@@ -34,16 +34,16 @@ Json pages_and_work_json(const svm::PageCounters& pages, const svm::WorkCounters
 
 StrategyStats strategy_stats(const RenderOptions& options, const svm::Report& report) {
   const svm::Plan& plan = report.plan;
-  const bool counted = plan.request.count_pages;
+  const bool counted = plan.request.pages.count_pages;
   StrategyStats stats{.options = {{"in_flight", plan.in_flight},
-                                  {"work_item", plan.request.work_item_side},
-                                  {"count_pages", plan.request.count_pages}},
+                                  {"work_item", plan.request.pages.work_item_side},
+                                  {"count_pages", plan.request.pages.count_pages}},
                       .all = pages_and_work_json(report.pages(), report.work(), counted),
                       .chaos = {{"request_credits", plan.request_credits}, {"film_credits", plan.film_credits}},
                       .host = Json::object()};
   if (options.strategy == Strategy::svm) {
     stats.options["cache_pages"] = plan.frames;
-    stats.options["replacement"] = svm::name_of(plan.request.replacement);
+    stats.options["replacement"] = svm::name_of(plan.request.pages.replacement);
   }
   for (const svm::NodeReport& node : report.nodes) {
     stats.nodes.push_back(pages_and_work_json(node.program.pages, node.program.work, counted));

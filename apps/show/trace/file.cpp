@@ -47,7 +47,7 @@ TraceView view_of(const RenderRecord& record) {
   view.remarks = {{"scene", options.picture.scene},
                   {"strategy", name_of(options.strategy)},
                   {"nodes", std::to_string(options.computer.node_count)},
-                  {"runner", name_of(options.computer.runner)}};
+                  {"runner", name_of(options.runner.kind)}};
   if (account.virtual_time) {
     view.remarks.push_back({"machine", options.computer.machine->name});
     view.remarks.push_back({"machine_digest", hash_text(account.virtual_time->machine_digest)});

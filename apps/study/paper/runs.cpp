@@ -46,18 +46,14 @@ std::optional<std::uint32_t> cache_pages_of(const PaperRun& run, const core::Dat
 
 Report report_of(const PaperRun& run, const Subject& subject, const std::stop_token& stop) {
   if (run.rays_travel) {
-    const dataflow::RunOptions options{.node_count = run.node_count,
-                                       .node_memory_bytes = run.node_memory_bytes,
-                                       .topology = run.machine.topology,
-                                       .machine = run.machine};
+    const dataflow::RunOptions options{
+        .computer = {.node_count = run.node_count, .node_memory_bytes = run.node_memory_bytes, .machine = run.machine},
+        .rays = {.topology = run.machine.topology}};
     return dataflow::run_dataflow(subject.database, subject.settings, options, stop);
   }
-  const svm::RunOptions options{.node_count = run.node_count,
-                                .node_memory_bytes = run.node_memory_bytes,
-                                .cache_pages = cache_pages_of(run, subject.database),
-                                .in_flight = 1,
-                                .count_pages = run.count_pages,
-                                .machine = run.machine};
+  const svm::RunOptions options{
+      .computer = {.node_count = run.node_count, .node_memory_bytes = run.node_memory_bytes, .machine = run.machine},
+      .pages = {.cache_pages = cache_pages_of(run, subject.database), .in_flight = 1, .count_pages = run.count_pages}};
   return svm::run_svm(subject.database, subject.settings, options, stop);
 }
 
@@ -84,7 +80,7 @@ std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs) {
     if (std::none_of(subjects.begin(), subjects.end(), [&](const PaperSubject& subject) { return subject.is_of(run); })) {
       const PictureOptions picture = picture_of(run.scene, run.resolution);
       subjects.push_back({run.scene, run.resolution, run.record_order,
-                          build_subject(load_scene(picture), picture, {.record_order = run.record_order})});
+                          build_subject(load_scene(picture), picture, {.build = {.record_order = run.record_order}})});
     }
   }
   return subjects;

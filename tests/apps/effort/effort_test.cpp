@@ -55,7 +55,7 @@ TEST_CASE("a render of half a minute is long, one of less is not") {
 TEST_CASE("more pixels, a machine's model and a check take longer") {
   const Subject small = small_subject("tetra-3", 64), large = small_subject("tetra-3", 512);
   StrategyOptions threads, model;
-  model.computer.runner = RunnerKind::virtual_time;
+  model.runner.kind = RunnerKind::virtual_time;
   model.computer.node_count = 64;
   CHECK(render_effort(threads, large).seconds > 4 * render_effort(threads, small).seconds);
   CHECK(render_effort(model, small).seconds > 0.1);  // nodes take time, too

@@ -79,7 +79,7 @@ TEST_CASE("without a bound a render takes what is forecast") {
 TEST_CASE("what two pixels take is forecast to the byte") {
   RenderOptions options = small(Strategy::svm);
   options.picture.resolution = {2, 1};
-  options.database.page_size_bytes = 65536;
+  options.database.build.page_size_bytes = 65536;
   const MemoryForecast memory = forecast_for(options).svm;
   const Rendered rendered(options);
   const Account account = account_of(*rendered.report);

@@ -35,9 +35,12 @@ void check_installed(const fs::path& root, const std::string& zsh_folder) {
 
 void check_program(const fs::path& program, const fs::path& folder) {
   CHECK(run({program, "--version"}).output.rfind("dmpc ", 0) == 0);
-  const Said rendered = run({program, "render", "tetra-3", "--resolution=16x16", "--quiet", "-o", folder / "tetra.png"});
-  CHECK(rendered.errors.empty());
-  CHECK(fs::file_size(folder / "tetra.png") > 0);
+  for (const std::string name : {"tetra.png", "tetra.tif"}) {  // with both modules
+    const Said rendered = run({program, "render", "tetra-3", "--resolution=16x16", "--strategy=replicated", "--tracer=embree",
+                               "--quiet", "-o", folder / name});
+    CHECK_MESSAGE(rendered.errors.empty(), rendered.errors);
+    CHECK(fs::file_size(folder / name) > 0);
+  }
 }
 
 /// What apps/dmpc has ninja build when it is called for the first time: with words in place of the tools that it calls.
@@ -94,8 +97,9 @@ TEST_CASE("the Debian package says what it needs, and what is in it works") {
   const Said unpacked =
       run({"sh", "-c", "cd '" + folder.path().string() + "' && dpkg-deb -f made/*.deb && dpkg-deb -x made/*.deb all"});
   REQUIRE_MESSAGE(unpacked.status == 0, unpacked.errors);
-  for (const char* const line : {"Package: dmpc\n", "Section: graphics\n", "Recommends: gnuplot-nox\n", "libembree3-3",
-                                 "libtbb12", "libopenimageio2.4", "Description: distributed-memory parallel computer"}) {
+  for (const char* const line :
+       {"Package: dmpc\n", "Section: graphics\n", "Recommends: gnuplot-nox\n", "libembree3-3", "libtbb12", "libopenimageio2.4",
+        "zlib1g", "Description: distributed-memory parallel computer"}) {
     CHECK_MESSAGE(contains(unpacked.output, line), line);
   }
   check_installed(folder / "all/usr", "vendor-completions");

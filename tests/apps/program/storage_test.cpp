@@ -69,8 +69,8 @@ apps::RenderOptions storage_options(const TemporaryFolder& folder, std::uint64_t
   options.checkpoint = {.file = folder / "kept/c", .every_seconds = 1e-9, .resumes = true};
   options.strategy = seed % 3 == 0 ? apps::Strategy::svm : seed % 3 == 1 ? apps::Strategy::dataflow : apps::Strategy::replicated;
   options.computer.node_count = 2;
-  options.computer.runner = apps::RunnerKind::virtual_time;
-  options.computer.machine_name = "ipsc2";
+  options.runner.kind = apps::RunnerKind::virtual_time;
+  options.runner.machine_name = "ipsc2";
   if (seed % 4 == 1) {
     options.heat_maps = {{nodes::HeatKind::rays, folder / "picture/h.png"}, {nodes::HeatKind::time, folder / "picture/h.exr"}};
   }

@@ -43,7 +43,7 @@ struct Forged {
     identity.terms = {static_cast<std::uint32_t>(size.samples), size.refinement,
                       core::radiance_bound(tests::mirrors_and_glass(), 6)};
     std::stop_source stop;
-    svm::RunOptions options{.node_count = 2, .work_item_side = 3};
+    svm::RunOptions options{.computer = {.node_count = 2}, .pages = {.work_item_side = 3}};
     std::uint32_t left = keeps_before_stop;
     options.continuation = {nullptr, [] { return true; },
                             [&](const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) {
@@ -125,9 +125,9 @@ Reaction reaction_to(const Forged& forged, const std::string& text, std::mt19937
   }
   const core::Continuation continuation{.start = &*start};
   if (random() % 2 == 0) {
-    tests::run_svm(forged.subject, {.node_count = 2, .continuation = continuation});
+    tests::run_svm(forged.subject, {.computer = {.node_count = 2}, .continuation = continuation});
   } else {
-    tests::run_dataflow(forged.subject, {.node_count = 2, .continuation = continuation});
+    tests::run_dataflow(forged.subject, {.computer = {.node_count = 2}, .continuation = continuation});
   }
   return Reaction::rendered;
 }

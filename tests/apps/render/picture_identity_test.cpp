@@ -77,8 +77,8 @@ TEST_CASE("the computer, the strategy and what is left out are no part of the pi
   CHECK(difference_by_options([](auto& options) {
           options.strategy = Strategy::dataflow;
           options.computer.node_count = 3;
-          options.database.page_size_bytes = 4096;
-          options.database.record_order = core::RecordOrder::scattered;
+          options.database.build.page_size_bytes = 4096;
+          options.database.build.record_order = core::RecordOrder::scattered;
           options.picture.skips.background = false;
         }).empty());
 }

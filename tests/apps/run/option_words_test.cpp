@@ -20,9 +20,9 @@ TEST_CASE("a plan that is refused is refused in the words of the command line, a
   const auto refused = [](const svm::PlanRequest& request) {
     return apps::with_options_named([&] { return svm::make_plan(request); });
   };
-  const svm::PlanRequest none{.page_count = 4, .node_count = 0, .width = 1, .height = 1};
+  const svm::PlanRequest none{.page_count = 4, .computer = {.node_count = 0}, .width = 1, .height = 1};
   CHECK_THROWS_WITH_AS(refused(none), doctest::Contains("--nodes=0: from 1 to"), core::UsageError);
-  const svm::PlanRequest small{.page_count = 4, .node_memory_bytes = 1, .width = 1, .height = 1};
+  const svm::PlanRequest small{.page_count = 4, .computer = {.node_memory_bytes = 1}, .width = 1, .height = 1};
   CHECK_THROWS_WITH_AS(refused(small), doctest::Contains("--node-memory=1B is too small for --nodes=8"), core::RoomError);
 }
 

@@ -50,8 +50,8 @@ TEST_CASE("a scene and an output are all that render needs") {
   CHECK_FALSE(options.pages.in_flight);
   CHECK(options.pages.work_item_side == 3);
   CHECK(options.picture.skips == core::Skips{});
-  CHECK(options.database.page_size_bytes == 1024);
-  CHECK(options.database.record_order == core::RecordOrder::spatial);
+  CHECK(options.database.build.page_size_bytes == 1024);
+  CHECK(options.database.build.record_order == core::RecordOrder::spatial);
   CHECK(options.database.axes == AxesChoice::world);
   CHECK_FALSE(options.picture.resolution);
   CHECK(options.picture.samples == 1);
@@ -60,7 +60,7 @@ TEST_CASE("a scene and an output are all that render needs") {
   CHECK(options.tracer == TracerChoice::grid);
   CHECK_FALSE(options.stats);
   CHECK_FALSE(options.quiet);
-  CHECK(options.computer.runner == RunnerKind::threads);
+  CHECK(options.runner.kind == RunnerKind::threads);
 }
 
 TEST_CASE("every option of the computer reaches its field") {
@@ -69,8 +69,8 @@ TEST_CASE("every option of the computer reaches its field") {
                                         "--no-skip=empty-space", "--count-pages", "--stats=s.json", "--quiet"});
   CHECK(options.computer.node_count == 64);
   CHECK(options.computer.node_memory_bytes == 4_MiB);
-  CHECK(options.database.page_size_bytes == 4_KiB);
-  CHECK(options.database.record_order == core::RecordOrder::scattered);
+  CHECK(options.database.build.page_size_bytes == 4_KiB);
+  CHECK(options.database.build.record_order == core::RecordOrder::scattered);
   CHECK(options.pages.cache_pages == 5);
   CHECK(options.pages.replacement == svm::Replacement::clock);
   CHECK(options.pages.in_flight == 7);
@@ -190,7 +190,7 @@ TEST_CASE("the smallest and largest values are taken") {
 }
 
 TEST_CASE("dataflow needs no option of its own") {
-  const RayOptions rays = render({"--strategy=dataflow"}).rays;
+  const dataflow::RayOptions rays = render({"--strategy=dataflow"}).rays;
   CHECK(rays.balance.balance == dataflow::Balance::subsampled);
   CHECK(rays.balance.subsample == 8);
   CHECK(rays.balance.columns_per_side == 256);
@@ -252,18 +252,18 @@ TEST_CASE("options that every strategy has go with each") {
 }
 
 TEST_CASE("threads drive the computer unless a machine is to be modelled") {
-  CHECK(render().computer.runner == RunnerKind::threads);
-  const ComputerOptions standard = render({"--runner=virtual"}).computer;
-  CHECK(standard.runner == RunnerKind::virtual_time);
+  CHECK(render().runner.kind == RunnerKind::threads);
+  const RunnerOptions standard = render({"--runner=virtual"}).runner;
+  CHECK(standard.kind == RunnerKind::virtual_time);
   CHECK(standard.machine_name == "ipsc2");
   CHECK_FALSE(standard.no_contention);
-  CHECK_FALSE(standard.machine);
-  const ComputerOptions given = render({"--runner=virtual", "--machine=my.json", "--no-contention"}).computer;
+  CHECK_FALSE(render({"--runner=virtual"}).computer.machine);
+  const RunnerOptions given = render({"--runner=virtual", "--machine=my.json", "--no-contention"}).runner;
   CHECK(given.machine_name == "my.json");
   CHECK(given.no_contention);
   CHECK_FALSE(given.memory_port);
-  CHECK(render({"--runner=virtual", "--memory-port"}).computer.memory_port);
-  CHECK(render({"--runner=threads", "--chaos=1"}).computer.runner == RunnerKind::threads);
+  CHECK(render({"--runner=virtual", "--memory-port"}).runner.memory_port);
+  CHECK(render({"--runner=threads", "--chaos=1"}).runner.kind == RunnerKind::threads);
 }
 
 TEST_CASE("an option of the other runner is refused with the reason") {

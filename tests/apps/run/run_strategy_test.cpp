@@ -111,41 +111,41 @@ TEST_CASE("a modelled machine's nodes work on one pixel at once unless told othe
 }
 
 TEST_CASE("the machine asked for is read, and regions are mapped onto its topology") {
-  const auto chosen = [](const ComputerOptions& computer) {
-    StrategyOptions options{.computer = computer};
+  const auto chosen = [](const RunnerOptions& runner) {
+    StrategyOptions options{.runner = runner};
     choose_machine(options);
     return options;
   };
   CHECK_FALSE(chosen({}).computer.machine);
-  ComputerOptions computer{.runner = RunnerKind::virtual_time};
-  CHECK(chosen(computer).computer.machine.value().name == "ipsc2");
-  computer.machine_name = "paragon";
-  CHECK(chosen(computer).rays.topology == nodes::TopologyKind::mesh);
-  CHECK(chosen(computer).computer.machine.value().has_contention);
-  CHECK_FALSE(chosen(computer).computer.machine.value().has_memory_port);
-  computer.memory_port = true;
-  CHECK(chosen(computer).computer.machine.value().has_memory_port);
-  computer.memory_port = false;
-  computer.no_contention = true;
-  CHECK_FALSE(chosen(computer).computer.machine.value().has_contention);
-  computer.machine_name = "abacus";
-  CHECK_THROWS_AS(chosen(computer), core::InputError);
+  RunnerOptions runner{.kind = RunnerKind::virtual_time};
+  CHECK(chosen(runner).computer.machine.value().name == "ipsc2");
+  runner.machine_name = "paragon";
+  CHECK(chosen(runner).rays.topology == nodes::TopologyKind::mesh);
+  CHECK(chosen(runner).computer.machine.value().has_contention);
+  CHECK_FALSE(chosen(runner).computer.machine.value().has_memory_port);
+  runner.memory_port = true;
+  CHECK(chosen(runner).computer.machine.value().has_memory_port);
+  runner.memory_port = false;
+  runner.no_contention = true;
+  CHECK_FALSE(chosen(runner).computer.machine.value().has_contention);
+  runner.machine_name = "abacus";
+  CHECK_THROWS_AS(chosen(runner), core::InputError);
 }
 
 TEST_CASE("without contention there are no memory ports, and to ask for them is wrong usage") {
   const tests::TemporaryFolder folder;
   MachineDescription mine = *find_machine_preset("cm5");
-  StrategyOptions options{.computer = {.runner = RunnerKind::virtual_time, .machine_name = folder / "mine.json"}};
+  StrategyOptions options{.runner = {.kind = RunnerKind::virtual_time, .machine_name = folder / "mine.json"}};
   mine.machine.has_memory_port = true;
   tests::write_text(folder / "mine.json", machine_text(mine));
-  options.computer.no_contention = true;
+  options.runner.no_contention = true;
   choose_machine(options);
   CHECK_FALSE(options.computer.machine.value().has_memory_port);
   mine.machine.has_contention = mine.machine.has_memory_port = false;
   tests::write_text(folder / "mine.json", machine_text(mine));
-  options.computer.no_contention = false;
+  options.runner.no_contention = false;
   CHECK_NOTHROW(choose_machine(options));
-  options.computer.memory_port = true;
+  options.runner.memory_port = true;
   CHECK_THROWS_WITH_AS(choose_machine(options), doctest::Contains("whose has_contention is false"), core::UsageError);
 }
 

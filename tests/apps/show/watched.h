@@ -18,8 +18,8 @@ struct Watched {
     Subject subject = build_subject(load_scene(options.picture), options.picture, options.database);
     database = std::move(subject.database);
     Onlookers onlookers(options, static_cast<std::uint32_t>(database.page_count()), references_max);
-    const RunTies ties{.observer = onlookers.observer(), .reference_logs = onlookers.reference_logs()};
-    report = make_ready(options, database, subject.settings, {}, ties).start({}, {});
+    options.pages.reference_logs = onlookers.reference_logs();
+    report = make_ready(options, database, subject.settings, {}, {.observer = onlookers.observer()}).start({}, {});
     sights = onlookers.take();
   }
   RenderRecord record() const {
@@ -36,7 +36,7 @@ struct Watched {
 /// With caches so small that pages are fetched.
 inline RenderOptions starved(RenderOptions options) {
   options.picture.scene = "balls-2";
-  options.database.page_size_bytes = 512;
+  options.database.build.page_size_bytes = 512;
   options.pages.cache_pages = 4;
   return options;
 }

@@ -49,8 +49,8 @@ TEST_CASE("regions by the subsampled picture are more even than those of equal s
 TEST_CASE("the figures are those of the run") {
   StudySubject subject("balls-2");
   const Table table = subject.measure(BalanceStudy{.node_counts = {5}, .topology = nodes::TopologyKind::mesh});
-  const dataflow::Report report =
-      subject.runs.run("again", dataflow::RunOptions{.node_count = 5, .topology = nodes::TopologyKind::mesh});
+  const dataflow::Report report = subject.runs.run(
+      "again", dataflow::RunOptions{.computer = {.node_count = 5}, .rays = {.topology = nodes::TopologyKind::mesh}});
   const nodes::Topology mesh(nodes::TopologyKind::mesh, 5);
   const std::vector<dataflow::Flow> flows = dataflow::flows_of_matrix(report.ray_matrix(), 5);
   CHECK(real(table, 0, "average load predicted") == 100 * dataflow::average_load(report.predicted));

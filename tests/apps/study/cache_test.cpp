@@ -25,7 +25,8 @@ nodes::Machine ipsc2() { return apps::find_machine_preset("ipsc2")->machine; }
 /// The study's faults of a policy, by a run on threads.
 std::uint64_t faults_on_threads(StudySubject& subject, std::uint32_t cache_pages, svm::Replacement replacement) {
   const svm::RunOptions options{
-      .node_count = 4, .cache_pages = cache_pages, .replacement = replacement, .in_flight = 1, .work_item_side = 0};
+      .computer = {.node_count = 4},
+      .pages = {.cache_pages = cache_pages, .replacement = replacement, .in_flight = 1, .work_item_side = 0}};
   return subject.runs.run("threads", options).pages().faults;
 }
 
@@ -81,8 +82,10 @@ TEST_CASE("by default the sizes go from one page to all that are not at home, wh
 TEST_CASE("misses are faults over references, those at home included") {
   StudySubject subject("rings-2-t1");
   const Table table = subject.measure(CacheStudy{.node_count = 4, .cache_pages = {5}});
-  const auto pages =
-      subject.runs.run("again", svm::RunOptions{.node_count = 4, .cache_pages = 5, .in_flight = 1, .work_item_side = 0}).pages();
+  const auto pages = subject.runs
+                         .run("again", svm::RunOptions{.computer = {.node_count = 4},
+                                                       .pages = {.cache_pages = 5, .in_flight = 1, .work_item_side = 0}})
+                         .pages();
   CHECK(real(table, 0, "misses lru") ==
         doctest::Approx(100 * static_cast<double>(pages.misses) / static_cast<double>(pages.references)));
 }
@@ -90,9 +93,10 @@ TEST_CASE("misses are faults over references, those at home included") {
 TEST_CASE("on a machine the times are those of its own runs") {
   StudySubject subject("rings-2-t1");
   const Table table = subject.measure(CacheStudy{.node_count = 4, .cache_pages = {4, 1000}, .machine = ipsc2()});
-  const svm::RunOptions options{.node_count = 4, .cache_pages = 4, .in_flight = 1, .machine = ipsc2()};
+  const svm::RunOptions options{.computer = {.node_count = 4, .machine = ipsc2()}, .pages = {.cache_pages = 4, .in_flight = 1}};
   const svm::Report report = subject.runs.run("again", options);
-  const svm::Report one = subject.runs.run("one", svm::RunOptions{.node_count = 1, .in_flight = 1, .machine = ipsc2()});
+  const svm::Report one =
+      subject.runs.run("one", svm::RunOptions{.computer = {.node_count = 1, .machine = ipsc2()}, .pages = {.in_flight = 1}});
   const double seconds = static_cast<double>(report.virtual_time->total_ns) * 1e-9;
   const auto bytes = static_cast<double>(report.sent()[svm::number_of(svm::Kind::page_reply)].bytes);
   CHECK(real(table, 0, "virtual time") == doctest::Approx(seconds));

@@ -51,8 +51,8 @@ TEST_CASE("before the first run there is no film") {
 
 TEST_CASE("runs of either strategy are counted, shown by number and name, and have one film") {
   StudySubject subject("balls-1");
-  const dataflow::Report rays = subject.runs.run("three nodes", dataflow::RunOptions{.node_count = 3});
-  const svm::Report pages = subject.runs.run("two nodes", svm::RunOptions{.node_count = 2});
+  const dataflow::Report rays = subject.runs.run("three nodes", dataflow::RunOptions{.computer = {.node_count = 3}});
+  const svm::Report pages = subject.runs.run("two nodes", svm::RunOptions{.computer = {.node_count = 2}});
   CHECK(rays.nodes.size() == 3);
   CHECK(pages.nodes.size() == 2);
   CHECK(subject.runs.count() == 2);
@@ -169,13 +169,13 @@ TEST_CASE("runs with threads are not run side by side, and no runs are none") {
 
 TEST_CASE("a film unlike the first is a broken invariant") {
   StudySubject subject("balls-1");
-  subject.runs.run("one node", svm::RunOptions{.node_count = 1});
+  subject.runs.run("one node", svm::RunOptions{.computer = {.node_count = 1}});
   CHECK_THROWS_AS(subject.runs.compare(core::Film(32, 32)), core::InternalError);
 }
 
 TEST_CASE("a run that cannot be planned is not counted") {
   StudySubject subject("balls-1");
-  CHECK_THROWS_AS(subject.runs.run("too small", svm::RunOptions{.node_memory_bytes = 1}), core::InputError);
+  CHECK_THROWS_AS(subject.runs.run("too small", svm::RunOptions{.computer = {.node_memory_bytes = 1}}), core::InputError);
   CHECK(subject.runs.count() == 0);
   CHECK_FALSE(subject.runs.film_hash());
 }

@@ -64,7 +64,8 @@ TEST_CASE("a row is that of a run by itself") {
   StudySubject subject("tetra-3");
   const Table table = subject.measure(study_of(Strategy::svm, {1, 5}));
   const svm::Report report = subject.runs.run(
-      "again", svm::RunOptions{.node_count = 5, .in_flight = 1, .machine = apps::find_machine_preset("ipsc2")->machine});
+      "again", svm::RunOptions{.computer = {.node_count = 5, .machine = apps::find_machine_preset("ipsc2")->machine},
+                               .pages = {.in_flight = 1}});
   CHECK(real(table, 1, "virtual time") == doctest::Approx(1e-9 * static_cast<double>(report.virtual_time->total_ns)));
   CHECK(cell(table, 1, "run hash") == Cell(apps::hash_text(report.virtual_time->run_hash(report.film.hash()))));
   CHECK(whole(table, 1, "node memory") == report.plan.node_memory_max_bytes());

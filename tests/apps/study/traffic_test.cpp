@@ -41,7 +41,7 @@ TEST_CASE("with one node nothing travels") {
 TEST_CASE("the figures of rays do not contradict each other or the run") {
   StudySubject subject("rings-2-t1");
   const Table table = subject.measure(TrafficStudy{.node_counts = {4}});
-  const dataflow::Report report = subject.runs.run("again", dataflow::RunOptions{.node_count = 4});
+  const dataflow::Report report = subject.runs.run("again", dataflow::RunOptions{.computer = {.node_count = 4}});
   const std::uint64_t rays = whole(table, 0, "rays sent");
   CHECK(rays == report.gathers().rays);
   CHECK(real(table, 0, "hops a ray") == report.messages_per_ray());
@@ -59,7 +59,7 @@ TEST_CASE("the figures of rays do not contradict each other or the run") {
 TEST_CASE("the figures of pages are those of svm's own run") {
   StudySubject subject("rings-2-t1");
   const Table table = subject.measure(TrafficStudy{.node_counts = {2}});
-  const svm::Report report = subject.runs.run("again", svm::RunOptions{.node_count = 2});
+  const svm::Report report = subject.runs.run("again", svm::RunOptions{.computer = {.node_count = 2}});
   CHECK(whole(table, 0, "faults") > 0);
   CHECK(whole(table, 0, "page traffic") >= whole(table, 0, "faults") * subject.subject.database.page_size());
   CHECK(whole(table, 0, "svm memory") == report.plan.node_memory_max_bytes());

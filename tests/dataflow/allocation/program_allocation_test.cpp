@@ -42,8 +42,8 @@ std::uint64_t allocated_by(const dataflow::PlanRequest& bounds, std::uint32_t no
 
 TEST_CASE("a node of dataflow allocates nothing while it traces, receives and sends") {
   CHECK(allocated_by({}, 5) == 0);
-  CHECK(allocated_by({.ray_batch = 1, .ray_credits = 1}, 5) == 0);
-  CHECK(allocated_by({.ray_credits = 0}, 3) == 0);
+  CHECK(allocated_by({.rays = {.ray_batch = 1, .ray_credits = 1}}, 5) == 0);
+  CHECK(allocated_by({.rays = {.ray_credits = 0}}, 3) == 0);
   CHECK(allocated_by({.refinement = {.error = 0.01}}, 3) == 0);
 }
 

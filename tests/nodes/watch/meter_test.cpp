@@ -24,17 +24,18 @@ class Listener final : public Observer {
 TEST_CASE("a meter that nobody wants is not wanted") {
   HeatMap map(1, {});
   Listener listener;
-  CHECK_FALSE(Metering().is_wanted());
-  CHECK(Metering{.heat = &map}.is_wanted());
-  CHECK(Metering{.observer = &listener}.is_wanted());
+  CHECK_FALSE(Watching().is_metered());
+  CHECK(Watching{.heat = &map}.is_metered());
+  CHECK(Watching{.observer = &listener}.is_metered());
 }
 
 TEST_CASE("a meter tells the heat map and the observer, whichever there is") {
   constexpr std::array kinds = {HeatKind::rays, HeatKind::node};
   HeatMap map(3, kinds);
   Listener listener;
-  for (const Metering& metering : {Metering{&map, &listener}, Metering{&map, nullptr}, Metering{nullptr, &listener}}) {
-    Meter meter(metering, NodeId{5});
+  for (const Watching& watching :
+       {Watching{.heat = &map, .observer = &listener}, Watching{.heat = &map}, Watching{.observer = &listener}}) {
+    Meter meter(watching, nullptr, NodeId{5});
     meter.begin({.rays = 10});
     meter.end(2, 4, {.rays = 13});
     meter.claim(2);

@@ -32,9 +32,9 @@ std::uint64_t allocated_by(svm::Strategy strategy, const svm::RunOptions& option
                                                                                      make_tracer);
   };
   core::Film film(16, 16);
-  const svm::Progress progress;
+  const nodes::Progress progress;
   std::vector<nodes::NodeSpecification> specifications = svm::specifications_of(plan, make_program, film, progress);
-  for (std::uint32_t i = 0; i < options.node_count + (error == 0 ? 1 : 0); ++i) {
+  for (std::uint32_t i = 0; i < options.computer.node_count + (error == 0 ? 1 : 0); ++i) {
     specifications[i] = watched(specifications[i]);
   }
   nodes::ThreadsRunner runner(specifications);
@@ -45,21 +45,21 @@ std::uint64_t allocated_by(svm::Strategy strategy, const svm::RunOptions& option
 }
 
 TEST_CASE("a node of svm allocates nothing while it renders, pages, asks for work and serves") {
-  svm::RunOptions options{.node_count = 5};
+  svm::RunOptions options{.computer = {.node_count = 5}};
   CHECK(allocated_by<svm::Pager>(svm::Strategy::svm, options) == 0);
-  options.cache_pages = 1;
-  options.in_flight = 64;
+  options.pages.cache_pages = 1;
+  options.pages.in_flight = 64;
   CHECK(allocated_by<svm::Pager>(svm::Strategy::svm, options) == 0);
-  options.count_pages = true;
+  options.pages.count_pages = true;
   CHECK(allocated_by<svm::CountingPager>(svm::Strategy::svm, options) == 0);
 }
 
 TEST_CASE("a node of svm allocates nothing in passes that refine samples") {
-  CHECK(allocated_by<svm::Pager>(svm::Strategy::svm, {.node_count = 5}, 0.01) == 0);
+  CHECK(allocated_by<svm::Pager>(svm::Strategy::svm, {.computer = {.node_count = 5}}, 0.01) == 0);
 }
 
 TEST_CASE("a node of replicated allocates nothing while it renders") {
-  CHECK(allocated_by<svm::LocalCopy>(svm::Strategy::replicated, {.node_count = 5}) == 0);
+  CHECK(allocated_by<svm::LocalCopy>(svm::Strategy::replicated, {.computer = {.node_count = 5}}) == 0);
 }
 
 }  // namespace

@@ -34,13 +34,10 @@ struct SmallRecorder {
 
   svm::Plan plan = svm::make_plan({.page_count = page_count,
                                    .page_size_bytes = page_size,
-                                   .node_count = 4,
-                                   .cache_pages = 2,
-                                   .in_flight = 1,
-                                   .work_item_side = 0,
+                                   .computer = {.node_count = 4},
+                                   .pages = {.cache_pages = 2, .in_flight = 1, .work_item_side = 0, .record_references = true},
                                    .width = 1,
-                                   .height = 1,
-                                   .record_references = true});
+                                   .height = 1});
   LoneNode lone;
   FakePages pages;
   svm::ReferenceLog log;

@@ -22,7 +22,7 @@ inline RenderOptions to_trace(Strategy strategy, RunnerKind runner) {
   RenderOptions options;
   options.picture.scene = "balls-1";
   options.picture.resolution = {8, 8};
-  options.database.page_size_bytes = 512;
+  options.database.build.page_size_bytes = 512;
   options.strategy = strategy;
   options.computer.node_count = 3;
   if (strategy == Strategy::svm) {

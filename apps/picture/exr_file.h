@@ -1,0 +1,28 @@
+// OpenEXR files, as dmpc writes them: scan lines of 32-bit floats, packed without loss ("Technical Introduction to OpenEXR",
+// "OpenEXR File Layout").
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dmpc::apps {
+
+/// One number of each pixel: every `stride`th of `values`, from the first.
+struct ExrChannel {
+  std::string name;
+  std::span<const float> values;
+  std::size_t stride = 1;
+};
+
+struct ExrPicture {
+  int width = 0, height = 0;
+  std::vector<ExrChannel> channels;                          ///< in any order
+  std::vector<std::pair<std::string, std::string>> remarks;  ///< attributes that are texts
+};
+
+/// The file's bytes, the same for the same picture. Requires a pixel, and names of 1 to 31 bytes.
+std::string exr_file(const ExrPicture& picture);
+
+}  // namespace dmpc::apps

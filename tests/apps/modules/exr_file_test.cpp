@@ -1,0 +1,103 @@
+#include "apps/picture/exr_file.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/base/expect.h"
+#include "core/base/sampling.h"
+#include "tests/apps/modules/read_file.h"
+
+namespace dmpc::tests {
+
+namespace {
+
+using apps::exr_file;
+using apps::ExrPicture;
+
+ReadFile read(const ExrPicture& picture) { return ReadFile("a.exr", exr_file(picture)); }
+
+std::vector<float> values_of(const ReadFile& file) { return file.values<float>(OIIO::TypeDesc::FLOAT); }
+
+std::vector<float> noise(std::size_t count) {
+  std::vector<float> values(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    values[i] = static_cast<float>(core::mix(i)) * 0x1p-40F;
+  }
+  return values;
+}
+
+std::vector<float> slope(std::size_t count) {
+  std::vector<float> values(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    values[i] = static_cast<float>(i) * 0.25F - 3;
+  }
+  return values;
+}
+
+ExrPicture color_picture(int width, int height, const std::vector<float>& rgb) {
+  const std::span<const float> values(rgb);
+  return {width, height, {{"R", values, 3}, {"G", values.subspan(1), 3}, {"B", values.subspan(2), 3}}, {}};
+}
+
+}  // namespace
+
+TEST_CASE("OpenImageIO reads the floats that were written, whatever packs well, for every number of rows in the last block") {
+  for (const int height : {1, 15, 16, 17, 33}) {
+    for (const int width : {1, 2, 7, 64}) {
+      CAPTURE(width);
+      CAPTURE(height);
+      const auto count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3;
+      for (const std::vector<float>& rgb : {noise(count), slope(count), std::vector<float>(count, 0.5F)}) {
+        const ReadFile file = read(color_picture(width, height, rgb));
+        CHECK((file.spec().width == width && file.spec().height == height));
+        CHECK(values_of(file) == rgb);
+      }
+    }
+  }
+}
+
+TEST_CASE("infinities, zeros of both signs and what is no number come back") {
+  const float infinity = std::numeric_limits<float>::infinity();
+  const std::vector<float> rgb = {infinity, -infinity, -0.0F, std::numeric_limits<float>::quiet_NaN(), 0, 1e-40F};
+  const std::vector<float> values = values_of(read(color_picture(2, 1, rgb)));
+  CHECK((values[0] == infinity && values[1] == -infinity && std::signbit(values[2])));
+  CHECK((std::isnan(values[3]) && values[4] == 0 && values[5] == 1e-40F));
+}
+
+TEST_CASE("a picture of colours has red, green and blue, as linear light, packed by zip") {
+  const std::vector<float> rgb = slope(12);
+  const ReadFile file = read(color_picture(2, 2, rgb));
+  CHECK(file.spec().channelnames == std::vector<std::string>{"R", "G", "B"});
+  CHECK(file.spec().get_string_attribute("compression") == "zip");
+  CHECK(file.spec().get_string_attribute("Software") == "dmpc");
+  CHECK(file.spec().get_string_attribute("oiio:ColorSpace") == "Linear");
+}
+
+TEST_CASE("a channel of numbers keeps its name and its remarks") {
+  const std::vector<float> values = slope(6);
+  const ReadFile file = read({3, 2, {{"references", values}}, {{"dmpc:unit", "references"}, {"dmpc:nodes", "8"}}});
+  CHECK(values_of(file) == values);
+  CHECK(file.spec().channelnames == std::vector<std::string>{"references"});
+  CHECK(file.spec().get_string_attribute("dmpc:unit") == "references");
+  CHECK(file.spec().get_string_attribute("dmpc:nodes") == "8");
+}
+
+TEST_CASE("the same picture is the same file, and an even one a small file") {
+  const std::vector<float> rgb(std::size_t{3} * 256 * 256, 0.25F);
+  const std::string file = exr_file(color_picture(256, 256, rgb));
+  CHECK(file == exr_file(color_picture(256, 256, rgb)));
+  CHECK(file.size() < rgb.size() * sizeof(float) / 100);
+}
+
+TEST_CASE("a channel with too few numbers, and a name that EXR has no room for, are bugs") {
+  const std::vector<float> values(5);
+  CHECK_THROWS_AS(exr_file({3, 2, {{"R", values}}, {}}), core::InternalError);
+  CHECK_THROWS_AS(exr_file({5, 1, {{std::string(32, 'a'), values}}, {}}), core::InternalError);
+}
+
+}  // namespace dmpc::tests

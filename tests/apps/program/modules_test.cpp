@@ -1,0 +1,203 @@
+// What a start loads, and modules that are missing, broken or of another build. A copy of the program finds none of ours.
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
+
+namespace dmpc::tests {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path built = fs::path(DMPC_PROGRAM).parent_path();
+
+struct Ending {
+  int status = 0;
+  std::string errors;
+};
+
+/// `surroundings`: options of env, and variables.
+Ending end_of(const fs::path& program, const std::vector<std::string>& arguments,
+              const std::vector<std::string>& surroundings = {}) {
+  std::vector<std::string> command = {"/usr/bin/env"};
+  command.insert(command.end(), surroundings.begin(), surroundings.end());
+  command.push_back(program);
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  ChildProcess process(command);
+  const int status = process.status();
+  return {status, process.errors()};
+}
+
+/// All that the dynamic loader opens, from the start to the end.
+std::string loaded_by(const std::vector<std::string>& arguments) {
+  const Ending end = end_of(DMPC_PROGRAM, arguments, {"LD_DEBUG=files"});
+  CHECK(end.status == 0);
+  CHECK(contains(end.errors, "libstdc++"));
+  return end.errors;
+}
+
+std::vector<std::string> render_of(const fs::path& picture, const std::string& option = "--depth=5") {
+  return {"render", "tetra-1", "--resolution=8x8", "--strategy=replicated", "--quiet", option, "-o", picture};
+}
+
+/// A render that wants a module.
+struct Wanted {
+  std::string picture, option, module;
+};
+const std::vector<Wanted> all_wanted = {{"a.bmp", "--depth=5", "dmpc_pictures.so"},
+                                        {"a.png", "--tracer=embree", "dmpc_embree.so"}};
+
+/// As it is installed, without its modules.
+struct Installation {
+  TemporaryFolder folder;
+  fs::path program = folder / "bin/dmpc", modules = folder / "lib/dmpc";
+
+  Installation() {
+    fs::create_directories(program.parent_path());
+    fs::create_directories(modules);
+    fs::copy_file(DMPC_PROGRAM, program);
+  }
+  Ending render(const Wanted& wanted, const std::vector<std::string>& surroundings = {}) const {
+    return end_of(program, render_of(folder / wanted.picture, wanted.option), surroundings);
+  }
+};
+
+/// "dmpc 0.1.0".
+std::string version() {
+  ChildProcess process({DMPC_PROGRAM, "--version"});
+  CHECK(process.status() == 0);
+  const std::string output = process.output();
+  return output.substr(0, output.find('\n'));
+}
+
+/// The build that a module says it is of, altered.
+void alter_build(const fs::path& module) {
+  const std::string beginning = version() + ", ";
+  std::string bytes = file_text(module);
+  const std::size_t place = bytes.find(beginning);
+  REQUIRE(place != std::string::npos);
+  char& digit = bytes[place + beginning.size()];
+  digit = digit == '0' ? '1' : '0';
+  write_text(module, bytes);
+}
+
+}  // namespace
+
+TEST_CASE("what renders nothing, and a render to EXR or PNG, load neither OpenImageIO nor Embree") {
+  const TemporaryFolder folder;
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"--version"},
+                                             {"info", "tetra-1"},
+                                             render_of(folder / "a.exr"),
+                                             render_of(folder / "a.png", "--heatmap=rays:" + (folder / "h.png").string())}) {
+    CAPTURE(arguments[0]);
+    const std::string loaded = loaded_by(arguments);
+    for (const std::string library : {"OpenImageIO", "embree", "assimp", "dmpc_"}) {
+      CHECK_FALSE_MESSAGE(contains(loaded, library), library);
+    }
+  }
+}
+
+TEST_CASE("other pictures load OpenImageIO, and Embree as the tracer loads Embree") {
+  const TemporaryFolder folder;
+  const std::string by_picture = loaded_by(render_of(folder / "a.bmp"));
+  CHECK((contains(by_picture, "libOpenImageIO") && !contains(by_picture, "embree")));
+  const std::string by_tracer = loaded_by(render_of(folder / "a.png", "--tracer=embree"));
+  CHECK((contains(by_tracer, "libembree") && !contains(by_tracer, "OpenImageIO")));
+}
+
+TEST_CASE("each reader is linked with the one library that it needs") {
+  const auto libraries_of = [](const std::string& reader) {
+    ChildProcess process({"/usr/bin/env", "LD_TRACE_LOADED_OBJECTS=1", built / reader});
+    CHECK(process.status() == 0);
+    return process.output();
+  };
+  const std::string of_meshes = libraries_of("dmpc_mesh_reader"), of_pictures = libraries_of("dmpc_picture_reader");
+  CHECK((contains(of_meshes, "libassimp") && !contains(of_meshes, "OpenImageIO") && !contains(of_meshes, "embree")));
+  CHECK((contains(of_pictures, "libOpenImageIO") && !contains(of_pictures, "assimp") && !contains(of_pictures, "embree")));
+}
+
+TEST_CASE("a module that is missing is said with its places, before anything is rendered") {
+  const Installation installation;
+  for (const Wanted& wanted : all_wanted) {
+    CAPTURE(wanted.module);
+    const Ending end = installation.render(wanted);
+    CHECK(end.status == 3);
+    CHECK_MESSAGE(contains(end.errors, "the module " + wanted.module + ", with which dmpc "), end.errors);
+    CHECK_MESSAGE(contains(end.errors, (installation.modules / wanted.module).string()), end.errors);
+    CHECK_MESSAGE(contains(end.errors, "build or install dmpc as a whole"), end.errors);
+    CHECK_FALSE(contains(end.errors, "bug"));
+    CHECK_FALSE(fs::exists(installation.folder / wanted.picture));
+  }
+  CHECK(installation.render({"b.png", "--depth=5", ""}).status == 0);
+}
+
+TEST_CASE("a module is looked for at its places alone, not where one happens to be or the environment says") {
+  const Installation installation;
+  const fs::path elsewhere = installation.folder / "elsewhere";
+  fs::create_directories(elsewhere);
+  for (const Wanted& wanted : all_wanted) {
+    fs::copy_file(built / wanted.module, elsewhere / wanted.module);
+    const Ending end = installation.render(wanted, {"-C", elsewhere, "LD_LIBRARY_PATH=" + elsewhere.string()});
+    CHECK(end.status == 3);
+    CHECK_MESSAGE(contains(end.errors, "is in none of its places"), end.errors);
+  }
+}
+
+TEST_CASE("a module that is broken is said with what the loader has against it") {
+  const Installation installation;
+  for (const Wanted& wanted : all_wanted) {
+    write_text(installation.modules / wanted.module, "no module");
+    const Ending end = installation.render(wanted);
+    CHECK(end.status == 3);
+    CHECK_MESSAGE(contains(end.errors, wanted.module + ", with which dmpc "), end.errors);
+    CHECK_MESSAGE(contains(end.errors, "cannot be opened: "), end.errors);
+  }
+}
+
+TEST_CASE("a module of another build is refused, and one of the same is taken") {
+  const Installation installation;
+  for (const Wanted& wanted : all_wanted) {
+    const fs::path module = installation.modules / wanted.module;
+    fs::copy_file(built / wanted.module, module);
+    CHECK(installation.render(wanted).status == 0);
+    alter_build(module);
+    const Ending end = installation.render(wanted);
+    CHECK(end.status == 3);
+    CHECK_MESSAGE(contains(end.errors, "is of another build than this program"), end.errors);
+  }
+}
+
+#if !defined(__SANITIZE_ADDRESS__)  // whose shadow is larger than any memory
+TEST_CASE("a module that this computer has no memory or no threads for is a shortage") {
+  const TemporaryFolder folder;
+  fs::permissions(folder.path(), fs::perms::all);
+  const std::string render = "exec " DMPC_PROGRAM " render tetra-1 --resolution=8x8 --nodes=1 -o " + (folder / "a.bmp").string();
+  ChildProcess without_memory({"/bin/bash", "-c", "ulimit -v 200000; " + render});
+  CHECK(without_memory.status() == 4);
+  CHECK_MESSAGE(contains(without_memory.errors(), "let dmpc have more memory"), without_memory.errors());
+  const std::vector<std::string> nobody = {"/usr/bin/env", "setpriv", "--reuid=65534", "--clear-groups", "/bin/bash", "-c"};
+  const auto as_nobody = [&](const std::string& line) {
+    std::vector<std::string> command = nobody;
+    command.push_back(line);
+    return ChildProcess(command).status();
+  };
+  if (::geteuid() != 0 || as_nobody("exec " DMPC_PROGRAM " --version") != 0) {
+    MESSAGE("left out: it takes a user without processes who may run dmpc");
+    return;
+  }
+  for (const std::string threads : {"2", "3", "5"}) {
+    CAPTURE(threads);
+    CHECK(as_nobody("ulimit -u " + threads + "; " + render) == 4);
+  }
+}
+#endif
+
+}  // namespace dmpc::tests
