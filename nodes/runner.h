@@ -30,7 +30,7 @@ struct NodeSpecification {
   /// A bit for each kind of packet that a runner with a clock delivers at once, by an interrupt, whatever the program is
   /// computing. Only for kinds whose receive() reads nothing but what never changes, and changes nothing but counters.
   std::uint32_t interrupt_kinds = 0;
-  /// What may wait at a sender on threads, where waking a thread costs as much as tracing some rays. A model knows no wake-ups.
+  /// What may wait at a sender on threads, where waking one costs microseconds. A model knows no wake-ups.
   Patience patience = {};
 };
 static_assert(packet_kind_count <= 32);

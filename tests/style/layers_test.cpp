@@ -78,7 +78,9 @@ const std::vector<Foreign> foreign = {
     // Threads are the computer's; the edge has one that waits for signals, one that sends to a viewer, those on which rays are
     // timed, and runs side by side that share their progress.
     {"thread", {"nodes/", "tests/", "apps/system/interrupt.", "apps/render/preview.", "apps/bench/speed/crew."}},
-    {"atomic", {"nodes/", "tests/", "apps/system/interrupt.", "apps/system/last_words.", "apps/render/preview."}},
+    {"atomic",
+     {"nodes/", "tests/", "apps/system/interrupt.", "apps/system/last_words.", "apps/render/preview.",
+      "apps/bench/speed/plain_renderer."}},
     {"mutex", {"nodes/", "tests/", "apps/render/preview.", "apps/study/runs.cpp", "core/base/parallel.cpp"}},
     {"shared_mutex", {"nodes/", "tests/"}},
     {"condition_variable", {"nodes/", "tests/", "apps/render/preview."}},
