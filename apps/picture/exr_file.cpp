@@ -1,135 +1,144 @@
 #include "apps/picture/exr_file.h"
 
+#include <OpenEXR/openexr.h>
+
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <cstring>
-#include <map>
+#include <new>
 #include <string_view>
 
-#include "apps/picture/deflate.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {
 
-using namespace std::string_view_literals;
+constexpr int the_part = 0;
+constexpr int effort = 4;  ///< floats gain nothing from more
 
-static_assert(std::endian::native == std::endian::little, "EXR files have the least byte first");
-
-constexpr int rows_a_block = 16;  ///< as zip packing has it
-constexpr int effort = 4;         ///< as OpenEXR has it: floats gain nothing from more
-constexpr std::size_t name_bytes_max = 31;
-
-template <class T>
-std::string raw(T value) {
-  return {reinterpret_cast<const char*>(&value), sizeof(value)};
-}
-
-std::string with_end(std::string_view text) { return std::string(text) + '\0'; }
-
-template <class T>
-std::string raw_pair(T first, T second) {
-  return raw(first) + raw(second);
-}
-
-/// Sorted by their names, as readers of channels expect it.
-std::vector<ExrChannel> sorted(std::vector<ExrChannel> channels) {
-  std::sort(channels.begin(), channels.end(), [](const ExrChannel& a, const ExrChannel& b) { return a.name < b.name; });
-  return channels;
-}
-
-std::string channel_list(const std::vector<ExrChannel>& channels) {
-  constexpr std::int32_t is_float = 2, is_linear = 0, every = 1;
-  std::string list;
-  for (const ExrChannel& channel : channels) {
-    core::expect(!channel.name.empty() && channel.name.size() <= name_bytes_max, "an EXR file's names are short");
-    list += with_end(channel.name) + raw_pair(is_float, is_linear) + raw_pair(every, every);
+/// Writing fails for want of room alone, and so does packing, which OpenEXR takes for a broken block.
+void check(exr_result_t result) {
+  if (result == EXR_ERR_OUT_OF_MEMORY || result == EXR_ERR_WRITE_IO || result == EXR_ERR_CORRUPT_CHUNK) {
+    throw std::bad_alloc();
   }
-  return with_end(list);
+  if (result != EXR_ERR_SUCCESS) {
+    throw core::InternalError(std::string("OpenEXR: ") + ::exr_get_default_error_message(result));
+  }
 }
 
-std::string header(const ExrPicture& picture, const std::vector<ExrChannel>& channels) {
-  struct Attribute {
-    std::string_view type;
-    std::string value;
-  };
-  const std::string window = raw_pair(std::int32_t{0}, std::int32_t{0}) + raw_pair(picture.width - 1, picture.height - 1);
-  std::map<std::string, Attribute> attributes = {
-      {"Software", {"string", "dmpc"}},
-      {"channels", {"chlist", channel_list(channels)}},
-      {"compression", {"compression", "\3"}},  // zip
-      {"dataWindow", {"box2i", window}},
-      {"displayWindow", {"box2i", window}},
-      {"lineOrder", {"lineOrder", std::string("\0"sv)}},  // from the top
-      {"pixelAspectRatio", {"float", raw(1.0F)}},
-      {"screenWindowCenter", {"v2f", raw_pair(0.0F, 0.0F)}},
-      {"screenWindowWidth", {"float", raw(1.0F)}},
-  };
-  for (const auto& [name, text] : picture.remarks) {
-    core::expect(!name.empty() && name.size() <= name_bytes_max, "an EXR file's names are short");
-    attributes.insert_or_assign(name, Attribute{"string", text});
+/// Into a std::string, from C that lets nothing be thrown.
+std::int64_t write_at(exr_const_context_t, void* file, const void* bytes, std::uint64_t size, std::uint64_t place,
+                      exr_stream_error_func_ptr_t) noexcept {
+  auto& to = *static_cast<std::string*>(file);
+  try {
+    to.resize(std::max<std::size_t>(to.size(), place + size));
+  } catch (const std::bad_alloc&) {
+    return -1;
   }
-  constexpr std::uint32_t magic = 20000630, version = 2;
-  std::string text = raw_pair(magic, version);
-  for (const auto& [name, attribute] : attributes) {
-    text += with_end(name) + with_end(attribute.type) + raw(static_cast<std::int32_t>(attribute.value.size())) + attribute.value;
-  }
-  return with_end(text);
+  std::memcpy(to.data() + place, bytes, size);
+  return static_cast<std::int64_t>(size);
 }
 
-/// Row by row, and in a row channel by channel.
-std::string rows(const ExrPicture& picture, const std::vector<ExrChannel>& channels, int first, int last) {
-  const auto width = static_cast<std::size_t>(picture.width);
-  std::string bytes(static_cast<std::size_t>(last - first) * width * channels.size() * sizeof(float), '\0');
-  char* to = bytes.data();
-  for (int row = first; row < last; ++row) {
-    for (const ExrChannel& channel : channels) {
-      const float* from = channel.values.data() + static_cast<std::size_t>(row) * width * channel.stride;
-      for (std::size_t column = 0; column < width; ++column, from += channel.stride, to += sizeof(float)) {
-        std::memcpy(to, from, sizeof(float));
-      }
+/// OpenEXR would say it on stderr; check() throws it.
+void say_nothing(exr_const_context_t, exr_result_t, const char*) noexcept {}
+
+/// A file on its way into memory.
+class ExrWriter {
+ public:
+  explicit ExrWriter(const ExrPicture& picture);
+  ~ExrWriter();
+  ExrWriter(const ExrWriter&) = delete;
+  ExrWriter& operator=(const ExrWriter&) = delete;
+
+  void write_header();
+  void write_rows();
+  /// Whole after both.
+  std::string take_file() { return std::move(file_); }
+
+ private:
+  exr_chunk_info_t block_from(int row);
+  void point_at_values(int row);
+
+  const ExrPicture& picture_;
+  std::string file_;
+  exr_context_t context_ = nullptr;
+  exr_encode_pipeline_t encoder_ = EXR_ENCODE_PIPELINE_INITIALIZER;
+};
+
+ExrWriter::ExrWriter(const ExrPicture& picture) : picture_(picture) {
+  exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
+  initializer.error_handler_fn = say_nothing;
+  initializer.user_data = &file_;
+  initializer.write_fn = write_at;
+  initializer.zip_level = effort;
+  check(::exr_start_write(&context_, "in memory", EXR_WRITE_FILE_DIRECTLY, &initializer));
+}
+
+ExrWriter::~ExrWriter() {
+  ::exr_encoding_destroy(context_, &encoder_);
+  ::exr_finish(&context_);
+}
+
+void ExrWriter::write_header() {
+  int part = the_part;
+  check(::exr_add_part(context_, nullptr, EXR_STORAGE_SCANLINE, &part));
+  check(::exr_initialize_required_attr_simple(context_, part, picture_.width, picture_.height, EXR_COMPRESSION_ZIP));
+  for (const ExrChannel& channel : picture_.channels) {
+    check(::exr_add_channel(context_, part, channel.name.c_str(), EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
+  }
+  check(::exr_attr_set_string(context_, part, "Software", "dmpc"));
+  for (const auto& [name, text] : picture_.remarks) {
+    check(::exr_attr_set_string(context_, part, name.c_str(), text.c_str()));
+  }
+  check(::exr_write_header(context_));
+}
+
+exr_chunk_info_t ExrWriter::block_from(int row) {
+  exr_chunk_info_t block = {};
+  check(::exr_write_scanline_chunk_info(context_, the_part, row, &block));
+  return block;
+}
+
+/// OpenEXR sorts the channels by their names.
+void ExrWriter::point_at_values(int row) {
+  const auto width = static_cast<std::size_t>(picture_.width);
+  for (exr_coding_channel_info_t& place : std::span(encoder_.channels, static_cast<std::size_t>(encoder_.channel_count))) {
+    const auto channel = std::find_if(picture_.channels.begin(), picture_.channels.end(),
+                                      [&](const ExrChannel& one) { return one.name == place.channel_name; });
+    const float* const values = channel->values.data() + static_cast<std::size_t>(row) * width * channel->stride;
+    place.encode_from_ptr = reinterpret_cast<const std::uint8_t*>(values);
+    place.user_pixel_stride = static_cast<std::int32_t>(channel->stride * sizeof(float));
+    place.user_line_stride = static_cast<std::int32_t>(width * channel->stride * sizeof(float));
+  }
+}
+
+void ExrWriter::write_rows() {
+  exr_chunk_info_t block = block_from(0);
+  check(::exr_encoding_initialize(context_, the_part, &block, &encoder_));
+  check(::exr_encoding_choose_default_routines(context_, the_part, &encoder_));
+  for (int row = 0;;) {
+    point_at_values(row);
+    check(::exr_encoding_run(context_, the_part, &encoder_));
+    row += block.height;
+    if (row >= picture_.height) {
+      return;
     }
+    block = block_from(row);
+    check(::exr_encoding_update(context_, the_part, &block, &encoder_));
   }
-  return bytes;
-}
-
-/// First all bytes at even places, then the others, as differences from the one before (OpenEXR's ImfZip.cpp).
-std::string predicted(std::string_view bytes) {
-  std::string result(bytes.size(), '\0');
-  const std::size_t half = (bytes.size() + 1) / 2;
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    result[i / 2 + (i % 2 == 0 ? 0 : half)] = bytes[i];
-  }
-  for (std::size_t i = result.size() - 1; i > 0; --i) {
-    result[i] = static_cast<char>(result[i] - result[i - 1] + 128);
-  }
-  return result;
-}
-
-/// What does not get smaller stays as it is.
-std::string packed(std::string bytes) {
-  std::string smaller = deflated(predicted(bytes), effort);
-  return smaller.size() < bytes.size() ? smaller : bytes;
 }
 
 }  // namespace
 
 std::string exr_file(const ExrPicture& picture) {
-  const std::vector<ExrChannel> channels = sorted(picture.channels);
   const auto pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
-  for (const ExrChannel& channel : channels) {
+  for (const ExrChannel& channel : picture.channels) {
     core::expect(pixels > 0 && (pixels - 1) * channel.stride < channel.values.size(), "a channel has a number for each pixel");
   }
-  std::string file = header(picture, channels);
-  std::size_t place = file.size();  // in the table of where the blocks begin
-  file.resize(place + static_cast<std::size_t>((picture.height + rows_a_block - 1) / rows_a_block) * sizeof(std::uint64_t));
-  for (int row = 0; row < picture.height; row += rows_a_block, place += sizeof(std::uint64_t)) {
-    file.replace(place, sizeof(std::uint64_t), raw(std::uint64_t{file.size()}));
-    const std::string block = packed(rows(picture, channels, row, std::min(row + rows_a_block, picture.height)));
-    file += raw_pair(std::int32_t{row}, static_cast<std::int32_t>(block.size())) + block;
-  }
-  return file;
+  ExrWriter writer(picture);
+  writer.write_header();
+  writer.write_rows();
+  return writer.take_file();
 }
 
 }  // namespace dmpc::apps

@@ -1,5 +1,4 @@
-// OpenEXR files, as dmpc writes them: scan lines of 32-bit floats, packed without loss ("Technical Introduction to OpenEXR",
-// "OpenEXR File Layout").
+// OpenEXR files, as dmpc writes them: scan lines of 32-bit floats, packed without loss.
 #pragma once
 
 #include <span>
@@ -22,7 +21,8 @@ struct ExrPicture {
   std::vector<std::pair<std::string, std::string>> remarks;  ///< attributes that are texts
 };
 
-/// The file's bytes, the same for the same picture. Requires a pixel, and names of 1 to 31 bytes.
+/// The file's bytes, the same for the same picture. Requires a pixel, a channel, and names of 1 to 31
+/// bytes, no two alike.
 std::string exr_file(const ExrPicture& picture);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// Pictures in files: EXR and PNG by our own hand, other formats by a library that takes long to load.
+// Pictures in files: EXR and PNG by the libraries of these formats, others by one of all formats, which takes long to load.
 #pragma once
 
 #include <cstddef>

@@ -94,10 +94,13 @@ TEST_CASE("the same picture is the same file, and an even one a small file") {
   CHECK(file.size() < rgb.size() * sizeof(float) / 100);
 }
 
-TEST_CASE("a channel with too few numbers, and a name that EXR has no room for, are bugs") {
+TEST_CASE("a channel with too few numbers, and a name that is taken or that EXR has no room for, are bugs") {
   const std::vector<float> values(5);
   CHECK_THROWS_AS(exr_file({3, 2, {{"R", values}}, {}}), core::InternalError);
   CHECK_THROWS_AS(exr_file({5, 1, {{std::string(32, 'a'), values}}, {}}), core::InternalError);
+  CHECK_THROWS_AS(exr_file({5, 1, {{"R", values}, {"R", values}}, {}}), core::InternalError);
+  CHECK_THROWS_AS(exr_file({5, 1, {{"R", values}}, {{"channels", "of this name is what the file has of its own"}}}),
+                  core::InternalError);
 }
 
 }  // namespace dmpc::tests

@@ -58,10 +58,9 @@ TEST_CASE("OpenImageIO reads the bytes that were written, whichever filter the r
   }
 }
 
-TEST_CASE("a PNG says that it is of the sRGB curve, and who made it") {
+TEST_CASE("a PNG says that it is of the sRGB curve") {
   const ReadFile file("a.png", png_file(1, 1, Bytes{1, 2, 3}));
   CHECK(file.spec().get_string_attribute("oiio:ColorSpace") == "sRGB");
-  CHECK(file.spec().get_string_attribute("Software") == "dmpc");
 }
 
 TEST_CASE("the same picture is the same file, and no larger than OpenImageIO's by more than a twentieth") {
