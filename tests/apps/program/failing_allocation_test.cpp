@@ -58,11 +58,8 @@ std::map<std::string, std::string> files_in(const fs::path& folder) {
   return files;
 }
 
-/// Files with times in them are whole if they end alike: of OpenEXR's the last pixels, as the time is of one length.
+/// Files with times in them are whole if they end alike.
 bool is_whole(const std::string& name, const std::string& text, const std::string& calm) {
-  if (name.ends_with(".exr")) {
-    return text.size() == calm.size() && text.ends_with(calm.substr(calm.size() - 64));
-  }
   return name.ends_with(".json") ? !text.empty() && text.ends_with(calm.substr(calm.size() - 4)) : text == calm;
 }
 
