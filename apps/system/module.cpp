@@ -2,7 +2,11 @@
 
 #include <dlfcn.h>
 
+#include <latch>
 #include <string_view>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 #include "apps/system/companion_path.h"
 #include "apps/system/last_words.h"
@@ -17,6 +21,24 @@ std::string loader_complaint() {
   return complaint == nullptr ? "the dynamic loader does not say why" : complaint;
 }
 
+/// A library that OpenImageIO brings (log4cplus) starts four threads as it is loaded, and now and then waits for ever if it
+/// cannot start them all. So as many and some more must be had at one time before.
+void check_thread_room(const std::string& what) {
+  constexpr int threads_wanted = 8;
+  std::latch over(1);
+  std::vector<std::jthread> threads;
+  try {
+    while (threads.size() < threads_wanted) {
+      threads.emplace_back([&over] { over.wait(); });
+    }
+  } catch (const std::system_error& error) {
+    over.count_down();
+    throw_if_short(error.code().value(), what + " cannot start its threads");
+    throw;
+  }
+  over.count_down();
+}
+
 /// Its libraries may start threads as they are loaded.
 void* load(const std::string& path) {
   const LoadsLibrary loads_library;
@@ -28,6 +50,7 @@ void* load(const std::string& path) {
 const void* open_module(const std::string& name, const std::string& purpose) {
   const std::string file = "dmpc_" + name + ".so", what = "the module " + file + ", with which dmpc " + purpose + ",";
   const std::string path = companion_path(file, "../lib/dmpc", what).lexically_normal().string();
+  check_thread_room(what);
   void* const opened = load(path);
   if (opened == nullptr) {
     const std::string complaint = loader_complaint();
