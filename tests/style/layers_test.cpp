@@ -77,8 +77,9 @@ const std::vector<Foreign> foreign = {
     {"hwy/", {"core/trace/kernel.cpp"}},
     {"doctest/", {"tests/"}},
     // Threads are the computer's; the edge has one that waits for signals, one that sends to a viewer, those on which rays are
-    // timed, and runs side by side that share their progress.
-    {"thread", {"nodes/", "tests/", "apps/system/interrupt.", "apps/render/preview.", "apps/bench/speed/crew."}},
+    // timed, some to see whether a library can have as many, and runs side by side that share their progress.
+    {"thread",
+     {"nodes/", "tests/", "apps/system/interrupt.", "apps/render/preview.", "apps/bench/speed/crew.", "apps/system/module.cpp"}},
     {"atomic",
      {"nodes/", "tests/", "apps/system/interrupt.", "apps/system/last_words.", "apps/render/preview.",
       "apps/bench/speed/plain_renderer."}},
@@ -87,7 +88,7 @@ const std::vector<Foreign> foreign = {
     {"condition_variable", {"nodes/", "tests/", "apps/render/preview."}},
     {"future", {"nodes/", "tests/"}},
     {"semaphore", {"nodes/", "tests/"}},
-    {"latch", {"nodes/", "tests/"}},
+    {"latch", {"nodes/", "tests/", "apps/system/module.cpp"}},
     {"barrier", {"nodes/", "tests/"}},
     {"pthread.h", {"nodes/", "tests/", "apps/system/interrupt."}},
 };
