@@ -14,6 +14,10 @@ struct Patience {
   std::uint32_t packets = 1;  ///< at so many the target gets them; the sender's credits last longer than that
 };
 
+/// Quanta for which packets wait at most, some milliseconds: where a packet takes long to fill, its target hears of it none the
+/// less, and shows or keeps what has come.
+inline constexpr std::uint32_t patience_quanta_max = 4096;
+
 /// Of packets of one kind for which a sender has so many credits: the last quarter lasts while the target wakes.
 constexpr Patience patience_of(PacketKind kind, std::uint32_t credits) {
   return {.kinds = 1U << kind, .packets = std::max(credits * 3 / 4, 1U)};

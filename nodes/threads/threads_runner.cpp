@@ -13,6 +13,7 @@
 #include "core/base/expect.h"
 #include "nodes/atomics.h"
 #include "nodes/awake_count.h"
+#include "nodes/patience.h"
 #include "nodes/processors.h"
 #include "nodes/threads/clock.h"
 #include "nodes/threads/held_packets.h"
@@ -131,7 +132,7 @@ struct alignas(cache_line_bytes) Processor {
   Patience patience;
   Mailbox::Batch waiting;  ///< packets sent that may wait, in slots of their target
   NodeId waiting_for{};    ///< their target
-  std::uint32_t waiting_count = 0;
+  std::uint32_t waiting_count = 0, quanta_waited = 0;
   std::optional<Telling> telling;  ///< if somebody looks on
   Node node;
   std::unique_ptr<Program> program;
@@ -210,7 +211,7 @@ struct ThreadsRunner::Implementation final : Network {
 
   void hand_over(Processor& source) {
     processors_[index_of(source.waiting_for)]->mailbox.hand_over(source.waiting, awake_);
-    source.waiting_count = 0;
+    source.waiting_count = source.quanta_waited = 0;
   }
 
   void start_threads() {
@@ -267,8 +268,9 @@ struct ThreadsRunner::Implementation final : Network {
     });
     const bool has_more = work(self);
     const bool holds_packets = self.holds_packets();
-    if (!has_more) {
-      hand_over(self);  // before it sleeps, for an awake node alone keeps the others from finding that all is over
+    // Before it sleeps in any case, for an awake node alone keeps the others from finding that all is over.
+    if (!has_more || (self.waiting_count > 0 && ++self.quanta_waited >= patience_quanta_max)) {
+      hand_over(self);
     }
     if (!has_more && holds_packets) {
       self.pass_idly();

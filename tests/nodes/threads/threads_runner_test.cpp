@@ -249,6 +249,32 @@ class TwoTargets : public ToyProgram {
   bool has_sent_ = false;
 };
 
+/// Sends one packet that may wait, and works until the other node has answered it, which sleeps meanwhile.
+class Longing : public ToyProgram {
+ public:
+  explicit Longing(Node& node) : ToyProgram(node) { node.grant(NodeId{1 - nodes::index_of(node.id())}, 0); }
+  void receive(const Packet& packet) override {
+    if (packet.kind == 1) {
+      node().send_reserved(packet.source, 0, 2, std::uint32_t{0});
+    }
+    is_answered_ = true;
+  }
+  bool work() override {
+    if (nodes::index_of(node().id()) == 1) {
+      return false;
+    }
+    if (!has_sent_) {
+      node().send_reserved(NodeId{1}, 0, 1, std::uint32_t{0});
+      has_sent_ = true;
+    }
+    return !is_answered_;
+  }
+  bool finished() const override { return is_answered_; }
+
+ private:
+  bool has_sent_ = false, is_answered_ = false;
+};
+
 TEST_CASE("programs that are finished from the start end the run") {
   for (const std::uint32_t count : {1U, 2U, 65U}) {
     ThreadsRunner runner(equal_nodes(count, {}, making<ToyProgram>()));
@@ -308,6 +334,14 @@ TEST_CASE("a target is not woken for each packet that may wait") {
   ThreadsRunner runner(specifications);
   CHECK(runner.run({}) == RunEnd::finished);
   CHECK(runner.node(1).counters().sleeps <= 5);  // before each of four batches, and after
+}
+
+TEST_CASE("a packet that may wait does not wait for as long as its sender has work") {
+  auto specifications = equal_nodes(2, {.small_slots = 2}, making<Longing>());
+  specifications[0].patience = {.kinds = 1U << 1U, .packets = 10};
+  ThreadsRunner runner(specifications);
+  CHECK(runner.run({}) == RunEnd::finished);
+  CHECK(runner.node(0).counters().quanta >= patience_quanta_max);
 }
 
 TEST_CASE("packets that may wait have one target") {
