@@ -47,11 +47,14 @@ TEST_CASE("a trace and a page can be asked for at a time") {
 }
 
 TEST_CASE("every fetch is seen, by threads and in virtual time") {
-  for (const RenderOptions& options : {starved(small()), starved(modelled())}) {
+  for (RenderOptions options : {starved(small()), starved(modelled())}) {
+    // Else it would follow the clock which node renders what, and how many of its pixels wait for one page.
+    options.pages.work_item_side = 0;
+    options.pages.in_flight = 1;
     const Watched watched(options);
     const svm::PageCounters pages = std::get<svm::Report>(*watched.report).pages();
     const svm::Fetches& fetches = *watched.view().fetches;
-    CHECK(pages.faults > 5);
+    CHECK(pages.faults > 20);
     CHECK(sum_of_numbers(fetches.by_pair) == pages.faults);
     CHECK(sum_of_numbers(fetches.by_page) == pages.faults);
     CHECK(fetches.sample.size() == pages.faults);
