@@ -78,15 +78,16 @@ inline void occlude(const Library& library, RTCScene scene, Context& context, RT
 }
 #endif
 
-/// The ray as Embree takes it: from 0 to its t_max, seen by all geometries.
-inline RTCRay ray_of(const core::Ray& ray) {
+/// A ray as Embree takes it: from 0 to t_max, seen by all geometries.
+inline RTCRay ray_of(const core::Vec3f& origin, const core::Vec3f& direction, float t_max) {
   RTCRay result{};
-  result.org_x = ray.origin.x, result.org_y = ray.origin.y, result.org_z = ray.origin.z;
-  result.dir_x = ray.direction.x, result.dir_y = ray.direction.y, result.dir_z = ray.direction.z;
-  result.tfar = ray.t_max;
+  result.org_x = origin.x, result.org_y = origin.y, result.org_z = origin.z;
+  result.dir_x = direction.x, result.dir_y = direction.y, result.dir_z = direction.z;
+  result.tfar = t_max;
   result.mask = ~0U;
   return result;
 }
+inline RTCRay ray_of(const core::Ray& ray) { return ray_of(ray.origin, ray.direction, ray.t_max); }
 
 /// A scene's primitives as Embree gets them. They outlive it.
 struct Shapes {

@@ -72,17 +72,6 @@ float highlight_of(const core::MaterialRecord& material, float lobe) {
   return material.specular > 0 ? material.specular * std::pow(std::clamp(lobe, 0.0F, 1.0F), material.shine) : 0.0F;
 }
 
-RTCRay ray_from(const Vec3f& origin, const Vec3f& direction, float length) {
-  RTCRay ray;
-  ray.org_x = origin.x, ray.org_y = origin.y, ray.org_z = origin.z;
-  ray.dir_x = direction.x, ray.dir_y = direction.y, ray.dir_z = direction.z;
-  ray.tnear = ray.time = 0;
-  ray.tfar = length;
-  ray.mask = ~0U;
-  ray.id = ray.flags = 0;
-  return ray;
-}
-
 }  // namespace
 
 /// What all threads read.
@@ -122,7 +111,7 @@ class PlainRenderer::Painter {
   Color light_along(const Vec3f& origin, const Vec3f& direction, int depth) {
     ++rays_;
     RTCRayHit asked;
-    asked.ray = ray_from(origin, direction, std::numeric_limits<float>::infinity());
+    asked.ray = embree::ray_of(origin, direction, std::numeric_limits<float>::infinity());
     asked.hit.geomID = asked.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     embree::intersect(stage_.tree.library(), stage_.tree.scene(), context_, asked);
     if (asked.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
@@ -205,7 +194,7 @@ class PlainRenderer::Painter {
 
   bool is_blocked(const Vec3f& start, const Vec3f& light) {
     ++rays_;
-    RTCRay ray = ray_from(start, light - start, light_end);
+    RTCRay ray = embree::ray_of(start, light - start, light_end);
     embree::occlude(stage_.tree.library(), stage_.tree.scene(), context_, ray);
     return ray.tfar < 0;
   }

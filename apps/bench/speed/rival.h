@@ -12,6 +12,8 @@
 
 namespace dmpc::apps {
 
+class EmbreeTree;
+
 /// What every traced ray is asked for.
 enum class Query : std::uint8_t { closest, any };
 
@@ -36,8 +38,7 @@ class EmbreeRival {
   Times build_times() const;
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  std::unique_ptr<EmbreeTree> tree_;
 };
 
 }  // namespace dmpc::apps

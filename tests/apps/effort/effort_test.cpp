@@ -6,21 +6,10 @@
 
 #include "apps/effort/pilot.h"
 #include "apps/effort/render_effort.h"
-#include "apps/scene/load_scene.h"
 #include "apps/study/effort.h"
+#include "tests/support/small_subject.h"
 
 namespace dmpc::apps {
-
-namespace {
-
-Subject small_subject(const std::string& scene, int side) {
-  PictureOptions picture;
-  picture.scene = scene;
-  picture.resolution = Resolution{side, side};
-  return build_subject(load_scene(picture), picture);
-}
-
-}  // namespace
 
 TEST_CASE("an effort is told in words that promise no more than is known") {
   CHECK(text_of(Effort{.seconds = 0.3}) == "some seconds");
@@ -41,7 +30,7 @@ TEST_CASE("nothing is said of an effort where nobody looks") {
 }
 
 TEST_CASE("a larger picture of the same scene takes longer") {
-  const Subject small = small_subject("tetra-3", 16), large = small_subject("tetra-3", 512);
+  const Subject small = tests::small_subject("tetra-3", {16, 16}), large = tests::small_subject("tetra-3", {512, 512});
   const double few = picture_seconds(small.database, small.settings), many = picture_seconds(large.database, large.settings);
   CHECK(few > 0);
   CHECK(many > 20 * few);
@@ -53,7 +42,7 @@ TEST_CASE("a render of half a minute is long, one of less is not") {
 }
 
 TEST_CASE("more pixels, a machine's model and a check take longer") {
-  const Subject small = small_subject("tetra-3", 64), large = small_subject("tetra-3", 512);
+  const Subject small = tests::small_subject("tetra-3", {64, 64}), large = tests::small_subject("tetra-3", {512, 512});
   StrategyOptions threads, model;
   model.runner.kind = RunnerKind::virtual_time;
   model.computer.node_count = 64;
@@ -78,7 +67,7 @@ TEST_CASE("every run of a study is planned") {
 }
 
 TEST_CASE("more nodes take longer and more memory") {
-  const Subject subject = small_subject("tetra-3", 32);
+  const Subject subject = tests::small_subject("tetra-3", {32, 32});
   const Effort few = effort_of({{Strategy::dataflow, 2, true}}, subject);
   const Effort many = effort_of({{Strategy::dataflow, 64, true}}, subject);
   CHECK(many.seconds > few.seconds);

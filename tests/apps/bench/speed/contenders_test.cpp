@@ -12,8 +12,7 @@
 #include "apps/bench/speed/recording.h"
 #include "apps/bench/speed/rival.h"
 #include "apps/bench/speed/warm_pager.h"
-#include "apps/scene/load_scene.h"
-#include "apps/scene/subject.h"
+#include "tests/support/small_subject.h"
 
 namespace dmpc::tests {
 
@@ -23,13 +22,6 @@ using apps::EmbreeRival;
 using apps::Query;
 
 namespace {
-
-apps::Subject small_subject(const std::string& scene) {
-  apps::PictureOptions picture;
-  picture.scene = scene;
-  picture.resolution = {32, 32};
-  return build_subject(load_scene(picture), picture);
-}
 
 template <core::Records R>
 std::uint64_t hits_of(const std::vector<core::Ray>& rays, R& records, const core::DatabaseHeader& header) {
@@ -46,7 +38,7 @@ std::uint64_t hits_of(const std::vector<core::Ray>& rays, R& records, const core
 TEST_CASE("the rival hits as many primary rays as our grid, triangles and spheres, closest and any") {
   for (const char* scene : {"tetra-3", "balls-2"}) {
     CAPTURE(std::string(scene));
-    const apps::Subject subject = small_subject(scene);
+    const apps::Subject subject = small_subject(scene, {32, 32});
     const auto rays = apps::record_rays(subject.database, subject.settings, 10'000).of(apps::RayClass::primary);
     core::LocalRecords records(subject.database.bytes());
     const std::uint64_t hits = hits_of(rays, records, subject.settings.header);
@@ -62,7 +54,7 @@ TEST_CASE("the rival hits as many primary rays as our grid, triangles and sphere
 }
 
 TEST_CASE("the rival looks no farther than a ray goes") {
-  const apps::Subject subject = small_subject("balls-2");
+  const apps::Subject subject = small_subject("balls-2", {32, 32});
   auto rays = apps::record_rays(subject.database, subject.settings, 10'000).of(apps::RayClass::primary);
   for (core::Ray& ray : rays) {
     ray.t_max = 1e-3F;
@@ -73,7 +65,7 @@ TEST_CASE("the rival looks no farther than a ray goes") {
 }
 
 TEST_CASE("a warm pager lacks no page, and has all but its own in the cache") {
-  const apps::Subject subject = small_subject("tetra-3");
+  const apps::Subject subject = small_subject("tetra-3", {32, 32});
   apps::WarmPager warm(subject.database, subject.settings, 4);
   const svm::PageCounters before = warm.pager().counters();
   CHECK(before.faults == subject.database.page_count() - (subject.database.page_count() + 3) / 4);
@@ -88,7 +80,7 @@ TEST_CASE("a warm pager lacks no page, and has all but its own in the cache") {
 }
 
 TEST_CASE("a warm pager of one node has every page at home") {
-  const apps::Subject subject = small_subject("tetra-2");
+  const apps::Subject subject = small_subject("tetra-2", {32, 32});
   apps::WarmPager warm(subject.database, subject.settings, 1);
   CHECK(warm.pager().counters().faults == 0);
 }

@@ -8,10 +8,9 @@
 #include "apps/bench/speed/plain_part.h"
 #include "apps/bench/speed/plain_renderer.h"
 #include "apps/bench/speed/plain_table.h"
-#include "apps/scene/load_scene.h"
-#include "apps/scene/subject.h"
 #include "core/base/expect.h"
 #include "core/picture/render.h"
+#include "tests/support/small_subject.h"
 #include "tests/support/text.h"
 
 namespace dmpc::tests {
@@ -22,13 +21,6 @@ using apps::PlainRenderer;
 using apps::SpeedPart;
 
 namespace {
-
-apps::Subject small_subject(const std::string& scene) {
-  apps::PictureOptions picture;
-  picture.scene = scene;
-  picture.resolution = {48, 40};
-  return build_subject(load_scene(picture), picture);
-}
 
 struct Ours {
   core::Operations operations;
@@ -76,7 +68,7 @@ TEST_CASE("the plain renderer shoots our rays, to rounding, and its picture is o
   // Flat and smooth triangles, mirrors, glass, spheres, cones.
   for (const char* scene : {"tetra-3", "teapot-3", "mount-4", "balls-2", "balls-2-t2", "rings-2", "tree-3", "gears-1"}) {
     CAPTURE(std::string(scene));
-    const apps::Subject subject = small_subject(scene);
+    const apps::Subject subject = small_subject(scene, {48, 40});
     const Ours ours(subject);
     const PlainPicture picture = PlainRenderer(subject).render(1);
     CHECK(static_cast<double>(picture.rays) == doctest::Approx(static_cast<double>(ours.operations.ray_count())).epsilon(0.005));
@@ -85,7 +77,7 @@ TEST_CASE("the plain renderer shoots our rays, to rounding, and its picture is o
 }
 
 TEST_CASE("the plain renderer's picture is the same on any number of threads") {
-  const apps::Subject subject = small_subject("teapot-3");
+  const apps::Subject subject = small_subject("teapot-3", {48, 40});
   const PlainRenderer renderer(subject);
   const PlainPicture one = renderer.render(1), three = renderer.render(3);
   CHECK(one.pixels == three.pixels);
@@ -94,7 +86,7 @@ TEST_CASE("the plain renderer's picture is the same on any number of threads") {
 }
 
 TEST_CASE("a plain picture that is not ours is an error") {
-  const apps::Subject subject = small_subject("tetra-2");
+  const apps::Subject subject = small_subject("tetra-2", {48, 40});
   const Ours ours(subject);
   PlainPicture picture = PlainRenderer(subject).render(1);
   CHECK_NOTHROW(apps::distance_to_ours(picture, ours.film, "tetra-2"));
