@@ -5,23 +5,28 @@
 #include <optional>
 #include <vector>
 
+#include "core/trace/bundle.h"
 #include "svm/replacement.h"
 
 namespace dmpc::svm {
 
 class ReferenceLog;
 
+/// Pixels whose rays walk in bundles.
+inline constexpr std::uint32_t bundle_pixels = core::bundle_rays_max;
+
 /// Of svm and, as far as no page travels, of replicated. `optional` without a value means: choose.
 struct PageOptions {
   /// Frames of each node's cache; svm only. With a memory bound and without this, the cache takes all that is left.
   std::optional<std::uint32_t> cache_pages = std::nullopt;
   Replacement replacement = Replacement::lru;  ///< which page of the cache makes room; svm only
-  /// Pixels under way on a node. Without it 16 for svm: a node whose pixel waits for a page has others to go on with, while
-  /// the stacks and reply slots of 16 pixels take about 1 % of a 4 MiB node; and 1 for replicated, where nothing is ever
-  /// waited for.
+  /// Pixels under way on a node, rounded down to whole bundles where rays walk in bundles of 16. Without it 64 for svm: a node
+  /// whose bundle waits for a page has others to go on with, while their stacks take about 4 % of a 4 MiB node; and 16 for
+  /// replicated, where nothing is ever waited for. Where rays walk alone 16 and 1.
   std::optional<std::uint32_t> in_flight = std::nullopt;
-  std::uint32_t work_item_side = 3;  ///< pixels along the side of a work item; 0: no node gives work to another
-  bool count_pages = false;          ///< the distinct pages of each pixel; costs a bit a page for each pixel in flight
+  /// Pixels along the side of a work item; 0: no node gives work to another. Without it 4, a bundle, or 3 where rays walk alone.
+  std::optional<std::uint32_t> work_item_side = std::nullopt;
+  bool count_pages = false;  ///< the distinct pages of each pixel; costs a bit a page for each pixel in flight
   /// Record every node's page references, run_svm() only: an instrument, whose memory is no node's and grows with the run. Needs
   /// work_item_side = 0 and in_flight = 1, else the references would depend on the cache and the schedule. Not with count_pages.
   bool record_references = false;
@@ -29,5 +34,10 @@ struct PageOptions {
   /// counted. Outlive the run.
   std::vector<ReferenceLog>* reference_logs = nullptr;
 };
+
+/// What work_item_side is. `bundles`: rays of neighbouring pixels walk together, where enough are in flight.
+constexpr std::uint32_t work_item_side_of(const PageOptions& pages, bool bundles) {
+  return pages.work_item_side.value_or(bundles && pages.in_flight.value_or(bundle_pixels) >= bundle_pixels ? 4 : 3);
+}
 
 }  // namespace dmpc::svm

@@ -4,7 +4,7 @@
 
 #include "core/base/expect.h"
 #include "core/base/units.h"
-#include "core/picture/pixel_task.h"
+#include "core/picture/bundle_task.h"
 #include "nodes/size_text.h"
 #include "nodes/threads/held_packets.h"
 #include "svm/local_copy.h"
@@ -21,7 +21,8 @@ using nodes::Category;
 using nodes::LocalMemory;
 using nodes::size_text;
 
-constexpr std::uint32_t default_in_flight = 16;
+/// A node whose task waits for a page has others to go on with.
+constexpr std::uint32_t default_tasks = 16, default_bundles = 4;
 constexpr std::uint32_t auto_cache_pages_min = 64;
 /// Longer film packets would save nothing worth the memory of their mailbox slots.
 constexpr std::size_t film_packet_max_bytes = 4096;
@@ -38,11 +39,22 @@ std::uint32_t foreign_pages_max(const PlanRequest& request) {
   return pages_travel(request) ? request.page_count - request.page_count / request.computer.node_count : 0;
 }
 
+/// Bundles are whole ones: with fewer pixels in flight rays walk alone.
+std::uint32_t pixels_a_task(const PlanRequest& request, std::uint32_t in_flight) {
+  return request.bundles && in_flight >= bundle_pixels ? bundle_pixels : 1;
+}
+
+/// Where a pass may leave pixels out, a work item travels with a mask of one word: items are then no larger than that.
+std::uint32_t item_side_of(const PlanRequest& request) {
+  const std::uint32_t side = work_item_side_of(request.pages, request.bundles);
+  return request.is_masked() ? std::min(side, masked_side_max) : side;
+}
+
 /// The most pixels that are ever under way on a node: all of the picture where work moves, else the largest submap's. A node may
 /// have none, but has a place for one.
 std::uint64_t node_pixels_max(const PlanRequest& request) {
   const PixelRectangle image{0, 0, request.width, request.height};
-  if (request.pages.work_item_side > 0) {
+  if (item_side_of(request) > 0) {
     return image.pixel_count();
   }
   std::uint64_t most = 1;
@@ -75,7 +87,7 @@ std::uint32_t film_entries_of(const PlanRequest& request) {
 /// received.
 nodes::MailboxCapacity node_mailbox_of(const PlanRequest& request, std::uint32_t faults_max, std::uint32_t request_credits) {
   const std::uint32_t others = request.computer.node_count - 1;
-  const bool ring = request.pages.work_item_side > 0;
+  const bool ring = item_side_of(request) > 0;
   nodes::MailboxCapacity capacity;
   capacity.small_slots = others * request_credits    // page requests: each other node's credits for this home
                          + (ring ? others : 0)       // work requests: each other node has at most one on the ring
@@ -116,6 +128,8 @@ Plan plan_with(const PlanRequest& request, std::uint32_t frames, std::uint32_t i
   plan.request = request;
   plan.frames = frames;
   plan.in_flight = in_flight;
+  plan.pixels_a_task = pixels_a_task(request, in_flight);
+  plan.work_item_side = item_side_of(request);
   plan.request_credits = request_credits_of(request, plan.faults_max());
   plan.film_credits = film_credits_of(request);
   plan.film_entries = film_entries_of(request);
@@ -141,7 +155,7 @@ void check_use(bool right, const std::string& sentence) {
 void check_recording(const PlanRequest& request) {
   if (request.pages.record_references) {
     check_use(request.strategy == Strategy::svm, "page references are recorded with strategy=svm only");
-    check_use(request.pages.work_item_side == 0,
+    check_use(request.pages.work_item_side == 0U,
               "page references are recorded only if no node gives work away: work_item_side=0");
     check_use(request.pages.in_flight == 1U, "page references are recorded only with one pixel in flight: in_flight=1");
     check_use(!request.pages.count_pages, "page references are recorded, or distinct pages counted, not both");
@@ -176,8 +190,10 @@ void check(const PlanRequest& request) {
 
 /// What the user asked for, or our choice, as far as there are pixels, before the memory is looked at.
 std::uint32_t wanted_in_flight(const PlanRequest& request) {
-  const std::uint32_t asked = request.pages.in_flight.value_or(request.strategy == Strategy::svm ? default_in_flight : 1);
-  return static_cast<std::uint32_t>(std::min<std::uint64_t>(asked, node_pixels_max(request)));
+  const std::uint32_t tasks = request.strategy != Strategy::svm ? 1 : request.bundles ? default_bundles : default_tasks;
+  const std::uint32_t asked = request.pages.in_flight.value_or(tasks * (request.bundles ? bundle_pixels : 1));
+  const auto wanted = static_cast<std::uint32_t>(std::min<std::uint64_t>(asked, node_pixels_max(request)));
+  return wanted - wanted % pixels_a_task(request, wanted);
 }
 
 /// The fewest frames that this request can do with.
@@ -209,7 +225,8 @@ std::uint32_t most_in_flight(const PlanRequest& request, std::size_t memory_byte
     return request.pages.cache_pages ? frames_min(request) : std::min(pixels, foreign_pages_max(request));
   };
   while (in_flight > 1 && bytes_with(request, frames_for(in_flight), in_flight) > memory_bytes) {
-    --in_flight;
+    const std::uint32_t less = pixels_a_task(request, in_flight);
+    in_flight = in_flight > less ? in_flight - less : in_flight - 1;
   }
   return in_flight;
 }
@@ -238,13 +255,6 @@ std::optional<std::uint32_t> smallest_node_count(PlanRequest request) {
   throw core::RoomError(sentence);
 }
 
-/// Where a pass may leave pixels out, a work item travels with a mask of one word: items are then no larger than that.
-PlanRequest with_small_items(PlanRequest request) {
-  request.pages.work_item_side =
-      request.is_masked() ? std::min(request.pages.work_item_side, masked_side_max) : request.pages.work_item_side;
-  return request;
-}
-
 void note_reductions(Plan& plan) {
   const PlanRequest& request = plan.request;
   const std::uint32_t wanted = wanted_in_flight(request), asked = request.pages.in_flight.value_or(wanted);
@@ -258,17 +268,21 @@ void note_reductions(Plan& plan) {
     plan.notes.push_back("cache reduced from " + std::to_string(*request.pages.cache_pages) + " to " +
                          std::to_string(plan.frames) + " pages: no more are not at home");
   }
+  if (request.pages.work_item_side.value_or(0) > plan.work_item_side) {
+    plan.notes.push_back("work items reduced from " + std::to_string(*request.pages.work_item_side) + " to " +
+                         std::to_string(plan.work_item_side) + " pixels a side: where pixels are left out none is larger");
+  }
 }
 
 }  // namespace
 
-std::uint32_t Plan::faults_max() const { return std::min(in_flight, foreign_pages_max(request)); }
+std::uint32_t Plan::faults_max() const { return std::min(task_count(), foreign_pages_max(request)); }
 
 PageCapacity Plan::pages() const {
   return {.page_count = request.page_count,
           .node_count = request.computer.node_count,
           .cache = {frames, request.page_size_bytes, request.pages.replacement},
-          .in_flight = in_flight,
+          .in_flight = task_count(),
           .faults_max = faults_max(),
           .request_credits = request_credits};
 }
@@ -284,7 +298,8 @@ WorkShape Plan::work() const {
   return {.node_count = request.computer.node_count,
           .width = request.width,
           .height = request.height,
-          .item_side = request.pages.work_item_side,
+          .tile = tile_for(request.start_samples().count, pixels_a_task),
+          .item_side = work_item_side,
           .is_masked = request.is_masked(),
           .start = request.start};
 }
@@ -310,7 +325,12 @@ nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
   if (request.pages.count_pages) {
     CountingPager::add_needs(plan, pages());
   }
-  Slots<core::PixelTask>::add_needs(plan, in_flight, static_cast<std::uint32_t>(request.depth_max));
+  const auto depth_max = static_cast<std::uint32_t>(request.depth_max);
+  if (pixels_a_task > 1) {
+    Slots<core::BundleTask>::add_needs(plan, task_count(), depth_max);
+  } else {
+    Slots<core::PixelTask>::add_needs(plan, task_count(), depth_max);
+  }
   FilmGather::add_needs(plan, film());
   WorkSource::add_needs(plan, work(), index);
   plan[Category::constants] += LocalMemory::bytes_for<std::byte>(sizeof(core::RenderSettings));
@@ -339,9 +359,8 @@ nodes::MemoryPlan Plan::host_memory() const {
 
 std::size_t smallest_node_memory_bytes(const PlanRequest& request) { return bytes_with(request, frames_min(request), 1); }
 
-Plan make_plan(const PlanRequest& asked) {
-  check(asked);
-  const PlanRequest request = with_small_items(asked);
+Plan make_plan(const PlanRequest& request) {
+  check(request);
   std::uint32_t in_flight = wanted_in_flight(request);
   std::uint32_t frames = auto_frames(request);
   if (request.computer.node_memory_bytes) {
@@ -355,10 +374,6 @@ Plan make_plan(const PlanRequest& asked) {
   core::expect(plan.node_memory_max_bytes() <= request.computer.node_memory_bytes.value_or(plan.node_memory_max_bytes()),
                "a plan keeps within the node's memory");
   note_reductions(plan);
-  if (request.pages.work_item_side < asked.pages.work_item_side) {
-    plan.notes.push_back("work items reduced from " + std::to_string(asked.pages.work_item_side) + " to " +
-                         std::to_string(masked_side_max) + " pixels a side: where pixels are left out none is larger");
-  }
   return plan;
 }
 

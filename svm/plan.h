@@ -38,6 +38,7 @@ struct PlanRequest {
   std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
   core::RefinementOptions refinement;
   const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; outlives plan and run
+  bool bundles = false;                         ///< rays of neighbouring pixels walk together, where enough are in flight
 
   /// Some pass may leave pixels out, so that each node keeps a bit for each pixel of its submap.
   bool is_masked() const { return refinement.is_wanted() || start != nullptr; }
@@ -53,6 +54,8 @@ struct Plan {
   PlanRequest request;
   std::uint32_t frames = 0;           ///< of each node's cache
   std::uint32_t in_flight = 1;        ///< pixels under way, after reduction; no more than a node ever has
+  std::uint32_t pixels_a_task = 1;    ///< of them, at most: more than one where their rays walk in bundles
+  std::uint32_t work_item_side = 0;   ///< pixels; 0: no node gives work to another
   std::uint32_t request_credits = 0;  ///< page requests that one node may have under way to one home
   std::uint32_t film_credits = 0;     ///< film packets that one node may have under way to the host
   std::uint32_t film_entries = 0;     ///< pixels in a full film packet
@@ -74,7 +77,9 @@ struct Plan {
   /// Which packets need not wake their target each.
   nodes::Patience patience() const;
 
-  /// Faults under way at a node: a fault has at least one pixel in flight, a pixel waits for one page, and a page that is not at
+  /// What is under way on a node: a task waits for one page at a time.
+  std::uint32_t task_count() const { return in_flight / pixels_a_task; }
+  /// Faults under way at a node: a fault has at least one task in flight, a task waits for one page, and a page that is not at
   /// home has one fault at most.
   std::uint32_t faults_max() const;
 };

@@ -1,6 +1,6 @@
 // The node program of svm and replicated: pixels under way, work items, and the packets that concern them.
 //
-// A quantum runs one pixel until it has ended a ray, finished, or needs an absent page. Newest first: the pixel that ran last
+// A quantum runs one pixel, or some that share a task, until it has ended a ray or a bundle, finished, or needs an absent page. Newest first: the pixel that ran last
 // goes on, another one starts only when none can run. With one pixel in flight this is the sequential ray tracer's order of
 // references.
 //
@@ -10,6 +10,7 @@
 // the host, which waits for nobody.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -32,7 +33,8 @@
 
 namespace dmpc::svm {
 
-/// `Records` is Pager, CountingPager or LocalCopy; `Tracer` reads them; `Task` is core::PixelTask, or a test's.
+/// `Records` is Pager, CountingPager or LocalCopy; `Tracer` reads them; `Task` is core::PixelTask, core::BundleTask,
+/// or a test's.
 template <class Records, class Tracer, class Task = core::PixelTask>
 class ControlProgram final : public NodeProgram {
  public:
@@ -49,11 +51,12 @@ class ControlProgram final : public NodeProgram {
         host_(nodes::NodeId{plan.request.computer.node_count}),
         records_(node, plan.pages(), database),
         tracer_(make_tracer(records_)),
-        slots_(node.memory(), plan.in_flight, static_cast<std::uint32_t>(plan.request.depth_max)),
+        slots_(node.memory(), plan.task_count(), static_cast<std::uint32_t>(plan.request.depth_max)),
         work_(node, plan.work()),
         film_(node, plan.film()),
         samples_(plan.request.start_samples()),
         meter_(meter) {
+    core::expect(Task::pixels_max == plan.pixels_a_task, "a node's tasks are those of the plan");
     node.grant(host_, control_channel, 1);  // for Done
   }
 
@@ -119,7 +122,7 @@ class ControlProgram final : public NodeProgram {
   }
 
   std::string describe() const override {
-    return std::to_string(slots_.active()) + " pixels in flight, " + std::to_string(pending_faults()) + " pages awaited, " +
+    return std::to_string(pixels_in_flight_) + " pixels in flight, " + std::to_string(pending_faults()) + " pages awaited, " +
            std::to_string(film_.gathered()) + " pixels gathered, " + std::to_string(film_.under_way()) +
            " film packets unacknowledged, " + work_.describe() +
            (stopped_ ? ", stopped"
@@ -137,11 +140,20 @@ class ControlProgram final : public NodeProgram {
  private:
   static constexpr bool counts_pages = requires(Records & records) { records.forget(); };
 
-  bool can_start() const { return slots_.has_free() && work_.has_pixel() && film_.has_room_for(slots_.active() + 1); }
+  bool can_start() const {
+    return slots_.has_free() && work_.has_pixel() && film_.has_room_for(pixels_in_flight_ + Task::pixels_max);
+  }
 
+  /// A task takes the pixels of one tile, so who walks together does not depend on who takes which item.
   void start() {
     const std::uint32_t slot = slots_.take_free();
-    slots_.task(slot).start(work_.next_pixel(), samples_, settings_, operations_);
+    std::array<std::uint32_t, Task::pixels_max> pixels;
+    std::uint32_t count = 0;
+    do {
+      pixels[count++] = work_.next_pixel();
+    } while (count < Task::pixels_max && work_.stays_in_tile());
+    slots_.task(slot).start(std::span<const std::uint32_t>(pixels).first(count), samples_, settings_, operations_);
+    pixels_in_flight_ += count;
     if constexpr (counts_pages) {
       records_.select(slot);
       records_.forget();
@@ -160,7 +172,7 @@ class ControlProgram final : public NodeProgram {
   void go_on(std::uint32_t slot) {
     switch (slots_.task(slot).run(tracer_, settings_, operations_)) {
       case core::TaskState::more:
-        ++rays_ended_;
+        rays_ended_ += slots_.task(slot).rays_ended();
         return slots_.make_runnable(slot);
       case core::TaskState::finished:
         return finish(slot);
@@ -190,8 +202,12 @@ class ControlProgram final : public NodeProgram {
   }
 
   void finish(std::uint32_t slot) {
-    film_.add(slots_.task(slot).pixel(), slots_.task(slot).sums());
-    ++pixels_rendered_;
+    const Task& task = slots_.task(slot);
+    for (std::uint32_t place = 0; place < task.pixel_count(); ++place) {
+      film_.add(task.pixel(place), task.sums(place));
+    }
+    pixels_rendered_ += task.pixel_count();
+    pixels_in_flight_ -= task.pixel_count();
     slots_.make_free(slot);
   }
 
@@ -254,7 +270,7 @@ class ControlProgram final : public NodeProgram {
   void begin_pass(const BeginPass& pass) {
     core::expect(done_ && !stopped_, "a pass begins when the one before has ended");
     samples_ = pass.samples;
-    work_.begin_pass();
+    work_.begin_pass(tile_for(pass.samples.count, Task::pixels_max));
     node_->grant(host_, control_channel);  // for Done
     done_ = false;
   }
@@ -283,6 +299,7 @@ class ControlProgram final : public NodeProgram {
   core::Operations operations_;
   std::uint64_t pixels_rendered_ = 0, pixels_announced_ = 0;
   std::uint64_t rays_ended_ = 0;
+  std::uint32_t pixels_in_flight_ = 0;
   bool done_ = false;
   bool stopped_ = false;
   std::optional<nodes::Meter> meter_;

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/base/expect.h"
+#include "core/picture/bundle_task.h"
 #include "svm/host.h"
 #include "svm/pager.h"
 #include "svm/watch/counting_pager.h"
@@ -21,6 +22,12 @@ PageOptions pages_of(const RunOptions& options) {
   return pages;
 }
 
+/// What is counted for single pixels, and references in the order of single rays, need rays that walk alone.
+bool walks_in_bundles(const RunOptions& options) {
+  return !options.tracer_is_own && !options.watching.is_metered() && !pages_of(options).count_pages &&
+         !options.pages.record_references && options.pages.reference_logs == nullptr;
+}
+
 PlanRequest request_of(Strategy strategy, const core::Database& database, const core::RenderSettings& settings,
                        const RunOptions& options) {
   return {.strategy = strategy,
@@ -33,7 +40,8 @@ PlanRequest request_of(Strategy strategy, const core::Database& database, const 
           .height = static_cast<std::uint32_t>(settings.camera.height()),
           .first_samples = settings.first_samples().count,
           .refinement = settings.refinement,
-          .start = options.continuation.start};
+          .start = options.continuation.start,
+          .bundles = settings.skips.bundles && walks_in_bundles(options)};
 }
 
 NodeReport report_of(nodes::Node& node, const nodes::Program& program) {
@@ -81,8 +89,17 @@ MakeProgram maker(const core::Database& database, const core::RenderSettings& se
       }
       return core::GridTracer<Records>(records, settings.header, settings.skips);
     };
-    return std::make_unique<ControlProgram<Records, core::GridTracer<Records>>>(
-        node, plan, settings, database.bytes(), make_tracer, nodes::meter_for(options.watching, options.computer, node.id()));
+    const auto make = [&]<class Task>(std::type_identity<Task>) -> std::unique_ptr<NodeProgram> {
+      return std::make_unique<ControlProgram<Records, core::GridTracer<Records>, Task>>(
+          node, plan, settings, database.bytes(), make_tracer,
+          nodes::meter_for(options.watching, options.computer, node.id()));
+    };
+    if constexpr (std::is_same_v<Records, Pager> || std::is_same_v<Records, LocalCopy>) {
+      if (plan.pixels_a_task > 1) {
+        return make(std::type_identity<core::BundleTask>());
+      }
+    }
+    return make(std::type_identity<core::PixelTask>());
   };
 }
 

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/expect.h"
 #include "core/build/database.h"
 #include "core/picture/film.h"
 #include "core/picture/partial_picture.h"
@@ -40,6 +41,7 @@ struct RunOptions {
   nodes::Watching watching = {};  ///< if it has a heat map of pages, these are counted, whatever `pages` says
   /// Where the picture is begun, and what of it is kept on the way. An interrupted run keeps what it has.
   core::Continuation continuation = {};
+  bool tracer_is_own = false;  ///< run_replicated() with a tracer that knows no bundles: rays walk alone
 };
 
 struct NodeReport {
@@ -87,12 +89,13 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
 /// Runs any programs of this family under `plan`, checks the laws of conservation and reports.
 Report run_programs(const Plan& plan, const MakeProgram& make_program, const RunOptions& options, std::stop_token stop);
 
-/// Renders with strategy replicated and a tracer of one's own: make_tracer(index, copy) returns node `index`'s core::Tracer
+/// Renders with strategy replicated and a tracer of one's own, as options.tracer_is_own says: make_tracer(index, copy) returns node `index`'s core::Tracer
 /// over its own copy of the database (a std::span<const std::byte>, overread_bytes more readable). It is called before the
 /// start.
 template <class MakeTracer>
 Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                       std::stop_token stop, const MakeTracer& make_tracer) {
+  core::expect(options.tracer_is_own, "a run with a tracer of one's own says so");
   using Tracer = std::invoke_result_t<const MakeTracer&, std::uint32_t, std::span<const std::byte>>;
   const Plan plan = plan_of(Strategy::replicated, database, settings, options);
   const auto make_program = [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<NodeProgram> {

@@ -1,4 +1,4 @@
-// The pixels in flight on a node: a bounded number of tasks, free, runnable or waiting for a page.
+// The tasks of pixels in flight on a node: a bounded number, free, runnable or waiting for a page.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,19 @@
 
 namespace dmpc::svm {
 
-/// `count` tasks, each with a ray stack of `depth_max` hits. A slot is free, or active; an active one is runnable, or known
+/// `count` tasks, each with a ray stack of `depth_max` entries. A slot is free, or active; an active one is runnable, or known
 /// to whoever took it (the pager, when it waits). Thread safety: none.
 template <class Task>
 class Slots {
+  using Hits = typename Task::Hits;
+
  public:
   Slots(nodes::LocalMemory& memory, std::uint32_t count, std::uint32_t depth_max)
       : tasks_(memory.allocate<Slot>(nodes::Category::ray_stacks, count)),
         runnable_(memory.allocate<std::uint32_t>(nodes::Category::queues, count)),
         free_(memory.allocate<std::uint32_t>(nodes::Category::queues, count)) {
-    const std::span<core::HitState> stacks =
-        memory.allocate<core::HitState>(nodes::Category::ray_stacks, std::size_t{count} * depth_max);
+    const std::span<Hits> stacks =
+        memory.allocate<Hits>(nodes::Category::ray_stacks, std::size_t{count} * depth_max);
     for (std::uint32_t slot = 0; slot < count; ++slot) {
       tasks_[slot].task = Task(stacks.subspan(std::size_t{slot} * depth_max, depth_max));
       free_[free_count_++] = count - 1 - slot;
@@ -31,7 +33,7 @@ class Slots {
     using nodes::Category;
     using nodes::LocalMemory;
     plan[Category::ray_stacks] += LocalMemory::bytes_for<Slot>(count);
-    plan[Category::ray_stacks] += LocalMemory::bytes_for<core::HitState>(std::size_t{count} * depth_max);
+    plan[Category::ray_stacks] += LocalMemory::bytes_for<Hits>(std::size_t{count} * depth_max);
     plan[Category::queues] += 2 * LocalMemory::bytes_for<std::uint32_t>(count);
   }
 
@@ -62,7 +64,7 @@ class Slots {
  private:
   /// A task that local memory can make before its stack is known.
   struct Slot {
-    Task task{std::span<core::HitState>{}};
+    Task task{std::span<Hits>{}};
   };
 
   std::span<Slot> tasks_;

@@ -76,23 +76,39 @@ PixelRectangle WorkItems::item(std::uint64_t index) const {
   return {submap_.x + left, submap_.y + top, std::min(side_x_, submap_.width - left), std::min(side_y_, submap_.height - top)};
 }
 
-PixelScan::PixelScan(const PixelRectangle& item, std::uint64_t wanted)
-    : item_(item), left_(static_cast<std::uint64_t>(std::popcount(wanted))), wanted_(wanted) {
+PixelScan::PixelScan(const PixelRectangle& item, const PixelTile& tile, std::uint64_t wanted)
+    : item_(item), tile_(tile), left_(static_cast<std::uint64_t>(std::popcount(wanted))), wanted_(wanted) {
   core::expect(item.pixel_count() <= 64 && (item.pixel_count() == 64 || wanted >> item.pixel_count() == 0),
                "a masked item has a bit for each of its pixels");
+  while (left_ > 0 && !is_wanted()) {
+    step();
+  }
+}
+
+/// To the next pixel of the tile, or the first of the next one.
+void PixelScan::step() {
+  const std::uint32_t left = x_ - x_ % tile_.width, top = y_ - y_ % tile_.height;
+  const std::uint32_t right = std::min(left + tile_.width, item_.width), bottom = std::min(top + tile_.height, item_.height);
+  if (++x_ < right) {
+    return;
+  }
+  x_ = left;
+  if (++y_ < bottom) {
+    return;
+  }
+  in_tile_ = false;
+  x_ = right < item_.width ? right : 0;
+  y_ = right < item_.width ? top : bottom;
 }
 
 std::uint32_t PixelScan::next(std::uint32_t image_width) {
   core::expect(!empty(), "a scan gives each pixel of its item once");
-  if (wanted_) {
-    next_ = static_cast<std::uint64_t>(std::countr_zero(*wanted_));
-    *wanted_ &= *wanted_ - 1;
+  const std::uint32_t pixel = (item_.y + y_) * image_width + item_.x + x_;
+  in_tile_ = true;
+  for (--left_, step(); left_ > 0 && !is_wanted();) {
+    step();
   }
-  --left_;
-  const std::uint64_t x = item_.x + next_ % item_.width;
-  const std::uint64_t y = item_.y + next_ / item_.width;
-  ++next_;
-  return static_cast<std::uint32_t>(y * image_width + x);
+  return pixel;
 }
 
 }  // namespace dmpc::svm

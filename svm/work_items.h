@@ -46,21 +46,52 @@ class WorkItems {
 /// A masked item has as many pixels a side at most, so that a word has a bit for each of its pixels.
 inline constexpr std::uint32_t masked_side_max = 8;
 
-/// The pixels of one item, row by row, or those of them that are wanted.
+/// Pixels that one task takes at a time.
+struct PixelTile {
+  std::uint32_t width = 1, height = 1;
+
+  constexpr std::uint32_t pixel_count() const { return width * height; }
+  constexpr bool operator==(const PixelTile&) const = default;
+};
+
+/// The tile of at most so many pixels, at least 1, that is nearest to a square with sides of powers of two.
+constexpr PixelTile tile_of(std::uint32_t pixels_max) {
+  PixelTile tile;
+  for (bool wider = true; 2 * tile.pixel_count() <= pixels_max; wider = !wider) {
+    (wider ? tile.width : tile.height) *= 2;
+  }
+  return tile;
+}
+
+/// What a task of at most so many pixels takes, where a ray of each sample makes as many rays at most.
+constexpr PixelTile tile_for(std::uint32_t samples, std::uint32_t pixels_a_task) {
+  return tile_of(pixels_a_task / (samples > 0 ? samples : 1));
+}
+
+/// The pixels of one item, or those of them that are wanted: tile by tile, row by row, and so the pixels of a tile, or of what the
+/// item's edge leaves of it. With tiles of one pixel that is row by row.
 class PixelScan {
  public:
   PixelScan() = default;
-  explicit PixelScan(const PixelRectangle& item) : item_(item), left_(item.pixel_count()) {}
+  explicit PixelScan(const PixelRectangle& item, const PixelTile& tile = {}) : item_(item), tile_(tile), left_(item.pixel_count()) {}
   /// `wanted`: a bit for each pixel, row by row. Requires sides of at most masked_side_max.
-  PixelScan(const PixelRectangle& item, std::uint64_t wanted);
+  PixelScan(const PixelRectangle& item, const PixelTile& tile, std::uint64_t wanted);
 
   bool empty() const { return left_ == 0; }
+  /// The next pixel lies in the tile of the one before.
+  bool stays_in_tile() const { return left_ > 0 && in_tile_; }
   /// The next pixel's index in an image of this width. Requires !empty().
   std::uint32_t next(std::uint32_t image_width);
 
  private:
+  bool is_wanted() const { return !wanted_ || (*wanted_ >> (std::uint64_t{y_} * item_.width + x_) & 1U) != 0; }
+  void step();
+
   PixelRectangle item_;
-  std::uint64_t next_ = 0, left_ = 0;
+  PixelTile tile_;
+  std::uint32_t x_ = 0, y_ = 0;  ///< of the next pixel, in the item
+  bool in_tile_ = false;
+  std::uint64_t left_ = 0;
   std::optional<std::uint64_t> wanted_;
 };
 

@@ -31,6 +31,7 @@ WorkSource::WorkSource(nodes::Node& node, const WorkShape& shape)
       self_(nodes::index_of(node.id())),
       image_width_(shape.width),
       item_side_(item_side_of(shape)),
+      tile_(shape.tile),
       submap_(own_submap(shape, self_)),
       mask_(node.memory().allocate<std::uint64_t>(nodes::Category::queues, mask_words(shape, self_))),
       items_(submap_, item_side_),
@@ -63,8 +64,9 @@ void WorkSource::take_mask(const MaskPart& part) {
   std::copy_n(part.words.begin(), count, mask_.begin() + part.first_word);
 }
 
-void WorkSource::begin_pass() {
+void WorkSource::begin_pass(const PixelTile& tile) {
   core::expect(exhausted() && !asking_, "a pass begins when the one before has ended");
+  tile_ = tile;
   items_ = WorkItems(submap_, item_side_);
   last_giver_ = (self_ + 1) % node_count_;
   no_more_ = is_alone_;
@@ -84,7 +86,7 @@ std::uint64_t WorkSource::wanted(const PixelRectangle& item) const {
 }
 
 PixelScan WorkSource::scan_of(const PixelRectangle& item) const {
-  return is_masked() ? PixelScan(item, wanted(item)) : PixelScan(item);
+  return is_masked() ? PixelScan(item, tile_, wanted(item)) : PixelScan(item, tile_);
 }
 
 /// So that the first item left, if any, has a pixel.
@@ -166,7 +168,7 @@ void WorkSource::take_reply(const nodes::Packet& packet) {
   }
   ++counters_.items_taken;
   last_giver_ = reply.giver;
-  scan_ = is_masked() ? PixelScan(reply.item, masked.pixels) : PixelScan(reply.item);
+  scan_ = is_masked() ? PixelScan(reply.item, tile_, masked.pixels) : PixelScan(reply.item, tile_);
 }
 
 std::string WorkSource::describe() const {

@@ -18,6 +18,7 @@ namespace dmpc::svm {
 struct WorkShape {
   std::uint32_t node_count = 1;
   std::uint32_t width = 1, height = 1;
+  PixelTile tile;                               ///< pixels that a task takes in the first pass
   std::uint32_t item_side = 3;                  ///< pixels along the side of a work item; 0: no node gives work to another
   bool is_masked = false;                       ///< some pass may leave pixels out
   const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; read by the constructor alone
@@ -42,6 +43,8 @@ class WorkSource {
   bool has_pixel() const { return !scan_.empty() || !items_.empty(); }
   /// Requires has_pixel().
   std::uint32_t next_pixel();
+  /// The next pixel lies in the tile of the one before.
+  bool stays_in_tile() const { return scan_.stays_in_tile(); }
   /// Sends a work request, unless one is under way or would be in vain. Requires !has_pixel().
   void ask();
   /// Gives an item to the asker or passes the request on.
@@ -50,8 +53,8 @@ class WorkSource {
   void take_reply(const nodes::Packet& packet);
   /// Takes a part of the next pass's mask. Requires exhausted(), as begin_pass() does.
   void take_mask(const MaskPart& part);
-  /// Starts with the whole submap again, as far as the mask wants it.
-  void begin_pass();
+  /// Starts with the whole submap again, as far as the mask wants it, in tiles of this size.
+  void begin_pass(const PixelTile& tile);
 
   /// No pixel is left here, and none anywhere else.
   bool exhausted() const { return !has_pixel() && no_more_; }
@@ -73,6 +76,7 @@ class WorkSource {
   std::uint32_t self_;
   std::uint32_t image_width_;
   std::uint32_t item_side_;
+  PixelTile tile_;
   PixelRectangle submap_;
   std::span<std::uint64_t> mask_;  ///< of the submap, row by row; empty unless is_masked()
   WorkItems items_;

@@ -46,6 +46,7 @@ ReadyRun ready_with_pages(const StrategyOptions& options, const core::Database& 
   const bool paged = options.strategy == Strategy::svm, by_embree = options.tracer == TracerChoice::embree;
   svm::RunOptions run{.computer = options.computer, .pages = options.pages, .watching = watching, .continuation = continuation};
   run.pages.in_flight = in_flight(options);
+  run.tracer_is_own = by_embree;
   const auto start = [&database, &settings, run, paged, by_embree](const nodes::Progress& progress,
                                                                    std::stop_token stop) -> Report {
     svm::RunOptions watched = run;

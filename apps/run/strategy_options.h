@@ -53,7 +53,7 @@ void add_machine_options(OptionSet options, RunnerOptions& runner, const std::st
 /// Declares the options of svm and replicated but --count-pages, in a group of their own. `in_flight_default` is what help says
 /// of the default of --in-flight; as it stands here it covers every runner.
 void add_page_options(OptionSet options, svm::PageOptions& pages,
-                      const std::string& in_flight_default = "16, replicated 1, runner virtual 1");
+                      const std::string& in_flight_default = "64, replicated 16, runner virtual 1");
 /// Declares the options of dataflow but --topology in a group of their own.
 void add_ray_options(OptionSet options, dataflow::RayOptions& rays);
 

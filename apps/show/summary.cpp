@@ -37,13 +37,23 @@ std::string memory_text(const Account& account) {
   return text;
 }
 
+/// Nothing where all rays walked alone.
+std::string bundles_text(const core::Operations& operations) {
+  if (operations.bundles == 0) {
+    return "";
+  }
+  const double width = static_cast<double>(operations.rays_in_bundles) / static_cast<double>(operations.bundles);
+  return "; " + percent_text(percent_of(operations.rays_in_bundles, operations.traced_ray_count()), 1) + " in bundles of " +
+         fixed(width, 1);
+}
+
 std::string rays_text(const core::Operations& operations, double render_seconds) {
   const auto count = [&](core::RayKind kind) { return grouped(operations.rays[static_cast<std::size_t>(kind)]); };
   const std::uint64_t total = operations.ray_count();
   const double rate = render_seconds > 0 ? static_cast<double>(total) / render_seconds : 0;
   return grouped(total) + " (primary " + count(core::RayKind::primary) + ", reflected " + count(core::RayKind::reflected) +
          ", refracted " + count(core::RayKind::refracted) + ", shadow " + count(core::RayKind::shadow) + "), " +
-         grouped(static_cast<std::uint64_t>(rate)) + " a second";
+         grouped(static_cast<std::uint64_t>(rate)) + " a second" + bundles_text(operations);
 }
 
 std::string pages_text(const svm::Report& report) {

@@ -1,5 +1,6 @@
 #include "core/picture/film.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -16,19 +17,30 @@ std::int64_t fixed(float light) {
   if (!(scaled > 0.0)) {
     return 0;
   }
-  return scaled >= 9.2e18 ? channel_max : static_cast<std::int64_t>(std::nearbyint(scaled));
+  return scaled >= 9.2e18 ? channel_max : static_cast<std::int64_t>(std::llrint(scaled));
 }
 
 class Fnv1a {
  public:
+  /// The lowest byte first. Bytes of 0 only multiply, so those above all others, of which films are full, do at once.
   void add(std::uint64_t value) {
-    for (int byte = 0; byte < 8; ++byte) {
-      hash_ = (hash_ ^ (value >> (8 * byte) & 0xffU)) * 0x100000001b3ULL;
+    std::size_t zeros = 8;
+    for (; value != 0; value >>= 8U, --zeros) {
+      hash_ = (hash_ ^ (value & 0xffU)) * prime_powers[1];
     }
+    hash_ *= prime_powers[zeros];
   }
   std::uint64_t value() const { return hash_; }
 
  private:
+  static constexpr std::array<std::uint64_t, 9> prime_powers = [] {
+    std::array<std::uint64_t, 9> powers{1};
+    for (std::size_t i = 1; i < powers.size(); ++i) {
+      powers[i] = powers[i - 1] * 0x100000001b3ULL;
+    }
+    return powers;
+  }();
+
   std::uint64_t hash_ = 0xcbf29ce484222325ULL;
 };
 

@@ -9,6 +9,7 @@
 #include "core/picture/film.h"
 #include "core/picture/refinement.h"
 #include "core/picture/shade.h"
+#include "core/trace/bundle_walk.h"
 #include "core/trace/operations.h"
 #include "core/trace/traversal.h"
 
@@ -28,6 +29,10 @@ class GridTracer {
   GridTracer(R& records, const DatabaseHeader& header, const Skips& skips) : records_(&records), header_(header), skips_(skips) {}
   Traced trace(const Ray& ray, Cursor& cursor, Operations& operations) {
     return core::trace(ray, cursor, *records_, header_, skips_, operations);
+  }
+  /// The same for rays that walk together.
+  bool trace(RayBundle& bundle, Operations& operations) {
+    return core::trace(bundle, *records_, header_, skips_, operations);
   }
   const std::byte* find(Address address) { return records_->find(address); }
 
@@ -64,10 +69,18 @@ enum class TaskState : std::uint8_t { finished, more, absent };
 /// memory given by its owner; never allocates. Copyable as bytes.
 class PixelTask {
  public:
+  static constexpr std::uint32_t pixels_max = 1;
+  using Hits = HitState;  ///< an entry of the stack
+
   /// `stack` has at least settings.shade.depth_max entries and outlives the task.
   explicit PixelTask(std::span<HitState> stack) : stack_(stack) {}
 
   void start(std::uint32_t pixel, const SampleRange& samples, const RenderSettings& settings, Operations& operations);
+  /// The same for one pixel, as tasks of several have it.
+  void start(std::span<const std::uint32_t> pixels, const SampleRange& samples, const RenderSettings& settings,
+             Operations& operations) {
+    start(pixels.front(), samples, settings, operations);
+  }
 
   /// Goes on until the pixel is finished, a ray has ended (`more`), or a record is absent (see absent()). One call ends at
   /// most one ray, so it is a bounded quantum.
@@ -75,8 +88,11 @@ class PixelTask {
   TaskState run(T& tracer, const RenderSettings& settings, Operations& operations);
 
   Address absent() const { return absent_; }
-  std::uint32_t pixel() const { return pixel_; }
-  const PixelSums& sums() const { return sums_; }
+  /// Rays that a run() which returned `more` has ended.
+  std::uint32_t rays_ended() const { return 1; }
+  std::uint32_t pixel_count() const { return 1; }
+  std::uint32_t pixel(std::uint32_t = 0) const { return pixel_; }
+  const PixelSums& sums(std::uint32_t = 0) const { return sums_; }
   /// Under way, or the one that ended last.
   const Ray& ray() const { return ray_; }
 

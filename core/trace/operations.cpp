@@ -27,6 +27,8 @@ Operations& operator+=(Operations& sum, const Operations& more) {
   sum.total_internal_reflections += more.total_internal_reflections;
   sum.deposits_saturated += more.deposits_saturated;
   sum.rays_cut += more.rays_cut;
+  sum.bundles += more.bundles;
+  sum.rays_in_bundles += more.rays_in_bundles;
   sum.skipped += more.skipped;
   return sum;
 }

@@ -12,6 +12,9 @@ namespace dmpc::core {
 /// Source: S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
 struct ShearedRay {
   explicit ShearedRay(const Ray& ray);
+  /// Of what has been computed before.
+  ShearedRay(const Vec3f& start, float x_shear, float y_shear, float z_scale, std::uint32_t x, std::uint32_t y, std::uint32_t z)
+      : origin(start), shear_x(x_shear), shear_y(y_shear), scale_z(z_scale), axis_x(x), axis_y(y), axis_z(z) {}
 
   Vec3f origin;
   float shear_x, shear_y, scale_z;

@@ -15,6 +15,7 @@ struct Skips {
   bool zero_terms = true;
   bool empty_regions = true;
   bool background = true;
+  bool bundles = true;
 
   bool operator==(const Skips&) const = default;
 };
@@ -27,6 +28,7 @@ struct SkippedWork {
   std::uint64_t zero_terms = 0;
   std::uint64_t empty_regions = 0;
   std::uint64_t background = 0;
+  std::uint64_t bundles = 0;
 };
 
 struct Skip {
@@ -56,6 +58,9 @@ inline constexpr std::array all_skips{
          &Skips::empty_regions, &SkippedWork::empty_regions},
     Skip{"background", "no primary ray is traced in parts of the picture, found beforehand, where nothing is to be seen",
          "primary rays", &Skips::background, &SkippedWork::background},
+    // References and these are what the rays would look up one by one.
+    Skip{"bundles", "rays of neighbouring pixels walk together, and look up what they all read once (pages)", "look-ups",
+         &Skips::bundles, &SkippedWork::bundles},
 };
 
 /// All on but this one.

@@ -74,7 +74,7 @@ const std::vector<Foreign> foreign = {
     {"benchmark/", {"tests/bench/"}},
     {"boost/", {"tests/bench/rivals.h"}},
     {"concurrentqueue/", {"tests/bench/rivals.h"}},
-    {"hwy/", {"core/trace/kernel.cpp"}},
+    {"hwy/", {"core/trace/bundle_steps.cpp", "core/trace/bundle_intersectors.cpp", "core/trace/kernel.cpp"}},
     {"doctest/", {"tests/"}},
     // Threads are the computer's; the edge has one that waits for signals, one that sends to a viewer, those on which rays are
     // timed, some to see whether a library can have as many, and runs side by side that share their progress.

@@ -76,11 +76,15 @@ struct FakeTracer {
 /// steps.
 class FakeTask {
  public:
+  static constexpr std::uint32_t pixels_max = 1;
+  using Hits = core::HitState;
+
   explicit FakeTask(std::span<core::HitState>) {}
 
-  void start(std::uint32_t pixel, const core::SampleRange&, const core::RenderSettings&, core::Operations& operations) {
-    pixel_ = pixel;
-    state_ = mixed(pixel);
+  void start(std::span<const std::uint32_t> pixels, const core::SampleRange&, const core::RenderSettings&,
+             core::Operations& operations) {
+    pixel_ = pixels.front();
+    state_ = mixed(pixel_);
     rays_left_ = static_cast<std::uint32_t>(state_ % 4) + 1;
     begin_ray(operations);
   }
@@ -107,9 +111,11 @@ class FakeTask {
   }
 
   core::Address absent() const { return absent_; }
-  std::uint32_t pixel() const { return pixel_; }
+  std::uint32_t rays_ended() const { return 1; }
+  std::uint32_t pixel_count() const { return 1; }
+  std::uint32_t pixel(std::uint32_t = 0) const { return pixel_; }
   core::Ray ray() const { return {}; }
-  core::PixelSums sums() const {
+  core::PixelSums sums(std::uint32_t = 0) const {
     core::PixelSums sums;
     for (std::size_t i = 0; i < 6; ++i) {
       sums.plane[i / 3].channel[i % 3] = static_cast<std::int64_t>(mixed(state_ + i) >> 2U);
@@ -144,7 +150,7 @@ inline core::Film fake_reference(const FakePages& pages, const core::RenderSetti
   core::Operations operations;
   for (std::uint32_t pixel = 0; pixel < settings.camera.pixel_count(); ++pixel) {
     FakeTask task({});
-    task.start(pixel, settings.first_samples(), settings, operations);
+    task.start(std::span<const std::uint32_t>(&pixel, 1), settings.first_samples(), settings, operations);
     while (task.run(tracer, settings, operations) != core::TaskState::finished) {
     }
     film.deposit(pixel, task.sums());

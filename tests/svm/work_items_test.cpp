@@ -104,7 +104,7 @@ TEST_CASE("side 0 makes the whole submap one item") {
 }
 
 TEST_CASE("a scan goes row by row and ends") {
-  svm::PixelScan scan({2, 1, 2, 2});
+  svm::PixelScan scan(PixelRectangle{2, 1, 2, 2});
   CHECK(scan.next(10) == 12);
   CHECK(scan.next(10) == 13);
   CHECK(scan.next(10) == 22);

@@ -138,14 +138,14 @@ TEST_CASE("a later pass has the pixels of the mask alone") {
   mask.words[0] = std::uint64_t{1} << 13U | 1U;
   mask.words[1] = std::uint64_t{1} << 31U;
   work.take_mask(mask);
-  work.begin_pass();
+  work.begin_pass({});
   while (work.has_pixel()) {
     second.insert(work.next_pixel());
   }
   CHECK(second == std::set<std::uint32_t>{0, 13, 95});
   CHECK(work.exhausted());
   work.take_mask({});
-  work.begin_pass();
+  work.begin_pass({});
   CHECK(work.exhausted());
 }
 
@@ -170,9 +170,9 @@ TEST_CASE("an item that is given away takes its part of the mask along, and item
   svm::MaskPart mask;
   mask.words[0] = 0b0010'0001;  // of a submap of 4x2: the first item's first pixel and its last one
   giver.take_mask(mask);
-  giver.begin_pass();
+  giver.begin_pass({});
   taker.take_mask({});
-  taker.begin_pass();
+  taker.begin_pass({});
   giver_node.post.parcels.clear();
   giver.answer({1, 1});
   REQUIRE(giver_node.post.parcels.size() == 1);

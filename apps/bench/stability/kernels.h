@@ -12,12 +12,13 @@
 
 namespace dmpc::apps {
 
-/// The first seven answer any ray; the others are asked by the tests that are about them.
+/// The first eight answer any ray; the others are asked by the tests that are about them.
 enum class StabilityKernel : std::uint8_t {
   grid,           ///< the walk with vectors of 8 triangles
   scalar,         ///< the walk with the scalar twin
   plain,          ///< the walk that leaves empty space cell by cell
   resumed,        ///< the walk stopped by an absent record before each of its steps
+  bundle,         ///< the walk beside three others
   any_hit,        ///< as a shadow ray: only whether there is a hit
   embree_fast,    ///< Embree without its robust flag
   embree_robust,  ///< Embree with it
@@ -25,8 +26,8 @@ enum class StabilityKernel : std::uint8_t {
   planes,         ///< the walk's planes alone, finest cell by finest cell
   listing,        ///< no walk: which primitives the boxes around a point list
 };
-inline constexpr std::size_t stability_kernel_count = 10;
-inline constexpr std::size_t compared_kernel_count = 7;
+inline constexpr std::size_t stability_kernel_count = 11;
+inline constexpr std::size_t compared_kernel_count = 8;
 
 constexpr std::size_t index_of(StabilityKernel kernel) { return static_cast<std::size_t>(kernel); }
 constexpr bool is_embree(StabilityKernel kernel) {
@@ -38,7 +39,7 @@ std::string_view name_of(StabilityKernel kernel);
 /// By kernel. Of `any_hit` only found() means anything.
 using StabilityAnswers = std::array<core::Hit, compared_kernel_count>;
 
-/// One ray through each of the first seven kernels; Embree misses what it does not take. Closest hits for all but `any_hit`,
+/// One ray through each of the first eight kernels; Embree misses what it does not take. Closest hits for all but `any_hit`,
 /// whatever the ray's kind. Thread-safe.
 StabilityAnswers ask_kernels(const StabilitySubject& subject, const core::Ray& ray);
 

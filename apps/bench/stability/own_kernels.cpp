@@ -1,8 +1,13 @@
 #include "apps/bench/stability/own_kernels.h"
 
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
 #include "apps/bench/stability/rays.h"
 #include "apps/bench/stability/records.h"
 #include "apps/bench/stability/walk.h"
+#include "core/trace/bundle_walk.h"
 #include "core/trace/traversal.h"
 
 namespace dmpc::apps {
@@ -34,12 +39,29 @@ core::Hit shoot_resumed(const core::Database& database, const core::Ray& ray) {
   return cursor.best;
 }
 
+/// The third of four rays that walk together. The others go nearly the same way or, beside every second ray, some other ways.
+core::Hit shoot_in_bundle(const core::Database& database, const core::Ray& ray) {
+  core::LocalRecords records(database.bytes());
+  core::Operations operations;
+  core::RayBundle bundle;
+  bundle.count = 4;
+  bundle.rays.fill(ray);
+  const bool is_apart = (std::bit_cast<std::uint32_t>(ray.direction.x) & 1U) != 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    core::Ray& neighbour = bundle.rays[axis < 2 ? axis : 3];
+    neighbour.direction[axis] *= is_apart ? -1.0F : 1.001F;
+  }
+  bundle.start();
+  core::trace(bundle, records, database.header(), {}, operations);
+  return bundle.best.of(2);
+}
+
 }  // namespace
 
 OwnAnswers ask_own_kernels(const core::Database& database, const core::Ray& ray) {
   const core::Ray nearest = of_kind(ray, core::RayKind::primary);
   return {shoot(database, nearest), shoot_scalar(database, nearest), shoot(database, nearest, false),
-          shoot_resumed(database, nearest), shoot(database, of_kind(ray, core::RayKind::shadow))};
+          shoot_resumed(database, nearest), shoot_in_bundle(database, nearest), shoot(database, of_kind(ray, core::RayKind::shadow))};
 }
 
 }  // namespace dmpc::apps

@@ -10,9 +10,9 @@
 
 namespace dmpc::apps {
 
-inline constexpr std::size_t own_kernel_count = 5;
+inline constexpr std::size_t own_kernel_count = 6;
 
-/// By StabilityKernel, of which these are the first: grid, scalar, plain, resumed, any_hit. Of `any_hit` only found() means
+/// By StabilityKernel, of which these are the first: grid, scalar, plain, resumed, bundle, any_hit. Of `any_hit` only found() means
 /// anything.
 using OwnAnswers = std::array<core::Hit, own_kernel_count>;
 

@@ -22,7 +22,7 @@ struct FixedOrder {
 };
 
 FixedOrder order_of(const svm::Report& report) {
-  const bool alone = report.nodes.size() == 1, stays = alone || report.plan.request.pages.work_item_side == 0;
+  const bool alone = report.nodes.size() == 1, stays = alone || report.plan.work_item_side == 0;
   return {stays, alone || (stays && report.plan.in_flight == 1)};
 }
 

@@ -57,6 +57,8 @@ Json operations_json(const core::Operations& operations) {
           {"normal_reads", operations.normal_reads},
           {"texture_lookups", operations.texture_lookups},
           {"tile_reads", operations.tile_reads},
+          {"bundles", operations.bundles},
+          {"rays_in_bundles", operations.rays_in_bundles},
           {"deposits_saturated", operations.deposits_saturated}};
 }
 

@@ -26,7 +26,7 @@ namespace dmpc::apps {
 ///   hits           primary, secondary, shadow_blocked, total_internal_reflections
 ///   operations     cell_steps, brick_reads, triangle_tests, sphere_tests, cone_tests, shadings, normal_reads (vertex
 ///                  normals of smooth triangles), texture_lookups (hits on textured triangles), tile_reads (of their textures'
-///                  tiles), deposits_saturated
+///                  tiles), bundles (of rays that walked together), rays_in_bundles, deposits_saturated
 ///   seconds        load, build, prepare (plan; for dataflow balance and deal), render, write (wall clock), user, system,
 ///                  render_user, render_system
 ///   run_hash       of all events in virtual time (with the packets' targets, kinds and bytes), the machine's digest and
@@ -66,8 +66,8 @@ namespace dmpc::apps {
 ///                  nodes of which one has sent the other a ray
 ///   chaos          seed, packets_held, quanta_sat_out, and credits that were left: request_credits, ray_credits, host_credits,
 ///                  film_credits; null when calm
-///   skips          work that was left out: empty_space, any_hit, unlit, zero_terms, empty_regions, background, each {on, exact:
-///                  true (it changes no bit of the picture), avoided, unit (of the work avoided)}; cutoff {on, exact: false,
+///   skips          work that was left out: empty_space, any_hit, unlit, zero_terms, empty_regions, background, bundles, each {on,
+///                  exact: true (it changes no bit of the picture), avoided, unit (of the work avoided)}; cutoff {on, exact: false,
 ///                  cutoff, rays_cut, mean_error_bound: light that a sample lacks at most, on average}
 ///   heat_maps      for each file: kind, file, unit, clock ("processor time" or "virtual time", of time only), repeatable
 ///   (another

@@ -48,7 +48,7 @@ TEST_CASE("a scene and an output are all that render needs") {
   CHECK_FALSE(options.pages.cache_pages);
   CHECK(options.pages.replacement == svm::Replacement::lru);
   CHECK_FALSE(options.pages.in_flight);
-  CHECK(options.pages.work_item_side == 3);
+  CHECK_FALSE(options.pages.work_item_side);
   CHECK(options.picture.skips == core::Skips{});
   CHECK(options.database.build.page_size_bytes == 1024);
   CHECK(options.database.build.record_order == core::RecordOrder::spatial);

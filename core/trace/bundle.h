@@ -1,0 +1,120 @@
+// Up to 16 rays of one kind that walk the grid together, between two records.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "core/base/region.h"
+#include "core/record/hit.h"
+#include "core/record/ray.h"
+#include "core/record/record.h"
+#include "core/trace/cursor.h"
+#include "core/trace/primitive.h"
+
+namespace dmpc::core {
+
+inline constexpr std::size_t bundle_rays_max = 16;
+
+/// A bit for each ray of a bundle.
+using RayMask = std::uint32_t;
+
+/// How many. Spelt out, since std::popcount is a call where not all processors have an instruction for it.
+constexpr std::uint32_t count_of(RayMask rays) {
+  const std::uint32_t pairs = rays - (rays >> 1U & 0x5555U);
+  const std::uint32_t fours = (pairs & 0x3333U) + (pairs >> 2U & 0x3333U);
+  return (((fours + (fours >> 4U)) & 0x0f0fU) * 0x0101U >> 8U) & 0x1fU;
+}
+
+/// A value of each ray, side by side, so that an instruction works on many.
+template <class T>
+using Row = std::array<T, bundle_rays_max>;
+
+/// As many rays take each its own way out of one brick: none of them waits for another's children.
+inline constexpr std::size_t apart_max = 3;
+
+/// Met children that have not been visited, the nearest last, each with the rays that have met it. Not initialised.
+struct BundleChildren {
+  /// As MetChildren; and where a bundle is about to part each of its rays may add children of its own.
+  static constexpr std::size_t count_max = MetChildren::count_max + 3 * brick_children_max;
+
+  alignas(64) std::array<Row<float>, count_max> t_enter;  ///< where each of the rays enters the box
+  std::array<float, count_max> nearest;                   ///< of those, about: what the order goes by
+  std::array<BrickChild, count_max> record;
+  std::array<RayMask, count_max> rays;
+  std::uint32_t count;
+};
+
+/// A ray's t, primitive, and where that was read, of up to 16 rays.
+struct BundleHits {
+  alignas(64) Row<float> t;
+  Row<std::uint32_t> primitive, block, lane;
+
+  Hit of(std::size_t ray) const { return {t[ray], primitive[ray], Address{block[ray]}, lane[ray]}; }
+  void set(std::size_t ray, const Hit& hit) {
+    t[ray] = hit.t;
+    primitive[ray] = hit.primitive;
+    block[ray] = static_cast<std::uint32_t>(hit.block);
+    lane[ray] = hit.lane;
+  }
+};
+
+/// Rays and their walk, which core/trace/bundle_walk.h takes from record to record. A step reads exactly one record, and whatever
+/// the next one needs is here by value, as in a Cursor. Rays that have met nothing alike go on together: each has its own
+/// bit in the masks, its own nearest hit and its own end. Neither initialised nor ever allocated: its owner has room for it.
+struct RayBundle {
+  // What its owner sets.
+  std::array<Ray, bundle_rays_max> rays;
+  std::uint32_t count;  ///< of them, all of one kind
+
+  // What the rays and the grid determine: see Walk, BoxRay and ShearedRay, whose bits these are.
+  alignas(64) std::array<Row<float>, 3> origin, direction, reciprocal;
+  Row<float> shear_x, shear_y, scale_z, t_max;
+  Row<std::uint32_t> ignored_primitive;
+  alignas(64) std::array<Row<double>, 3> slope, offset;
+  std::array<RayMask, 3> forward, backward;  ///< rays with a step of +1, of -1
+  /// By the axis along which rays are sheared, and whether they go up (0) or down (1) along it.
+  std::array<std::array<RayMask, 2>, 3> sheared_along;
+  std::array<std::uint32_t, 3> near_row, far_row;  ///< of a brick's bounds, where all rays agree
+  bool is_one_octant;                              ///< all rays agree
+  Corner grid_size;                                ///< in finest cells
+  double finest_cells;                             ///< a unit of length, in finest cells
+
+  // Where they are.
+  enum class Stage : std::uint8_t { start, directory, child, finished } stage;
+  bool any;        ///< any hit will do
+  RayMask alive;   ///< rays whose walk has not ended
+  RayMask found;   ///< rays that have a hit
+  RayMask group;   ///< the rays in `cell`, of those alive
+  Corner cell;     ///< the lower corner of the top cell that comes next, in finest cells
+  BrickChild next;          ///< what the next step reads, with Stage::child
+  RayMask next_rays;        ///< for these rays
+  Address absent;           ///< the record that the walk needs next
+  std::array<RayMask, 3> exit_axis;  ///< through which plane rays leave the cell
+  alignas(64) std::array<Row<std::int32_t>, 3> cells;  ///< each ray's top cell
+  alignas(64) Row<double> t_enter, t_exit;             ///< where the ray enters its cell, and leaves it
+  alignas(64) Row<float> t_low, t_high;                ///< the same as boxes need it
+  BundleHits best;
+  BundleChildren waiting;
+
+  /// The ray as its triangles need it.
+  ShearedRay sheared(std::size_t ray) const;
+
+  RayMask all() const { return (RayMask{1} << count) - 1; }
+  /// What the rays in front of a start are: `count` of them are set.
+  void start() { stage = Stage::start; }
+};
+static_assert(std::is_trivially_copyable_v<RayBundle>);
+
+inline ShearedRay RayBundle::sheared(std::size_t ray) const {
+  const auto is = [&](std::size_t axis, std::size_t down) { return (sheared_along[axis][down] >> ray & 1U) != 0; };
+  const std::uint32_t axis = is(0, 0) || is(0, 1) ? 0 : is(1, 0) || is(1, 1) ? 1 : 2;
+  const std::uint32_t second = (axis + 1) % 3, third = (axis + 2) % 3;
+  const bool is_down = is(axis, 1);
+  return {{origin[0][ray], origin[1][ray], origin[2][ray]}, shear_x[ray], shear_y[ray], scale_z[ray],
+          is_down ? third : second, is_down ? second : third, axis};
+}
+
+}  // namespace dmpc::core

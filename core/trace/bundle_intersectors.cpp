@@ -1,0 +1,338 @@
+// A bundle's rays and one record, many rays at a time. What is done here is what core/trace/kernel does for one ray, number by
+// number.
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "core/base/mutation.h"
+#include "core/trace/bundle_kernel.h"
+
+// clang-format off
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/trace/bundle_intersectors.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once for each target
+#include <hwy/highway.h>
+#include "core/trace/lanes.inl"
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace dmpc::core::HWY_NAMESPACE {
+
+using Vector = hn::Vec<Floats>;
+constexpr std::size_t step = lanes_of<Floats>();
+
+// --- Boxes ---
+
+/// A brick's bounds as floats.
+using Bounds = std::array<std::array<float, brick_children_max>, 6>;
+
+HWY_INLINE Bounds bounds_of(const Brick& brick) {
+  Bounds bounds;
+  for (std::size_t row = 0; row < 6; ++row) {
+    for (std::size_t child = 0; child < brick_children_max; ++child) {
+      bounds[row][child] = static_cast<float>(brick.bounds[row][child]);
+    }
+  }
+  return bounds;
+}
+
+/// A brick's planes as some rays come to them: bound * slope + offset.
+struct BoxPlanes {
+  Vector slope[3], offset[3], t_low, t_high;
+};
+
+HWY_INLINE BoxPlanes planes_of(const RayBundle& bundle, const Brick& brick, std::size_t first) {
+  const Floats tag;
+  BoxPlanes planes;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto reciprocal = hn::Load(tag, bundle.reciprocal[axis].data() + first);
+    const auto origin = hn::Load(tag, bundle.origin[axis].data() + first);
+    planes.slope[axis] = hn::Mul(hn::Set(tag, brick.unit), reciprocal);
+    planes.offset[axis] = hn::Mul(hn::Sub(hn::Set(tag, brick.origin[axis]), origin), reciprocal);
+  }
+  planes.t_low = hn::Load(tag, bundle.t_low.data() + first);
+  planes.t_high = hn::Min(hn::Load(tag, bundle.t_high.data() + first), hn::Load(tag, bundle.best.t.data() + first));
+  return planes;
+}
+
+/// Where rays enter the box of a child, and which of them do.
+template <bool OneOctant>
+HWY_INLINE RayMask meet_box(const RayBundle& bundle, const Bounds& bounds, const BoxPlanes& planes, std::size_t child,
+                            float* t_enter) {
+  const Floats tag;
+  Vector enter = planes.t_low, leave = planes.t_high;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto plane = [&](std::size_t row) {
+      return fused(hn::Set(tag, bounds[row][child]), planes.slope[axis], planes.offset[axis]);
+    };
+    if constexpr (OneOctant) {
+      enter = hn::Max(enter, plane(bundle.near_row[axis]));
+      leave = hn::Min(leave, plane(bundle.far_row[axis]));
+    } else {
+      const Vector low = plane(axis), high = plane(axis + 3);
+      enter = hn::Max(enter, hn::Min(low, high));
+      leave = hn::Min(leave, hn::Max(low, high));
+    }
+  }
+  hn::Store(enter, tag, t_enter);
+  return bits_of(tag, hn::Le(enter, leave));
+}
+
+/// Moves the last child that waits before those that are no nearer, from place `start` on.
+HWY_INLINE void put_in_order(BundleChildren& waiting, std::uint32_t start) {
+  std::uint32_t place = waiting.count - 1;
+  const float nearest = waiting.nearest[place];
+  if (place == start || waiting.nearest[place - 1] >= nearest) {
+    return;
+  }
+  const BrickChild record = waiting.record[place];
+  const RayMask rays = waiting.rays[place];
+  const Row<float> t_enter = waiting.t_enter[place];
+  for (; place > start && waiting.nearest[place - 1] < nearest; --place) {
+    waiting.nearest[place] = waiting.nearest[place - 1];
+    waiting.record[place] = waiting.record[place - 1];
+    waiting.rays[place] = waiting.rays[place - 1];
+    waiting.t_enter[place] = waiting.t_enter[place - 1];
+  }
+  waiting.nearest[place] = nearest;
+  waiting.record[place] = record;
+  waiting.rays[place] = rays;
+  waiting.t_enter[place] = t_enter;
+}
+
+template <bool OneOctant>
+HWY_INLINE void meet_together(RayBundle& bundle, const Brick& brick, RayMask rays, bool in_order) {
+  BundleChildren& waiting = bundle.waiting;
+  const Bounds bounds = bounds_of(brick);
+  BoxPlanes planes[bundle_rays_max / step];
+  for (std::size_t part = 0; part < bundle_rays_max / step; ++part) {
+    planes[part] = planes_of(bundle, brick, part * step);
+  }
+  const std::uint32_t start = waiting.count;
+  for (std::size_t child = 0; child < brick.child_count; ++child) {
+    Row<float>& t_enter = waiting.t_enter[waiting.count];
+    RayMask met = 0;
+    for (std::size_t part = 0; part < bundle_rays_max / step; ++part) {
+      met |= meet_box<OneOctant>(bundle, bounds, planes[part], child, t_enter.data() + part * step) << (part * step);
+    }
+    met &= rays;
+    if (met == 0) {
+      continue;
+    }
+    waiting.record[waiting.count] = brick.child[child];
+    waiting.rays[waiting.count] = met;
+    waiting.nearest[waiting.count] = t_enter[static_cast<std::size_t>(std::countr_zero(met))];
+    ++waiting.count;
+    if (in_order) {
+      put_in_order(waiting, start);
+    }
+  }
+}
+
+/// One ray and all boxes.
+HWY_INLINE void meet_apart(RayBundle& bundle, const Brick& brick, std::size_t ray, bool in_order, std::uint32_t start) {
+  const hn::CappedTag<float, brick_children_max> tag;
+  const hn::Rebind<std::int32_t, decltype(tag)> integers;
+  const hn::Rebind<std::uint8_t, decltype(tag)> bytes;
+  constexpr std::size_t lanes = lanes_of<decltype(tag)>();
+  BundleChildren& waiting = bundle.waiting;
+  alignas(64) float t_enter[brick_children_max];
+  RayMask met = 0;
+  for (std::size_t first = 0; first < brick_children_max; first += lanes) {
+    auto enter = hn::Set(tag, bundle.t_low[ray]), leave = hn::Set(tag, std::min(bundle.t_high[ray], bundle.best.t[ray]));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float reciprocal = bundle.reciprocal[axis][ray];
+      const auto slope = hn::Set(tag, brick.unit * reciprocal);
+      const auto offset = hn::Set(tag, (brick.origin[axis] - bundle.origin[axis][ray]) * reciprocal);
+      const auto plane = [&](std::size_t row) {
+        return fused(hn::ConvertTo(tag, hn::PromoteTo(integers, hn::LoadU(bytes, brick.bounds[row].data() + first))), slope, offset);
+      };
+      const bool is_down = reciprocal < 0.0F;
+      enter = hn::Max(enter, plane(is_down ? axis + 3 : axis));
+      leave = hn::Min(leave, plane(is_down ? axis : axis + 3));
+    }
+    hn::Store(enter, tag, t_enter + first);
+    met |= bits_of(tag, hn::Le(enter, leave)) << first;
+  }
+  for (met &= first_bits(brick.child_count); met != 0; met &= met - 1) {
+    const auto child = static_cast<std::size_t>(std::countr_zero(met));
+    waiting.record[waiting.count] = brick.child[child];
+    waiting.rays[waiting.count] = RayMask{1} << ray;
+    waiting.nearest[waiting.count] = waiting.t_enter[waiting.count][ray] = t_enter[child];
+    ++waiting.count;
+    if (in_order) {
+      put_in_order(waiting, start);
+    }
+  }
+}
+
+void meet_children(RayBundle& bundle, const Brick& brick, RayMask rays, bool in_order) {
+  if (count_of(rays) <= apart_max) {
+    for (const std::uint32_t start = bundle.waiting.count; rays != 0; rays &= rays - 1) {
+      meet_apart(bundle, brick, static_cast<std::size_t>(std::countr_zero(rays)), in_order, start);
+    }
+  } else if (bundle.is_one_octant) {
+    meet_together<true>(bundle, brick, rays, in_order);
+  } else {
+    meet_together<false>(bundle, brick, rays, in_order);
+  }
+}
+
+/// Those of `rays` that enter the box of a waiting child before their best hit.
+HWY_INLINE RayMask still_want(const RayBundle& bundle, std::size_t child, RayMask rays) {
+  const Row<float>& t_enter = bundle.waiting.t_enter[child];
+  if ((rays & (rays - 1)) == 0) {
+    const auto ray = static_cast<std::size_t>(std::countr_zero(rays));
+    return t_enter[ray] <= bundle.best.t[ray] ? rays : 0;
+  }
+  const Floats tag;
+  RayMask near = 0;
+  for (std::size_t first = 0; first < bundle_rays_max; first += step) {
+    const auto best = hn::Load(tag, bundle.best.t.data() + first);
+    near |= bits_of(tag, hn::Le(hn::Load(tag, t_enter.data() + first), best)) << first;
+  }
+  return rays & near;
+}
+
+void take_child(RayBundle& bundle) {
+  BundleChildren& waiting = bundle.waiting;
+  const RayMask done = bundle.any ? bundle.found : 0;
+  while (waiting.count > 0) {
+    const std::uint32_t last = --waiting.count;
+    const RayMask rays = waiting.rays[last] & ~done;
+    const RayMask wanted = rays != 0 ? still_want(bundle, last, rays) : 0;
+    if (wanted != 0) {
+      bundle.next = waiting.record[last];
+      bundle.next_rays = wanted;
+      return;
+    }
+  }
+  bundle.next = BrickChild::none();
+}
+
+// --- Triangles ---
+
+/// Rays that are sheared alike, from `first` on.
+struct ShearedRays {
+  std::size_t x, y, z;  ///< which coordinate plays which
+  Vector origin_x, origin_y, origin_z, shear_x, shear_y;
+};
+
+HWY_INLINE ShearedRays sheared_rays(const RayBundle& bundle, std::size_t axis, bool is_down, std::size_t first) {
+  const Floats tag;
+  const std::size_t next = (axis + 1) % 3, last = (axis + 2) % 3;
+  const std::size_t x = is_down ? last : next, y = is_down ? next : last;
+  const auto row = [&](const Row<float>& values) { return hn::Load(tag, values.data() + first); };
+  return {x, y, axis, row(bundle.origin[x]), row(bundle.origin[y]), row(bundle.origin[axis]), row(bundle.shear_x), row(bundle.shear_y)};
+}
+
+/// A vertex as those rays see it.
+struct Vertices {
+  Vector x, y, z;
+};
+
+HWY_INLINE Vertices shear(const ShearedRays& rays, const TriangleRows& triangles, std::size_t corner, std::size_t lane) {
+  const Floats tag;
+  const auto coordinate = [&](std::size_t axis) { return hn::Set(tag, triangles.rows[(3 * corner + axis) * triangles.count + lane]); };
+  const Vector z = hn::Sub(coordinate(rays.z), rays.origin_z);
+  return {fused(hn::Neg(rays.shear_x), z, hn::Sub(coordinate(rays.x), rays.origin_x)),
+          fused(hn::Neg(rays.shear_y), z, hn::Sub(coordinate(rays.y), rays.origin_y)), z};
+}
+
+HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) {
+  if constexpr (mutation == Mutation::contracted_edges) {
+    return fused(a.x, b.y, hn::Neg(hn::Mul(a.y, b.x)));
+  }
+  return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
+}
+
+/// A hit in doubt, in the scalar twin.
+HWY_INLINE void hit_apart(RayBundle& bundle, const TriangleRows& triangles, Address block, std::size_t lane, std::uint32_t id, std::size_t ray) {
+  const float t = intersect_triangle(ShearedRay(bundle.rays[ray]), triangles.rows, triangles.count, lane);
+  if (t > 0.0F && t < bundle.t_max[ray] && nearer(t, id, bundle.best.of(ray))) {
+    bundle.best.set(ray, {t, id, block, static_cast<std::uint32_t>(lane)});
+    bundle.found |= RayMask{1} << ray;
+  }
+}
+
+/// One triangle and some of the rays from `first` on; returns which are wanted no more.
+HWY_INLINE void hit_triangle(RayBundle& bundle, const ShearedRays& rays, std::size_t first, RayMask active,
+                             const TriangleRows& triangles, Address block, std::size_t lane) {
+  const Floats tag;
+  const Unsigned ids;
+  const Vertices a = shear(rays, triangles, 0, lane), b = shear(rays, triangles, 1, lane), c = shear(rays, triangles, 2, lane);
+  const Vector u = edge(c, b), v = edge(a, c), w = edge(b, a), zero = hn::Zero(tag);
+  const Vector least = hn::Min(hn::Min(u, v), w), greatest = hn::Max(hn::Max(u, v), w);
+  const RayMask outside = bits_of(tag, hn::And(hn::Lt(least, zero), hn::Gt(greatest, zero)));
+  const RayMask on_edge = bits_of(tag, hn::Or(hn::Or(hn::Eq(u, zero), hn::Eq(v, zero)), hn::Eq(w, zero)));
+  if ((active & (~outside | on_edge)) == 0) {
+    return;
+  }
+  const auto id = read<std::uint32_t>(triangles.ids() + lane * sizeof(std::uint32_t));
+  const Vector determinant = hn::Add(hn::Add(u, v), w);
+  const Vector weighted = fused(hn::Div(u, determinant), a.z, fused(hn::Div(v, determinant), b.z, hn::Mul(hn::Div(w, determinant), c.z)));
+  const Vector t = hn::Mul(weighted, hn::Load(tag, bundle.scale_z.data() + first));
+  const auto ignored = hn::Eq(hn::Load(ids, bundle.ignored_primitive.data() + first), hn::Set(ids, id));
+  const RayMask others = active & ~bits_of(ids, ignored);
+  const RayMask crossed = others & ~outside & ~bits_of(tag, hn::Eq(determinant, zero));
+  const RayMask near = crossed & bits_of(tag, hn::Lt(hn::Abs(t), hn::Set(tag, near_start)));
+  RayMask doubtful = (on_edge & others) | near;
+  const Vector best = hn::Load(tag, bundle.best.t.data() + first);
+  const auto in_time = hn::And(hn::Gt(t, zero), hn::Lt(t, hn::Load(tag, bundle.t_max.data() + first)));
+  const auto has_lower_id = hn::RebindMask(tag, hn::Gt(hn::Load(ids, bundle.best.primitive.data() + first), hn::Set(ids, id)));
+  const auto is_nearer = hn::Or(hn::Lt(t, best), hn::And(hn::Eq(t, best), has_lower_id));
+  const RayMask hit = crossed & ~doubtful & bits_of(tag, hn::And(in_time, is_nearer));
+  if (hit != 0) {
+    const auto takes = mask_of(tag, hit);
+    const auto takes_ids = hn::RebindMask(ids, takes);
+    hn::BlendedStore(t, takes, tag, bundle.best.t.data() + first);
+    hn::BlendedStore(hn::Set(ids, id), takes_ids, ids, bundle.best.primitive.data() + first);
+    hn::BlendedStore(hn::Set(ids, static_cast<std::uint32_t>(block)), takes_ids, ids, bundle.best.block.data() + first);
+    hn::BlendedStore(hn::Set(ids, static_cast<std::uint32_t>(lane)), takes_ids, ids, bundle.best.lane.data() + first);
+    bundle.found |= hit << first;
+  }
+  for (; doubtful != 0; doubtful &= doubtful - 1) {
+    hit_apart(bundle, triangles, block, lane, id, first + static_cast<std::size_t>(std::countr_zero(doubtful)));
+  }
+}
+
+void hit_triangles(RayBundle& bundle, const TriangleRows& triangles, Address block, RayMask rays) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t down = 0; down < 2; ++down) {
+      const RayMask alike = rays & bundle.sheared_along[axis][down];
+      for (std::size_t first = 0; first < bundle_rays_max; first += step) {
+        RayMask active = alike >> first & first_bits(step);
+        if (active == 0) {
+          continue;
+        }
+        const ShearedRays sheared = sheared_rays(bundle, axis, down == 1, first);
+        for (std::size_t lane = 0; lane < triangles.count && active != 0; ++lane) {
+          hit_triangle(bundle, sheared, first, active, triangles, block, lane);
+          active &= ~(bundle.any ? bundle.found >> first : 0U);
+        }
+      }
+    }
+  }
+}
+
+const BundleIntersectors* intersectors() {
+  static constexpr BundleIntersectors all{meet_children, take_child, hit_triangles};
+  return &all;
+}
+
+}  // namespace dmpc::core::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace dmpc::core {
+HWY_EXPORT(intersectors);
+
+const BundleIntersectors* bundle_intersectors(std::size_t rank) {
+  return choose_instruction_set(rank) ? HWY_DYNAMIC_DISPATCH(intersectors)() : nullptr;
+}
+
+const BundleIntersectors& fastest_bundle_intersectors = *bundle_intersectors(0);
+
+}  // namespace dmpc::core
+#endif

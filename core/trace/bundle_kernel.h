@@ -1,0 +1,50 @@
+// What a bundle's rays do all at once: SIMD where the machine has it, the same bits everywhere.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/base/region.h"
+#include "core/record/record.h"
+#include "core/trace/bundle.h"
+#include "core/trace/kernel.h"
+#include "core/trace/operations.h"
+
+namespace dmpc::core {
+
+/// The way out of a box of cells: the planes, one of each axis, that rays with a step of +1 come to, and those of the others.
+struct PlanesAhead {
+  Corner above{}, below{};
+};
+
+/// How bundles walk: each does for the rays of `bundle` what Walk does for one, to the bit.
+struct BundleSteps {
+  /// From bundle.rays to rows, and the rays that meet the grid to their first cells: those are `alive`.
+  void (*enter)(RayBundle& bundle, const GridFrame& frame);
+  /// Of those alive the rays in one cell: the first as the first of them goes. Sets `cell` and `group`.
+  void (*next_group)(RayBundle& bundle);
+  /// Where the rays of the group leave for the planes.
+  void (*find_exits)(RayBundle& bundle, const PlanesAhead& ahead);
+  /// Takes the rays of `leaving`, whose exits are found, to the next cell: the neighbour, or, from several cells `around`, the one
+  /// that holds the ray. Those whose walk has ended are no longer alive. Returns how many cells they have come by, beside one each.
+  std::uint64_t (*leave)(RayBundle& bundle, RayMask leaving, const PlanesAhead& ahead, const Region* around);
+};
+
+/// What bundles do with a record: each does for the rays of `rays` what kernel.h's do for one.
+struct BundleIntersectors {
+  /// Adds the children that some of the rays meet, with those, to the ones that wait. `in_order`: the nearest last.
+  void (*meet_children)(RayBundle& bundle, const Brick& brick, RayMask rays, bool in_order);
+  /// The child that waits last and some of its rays may still want: `next` and `next_rays`; none if there is none.
+  void (*take_child)(RayBundle& bundle);
+  /// Merges hits with the triangles of the block at `block` into `best` and `found`. With bundle.any a ray's first hit will do.
+  void (*hit_triangles)(RayBundle& bundle, const TriangleRows& triangles, Address block, RayMask rays);
+};
+
+/// The steps and tests for instruction set number `rank` that this processor has, the fastest first; nullptr if it has no more.
+const BundleSteps* bundle_steps(std::size_t rank);
+const BundleIntersectors* bundle_intersectors(std::size_t rank);
+/// Those of rank 0.
+extern const BundleSteps& fastest_bundle_steps;
+extern const BundleIntersectors& fastest_bundle_intersectors;
+
+}  // namespace dmpc::core

@@ -1,0 +1,401 @@
+// A bundle's rays from cell to cell, many at a time. What is done here is what core/trace/walk does for one ray, number by number.
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "core/trace/bundle_kernel.h"
+
+// clang-format off
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/trace/bundle_steps.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once for each target
+#include <hwy/highway.h>
+#include "core/trace/lanes.inl"
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace dmpc::core::HWY_NAMESPACE {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+/// As in walk.cpp: up to here a point on a ray is off by less than 2^-31 of the grid.
+constexpr double near_t_max = 0x1p20;
+constexpr std::size_t walk_starts = 3;
+
+// --- From rays to rows ---
+
+/// Four floats of each ray, from `first` on, to four rows.
+HWY_INLINE void load_rows(const RayBundle& bundle, std::size_t offset, float* row0, float* row1, float* row2, float* row3) {
+  for (std::size_t i = 0; i < bundle_rays_max; ++i) {
+    // Behind the last ray stands the first, so that no lane computes with what nobody has set.
+    const auto* ray = reinterpret_cast<const std::byte*>(&bundle.rays[i < bundle.count ? i : 0]) + offset;
+    const auto* from = reinterpret_cast<const float*>(ray);
+    row0[i] = from[0];
+    row1[i] = from[1];
+    row2[i] = from[2];
+    row3[i] = from[3];
+  }
+}
+
+HWY_INLINE void load(RayBundle& bundle) {
+  load_rows(bundle, offsetof(Ray, origin), bundle.origin[0].data(), bundle.origin[1].data(), bundle.origin[2].data(),
+            bundle.t_max.data());
+  Row<float> ignored;
+  load_rows(bundle, offsetof(Ray, direction), bundle.direction[0].data(), bundle.direction[1].data(), bundle.direction[2].data(),
+            ignored.data());
+  bundle.ignored_primitive = std::bit_cast<Row<std::uint32_t>>(ignored);
+}
+
+HWY_INLINE void clear(RayBundle& bundle) {
+  bundle.best.t.fill(std::numeric_limits<float>::infinity());
+  bundle.best.primitive.fill(no_primitive);
+  bundle.best.block.fill(static_cast<std::uint32_t>(no_address));
+  bundle.best.lane.fill(0);
+  bundle.found = 0;
+  bundle.forward = bundle.backward = {};
+  bundle.sheared_along = {};
+}
+
+/// ShearedRay's constructor, of the rays from `first` on.
+HWY_INLINE void shear(RayBundle& bundle, std::size_t first) {
+  const Floats tag;
+  const auto d = [&](std::size_t axis) { return hn::Load(tag, bundle.direction[axis].data() + first); };
+  const auto d0 = d(0), d1 = d(1), d2 = d(2);
+  const auto x = hn::Abs(d0), y = hn::Abs(d1), z = hn::Abs(d2);
+  const auto x_over_y = hn::Gt(x, y);
+  const auto is_x = hn::And(x_over_y, hn::Gt(x, z));
+  const auto is_y = hn::AndNot(x_over_y, hn::Gt(y, z));
+  const auto choose = [&](auto if_x, auto if_y, auto if_z) {
+    return hn::IfThenElse(is_x, if_x, hn::IfThenElse(is_y, if_y, if_z));
+  };
+  const auto along = choose(d0, d1, d2), next = choose(d1, d2, d0), last = choose(d2, d0, d1);
+  const auto is_down = hn::Lt(along, hn::Zero(tag));
+  const auto scale = hn::Div(hn::Set(tag, 1.0F), along);
+  hn::Store(scale, tag, bundle.scale_z.data() + first);
+  hn::Store(hn::Mul(hn::IfThenElse(is_down, last, next), scale), tag, bundle.shear_x.data() + first);
+  hn::Store(hn::Mul(hn::IfThenElse(is_down, next, last), scale), tag, bundle.shear_y.data() + first);
+  const RayMask down = bits_of(tag, is_down), x_bits = bits_of(tag, is_x), y_bits = bits_of(tag, is_y);
+  const std::array<RayMask, 3> axis_bits{x_bits, y_bits, first_bits(lanes_of<Floats>()) & ~(x_bits | y_bits)};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    bundle.sheared_along[axis][0] |= (axis_bits[axis] & ~down) << first;
+    bundle.sheared_along[axis][1] |= (axis_bits[axis] & down) << first;
+  }
+}
+
+/// Walk's constructor, of the rays from `first` on.
+HWY_INLINE void find_planes(RayBundle& bundle, const GridFrame& frame, std::size_t first) {
+  const Doubles tag;
+  const HalfFloats half;
+  const auto small = hn::Set(half, smallest_component);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto d = hn::Load(half, bundle.direction[axis].data() + first);
+    const auto is_forward = hn::Ge(d, small), is_backward = hn::Le(d, hn::Neg(small));
+    const auto counts = hn::Or(is_forward, is_backward);
+    const auto nonzero = hn::IfThenElse(counts, d, hn::CopySign(small, d));
+    const auto reciprocal = hn::Div(hn::Set(tag, 1.0), hn::PromoteTo(tag, nonzero));
+    hn::Store(hn::DemoteTo(half, reciprocal), half, bundle.reciprocal[axis].data() + first);
+    const auto origin = hn::PromoteTo(tag, hn::Load(half, bundle.origin[axis].data() + first));
+    const RayMask forward = bits_of(half, is_forward), backward = bits_of(half, is_backward);
+    const auto steps = mask_of(tag, forward | backward);
+    const auto slope = hn::Mul(hn::Set(tag, double{frame.finest_cell}), reciprocal);
+    hn::Store(hn::IfThenElseZero(steps, slope), tag, bundle.slope[axis].data() + first);
+    const auto offset = hn::Mul(hn::Neg(origin), reciprocal);
+    hn::Store(hn::IfThenElse(steps, offset, hn::Set(tag, never)), tag, bundle.offset[axis].data() + first);
+    bundle.forward[axis] |= forward << first;
+    bundle.backward[axis] |= backward << first;
+  }
+}
+
+/// Which rows of a brick's bounds all rays come to first, if all go the same way along each axis. -0 and what counts as 0 go as
+/// their sign says, as a reciprocal does.
+HWY_INLINE void find_octant(RayBundle& bundle) {
+  const Floats tag;
+  const RayMask all = bundle.all();
+  bundle.is_one_octant = true;
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    RayMask below = 0;
+    for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Floats>()) {
+      below |= bits_of(tag, hn::Lt(hn::Load(tag, bundle.reciprocal[axis].data() + first), hn::Zero(tag))) << first;
+    }
+    below &= all;
+    bundle.is_one_octant = bundle.is_one_octant && (below == 0 || below == all);
+    bundle.near_row[axis] = below == all ? axis + 3 : axis;
+    bundle.far_row[axis] = below == all ? axis : axis + 3;
+  }
+}
+
+// --- Planes and cells ---
+
+/// Walk::plane().
+HWY_INLINE hn::Vec<Doubles> plane(const RayBundle& bundle, std::size_t axis, std::size_t first, std::int32_t index) {
+  const Doubles tag;
+  return hn::Add(hn::Mul(hn::Set(tag, static_cast<double>(index)), hn::Load(tag, bundle.slope[axis].data() + first)),
+                 hn::Load(tag, bundle.offset[axis].data() + first));
+}
+
+/// Walk::crossed().
+bool crossed(const RayBundle& bundle, std::size_t ray, std::size_t axis, std::int32_t index, double t, std::size_t entry_axis) {
+  const double at = static_cast<double>(index) * bundle.slope[axis][ray] + bundle.offset[axis][ray];
+  return at < t || (at == t && (axis < entry_axis || entry_axis == walk_starts));
+}
+
+/// Finest cells along an axis that a search is kept to.
+struct Cells {
+  std::int32_t low, high;
+};
+
+/// Walk::locate(), from a guess on.
+std::int32_t locate(const RayBundle& bundle, std::size_t ray, std::size_t axis, double t, std::int32_t cell, const Cells& among,
+                    std::size_t entry_axis) {
+  const auto is_crossed = [&](std::int32_t index) { return crossed(bundle, ray, axis, index, t, entry_axis); };
+  if ((bundle.forward[axis] >> ray & 1U) != 0) {
+    for (; cell + 1 < among.high && is_crossed(cell + 1); ++cell) {
+    }
+    for (; cell > among.low && !is_crossed(cell); --cell) {
+    }
+  } else if ((bundle.backward[axis] >> ray & 1U) != 0) {
+    for (; cell > among.low && is_crossed(cell); --cell) {
+    }
+    for (; cell + 1 < among.high && !is_crossed(cell + 1); ++cell) {
+    }
+  }
+  return cell;
+}
+
+/// Walk::locate_top() along an axis, of those of the rays from `first` on that are wanted.
+HWY_INLINE void locate_top(RayBundle& bundle, std::size_t axis, std::size_t first, RayMask wanted, hn::Vec<Doubles> t,
+                           const Cells& among, std::size_t entry_axis) {
+  const Doubles tag;
+  const HalfFloats half;
+  const HalfIntegers integers;
+  const auto origin = hn::PromoteTo(tag, hn::Load(half, bundle.origin[axis].data() + first));
+  const auto direction = hn::PromoteTo(tag, hn::Load(half, bundle.direction[axis].data() + first));
+  const RayMask steps = (bundle.forward[axis] | bundle.backward[axis]) >> first;
+  const auto along = hn::IfThenElse(mask_of(tag, steps), hn::Add(origin, hn::Mul(t, direction)), origin);
+  const auto guess = hn::Min(hn::Max(hn::Mul(along, hn::Set(tag, bundle.finest_cells)), hn::Set(tag, static_cast<double>(among.low))),
+                             hn::Set(tag, static_cast<double>(among.high - 1)));
+  const auto cell = hn::DemoteTo(integers, guess);
+  const auto inside = hn::And(cell, hn::Set(integers, finest_per_top - 1));
+  const RayMask certain = bits_of(integers, hn::And(hn::Gt(inside, hn::Zero(integers)), hn::Lt(inside, hn::Set(integers, finest_per_top - 1)))) &
+                          bits_of(tag, hn::Lt(t, hn::Set(tag, near_t_max)));
+  hn::BlendedStore(hn::And(cell, hn::Set(integers, -finest_per_top)), mask_of(integers, wanted), integers, bundle.cells[axis].data() + first);
+  RayMask rest = wanted & ~certain;
+  if (rest == 0) {
+    return;
+  }
+  alignas(64) Row<double> at;
+  alignas(64) Row<std::int32_t> guessed;
+  hn::Store(t, tag, at.data());
+  hn::Store(cell, integers, guessed.data());
+  for (; rest != 0; rest &= rest - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+    bundle.cells[axis][first + i] = locate(bundle, first + i, axis, at[i], guessed[i], among, entry_axis) & -finest_per_top;
+  }
+}
+
+/// Walk::enter(), of the rays from `first` on: those that meet the grid.
+HWY_INLINE RayMask enter_grid(RayBundle& bundle, std::size_t first) {
+  const Doubles tag;
+  const HalfFloats half;
+  const auto zero = hn::Zero(tag);
+  auto sum = zero, t_enter = zero, t_exit = hn::PromoteTo(tag, hn::Load(half, bundle.t_max.data() + first));
+  RayMask inside = first_bits(lanes_of<Doubles>());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto origin = hn::PromoteTo(tag, hn::Load(half, bundle.origin[axis].data() + first));
+    sum = hn::Add(sum, hn::Add(origin, hn::PromoteTo(tag, hn::Load(half, bundle.direction[axis].data() + first))));
+    const RayMask forward = bundle.forward[axis] >> first, steps = forward | bundle.backward[axis] >> first;
+    const auto is_forward = mask_of(tag, forward), has_step = mask_of(tag, steps);
+    const auto low = plane(bundle, axis, first, 0), high = plane(bundle, axis, first, bundle.grid_size[axis]);
+    t_enter = hn::IfThenElse(has_step, hn::Max(t_enter, hn::IfThenElse(is_forward, low, high)), t_enter);
+    t_exit = hn::IfThenElse(has_step, hn::Min(t_exit, hn::IfThenElse(is_forward, high, low)), t_exit);
+    const auto at = hn::Mul(origin, hn::Set(tag, bundle.finest_cells));
+    const auto between = hn::And(hn::Ge(at, zero), hn::Lt(at, hn::Set(tag, static_cast<double>(bundle.grid_size[axis]))));
+    inside &= steps | bits_of(tag, between);
+  }
+  // Something is not finite: doubles cannot overflow from floats.
+  inside &= bits_of(tag, hn::Eq(hn::Mul(sum, zero), zero));
+  inside &= bits_of(tag, hn::Lt(t_enter, t_exit));
+  hn::Store(t_enter, tag, bundle.t_enter.data() + first);
+  for (std::size_t axis = 0; axis < 3 && inside != 0; ++axis) {
+    locate_top(bundle, axis, first, inside, t_enter, {0, bundle.grid_size[axis]}, walk_starts);
+  }
+  return inside;
+}
+
+void enter(RayBundle& bundle, const GridFrame& frame) {
+  bundle.grid_size = grid_size(frame);
+  bundle.finest_cells = 1.0 / double{frame.finest_cell};
+  clear(bundle);
+  load(bundle);
+  for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Floats>()) {
+    shear(bundle, first);
+  }
+  for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Doubles>()) {
+    find_planes(bundle, frame, first);
+  }
+  find_octant(bundle);
+  bundle.alive = 0;
+  for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Doubles>()) {
+    bundle.alive |= enter_grid(bundle, first) << first;
+  }
+  bundle.alive &= bundle.all();
+}
+
+/// How far along the way of the first ray a cell lies.
+HWY_INLINE hn::Vec<Integers> progress(const RayBundle& bundle, std::size_t first) {
+  const Integers tag;
+  auto sum = hn::Zero(tag);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto cells = hn::Load(tag, bundle.cells[axis].data() + first);
+    sum = (bundle.forward[axis] & 1U) != 0 ? hn::Add(sum, cells) : hn::Sub(sum, cells);
+  }
+  return sum;
+}
+
+void next_group(RayBundle& bundle) {
+  const Integers tag;
+  alignas(64) Row<std::int32_t> way;
+  auto least = hn::Set(tag, std::numeric_limits<std::int32_t>::max());
+  for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Integers>()) {
+    const auto sum = hn::IfThenElse(mask_of(tag, bundle.alive >> first), progress(bundle, first), hn::Set(tag, std::numeric_limits<std::int32_t>::max()));
+    hn::Store(sum, tag, way.data() + first);
+    least = hn::Min(least, sum);
+  }
+  const auto nearest = hn::MinOfLanes(tag, least);
+  RayMask candidates = 0;
+  for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Integers>()) {
+    candidates |= bits_of(tag, hn::Eq(hn::Load(tag, way.data() + first), nearest)) << first;
+  }
+  candidates &= bundle.alive;
+  const auto leader = static_cast<std::size_t>(std::countr_zero(candidates));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    bundle.cell[axis] = bundle.cells[axis][leader];
+    RayMask same = 0;
+    for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Integers>()) {
+      same |= bits_of(tag, hn::Eq(hn::Load(tag, bundle.cells[axis].data() + first), hn::Set(tag, bundle.cell[axis]))) << first;
+    }
+    candidates &= same;
+  }
+  bundle.group = candidates;
+}
+
+/// Walk::exit_through().
+void find_exits(RayBundle& bundle, const PlanesAhead& ahead) {
+  const Doubles tag;
+  const HalfFloats half;
+  bundle.exit_axis = {};
+  for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Doubles>()) {
+    if ((bundle.group >> first & first_bits(lanes_of<Doubles>())) == 0) {
+      continue;
+    }
+    auto exit = hn::Set(tag, never);
+    std::array<RayMask, 3> through{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto t = hn::IfThenElse(mask_of(tag, bundle.forward[axis] >> first), plane(bundle, axis, first, ahead.above[axis]),
+                                    plane(bundle, axis, first, ahead.below[axis]));
+      const auto is_nearer = hn::Lt(t, exit);
+      through[axis] = bits_of(tag, is_nearer);
+      exit = hn::IfThenElse(is_nearer, t, exit);
+    }
+    bundle.exit_axis[2] |= through[2] << first;
+    bundle.exit_axis[1] |= (through[1] & ~through[2]) << first;
+    bundle.exit_axis[0] |= (through[0] & ~(through[1] | through[2])) << first;
+    hn::Store(exit, tag, bundle.t_exit.data() + first);
+    hn::Store(hn::DemoteTo(half, hn::Load(tag, bundle.t_enter.data() + first)), half, bundle.t_low.data() + first);
+    hn::Store(hn::Min(hn::DemoteTo(half, exit), hn::Load(half, bundle.t_max.data() + first)), half, bundle.t_high.data() + first);
+  }
+}
+
+/// Those of `leaving` that do not end with a hit before their exit, or a light; at equality the next cell may hold the same t with
+/// a lower id.
+HWY_INLINE RayMask goes_on(const RayBundle& bundle, RayMask leaving) {
+  const Doubles tag;
+  const HalfFloats half;
+  RayMask on = 0;
+  for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Doubles>()) {
+    if ((leaving >> first & first_bits(lanes_of<Doubles>())) == 0) {
+      continue;
+    }
+    const auto exit = hn::Load(tag, bundle.t_exit.data() + first);
+    const auto best = hn::PromoteTo(tag, hn::Load(half, bundle.best.t.data() + first));
+    const auto t_max = hn::PromoteTo(tag, hn::Load(half, bundle.t_max.data() + first));
+    on |= bits_of(tag, hn::And(hn::Ge(best, exit), hn::Lt(exit, t_max))) << first;
+  }
+  return on & leaving;
+}
+
+/// Takes rays through a plane of `axis` to the cells behind it.
+HWY_INLINE void cross(RayBundle& bundle, RayMask rays, std::size_t axis, std::int32_t cell, const Region* around) {
+  const Doubles tag;
+  const HalfIntegers integers;
+  for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Doubles>()) {
+    const RayMask crossing = rays >> first & first_bits(lanes_of<Doubles>());
+    if (crossing == 0) {
+      continue;
+    }
+    hn::BlendedStore(hn::Set(integers, cell), mask_of(integers, crossing), integers, bundle.cells[axis].data() + first);
+    const auto exit = hn::Load(tag, bundle.t_exit.data() + first);
+    hn::BlendedStore(exit, mask_of(tag, crossing), tag, bundle.t_enter.data() + first);
+    for (std::size_t other = 0; around != nullptr && other < 3; ++other) {
+      if (other != axis) {
+        locate_top(bundle, other, first, crossing, exit, {around->low[other], around->high[other]}, axis);
+      }
+    }
+  }
+}
+
+/// Top cells between where rays were and are, beside one each.
+std::uint64_t cells_passed(const RayBundle& bundle, RayMask rays) {
+  std::uint64_t passed = 0;
+  for (; rays != 0; rays &= rays - 1) {
+    const auto ray = static_cast<std::size_t>(std::countr_zero(rays));
+    std::int32_t between = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      between += std::abs(bundle.cells[axis][ray] - bundle.cell[axis]);
+    }
+    passed += static_cast<std::uint64_t>(std::max(between / finest_per_top, 1) - 1);
+  }
+  return passed;
+}
+
+/// Walk::leave().
+std::uint64_t leave(RayBundle& bundle, RayMask leaving, const PlanesAhead& ahead, const Region* around) {
+  const RayMask on = goes_on(bundle, leaving);
+  RayMask kept = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const RayMask through = on & bundle.exit_axis[axis];
+    const std::int32_t above = ahead.above[axis], below = ahead.below[axis] - 1;
+    const RayMask up = above < bundle.grid_size[axis] ? through & bundle.forward[axis] : 0U;
+    const RayMask down = below >= 0 ? through & ~bundle.forward[axis] : 0U;
+    if (up != 0) {
+      cross(bundle, up, axis, above & -finest_per_top, around);
+    }
+    if (down != 0) {
+      cross(bundle, down, axis, below & -finest_per_top, around);
+    }
+    kept |= up | down;
+  }
+  bundle.alive = (bundle.alive & ~leaving) | kept;
+  return around != nullptr ? cells_passed(bundle, kept) : 0;
+}
+
+const BundleSteps* steps() {
+  static constexpr BundleSteps all{enter, next_group, find_exits, leave};
+  return &all;
+}
+
+}  // namespace dmpc::core::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace dmpc::core {
+HWY_EXPORT(steps);
+
+const BundleSteps* bundle_steps(std::size_t rank) {
+  return choose_instruction_set(rank) ? HWY_DYNAMIC_DISPATCH(steps)() : nullptr;
+}
+
+const BundleSteps& fastest_bundle_steps = *bundle_steps(0);
+
+}  // namespace dmpc::core
+#endif

@@ -1,0 +1,199 @@
+// trace(bundle, records): all rays' hits, or absent record r; resumable at every record, with the bits that single rays have.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+
+#include "core/base/expect.h"
+#include "core/record/directory.h"
+#include "core/record/records.h"
+#include "core/trace/bundle.h"
+#include "core/trace/bundle_kernel.h"
+#include "core/trace/kernel.h"
+#include "core/trace/operations.h"
+#include "core/trace/skips.h"
+
+namespace dmpc::core {
+
+/// Walks bundles over one kind of records. What it is made from outlives it. Thread safety: none; costs nothing to make.
+template <Records R>
+class BundleWalk {
+ public:
+  /// `header` is of a whole grid: bundles do not leave regions.
+  BundleWalk(RayBundle& bundle, R& records, const DatabaseHeader& header, const Skips& skips, Operations& operations,
+             const BundleSteps& steps = fastest_bundle_steps,
+             const BundleIntersectors& intersectors = fastest_bundle_intersectors)
+      : bundle_(bundle),
+        records_(records),
+        header_(header),
+        skips_(skips),
+        operations_(operations),
+        steps_(steps),
+        intersectors_(intersectors) {}
+
+  /// Goes on until every ray's walk has ended (true), or a record is absent: bundle.absent. Then call again once that is there.
+  bool run() {
+    if (bundle_.stage == RayBundle::Stage::start) {
+      start();
+    }
+    while (bundle_.stage != RayBundle::Stage::finished) {
+      if (!(bundle_.stage == RayBundle::Stage::directory ? enter_cell() : visit_children())) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  void start() {
+    bundle_.any = skips_.any_hit && bundle_.rays[0].kind == RayKind::shadow;
+    steps_.enter(bundle_, header_.frame);
+    if (bundle_.count > 1) {
+      ++operations_.bundles;
+      operations_.rays_in_bundles += bundle_.count;
+    }
+    next_cell();
+  }
+
+  void next_cell() {
+    bundle_.stage = bundle_.alive != 0 ? RayBundle::Stage::directory : RayBundle::Stage::finished;
+    if (bundle_.alive != 0) {
+      steps_.next_group(bundle_);
+    }
+  }
+
+  /// The record that so many rays want, looked up once.
+  const std::byte* find(Address address, RayMask rays) {
+    const std::byte* const record = records_.find(address);
+    if (record == nullptr) {
+      bundle_.absent = address;
+    } else {
+      operations_.skipped.bundles += count_of(rays) - 1;
+    }
+    return record;
+  }
+
+  /// The planes where rays leave the box of all cells nearer to the bundle's than `reach`.
+  PlanesAhead planes_ahead(std::int32_t reach) const {
+    PlanesAhead ahead;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      ahead.above[axis] = std::min(bundle_.cell[axis] + reach, bundle_.grid_size[axis]);
+      ahead.below[axis] = std::max(bundle_.cell[axis] - reach + finest_per_top, 0);
+    }
+    return ahead;
+  }
+
+  /// Reads the directory entry of the bundle's cell.
+  bool enter_cell() {
+    const std::uint64_t index = directory_index(header_, bundle_.cell);
+    const std::byte* const record = find(directory_address(header_, index), bundle_.group);
+    if (record == nullptr) {
+      return false;
+    }
+    const auto entry = read<DirectoryEntry>(record + directory_offset(index));
+    if (entry.empty()) {
+      pass(skips_.empty_space ? std::max(1, entry.radius()) : 1);
+      return true;
+    }
+    steps_.find_exits(bundle_, planes_ahead(finest_per_top));
+    bundle_.waiting.count = 0;
+    bundle_.next = BrickChild::brick(entry.brick());
+    bundle_.next_rays = bundle_.group;
+    bundle_.stage = RayBundle::Stage::child;
+    return true;
+  }
+
+  /// Leaves the box of empty cells nearer than `radius`.
+  void pass(std::int32_t radius) {
+    const PlanesAhead ahead = planes_ahead(radius * finest_per_top);
+    const Region around{.low = ahead.below, .high = ahead.above};
+    steps_.find_exits(bundle_, ahead);
+    operations_.cell_steps += count_of(bundle_.group);
+    operations_.skipped.empty_space += steps_.leave(bundle_, bundle_.group, ahead, radius > 1 ? &around : nullptr);
+    next_cell();
+  }
+
+  /// Visits the children of the cell that some rays meet, then leaves it.
+  bool visit_children() {
+    while (bundle_.next.found()) {
+      const Address address = bundle_.next.address();
+      const std::byte* const record = find(address, bundle_.next_rays);
+      if (record == nullptr) {
+        return false;
+      }
+      if (bundle_.next.is_block()) {
+        test_block(record, address);
+      } else {
+        operations_.brick_reads += count_of(bundle_.next_rays);
+        intersectors_.meet_children(bundle_, *reinterpret_cast<const Brick*>(record), bundle_.next_rays, !bundle_.any);
+      }
+      intersectors_.take_child(bundle_);
+    }
+    const RayMask done = bundle_.any ? bundle_.found : 0, leaving = bundle_.group & ~done;
+    bundle_.alive &= ~(bundle_.group & done);
+    if (leaving != 0) {
+      operations_.cell_steps += count_of(leaving);
+      steps_.leave(bundle_, leaving, planes_ahead(finest_per_top), nullptr);
+    }
+    next_cell();
+    return true;
+  }
+
+  void test_block(const std::byte* record, Address block) {
+    const auto header = read<BlockHeader>(record);
+    const RayMask rays = bundle_.next_rays, found = bundle_.found;
+    const auto* rows = reinterpret_cast<const float*>(record + sizeof(BlockHeader));
+    if (header.kind == PrimitiveKind::triangle && count_of(rays) > apart_max) {
+      operations_.primitive_tests[0] += std::uint64_t{count_of(rays)} * header.count;
+      intersectors_.hit_triangles(bundle_, {rows, header.count}, block, rays);
+    } else {
+      test_apart(record, block, rays);
+    }
+    if (bundle_.any) {
+      count_any_hits(bundle_.found & ~found);
+    }
+  }
+
+  void test_apart(const std::byte* record, Address block, RayMask rays) {
+    for (; rays != 0; rays &= rays - 1) {
+      const auto ray = static_cast<std::size_t>(std::countr_zero(rays));
+      Hit best = bundle_.best.of(ray);
+      core::test_block(bundle_.rays[ray], bundle_.sheared(ray), record, block, best, operations_);
+      if (best.primitive != bundle_.best.primitive[ray]) {
+        bundle_.best.set(ray, best);
+        bundle_.found |= RayMask{1} << ray;
+      }
+    }
+  }
+
+  /// Children that wait and that rays which have found a hit would have visited.
+  void count_any_hits(RayMask rays) {
+    for (; rays != 0; rays &= rays - 1) {
+      const auto ray = static_cast<std::size_t>(std::countr_zero(rays));
+      for (std::size_t child = 0; child < bundle_.waiting.count; ++child) {
+        const bool would = (bundle_.waiting.rays[child] >> ray & 1U) != 0 && bundle_.waiting.t_enter[child][ray] <= bundle_.best.t[ray];
+        operations_.skipped.any_hit += would ? 1 : 0;
+      }
+    }
+  }
+
+  RayBundle& bundle_;
+  R& records_;
+  const DatabaseHeader& header_;
+  const Skips& skips_;
+  Operations& operations_;
+  const BundleSteps& steps_;
+  const BundleIntersectors& intersectors_;
+};
+
+/// Walks the rays of `bundle` through the grid until each one's nearest hit in (0, t_max) is known (for shadow rays: any hit, unless
+/// that skip is off), or a record is absent (false). After that, call again with the same bundle once the record of bundle.absent
+/// is there. What bundle.best then holds has the bits that trace() finds for each ray by itself; what is counted is a little
+/// more, since a bundle comes to children in one order for all its rays. Walks of bundles: I. Wald, P. Slusallek, C. Benthin,
+/// M. Wagner, "Interactive Rendering with Coherent Ray Tracing", Eurographics 2001.
+template <Records R>
+bool trace(RayBundle& bundle, R& records, const DatabaseHeader& header, const Skips& skips, Operations& operations) {
+  return BundleWalk<R>(bundle, records, header, skips, operations).run();
+}
+
+}  // namespace dmpc::core
