@@ -262,7 +262,9 @@ void note_reductions(Plan& plan) {
   if (plan.in_flight < wanted) {
     plan.notes.push_back(reduced + " to fit " + size_text(*request.computer.node_memory_bytes));
   } else if (wanted < asked) {
-    plan.notes.push_back(reduced + (wanted == 1 ? " pixel" : " pixels") + ": no node ever has more");
+    const bool is_rounded = wanted == asked - asked % plan.pixels_a_task;
+    plan.notes.push_back(reduced + (wanted == 1 ? " pixel" : " pixels") +
+                         (is_rounded ? ": whole bundles of " + std::to_string(bundle_pixels) : ": no node ever has more"));
   }
   if (request.pages.cache_pages && plan.frames < *request.pages.cache_pages) {
     plan.notes.push_back("cache reduced from " + std::to_string(*request.pages.cache_pages) + " to " +

@@ -1,8 +1,8 @@
 // The node program of svm and replicated: pixels under way, work items, and the packets that concern them.
 //
-// A quantum runs one pixel, or some that share a task, until it has ended a ray or a bundle, finished, or needs an absent page. Newest first: the pixel that ran last
-// goes on, another one starts only when none can run. With one pixel in flight this is the sequential ray tracer's order of
-// references.
+// A quantum runs one pixel, or some that share a task, until it has ended a ray or a bundle, finished, or needs an absent page.
+// Newest first: the pixel that ran last goes on, another one starts only when none can run. With one pixel in flight this is the
+// sequential ray tracer's order of references.
 //
 // Why the last node always moves: requests are served in receive(), whatever the node's own state. A reply's place was
 // reserved when its request left. A page that arrives runs every pixel that waited for it before the next packet is looked

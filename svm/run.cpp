@@ -22,10 +22,11 @@ PageOptions pages_of(const RunOptions& options) {
   return pages;
 }
 
-/// What is counted for single pixels, and references in the order of single rays, need rays that walk alone.
+/// What is counted for single pixels, and references in the order of single rays, need rays that walk alone; and the nodes of a
+/// modelled machine compute as those of the article did.
 bool walks_in_bundles(const RunOptions& options) {
-  return !options.tracer_is_own && !options.watching.is_metered() && !pages_of(options).count_pages &&
-         !options.pages.record_references && options.pages.reference_logs == nullptr;
+  return !options.tracer_is_own && !options.computer.machine && !options.watching.is_metered() &&
+         !pages_of(options).count_pages && !options.pages.record_references && options.pages.reference_logs == nullptr;
 }
 
 PlanRequest request_of(Strategy strategy, const core::Database& database, const core::RenderSettings& settings,
@@ -91,8 +92,7 @@ MakeProgram maker(const core::Database& database, const core::RenderSettings& se
     };
     const auto make = [&]<class Task>(std::type_identity<Task>) -> std::unique_ptr<NodeProgram> {
       return std::make_unique<ControlProgram<Records, core::GridTracer<Records>, Task>>(
-          node, plan, settings, database.bytes(), make_tracer,
-          nodes::meter_for(options.watching, options.computer, node.id()));
+          node, plan, settings, database.bytes(), make_tracer, nodes::meter_for(options.watching, options.computer, node.id()));
     };
     if constexpr (std::is_same_v<Records, Pager> || std::is_same_v<Records, LocalCopy>) {
       if (plan.pixels_a_task > 1) {

@@ -89,9 +89,9 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
 /// Runs any programs of this family under `plan`, checks the laws of conservation and reports.
 Report run_programs(const Plan& plan, const MakeProgram& make_program, const RunOptions& options, std::stop_token stop);
 
-/// Renders with strategy replicated and a tracer of one's own, as options.tracer_is_own says: make_tracer(index, copy) returns node `index`'s core::Tracer
-/// over its own copy of the database (a std::span<const std::byte>, overread_bytes more readable). It is called before the
-/// start.
+/// Renders with strategy replicated and a tracer of one's own, as options.tracer_is_own says: make_tracer(index, copy) returns
+/// node `index`'s core::Tracer over its own copy of the database (a std::span<const std::byte>, overread_bytes more readable). It
+/// is called before the start.
 template <class MakeTracer>
 Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                       std::stop_token stop, const MakeTracer& make_tracer) {

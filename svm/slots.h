@@ -21,8 +21,7 @@ class Slots {
       : tasks_(memory.allocate<Slot>(nodes::Category::ray_stacks, count)),
         runnable_(memory.allocate<std::uint32_t>(nodes::Category::queues, count)),
         free_(memory.allocate<std::uint32_t>(nodes::Category::queues, count)) {
-    const std::span<Hits> stacks =
-        memory.allocate<Hits>(nodes::Category::ray_stacks, std::size_t{count} * depth_max);
+    const std::span<Hits> stacks = memory.allocate<Hits>(nodes::Category::ray_stacks, std::size_t{count} * depth_max);
     for (std::uint32_t slot = 0; slot < count; ++slot) {
       tasks_[slot].task = Task(stacks.subspan(std::size_t{slot} * depth_max, depth_max));
       free_[free_count_++] = count - 1 - slot;

@@ -68,12 +68,13 @@ constexpr PixelTile tile_for(std::uint32_t samples, std::uint32_t pixels_a_task)
   return tile_of(pixels_a_task / (samples > 0 ? samples : 1));
 }
 
-/// The pixels of one item, or those of them that are wanted: tile by tile, row by row, and so the pixels of a tile, or of what the
-/// item's edge leaves of it. With tiles of one pixel that is row by row.
+/// The pixels of one item, or those of them that are wanted: tile by tile, row by row, and so the pixels of a tile, or of what
+/// the item's edge leaves of it. With tiles of one pixel that is row by row.
 class PixelScan {
  public:
   PixelScan() = default;
-  explicit PixelScan(const PixelRectangle& item, const PixelTile& tile = {}) : item_(item), tile_(tile), left_(item.pixel_count()) {}
+  explicit PixelScan(const PixelRectangle& item, const PixelTile& tile = {})
+      : item_(item), tile_(tile), left_(item.pixel_count()) {}
   /// `wanted`: a bit for each pixel, row by row. Requires sides of at most masked_side_max.
   PixelScan(const PixelRectangle& item, const PixelTile& tile, std::uint64_t wanted);
 

@@ -111,7 +111,7 @@ void add_page_options(OptionSet options, svm::PageOptions& pages, const std::str
       {{"lru", Replacement::lru}, {"clock", Replacement::clock}, {"fifo", Replacement::fifo}, {"random", Replacement::random}},
       "Which of them makes room for another (svm)");
   options.add_number("--in-flight", pages.in_flight, 1, svm::in_flight_max, in_flight_default,
-                     "Pixels that a node works on at once; from 16 on their rays walk in bundles, below alone");
+                     "Pixels that a node works on at once; on threads the rays of 16 walk together, of fewer alone");
   options.add_number("--work-item", pages.work_item_side, 0, 1024, "4, or 3 if rays walk alone",
                      "Side in pixels of what a node gives to an idle one; 0: nothing is given");
 }

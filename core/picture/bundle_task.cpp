@@ -8,8 +8,9 @@ namespace dmpc::core {
 void BundleTask::start(std::span<const std::uint32_t> pixels, const SampleRange& samples, const RenderSettings& settings,
                        Operations&) {
   expect(stack_.size() >= static_cast<std::size_t>(settings.shade.depth_max), "the ray stack holds a hit a depth");
-  expect(!pixels.empty() && pixels.size() <= pixels_max && (pixels.size() == 1 || pixels.size() * samples.count <= bundle_rays_max),
-         "a bundle has a ray for each sample of several pixels");
+  expect(
+      !pixels.empty() && pixels.size() <= pixels_max && (pixels.size() == 1 || pixels.size() * samples.count <= bundle_rays_max),
+      "a bundle has a ray for each sample of several pixels");
   std::copy(pixels.begin(), pixels.end(), pixels_.begin());
   pixel_count_ = static_cast<std::uint32_t>(pixels.size());
   std::fill_n(sums_.begin(), pixel_count_, PixelSums{});
@@ -36,7 +37,8 @@ bool BundleTask::next_samples(const RenderSettings& settings, Operations& operat
   return true;
 }
 
-void BundleTask::shoot_primary(std::uint32_t place, std::uint32_t sample, const RenderSettings& settings, Operations& operations) {
+void BundleTask::shoot_primary(std::uint32_t place, std::uint32_t sample, const RenderSettings& settings,
+                               Operations& operations) {
   if (!settings.shows_background(pixels_[place])) {
     add_ray(settings.camera.primary_ray(pixels_[place], sample), place, operations);
     return;

@@ -12,7 +12,8 @@
 
 namespace dmpc::core {
 
-/// Finds what the rays of a bundle hit, and the records that shading reads. trace() has the contract of core/trace/bundle_walk.h's.
+/// Finds what the rays of a bundle hit, and the records that shading reads. trace() has the contract of
+/// core/trace/bundle_walk.h's.
 template <class T>
 concept BundleTracer = requires(T& tracer, RayBundle& bundle, Operations& operations, Address address) {
   { tracer.trace(bundle, operations) } -> std::same_as<bool>;
@@ -32,7 +33,8 @@ struct BundleHit {
   Phase phase = Phase::surface;
 
   bool has_unread_surface() const {
-    return std::any_of(hit.begin(), hit.begin() + count, [](const HitState& state) { return state.stage < HitState::Stage::light; });
+    return std::any_of(hit.begin(), hit.begin() + count,
+                       [](const HitState& state) { return state.stage < HitState::Stage::light; });
   }
 };
 
@@ -101,8 +103,8 @@ class BundleTask {
 
 template <BundleTracer T>
 TaskState BundleTask::run(T& tracer, const RenderSettings& settings, Operations& operations) {
-  ended_ = 0;
   if (!tracing_) {
+    ended_ = 0;
     const TaskState shaded = shade(tracer, settings, operations);
     if (shaded != TaskState::more || !tracing_) {
       return shaded;

@@ -31,9 +31,7 @@ class GridTracer {
     return core::trace(ray, cursor, *records_, header_, skips_, operations);
   }
   /// The same for rays that walk together.
-  bool trace(RayBundle& bundle, Operations& operations) {
-    return core::trace(bundle, *records_, header_, skips_, operations);
-  }
+  bool trace(RayBundle& bundle, Operations& operations) { return core::trace(bundle, *records_, header_, skips_, operations); }
   const std::byte* find(Address address) { return records_->find(address); }
 
  private:

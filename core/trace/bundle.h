@@ -84,15 +84,15 @@ struct RayBundle {
 
   // Where they are.
   enum class Stage : std::uint8_t { start, directory, child, finished } stage;
-  bool any;        ///< any hit will do
-  RayMask alive;   ///< rays whose walk has not ended
-  RayMask found;   ///< rays that have a hit
-  RayMask group;   ///< the rays in `cell`, of those alive
-  Corner cell;     ///< the lower corner of the top cell that comes next, in finest cells
-  BrickChild next;          ///< what the next step reads, with Stage::child
-  RayMask next_rays;        ///< for these rays
-  Address absent;           ///< the record that the walk needs next
-  std::array<RayMask, 3> exit_axis;  ///< through which plane rays leave the cell
+  bool any;                                            ///< any hit will do
+  RayMask alive;                                       ///< rays whose walk has not ended
+  RayMask found;                                       ///< rays that have a hit
+  RayMask group;                                       ///< the rays in `cell`, of those alive
+  Corner cell;                                         ///< the lower corner of the top cell that comes next, in finest cells
+  BrickChild next;                                     ///< what the next step reads, with Stage::child
+  RayMask next_rays;                                   ///< for these rays
+  Address absent;                                      ///< the record that the walk needs next
+  std::array<RayMask, 3> exit_axis;                    ///< through which plane rays leave the cell
   alignas(64) std::array<Row<std::int32_t>, 3> cells;  ///< each ray's top cell
   alignas(64) Row<double> t_enter, t_exit;             ///< where the ray enters its cell, and leaves it
   alignas(64) Row<float> t_low, t_high;                ///< the same as boxes need it
@@ -113,8 +113,13 @@ inline ShearedRay RayBundle::sheared(std::size_t ray) const {
   const std::uint32_t axis = is(0, 0) || is(0, 1) ? 0 : is(1, 0) || is(1, 1) ? 1 : 2;
   const std::uint32_t second = (axis + 1) % 3, third = (axis + 2) % 3;
   const bool is_down = is(axis, 1);
-  return {{origin[0][ray], origin[1][ray], origin[2][ray]}, shear_x[ray], shear_y[ray], scale_z[ray],
-          is_down ? third : second, is_down ? second : third, axis};
+  return {{origin[0][ray], origin[1][ray], origin[2][ray]},
+          shear_x[ray],
+          shear_y[ray],
+          scale_z[ray],
+          is_down ? third : second,
+          is_down ? second : third,
+          axis};
 }
 
 }  // namespace dmpc::core

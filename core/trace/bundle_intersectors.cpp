@@ -146,7 +146,8 @@ HWY_INLINE void meet_apart(RayBundle& bundle, const Brick& brick, std::size_t ra
       const auto slope = hn::Set(tag, brick.unit * reciprocal);
       const auto offset = hn::Set(tag, (brick.origin[axis] - bundle.origin[axis][ray]) * reciprocal);
       const auto plane = [&](std::size_t row) {
-        return fused(hn::ConvertTo(tag, hn::PromoteTo(integers, hn::LoadU(bytes, brick.bounds[row].data() + first))), slope, offset);
+        return fused(hn::ConvertTo(tag, hn::PromoteTo(integers, hn::LoadU(bytes, brick.bounds[row].data() + first))), slope,
+                     offset);
       };
       const bool is_down = reciprocal < 0.0F;
       enter = hn::Max(enter, plane(is_down ? axis + 3 : axis));
@@ -224,7 +225,14 @@ HWY_INLINE ShearedRays sheared_rays(const RayBundle& bundle, std::size_t axis, b
   const std::size_t next = (axis + 1) % 3, last = (axis + 2) % 3;
   const std::size_t x = is_down ? last : next, y = is_down ? next : last;
   const auto row = [&](const Row<float>& values) { return hn::Load(tag, values.data() + first); };
-  return {x, y, axis, row(bundle.origin[x]), row(bundle.origin[y]), row(bundle.origin[axis]), row(bundle.shear_x), row(bundle.shear_y)};
+  return {x,
+          y,
+          axis,
+          row(bundle.origin[x]),
+          row(bundle.origin[y]),
+          row(bundle.origin[axis]),
+          row(bundle.shear_x),
+          row(bundle.shear_y)};
 }
 
 /// A vertex as those rays see it.
@@ -234,7 +242,9 @@ struct Vertices {
 
 HWY_INLINE Vertices shear(const ShearedRays& rays, const TriangleRows& triangles, std::size_t corner, std::size_t lane) {
   const Floats tag;
-  const auto coordinate = [&](std::size_t axis) { return hn::Set(tag, triangles.rows[(3 * corner + axis) * triangles.count + lane]); };
+  const auto coordinate = [&](std::size_t axis) {
+    return hn::Set(tag, triangles.rows[(3 * corner + axis) * triangles.count + lane]);
+  };
   const Vector z = hn::Sub(coordinate(rays.z), rays.origin_z);
   return {fused(hn::Neg(rays.shear_x), z, hn::Sub(coordinate(rays.x), rays.origin_x)),
           fused(hn::Neg(rays.shear_y), z, hn::Sub(coordinate(rays.y), rays.origin_y)), z};
@@ -248,7 +258,8 @@ HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) {
 }
 
 /// A hit in doubt, in the scalar twin.
-HWY_INLINE void hit_apart(RayBundle& bundle, const TriangleRows& triangles, Address block, std::size_t lane, std::uint32_t id, std::size_t ray) {
+HWY_INLINE void hit_apart(RayBundle& bundle, const TriangleRows& triangles, Address block, std::size_t lane, std::uint32_t id,
+                          std::size_t ray) {
   const float t = intersect_triangle(ShearedRay(bundle.rays[ray]), triangles.rows, triangles.count, lane);
   if (t > 0.0F && t < bundle.t_max[ray] && nearer(t, id, bundle.best.of(ray))) {
     bundle.best.set(ray, {t, id, block, static_cast<std::uint32_t>(lane)});
@@ -271,7 +282,8 @@ HWY_INLINE void hit_triangle(RayBundle& bundle, const ShearedRays& rays, std::si
   }
   const auto id = read<std::uint32_t>(triangles.ids() + lane * sizeof(std::uint32_t));
   const Vector determinant = hn::Add(hn::Add(u, v), w);
-  const Vector weighted = fused(hn::Div(u, determinant), a.z, fused(hn::Div(v, determinant), b.z, hn::Mul(hn::Div(w, determinant), c.z)));
+  const Vector weighted =
+      fused(hn::Div(u, determinant), a.z, fused(hn::Div(v, determinant), b.z, hn::Mul(hn::Div(w, determinant), c.z)));
   const Vector t = hn::Mul(weighted, hn::Load(tag, bundle.scale_z.data() + first));
   const auto ignored = hn::Eq(hn::Load(ids, bundle.ignored_primitive.data() + first), hn::Set(ids, id));
   const RayMask others = active & ~bits_of(ids, ignored);

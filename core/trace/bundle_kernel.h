@@ -25,8 +25,9 @@ struct BundleSteps {
   void (*next_group)(RayBundle& bundle);
   /// Where the rays of the group leave for the planes.
   void (*find_exits)(RayBundle& bundle, const PlanesAhead& ahead);
-  /// Takes the rays of `leaving`, whose exits are found, to the next cell: the neighbour, or, from several cells `around`, the one
-  /// that holds the ray. Those whose walk has ended are no longer alive. Returns how many cells they have come by, beside one each.
+  /// Takes the rays of `leaving`, whose exits are found, to the next cell: the neighbour, or, from several cells `around`, the
+  /// one that holds the ray. Those whose walk has ended are no longer alive. Returns how many cells they have come by, beside one
+  /// each.
   std::uint64_t (*leave)(RayBundle& bundle, RayMask leaving, const PlanesAhead& ahead, const Region* around);
 };
 

@@ -1,4 +1,5 @@
-// A bundle's rays from cell to cell, many at a time. What is done here is what core/trace/walk does for one ray, number by number.
+// A bundle's rays from cell to cell, many at a time. What is done here is what core/trace/walk does for one ray, number by
+// number.
 #include <algorithm>
 #include <bit>
 #include <limits>
@@ -172,13 +173,16 @@ HWY_INLINE void locate_top(RayBundle& bundle, std::size_t axis, std::size_t firs
   const auto direction = hn::PromoteTo(tag, hn::Load(half, bundle.direction[axis].data() + first));
   const RayMask steps = (bundle.forward[axis] | bundle.backward[axis]) >> first;
   const auto along = hn::IfThenElse(mask_of(tag, steps), hn::Add(origin, hn::Mul(t, direction)), origin);
-  const auto guess = hn::Min(hn::Max(hn::Mul(along, hn::Set(tag, bundle.finest_cells)), hn::Set(tag, static_cast<double>(among.low))),
-                             hn::Set(tag, static_cast<double>(among.high - 1)));
+  const auto guess =
+      hn::Min(hn::Max(hn::Mul(along, hn::Set(tag, bundle.finest_cells)), hn::Set(tag, static_cast<double>(among.low))),
+              hn::Set(tag, static_cast<double>(among.high - 1)));
   const auto cell = hn::DemoteTo(integers, guess);
   const auto inside = hn::And(cell, hn::Set(integers, finest_per_top - 1));
-  const RayMask certain = bits_of(integers, hn::And(hn::Gt(inside, hn::Zero(integers)), hn::Lt(inside, hn::Set(integers, finest_per_top - 1)))) &
-                          bits_of(tag, hn::Lt(t, hn::Set(tag, near_t_max)));
-  hn::BlendedStore(hn::And(cell, hn::Set(integers, -finest_per_top)), mask_of(integers, wanted), integers, bundle.cells[axis].data() + first);
+  const RayMask certain =
+      bits_of(integers, hn::And(hn::Gt(inside, hn::Zero(integers)), hn::Lt(inside, hn::Set(integers, finest_per_top - 1)))) &
+      bits_of(tag, hn::Lt(t, hn::Set(tag, near_t_max)));
+  hn::BlendedStore(hn::And(cell, hn::Set(integers, -finest_per_top)), mask_of(integers, wanted), integers,
+                   bundle.cells[axis].data() + first);
   RayMask rest = wanted & ~certain;
   if (rest == 0) {
     return;
@@ -257,7 +261,8 @@ void next_group(RayBundle& bundle) {
   alignas(64) Row<std::int32_t> way;
   auto least = hn::Set(tag, std::numeric_limits<std::int32_t>::max());
   for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Integers>()) {
-    const auto sum = hn::IfThenElse(mask_of(tag, bundle.alive >> first), progress(bundle, first), hn::Set(tag, std::numeric_limits<std::int32_t>::max()));
+    const auto sum = hn::IfThenElse(mask_of(tag, bundle.alive >> first), progress(bundle, first),
+                                    hn::Set(tag, std::numeric_limits<std::int32_t>::max()));
     hn::Store(sum, tag, way.data() + first);
     least = hn::Min(least, sum);
   }
@@ -306,8 +311,8 @@ void find_exits(RayBundle& bundle, const PlanesAhead& ahead) {
   }
 }
 
-/// Those of `leaving` that do not end with a hit before their exit, or a light; at equality the next cell may hold the same t with
-/// a lower id.
+/// Those of `leaving` that do not end with a hit before their exit, or a light; at equality the next cell may hold the same t
+/// with a lower id.
 HWY_INLINE RayMask goes_on(const RayBundle& bundle, RayMask leaving) {
   const Doubles tag;
   const HalfFloats half;

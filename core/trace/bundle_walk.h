@@ -171,7 +171,8 @@ class BundleWalk {
     for (; rays != 0; rays &= rays - 1) {
       const auto ray = static_cast<std::size_t>(std::countr_zero(rays));
       for (std::size_t child = 0; child < bundle_.waiting.count; ++child) {
-        const bool would = (bundle_.waiting.rays[child] >> ray & 1U) != 0 && bundle_.waiting.t_enter[child][ray] <= bundle_.best.t[ray];
+        const bool would =
+            (bundle_.waiting.rays[child] >> ray & 1U) != 0 && bundle_.waiting.t_enter[child][ray] <= bundle_.best.t[ray];
         operations_.skipped.any_hit += would ? 1 : 0;
       }
     }
@@ -186,11 +187,11 @@ class BundleWalk {
   const BundleIntersectors& intersectors_;
 };
 
-/// Walks the rays of `bundle` through the grid until each one's nearest hit in (0, t_max) is known (for shadow rays: any hit, unless
-/// that skip is off), or a record is absent (false). After that, call again with the same bundle once the record of bundle.absent
-/// is there. What bundle.best then holds has the bits that trace() finds for each ray by itself; what is counted is a little
-/// more, since a bundle comes to children in one order for all its rays. Walks of bundles: I. Wald, P. Slusallek, C. Benthin,
-/// M. Wagner, "Interactive Rendering with Coherent Ray Tracing", Eurographics 2001.
+/// Walks the rays of `bundle` through the grid until each one's nearest hit in (0, t_max) is known (for shadow rays: any hit,
+/// unless that skip is off), or a record is absent (false). After that, call again with the same bundle once the record of
+/// bundle.absent is there. What bundle.best then holds has the bits that trace() finds for each ray by itself; what is counted is
+/// a little more, since a bundle comes to children in one order for all its rays. Walks of bundles: I. Wald, P. Slusallek, C.
+/// Benthin, M. Wagner, "Interactive Rendering with Coherent Ray Tracing", Eurographics 2001.
 template <Records R>
 bool trace(RayBundle& bundle, R& records, const DatabaseHeader& header, const Skips& skips, Operations& operations) {
   return BundleWalk<R>(bundle, records, header, skips, operations).run();

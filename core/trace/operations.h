@@ -27,7 +27,7 @@ struct Operations {
   std::uint64_t shadow_blocked = 0;
   std::uint64_t total_internal_reflections = 0;
   std::uint64_t deposits_saturated = 0;
-  std::uint64_t rays_cut = 0;  ///< not shot, because they could bring less light than the cutoff
+  std::uint64_t rays_cut = 0;         ///< not shot, because they could bring less light than the cutoff
   std::uint64_t bundles = 0;          ///< walks of several rays together
   std::uint64_t rays_in_bundles = 0;  ///< rays that walked so
   SkippedWork skipped;

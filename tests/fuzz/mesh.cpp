@@ -53,8 +53,9 @@ bool is_ordinary(const core::Database& database, const Ray& ray) {
 
 void compare(const Ray& ray, const apps::OwnAnswers& answers) {
   constexpr std::array<const char*, apps::own_kernel_count> sentences{
-      "a hit lies within the ray", "the scalar twin has the same bits", "skipping empty space changes no bit",
-      "stopping before each record changes no bit", "other rays beside it change no bit", "there is a nearest hit where there is any"};
+      "a hit lies within the ray",           "the scalar twin has the same bits",
+      "skipping empty space changes no bit", "stopping before each record changes no bit",
+      "other rays beside it change no bit",  "there is a nearest hit where there is any"};
   const Hit& grid = answers.front();
   expect(is_valid(ray, grid), sentences.front());
   for (std::size_t k = 1; k + 1 < answers.size(); ++k) {

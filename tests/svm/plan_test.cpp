@@ -51,6 +51,50 @@ TEST_CASE("in-flight is 16 for svm and 1 for replicated unless it is given") {
   CHECK(make_plan(request).in_flight == 1);
 }
 
+TEST_CASE(
+    "where rays walk in bundles 64 pixels are in flight, replicated 16, whole bundles of what is given, or less than one, "
+    "alone") {
+  PlanRequest request = request_with(4, 100);
+  request.bundles = true;
+  const auto check_plan = [&](std::uint32_t in_flight, std::uint32_t pixels_a_task, std::uint32_t item_side) {
+    const svm::Plan plan = make_plan(request);
+    CHECK(plan.in_flight == in_flight);
+    CHECK(plan.pixels_a_task == pixels_a_task);
+    CHECK(plan.task_count() * pixels_a_task == in_flight);
+    CHECK(plan.work_item_side == item_side);
+    return plan;
+  };
+  CHECK(check_plan(64, 16, 4).notes.empty());
+  request.pages.in_flight = 47;
+  REQUIRE(check_plan(32, 16, 4).notes.size() == 1);
+  CHECK(make_plan(request).notes[0] == "in-flight reduced from 47 to 32 pixels: whole bundles of 16");
+  request.pages.in_flight = 15;
+  check_plan(15, 1, 3);
+  request.pages.work_item_side = 7;
+  check_plan(15, 1, 7);
+  request.pages = {};
+  request.strategy = svm::Strategy::replicated;
+  check_plan(16, 16, 4);
+  request.bundles = false;
+  check_plan(1, 1, 3);
+}
+
+TEST_CASE("with too little memory for its bundles a node has fewer, and at last its rays walk alone") {
+  PlanRequest request = request_with(8, 10000);
+  request.bundles = true;
+  const std::size_t least = svm::smallest_node_memory_bytes(request);
+  std::uint32_t before = 0;
+  for (std::size_t more = 0; more < 300_KiB; more += 10_KiB) {
+    request.computer.node_memory_bytes = least + more;
+    const svm::Plan plan = make_plan(request);
+    CHECK(plan.node_memory_max_bytes() <= least + more);
+    CHECK(plan.pixels_a_task == (plan.in_flight < 16 ? 1 : 16));
+    CHECK(plan.in_flight >= before);
+    before = plan.in_flight;
+  }
+  CHECK(before == 64);
+}
+
 TEST_CASE("with a memory bound the cache takes all that is left, and not a page more fits") {
   for (const std::size_t page_size : {512U, 1024U, 4096U}) {
     PlanRequest request = request_with(8, 20000);

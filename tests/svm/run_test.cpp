@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <stop_token>
 
 #include "core/families/scenes.h"
@@ -116,6 +117,7 @@ TEST_CASE("a tracer of one's own may stand in for the grid in replicated") {
     CHECK(copy.data() != small.database.bytes().data());
     return OtherTracer{core::LocalRecords(copy), small.settings.header};
   };
+  options.tracer_is_own = true;
   core::Operations operations;
   const svm::Report report = svm::run_replicated(small.database, small.settings, options, {}, make_tracer);
   CHECK(report.film.hash() == small.reference(operations).hash());
@@ -214,4 +216,50 @@ TEST_CASE("the host may forget the database once it is distributed, and the film
     CHECK(report.film.hash() == hash);
     CHECK(times == 1);
   }
+}
+
+TEST_CASE(
+    "who walks in a bundle does not depend on who renders it, and what is looked up and avoided is what single rays look up") {
+  const SmallScene small("teapot-4", 1024, 30);
+  const auto run = [&](const svm::RunOptions& options, bool bundles) {
+    core::RenderSettings settings = small.settings;
+    settings.skips.bundles = bundles;
+    return svm::run_svm(small.database, settings, options, {});
+  };
+  const svm::Report one = run({.computer = {.node_count = 1}}, true);
+  const core::Operations expected = one.operations();
+  CHECK(expected.bundles > 0);
+  CHECK(expected.rays_in_bundles > expected.bundles);
+  for (const std::uint32_t nodes : {2U, 5U}) {
+    const svm::Report many = run({.computer = {.node_count = nodes}, .pages = {.cache_pages = 3, .in_flight = 32}}, true);
+    CHECK(many.film.hash() == one.film.hash());
+    // Submaps cut items, so that bundles are others, but for one node.
+    CHECK(many.operations().rays == expected.rays);
+  }
+  const svm::Report again = run({.computer = {.node_count = 1}, .pages = {.in_flight = 16}}, true);
+  CHECK(again.pages().references == one.pages().references);
+  CHECK(again.operations().skipped.bundles == expected.skipped.bundles);
+  CHECK(again.operations().brick_reads == expected.brick_reads);
+
+  const svm::Report alone = run({.computer = {.node_count = 1}}, false);
+  CHECK(alone.film.hash() == one.film.hash());
+  CHECK(alone.operations().bundles == 0);
+  const auto by_rays = static_cast<double>(one.pages().references + expected.skipped.bundles);
+  CHECK(by_rays == doctest::Approx(static_cast<double>(alone.pages().references)).epsilon(0.02));
+  CHECK(one.pages().references * 3 < alone.pages().references);
+}
+
+TEST_CASE("heat maps, references, distinct pages and modelled machines have rays that walk alone") {
+  const SmallScene small("tetra-3", 1024, 16);
+  const auto bundles = [&](const svm::RunOptions& options) {
+    const svm::Plan plan = svm::plan_of(svm::Strategy::svm, small.database, small.settings, options);
+    return plan.pixels_a_task;
+  };
+  CHECK(bundles({.computer = {.node_count = 2}}) == 16);
+  CHECK(bundles({.computer = {.node_count = 2}, .pages = {.in_flight = 15}}) == 1);
+  CHECK(bundles({.computer = {.node_count = 2}, .pages = {.count_pages = true}}) == 1);
+  CHECK(bundles({.computer = {.node_count = 2, .machine = nodes::Machine{}}, .pages = {.in_flight = 64}}) == 1);
+  constexpr std::array kinds{nodes::HeatKind::references};
+  nodes::HeatMap heat(256, kinds);
+  CHECK(bundles({.computer = {.node_count = 2}, .watching = {.heat = &heat}}) == 1);
 }

@@ -113,3 +113,46 @@ TEST_CASE("a scan goes row by row and ends") {
   CHECK_THROWS_AS(scan.next(10), core::InternalError);
   CHECK(svm::PixelScan().empty());
 }
+
+TEST_CASE("a scan in tiles goes tile by tile, says where one ends, and has what the edge leaves of the last") {
+  svm::PixelScan scan(PixelRectangle{10, 0, 5, 3}, {.width = 2, .height = 2});
+  std::vector<std::uint32_t> pixels;
+  std::vector<std::size_t> tiles;
+  while (!scan.empty()) {
+    tiles.push_back(0);
+    do {
+      pixels.push_back(scan.next(100));
+      ++tiles.back();
+    } while (scan.stays_in_tile());
+  }
+  CHECK(pixels == std::vector<std::uint32_t>{10, 11, 110, 111, 12, 13, 112, 113, 14, 114, 210, 211, 212, 213, 214});
+  CHECK(tiles == std::vector<std::size_t>{4, 4, 2, 2, 2, 1});
+}
+
+TEST_CASE("of a scan in tiles only the wanted pixels come") {
+  // .x.
+  // ..x
+  // xx.
+  svm::PixelScan scan(PixelRectangle{0, 0, 3, 3}, {.width = 2, .height = 2}, 0b011'100'010);
+  CHECK(scan.next(10) == 1);
+  CHECK_FALSE(scan.stays_in_tile());
+  CHECK(scan.next(10) == 12);
+  CHECK_FALSE(scan.stays_in_tile());
+  CHECK(scan.next(10) == 20);
+  CHECK(scan.stays_in_tile());
+  CHECK(scan.next(10) == 21);
+  CHECK(scan.empty());
+  CHECK_FALSE(scan.stays_in_tile());
+  CHECK(svm::PixelScan(PixelRectangle{0, 0, 3, 3}, {}, 0).empty());
+}
+
+TEST_CASE("a tile is as square as a power of two allows, of as many pixels as have room for their samples") {
+  CHECK(svm::tile_of(16) == svm::PixelTile{4, 4});
+  CHECK(svm::tile_of(8) == svm::PixelTile{4, 2});
+  CHECK(svm::tile_of(5) == svm::PixelTile{2, 2});
+  CHECK(svm::tile_of(1) == svm::PixelTile{1, 1});
+  CHECK(svm::tile_of(0) == svm::PixelTile{1, 1});
+  CHECK(svm::tile_for(4, 16) == svm::PixelTile{2, 2});
+  CHECK(svm::tile_for(100, 16) == svm::PixelTile{1, 1});
+  CHECK(svm::tile_for(1, 1) == svm::PixelTile{1, 1});
+}

@@ -103,27 +103,34 @@ TEST_CASE("skips: refined pictures and the paper's convention keep their films, 
 
 TEST_CASE("skips: each counts what it leaves out, and nothing when it is off") {
   const Subject subject = subject_of(everything());
-  const core::SkippedWork on = run_dataflow(subject, many_regions()).operations().skipped;
+  const core::SkippedWork pages = run_svm(subject, {.computer = {.node_count = 3}}).operations().skipped;
+  const core::SkippedWork rays = run_dataflow(subject, many_regions()).operations().skipped;
   for (const Skip& skip : core::all_skips) {
     CAPTURE(std::string(skip.name));
-    CHECK(on.*skip.avoided > 0);
+    CHECK(pages.*skip.avoided + rays.*skip.avoided > 0);
+    CHECK(run_svm(subject, {.computer = {.node_count = 3}}, core::without(skip)).operations().skipped.*skip.avoided == 0);
     CHECK(run_dataflow(subject, many_regions(), core::without(skip)).operations().skipped.*skip.avoided == 0);
   }
 }
 
-TEST_CASE("skips: rays left out are as many whoever renders, and cells and children as many with a cache of one page") {
+TEST_CASE(
+    "skips: rays left out are as many whoever renders, and cells and children as many with a cache of one page, by rays alone") {
   const Subject subject = subject_of(everything());
   const core::SkippedWork expected = reference(subject, subject.settings()).skipped;
   const core::SkippedWork svm =
       run_svm(subject, {.computer = {.node_count = 3}, .pages = {.cache_pages = 1}}).operations().skipped;
   const core::SkippedWork dataflow = run_dataflow(subject, many_regions()).operations().skipped;
-  for (const core::SkippedWork& skipped : {svm, dataflow}) {
+  const core::SkippedWork alone =
+      run_svm(subject, {.computer = {.node_count = 3}, .pages = {.cache_pages = 1}}, {.bundles = false}).operations().skipped;
+  for (const core::SkippedWork& skipped : {svm, alone, dataflow}) {
     CHECK(skipped.unlit == expected.unlit);
     CHECK(skipped.zero_terms == expected.zero_terms);
     CHECK(skipped.background == expected.background);
   }
   CHECK(svm.empty_space == expected.empty_space);
-  CHECK(svm.any_hit == expected.any_hit);
+  CHECK(alone.empty_space == expected.empty_space);
+  CHECK(alone.any_hit == expected.any_hit);
+  CHECK(alone.bundles == 0);
   CHECK(svm.empty_regions == 0);
 }
 

@@ -12,8 +12,8 @@ namespace dmpc::apps {
 
 inline constexpr std::size_t own_kernel_count = 6;
 
-/// By StabilityKernel, of which these are the first: grid, scalar, plain, resumed, bundle, any_hit. Of `any_hit` only found() means
-/// anything.
+/// By StabilityKernel, of which these are the first: grid, scalar, plain, resumed, bundle, any_hit. Of `any_hit` only found()
+/// means anything.
 using OwnAnswers = std::array<core::Hit, own_kernel_count>;
 
 /// `ray` with another kind.

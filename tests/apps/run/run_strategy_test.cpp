@@ -105,7 +105,7 @@ TEST_CASE("a modelled machine's nodes work on one pixel at once unless told othe
   };
   RenderOptions options = modelled();
   CHECK(in_flight(options) == 1);
-  CHECK(in_flight(small()) == 16);
+  CHECK(in_flight(small()) == 64);
   options.pages.in_flight = 5;
   CHECK(in_flight(options) == 5);
 }

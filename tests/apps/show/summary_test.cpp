@@ -32,7 +32,7 @@ TEST_CASE("the closing lines name scene, computer, memory, rays, pages, times an
 TEST_CASE("the closing lines of replicated do without pages") {
   const std::string text = summary(small(Strategy::replicated));
   CHECK_FALSE(contains(text, "pages    "));
-  CHECK(contains(text, "computer 3 nodes, replicated, 1 pixel in flight\n"));
+  CHECK(contains(text, "computer 3 nodes, replicated, 16 pixels in flight\n"));
 }
 
 TEST_CASE("the closing lines of dataflow say how rays travelled and how evenly the work was shared") {

@@ -6,38 +6,25 @@
 #include <numeric>
 #include <vector>
 
+#include "apps/bench/stability/records.h"
 #include "core/base/expect.h"
 #include "core/picture/background.h"
 #include "core/picture/render.h"
 #include "tests/support/shooting.h"
 #include "tests/support/small_scenes.h"
 
+using namespace dmpc;
 using namespace dmpc::core;
 using namespace dmpc::tests;
 
 namespace {
 
-/// Holds one record, the one fetched last, for one question.
-class LastRecord {
- public:
-  explicit LastRecord(const Database& database) : all_(database.bytes()) {}
-  const std::byte* find(Address address) {
-    const bool held = address == held_;
-    held_ = no_address;
-    return held ? all_.find(address) : nullptr;
-  }
-  void fetch(Address address) { held_ = address; }
+constexpr int tiled_side = 24;
 
- private:
-  LocalRecords all_;
-  Address held_ = no_address;
-};
-
-constexpr int side = 24;
-
-struct Subject {
-  explicit Subject(const Scene& scene, int samples = 1, const ShadeOptions& shade = {})
-      : database(database_of(scene)), settings{database.header(), Camera(scene.view, database.header().frame, side, side, samples), shade} {}
+struct TiledPicture {
+  explicit TiledPicture(const Scene& scene, int samples = 1, const ShadeOptions& shade = {})
+      : database(database_of(scene)),
+        settings{database.header(), Camera(scene.view, database.header().frame, tiled_side, tiled_side, samples), shade} {}
 
   Database database;
   RenderSettings settings;
@@ -45,7 +32,7 @@ struct Subject {
 
 /// Runs a task to its end; counts how often it had to wait.
 template <class Records>
-int run(BundleTask& task, Records& records, const RenderSettings& settings, Operations& operations) {
+int run_to_end(BundleTask& task, Records& records, const RenderSettings& settings, Operations& operations) {
   GridTracer<Records> tracer(records, settings.header, settings.skips);
   for (int waits = 0;;) {
     switch (task.run(tracer, settings, operations)) {
@@ -66,22 +53,22 @@ int run(BundleTask& task, Records& records, const RenderSettings& settings, Oper
 
 /// The picture in tiles of `width` pixels side by side.
 template <class Records>
-Film tiled(const Subject& subject, std::uint32_t width, Operations& operations, int& waits) {
-  Film film(side, side);
+Film tiled(const TiledPicture& subject, std::uint32_t width, Operations& operations, int& waits) {
+  Film film(tiled_side, tiled_side);
   Records records = [&] {
     if constexpr (std::is_same_v<Records, LocalRecords>) {
       return LocalRecords(subject.database.bytes());
     } else {
-      return LastRecord(subject.database);
+      return apps::OneRecord(subject.database.bytes());
     }
   }();
   std::vector<BundleHit> stack(static_cast<std::size_t>(subject.settings.shade.depth_max));
   const auto task = std::make_unique<BundleTask>(stack);
-  for (std::uint32_t first = 0; first < side * side; first += width) {
-    std::vector<std::uint32_t> pixels(std::min<std::uint32_t>(width, side * side - first));
+  for (std::uint32_t first = 0; first < tiled_side * tiled_side; first += width) {
+    std::vector<std::uint32_t> pixels(std::min<std::uint32_t>(width, tiled_side * tiled_side - first));
     std::iota(pixels.begin(), pixels.end(), first);
     task->start(std::span<const std::uint32_t>(pixels), subject.settings.first_samples(), subject.settings, operations);
-    waits += run(*task, records, subject.settings, operations);
+    waits += run_to_end(*task, records, subject.settings, operations);
     for (std::uint32_t place = 0; place < task->pixel_count(); ++place) {
       film.deposit(task->pixel(place), task->sums(place));
     }
@@ -89,7 +76,7 @@ Film tiled(const Subject& subject, std::uint32_t width, Operations& operations, 
   return film;
 }
 
-Film reference(const Subject& subject, Operations& operations) {
+Film untiled(const TiledPicture& subject, Operations& operations) {
   LocalRecords records(subject.database.bytes());
   GridTracer<LocalRecords> tracer(records, subject.settings.header, subject.settings.skips);
   return render(tracer, subject.settings, operations);
@@ -97,11 +84,11 @@ Film reference(const Subject& subject, Operations& operations) {
 
 bool same_sums(const Film& a, const Film& b) { return std::equal(a.pixels().begin(), a.pixels().end(), b.pixels().begin()); }
 
-void check_same_picture(const Subject& subject, std::uint32_t width) {
+void check_same_picture(const TiledPicture& subject, std::uint32_t width) {
   CAPTURE(width);
   Operations alone, together;
   int waits = 0;
-  CHECK(same_sums(tiled<LocalRecords>(subject, width, together, waits), reference(subject, alone)));
+  CHECK(same_sums(tiled<LocalRecords>(subject, width, together, waits), untiled(subject, alone)));
   CHECK(together.rays == alone.rays);
   CHECK(together.primary_hits == alone.primary_hits);
   CHECK(together.secondary_hits == alone.secondary_hits);
@@ -119,7 +106,7 @@ void check_same_picture(const Subject& subject, std::uint32_t width) {
 
 TEST_CASE("pixels in bundles are the picture, whatever the bundles' width") {
   for (const auto& scene : {everything(), built_in("teapot-3"), built_in("tetra-3")}) {
-    const Subject subject(scene);
+    const TiledPicture subject(scene);
     for (const std::uint32_t width : {1U, 2U, 7U, 16U}) {
       check_same_picture(subject, width);
     }
@@ -128,20 +115,20 @@ TEST_CASE("pixels in bundles are the picture, whatever the bundles' width") {
 
 TEST_CASE("samples of several pixels share a bundle, and more than 16 samples of one go on in rounds") {
   const Scene scene = everything();
-  check_same_picture(Subject(scene, 2), 8);
-  check_same_picture(Subject(scene, 5), 3);
-  check_same_picture(Subject(scene, 16), 1);
-  check_same_picture(Subject(scene, 17), 1);
-  check_same_picture(Subject(scene, 40), 1);
+  check_same_picture(TiledPicture(scene, 2), 8);
+  check_same_picture(TiledPicture(scene, 5), 3);
+  check_same_picture(TiledPicture(scene, 16), 1);
+  check_same_picture(TiledPicture(scene, 17), 1);
+  check_same_picture(TiledPicture(scene, 40), 1);
 }
 
 TEST_CASE("bundles follow the paper's convention, depths, cutoffs and skips that are off") {
   const Scene scene = everything();
-  check_same_picture(Subject(scene, 1, {.convention = Convention::paper}), 16);
-  check_same_picture(Subject(scene, 1, {.depth_max = 1}), 16);
-  check_same_picture(Subject(scene, 1, {.depth_max = 9}), 16);
-  check_same_picture(Subject(scene, 1, {.cutoff = 0.1, .radiance_bound = radiance_bound(scene, 5)}), 16);
-  Subject without(scene);
+  check_same_picture(TiledPicture(scene, 1, {.convention = Convention::paper}), 16);
+  check_same_picture(TiledPicture(scene, 1, {.depth_max = 1}), 16);
+  check_same_picture(TiledPicture(scene, 1, {.depth_max = 9}), 16);
+  check_same_picture(TiledPicture(scene, 1, {.cutoff = 0.1, .radiance_bound = radiance_bound(scene, 5)}), 16);
+  TiledPicture without(scene);
   without.settings.skips = no_skips();
   check_same_picture(without, 16);
 }
@@ -149,12 +136,12 @@ TEST_CASE("bundles follow the paper's convention, depths, cutoffs and skips that
 TEST_CASE("a picture without lights, and one of a thousand, come in bundles, too") {
   Scene dark = built_in("teapot-3");
   dark.lights.clear();
-  check_same_picture(Subject(dark), 16);
-  check_same_picture(Subject(thousand_lights()), 16);
+  check_same_picture(TiledPicture(dark), 16);
+  check_same_picture(TiledPicture(thousand_lights()), 16);
 }
 
 TEST_CASE("pixels known to show the background are not traced, alone or beside others") {
-  Subject subject(built_in("tetra-3"));
+  TiledPicture subject(built_in("tetra-3"));
   subject.settings.background = find_background(subject.database, subject.settings.camera);
   check_same_picture(subject, 16);
   Operations operations;
@@ -164,10 +151,10 @@ TEST_CASE("pixels known to show the background are not traced, alone or beside o
 }
 
 TEST_CASE("bundles that wait for every record give the same light, count the same work and look up as often") {
-  const Subject subject(everything());
+  const TiledPicture subject(everything());
   Operations once, often;
   int never = 0, waits = 0;
-  CHECK(same_sums(tiled<LocalRecords>(subject, 16, once, never), tiled<LastRecord>(subject, 16, often, waits)));
+  CHECK(same_sums(tiled<LocalRecords>(subject, 16, once, never), tiled<apps::OneRecord>(subject, 16, often, waits)));
   CHECK(never == 0);
   CHECK(waits > 1000);
   CHECK(once.rays == often.rays);
@@ -179,7 +166,7 @@ TEST_CASE("bundles that wait for every record give the same light, count the sam
 }
 
 TEST_CASE("a bundle of too many rays is refused, as is a stack of less than a hit a depth") {
-  const Subject subject(built_in("teapot-3"), 2);
+  const TiledPicture subject(built_in("teapot-3"), 2);
   std::vector<BundleHit> stack(5), small(4);
   BundleTask task(stack), lacking(small);
   Operations operations;
@@ -187,5 +174,6 @@ TEST_CASE("a bundle of too many rays is refused, as is a stack of less than a hi
   CHECK_THROWS_AS(task.start(std::span<const std::uint32_t>(pixels), {0, 2}, subject.settings, operations), InternalError);
   CHECK_THROWS_AS(task.start(std::span<const std::uint32_t>(), {0, 1}, subject.settings, operations), InternalError);
   CHECK_NOTHROW(task.start(std::span<const std::uint32_t>(pixels).first(8), {0, 2}, subject.settings, operations));
-  CHECK_THROWS_AS(lacking.start(std::span<const std::uint32_t>(pixels).first(8), {0, 2}, subject.settings, operations), InternalError);
+  CHECK_THROWS_AS(lacking.start(std::span<const std::uint32_t>(pixels).first(8), {0, 2}, subject.settings, operations),
+                  InternalError);
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/bench/stability/random.h"
+#include "apps/bench/stability/records.h"
 #include "core/trace/bundle_walk.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
@@ -21,9 +22,9 @@ using namespace dmpc::tests;
 
 namespace {
 
-using Rays = std::vector<Ray>;
+using BundleRays = std::vector<Ray>;
 
-std::unique_ptr<RayBundle> bundle_of(const Rays& rays) {
+std::unique_ptr<RayBundle> bundle_of(const BundleRays& rays) {
   auto bundle = std::make_unique<RayBundle>();
   std::copy(rays.begin(), rays.end(), bundle->rays.begin());
   bundle->count = static_cast<std::uint32_t>(rays.size());
@@ -32,11 +33,12 @@ std::unique_ptr<RayBundle> bundle_of(const Rays& rays) {
 }
 
 /// Neighbours: from near one place, to near another; or from there in all directions.
-Rays some_rays(Random& random, const Database& database, std::uint32_t count, RayKind kind) {
+BundleRays neighbours(Random& random, const Database& database, std::uint32_t count, RayKind kind) {
   const auto& primitives = database.primitives();
-  const Vec3d origin = random.in_box(-0.2, 1.2), target = point_of(primitives[random.below(static_cast<std::uint32_t>(primitives.size()))], 0);
+  const Vec3d origin = random.in_box(-0.2, 1.2),
+              target = point_of(primitives[random.below(static_cast<std::uint32_t>(primitives.size()))], 0);
   const double spread = std::array{0.0, 1e-3, 0.05, 1.0}[random.below(4)];
-  Rays rays;
+  BundleRays rays;
   for (std::uint32_t i = 0; i < count; ++i) {
     Ray ray = ray_through(origin + random.in_box(-0.01, 0.01), target + random.in_box(-1, 1) * spread);
     ray.kind = kind;
@@ -47,13 +49,13 @@ Rays some_rays(Random& random, const Database& database, std::uint32_t count, Ra
   return rays;
 }
 
-struct Alone {
+struct WalksAlone {
   std::vector<Hit> hits;
   Operations operations;
 };
 
-Alone alone(const Database& database, const Rays& rays, const Skips& skips = {}) {
-  Alone result;
+WalksAlone walk_alone(const Database& database, const BundleRays& rays, const Skips& skips = {}) {
+  WalksAlone result;
   LocalRecords records(database.bytes());
   for (const Ray& ray : rays) {
     Cursor cursor;
@@ -64,7 +66,7 @@ Alone alone(const Database& database, const Rays& rays, const Skips& skips = {})
 }
 
 /// Of shadow rays any hit will do.
-void check_same(const RayBundle& bundle, const Alone& expected) {
+void check_hits(const RayBundle& bundle, const WalksAlone& expected) {
   for (std::size_t i = 0; i < bundle.count; ++i) {
     CAPTURE(i);
     CHECK(((bundle.found >> i & 1U) != 0) == expected.hits[i].found());
@@ -75,26 +77,8 @@ void check_same(const RayBundle& bundle, const Alone& expected) {
   }
 }
 
-/// Has only the record that was asked for last.
-class OneRecord {
- public:
-  explicit OneRecord(const Database& database) : all_(database.bytes()) {}
-  const std::byte* find(Address address) {
-    const bool is_here = address == held_;
-    held_ = address;
-    waits_ += is_here ? 0 : 1;
-    return is_here ? all_.find(address) : nullptr;
-  }
-  int waits() const { return waits_; }
-
- private:
-  LocalRecords all_;
-  Address held_ = no_address;
-  int waits_ = 0;
-};
-
 /// Of triangles alone, of all kinds of primitives, and with empty space between its parts.
-const std::vector<Database>& databases() {
+const std::vector<Database>& bundle_subjects() {
   static const std::vector<Database> all = [] {
     std::vector<Database> result;
     for (const auto& scene : {built_in("teapot-3"), everything(), built_in("tetra-4"), built_in("balls-1")}) {
@@ -109,9 +93,9 @@ template <class Check>
 void for_some_bundles(std::uint64_t seed, std::size_t count, const Check& check) {
   Random random(seed);
   for (std::size_t turn = 0; turn < ray_count(count); ++turn) {
-    const Database& database = databases()[turn % databases().size()];
+    const Database& database = bundle_subjects()[turn % bundle_subjects().size()];
     const RayKind kind = random.below(2) == 0 ? RayKind::primary : RayKind::shadow;
-    const Rays rays = some_rays(random, database, random.below(bundle_rays_max) + 1, kind);
+    const BundleRays rays = neighbours(random, database, random.below(bundle_rays_max) + 1, kind);
     CAPTURE(turn);
     check(database, rays);
   }
@@ -134,12 +118,12 @@ TEST_CASE("1 to 16 rays that walk together hit what they hit alone, whatever ins
     REQUIRE(intersectors != nullptr);
     CAPTURE(sets);
     std::uint64_t hits = 0;
-    for_some_bundles(71, 4000, [&](const Database& database, const Rays& rays) {
+    for_some_bundles(71, 4000, [&](const Database& database, const BundleRays& rays) {
       LocalRecords records(database.bytes());
       Operations operations;
       const auto bundle = bundle_of(rays);
       CHECK(BundleWalk<LocalRecords>(*bundle, records, database.header(), {}, operations, *steps, *intersectors).run());
-      check_same(*bundle, alone(database, rays));
+      check_hits(*bundle, walk_alone(database, rays));
       hits += count_of(bundle->found);
     });
     CHECK(hits > 1000);
@@ -150,7 +134,7 @@ TEST_CASE("1 to 16 rays that walk together hit what they hit alone, whatever ins
 
 TEST_CASE("a bundle does the same work, whatever instructions the processor has") {
   for (std::size_t set = 1; bundle_steps(set) != nullptr; ++set) {
-    for_some_bundles(72, 1000, [&](const Database& database, const Rays& rays) {
+    for_some_bundles(72, 1000, [&](const Database& database, const BundleRays& rays) {
       LocalRecords records(database.bytes());
       Operations fast, slow;
       const auto one = bundle_of(rays), other = bundle_of(rays);
@@ -166,16 +150,17 @@ TEST_CASE("a bundle does the same work, whatever instructions the processor has"
 }
 
 TEST_CASE("a bundle that waits for every record finds the same and counts the same work") {
-  for_some_bundles(73, 400, [](const Database& database, const Rays& rays) {
+  for_some_bundles(73, 400, [](const Database& database, const BundleRays& rays) {
     LocalRecords all(database.bytes());
-    OneRecord one(database);
+    OneRecord one(database.bytes());
     Operations at_once, in_steps;
     const auto expected = bundle_of(rays), bundle = bundle_of(rays);
     CHECK(trace(*expected, all, database.header(), {}, at_once));
-    int calls = 1;
-    for (; !trace(*bundle, one, database.header(), {}, in_steps); ++calls) {
+    std::uint64_t waits = 0;
+    for (; !trace(*bundle, one, database.header(), {}, in_steps); ++waits) {
+      one.fetch(bundle->absent);
     }
-    CHECK(calls == one.waits() + 1);
+    CHECK(waits >= (bundle->found != 0 ? 1 : 0));
     for (std::size_t i = 0; i < rays.size(); ++i) {
       CHECK(same_hit(bundle->best.of(i), expected->best.of(i)));
     }
@@ -189,14 +174,14 @@ TEST_CASE("a bundle that waits for every record finds the same and counts the sa
 TEST_CASE("a bundle of one ray does that ray's work") {
   Random random(74);
   for (std::size_t turn = 0; turn < ray_count(1000); ++turn) {
-    const Database& database = databases()[turn % databases().size()];
-    const Rays rays = some_rays(random, database, 1, RayKind::primary);
+    const Database& database = bundle_subjects()[turn % bundle_subjects().size()];
+    const BundleRays rays = neighbours(random, database, 1, RayKind::primary);
     LocalRecords records(database.bytes());
     Operations operations;
     const auto bundle = bundle_of(rays);
     trace(*bundle, records, database.header(), {}, operations);
-    const Alone expected = alone(database, rays);
-    check_same(*bundle, expected);
+    const WalksAlone expected = walk_alone(database, rays);
+    check_hits(*bundle, expected);
     CHECK(operations.brick_reads == expected.operations.brick_reads);
     CHECK(operations.cell_steps == expected.operations.cell_steps);
     CHECK(operations.primitive_tests == expected.operations.primitive_tests);
@@ -207,15 +192,15 @@ TEST_CASE("a bundle of one ray does that ray's work") {
 }
 
 TEST_CASE("sixteen equal rays look each record up once, and are counted as sixteen") {
-  const Database& database = databases()[0];
+  const Database& database = bundle_subjects()[0];
   Random random(75);
-  const Ray ray = some_rays(random, database, 1, RayKind::primary)[0];
-  const Rays rays(16, ray);
+  const Ray ray = neighbours(random, database, 1, RayKind::primary)[0];
+  const BundleRays rays(16, ray);
   LocalRecords records(database.bytes());
   Operations operations;
   const auto bundle = bundle_of(rays);
   trace(*bundle, records, database.header(), {}, operations);
-  const Operations one = alone(database, {ray}).operations;
+  const Operations one = walk_alone(database, {ray}).operations;
   CHECK(operations.brick_reads == 16 * one.brick_reads);
   CHECK(operations.cell_steps == 16 * one.cell_steps);
   CHECK(operations.bundles == 1);
@@ -225,14 +210,14 @@ TEST_CASE("sixteen equal rays look each record up once, and are counted as sixte
 }
 
 TEST_CASE("without skips a bundle finds the nearest hits of shadow rays, cell by cell") {
-  for_some_bundles(76, 400, [](const Database& database, const Rays& rays) {
+  for_some_bundles(76, 400, [](const Database& database, const BundleRays& rays) {
     const Skips none = no_skips();
     LocalRecords records(database.bytes());
     Operations operations;
     const auto bundle = bundle_of(rays);
     trace(*bundle, records, database.header(), none, operations);
     CHECK_FALSE(bundle->any);
-    check_same(*bundle, alone(database, rays, none));
+    check_hits(*bundle, walk_alone(database, rays, none));
     CHECK(operations.skipped.empty_space == 0);
     CHECK(operations.skipped.any_hit == 0);
   });
@@ -244,8 +229,8 @@ TEST_CASE("rays with odd numbers miss or hit as they do alone, and do not distur
   Random random(77);
   const auto any_number = [&] { return odd[random.below(odd.size())]; };
   for (std::size_t turn = 0; turn < ray_count(2000); ++turn) {
-    const Database& database = databases()[turn % databases().size()];
-    Rays rays = some_rays(random, database, 16, RayKind::primary);
+    const Database& database = bundle_subjects()[turn % bundle_subjects().size()];
+    BundleRays rays = neighbours(random, database, 16, RayKind::primary);
     for (std::size_t i = random.below(2); i < rays.size(); i += 2) {
       (random.below(2) == 0 ? rays[i].origin : rays[i].direction)[random.below(3)] = any_number();
     }
@@ -253,6 +238,6 @@ TEST_CASE("rays with odd numbers miss or hit as they do alone, and do not distur
     Operations operations;
     const auto bundle = bundle_of(rays);
     trace(*bundle, records, database.header(), {}, operations);
-    check_same(*bundle, alone(database, rays));
+    check_hits(*bundle, walk_alone(database, rays));
   }
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/families/scenes.h"
+#include "core/picture/bundle_task.h"
 #include "nodes/threads/threads_runner.h"
 #include "svm/local_copy.h"
 #include "svm/pager.h"
@@ -19,7 +20,7 @@ namespace {
 
 /// Renders a small scene with every node and the host (unless it chooses passes) under watch; returns what they allocated and
 /// freed.
-template <class Records>
+template <class Records, class Task = core::PixelTask>
 std::uint64_t allocated_by(svm::Strategy strategy, const svm::RunOptions& options, double error = 0) {
   const core::Scene scene = core::built_in_scene(core::parse_scene_name("balls-2"));
   const core::Database database = core::build_database(scene, {.page_size_bytes = 512});
@@ -28,8 +29,8 @@ std::uint64_t allocated_by(svm::Strategy strategy, const svm::RunOptions& option
   const svm::Plan plan = svm::plan_of(strategy, database, settings, options);
   const svm::MakeProgram make_program = [&](std::uint32_t, nodes::Node& node) {
     const auto make_tracer = [&](Records& records) { return core::GridTracer<Records>(records, settings.header, {}); };
-    return std::make_unique<svm::ControlProgram<Records, core::GridTracer<Records>>>(node, plan, settings, database.bytes(),
-                                                                                     make_tracer);
+    return std::make_unique<svm::ControlProgram<Records, core::GridTracer<Records>, Task>>(node, plan, settings, database.bytes(),
+                                                                                           make_tracer);
   };
   core::Film film(16, 16);
   const nodes::Progress progress;
@@ -46,20 +47,21 @@ std::uint64_t allocated_by(svm::Strategy strategy, const svm::RunOptions& option
 
 TEST_CASE("a node of svm allocates nothing while it renders, pages, asks for work and serves") {
   svm::RunOptions options{.computer = {.node_count = 5}};
-  CHECK(allocated_by<svm::Pager>(svm::Strategy::svm, options) == 0);
+  CHECK(allocated_by<svm::Pager, core::BundleTask>(svm::Strategy::svm, options) == 0);
   options.pages.cache_pages = 1;
-  options.pages.in_flight = 64;
+  CHECK(allocated_by<svm::Pager, core::BundleTask>(svm::Strategy::svm, options) == 0);
+  options.pages.in_flight = 15;
   CHECK(allocated_by<svm::Pager>(svm::Strategy::svm, options) == 0);
   options.pages.count_pages = true;
   CHECK(allocated_by<svm::CountingPager>(svm::Strategy::svm, options) == 0);
 }
 
 TEST_CASE("a node of svm allocates nothing in passes that refine samples") {
-  CHECK(allocated_by<svm::Pager>(svm::Strategy::svm, {.computer = {.node_count = 5}}, 0.01) == 0);
+  CHECK(allocated_by<svm::Pager, core::BundleTask>(svm::Strategy::svm, {.computer = {.node_count = 5}}, 0.01) == 0);
 }
 
 TEST_CASE("a node of replicated allocates nothing while it renders") {
-  CHECK(allocated_by<svm::LocalCopy>(svm::Strategy::replicated, {.computer = {.node_count = 5}}) == 0);
+  CHECK(allocated_by<svm::LocalCopy, core::BundleTask>(svm::Strategy::replicated, {.computer = {.node_count = 5}}) == 0);
 }
 
 }  // namespace
