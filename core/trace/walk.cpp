@@ -100,29 +100,34 @@ std::int32_t Walk::locate_top(std::size_t axis, double t, std::int32_t low, std:
   return (is_certain ? cell : locate(axis, t, low, high, entry_axis)) & -finest_per_top;
 }
 
-bool Walk::enter(const Ray& ray, Cursor& cursor) const {
+std::optional<double> Walk::entry(const Ray& ray) const {
   const double sum = origin_.x + origin_.y + origin_.z + direction_.x + direction_.y + direction_.z;
   if (!(sum * 0.0 == 0.0)) {  // something is not finite: doubles cannot overflow from floats
-    return false;
+    return std::nullopt;
   }
   double t_enter = 0.0, t_exit = double{ray.t_max};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (step_[axis] == 0) {
       const double at = origin_[axis] * finest_cells_;
       if (!(at >= 0.0 && at < static_cast<double>(grid_.high[axis]))) {
-        return false;
+        return std::nullopt;
       }
     } else {
       t_enter = std::max(t_enter, plane(axis, step_[axis] > 0 ? 0 : grid_.high[axis]));
       t_exit = std::min(t_exit, plane(axis, step_[axis] > 0 ? grid_.high[axis] : 0));
     }
   }
-  if (!(t_enter < t_exit)) {
+  return t_enter < t_exit ? std::optional(t_enter) : std::nullopt;
+}
+
+bool Walk::enter(const Ray& ray, Cursor& cursor) const {
+  const std::optional<double> t_enter = entry(ray);
+  if (!t_enter) {
     return false;
   }
-  cursor.t_enter = t_enter;
+  cursor.t_enter = *t_enter;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    cursor.cell[axis] = locate_top(axis, t_enter, 0, grid_.high[axis], walk_starts);
+    cursor.cell[axis] = locate_top(axis, *t_enter, 0, grid_.high[axis], walk_starts);
   }
   cursor.stage = Cursor::Stage::directory;
   return true;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "core/record/ray.h"
 #include "core/record/record.h"
@@ -31,6 +32,17 @@ class Walk {
   /// That of the direction, as reciprocal_direction() has it.
   const Vec3d& reciprocal() const { return reciprocal_; }
 
+  /// The t at which the walk starts; nothing if the ray misses the grid or is not finite.
+  std::optional<double> entry(const Ray& ray) const;
+  /// Whether the walk that starts at `t_enter` starts in a finest cell from `index` on.
+  bool starts_above(std::size_t axis, std::int32_t index, double t_enter) const {
+    return step_[axis] == 0 ? origin_[axis] * finest_cells_ >= index : (plane(axis, index) <= t_enter) == (step_[axis] > 0);
+  }
+  /// -1, 0 or +1: the direction in which the ray crosses planes of the axis.
+  std::int32_t step(std::size_t axis) const { return step_[axis]; }
+  /// The t at which the ray crosses a plane, infinite along an axis without a step.
+  double plane(std::size_t axis, std::int32_t index) const;
+
   /// Puts the cursor on the first top cell; false if the ray misses the grid or is not finite.
   bool enter(const Ray& ray, Cursor& cursor) const;
 
@@ -52,7 +64,6 @@ class Walk {
   void leave_region(const Ray& ray, const Corner& cell, Cursor& cursor, Operations& operations) const;
 
  private:
-  double plane(std::size_t axis, std::int32_t index) const;
   bool crossed(std::size_t axis, std::int32_t index, double t, std::uint8_t entry_axis) const;
   std::int32_t locate(std::size_t axis, double t, std::int32_t low, std::int32_t high, std::uint8_t entry_axis) const;
   std::int32_t locate_top(std::size_t axis, double t, std::int32_t low, std::int32_t high, std::uint8_t entry_axis) const;
@@ -65,7 +76,7 @@ class Walk {
 
   Vec3d origin_, direction_, reciprocal_;
   std::array<double, 3> slope_{}, offset_{};
-  std::array<std::int32_t, 3> step_{};  ///< -1, 0 or +1
+  std::array<std::int32_t, 3> step_{};
   Region grid_, region_;
   bool whole_;           ///< the region is the whole grid: nothing leaves it
   double finest_cells_;  ///< a unit of length, in finest cells
@@ -73,7 +84,6 @@ class Walk {
 
 // What a ray does at every step is here, so that it becomes one loop with whatever finds the records.
 
-/// Infinite along an axis without a step.
 inline double Walk::plane(std::size_t axis, std::int32_t index) const {
   return static_cast<double>(index) * slope_[axis] + offset_[axis];
 }
