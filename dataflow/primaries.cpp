@@ -1,6 +1,7 @@
 #include "dataflow/primaries.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "core/base/expect.h"
@@ -17,34 +18,27 @@ template <class Begin>
 void deal(const core::RenderSettings& settings, std::span<const Bsp> bsps, const core::SampleRange& samples,
           const core::PixelMask& pixels, const std::stop_token& stop, const Begin& begin) {
   PrimaryOwners owners(settings, bsps);
-  std::vector<std::uint32_t> before(bsps.size(), nobody);
-  const auto go_on = [&](std::size_t bsp, std::uint32_t node, std::uint64_t number) {
-    if (std::exchange(before[bsp], node) != node) {
-      begin(bsp, node, number);
+  const auto begin_each = [&](std::uint64_t those, std::uint64_t number, bool is_dealt) {
+    for (; those != 0; those &= those - 1) {
+      const auto bsp = static_cast<std::size_t>(std::countr_zero(those));
+      begin(bsp, is_dealt ? owners.owners()[bsp] : nobody, number);
     }
   };
   std::uint64_t number = 0;
-  bool is_dealing = false;  // the ray before was dealt
+  bool is_dealt = false;  // the ray before
   for (std::uint32_t pixel = 0; pixel < settings.camera.pixel_count() && !stop.stop_requested(); ++pixel) {
-    if (!pixels.has(pixel)) {
-      for (std::size_t bsp = 0; is_dealing && bsp < bsps.size(); ++bsp) {
-        go_on(bsp, nobody, number);
-      }
+    const bool was_dealt = std::exchange(is_dealt, pixels.has(pixel));
+    if (!is_dealt) {
+      begin_each(was_dealt ? owners.all_bsps() : 0, number, false);
       number += samples.count;
-      is_dealing = false;
       continue;
     }
     for (std::uint32_t i = 0; i < samples.count; ++i, ++number) {
-      const bool may_differ = owners.find(pixel, samples.first + i);
-      for (std::size_t bsp = 0; (may_differ || !is_dealing) && bsp < bsps.size(); ++bsp) {
-        go_on(bsp, owners.owners()[bsp], number);
-      }
-      is_dealing = true;
+      const std::uint64_t changed = owners.find(pixel, samples.first + i);
+      begin_each(was_dealt || i > 0 ? changed : owners.all_bsps(), number, true);
     }
   }
-  for (std::size_t bsp = 0; bsp < bsps.size(); ++bsp) {
-    go_on(bsp, nobody, number);
-  }
+  begin_each(is_dealt ? owners.all_bsps() : 0, number, false);
 }
 
 /// As many of the first of `bsps` as one lattice may be of. Cuts that do not go on in each other's make many cells.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <utility>
 
 namespace dmpc::dataflow {
 
@@ -30,45 +31,60 @@ PrimaryOwners::PrimaryOwners(const core::RenderSettings& settings, std::span<con
   }
 }
 
-bool PrimaryOwners::find(std::uint32_t pixel, std::uint32_t sample) {
-  if (settings_.shows_background(pixel) || !walk_.enter(settings_.camera.primary_ray(pixel, sample))) {
-    if (before_ == in_the_sky && pixel < sky_end_) {
-      return false;
-    }
-    take_sky(lattice_.all_bsps(), pixel);
-    before_ = in_the_sky;
-    return true;
+std::uint64_t PrimaryOwners::find(std::uint32_t pixel, std::uint32_t sample) {
+  const bool was_sky = is_sky_;
+  is_sky_ = settings_.shows_background(pixel) || !walk_.enter(settings_.camera.primary_ray(pixel, sample));
+  if (!is_sky_) {
+    return follow(pixel);
   }
-  if (walk_.cell() == before_) {
-    return false;
-  }
-  before_ = lattice_.occupied(walk_.cell()) == lattice_.all_bsps() ? walk_.cell() : on_the_way;
-  take_sky(follow(), pixel);
-  return true;
+  deciding_count_ = 0;
+  return was_sky && pixel < sky_end_ ? 0 : take_sky(lattice_.all_bsps(), pixel);
 }
 
-/// Gives each Bsp the owner of the first cell that is occupied there; returns those Bsps for which there is none.
-std::uint64_t PrimaryOwners::follow() {
-  std::uint64_t left = lattice_.all_bsps();
+/// Gives each Bsp the owner of the first cell on the way that is occupied there, or that of the sky. Returns those that change.
+std::uint64_t PrimaryOwners::follow(std::uint32_t pixel) {
+  std::uint64_t left = lattice_.all_bsps(), changed = 0;
+  std::size_t count = 0;
+  bool is_as_before = true;  // the cells that decide are those that did for the ray before, and so are the owners
   do {
     const std::size_t cell = walk_.cell();
-    const std::span<const std::uint16_t> owners = lattice_.owners(cell);
-    for (std::uint64_t found = left & lattice_.occupied(cell); found != 0; found &= found - 1) {
-      const auto bsp = static_cast<std::size_t>(std::countr_zero(found));
-      owners_[bsp] = owners[bsp];
+    const std::uint64_t decided = left & lattice_.occupied(cell);
+    if (decided != 0) {
+      is_as_before = is_as_before && count < deciding_count_ && deciding_[count] == cell;
+      changed |= is_as_before ? 0 : take_cell(decided, cell);
+      deciding_[count++] = cell;
+      left &= ~decided;
     }
-    left &= ~lattice_.occupied(cell);
   } while (left != 0 && walk_.advance());
-  return left;
+  deciding_count_ = count;
+  return changed | take_sky(left, pixel);
 }
 
-void PrimaryOwners::take_sky(std::uint64_t bsps, std::uint32_t pixel) {
+std::uint64_t PrimaryOwners::take_cell(std::uint64_t bsps, std::size_t cell) {
+  const std::span<const std::uint16_t> owners = lattice_.owners(cell);
+  std::uint64_t changed = 0;
+  for (; bsps != 0; bsps &= bsps - 1) {
+    const auto bsp = static_cast<std::size_t>(std::countr_zero(bsps));
+    changed |= take(bsp, owners[bsp]);
+  }
+  return changed;
+}
+
+std::uint64_t PrimaryOwners::take_sky(std::uint64_t bsps, std::uint32_t pixel) {
+  std::uint64_t changed = 0;
   sky_end_ = std::numeric_limits<std::uint32_t>::max();
   for (; bsps != 0; bsps &= bsps - 1) {
     const auto bsp = static_cast<std::size_t>(std::countr_zero(bsps));
-    owners_[bsp] = sky_[bsp].owner_of(pixel);
+    changed |= take(bsp, sky_[bsp].owner_of(pixel));
     sky_end_ = std::min(sky_end_, sky_[bsp].end());
   }
+  return changed;
+}
+
+/// The Bsp's bit if that changes its owner.
+std::uint64_t PrimaryOwners::take(std::size_t bsp, std::uint16_t owner) {
+  const bool is_other = std::exchange(owners_[bsp], owner) != owner;
+  return std::uint64_t{is_other ? 1U : 0U} << bsp;
 }
 
 }  // namespace dmpc::dataflow

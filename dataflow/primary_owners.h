@@ -1,6 +1,8 @@
 // Whose a primary ray is, in every one of several ways to share space out.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -39,32 +41,35 @@ class SkyOwners {
 };
 
 /// Goes through the primary rays of a picture, in ascending order, and knows the owner of each by Bsp: who has the first region
-/// on its way that holds something, or its share of the sky. Most rays have the owners of the ray before them, which takes one
-/// comparison to see. Not thread-safe.
+/// on its way that holds something, or its share of the sky. Most rays have the owners of the ray before them. Not thread-safe.
 class PrimaryOwners {
  public:
   /// `settings` outlive it. Requires 1 to JointLattice::bsps_max Bsps of one grid.
   PrimaryOwners(const core::RenderSettings& settings, std::span<const Bsp> bsps);
 
-  /// Goes to a ray; false if all owners are certain to be those of the ray before.
-  bool find(std::uint32_t pixel, std::uint32_t sample);
+  /// Goes to a ray. Returns the Bsps in which its owner is not that of the ray before, a bit each: at first, where it is not node
+  /// 0.
+  std::uint64_t find(std::uint32_t pixel, std::uint32_t sample);
+  /// A bit for each.
+  std::uint64_t all_bsps() const { return lattice_.all_bsps(); }
   /// Of the ray found last, by Bsp.
   std::span<const std::uint16_t> owners() const { return owners_; }
 
  private:
-  /// What is known of the ray before, instead of the cell in which it enters: its owners were found on its way, or in the sky.
-  static constexpr std::size_t on_the_way = ~std::size_t{0}, in_the_sky = on_the_way - 1;
-
-  std::uint64_t follow();
-  void take_sky(std::uint64_t bsps, std::uint32_t pixel);
+  std::uint64_t follow(std::uint32_t pixel);
+  std::uint64_t take_cell(std::uint64_t bsps, std::size_t cell);
+  std::uint64_t take_sky(std::uint64_t bsps, std::uint32_t pixel);
+  std::uint64_t take(std::size_t bsp, std::uint16_t owner);
 
   const core::RenderSettings& settings_;
   JointLattice lattice_;
   LatticeWalk walk_;
   std::vector<SkyOwners> sky_;
   std::vector<std::uint16_t> owners_;
-  std::size_t before_ = on_the_way;  ///< the cell that gave all owners of the ray before, or one of the above
-  std::uint32_t sky_end_ = 0;        ///< the first pixel where the owner of the sky changes in some Bsp
+  std::array<std::size_t, JointLattice::bsps_max> deciding_{};  ///< the cells that gave the ray found last its owners, in order
+  std::size_t deciding_count_ = 0;
+  bool is_sky_ = false;        ///< the ray found last has owners of the sky alone
+  std::uint32_t sky_end_ = 0;  ///< if so: the first pixel where one of them is another
 };
 
 }  // namespace dmpc::dataflow

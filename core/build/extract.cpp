@@ -1,6 +1,7 @@
 #include "core/build/extract.h"
 
 #include <array>
+#include <bit>
 #include <cstring>
 #include <map>
 #include <utility>
@@ -100,20 +101,27 @@ class Extractor {
     }
     return false;
   }
+  /// A bit for each.
+  std::uint32_t needed_children(const Brick& brick) const {
+    std::uint32_t needed = 0;
+    for (std::size_t child = 0; child < brick.child_count; ++child) {
+      needed |= (needs(brick, child) ? 1U : 0U) << child;
+    }
+    return needed;
+  }
 
-  Brick brick_at(Address address) const { return read<Brick>(at(address)); }
+  const Brick& brick_at(Address address) const { return *reinterpret_cast<const Brick*>(at(address)); }
 
   /// Copies what a brick has for the region; no_address if that is nothing.
   Address copy_brick(const Brick& from) {
-    if (!needs_any_child(from)) {
+    std::uint32_t needed = needed_children(from);
+    if (needed == 0) {
       return no_address;
     }
     const Address to = writer_.allocate(sizeof(Brick));
     Brick brick{.origin = from.origin, .unit = from.unit};
-    for (std::size_t child = 0; child < from.child_count; ++child) {
-      if (!needs(from, child)) {
-        continue;
-      }
+    for (; needed != 0; needed &= needed - 1) {
+      const auto child = static_cast<std::size_t>(std::countr_zero(needed));
       const Address old = from.child[child].address();
       const std::size_t place = brick.child_count++;
       brick.child[place] =

@@ -31,6 +31,8 @@ class JointLattice {
   /// A cell by its place along each axis: between planes i and i + 1.
   using Place = std::array<std::size_t, 3>;
   std::size_t cell_at(const Place& place) const { return place[0] * stride_[0] + place[1] * stride_[1] + place[2] * stride_[2]; }
+  /// From a cell to the next along an axis.
+  std::size_t stride(std::size_t axis) const { return stride_[axis]; }
   /// The node that owns the cell, by Bsp.
   std::span<const std::uint16_t> owners(std::size_t cell) const {
     return std::span(owners_).subspan(cell * bsp_count_, bsp_count_);
