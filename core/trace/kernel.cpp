@@ -162,45 +162,10 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace dmpc::core {
+HWY_EXPORT(children);
+HWY_EXPORT(triangles);
+
 namespace {
-
-/// Targets with SIMD here, from the least.
-enum class Simd : std::uint8_t { scalar, avx2, avx3 };
-
-/// What the processor and its system have: asked of the compiler's library and not of Highway's, which is not linked, since it
-/// spends 2 ms on a clock's resolution wherever it is loaded. The features are those of Highway's targets.
-Simd simd() {
-#if HWY_ARCH_X86
-  __builtin_cpu_init();
-  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma") || !__builtin_cpu_supports("bmi") ||
-      !__builtin_cpu_supports("bmi2")) {
-    return Simd::scalar;
-  }
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
-                 __builtin_cpu_supports("avx512bw")
-             ? Simd::avx3
-             : Simd::avx2;
-#else
-  return Simd::scalar;
-#endif
-}
-
-// Flags may promise a target, which leaves out those below it; there may be none at all.
-#if HWY_TARGETS & HWY_AVX2
-#define DMPC_FOR_AVX2(kernel) N_AVX2::kernel
-#else
-#define DMPC_FOR_AVX2(kernel) HWY_STATIC_DISPATCH(kernel)
-#endif
-#if HWY_TARGETS & HWY_AVX3
-#define DMPC_FOR_AVX3(kernel) N_AVX3::kernel
-#else
-#define DMPC_FOR_AVX3(kernel) DMPC_FOR_AVX2(kernel)
-#endif
-
-template <class Kernel>
-Kernel fastest(Kernel for_avx3, Kernel for_avx2, Kernel otherwise) {
-  return simd() == Simd::avx3 ? for_avx3 : simd() == Simd::avx2 ? for_avx2 : otherwise;
-}
 
 std::uint32_t bit_if(bool condition, std::size_t lane) { return condition ? 1U << lane : 0U; }
 
@@ -232,8 +197,10 @@ BrickChild meet_children_scalar(const BoxRay& ray, const Brick& brick, float t_l
   return waiting.count > first ? waiting.take() : BrickChild::none();
 }
 
-const BrickKernel meet_children =
-    fastest<BrickKernel>(DMPC_FOR_AVX3(children), DMPC_FOR_AVX2(children), HWY_STATIC_DISPATCH(children));
+const BrickKernel meet_children = [] {
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  return HWY_DYNAMIC_DISPATCH(children);
+}();
 
 std::uint32_t hit_triangles_scalar(const ShearedRay& ray, const TriangleRows& triangles, std::uint32_t ignored, float t_most,
                                    float* times) {
@@ -246,10 +213,15 @@ std::uint32_t hit_triangles_scalar(const ShearedRay& ray, const TriangleRows& tr
   return hits;
 }
 
-const TriangleKernel hit_triangles =
-    fastest<TriangleKernel>(DMPC_FOR_AVX3(triangles), DMPC_FOR_AVX2(triangles), HWY_STATIC_DISPATCH(triangles));
+const TriangleKernel hit_triangles = [] {
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  return HWY_DYNAMIC_DISPATCH(triangles);
+}();
 
-const char* simd_name() { return fastest("AVX3", "AVX2", "scalar"); }
+const char* simd_name() {
+  const auto targets = hwy::SupportedTargets();
+  return (targets & (HWY_AVX3 | HWY_AVX3_DL)) != 0 ? "AVX3" : (targets & HWY_AVX2) != 0 ? "AVX2" : "scalar";
+}
 
 namespace {
 
