@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <ostream>
+#include <set>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -62,10 +63,17 @@ bool is_quiet(const Options& options) {
 /// All commands, declared, and what a line sets.
 class Commands {
  public:
+  /// With all their options, and what completes them.
   Commands() {
     declare_commands();
     declare_help();
     declare_values();
+  }
+  /// Of those commands alone that `line` may name are there options. To declare all takes longer than anything else that a short
+  /// command does.
+  explicit Commands(std::span<const std::string> line) : line_words_(std::in_place, line.begin(), line.end()) {
+    declare_commands();
+    declare_help();
   }
   // Options are bound to the members.
   Commands(const Commands&) = delete;
@@ -115,7 +123,10 @@ class Commands {
   template <class Options, class Run>
   void add(const std::string& name, const std::string& description, Options defaults, Run run) {
     const auto options = std::make_shared<Options>(std::move(defaults));
-    add_options(group_ ? group_->second.add_command(name, description) : line_.add_command(name, description), *options);
+    const OptionSet declared = group_ ? group_->second.add_command(name, description) : line_.add_command(name, description);
+    if (!line_words_ || line_words_->contains(name)) {
+      add_options(declared, *options);
+    }
     rows_[(group_ ? group_->first : "") + name] = [options, run] {
       return Command(*options, is_quiet(*options), [options, run](Interrupt& interrupt, std::ostream& output) {
         if constexpr (std::is_invocable_v<Run, const Options&, std::ostream&>) {
@@ -204,6 +215,7 @@ class Commands {
     }
   }
 
+  std::optional<std::set<std::string, std::less<>>> line_words_;  ///< nothing: any
   CommandLine line_{"dmpc: a distributed-memory parallel computer on one machine, for ray tracing", "dmpc " DMPC_VERSION,
                     "dmpc COMMAND --help says more, with examples; dmpc list what there is, dmpc help glossary what words "
                     "mean.\nStart with: dmpc render teapot-12 --nodes=8 -o teapot.png"};
@@ -213,15 +225,23 @@ class Commands {
   Suggestion topics_;                                       ///< that `help` explains
 };
 
-}  // namespace
-
-Command parse_command_line(std::span<const std::string> arguments) {
-  Commands commands;
+Command read_by(Commands&& commands, std::span<const std::string> arguments) {
   const std::variant<HelpText, std::string> parsed = commands.line().parse(arguments);
   if (const auto* help = std::get_if<HelpText>(&parsed)) {
     return help_command(*help);
   }
   return commands.named(std::get<std::string>(parsed));
+}
+
+}  // namespace
+
+Command parse_command_line(std::span<const std::string> arguments) {
+  try {
+    return read_by(Commands(arguments), arguments);
+  } catch (const core::UsageError&) {
+    // What is said of a wrong line may name options of other commands.
+    return read_by(Commands(), arguments);
+  }
 }
 
 CommandDescription describe_command_line() { return Commands().line().describe(); }

@@ -11,6 +11,17 @@ bool fits(PlanRequest& request, std::uint32_t node_count, const MakeShares& make
   return smallest_node_memory_bytes(request) <= *request.computer.node_memory_bytes;
 }
 
+/// Rays need not go to the owner of a region that holds nothing.
+void mark_if_empty(Bsp& bsp, std::uint32_t node, const core::DatabasePart& part, const core::RenderSettings& settings) {
+  if (settings.skips.empty_regions && part.primitive_copies == 0) {
+    bsp.mark_empty(bsp.region_index_of(nodes::NodeId{node}));
+  }
+}
+
+double duplication_of(std::uint64_t copies, const core::Database& database) {
+  return database.references() == 0 ? 1.0 : static_cast<double>(copies) / static_cast<double>(database.references());
+}
+
 }  // namespace
 
 std::vector<Share> Distribution::shares() const {
@@ -26,24 +37,46 @@ double Distribution::duplication(const core::Database& database) const {
   for (const core::DatabasePart& part : parts) {
     copies += part.primitive_copies;
   }
-  return database.references() == 0 ? 1.0 : static_cast<double>(copies) / static_cast<double>(database.references());
+  return duplication_of(copies, database);
 }
 
 Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Bsp& bsp,
-                        const std::stop_token& stop, const Dealing& dealing) {
+                        const std::stop_token& stop, bool deals_primaries) {
   Distribution distribution{bsp, {}, {}};
   for (std::uint32_t node = 0; node < bsp.region_count(); ++node) {
     distribution.parts.push_back(core::extract(database, bsp.region_of(nodes::NodeId{node})));
-    if (!dealing.records) {
-      core::forget(distribution.parts.back().bytes);
-    }
-    if (settings.skips.empty_regions && distribution.parts.back().primitive_copies == 0) {
-      distribution.bsp.mark_empty(bsp.region_index_of(nodes::NodeId{node}));
-    }
+    mark_if_empty(distribution.bsp, node, distribution.parts.back(), settings);
   }
   distribution.primaries = deal_primaries(settings, distribution.bsp, settings.first_samples(),
-                                          core::PixelMask(settings.camera.pixel_count(), dealing.primaries), stop);
+                                          core::PixelMask(settings.camera.pixel_count(), deals_primaries), stop);
   return distribution;
+}
+
+MeasuredParts measure_parts(const core::Database& database, const core::RenderSettings& settings, Bsp& bsp) {
+  MeasuredParts parts;
+  std::uint64_t copies = 0;
+  for (std::uint32_t node = 0; node < bsp.region_count(); ++node) {
+    const core::DatabasePart part = core::measure_part(database, bsp.region_of(nodes::NodeId{node}));
+    mark_if_empty(bsp, node, part, settings);
+    parts.record_bytes.push_back(part.record_bytes);
+    copies += part.primitive_copies;
+  }
+  parts.duplication = duplication_of(copies, database);
+  return parts;
+}
+
+std::vector<std::vector<Share>> measure_shares(const core::RenderSettings& settings, std::span<const Bsp> bsps,
+                                               std::span<const MeasuredParts> parts, const std::stop_token& stop,
+                                               bool deals_primaries) {
+  const auto runs = count_primary_runs(settings, bsps, settings.first_samples(),
+                                       core::PixelMask(settings.camera.pixel_count(), deals_primaries), stop);
+  std::vector<std::vector<Share>> shares(bsps.size());
+  for (std::size_t i = 0; i < bsps.size(); ++i) {
+    for (std::uint32_t node = 0; node < bsps[i].region_count(); ++node) {
+      shares[i].push_back({parts[i].record_bytes[node], runs[i][node]});
+    }
+  }
+  return shares;
 }
 
 std::optional<std::uint32_t> smallest_node_count(PlanRequest request, const MakeShares& make_shares) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -41,16 +42,24 @@ struct Distribution {
   }
 };
 
-/// What is dealt: without primary rays these wait, without records only their bytes are counted.
-struct Dealing {
-  bool primaries = true;
-  bool records = true;
+/// Cuts the database up; values keep their bits. Marks the regions that hold nothing, if they are to be skipped. After a stop is
+/// requested some primary rays are dealt to nobody; without primary rays all of them wait.
+Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Bsp& bsp,
+                        const std::stop_token& stop = {}, bool deals_primaries = true);
+
+/// What distribute() would deal as parts, by node.
+struct MeasuredParts {
+  std::vector<std::size_t> record_bytes;
+  double duplication = 1;  ///< as that of Distribution
 };
 
-/// Cuts the database up; values keep their bits. Marks the regions that hold nothing, if they are to be skipped. After a stop is
-/// requested some primary rays are dealt to nobody.
-Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Bsp& bsp,
-                        const std::stop_token& stop = {}, const Dealing& dealing = {});
+/// Measures the parts and keeps none. Marks regions in `bsp` as distribute() does.
+MeasuredParts measure_parts(const core::Database& database, const core::RenderSettings& settings, Bsp& bsp);
+
+/// What distribute() would deal to computers whose regions are `bsps`, of which `parts` have been measured.
+std::vector<std::vector<Share>> measure_shares(const core::RenderSettings& settings, std::span<const Bsp> bsps,
+                                               std::span<const MeasuredParts> parts, const std::stop_token& stop = {},
+                                               bool deals_primaries = true);
 
 /// The smallest number of nodes above the request's with which make_plan() succeeds under the request's memory bound, as far as
 /// halving the interval finds it: more nodes need less for their parts but more for their queues.

@@ -1,57 +1,56 @@
 #include "dataflow/primaries.h"
 
 #include <algorithm>
-#include <optional>
+#include <bit>
 #include <utility>
 
 #include "core/base/expect.h"
-#include "core/trace/traversal.h"
-#include "dataflow/next_stop.h"
+#include "dataflow/primary_owners.h"
 
 namespace dmpc::dataflow {
 namespace {
 
-/// The nodes that share the sky: all but those whose region holds nothing, unless that is all.
-std::vector<std::uint32_t> sky_nodes(const Bsp& bsp) {
-  std::vector<std::uint32_t> all, occupied;
-  for (std::uint32_t node = 0; node < bsp.region_count(); ++node) {
-    all.push_back(node);
-    if (!bsp.is_empty(bsp.region_index_of(nodes::NodeId{node}))) {
-      occupied.push_back(node);
+constexpr std::uint32_t nobody = ~std::uint32_t{0};
+
+/// Goes through the rays of a pass. Calls begin(bsp, node, number) where a Bsp's run of consecutive rays of one node begins, with
+/// `nobody` for rays that are not dealt and, in the end, behind the last.
+template <class Begin>
+void deal(const core::RenderSettings& settings, std::span<const Bsp> bsps, const core::SampleRange& samples,
+          const core::PixelMask& pixels, const std::stop_token& stop, const Begin& begin) {
+  PrimaryOwners owners(settings, bsps);
+  const auto begin_each = [&](std::uint64_t those, std::uint64_t number, bool is_dealt) {
+    for (; those != 0; those &= those - 1) {
+      const auto bsp = static_cast<std::size_t>(std::countr_zero(those));
+      begin(bsp, is_dealt ? owners.owners()[bsp] : nobody, number);
+    }
+  };
+  std::uint64_t number = 0;
+  bool is_dealt = false;  // the ray before
+  for (std::uint32_t pixel = 0; pixel < settings.camera.pixel_count() && !stop.stop_requested(); ++pixel) {
+    const bool was_dealt = std::exchange(is_dealt, pixels.has(pixel));
+    if (!is_dealt) {
+      begin_each(was_dealt ? owners.all_bsps() : 0, number, false);
+      number += samples.count;
+      continue;
+    }
+    for (std::uint32_t i = 0; i < samples.count; ++i, ++number) {
+      const std::uint64_t changed = owners.find(pixel, samples.first + i);
+      begin_each(was_dealt || i > 0 ? changed : owners.all_bsps(), number, true);
     }
   }
-  return occupied.empty() ? all : occupied;
+  begin_each(is_dealt ? owners.all_bsps() : 0, number, false);
 }
 
-/// Finds whose a primary ray is.
-class Dealer {
- public:
-  Dealer(const core::RenderSettings& settings, const Bsp& bsp) : settings_(settings), bsp_(bsp), sky_nodes_(sky_nodes(bsp)) {}
-
-  std::uint32_t node_of(std::uint32_t pixel, std::uint32_t sample) {
-    const auto region_owner = settings_.shows_background(pixel) ? std::nullopt : first_owner(pixel, sample);
-    return region_owner.value_or(sky_nodes_[std::uint64_t{pixel} * sky_nodes_.size() / settings_.camera.pixel_count()]);
+/// As many of the first of `bsps` as one lattice may be of. Cuts that do not go on in each other's make many cells.
+std::size_t joint_count(std::span<const Bsp> bsps) {
+  constexpr std::size_t owners_max = std::size_t{1} << 21U;
+  std::size_t count = 1;
+  while (count < std::min(bsps.size(), JointLattice::bsps_max) &&
+         JointLattice::owner_count(bsps.first(count + 1)) <= owners_max) {
+    ++count;
   }
-
- private:
-  /// Of the regions on the ray's way that hold something.
-  std::optional<std::uint32_t> first_owner(std::uint32_t pixel, std::uint32_t sample) {
-    const core::GridFrame& frame = settings_.header.frame;
-    const core::Ray ray = settings_.camera.primary_ray(pixel, sample);
-    if (const auto passage = core::first_passage(ray, frame)) {
-      const NextStop stop = next_stop(ray, *passage, frame, bsp_, operations_);
-      if (stop.traced == core::Traced::left) {
-        return nodes::index_of(bsp_.owner_of(stop.passage.cell));
-      }
-    }
-    return std::nullopt;
-  }
-
-  const core::RenderSettings& settings_;
-  const Bsp& bsp_;
-  std::vector<std::uint32_t> sky_nodes_;
-  core::Operations operations_;  // nobody's: dealing is the host's, which the model does not charge
-};
+  return count;
+}
 
 }  // namespace
 
@@ -59,19 +58,33 @@ std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& 
                                                     const core::SampleRange& samples, const core::PixelMask& pixels,
                                                     const std::stop_token& stop) {
   std::vector<std::vector<PrimaryRun>> runs(bsp.region_count());
-  Dealer dealer(settings, bsp);
-  for (std::uint32_t pixel = 0; pixel < settings.camera.pixel_count() && !stop.stop_requested(); ++pixel) {
-    for (std::uint32_t i = 0; i < samples.count && pixels.has(pixel); ++i) {
-      const std::uint64_t number = std::uint64_t{pixel} * samples.count + i;
-      std::vector<PrimaryRun>& of_node = runs[dealer.node_of(pixel, samples.first + i)];
-      if (!of_node.empty() && of_node.back().first + of_node.back().count == number) {
-        ++of_node.back().count;
-      } else {
-        of_node.push_back({number, 1});
-      }
+  PrimaryRun* before = nullptr;
+  deal(settings, std::span(&bsp, 1), samples, pixels, stop, [&](std::size_t, std::uint32_t node, std::uint64_t number) {
+    if (before != nullptr) {
+      before->count = number - before->first;
     }
-  }
+    before = node == nobody ? nullptr : &runs[node].emplace_back(PrimaryRun{.first = number});
+  });
   return runs;
+}
+
+std::vector<std::vector<std::size_t>> count_primary_runs(const core::RenderSettings& settings, std::span<const Bsp> bsps,
+                                                         const core::SampleRange& samples, const core::PixelMask& pixels,
+                                                         const std::stop_token& stop) {
+  std::vector<std::vector<std::size_t>> counts;
+  while (counts.size() < bsps.size()) {
+    const std::size_t first = counts.size();
+    const std::span<const Bsp> left = bsps.subspan(first), joint = left.first(joint_count(left));
+    for (const Bsp& bsp : joint) {
+      counts.emplace_back(bsp.region_count());
+    }
+    deal(settings, joint, samples, pixels, stop, [&](std::size_t bsp, std::uint32_t node, std::uint64_t) {
+      if (node != nobody) {
+        ++counts[first + bsp][node];
+      }
+    });
+  }
+  return counts;
 }
 
 std::size_t Primaries::capacity(std::size_t run_count, bool is_dealt) {

@@ -23,6 +23,12 @@ std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& 
                                                     const core::SampleRange& samples, const core::PixelMask& pixels,
                                                     const std::stop_token& stop = {});
 
+/// How many runs deal_primaries() would deal to each node, for each of `bsps`, which share out one grid. Takes hardly longer for
+/// many Bsps than for one.
+std::vector<std::vector<std::size_t>> count_primary_runs(const core::RenderSettings& settings, std::span<const Bsp> bsps,
+                                                         const core::SampleRange& samples, const core::PixelMask& pixels,
+                                                         const std::stop_token& stop = {});
+
 /// A node's own primary rays, in its local memory: those dealt before the start, then packets of those that the host deals on the
 /// way. Thread safety: belongs to one node.
 class Primaries {

@@ -16,18 +16,6 @@ using TrafficByKind = std::array<nodes::Traffic, nodes::packet_kind_count>;
 /// What was dealt before the start would have to be done before anything can be kept.
 bool is_dealt_on_the_way(const RunOptions& options) { return options.continuation.start != nullptr || options.continuation.keep; }
 
-PlanRequest request_of(const Distribution& distribution, const core::RenderSettings& settings, const RunOptions& options) {
-  return {.shares = distribution.shares(),
-          .computer = options.computer,
-          .rays = options.rays,
-          .depth_max = static_cast<std::uint32_t>(settings.shade.depth_max),
-          .width = static_cast<std::uint32_t>(settings.camera.width()),
-          .height = static_cast<std::uint32_t>(settings.camera.height()),
-          .first_samples = settings.first_samples().count,
-          .refinement = settings.refinement,
-          .is_dealt_on_the_way = is_dealt_on_the_way(options)};
-}
-
 /// Regions on their nodes, and the predicted load of each node if there is one.
 struct Regions {
   Bsp bsp;
@@ -58,11 +46,11 @@ Regions regions_for(std::uint32_t node_count, const ColumnLoads& loads, const co
 
 Plan plan_for(const Distribution& distribution, const core::Database& database, const ColumnLoads& loads,
               const core::RenderSettings& settings, const RunOptions& options, const std::stop_token& stop) {
-  const PlanRequest request = request_of(distribution, settings, options);
+  const PlanRequest request = plan_request(distribution.shares(), settings, options);
   const MakeShares make_shares = [&](std::uint32_t node_count) {
-    const Regions regions = regions_for(node_count, loads, settings, options);
-    return distribute(database, settings, regions.bsp, stop, {.primaries = !is_dealt_on_the_way(options), .records = false})
-        .shares();
+    Bsp bsp = regions_for(node_count, loads, settings, options).bsp;
+    const MeasuredParts parts = measure_parts(database, settings, bsp);
+    return measure_shares(settings, std::span(&bsp, 1), std::span(&parts, 1), stop, !is_dealt_on_the_way(options)).front();
   };
   return make_plan(request, [&] { return smallest_node_count(request, make_shares); });
 }
@@ -227,13 +215,24 @@ nodes::Traffic ray_traffic(const TrafficByKind& by_kind) {
   return sum;
 }
 
+PlanRequest plan_request(std::vector<Share> shares, const core::RenderSettings& settings, const RunOptions& options) {
+  return {.shares = std::move(shares),
+          .computer = options.computer,
+          .rays = options.rays,
+          .depth_max = static_cast<std::uint32_t>(settings.shade.depth_max),
+          .width = static_cast<std::uint32_t>(settings.camera.width()),
+          .height = static_cast<std::uint32_t>(settings.camera.height()),
+          .first_samples = settings.first_samples().count,
+          .refinement = settings.refinement,
+          .is_dealt_on_the_way = is_dealt_on_the_way(options)};
+}
+
 Prepared prepare(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
-                 const std::stop_token& stop, bool with_records) {
+                 const std::stop_token& stop) {
   const ColumnLoads loads = column_loads(database, settings, options.rays.balance, stop);
   Regions regions = regions_for(options.computer.node_count, loads, settings, options);
-  Prepared prepared{
-      .distribution = distribute(database, settings, regions.bsp, stop, {!is_dealt_on_the_way(options), with_records}),
-      .predicted = std::move(regions.predicted)};
+  Prepared prepared{.distribution = distribute(database, settings, regions.bsp, stop, !is_dealt_on_the_way(options)),
+                    .predicted = std::move(regions.predicted)};
   prepared.duplication = prepared.distribution.duplication(database);
   prepared.plan = plan_for(prepared.distribution, database, loads, settings, options, stop);
   return prepared;

@@ -90,9 +90,11 @@ struct Prepared {
 
 /// Balances, deals and plans. Takes about as long as rendering the subsampled picture. Throws as make_plan() does. After
 /// a stop is requested it makes haste, and what it returns is good for nothing but a run that the same stop ends at once.
-/// Without records it is good for its plan alone, and takes no more memory than one part.
 Prepared prepare(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
-                 const std::stop_token& stop = {}, bool with_records = true);
+                 const std::stop_token& stop = {});
+
+/// What prepare() asks make_plan() for, where the nodes are dealt these shares.
+PlanRequest plan_request(std::vector<Share> shares, const core::RenderSettings& settings, const RunOptions& options);
 
 /// Renders what prepare() has prepared with the same settings and options. Throws core::InternalError if a law of conservation is
 /// broken. Several calls at one time are independent.

@@ -21,7 +21,6 @@
 
 #include "apps/foreign/gltf/reader.h"
 #include "apps/foreign/mesh/material.h"
-#include "apps/foreign/mesh/mtl_check.h"
 #include "apps/foreign/mesh/mtl_text.h"
 #include "apps/foreign/mesh/obj_check.h"
 #include "apps/foreign/mesh/ply_check.h"
@@ -135,8 +134,9 @@ class Files final : public Assimp::IOSystem {
   }
   std::unique_ptr<FileBytes> materials(const std::string& path) {
     const std::unique_ptr<FileBytes> file = library(path);
-    note_once(result_.notes, check_mtl(path, text_of(*file)));
-    return std::make_unique<TextBytes>(plain_mtl(text_of(*file), textures_));
+    PlainMtl plain = plain_mtl(path, text_of(*file), textures_);
+    note_once(result_.notes, plain.note);
+    return std::make_unique<TextBytes>(std::move(plain.text));
   }
   /// A library of materials, which may be called otherwise than the scene says.
   std::unique_ptr<FileBytes> library(const std::string& path) {

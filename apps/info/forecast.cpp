@@ -28,20 +28,40 @@ class Forecaster {
         loads_(dataflow::column_loads(database, settings, balance)),
         region_seconds_(stopwatch_.lap()) {}
 
-  ComputerForecast computer(std::uint32_t node_count) {
-    ComputerForecast result{.nodes = node_count,
-                            .svm = with_pages(svm::Strategy::svm, node_count),
-                            .replicated = with_pages(svm::Strategy::replicated, node_count)};
+  void add(std::uint32_t node_count) {
+    computers_.push_back({.nodes = node_count,
+                          .svm = with_pages(svm::Strategy::svm, node_count),
+                          .replicated = with_pages(svm::Strategy::replicated, node_count)});
     if (node_count <= dataflow::region_count_max) {
-      add_rays(result);
+      stopwatch_.lap();
+      bsps_.push_back(regions(node_count));
+      parts_.push_back(dataflow::measure_parts(database_, settings_, bsps_.back()));
+      region_seconds_ += stopwatch_.lap();
     }
-    return result;
   }
-  double region_seconds() const { return region_seconds_; }
+
+  /// All computers added. The primary rays are dealt to all at one go.
+  Forecast result() {
+    stopwatch_.lap();
+    const auto shares = dataflow::measure_shares(settings_, bsps_, parts_);
+    std::size_t next = 0;
+    for (ComputerForecast& computer : computers_) {
+      if (computer.nodes <= dataflow::region_count_max) {
+        computer.dataflow = with_rays(shares[next]);
+        computer.dataflow_copies = parts_[next].duplication;
+        ++next;
+      }
+    }
+    return {.computers = computers_, .balance = balance_.balance, .region_seconds = region_seconds_ + stopwatch_.lap()};
+  }
 
  private:
   MemoryForecast with_pages(svm::Strategy strategy, std::uint32_t node_count) const {
     return forecast_of(svm::plan_of(strategy, database_, settings_, {.computer = {.node_count = node_count}}), node_count);
+  }
+  MemoryForecast with_rays(const std::vector<dataflow::Share>& shares) const {
+    return forecast_of(dataflow::make_plan(dataflow::plan_request(shares, settings_, {})),
+                       static_cast<std::uint32_t>(shares.size()));
   }
 
   /// From the loads known already; on their nodes, since some primary rays are dealt to nodes by number.
@@ -51,23 +71,15 @@ class Forecaster {
     return bsp;
   }
 
-  void add_rays(ComputerForecast& result) {
-    stopwatch_.lap();
-    dataflow::RunOptions run{.computer = {.node_count = result.nodes},
-                             .rays = {.balance = {.balance = dataflow::Balance::equal_size}}};
-    run.make_bsp = [&](std::uint32_t count) { return regions(count); };
-    const dataflow::Prepared prepared = dataflow::prepare(database_, settings_, run, {}, false);
-    result.dataflow = forecast_of(prepared.plan, result.nodes);
-    result.dataflow_copies = prepared.duplication;
-    region_seconds_ += stopwatch_.lap();
-  }
-
   const core::Database& database_;
   const core::RenderSettings& settings_;
   const dataflow::BalanceOptions& balance_;
   Stopwatch stopwatch_;
   dataflow::ColumnLoads loads_;
   double region_seconds_;
+  std::vector<ComputerForecast> computers_;
+  std::vector<dataflow::Bsp> bsps_;             ///< of those computers that dataflow goes on
+  std::vector<dataflow::MeasuredParts> parts_;  ///< of the same
 };
 
 }  // namespace
@@ -76,15 +88,14 @@ Forecast forecast(const core::Database& database, const core::RenderSettings& se
                   const std::vector<std::uint32_t>& node_counts, const dataflow::BalanceOptions& balance,
                   const ForecastProgress& progress) {
   Forecaster forecaster(database, settings, balance);
-  Forecast result{.balance = balance.balance};
+  std::uint64_t done = 0;
   for (const std::uint32_t node_count : node_counts) {
-    result.computers.push_back(forecaster.computer(node_count));
+    forecaster.add(node_count);
     if (progress) {
-      progress(result.computers.size(), node_counts.size());
+      progress(++done, node_counts.size());
     }
   }
-  result.region_seconds = forecaster.region_seconds();
-  return result;
+  return forecaster.result();
 }
 
 }  // namespace dmpc::apps

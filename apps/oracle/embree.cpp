@@ -1,6 +1,7 @@
 #include "apps/oracle/embree.h"
 
 #include <array>
+#include <string>
 
 #include "apps/oracle/curved.h"
 #include "apps/system/module.h"
@@ -21,8 +22,34 @@ void set_bounds(const RTCBoundsFunctionArguments* arguments) {
 }  // namespace
 
 const Library& library() {
-  static const auto* const opened = static_cast<const Library*>(open_module("embree", "asks Embree what rays hit"));
+  static const auto* const opened = static_cast<const Library*>(open_module("embree", "asks Embree what rays hit", 0));
   return *opened;
+}
+
+OwnedScene::OwnedScene(RTCSceneFlags flags, RTCBuildQuality quality, std::uint32_t thread_count)
+    : quality_(quality),
+      device_(library_.new_device(thread_count == 0 ? nullptr : ("threads=" + std::to_string(thread_count)).c_str())),
+      scene_(device_ == nullptr ? nullptr : library_.new_scene(device_)) {
+  core::expect(scene_ != nullptr, "Embree opens its device");
+  library_.set_scene_flags(scene_, flags);
+  library_.set_scene_build_quality(scene_, quality);
+}
+
+OwnedScene::~OwnedScene() {
+  library_.release_scene(scene_);
+  library_.release_device(device_);
+}
+
+void OwnedScene::attach(RTCGeometry geometry) {
+  library_.set_geometry_build_quality(geometry, quality_);
+  library_.commit_geometry(geometry);
+  library_.attach_geometry(scene_, geometry);
+  library_.release_geometry(geometry);
+}
+
+void OwnedScene::build() {
+  library_.commit_scene(scene_);
+  core::expect(library_.device_error(device_) == RTC_ERROR_NONE, "Embree builds the scene without an error");
 }
 
 Shapes::Shapes(std::span<const core::PrimitiveValues> given) : primitives(given) {
@@ -61,14 +88,6 @@ RTCGeometry curved_geometry(RTCDevice device, const Shapes& shapes, RTCIntersect
   embree.set_geometry_intersect_function(geometry, intersect);
   embree.set_geometry_occluded_function(geometry, occlude);
   return geometry;
-}
-
-void attach(RTCScene scene, RTCGeometry geometry, RTCBuildQuality quality) {
-  const Library& embree = library();
-  embree.set_geometry_build_quality(geometry, quality);
-  embree.commit_geometry(geometry);
-  embree.attach_geometry(scene, geometry);
-  embree.release_geometry(geometry);
 }
 
 }  // namespace dmpc::apps::embree

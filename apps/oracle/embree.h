@@ -48,6 +48,32 @@ struct Library {
 /// Opened at the first call, as open_module() says. Thread-safe.
 const Library& library();
 
+/// A scene on a device of its own, and the owner of both.
+class OwnedScene {
+ public:
+  /// An empty scene. Embree builds it with `thread_count` threads, 0: as many as there are processors. Throws core::InternalError
+  /// if Embree opens no device.
+  OwnedScene(RTCSceneFlags flags, RTCBuildQuality quality, std::uint32_t thread_count = 0);
+  ~OwnedScene();
+  OwnedScene(const OwnedScene&) = delete;
+  OwnedScene& operator=(const OwnedScene&) = delete;
+
+  /// For geometries that are to be attached.
+  RTCDevice device() const { return device_; }
+  /// To be asked, once it is built.
+  RTCScene scene() const { return scene_; }
+  /// Commits a geometry, with the scene's quality, and takes it over.
+  void attach(RTCGeometry geometry);
+  /// Throws core::InternalError if Embree reports an error.
+  void build();
+
+ private:
+  const Library& library_ = library();
+  RTCBuildQuality quality_;
+  RTCDevice device_;
+  RTCScene scene_;
+};
+
 // Embree 4 renamed the context and moved it into an arguments structure. That branch is untested: Debian 12 has 3.13.
 #if RTC_VERSION_MAJOR >= 4
 using Context = RTCRayQueryContext;
@@ -116,9 +142,6 @@ RTCGeometry curved_geometry(RTCDevice device, const Shapes& shapes, RTCIntersect
                             RTCOccludedFunctionN occlude);
 template <CurvedDistance distance>
 RTCGeometry curved_geometry(RTCDevice device, const Shapes& shapes);
-
-/// Commits a geometry, and hands it over to the scene.
-void attach(RTCScene scene, RTCGeometry geometry, RTCBuildQuality quality);
 
 template <CurvedDistance distance>
 void intersect_curved(const RTCIntersectFunctionNArguments* arguments) {

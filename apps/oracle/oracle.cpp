@@ -5,7 +5,6 @@
 
 #include "apps/oracle/curved.h"
 #include "apps/oracle/embree.h"
-#include "core/base/expect.h"
 #include "core/trace/primitive.h"
 
 namespace dmpc::apps {
@@ -55,17 +54,12 @@ std::optional<float> improving_distance(const embree::CurvedQuery& asked) {
 
 struct EmbreeScene::Parts {
   const embree::Library& library = embree::library();
-  RTCDevice device = library.new_device(nullptr);
-  RTCScene scene = nullptr;
   embree::Shapes shapes;
+  embree::OwnedScene tree;
 
-  explicit Parts(std::span<const core::PrimitiveValues> primitives) : shapes(primitives) {}
-  ~Parts() {
-    if (scene != nullptr) {
-      library.release_scene(scene);
-    }
-    library.release_device(device);
-  }
+  Parts(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode)
+      : shapes(primitives),
+        tree(mode == EmbreeMode::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH) {}
   RTCGeometry triangles();
 };
 
@@ -83,7 +77,7 @@ bool can_hit(const core::Ray& ray) { return is_finite(ray.origin) && is_finite(r
 }  // namespace
 
 RTCGeometry EmbreeScene::Parts::triangles() {
-  RTCGeometry geometry = embree::triangle_mesh(device, shapes);
+  RTCGeometry geometry = embree::triangle_mesh(tree.device(), shapes);
   library.set_geometry_user_data(geometry, shapes.triangles.data());
   library.set_geometry_intersect_filter_function(geometry, filter_triangle);
   library.set_geometry_occluded_filter_function(geometry, filter_triangle);
@@ -91,21 +85,15 @@ RTCGeometry EmbreeScene::Parts::triangles() {
 }
 
 EmbreeScene::EmbreeScene(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode)
-    : parts_(std::make_unique<Parts>(primitives)) {
-  core::expect(parts_->device != nullptr, "Embree opens its device");
-  const embree::Library& library = parts_->library;
+    : parts_(std::make_unique<Parts>(primitives, mode)) {
   const embree::Shapes& shapes = parts_->shapes;
-  RTCScene scene = parts_->scene = library.new_scene(parts_->device);
-  library.set_scene_flags(scene, mode == EmbreeMode::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
-  library.set_scene_build_quality(scene, RTC_BUILD_QUALITY_HIGH);
   if (!shapes.triangles.empty()) {
-    embree::attach(scene, parts_->triangles(), RTC_BUILD_QUALITY_HIGH);
+    parts_->tree.attach(parts_->triangles());
   }
   if (!shapes.curved.empty()) {
-    embree::attach(scene, embree::curved_geometry<improving_distance>(parts_->device, shapes), RTC_BUILD_QUALITY_HIGH);
+    parts_->tree.attach(embree::curved_geometry<improving_distance>(parts_->tree.device(), shapes));
   }
-  library.commit_scene(scene);
-  core::expect(library.device_error(parts_->device) == RTC_ERROR_NONE, "Embree builds the scene without an error");
+  parts_->tree.build();
 }
 
 EmbreeScene::~EmbreeScene() = default;
@@ -116,7 +104,7 @@ core::Hit EmbreeScene::closest(const core::Ray& ray) const {
     RTCRayHit ray_hit{};
     ray_hit.ray = embree::ray_of(ray);
     ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    embree::intersect(parts_->library, parts_->scene, query.context, ray_hit);
+    embree::intersect(parts_->library, parts_->tree.scene(), query.context, ray_hit);
   }
   return query.best;
 }
@@ -127,7 +115,7 @@ bool EmbreeScene::occluded(const core::Ray& ray) const {
   }
   Query query = start_query(ray);
   RTCRay asked = embree::ray_of(ray);
-  embree::occlude(parts_->library, parts_->scene, query.context, asked);
+  embree::occlude(parts_->library, parts_->tree.scene(), query.context, asked);
   return query.best.found();
 }
 

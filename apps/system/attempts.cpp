@@ -14,20 +14,26 @@ bool Attempts::make(const std::function<void()>& step) {
     return true;
   } catch (const BrokenPipe&) {
     unsaid_ = unsaid_ ? unsaid_ : std::current_exception();
+  } catch (const core::RoomError& error) {
+    say(error, no_room_status);
   } catch (const core::InputError& error) {
-    messages_ << "dmpc: " << error.what() << std::endl;
+    say(error, input_status);
   } catch (const std::exception&) {
     unsaid_ = unsaid_ ? unsaid_ : std::current_exception();
   }
-  has_failed_ = true;
   return false;
+}
+
+void Attempts::say(const std::exception& error, int status) {
+  messages_ << "dmpc: " << error.what() << std::endl;
+  status_ = status_ == 0 ? status : status_;
 }
 
 int Attempts::status() const {
   if (unsaid_) {
     std::rethrow_exception(unsaid_);
   }
-  return has_failed_ ? input_status : 0;
+  return status_;
 }
 
 }  // namespace dmpc::apps

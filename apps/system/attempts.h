@@ -10,18 +10,21 @@ namespace dmpc::apps {
 /// Not thread-safe.
 class Attempts {
  public:
-  /// What fails for bad input is said on `messages`, which outlives it, a line each.
+  /// What fails for bad input, or for want of room, is said on `messages`, which outlives it, a line each.
   explicit Attempts(std::ostream& messages) : messages_(messages) {}
 
   /// Calls `step`; whether it came to its end. An Interrupted passes; a broken pipe, of which nobody reads, is not said.
   bool make(const std::function<void()>& step);
 
-  /// The exit status after all of them. Throws what was no bad input, or a broken pipe, if there was such a thing.
+  /// The exit status after all of them: that of the first that failed. Throws what was neither bad input nor want of room, or a
+  /// broken pipe, if there was such a thing.
   int status() const;
 
  private:
+  void say(const std::exception& error, int status);
+
   std::ostream& messages_;
-  bool has_failed_ = false;
+  int status_ = 0;
   std::exception_ptr unsaid_;
 };
 

@@ -31,14 +31,12 @@ std::string loader_complaint() {
   return complaint == nullptr ? "the dynamic loader does not say why" : complaint;
 }
 
-/// A library that OpenImageIO brings (log4cplus) starts four threads as it is loaded, and now and then waits for ever if it
-/// cannot start them all. So as many and some more must be had at one time before.
-void check_thread_room(const std::string& what) {
-  constexpr int threads_wanted = 8;
+/// There may be libraries that wait for ever if they cannot start their threads.
+void check_thread_room(const std::string& what, std::size_t count) {
   std::latch over(1);
   std::vector<std::jthread> threads;
   try {
-    while (threads.size() < threads_wanted) {
+    while (threads.size() < count) {
       threads.emplace_back([&over] { over.wait(); });
     }
   } catch (const std::system_error& error) {
@@ -60,10 +58,10 @@ void* load(const std::string& path) {
 
 }  // namespace
 
-const void* open_module(const std::string& name, const std::string& purpose) {
+const void* open_module(const std::string& name, const std::string& purpose, std::size_t threads_at_once) {
   const std::string file = "dmpc_" + name + ".so", what = "the module " + file + ", with which dmpc " + purpose + ",";
   const std::string path = companion_path(file, "../lib/dmpc", what).lexically_normal().string();
-  check_thread_room(what);
+  check_thread_room(what, threads_at_once);
   void* const opened = load(path);
   if (opened == nullptr) {
     const std::string complaint = loader_complaint();

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "apps/system/shortage.h"
 #include "apps/system/surroundings.h"
 #include "core/base/expect.h"
 
@@ -259,7 +260,9 @@ void OutputFile::sync_folder() const {
 
 void OutputFile::fail(const std::string& what, int error) const {
   const std::string option = settings_.option.empty() ? "" : settings_.option + " ";
-  throw core::InputError(option + target_.string() + ": " + what + ": " + std::strerror(error));
+  const std::string sentence = option + target_.string() + ": " + what;
+  throw_if_short(error, sentence);
+  throw core::InputError(sentence + ": " + std::strerror(error));
 }
 
 void write_file(const fs::path& path, std::string_view text, Durability durability, Files& files) {

@@ -1,10 +1,13 @@
 #include "core/build/extract.h"
 
+#include <array>
+#include <bit>
 #include <cstring>
 #include <map>
 #include <utility>
 
 #include "core/base/units.h"
+#include "core/build/address_map.h"
 #include "core/build/record_writer.h"
 #include "core/build/texture_records.h"
 #include "core/record/directory.h"
@@ -18,8 +21,8 @@ constexpr std::size_t part_page_bytes = 512;
 
 class Extractor {
  public:
-  Extractor(const Database& database, const Region& region)
-      : whole_(database.header()), bytes_(database.bytes().data()), region_(region), writer_(part_page_bytes) {}
+  Extractor(const Database& database, const Region& region, Keeps keeps)
+      : whole_(database.header()), bytes_(database.bytes().data()), region_(region), writer_(part_page_bytes, keeps) {}
 
   DatabasePart extract() {
     DatabaseHeader& header = part_.header;
@@ -34,8 +37,8 @@ class Extractor {
     header.materials = copy_array<MaterialRecord>(whole_.materials, whole_.material_count);
     copy_directory();
     copy_textures();
+    part_.record_bytes = writer_.page_bytes();
     part_.bytes = std::move(writer_).finish();
-    part_.record_bytes = part_.bytes.size() - overread_bytes;
     return std::move(part_);
   }
 
@@ -85,29 +88,40 @@ class Extractor {
     return true;
   }
 
-  /// The children of a brick that the region needs: blocks whose boxes touch it, and bricks that have such.
-  std::vector<std::size_t> kept_children(const Brick& brick) const {
-    std::vector<std::size_t> kept;
+  /// Whether the region needs a brick's child: a block whose box touches it, or a brick that has such below.
+  bool needs(const Brick& brick, std::size_t child) const {
+    const BrickChild& link = brick.child[child];
+    return touches(brick, child) && (link.is_block() || needs_any_child(brick_at(link.address())));
+  }
+  bool needs_any_child(const Brick& brick) const {
     for (std::size_t child = 0; child < brick.child_count; ++child) {
-      const BrickChild& link = brick.child[child];
-      if (touches(brick, child) && (link.is_block() || !kept_children(brick_at(link.address())).empty())) {
-        kept.push_back(child);
+      if (needs(brick, child)) {
+        return true;
       }
     }
-    return kept;
+    return false;
+  }
+  /// A bit for each.
+  std::uint32_t needed_children(const Brick& brick) const {
+    std::uint32_t needed = 0;
+    for (std::size_t child = 0; child < brick.child_count; ++child) {
+      needed |= (needs(brick, child) ? 1U : 0U) << child;
+    }
+    return needed;
   }
 
-  Brick brick_at(Address address) const { return read<Brick>(at(address)); }
+  const Brick& brick_at(Address address) const { return *reinterpret_cast<const Brick*>(at(address)); }
 
   /// Copies what a brick has for the region; no_address if that is nothing.
   Address copy_brick(const Brick& from) {
-    const std::vector<std::size_t> kept = kept_children(from);
-    if (kept.empty()) {
+    std::uint32_t needed = needed_children(from);
+    if (needed == 0) {
       return no_address;
     }
     const Address to = writer_.allocate(sizeof(Brick));
     Brick brick{.origin = from.origin, .unit = from.unit};
-    for (const std::size_t child : kept) {
+    for (; needed != 0; needed &= needed - 1) {
+      const auto child = static_cast<std::size_t>(std::countr_zero(needed));
       const Address old = from.child[child].address();
       const std::size_t place = brick.child_count++;
       brick.child[place] =
@@ -123,8 +137,9 @@ class Extractor {
   Address copy_block(Address from) {
     const auto header = read<BlockHeader>(at(from));
     const std::size_t size = block_bytes(header.kind, header.count), row = sizeof(ShadingReference) * header.count;
-    std::vector<ShadingReference> shading(header.count);
-    std::memcpy(shading.data(), at(from) + size - row, row);
+    std::array<ShadingReference, block_lanes> lanes;
+    const std::span shading(lanes.data(), header.count);
+    std::memcpy(lanes.data(), at(from) + size - row, row);
     for (ShadingReference& reference : shading) {
       if (reference.is_smooth()) {
         reference = ShadingReference::smooth(copy_normals(reference.normals()));
@@ -132,22 +147,22 @@ class Extractor {
     }
     const Address to = writer_.allocate(size);
     writer_.write(to, 0, std::span(at(from), size - row));
-    writer_.write(to, size - row, std::as_bytes(std::span(shading)));
+    writer_.write(to, size - row, std::as_bytes(shading));
     part_.primitive_copies += header.count;
     return to;
   }
 
   /// A triangle that lies in several bricks keeps one record of normals.
   Address copy_normals(Address from) {
-    const auto [found, is_new] = normals_.try_emplace(static_cast<std::uint32_t>(from), no_address);
+    const auto [copy, is_new] = normals_.find_or_add(from);
     if (is_new && read<PatchNormals>(at(from)).is_textured()) {
       auto textured = read<TexturedNormals>(at(from));
       textured.texture = copy_reference(textured);
-      found->second = writer_.add(textured);
+      copy = writer_.add(textured);
     } else if (is_new) {
-      found->second = writer_.add(read<PatchNormals>(at(from)));
+      copy = writer_.add(read<PatchNormals>(at(from)));
     }
-    return found->second;
+    return copy;
   }
 
   /// Notes which tiles the triangle needs; they are copied when all are known.
@@ -193,12 +208,18 @@ class Extractor {
   Region region_;
   RecordWriter writer_;
   DatabasePart part_;
-  std::map<std::uint32_t, Address> normals_;       ///< old address -> new
+  AddressMap normals_;
   std::map<std::uint32_t, UsedTexture> textures_;  ///< by the old address of their tables
 };
 
 }  // namespace
 
-DatabasePart extract(const Database& database, const Region& region) { return Extractor(database, region).extract(); }
+DatabasePart extract(const Database& database, const Region& region) {
+  return Extractor(database, region, Keeps::records).extract();
+}
+
+DatabasePart measure_part(const Database& database, const Region& region) {
+  return Extractor(database, region, Keeps::nothing).extract();
+}
 
 }  // namespace dmpc::core

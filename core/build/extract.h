@@ -25,4 +25,7 @@ struct DatabasePart {
 /// not touch the region are left out of their bricks.
 DatabasePart extract(const Database& database, const Region& region);
 
+/// What extract() answers but for the bytes, which are not copied: there are none.
+DatabasePart measure_part(const Database& database, const Region& region);
+
 }  // namespace dmpc::core

@@ -22,6 +22,9 @@ constexpr std::size_t place_in_page(std::size_t end, std::size_t bytes, std::siz
   return offset % page_size + bytes > page_size ? round_up(offset, page_size) : offset;
 }
 
+/// Whether a RecordWriter keeps what is written, or reckons the room alone that it would take.
+enum class Keeps : std::uint8_t { records, nothing };
+
 /// Addresses come out in ascending order, so what is allocated one after the other shares pages; unless places are given.
 class RecordWriter {
  public:
@@ -30,6 +33,7 @@ class RecordWriter {
   /// `places`: where the records go, in the order of their allocation (record_order.h), arrays before them apart.
   explicit RecordWriter(std::size_t page_size, std::vector<Address> places = {})
       : page_size_(page_size), places_(std::move(places)) {}
+  RecordWriter(std::size_t page_size, Keeps keeps) : page_size_(page_size), keeps_(keeps) {}
 
   /// Room for a record of `bytes` in one page.
   Address allocate(std::size_t bytes) {
@@ -55,6 +59,9 @@ class RecordWriter {
     cover();
   }
   void write(Address address, std::size_t offset, std::span<const std::byte> bytes) {
+    if (keeps_ == Keeps::nothing) {
+      return;
+    }
     cover();
     std::copy(bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(byte_offset(address) + offset));
   }
@@ -74,14 +81,18 @@ class RecordWriter {
   std::span<const std::uint16_t> sizes() const { return sizes_; }
   /// Bytes before the first record.
   std::size_t front_bytes() const { return front_bytes_; }
-  /// The pages, the last one filled up, with overread_bytes behind.
+  /// Bytes of the pages so far, the last one filled up: one at least.
+  std::size_t page_bytes() const { return std::max(page_size_, round_up(end_, page_size_)); }
+  /// The pages, with overread_bytes behind; nothing if nothing is kept.
   std::vector<std::byte> finish() && {
-    bytes_.resize(finished_bytes());
+    if (keeps_ == Keeps::records) {
+      bytes_.resize(finished_bytes());
+    }
     return std::move(bytes_);
   }
 
  private:
-  std::size_t finished_bytes() const { return std::max(page_size_, round_up(end_, page_size_)) + overread_bytes; }
+  std::size_t finished_bytes() const { return page_bytes() + overread_bytes; }
 
   /// Makes what has been taken so far writable; capacity grows by factors.
   void cover() {
@@ -98,6 +109,7 @@ class RecordWriter {
   }
 
   std::size_t page_size_;
+  Keeps keeps_ = Keeps::records;
   std::vector<Address> places_;
   std::vector<std::uint16_t> sizes_;
   std::size_t front_bytes_ = 0;

@@ -13,7 +13,6 @@ namespace {
 constexpr std::uint8_t walk_starts = 3;
 /// Up to here a point on a ray, in double, is off by less than 2^-31 of the grid.
 constexpr double near_t_max = 0x1p20;
-constexpr double never = std::numeric_limits<double>::infinity();
 
 /// Spelt out, since a comparison of arrays is a call.
 bool is_whole(const Region& region, const Corner& size) {
@@ -26,38 +25,10 @@ std::int32_t top_cells_between(const Corner& from, const Corner& to) {
   return (std::abs(to[0] - from[0]) + std::abs(to[1] - from[1]) + std::abs(to[2] - from[2])) / finest_per_top;
 }
 
-/// What is left of a local coordinate that went through the world's, in single precision.
-[[maybe_unused]] double in_world_coordinates(double local, double grid_origin) {
-  return double{static_cast<float>(local + grid_origin)} - double{static_cast<float>(grid_origin)};
-}
-
 }  // namespace
 
 Walk::Walk(const Ray& ray, const GridFrame& frame, const Region& region)
-    : origin_(ray.origin),
-      direction_(ray.direction),
-      reciprocal_(reciprocal_direction(ray)),
-      grid_{.high = grid_size(frame)},
-      region_(region),
-      whole_(is_whole(region, grid_.high)),
-      finest_cells_(1.0 / double{frame.finest_cell}) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float d = ray.direction[axis];
-    step_[axis] = d >= smallest_component ? 1 : d <= -smallest_component ? -1 : 0;
-    if constexpr (mutation == Mutation::sign_of_minus_zero) {
-      step_[axis] = d >= 0.0F ? 1 : -1;
-    }
-    if constexpr (mutation == Mutation::world_coordinates) {
-      origin_[axis] = in_world_coordinates(origin_[axis], frame.origin[axis] * frame.scale);
-    }
-    if (step_[axis] != 0) {
-      slope_[axis] = double{frame.finest_cell} * reciprocal_[axis];
-      offset_[axis] = -origin_[axis] * reciprocal_[axis];
-    } else {
-      offset_[axis] = never;
-    }
-  }
-}
+    : planes_(ray, frame), grid_{.high = grid_size(frame)}, region_(region), whole_(is_whole(region, grid_.high)) {}
 
 /// Whether the ray has crossed a plane when it enters a cell at t through a plane of `entry_axis`: planes of lower axes at equal
 /// t come first, those of higher axes come after it.
@@ -68,17 +39,16 @@ bool Walk::crossed(std::size_t axis, std::int32_t index, double t, std::uint8_t 
 
 /// The finest cell in [low, high) that holds the ray at t.
 std::int32_t Walk::locate(std::size_t axis, double t, std::int32_t low, std::int32_t high, std::uint8_t entry_axis) const {
-  const double along = step_[axis] == 0 ? origin_[axis] : origin_[axis] + t * direction_[axis];
-  const double guess = std::clamp(along * finest_cells_, static_cast<double>(low), static_cast<double>(high - 1));
+  const double guess = std::clamp(planes_.place(axis, t), static_cast<double>(low), static_cast<double>(high - 1));
   auto cell = static_cast<std::int32_t>(guess);  // not negative: truncation is the floor
-  if (step_[axis] > 0) {
+  if (planes_.step(axis) > 0) {
     while (cell + 1 < high && crossed(axis, cell + 1, t, entry_axis)) {
       ++cell;
     }
     while (cell > low && !crossed(axis, cell, t, entry_axis)) {
       --cell;
     }
-  } else if (step_[axis] < 0) {
+  } else if (planes_.step(axis) < 0) {
     while (cell > low && crossed(axis, cell, t, entry_axis)) {
       --cell;
     }
@@ -91,8 +61,7 @@ std::int32_t Walk::locate(std::size_t axis, double t, std::int32_t low, std::int
 
 /// The lower corner of the top cell that holds the ray at t, of those with finest cells in [low, high).
 std::int32_t Walk::locate_top(std::size_t axis, double t, std::int32_t low, std::int32_t high, std::uint8_t entry_axis) const {
-  const double along = step_[axis] == 0 ? origin_[axis] : origin_[axis] + t * direction_[axis];
-  const double guess = std::clamp(along * finest_cells_, static_cast<double>(low), static_cast<double>(high - 1));
+  const double guess = std::clamp(planes_.place(axis, t), static_cast<double>(low), static_cast<double>(high - 1));
   const auto cell = static_cast<std::int32_t>(guess);
   // A guess is off by 2^-31 of the scene at most, less than a finest cell is wide, so only one next to a border can be wrong.
   const std::int32_t inside = cell & (finest_per_top - 1);
@@ -101,28 +70,13 @@ std::int32_t Walk::locate_top(std::size_t axis, double t, std::int32_t low, std:
 }
 
 bool Walk::enter(const Ray& ray, Cursor& cursor) const {
-  const double sum = origin_.x + origin_.y + origin_.z + direction_.x + direction_.y + direction_.z;
-  if (!(sum * 0.0 == 0.0)) {  // something is not finite: doubles cannot overflow from floats
+  const std::optional<double> t_enter = planes_.entry(grid_.high, ray.t_max);
+  if (!t_enter) {
     return false;
   }
-  double t_enter = 0.0, t_exit = double{ray.t_max};
+  cursor.t_enter = *t_enter;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (step_[axis] == 0) {
-      const double at = origin_[axis] * finest_cells_;
-      if (!(at >= 0.0 && at < static_cast<double>(grid_.high[axis]))) {
-        return false;
-      }
-    } else {
-      t_enter = std::max(t_enter, plane(axis, step_[axis] > 0 ? 0 : grid_.high[axis]));
-      t_exit = std::min(t_exit, plane(axis, step_[axis] > 0 ? grid_.high[axis] : 0));
-    }
-  }
-  if (!(t_enter < t_exit)) {
-    return false;
-  }
-  cursor.t_enter = t_enter;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    cursor.cell[axis] = locate_top(axis, t_enter, 0, grid_.high[axis], walk_starts);
+    cursor.cell[axis] = locate_top(axis, *t_enter, 0, grid_.high[axis], walk_starts);
   }
   cursor.stage = Cursor::Stage::directory;
   return true;
@@ -145,7 +99,7 @@ bool Walk::jump(const Ray& ray, std::int32_t radius, Cursor& cursor, Operations&
 void Walk::leave_region(const Ray& ray, const Corner& cell, Cursor& cursor, Operations& operations) const {
   Corner planes;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    planes[axis] = step_[axis] > 0 ? region_.high[axis] : region_.low[axis];
+    planes[axis] = planes_.step(axis) > 0 ? region_.high[axis] : region_.low[axis];
   }
   cursor.cell = cell;
   leave(ray, exit_through(planes), &region_, cursor, operations);

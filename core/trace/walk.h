@@ -12,15 +12,15 @@
 #include "core/trace/cursor.h"
 #include "core/trace/kernel.h"
 #include "core/trace/operations.h"
+#include "core/trace/ray_planes.h"
 
 namespace dmpc::core {
 
 /// What a ray and a grid determine: nothing here is carried from step to step, everything is recomputed from the ray's bits.
 ///
-/// The one formula for a plane anywhere: plane i of an axis (in finest cells) is crossed at t = i * slope + offset, in double.
-/// Rounding keeps order, so t rises or falls with i without exception, and "which planes has the ray crossed at t" has one
-/// answer: top cells, empty boxes of them and regions are all boxes of one lattice, and leaving a box of empty cells in one step
-/// leads to the same cell as leaving it cell by cell. Planes crossed at equal t are crossed in the order x, y, z.
+/// Since RayPlanes keep order, "which planes has the ray crossed at t" has one answer: top cells, empty boxes of them and regions
+/// are all boxes of one lattice, and leaving a box of empty cells in one step leads to the same cell as leaving it cell by cell.
+/// Planes crossed at equal t are crossed in the order x, y, z.
 ///
 /// Within a top cell a tree of bricks leads to the blocks whose boxes the ray meets, nearest first. The cell is left when none is
 /// nearer than the best hit.
@@ -29,7 +29,7 @@ class Walk {
   Walk(const Ray& ray, const GridFrame& frame, const Region& region);
 
   /// That of the direction, as reciprocal_direction() has it.
-  const Vec3d& reciprocal() const { return reciprocal_; }
+  const Vec3d& reciprocal() const { return planes_.reciprocal(); }
 
   /// Puts the cursor on the first top cell; false if the ray misses the grid or is not finite.
   bool enter(const Ray& ray, Cursor& cursor) const;
@@ -52,7 +52,7 @@ class Walk {
   void leave_region(const Ray& ray, const Corner& cell, Cursor& cursor, Operations& operations) const;
 
  private:
-  double plane(std::size_t axis, std::int32_t index) const;
+  double plane(std::size_t axis, std::int32_t index) const { return planes_.plane(axis, index); }
   bool crossed(std::size_t axis, std::int32_t index, double t, std::uint8_t entry_axis) const;
   std::int32_t locate(std::size_t axis, double t, std::int32_t low, std::int32_t high, std::uint8_t entry_axis) const;
   std::int32_t locate_top(std::size_t axis, double t, std::int32_t low, std::int32_t high, std::uint8_t entry_axis) const;
@@ -63,28 +63,20 @@ class Walk {
   bool stays(Cursor& cursor, std::int32_t face) const;
   Corner finest_cell_of(const Cursor& cursor, std::int32_t face) const;
 
-  Vec3d origin_, direction_, reciprocal_;
-  std::array<double, 3> slope_{}, offset_{};
-  std::array<std::int32_t, 3> step_{};  ///< -1, 0 or +1
+  RayPlanes planes_;
   Region grid_, region_;
-  bool whole_;           ///< the region is the whole grid: nothing leaves it
-  double finest_cells_;  ///< a unit of length, in finest cells
+  bool whole_;  ///< the region is the whole grid: nothing leaves it
 };
 
 // What a ray does at every step is here, so that it becomes one loop with whatever finds the records.
-
-/// Infinite along an axis without a step.
-inline double Walk::plane(std::size_t axis, std::int32_t index) const {
-  return static_cast<double>(index) * slope_[axis] + offset_[axis];
-}
 
 /// The planes, one of each axis, that the ray comes to when it leaves the box of all cells nearer to `cell` than `reach` (finest
 /// cells, a multiple of a top cell's) as far as they lie within `limits`.
 inline Corner Walk::planes_ahead(const Corner& cell, std::int32_t reach, const Region& limits) const {
   Corner planes;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    planes[axis] = step_[axis] > 0 ? std::min(cell[axis] + reach, limits.high[axis])
-                                   : std::max(cell[axis] - reach + finest_per_top, limits.low[axis]);
+    planes[axis] = planes_.step(axis) > 0 ? std::min(cell[axis] + reach, limits.high[axis])
+                                          : std::max(cell[axis] - reach + finest_per_top, limits.low[axis]);
   }
   return planes;
 }
@@ -126,7 +118,7 @@ inline bool Walk::leave(const Ray& ray, const Exit& exit, const Region* around, 
   if (double{cursor.best.t} < exit.t || exit.t >= double{ray.t_max}) {
     return false;
   }
-  const std::int32_t face = step_[exit.axis] > 0 ? exit.plane : exit.plane - 1;
+  const std::int32_t face = planes_.step(exit.axis) > 0 ? exit.plane : exit.plane - 1;
   if (face < 0 || face >= grid_.high[exit.axis]) {
     return false;
   }

@@ -104,18 +104,25 @@ void Bsp::assign(std::span<const std::uint32_t> node_of_region) {
 /// Cuts one box after the other, the larger share of the regions always on the high side.
 class BspBuilder {
  public:
-  BspBuilder(const ColumnLoads& loads, std::uint32_t region_count, const BspOptions& options)
-      : loads_(loads), options_(options), bsp_(loads.lattice.grid_size()) {
+  /// `loads` are those of the lattice's columns; null if there is none anywhere.
+  BspBuilder(const ColumnLattice& lattice, const ColumnLoads* loads, std::uint32_t region_count, const BspOptions& options)
+      : lattice_(lattice), options_(options), bsp_(lattice.grid_size()) {
     bsp_.region_count_ = region_count;
     std::iota(bsp_.owner_.begin(), bsp_.owner_.end(), static_cast<std::uint16_t>(0));
-    const auto columns = static_cast<double>(std::int64_t{loads.lattice.size(0)} * loads.lattice.size(1));
-    const double total = std::accumulate(loads.load.begin(), loads.load.end(), 0.0,
-                                         [](double sum, std::uint64_t load) { return sum + static_cast<double>(load); });
-    area_weight_ = total > 0 ? area_share * total / columns : 1.0;
+    for (std::size_t along = 0; along < 2; ++along) {
+      for (std::int32_t i = 0; i <= lattice.count(along); ++i) {
+        lines_[along].push_back(lattice.line(along, i));
+      }
+    }
+    const double total = loads == nullptr ? 0.0 : sum_of(*loads);
+    if (total > 0) {
+      loads_ = loads;
+      area_weight_ = area_share * total / static_cast<double>(std::int64_t{lattice.size(0)} * lattice.size(1));
+    }
   }
 
   Bsp build() {
-    cut({{0, 0}, {loads_.lattice.size(0), loads_.lattice.size(1)}}, 0, bsp_.region_count_, 0);
+    cut({{0, 0}, {lattice_.size(0), lattice_.size(1)}}, 0, bsp_.region_count_, 0);
     return bsp_;
   }
 
@@ -125,13 +132,21 @@ class BspBuilder {
     std::int32_t at;
   };
 
+  static double sum_of(const ColumnLoads& loads) {
+    return std::accumulate(loads.load.begin(), loads.load.end(), 0.0,
+                           [](double sum, std::uint64_t load) { return sum + static_cast<double>(load); });
+  }
+
+  /// Where column `index` begins.
+  std::int32_t line(std::size_t along, std::int32_t index) const { return lines_[along][static_cast<std::size_t>(index)]; }
+
   void cut(const Rectangle& box, std::uint32_t first, std::uint32_t count, std::size_t depth) {
     if (count == 1) {
       return;
     }
     const std::uint32_t low_count = count / 2;
     const Place place = choose(box, low_count, count - low_count, depth);
-    bsp_.cuts_[first + low_count - 1] = {place.at, loads_.lattice.axes()[place.along]};
+    bsp_.cuts_[first + low_count - 1] = {place.at, lattice_.axes()[place.along]};
     Rectangle low = box, high = box;
     low.high[place.along] = high.low[place.along] = place.at;
     cut(low, first, low_count, depth + 1);
@@ -163,17 +178,19 @@ class BspBuilder {
   }
 
   double strip(const Rectangle& box, std::size_t along, std::int32_t index) const {
-    const std::int32_t low = std::max(box.low[along], loads_.lattice.line(along, index));
-    const std::int32_t high = std::min(box.high[along], loads_.lattice.line(along, index + 1));
-    return strip_load(loads_, box, along, index) + area_weight_ * static_cast<double>(high - low) * box.length(1 - along);
+    const std::int32_t low = std::max(box.low[along], line(along, index));
+    const std::int32_t high = std::min(box.high[along], line(along, index + 1));
+    const double load = loads_ == nullptr ? 0.0 : strip_load(*loads_, box, along, index);
+    return load + area_weight_ * static_cast<double>(high - low) * box.length(1 - along);
   }
 
   /// Where the low side has its share of the box's load, as near as the range allows.
   std::int32_t median(const Rectangle& box, std::size_t along, std::uint32_t low_count, std::uint32_t high_count,
                       const CutRange& range) const {
-    const std::int32_t first = loads_.lattice.column_at(along, box.low[along]);
-    const std::int32_t last = loads_.lattice.column_at(along, box.high[along] - 1);
+    const std::int32_t first = lattice_.column_at(along, box.low[along]);
+    const std::int32_t last = lattice_.column_at(along, box.high[along] - 1);
     std::vector<double> strips;
+    strips.reserve(static_cast<std::size_t>(last - first) + 1);
     for (std::int32_t i = first; i <= last; ++i) {
       strips.push_back(strip(box, along, i));
     }
@@ -192,8 +209,8 @@ class BspBuilder {
   /// `inside` the box belongs to the low side.
   std::int32_t place_in_column(const Rectangle& box, std::size_t along, std::int32_t column, double missing, double inside,
                                double region_load) const {
-    const std::int32_t low = std::max(box.low[along], loads_.lattice.line(along, column));
-    const std::int32_t high = std::min(box.high[along], loads_.lattice.line(along, column + 1));
+    const std::int32_t low = std::max(box.low[along], line(along, column));
+    const std::int32_t high = std::min(box.high[along], line(along, column + 1));
     const double share = std::clamp(missing / inside, 0.0, 1.0);
     if (std::min(share, 1.0 - share) * inside > options_.hot_spot_share * region_load) {
       return low + static_cast<std::int32_t>(std::floor(share * (high - low) + 0.5));
@@ -201,24 +218,36 @@ class BspBuilder {
     return share < 0.5 ? low : high;
   }
 
-  const ColumnLoads& loads_;
+  const ColumnLattice& lattice_;
+  std::array<std::vector<std::int32_t>, 2> lines_;  ///< the lattice's
+  const ColumnLoads* loads_ = nullptr;              ///< null: there is none anywhere
   BspOptions options_;
   Bsp bsp_;
-  double area_weight_ = 0;
+  double area_weight_ = 1;
 };
 
-Bsp build_bsp(const ColumnLoads& loads, std::uint32_t region_count, const BspOptions& options) {
+namespace {
+
+void check_region_count(std::uint32_t region_count) {
   if (region_count < 1 || region_count > region_count_max) {
     throw core::UsageError("space can be cut into 1 to " + std::to_string(region_count_max) + " regions, not " +
                            std::to_string(region_count));
   }
-  return BspBuilder(loads, region_count, options).build();
+}
+
+}  // namespace
+
+Bsp build_bsp(const ColumnLoads& loads, std::uint32_t region_count, const BspOptions& options) {
+  check_region_count(region_count);
+  return BspBuilder(loads.lattice, &loads, region_count, options).build();
 }
 
 Bsp equal_size_bsp(const core::Corner& grid_size, const CutAxes& axes, std::uint32_t region_count, const BspOptions& options) {
+  check_region_count(region_count);
   const std::int32_t longest = std::max(grid_size[axes[0]], grid_size[axes[1]]);
   constexpr std::int32_t columns_max = 1024;
-  return build_bsp(ColumnLoads(ColumnLattice(grid_size, axes, std::min(longest, columns_max))), region_count, options);
+  const ColumnLattice lattice(grid_size, axes, std::min(longest, columns_max));
+  return BspBuilder(lattice, nullptr, region_count, options).build();
 }
 
 std::vector<double> loads_of_regions(const Bsp& bsp, const ColumnLoads& loads) {

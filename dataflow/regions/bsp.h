@@ -63,6 +63,11 @@ class Bsp {
   /// Calls visit(cut, is_high) for every cut above region `index`, the outermost first: on which side of it the region lies.
   template <class Visit>
   void for_each_cut(std::uint32_t index, Visit visit) const;
+  /// The cut between region `index` and the next. Every cut is between two such.
+  const Cut& cut_after(std::uint32_t index) const {
+    core::expect(index + 1 < region_count_, "a cut has a region on either side");
+    return cuts_[index];
+  }
 
   /// The node that answers for a finest cell of the grid.
   nodes::NodeId owner_of(const core::Corner& cell) const { return nodes::NodeId{owner_[region_index_of(cell)]}; }

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "core/base/expect.h"
@@ -38,33 +40,53 @@ std::uint32_t hops(const nodes::Topology& topology, std::uint32_t a, std::uint32
   return topology.hops(nodes::NodeId{a}, nodes::NodeId{b});
 }
 
+/// The hops between any two nodes, reckoned once: descents ask for them millions of times.
+class HopTable {
+ public:
+  explicit HopTable(const nodes::Topology& topology) : node_count_(topology.node_count()) {
+    hops_.reserve(std::size_t{node_count_} * node_count_);
+    for (std::uint32_t a = 0; a < node_count_; ++a) {
+      for (std::uint32_t b = 0; b < node_count_; ++b) {
+        hops_.push_back(static_cast<std::uint16_t>(hops(topology, a, b)));  // region_count_max nodes are never so far apart
+      }
+    }
+  }
+  /// From `node` to each.
+  const std::uint16_t* from(std::uint32_t node) const { return hops_.data() + std::size_t{node} * node_count_; }
+
+ private:
+  std::uint32_t node_count_;
+  std::vector<std::uint16_t> hops_;
+};
+
 /// What a region's flows cost on `node` while `other`, with which it may exchange places, is left out: that distance stays.
-std::uint64_t cost_at(const Mapping& mapping, const Neighbours& neighbours, const nodes::Topology& topology, std::uint32_t region,
+std::uint64_t cost_at(const Mapping& mapping, const Neighbours& neighbours, const HopTable& hops, std::uint32_t region,
                       std::uint32_t node, std::uint32_t other) {
+  const std::uint16_t* const hops_to = hops.from(node);
   std::uint64_t sum = 0;
   for (const auto& [neighbour, amount] : neighbours.of(region)) {
-    sum += neighbour == other ? 0 : amount * hops(topology, node, mapping[neighbour]);
+    sum += neighbour == other ? 0 : amount * hops_to[mapping[neighbour]];
   }
   return sum;
 }
 
-bool exchange_helps(const Mapping& mapping, const Neighbours& neighbours, const nodes::Topology& topology, std::uint32_t a,
+bool exchange_helps(const Mapping& mapping, const Neighbours& neighbours, const HopTable& hops, std::uint32_t a,
                     std::uint32_t b) {
   const std::uint64_t now =
-      cost_at(mapping, neighbours, topology, a, mapping[a], b) + cost_at(mapping, neighbours, topology, b, mapping[b], a);
+      cost_at(mapping, neighbours, hops, a, mapping[a], b) + cost_at(mapping, neighbours, hops, b, mapping[b], a);
   const std::uint64_t then =
-      cost_at(mapping, neighbours, topology, a, mapping[b], b) + cost_at(mapping, neighbours, topology, b, mapping[a], a);
+      cost_at(mapping, neighbours, hops, a, mapping[b], b) + cost_at(mapping, neighbours, hops, b, mapping[a], a);
   return then < now;
 }
 
 /// Ends, since every exchange lowers an integer sum.
-void descend(Mapping& mapping, const Neighbours& neighbours, const nodes::Topology& topology) {
+void descend(Mapping& mapping, const Neighbours& neighbours, const HopTable& hops) {
   const auto count = static_cast<std::uint32_t>(mapping.size());
   for (bool has_changed = true; has_changed;) {
     has_changed = false;
     for (std::uint32_t a = 0; a < count; ++a) {
       for (std::uint32_t b = a + 1; b < count; ++b) {
-        if (exchange_helps(mapping, neighbours, topology, a, b)) {
+        if (exchange_helps(mapping, neighbours, hops, a, b)) {
           std::swap(mapping[a], mapping[b]);
           has_changed = true;
         }
@@ -73,17 +95,30 @@ void descend(Mapping& mapping, const Neighbours& neighbours, const nodes::Topolo
   }
 }
 
-/// Where the descents start, the most promising first.
-std::vector<Mapping> beginnings(const Bsp& bsp) {
+/// How many descents there are, and where they start, the most promising first.
+std::uint64_t beginning_count(std::uint32_t region_count) {
   constexpr std::uint32_t random_regions_max = 128;  // beyond that each descent takes seconds
   constexpr std::uint64_t random_count = 24;
-  std::vector<Mapping> mappings{gray_mapping(bsp), identity_mapping(bsp.region_count())};
-  if (bsp.region_count() <= random_regions_max) {
-    for (std::uint64_t seed = 0; seed < random_count; ++seed) {
-      mappings.push_back(random_mapping(bsp.region_count(), seed));
-    }
+  return region_count <= random_regions_max ? 2 + random_count : 2;
+}
+
+Mapping beginning(const Bsp& bsp, std::uint64_t index) {
+  return index == 0   ? gray_mapping(bsp)
+         : index == 1 ? identity_mapping(bsp.region_count())
+                      : random_mapping(bsp.region_count(), index - 2);
+}
+
+std::uint64_t total_hops(const Mapping& mapping, std::span<const Flow> flows, const nodes::Topology& topology) {
+  std::uint64_t sum = 0;
+  for (const Flow& flow : flows) {
+    sum += flow.amount * hops(topology, mapping[flow.first], mapping[flow.second]);
   }
-  return mappings;
+  return sum;
+}
+
+std::uint64_t total_amount(std::span<const Flow> flows) {
+  return std::accumulate(flows.begin(), flows.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const Flow& flow) { return sum + flow.amount; });
 }
 
 }  // namespace
@@ -110,12 +145,8 @@ std::vector<Flow> flows_of_matrix(std::span<const std::uint64_t> rays, std::uint
 }
 
 double mean_hops(const Mapping& mapping, std::span<const Flow> flows, const nodes::Topology& topology) {
-  std::uint64_t sum = 0, amount = 0;
-  for (const Flow& flow : flows) {
-    sum += flow.amount * hops(topology, mapping[flow.first], mapping[flow.second]);
-    amount += flow.amount;
-  }
-  return amount > 0 ? static_cast<double>(sum) / static_cast<double>(amount) : 0.0;
+  const std::uint64_t amount = total_amount(flows);
+  return amount > 0 ? static_cast<double>(total_hops(mapping, flows, topology)) / static_cast<double>(amount) : 0.0;
 }
 
 double mean_hops_of_random(std::span<const Flow> flows, const nodes::Topology& topology, std::uint32_t mapping_count) {
@@ -130,11 +161,18 @@ double mean_hops_of_random(std::span<const Flow> flows, const nodes::Topology& t
 Mapping map_regions(const Bsp& bsp, std::span<const Flow> flows, const nodes::Topology& topology) {
   core::expect(topology.node_count() == bsp.region_count(), "there are as many nodes as regions");
   const Neighbours neighbours(flows, bsp.region_count());
+  const std::uint64_t least_hops = total_amount(flows);  // one for each, since every region has a node of its own
+  std::optional<HopTable> hops;
   Mapping best;
-  for (Mapping& mapping : beginnings(bsp)) {
-    descend(mapping, neighbours, topology);
-    if (best.empty() || mean_hops(mapping, flows, topology) < mean_hops(best, flows, topology)) {
+  std::uint64_t best_hops = std::numeric_limits<std::uint64_t>::max();
+  for (std::uint64_t index = 0; index < beginning_count(bsp.region_count()) && best_hops > least_hops; ++index) {
+    Mapping mapping = beginning(bsp, index);
+    if (total_hops(mapping, flows, topology) > least_hops) {
+      descend(mapping, neighbours, hops ? *hops : hops.emplace(topology));
+    }
+    if (const std::uint64_t found_hops = total_hops(mapping, flows, topology); found_hops < best_hops) {
       best = std::move(mapping);
+      best_hops = found_hops;
     }
   }
   return best;

@@ -34,7 +34,8 @@ double mean_hops_of_random(std::span<const Flow> flows, const nodes::Topology& t
 
 /// Few hops for the given flows: the best of several beginnings (gray_mapping(), region i on node i and, up to 128 regions, a few
 /// random ones), each improved by exchanging two regions' nodes as long as an exchange helps. Deterministic; a local optimum.
-/// Takes about regions^2 * neighbours steps a round, a few rounds a beginning. Requires as many nodes as regions.
+/// Takes about regions^2 * neighbours steps a round, a few rounds a beginning; no further beginning is tried once every flow goes
+/// by one hop. Requires as many nodes as regions.
 Mapping map_regions(const Bsp& bsp, std::span<const Flow> flows, const nodes::Topology& topology);
 
 /// Puts the regions on the nodes of such a machine by map_regions(), with boundaries across `axes` as flows.

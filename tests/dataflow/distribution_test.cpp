@@ -80,12 +80,16 @@ TEST_CASE("shares say what each node's part and list of primary rays take") {
 TEST_CASE("parts may be measured without being kept") {
   const Subject subject(tests::built_in("teapot-4"), {8, 8});
   const Distribution kept = dealt(subject, 3);
-  const Distribution measured =
-      dataflow::distribute(subject.database(), subject.settings(), equal_regions(subject, 3), {}, {.records = false});
+  Bsp bsp = equal_regions(subject, 3);
+  const dataflow::MeasuredParts parts = dataflow::measure_parts(subject.database(), subject.settings(), bsp);
+  const auto shares = dataflow::measure_shares(subject.settings(), std::span(&bsp, 1), std::span(&parts, 1));
+  REQUIRE(shares.size() == 1);
+  REQUIRE(shares[0].size() == 3);
+  CHECK(parts.duplication == kept.duplication(subject.database()));
   for (std::size_t node = 0; node < 3; ++node) {
-    CHECK(measured.parts[node].bytes.capacity() == 0);
-    CHECK(measured.shares()[node].part_bytes == kept.shares()[node].part_bytes);
-    CHECK(measured.shares()[node].primary_runs == kept.shares()[node].primary_runs);
+    CHECK(shares[0][node].part_bytes == kept.shares()[node].part_bytes);
+    CHECK(shares[0][node].primary_runs == kept.shares()[node].primary_runs);
+    CHECK(bsp.is_empty(static_cast<std::uint32_t>(node)) == kept.bsp.is_empty(static_cast<std::uint32_t>(node)));
   }
 }
 

@@ -22,10 +22,10 @@ using Check = void (*)(std::string_view file);
 
 void check_mtl(std::string_view file) {
   apps::MtlTextures textures, none;
-  const std::string plain = apps::plain_mtl(file, textures);
+  const std::string plain = apps::plain_mtl("a.mtl", file, textures).text;
   core::expect(plain.size() <= file.size() + 1, "options are left out");
   const bool is_marked = plain.starts_with(apps::byte_order_mark);
-  core::expect(is_marked || apps::plain_mtl(plain, none) == plain, "what is plain stays so");
+  core::expect(is_marked || apps::plain_mtl("a.mtl", plain, none).text == plain, "what is plain stays so");
   core::expect(is_marked || none.left_out.empty(), "what is plain has no option but -clamp");
 }
 

@@ -7,6 +7,7 @@
 #include <regex>
 #include <string>
 
+#include "tests/style/sources.h"
 #include "tests/support/documents.h"
 
 namespace dmpc::tests {
@@ -54,10 +55,7 @@ Faults faults_of_scripts(const Place& place) {
 }
 
 /// What git moves away leaves empty folders in old checkouts.
-bool has_sources(const fs::path& folder) {
-  using Entries = fs::recursive_directory_iterator;
-  return std::any_of(Entries(folder), Entries(), [](const fs::directory_entry& entry) { return entry.is_regular_file(); });
-}
+bool has_sources(const fs::path& folder) { return !sources_below(folder.parent_path(), folder.filename()).empty(); }
 
 /// Rooms of a layer: its folders with sources.
 Lines rooms_of(const fs::path& layer) {
@@ -83,10 +81,9 @@ Faults strategies_words_in_nodes(const fs::path& root) {
   static const std::regex words(R"(\b([Pp]ages?|[Rr]ays?|[Pp]ixels?)\b)");
   static const std::regex excepted(R"(.*/(watch/.*|observer\.h|charge\.h|local_memory\.(h|cpp)))");
   Faults faults;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / "nodes")) {
-    const std::string file = entry.path();
-    if ((file.ends_with(".h") || file.ends_with(".cpp")) && !std::regex_match(file, excepted)) {
-      const Lines lines = lines_of(file);
+  for (const std::string& file : sources_below(root, "nodes")) {
+    if (!std::regex_match(file, excepted)) {
+      const Lines lines = lines_of(root / file);
       for (std::size_t i = 0; i < lines.size(); ++i) {
         for (const std::string& word : found_in(lines[i], words)) {
           faults.push_back(file + ":" + std::to_string(i + 1) + ": " + word);

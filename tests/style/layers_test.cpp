@@ -14,6 +14,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/style/sources.h"
+
 namespace dmpc::tests {
 
 namespace {
@@ -192,20 +194,12 @@ bool begins_with_own_header(const std::string& file, std::istream& text) {
   return false;
 }
 
-bool is_source(const fs::path& path) { return path.extension() == ".h" || path.extension() == ".cpp"; }
-
 /// All sources, relative to the root.
 Names source_files(const fs::path& root) {
   Names files;
   for (const auto& [folder, unused] : stands_on) {
-    if (!fs::is_directory(root / folder)) {
-      continue;
-    }
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
-      if (entry.is_regular_file() && is_source(entry.path())) {
-        files.push_back(fs::relative(entry.path(), root).generic_string());
-      }
-    }
+    const Names below = sources_below(root, folder);
+    files.insert(files.end(), below.begin(), below.end());
   }
   return files;
 }

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/style/sources.h"
+
 namespace {
 
 /// Where in `line` an inexact function of libm is called, or npos.
@@ -27,15 +29,12 @@ std::size_t inexact_call(const std::string& line) {
 TEST_CASE("nothing that decides a picture or a count calls an inexact function of libm") {
   int files = 0;
   for (const char* folder : {"core", "nodes", "svm", "dataflow"}) {
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(DMPC_SOURCE_DIR) / folder)) {
-      if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") {
-        continue;
-      }
+    for (const std::string& source : dmpc::tests::sources_below(DMPC_SOURCE_DIR, folder)) {
       ++files;
-      std::ifstream file(entry.path());
+      std::ifstream file(std::filesystem::path(DMPC_SOURCE_DIR) / source);
       std::string line;
       for (int number = 1; std::getline(file, line); ++number) {
-        INFO(entry.path().string() << ":" << number << ": " << line);
+        INFO(source << ":" << number << ": " << line);
         CHECK(inexact_call(line) == std::string::npos);
       }
     }

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/style/sources.h"
+
 namespace dmpc::tests {
 
 namespace {
@@ -25,15 +27,15 @@ std::string_view test_name(std::string_view line) {
 
 bool breaks_cmake(std::string_view line) { return test_name(line).find_first_of("[];\\$") != std::string_view::npos; }
 
-/// "file:line" of each such name below `folder`.
-std::vector<std::string> broken_names(const fs::path& folder) {
+/// "file:line" of each such name in our tests.
+std::vector<std::string> broken_names() {
   std::vector<std::string> found;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
-    std::ifstream text(entry.path());
+  for (const std::string& file : sources_below(DMPC_SOURCE_DIR, "tests")) {
+    std::ifstream text(fs::path(DMPC_SOURCE_DIR) / file);
     std::string line;
-    for (int number = 1; entry.path().extension() == ".cpp" && std::getline(text, line); ++number) {
+    for (int number = 1; std::getline(text, line); ++number) {
       if (breaks_cmake(line)) {
-        found.push_back(entry.path().string() + ":" + std::to_string(number));
+        found.push_back(file + ":" + std::to_string(number));
       }
     }
   }
@@ -48,7 +50,7 @@ TEST_CASE("no test has a name that CMake would cut or join") {
   CHECK(breaks_cmake("TEST_CASE_TEMPLATE(\"one; two\", T, int) {"));
   CHECK_FALSE(breaks_cmake("TEST_CASE(\"a plain, (ordinary) name\") { values[0]; }"));
   CHECK_FALSE(breaks_cmake("TEST_CASE(\"text\") { CHECK(text(\"[;]\") == 1); }"));
-  for (const std::string& place : broken_names(fs::path(DMPC_SOURCE_DIR) / "tests")) {
+  for (const std::string& place : broken_names()) {
     FAIL_CHECK(place);
   }
 }

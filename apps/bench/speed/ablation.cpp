@@ -7,6 +7,7 @@
 #include <iostream>
 #include <utility>
 
+#include "apps/bench/speed/on_nodes.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/subject.h"
 #include "apps/system/progress.h"
@@ -41,10 +42,7 @@ struct Variant {
 bool is_of_rays(const Skip& skip) { return skip.is_on == &Skips::empty_regions; }
 
 StrategyOptions strategy_of(const Variant& variant) {
-  StrategyOptions options;
-  options.strategy = variant.strategy;
-  options.computer.node_count = variant.strategy == Strategy::dataflow ? ray_nodes : page_nodes;
-  return options;
+  return on_nodes(variant.strategy, variant.strategy == Strategy::dataflow ? ray_nodes : page_nodes);
 }
 
 double error_between(const core::Film& film, const core::Film& other) {

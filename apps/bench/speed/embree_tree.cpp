@@ -1,10 +1,8 @@
 #include "apps/bench/speed/embree_tree.h"
 
 #include <optional>
-#include <string>
 
 #include "apps/oracle/curved.h"
-#include "core/base/expect.h"
 
 namespace dmpc::apps {
 
@@ -26,28 +24,18 @@ std::optional<float> distance(const embree::CurvedQuery& query) {
 
 EmbreeTree::EmbreeTree(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode, EmbreeQuality quality,
                        std::uint32_t thread_count)
-    : device_(library_.new_device(thread_count == 0 ? nullptr : ("threads=" + std::to_string(thread_count)).c_str())),
-      scene_(device_ == nullptr ? nullptr : library_.new_scene(device_)),
-      shapes_(primitives) {
-  core::expect(scene_ != nullptr, "Embree opens its device");
-  const RTCBuildQuality effort = quality == EmbreeQuality::high ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
-  library_.set_scene_flags(scene_, mode == EmbreeMode::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
-  library_.set_scene_build_quality(scene_, effort);
+    : shapes_(primitives),
+      tree_(mode == EmbreeMode::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE,
+            quality == EmbreeQuality::high ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM, thread_count) {
   if (!shapes_.triangles.empty()) {
-    embree::attach(scene_, embree::triangle_mesh(device_, shapes_), effort);
+    tree_.attach(embree::triangle_mesh(tree_.device(), shapes_));
   }
   if (!shapes_.curved.empty()) {
-    embree::attach(scene_, embree::curved_geometry<distance>(device_, shapes_), effort);
+    tree_.attach(embree::curved_geometry<distance>(tree_.device(), shapes_));
   }
   DoubleStopwatch stopwatch;
-  library_.commit_scene(scene_);
+  tree_.build();
   build_times_ = stopwatch.lap();
-  core::expect(library_.device_error(device_) == RTC_ERROR_NONE, "Embree builds the scene without an error");
-}
-
-EmbreeTree::~EmbreeTree() {
-  library_.release_scene(scene_);
-  library_.release_device(device_);
 }
 
 }  // namespace dmpc::apps

@@ -15,21 +15,17 @@ class EmbreeTree {
   /// As EmbreeRival's.
   EmbreeTree(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode, EmbreeQuality quality,
              std::uint32_t thread_count);
-  ~EmbreeTree();
-  EmbreeTree(const EmbreeTree&) = delete;
-  EmbreeTree& operator=(const EmbreeTree&) = delete;
 
   const embree::Library& library() const { return library_; }
-  RTCScene scene() const { return scene_; }
+  RTCScene scene() const { return tree_.scene(); }
   const embree::Shapes& shapes() const { return shapes_; }
   /// From vertices that lay ready.
   const Times& build_times() const { return build_times_; }
 
  private:
   const embree::Library& library_ = embree::library();
-  RTCDevice device_;
-  RTCScene scene_;
   embree::Shapes shapes_;
+  embree::OwnedScene tree_;
   Times build_times_;
 };
 

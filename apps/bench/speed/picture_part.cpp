@@ -4,6 +4,7 @@
 #include <iostream>
 #include <string>
 
+#include "apps/bench/speed/on_nodes.h"
 #include "apps/oracle/oracle.h"
 #include "apps/picture/film_image.h"
 #include "apps/picture/image_file.h"
@@ -22,10 +23,8 @@ constexpr std::array<const char*, 6> phase_names = {"load", "build", "prepare", 
 using Phases = std::array<Times, phase_names.size()>;
 
 StrategyOptions strategy_of(bool is_rival) {
-  StrategyOptions options;
-  options.strategy = is_rival ? Strategy::replicated : Strategy::svm;
+  StrategyOptions options = on_nodes(is_rival ? Strategy::replicated : Strategy::svm, picture_node_count);
   options.tracer = is_rival ? TracerChoice::embree : TracerChoice::grid;
-  options.computer.node_count = picture_node_count;
   return options;
 }
 

@@ -8,15 +8,19 @@
 #include <cstddef>
 #include <optional>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "apps/foreign/mesh/trimmed.h"
 #include "apps/system/byte_order_mark.h"
+#include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {
 
 constexpr std::string_view blanks = " \t", line_ends = "\r\n";
+/// Of a texture's name, with the options before it; Assimp holds no more.
+constexpr std::size_t name_bytes_max = 1023;
 
 /// How many arguments an option of a texture has at most, and what it is without the option.
 struct Option {
@@ -139,35 +143,70 @@ bool is_clamped(const std::vector<Said>& said) {
   return last != said.rend() && last->word == "on";
 }
 
-std::string plain_line(std::string_view line, std::string& material, MtlTextures& textures) {
-  const auto [word, rest] = split(line);
-  const std::string keyword = in_small_letters(word);
-  if (keyword == "newmtl") {
-    material = rest;
+/// Goes through a file, line by line.
+class MtlWalk {
+ public:
+  MtlWalk(const std::string& path, MtlTextures& textures) : path_(path), textures_(textures) {}
+
+  PlainMtl read(std::string_view file) {
+    std::string text;
+    for (file = without_mark(file); !file.empty(); ++number_) {
+      const std::size_t end = std::min(file.find_first_of(line_ends), file.size());
+      const std::size_t next = std::min(end + (file.substr(end).starts_with("\r\n") ? 2 : 1), file.size());
+      text += plain_line(file.substr(0, end));
+      text += file.substr(end, next - end);
+      file.remove_prefix(next);
+    }
+    return {std::move(text), note()};
   }
-  if (!is_texture(keyword)) {
-    return std::string(line);
+
+ private:
+  std::string plain_line(std::string_view line) {
+    const auto [word, rest] = split(line);
+    const std::string keyword = in_small_letters(word);
+    if (keyword == "newmtl") {
+      material_ = rest;
+    }
+    if (!is_texture(keyword)) {
+      return std::string(line);
+    }
+    std::string_view name = rest;
+    const std::vector<Said> said = take_options(name);
+    if (keyword == "map_kd") {
+      check_name(rest.size());
+      keep(said, material_, textures_);
+    }
+    return said.empty() ? std::string(line) : std::string(word) + (is_clamped(said) ? " -clamp on " : " ") + std::string(name);
   }
-  std::string_view name = rest;
-  const std::vector<Said> said = take_options(name);
-  if (keyword == "map_kd") {
-    keep(said, material, textures);
+
+  void check_name(std::size_t name_bytes) {
+    if (name_bytes > name_bytes_max) {
+      throw core::InputError(path_ + " names a texture in " + std::to_string(name_bytes) + " bytes in line " +
+                             std::to_string(number_) + "; expected at most " + std::to_string(name_bytes_max));
+    }
+    if (name_bytes == 0 && nameless_++ == 0) {
+      first_nameless_ = number_;
+    }
   }
-  return said.empty() ? std::string(line) : std::string(word) + (is_clamped(said) ? " -clamp on " : " ") + std::string(name);
-}
+
+  std::string note() const {
+    return nameless_ == 0 ? ""
+                          : path_ + ": map_Kd names no file in line " + std::to_string(first_nameless_) +
+                                (nameless_ == 1 ? "" : " and " + std::to_string(nameless_ - 1) + " others") +
+                                ": there the plain colour is shown";
+  }
+
+  const std::string& path_;
+  MtlTextures& textures_;
+  std::string material_;
+  std::size_t number_ = 1;  ///< of the line, as editors count
+  std::size_t nameless_ = 0, first_nameless_ = 0;
+};
 
 }  // namespace
 
-std::string plain_mtl(std::string_view file, MtlTextures& textures) {
-  std::string text, material;
-  file = without_mark(file);
-  while (!file.empty()) {
-    const std::size_t end = std::min(file.find_first_of(line_ends), file.size());
-    text += plain_line(file.substr(0, end), material, textures);
-    text += file.substr(end, 1);
-    file.remove_prefix(std::min(end + 1, file.size()));
-  }
-  return text;
+PlainMtl plain_mtl(const std::string& path, std::string_view file, MtlTextures& textures) {
+  return MtlWalk(path, textures).read(file);
 }
 
 }  // namespace dmpc::apps

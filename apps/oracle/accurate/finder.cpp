@@ -7,7 +7,6 @@
 #include <type_traits>
 
 #include "apps/oracle/embree.h"
-#include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {
@@ -34,15 +33,7 @@ struct AccurateFinder::Parts {
   Vec3d middle;
   double unit = 1, margin = box_margin;  ///< a unit of Embree's in the world's; `margin` in Embree's
   const embree::Library& library = embree::library();
-  RTCDevice device = library.new_device(nullptr);
-  RTCScene boxes = nullptr;
-
-  ~Parts() {
-    if (boxes != nullptr) {
-      library.release_scene(boxes);
-    }
-    library.release_device(device);
-  }
+  embree::OwnedScene boxes{RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_HIGH};
 
   void build();
   RTCRay embree_ray(const AccurateRay& ray) const;
@@ -58,21 +49,14 @@ struct AccurateFinder::Parts {
 };
 
 void AccurateFinder::Parts::build() {
-  RTCGeometry geometry = library.new_geometry(device, RTC_GEOMETRY_TYPE_USER);
+  RTCGeometry geometry = library.new_geometry(boxes.device(), RTC_GEOMETRY_TYPE_USER);
   library.set_geometry_user_primitive_count(geometry, static_cast<unsigned>(scene->bodies.size()));
   library.set_geometry_user_data(geometry, this);
   library.set_geometry_bounds_function(geometry, bounds_callback, nullptr);
   library.set_geometry_intersect_function(geometry, intersect_callback);
   library.set_geometry_occluded_function(geometry, occluded_callback);
-  library.set_geometry_build_quality(geometry, RTC_BUILD_QUALITY_HIGH);
-  library.commit_geometry(geometry);
-  boxes = library.new_scene(device);
-  library.set_scene_flags(boxes, RTC_SCENE_FLAG_ROBUST);
-  library.set_scene_build_quality(boxes, RTC_BUILD_QUALITY_HIGH);
-  library.attach_geometry(boxes, geometry);
-  library.release_geometry(geometry);
-  library.commit_scene(boxes);
-  core::expect(library.device_error(device) == RTC_ERROR_NONE, "Embree builds the scene without an error");
+  boxes.attach(geometry);
+  boxes.build();
 }
 
 float AccurateFinder::Parts::end_of(double t) const {
@@ -133,7 +117,6 @@ void AccurateFinder::Parts::occluded_callback(const RTCOccludedFunctionNArgument
 }
 
 AccurateFinder::AccurateFinder(const AccurateScene& scene, const core::Vec3d& eye) : parts_(std::make_unique<Parts>()) {
-  core::expect(parts_->device != nullptr, "Embree opens its device");
   parts_->scene = &scene;
   parts_->unit = scene.size;
   if (!scene.bounds.empty()) {
@@ -151,7 +134,7 @@ AccurateHit AccurateFinder::closest(const AccurateRay& ray) const {
   RTCRayHit ray_hit{};
   ray_hit.ray = parts_->embree_ray(ray);
   ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  embree::intersect(parts_->library, parts_->boxes, query.context, ray_hit);
+  embree::intersect(parts_->library, parts_->boxes.scene(), query.context, ray_hit);
   return query.best;
 }
 
@@ -159,7 +142,7 @@ AccurateHit AccurateFinder::any(const AccurateRay& ray) const {
   Query query{.context = {}, .ray = &ray, .best = {}};
   embree::start(query.context);
   RTCRay asked = parts_->embree_ray(ray);
-  embree::occlude(parts_->library, parts_->boxes, query.context, asked);
+  embree::occlude(parts_->library, parts_->boxes.scene(), query.context, asked);
   return query.best;
 }
 

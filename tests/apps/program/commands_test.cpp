@@ -100,4 +100,17 @@ TEST_CASE("every command that shows progress can be told not to") {
   CHECK_FALSE(parse_command_line(std::vector<std::string>{"check", "tetra-3"}).options<CheckOptions>().quiet);
 }
 
+TEST_CASE("scene may be told to be quiet like the others") {
+  const Command command = parse({"scene", "tetra-3", "--quiet"});
+  CHECK(command.options<SceneOptions>().quiet);
+  CHECK(command.is_quiet());
+  CHECK_FALSE(parse({"scene", "tetra-3"}).is_quiet());
+}
+
+TEST_CASE("a wrong line is told of options that only other commands have") {
+  CHECK(contains(command_complaint({"compare", "a.exr", "b.exr", "--nodes=4"}),
+                 "--nodes is no option of dmpc compare, but of dmpc render"));
+  CHECK(contains(command_complaint({"render", "study", "-o", "a.png", "--page=4"}), "--page is no option of dmpc render"));
+}
+
 }  // namespace dmpc::apps

@@ -23,6 +23,16 @@ TEST_CASE("what fails is said, a line each, and keeps nothing that follows from 
   CHECK(attempts.status() == 1);
 }
 
+TEST_CASE("want of room is said, too, and is no bad input, and the first that fails counts") {
+  std::ostringstream messages;
+  Attempts attempts(messages);
+  CHECK_FALSE(attempts.make([] { throw core::RoomError("a: Cannot allocate memory"); }));
+  CHECK(attempts.status() == 4);
+  CHECK_FALSE(attempts.make([] { throw core::InputError("b: cannot be written"); }));
+  CHECK(messages.str() == "dmpc: a: Cannot allocate memory\ndmpc: b: cannot be written\n");
+  CHECK(attempts.status() == 4);
+}
+
 TEST_CASE("where all succeeds the status is 0") {
   std::ostringstream messages;
   Attempts attempts(messages);

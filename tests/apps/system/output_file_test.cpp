@@ -3,10 +3,15 @@
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
+#include <cerrno>
+#include <filesystem>
 #include <fstream>
+#include <span>
 #include <sstream>
 #include <string_view>
 
+#include "apps/system/files.h"
+#include "apps/system/shortage.h"
 #include "core/base/expect.h"
 #include "tests/support/temporary_folder.h"
 
@@ -148,6 +153,24 @@ TEST_CASE("a path into a missing folder is refused with the folder's name") {
       ("-o " + (folder / "nowhere/a.png").string() + ": there is no folder " + (folder / "nowhere").string() + ", make it first")
           .c_str(),
       core::InputError);
+}
+
+TEST_CASE("a file for which this computer has no room is no bad input") {
+  class FullTable : public Files {
+   public:
+    int open(const std::filesystem::path&, int) override {
+      errno = ENFILE;
+      return -1;
+    }
+    ssize_t read(int, std::span<char>) override { return -1; }
+    ssize_t write(int, std::string_view) override { return -1; }
+    int sync(int) override { return -1; }
+    int close(int) override { return -1; }
+    int rename(const std::filesystem::path&, const std::filesystem::path&) override { return -1; }
+    int remove(const std::filesystem::path&) override { return -1; }
+  } files;
+  const TemporaryFolder folder;
+  CHECK_THROWS_AS(write_file(folder / "a", "text", Durability::until_power_loss, files), ComputerRoomError);
 }
 
 TEST_CASE("a folder or an empty name is no output") {

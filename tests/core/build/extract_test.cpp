@@ -188,3 +188,18 @@ TEST_CASE("a region without primitives takes next to nothing") {
   const DatabasePart part = core::extract(database, {{0, 0, size[2] - 1}, {1, 1, size[2]}});
   CHECK(part.record_bytes < 4096);
 }
+
+TEST_CASE("a part is measured as it is extracted, and nothing is copied") {
+  for (const core::Scene& scene : {tests::everything(), tests::built_in("teapot-4"), core::Scene()}) {
+    std::mt19937 random(3);
+    const core::Database database = core::build_database(scene, apps::several_top_cells(scene));
+    for (const Region& region : random_regions(core::grid_size(database.header().frame), 12, random)) {
+      const DatabasePart part = core::extract(database, region), measured = core::measure_part(database, region);
+      CHECK(measured.record_bytes == part.record_bytes);
+      CHECK(part.bytes.size() == part.record_bytes + core::overread_bytes);
+      CHECK(measured.primitive_copies == part.primitive_copies);
+      CHECK(measured.header.region == region);
+      CHECK(measured.bytes.capacity() == 0);
+    }
+  }
+}

@@ -10,6 +10,7 @@
 
 #include "apps/formats/mesh_file.h"
 #include "apps/picture/image_file.h"
+#include "core/base/expect.h"
 #include "core/scene/scene.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
@@ -20,7 +21,7 @@ namespace {
 
 /// What Assimp gets of a line, and what is kept.
 struct Plain {
-  explicit Plain(const std::string& line) : text(plain_mtl("newmtl a\n" + line, textures).substr(9)) {}
+  explicit Plain(const std::string& line) : text(plain_mtl("a.mtl", "newmtl a\n" + line, textures).text.substr(9)) {}
 
   MtlTextures textures;
   std::string text;
@@ -74,6 +75,25 @@ TEST_CASE("a texture is scaled by -s and moved by -o, with t upwards") {
   }
 }
 
+TEST_CASE("textures without a name are found by the lines and letters by which options are, whatever ends a line") {
+  const auto note = [](const std::string& file) {
+    MtlTextures textures;
+    return plain_mtl("a.mtl", file, textures).note;
+  };
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    CAPTURE(end);
+    std::string file;
+    for (const std::string line : {"newmtl a", "\tMAP_kd wood.png", "map_KD ", "map_Kdx", "map_Kd"}) {
+      file += line + end;
+    }
+    CHECK(note(file) == "a.mtl: map_Kd names no file in line 3 and 1 others: there the plain colour is shown");
+    CHECK_THROWS_WITH_AS(note("newmtl a" + end + "map_Kd -s 2 2 " + std::string(1020, 'x')),
+                         "a.mtl names a texture in 1027 bytes in line 2; expected at most 1023", core::InputError);
+  }
+  CHECK(note("\xef\xbb\xbfmap_Kd") == "a.mtl: map_Kd names no file in line 1: there the plain colour is shown");
+  CHECK(note("map_Kd " + std::string(1023, 'x')).empty());
+}
+
 TEST_CASE("what is not followed is said once a kind") {
   const MeshFile file = square_with("map_Kd -mm 0.5 1 my wood.png");
   CHECK(file.scene.textures.size() == 1);
@@ -86,7 +106,7 @@ TEST_CASE("what is not followed is said once a kind") {
 
 TEST_CASE("a material without options lays its texture as another of its name before said, and no longer") {
   MtlTextures textures;
-  plain_mtl("newmtl a\nmap_Kd -s 2 2 x.png\nnewmtl b\nmap_Kd -s 3 3 x.png\nnewmtl a\nmap_Kd x.png\n", textures);
+  plain_mtl("a.mtl", "newmtl a\nmap_Kd -s 2 2 x.png\nnewmtl b\nmap_Kd -s 3 3 x.png\nnewmtl a\nmap_Kd x.png\n", textures);
   CHECK(textures.places.at("a").is_plain());
   CHECK_FALSE(textures.places.at("b").is_plain());
 }

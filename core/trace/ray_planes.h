@@ -1,0 +1,95 @@
+// Where a ray crosses the planes between finest cells.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "core/base/mutation.h"
+#include "core/base/region.h"
+#include "core/record/ray.h"
+#include "core/record/record.h"
+
+namespace dmpc::core {
+
+/// What a ray and a grid determine, recomputed from the ray's bits wherever it comes.
+///
+/// The one formula for a plane anywhere: plane i of an axis (in finest cells) is crossed at t = i * slope + offset, in double.
+/// Rounding keeps order, so t rises or falls with i without exception.
+class RayPlanes {
+ public:
+  RayPlanes(const Ray& ray, const GridFrame& frame)
+      : origin_(ray.origin),
+        direction_(ray.direction),
+        reciprocal_(reciprocal_direction(ray)),
+        finest_cells_(1.0 / double{frame.finest_cell}) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float d = ray.direction[axis];
+      step_[axis] = d >= smallest_component ? 1 : d <= -smallest_component ? -1 : 0;
+      if constexpr (mutation == Mutation::sign_of_minus_zero) {
+        step_[axis] = d >= 0.0F ? 1 : -1;
+      }
+      if constexpr (mutation == Mutation::world_coordinates) {
+        origin_[axis] = in_world_coordinates(origin_[axis], frame.origin[axis] * frame.scale);
+      }
+      if (step_[axis] != 0) {
+        slope_[axis] = double{frame.finest_cell} * reciprocal_[axis];
+        offset_[axis] = -origin_[axis] * reciprocal_[axis];
+      } else {
+        offset_[axis] = std::numeric_limits<double>::infinity();
+      }
+    }
+  }
+
+  /// That of the direction, as reciprocal_direction() has it.
+  const Vec3d& reciprocal() const { return reciprocal_; }
+  /// -1, 0 or +1: the direction in which the ray crosses planes of the axis.
+  std::int32_t step(std::size_t axis) const { return step_[axis]; }
+  /// The t at which the ray crosses a plane, infinite along an axis without a step.
+  double plane(std::size_t axis, std::int32_t index) const { return static_cast<double>(index) * slope_[axis] + offset_[axis]; }
+  /// Where the ray is at t, in finest cells, off by rounding.
+  double place(std::size_t axis, double t) const {
+    return (step_[axis] == 0 ? origin_[axis] : origin_[axis] + t * direction_[axis]) * finest_cells_;
+  }
+
+  /// The t at which a walk through a grid of `size` finest cells starts; nothing if the ray misses it or is not finite.
+  std::optional<double> entry(const Corner& size, float t_max) const {
+    const double sum = origin_.x + origin_.y + origin_.z + direction_.x + direction_.y + direction_.z;
+    if (!(sum * 0.0 == 0.0)) {  // something is not finite: doubles cannot overflow from floats
+      return std::nullopt;
+    }
+    double t_enter = 0.0, t_exit = double{t_max};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (step_[axis] == 0) {
+        const double at = origin_[axis] * finest_cells_;
+        if (!(at >= 0.0 && at < static_cast<double>(size[axis]))) {
+          return std::nullopt;
+        }
+      } else {
+        t_enter = std::max(t_enter, plane(axis, step_[axis] > 0 ? 0 : size[axis]));
+        t_exit = std::min(t_exit, plane(axis, step_[axis] > 0 ? size[axis] : 0));
+      }
+    }
+    return t_enter < t_exit ? std::optional(t_enter) : std::nullopt;
+  }
+  /// Whether the walk that starts at `t_enter` starts in a finest cell from `index` on.
+  bool starts_above(std::size_t axis, std::int32_t index, double t_enter) const {
+    return step_[axis] == 0 ? origin_[axis] * finest_cells_ >= index : (plane(axis, index) <= t_enter) == (step_[axis] > 0);
+  }
+
+ private:
+  /// What is left of a local coordinate that went through the world's, in single precision.
+  static double in_world_coordinates(double local, double grid_origin) {
+    return double{static_cast<float>(local + grid_origin)} - double{static_cast<float>(grid_origin)};
+  }
+
+  Vec3d origin_, direction_, reciprocal_;
+  std::array<double, 3> slope_{}, offset_{};
+  std::array<std::int32_t, 3> step_{};
+  double finest_cells_;  ///< a unit of length, in finest cells
+};
+
+}  // namespace dmpc::core

@@ -1,0 +1,53 @@
+// Several Bsps of one grid laid over each other: the cells between all their cuts, and who owns each in every Bsp.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/region.h"
+#include "dataflow/regions/bsp.h"
+
+namespace dmpc::dataflow {
+
+/// A lattice on which a ray's way through the regions of all Bsps can be found at one go (LatticeWalk). Immutable.
+class JointLattice {
+ public:
+  static constexpr std::size_t bsps_max = 64;
+
+  /// Requires 1 to bsps_max Bsps of one grid.
+  explicit JointLattice(std::span<const Bsp> bsps);
+  /// What it would hold: an owner for each Bsp in each cell.
+  static std::size_t owner_count(std::span<const Bsp> bsps);
+
+  std::size_t bsp_count() const { return bsp_count_; }
+  /// A bit for each Bsp.
+  std::uint64_t all_bsps() const { return ~std::uint64_t{0} >> (bsps_max - bsp_count_); }
+  /// The planes between cells along an axis, in finest cells, ascending: the cuts, between the grid's two ends.
+  std::span<const std::int32_t> planes(std::size_t axis) const { return planes_[axis]; }
+
+  /// A cell by its place along each axis: between planes i and i + 1.
+  using Place = std::array<std::size_t, 3>;
+  std::size_t cell_at(const Place& place) const { return place[0] * stride_[0] + place[1] * stride_[1] + place[2] * stride_[2]; }
+  /// From a cell to the next along an axis.
+  std::size_t stride(std::size_t axis) const { return stride_[axis]; }
+  /// The node that owns the cell, by Bsp.
+  std::span<const std::uint16_t> owners(std::size_t cell) const {
+    return std::span(owners_).subspan(cell * bsp_count_, bsp_count_);
+  }
+  /// The Bsps whose region there is not known to hold nothing, a bit each.
+  std::uint64_t occupied(std::size_t cell) const { return occupied_[cell]; }
+
+ private:
+  void add_cell(std::span<const Bsp> bsps, const Place& place);
+
+  std::size_t bsp_count_;
+  std::array<std::vector<std::int32_t>, 3> planes_;
+  Place stride_{};
+  std::vector<std::uint16_t> owners_;
+  std::vector<std::uint64_t> occupied_;
+};
+
+}  // namespace dmpc::dataflow
