@@ -32,13 +32,13 @@ constexpr std::uint32_t count_of(RayMask rays) {
 template <class T>
 using Row = std::array<T, bundle_rays_max>;
 
-/// As many rays take each its own way out of one brick: none of them waits for another's children.
+/// Up to so many rays of a brick or block are tested one by one, each against all its children or triangles at once.
 inline constexpr std::size_t apart_max = 3;
 
 /// Met children that have not been visited, the nearest last, each with the rays that have met it. Not initialised.
 struct BundleChildren {
-  /// As MetChildren; and where a bundle is about to part each of its rays may add children of its own.
-  static constexpr std::size_t count_max = MetChildren::count_max + 3 * brick_children_max;
+  /// As MetChildren; and where rays are tested one by one, which happens once on a way down, each adds children of its own.
+  static constexpr std::size_t count_max = MetChildren::count_max + (apart_max - 1) * brick_children_max;
 
   alignas(64) std::array<Row<float>, count_max> t_enter;  ///< where each of the rays enters the box
   std::array<float, count_max> nearest;                   ///< of those, about: what the order goes by
@@ -62,7 +62,7 @@ struct BundleHits {
 };
 
 /// Rays and their walk, which core/trace/bundle_walk.h takes from record to record. A step reads exactly one record, and whatever
-/// the next one needs is here by value, as in a Cursor. Rays that have met nothing alike go on together: each has its own
+/// the next one needs is here by value, as in a Cursor. Each ray has its own
 /// bit in the masks, its own nearest hit and its own end. Neither initialised nor ever allocated: its owner has room for it.
 struct RayBundle {
   // What its owner sets.
@@ -103,7 +103,7 @@ struct RayBundle {
   ShearedRay sheared(std::size_t ray) const;
 
   RayMask all() const { return (RayMask{1} << count) - 1; }
-  /// What the rays in front of a start are: `count` of them are set.
+  /// Once `count` rays are set: their walk is to begin.
   void start() { stage = Stage::start; }
 };
 static_assert(std::is_trivially_copyable_v<RayBundle>);
