@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace dmpc::nodes {
 
@@ -13,5 +14,36 @@ constexpr int looks_before_sleep(std::size_t thread_count, std::size_t core_coun
   constexpr int looks = 4;
   return thread_count > 2 * core_count + 1 ? looks : 0;
 }
+
+/// One node's looks: as many as looks_before_sleep() says, unless its yields are found to give the core to other processes, as
+/// they then would again and again. A yield that takes longer than a hundred sleeps has let somebody run for long: others, where
+/// this process has had much less of the machine's processors since the last such yield than all of them. Then the node sleeps at
+/// once for a while.
+class Looks {
+ public:
+  constexpr Looks(int most, std::size_t core_count) : most_(most), core_count_(core_count) {}
+
+  static constexpr std::uint64_t long_yield_ns = 1'000'000;
+  static constexpr std::uint32_t sleeps_at_once_max = 256;
+
+  /// So often the node may look now.
+  constexpr int allowed() const { return sleeps_at_once_ > 0 ? 0 : most_; }
+  /// A yield has been a long one; by the monotonic clock it is `now_ns`, and the process has had `processor_ns` so far.
+  constexpr void yielded_long(std::uint64_t now_ns, std::uint64_t processor_ns) {
+    const double all = static_cast<double>(now_ns - last_ns_) * static_cast<double>(core_count_);
+    const bool others_run = last_ns_ > 0 && static_cast<double>(processor_ns - last_processor_ns_) < 0.8 * all;
+    sleeps_at_once_ = others_run ? sleeps_at_once_max : sleeps_at_once_;
+    last_ns_ = now_ns;
+    last_processor_ns_ = processor_ns;
+  }
+  /// The node has looked, and sleeps now if nothing has come.
+  constexpr void end() { sleeps_at_once_ -= sleeps_at_once_ > 0 ? 1 : 0; }
+
+ private:
+  int most_;
+  std::size_t core_count_;
+  std::uint32_t sleeps_at_once_ = 0;  ///< that are left
+  std::uint64_t last_ns_ = 0, last_processor_ns_ = 0;
+};
 
 }  // namespace dmpc::nodes

@@ -80,6 +80,7 @@ struct alignas(cache_line_bytes) Processor {
         mailbox(specification.mailbox, memory),
         held(held_packets_of(computer.chaos, specification, id, memory, computer.network)),
         patience(specification.patience),
+        looks(looks_before_sleep(computer.peer_count, std::thread::hardware_concurrency()), std::thread::hardware_concurrency()),
         node(id, computer.peer_count, memory, way_out(computer)) {
     core::expect(specification.plan[Category::reserve] >= thread_stack_bytes_min, "a plan reserves room for the thread's stack");
     if (computer.chaos) {
@@ -133,6 +134,7 @@ struct alignas(cache_line_bytes) Processor {
   Mailbox::Batch waiting;  ///< packets sent that may wait, in slots of their target
   NodeId waiting_for{};    ///< their target
   std::uint32_t waiting_count = 0, quanta_waited = 0;
+  Looks looks;                     ///< at its mailbox before it sleeps
   std::optional<Telling> telling;  ///< if somebody looks on
   Node node;
   std::unique_ptr<Program> program;
@@ -151,10 +153,7 @@ struct alignas(cache_line_bytes) Processor {
 /// thread exists.
 struct ThreadsRunner::Implementation final : Network {
   Implementation(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos, Observer* observer)
-      : chaos_(chaos),
-        observer_(observer),
-        looks_before_sleep_(looks_before_sleep(specifications.size(), std::thread::hardware_concurrency())),
-        awake_(static_cast<std::uint32_t>(specifications.size())) {
+      : chaos_(chaos), observer_(observer), awake_(static_cast<std::uint32_t>(specifications.size())) {
     core::expect(!specifications.empty(), "a computer has at least the host");
     const Computer computer{static_cast<std::uint32_t>(specifications.size()), *this, chaos_, observer_, start_ns_};
     for (std::uint32_t i = 0; i < computer.peer_count; ++i) {
@@ -274,7 +273,7 @@ struct ThreadsRunner::Implementation final : Network {
     }
     if (!has_more && holds_packets) {
       self.pass_idly();
-    } else if (!has_more && !packet_comes_soon(self.mailbox)) {
+    } else if (!has_more && !packet_comes_soon(self)) {
       sleep(self);
     }
   }
@@ -327,11 +326,17 @@ struct ThreadsRunner::Implementation final : Network {
     observer_->ended(span, *self.program);
   }
 
-  bool packet_comes_soon(const Mailbox& mailbox) const {
-    for (int i = 0; i < looks_before_sleep_ && mailbox.is_empty(); ++i) {
+  static bool packet_comes_soon(Processor& self) {
+    for (int look = 0; look < self.looks.allowed() && self.mailbox.is_empty(); ++look) {
+      const std::uint64_t before_ns = nanoseconds(CLOCK_MONOTONIC);
       sched_yield();
+      const std::uint64_t now_ns = nanoseconds(CLOCK_MONOTONIC);
+      if (now_ns - before_ns > Looks::long_yield_ns) {
+        self.looks.yielded_long(now_ns, nanoseconds(CLOCK_PROCESS_CPUTIME_ID));
+      }
     }
-    return !mailbox.is_empty();
+    self.looks.end();
+    return !self.mailbox.is_empty();
   }
 
   void sleep(Processor& self) {
@@ -392,7 +397,6 @@ struct ThreadsRunner::Implementation final : Network {
 
   std::optional<Chaos> chaos_;
   Observer* observer_;
-  int looks_before_sleep_;
   std::uint64_t start_ns_ = 0;  ///< of the run; written before the threads start
   AwakeCount awake_;
   alignas(cache_line_bytes) std::atomic<Ending> ending_{Ending::none};

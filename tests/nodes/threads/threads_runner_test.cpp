@@ -359,6 +359,25 @@ TEST_CASE("an idle thread looks again where many share a core, and sleeps at onc
   CHECK(looks_before_sleep(3, 0) > 0);
 }
 
+TEST_CASE("an idle thread whose long yields let others run sleeps at once for a while") {
+  constexpr std::uint64_t ms = 1'000'000;
+  Looks looks(4, 2);
+  looks.yielded_long(100 * ms, 50 * ms);
+  CHECK(looks.allowed() == 4);
+  // Both cores have been ours, all but.
+  looks.yielded_long(110 * ms, 69 * ms);
+  CHECK(looks.allowed() == 4);
+  // One of them has been others'.
+  looks.yielded_long(120 * ms, 79 * ms);
+  for (std::uint32_t sleep = 0; sleep < Looks::sleeps_at_once_max; ++sleep) {
+    CHECK(looks.allowed() == 0);
+    looks.end();
+  }
+  CHECK(looks.allowed() == 4);
+  looks.end();
+  CHECK(looks.allowed() == 4);
+}
+
 TEST_CASE("a mailbox smaller than the credits is found out") {
   ThreadsRunner runner(equal_nodes(5, {.small_slots = 1, .bulk_slots = 1, .bulk_payload_bytes = 200}, making<Asker>(50U, 40U)));
   CHECK_THROWS_WITH_AS(runner.run({}), doctest::Contains("credits leave room"), core::InternalError);
