@@ -18,6 +18,10 @@ void mark_if_empty(Bsp& bsp, std::uint32_t node, const core::DatabasePart& part,
   }
 }
 
+core::DatabasePart outline_for(const core::Database& database, const core::RenderSettings& settings) {
+  return core::outline_of(database, settings.skips.empty_regions ? core::outline_bytes_max(database) : 0);
+}
+
 double duplication_of(std::uint64_t copies, const core::Database& database) {
   return database.references() == 0 ? 1.0 : static_cast<double>(copies) / static_cast<double>(database.references());
 }
@@ -27,7 +31,7 @@ double duplication_of(std::uint64_t copies, const core::Database& database) {
 std::vector<Share> Distribution::shares() const {
   std::vector<Share> shares;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    shares.push_back({parts[i].record_bytes, primaries[i].size()});
+    shares.push_back({parts[i].record_bytes, primaries[i].size(), outline.bytes.size()});
   }
   return shares;
 }
@@ -42,7 +46,7 @@ double Distribution::duplication(const core::Database& database) const {
 
 Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Bsp& bsp,
                         const std::stop_token& stop, bool deals_primaries) {
-  Distribution distribution{bsp, {}, {}};
+  Distribution distribution{bsp, {}, {}, outline_for(database, settings)};
   for (std::uint32_t node = 0; node < bsp.region_count(); ++node) {
     distribution.parts.push_back(core::extract(database, bsp.region_of(nodes::NodeId{node})));
     mark_if_empty(distribution.bsp, node, distribution.parts.back(), settings);
@@ -62,6 +66,7 @@ MeasuredParts measure_parts(const core::Database& database, const core::RenderSe
     copies += part.primitive_copies;
   }
   parts.duplication = duplication_of(copies, database);
+  parts.outline_bytes = outline_for(database, settings).bytes.size();
   return parts;
 }
 
@@ -73,7 +78,7 @@ std::vector<std::vector<Share>> measure_shares(const core::RenderSettings& setti
   std::vector<std::vector<Share>> shares(bsps.size());
   for (std::size_t i = 0; i < bsps.size(); ++i) {
     for (std::uint32_t node = 0; node < bsps[i].region_count(); ++node) {
-      shares[i].push_back({parts[i].record_bytes[node], runs[i][node]});
+      shares[i].push_back({parts[i].record_bytes[node], runs[i][node], parts[i].outline_bytes});
     }
   }
   return shares;

@@ -11,6 +11,7 @@
 #include "core/base/forget.h"
 #include "core/build/database.h"
 #include "core/build/extract.h"
+#include "core/build/outline.h"
 #include "core/picture/pixel_task.h"
 #include "core/trace/traversal.h"
 #include "dataflow/plan.h"
@@ -29,6 +30,7 @@ struct Distribution {
   Bsp bsp;
   std::vector<core::DatabasePart> parts;
   std::vector<std::vector<PrimaryRun>> primaries;
+  core::DatabasePart outline;  ///< for every node; none (core/build/outline.h) if rays are to ask every region
 
   std::vector<Share> shares() const;
   /// Copies of primitives in all parts over those in the database: at least about 1, more where cuts go through blocks.
@@ -50,6 +52,7 @@ Distribution distribute(const core::Database& database, const core::RenderSettin
 /// What distribute() would deal as parts, by node.
 struct MeasuredParts {
   std::vector<std::size_t> record_bytes;
+  std::size_t outline_bytes = 0;
   double duplication = 1;  ///< as that of Distribution
 };
 

@@ -1,14 +1,47 @@
 #include "dataflow/next_stop.h"
 
-namespace dmpc::dataflow {
+#include <limits>
 
-NextStop next_stop(const core::Ray& ray, const core::Passage& passage, const core::GridFrame& frame, const Bsp& bsp,
-                   core::Operations& operations) {
+namespace dmpc::dataflow {
+namespace {
+
+constexpr float never = std::numeric_limits<float>::infinity();
+
+/// Where the ray may first meet anything; in no region before that.
+float first_meeting(const core::Ray& ray, const core::Walk& walk, const core::Passage& passage, const Surroundings& surroundings,
+                    core::Operations& operations) {
+  if (!surroundings.has_outline()) {
+    return static_cast<float>(passage.t_enter);
+  }
+  core::LocalRecords records = surroundings.records;
+  return core::first_block(ray, core::BoxRay(ray, walk.reciprocal()), walk, passage, records, surroundings.outline,
+                           surroundings.skips, operations);
+}
+
+}  // namespace
+
+NextStop next_stop(const core::Ray& ray, const core::Passage& passage, const Surroundings& surroundings,
+                   std::optional<std::uint32_t> here, core::Operations& operations) {
+  const Bsp& bsp = surroundings.bsp;
   NextStop stop{.passage = passage, .region = bsp.region_index_of(passage.cell)};
-  while (stop.traced == core::Traced::left && bsp.is_empty(stop.region)) {
-    stop.traced = core::pass(ray, frame, bsp.region_at(stop.region), stop.passage, operations);
+  if (stop.region == here || (!surroundings.has_outline() && !bsp.is_empty(stop.region))) {
+    return stop;
+  }
+  core::Walk walk(ray, surroundings.outline.frame, surroundings.outline.region);
+  const float first = first_meeting(ray, walk, passage, surroundings, operations);
+  if (first == never) {
+    stop.traced = passage.best.found() ? core::Traced::hit : core::Traced::miss;
+    return stop;
+  }
+  while (stop.traced == core::Traced::left && stop.region != here) {
+    walk.move_to(bsp.region_at(stop.region));
+    core::Passage next = stop.passage;
+    const core::Traced traced = core::pass(ray, walk, next, operations);
+    if (!bsp.is_empty(stop.region) && (traced != core::Traced::left || static_cast<float>(next.t_enter) >= first)) {
+      break;
+    }
+    stop = {.traced = traced, .passage = next, .region = bsp.region_index_of(next.cell)};
     ++operations.skipped.empty_regions;
-    stop.region = bsp.region_index_of(stop.passage.cell);
   }
   return stop;
 }

@@ -1,9 +1,12 @@
-// Which region a ray goes to next: past those that hold nothing, to the first that holds something.
+// Which region a ray goes to next: past those where it meets nothing, to the first where it may meet something.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
+#include "core/record/records.h"
 #include "core/trace/operations.h"
+#include "core/trace/skips.h"
 #include "core/trace/traversal.h"
 #include "dataflow/regions/bsp.h"
 
@@ -17,9 +20,20 @@ struct NextStop {
   std::uint32_t region = 0;  ///< by number; without meaning unless it goes on
 };
 
-/// The way of a ray that enters the grid, or leaves a region, by `passage`. Same bits as if every region were asked. Thread
-/// safety: pure but for the steps and skipped regions that it adds to `operations`.
-NextStop next_stop(const core::Ray& ray, const core::Passage& passage, const core::GridFrame& frame, const Bsp& bsp,
-                   core::Operations& operations);
+/// What is known of all of space.
+struct Surroundings {
+  const Bsp& bsp;
+  const core::DatabaseHeader& outline;  ///< of the database's outline (core/build/outline.h); without a directory: none is known
+  core::LocalRecords records;           ///< the outline's
+  core::Skips skips;
+
+  bool has_outline() const { return outline.directory != core::no_address; }
+};
+
+/// The way of a ray that enters the grid, or leaves a region, by `passage`; in region `here` it stops in any case, since nobody
+/// need be asked. Same bits as if every region were asked. Thread safety: pure but for the steps, bricks and skipped regions that
+/// it adds to `operations`.
+NextStop next_stop(const core::Ray& ray, const core::Passage& passage, const Surroundings& surroundings,
+                   std::optional<std::uint32_t> here, core::Operations& operations);
 
 }  // namespace dmpc::dataflow

@@ -70,7 +70,7 @@ inline constexpr nodes::Channel film_channel = 1;
 inline constexpr nodes::Channel control_channel = 2;
 static_assert(control_channel < nodes::channel_count);
 
-/// What fits so many bytes is the default length of a packet of rays or film.
+/// What fits so many bytes is the default length of a packet of film; of rays on threads twice as many.
 inline constexpr std::size_t packet_bytes = 1_KiB;
 /// No packet is longer.
 inline constexpr std::size_t packet_bytes_max = 64_KiB;

@@ -120,8 +120,14 @@ std::uint32_t default_credits(std::uint32_t node_count) {
   return std::clamp(default_ray_credits_in_all / node_count, 1U, default_ray_credits);
 }
 
+/// Threads that share cores are woken less often by packets twice as long: 64 on two cores took 0.89 of the processor time for
+/// three scenes. On a modelled machine nobody is woken.
+std::uint32_t default_batch(const PlanRequest& request) {
+  return rays_in(request.computer.machine ? packet_bytes : 2 * packet_bytes);
+}
+
 Bounds wanted(const PlanRequest& request) {
-  return {request.rays.ray_batch.value_or(rays_in(packet_bytes)),
+  return {request.rays.ray_batch.value_or(default_batch(request)),
           request.rays.ray_credits.value_or(default_credits(request.node_count())),
           request.rays.queue_packets.value_or(default_queue_packets)};
 }

@@ -19,8 +19,9 @@ namespace dmpc::dataflow {
 
 /// What one node is dealt, as far as the memory asks.
 struct Share {
-  std::size_t part_bytes = 0;    ///< its part of the database, records alone
-  std::size_t primary_runs = 0;  ///< entries of its list of primary rays
+  std::size_t part_bytes = 0;     ///< its part of the database, records alone
+  std::size_t primary_runs = 0;   ///< entries of its list of primary rays
+  std::size_t outline_bytes = 0;  ///< of the whole database's outline, with what may be read behind it
 };
 
 /// What a plan is made from. `optional` without a value means: choose.

@@ -7,7 +7,6 @@
 
 #include "core/base/expect.h"
 #include "core/trace/traversal.h"
-#include "dataflow/next_stop.h"
 #include "dataflow/packets.h"
 #include "nodes/watch/operation_charges.h"
 
@@ -25,9 +24,9 @@ const T* keep(LocalMemory& memory, const T& value) {
   return std::construct_at(reinterpret_cast<T*>(bytes.data()), value);
 }
 
-std::span<std::byte> keep_part(LocalMemory& memory, std::span<const std::byte> part) {
-  const std::span<std::byte> bytes = memory.allocate<std::byte>(Category::home_pages, part.size());
-  std::copy(part.begin(), part.end(), bytes.begin());
+std::span<std::byte> keep_records(LocalMemory& memory, Category category, std::span<const std::byte> records) {
+  const std::span<std::byte> bytes = memory.allocate<std::byte>(category, records.size());
+  std::copy(records.begin(), records.end(), bytes.begin());
   return bytes;
 }
 
@@ -72,9 +71,13 @@ NodeProgram::NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& de
       host_(plan.host()),
       return_batch_(return_batch(plan.ray_credits)),
       return_batch_host_(return_batch(plan.host_credits)),
-      constants_(keep(node.memory(), Constants{settings_for(deal), deal.bsp})),
-      part_(keep_part(node.memory(), deal.part.bytes)),
+      constants_(
+          keep(node.memory(), Constants{settings_for(deal), deal.bsp, deal.outline.header, deal.bsp.region_index_of(node.id())})),
+      part_(keep_records(node.memory(), Category::home_pages, deal.part.bytes)),
       records_(part_),
+      surroundings_{constants_->bsp, constants_->outline,
+                    core::LocalRecords(keep_records(node.memory(), Category::constants, deal.outline.bytes)),
+                    deal.settings.skips},
       tracer_(records_, deal.part.header, deal.settings.skips),
       primaries_(node.memory(), deal.primaries, deal.settings.first_samples(), plan.request.is_dealt()),
       backlog_(node.memory(), backlog_capacity(plan)),
@@ -85,7 +88,8 @@ NodeProgram::NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& de
 
 void NodeProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index) {
   const Share& share = plan.request.shares[index];
-  memory[Category::constants] += LocalMemory::bytes_for<std::byte>(sizeof(Constants));
+  memory[Category::constants] +=
+      LocalMemory::bytes_for<std::byte>(sizeof(Constants)) + LocalMemory::bytes_for<std::byte>(share.outline_bytes);
   memory[Category::home_pages] += LocalMemory::bytes_for<std::byte>(share.part_bytes + core::overread_bytes);
   Primaries::add_needs(memory, share.primary_runs, plan.request.is_dealt());
   RayQueue::add_needs(memory, backlog_capacity(plan));
@@ -305,10 +309,9 @@ void NodeProgram::shoot(const core::Ray& ray) {
   }
 }
 
-/// Past regions that hold nothing, to the owner of the next that holds something: this node or another.
+/// Past regions where it meets nothing, to the owner of the next where it may meet something: this node or another.
 void NodeProgram::go_to_next(RayMessage message) {
-  const NextStop stop =
-      next_stop(message.ray, message.passage(), constants_->settings.header.frame, constants_->bsp, operations_);
+  const NextStop stop = next_stop(message.ray, message.passage(), surroundings_, constants_->region, operations_);
   if (stop.traced == core::Traced::miss) {
     return end_miss(message.ray);
   }

@@ -27,6 +27,7 @@
 #include "dataflow/film_gather.h"
 #include "dataflow/flow_control.h"
 #include "dataflow/gather.h"
+#include "dataflow/next_stop.h"
 #include "dataflow/plan.h"
 #include "dataflow/primaries.h"
 #include "dataflow/ray_queue.h"
@@ -65,6 +66,7 @@ struct NodeDeal {
   std::span<const PrimaryRun> primaries;
   const core::RenderSettings& settings;  ///< the whole picture's
   const Bsp& bsp;
+  const core::DatabasePart& outline;  ///< of the whole database
 };
 
 class NodeProgram final : public nodes::Program {
@@ -94,6 +96,8 @@ class NodeProgram final : public nodes::Program {
   struct Constants {
     core::RenderSettings settings;  ///< header: the part's
     Bsp bsp;
+    core::DatabaseHeader outline;
+    std::uint32_t region;  ///< the node's, by number
   };
 
   static RayQueue::Capacity backlog_capacity(const Plan& plan);
@@ -135,6 +139,7 @@ class NodeProgram final : public nodes::Program {
   const Constants* constants_;
   std::span<std::byte> part_;
   core::LocalRecords records_;
+  Surroundings surroundings_;
   PartTracer tracer_;
   Primaries primaries_;
   RayQueue backlog_;

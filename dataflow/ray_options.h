@@ -12,7 +12,8 @@ namespace dmpc::dataflow {
 /// `optional` without a value means: choose.
 struct RayOptions {
   BalanceOptions balance = {};  ///< how the regions are cut
-  /// Rays in a full packet. Without it what fills a packet of 1 KiB, or fewer if the memory is scarce.
+  /// Rays in a full packet. Without it what fills a packet of 2 KiB, or of 1 KiB on a modelled machine, or fewer if the memory is
+  /// scarce.
   std::optional<std::uint32_t> ray_batch = std::nullopt;
   /// Packets of rays that may be under way, or in the receiver's backlog, for each sender and receiver. Without it 4, or fewer
   /// among more than 128 nodes or if the memory is scarce. 0: no node sends to another, every ray goes by way of the host.

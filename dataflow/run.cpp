@@ -268,9 +268,10 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
   std::vector<nodes::NodeSpecification> specifications;
   for (std::uint32_t i = 0; i < plan.node_count(); ++i) {
     const auto make_program = [&, i](nodes::Node& node) {
-      return std::make_unique<NodeProgram>(node, plan,
-                                           NodeDeal{distribution.parts[i], distribution.primaries[i], settings, distribution.bsp},
-                                           nodes::meter_for(options.watching, options.computer, node.id()));
+      return std::make_unique<NodeProgram>(
+          node, plan,
+          NodeDeal{distribution.parts[i], distribution.primaries[i], settings, distribution.bsp, distribution.outline},
+          nodes::meter_for(options.watching, options.computer, node.id()));
     };
     specifications.push_back({plan.node_memory(i), plan.node_mailbox, make_program, plan.held_bytes, 0,
                               nodes::patience_of(number_of(Kind::film), plan.film_credits)});

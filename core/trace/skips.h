@@ -54,7 +54,8 @@ inline constexpr std::array all_skips{
          "no ray whose light would count for nothing: off a surface that does not mirror, through one that lets "
          "nothing pass, to a light that is black or shows nothing (the paper's convention shoots the last)",
          "rays", &Skips::zero_terms, &SkippedWork::zero_terms},
-    Skip{"empty-regions", "rays pass by the owners of regions that hold nothing (dataflow)", "regions passed by",
+    // Those behind the last thing that a ray may meet are not counted.
+    Skip{"empty-regions", "rays pass by the owners of regions where they meet nothing (dataflow)", "regions passed by",
          &Skips::empty_regions, &SkippedWork::empty_regions},
     Skip{"background", "no primary ray is traced in parts of the picture, found beforehand, where nothing is to be seen",
          "primary rays", &Skips::background, &SkippedWork::background},

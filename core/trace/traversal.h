@@ -48,16 +48,65 @@ inline std::optional<Passage> first_passage(const Ray& ray, const GridFrame& fra
   return Passage{.t_enter = cursor.t_enter, .cell = walk.first_cell(cursor)};
 }
 
-/// What trace() would answer from `passage` on in a region that has no records, without reading any. After Traced::left `passage`
-/// is where the ray goes on, else where it was.
-inline Traced pass(const Ray& ray, const GridFrame& frame, const Region& region, Passage& passage, Operations& operations) {
+/// What trace() would answer from `passage` on in the walk's region if that had no records, without reading any. After
+/// Traced::left `passage` is where the ray goes on, else where it was.
+inline Traced pass(const Ray& ray, const Walk& walk, Passage& passage, Operations& operations) {
   Cursor cursor = arrive(passage);
-  Walk(ray, frame, region).leave_region(ray, passage.cell, cursor, operations);
+  walk.leave_region(ray, passage.cell, cursor, operations);
   const Traced traced = finish(cursor);
   if (traced == Traced::left) {
     passage = passage_of(cursor);
   }
   return traced;
+}
+
+/// The same for a region by itself.
+inline Traced pass(const Ray& ray, const GridFrame& frame, const Region& region, Passage& passage, Operations& operations) {
+  return pass(ray, Walk(ray, frame, region), passage, operations);
+}
+
+/// Where the ray enters the first box of a block in the cursor's cell, from cursor.next on; infinite if it meets none. Reads
+/// bricks alone.
+template <Records R>
+float first_block_in_cell(const Ray& ray, const BoxRay& box, Cursor& cursor, R& records, Operations& operations) {
+  const auto t_low = static_cast<float>(cursor.t_enter);
+  const float t_high = std::min({static_cast<float>(cursor.exit.t), ray.t_max, cursor.best.t});
+  float first = std::numeric_limits<float>::infinity();
+  for (BrickChild child = cursor.next; child.found();) {
+    if (child.is_block()) {
+      first = std::min(first, cursor.waiting.t_taken);
+      child = BrickChild::none();
+    } else {
+      ++operations.brick_reads;
+      const auto& brick = *reinterpret_cast<const Brick*>(records.find(child.address()));
+      child = meet_children(box, brick, t_low, std::min(t_high, first), true, cursor.waiting);
+    }
+    if (!child.found()) {
+      child = cursor.waiting.take_up_to(first);
+    }
+  }
+  return first;
+}
+
+/// Where the ray, from `passage` on, enters the first box of a block of the database, a float no greater than trace() could tell;
+/// infinite if trace() would test no primitive any more. `records` never says absent.
+template <Records R>
+float first_block(const Ray& ray, const BoxRay& box, const Walk& walk, const Passage& passage, R& records,
+                  const DatabaseHeader& header, const Skips& skips, Operations& operations) {
+  Cursor cursor = arrive(passage);
+  for (bool goes_on = true; goes_on;) {
+    if (cursor.stage == Cursor::Stage::directory) {
+      const std::uint64_t index = directory_index(header, cursor.cell);
+      const std::byte* const record = records.find(directory_address(header, index));
+      goes_on = walk.read(ray, read<DirectoryEntry>(record + directory_offset(index)), cursor, skips, operations);
+    } else if (const float first = first_block_in_cell(ray, box, cursor, records, operations);
+               first < std::numeric_limits<float>::infinity()) {
+      return first;
+    } else {
+      goes_on = walk.leave_cell(ray, cursor, operations);
+    }
+  }
+  return std::numeric_limits<float>::infinity();
 }
 
 /// Children that wait and do not lie behind the hit.

@@ -30,6 +30,11 @@ std::int32_t top_cells_between(const Corner& from, const Corner& to) {
 Walk::Walk(const Ray& ray, const GridFrame& frame, const Region& region)
     : planes_(ray, frame), grid_{.high = grid_size(frame)}, region_(region), whole_(is_whole(region, grid_.high)) {}
 
+void Walk::move_to(const Region& region) {
+  region_ = region;
+  whole_ = is_whole(region, grid_.high);
+}
+
 /// Whether the ray has crossed a plane when it enters a cell at t through a plane of `entry_axis`: planes of lower axes at equal
 /// t come first, those of higher axes come after it.
 bool Walk::crossed(std::size_t axis, std::int32_t index, double t, std::uint8_t entry_axis) const {

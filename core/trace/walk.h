@@ -28,6 +28,9 @@ class Walk {
  public:
   Walk(const Ray& ray, const GridFrame& frame, const Region& region);
 
+  /// Goes on as in another region: only what is left for what differs.
+  void move_to(const Region& region);
+
   /// That of the direction, as reciprocal_direction() has it.
   const Vec3d& reciprocal() const { return planes_.reciprocal(); }
 

@@ -11,6 +11,7 @@
 #include "dataflow/distribution.h"
 #include "dataflow/regions/balance.h"
 #include "tests/support/small_scenes.h"
+#include "tests/support/surroundings.h"
 
 using namespace dmpc;
 using core::Traced;
@@ -28,11 +29,15 @@ struct Hat {
                                           dataflow::equal_size_bsp(core::grid_size(settings.header.frame),
                                                                    dataflow::axes_facing(settings.camera), region_count))) {}
   const dataflow::Bsp& bsp() const { return distribution.bsp; }
+  dataflow::Surroundings known() const { return tests::surroundings(bsp(), distribution.outline); }
+  /// Which regions are empty, and no more.
+  dataflow::Surroundings marks() const { return tests::surroundings(bsp(), unknown); }
 
   core::Scene scene;
   core::Database database;
   core::RenderSettings settings;
   dataflow::Distribution distribution;
+  core::DatabasePart unknown = core::outline_of(database, 0);
 };
 
 /// How a ray ends.
@@ -47,11 +52,11 @@ struct End {
   }
 };
 
-/// Takes a ray from region to region to its end, by the regions that `bsp` has marked as empty.
-End end_of(const Hat& hat, const core::Ray& ray, core::Passage passage, const dataflow::Bsp& bsp) {
+/// Takes a ray from region to region to its end, past those of which the surroundings tell that it meets nothing there.
+End end_of(const Hat& hat, const core::Ray& ray, core::Passage passage, const dataflow::Surroundings& surroundings) {
   core::Operations operations;
   for (End end;; ++end.owners_asked) {
-    const dataflow::NextStop stop = next_stop(ray, passage, hat.settings.header.frame, bsp, operations);
+    const dataflow::NextStop stop = next_stop(ray, passage, surroundings, std::nullopt, operations);
     end.traced = stop.traced;
     end.hit = stop.passage.best;
     if (stop.traced != Traced::left) {
@@ -88,6 +93,7 @@ TEST_CASE("a ray that passes empty regions ends with the bits that it has when e
   const core::GridFrame& frame = hat.settings.header.frame;
   const core::Corner size = core::grid_size(frame);
   const dataflow::Bsp unmarked = dataflow::equal_size_bsp(core::grid_size(frame), dataflow::axes_facing(hat.settings.camera), 24);
+  const dataflow::Surroundings nothing_known = tests::surroundings(unmarked, hat.unknown);
   apps::Random random(20'261);
   std::uint32_t asked = 0, asked_of_all = 0, hits = 0;
   for (int i = 0; i < 4000; ++i) {
@@ -98,7 +104,7 @@ TEST_CASE("a ray that passes empty regions ends with the bits that it has when e
       ray.direction[axis] = i % 5 == static_cast<int>(axis) ? 0.0F : static_cast<float>(2 * random.unit() - 1);
     }
     if (const auto first = core::first_passage(ray, frame)) {
-      const End end = end_of(hat, ray, *first, hat.bsp()), expected = end_of(hat, ray, *first, unmarked);
+      const End end = end_of(hat, ray, *first, hat.marks()), expected = end_of(hat, ray, *first, nothing_known);
       CHECK(end == expected);
       asked += end.owners_asked;
       asked_of_all += expected.owners_asked;
@@ -109,13 +115,64 @@ TEST_CASE("a ray that passes empty regions ends with the bits that it has when e
   CHECK(asked < asked_of_all / 4 * 3);
 }
 
+TEST_CASE("a ray that passes regions where the outline says that it meets nothing ends with the same bits and asks few owners") {
+  const Hat hat(24);
+  const core::GridFrame& frame = hat.settings.header.frame;
+  const core::DatabasePart coarse = core::outline_of(hat.database, 3000);
+  REQUIRE(coarse.record_bytes < hat.distribution.outline.record_bytes);
+  apps::Random random(20'262);
+  std::uint32_t asked = 0, asked_coarsely = 0, asked_by_marks = 0, hits = 0;
+  for (int i = 0; i < 4000; ++i) {
+    core::Ray ray;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double extent = static_cast<double>(core::grid_size(frame)[axis]) * double{frame.finest_cell};
+      ray.origin[axis] = static_cast<float>(extent * (1.6 * random.unit() - 0.3));
+      ray.direction[axis] = i % 5 == static_cast<int>(axis) ? 0.0F : static_cast<float>(2 * random.unit() - 1);
+    }
+    ray.t_max = i % 3 == 0 ? static_cast<float>(random.unit()) : ray.t_max;
+    if (const auto first = core::first_passage(ray, frame)) {
+      const End expected = end_of(hat, ray, *first, hat.marks());
+      const End fine = end_of(hat, ray, *first, hat.known());
+      const End rough = end_of(hat, ray, *first, tests::surroundings(hat.bsp(), coarse));
+      CHECK(fine == expected);
+      CHECK(rough == expected);
+      asked += fine.owners_asked;
+      asked_coarsely += rough.owners_asked;
+      asked_by_marks += expected.owners_asked;
+      hits += expected.traced == Traced::hit ? 1 : 0;
+    }
+  }
+  CHECK(hits > 50);
+  CHECK(asked < asked_coarsely);
+  CHECK(asked_coarsely < asked_by_marks);
+  CHECK(asked < asked_by_marks / 2);
+}
+
+TEST_CASE("a ray stops in the region of who asks, whatever the outline says") {
+  const Hat hat(24);
+  std::uint32_t stopped = 0;
+  for (std::uint32_t pixel = 0; pixel < hat.settings.camera.pixel_count(); ++pixel) {
+    const core::Ray ray = hat.settings.camera.primary_ray(pixel, 0);
+    if (const auto first = core::first_passage(ray, hat.settings.header.frame)) {
+      core::Operations operations;
+      const std::uint32_t here = hat.bsp().region_index_of(first->cell);
+      const dataflow::NextStop stop = next_stop(ray, *first, hat.known(), here, operations);
+      CHECK(stop.traced == Traced::left);
+      CHECK(stop.region == here);
+      CHECK(operations.brick_reads == 0);
+      ++stopped;
+    }
+  }
+  CHECK(stopped > 50);
+}
+
 TEST_CASE("a ray that enters a region with records stops there, and nothing is counted") {
   const Hat hat(1);
   const core::Ray ray = hat.settings.camera.primary_ray(300, 0);
   const auto first = core::first_passage(ray, hat.settings.header.frame);
   REQUIRE(first.has_value());
   core::Operations operations;
-  const dataflow::NextStop stop = next_stop(ray, *first, hat.settings.header.frame, hat.bsp(), operations);
+  const dataflow::NextStop stop = next_stop(ray, *first, hat.marks(), std::nullopt, operations);
   CHECK(stop.traced == Traced::left);
   CHECK(stop.region == 0);
   CHECK(stop.passage.cell == first->cell);
@@ -145,7 +202,7 @@ TEST_CASE("a candidate that lies in an empty region is proved there") {
       passage->best.primitive = 7;
       passage->best.t = static_cast<float>(passage->t_enter);
       core::Operations operations;
-      proved += next_stop(ray, *passage, frame, hat.bsp(), operations).traced == Traced::hit ? 1 : 0;
+      proved += next_stop(ray, *passage, hat.marks(), std::nullopt, operations).traced == Traced::hit ? 1 : 0;
     }
   }
   CHECK(proved > 0);

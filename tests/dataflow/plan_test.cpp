@@ -34,11 +34,14 @@ std::string error_of(const PlanRequest& request, const dataflow::OtherNodeCount&
 
 }  // namespace
 
-TEST_CASE("without a memory bound a packet of rays fills 1 KiB and there are four credits") {
+TEST_CASE("without a memory bound a packet of rays fills 2 KiB, on a modelled machine 1 KiB, and there are four credits") {
   const Plan plan = make_plan(request_with(8, 100_KiB));
-  CHECK(plan.ray_batch == 10);
-  CHECK(dataflow::ray_packet_bytes(plan.ray_batch) <= 1_KiB);
-  CHECK(dataflow::ray_packet_bytes(plan.ray_batch + 1) > 1_KiB);
+  CHECK(plan.ray_batch == 21);
+  CHECK(dataflow::ray_packet_bytes(plan.ray_batch) <= 2_KiB);
+  CHECK(dataflow::ray_packet_bytes(plan.ray_batch + 1) > 2_KiB);
+  PlanRequest modelled = request_with(8, 100_KiB);
+  modelled.computer.machine.emplace();
+  CHECK(make_plan(modelled).ray_batch == 10);
   CHECK(plan.ray_credits == 4);
   CHECK(plan.queue_packets == 512);
   CHECK(plan.notes.empty());
@@ -63,7 +66,7 @@ TEST_CASE("the smallest memory that is named works, and one byte less does not")
 TEST_CASE("scarce memory costs queued packets first, then credits, then the length of packets, and no more than it must") {
   PlanRequest request = request_with(16, 100_KiB);
   const std::size_t all = make_plan(request).node_memory_max_bytes();
-  std::uint32_t queue = 512, credits = 4, batch = 10;
+  std::uint32_t queue = 512, credits = 4, batch = 21;
   for (std::size_t memory = all; memory >= dataflow::smallest_node_memory_bytes(request); memory -= 1_KiB) {
     request.computer.node_memory_bytes = memory;
     const Plan plan = make_plan(request);
@@ -71,7 +74,7 @@ TEST_CASE("scarce memory costs queued packets first, then credits, then the leng
     CHECK(plan.ray_credits <= credits);
     CHECK(plan.ray_batch <= batch);
     CHECK(plan.queue_packets <= queue);
-    CHECK((plan.ray_batch == 10 || plan.ray_credits == 1));
+    CHECK((plan.ray_batch == 21 || plan.ray_credits == 1));
     CHECK((plan.ray_credits == 4 || plan.queue_packets == 0));
     queue = plan.queue_packets;
     credits = plan.ray_credits;

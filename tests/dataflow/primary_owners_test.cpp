@@ -13,6 +13,7 @@
 #include "dataflow/primaries.h"
 #include "dataflow/regions/balance.h"
 #include "tests/support/small_scenes.h"
+#include "tests/support/surroundings.h"
 
 using namespace dmpc;
 using dataflow::Bsp;
@@ -46,7 +47,7 @@ std::uint32_t owner_by_next_stop(const Hat& hat, const Bsp& bsp, std::uint32_t p
   const core::Ray ray = hat.settings.camera.primary_ray(pixel, sample);
   if (const auto passage = core::first_passage(ray, frame); passage && !hat.settings.shows_background(pixel)) {
     core::Operations operations;
-    const dataflow::NextStop stop = dataflow::next_stop(ray, *passage, frame, bsp, operations);
+    const dataflow::NextStop stop = tests::next_stop_without_outline(ray, *passage, frame, bsp, operations);
     if (stop.traced == core::Traced::left) {
       return nodes::index_of(bsp.owner_of(stop.passage.cell));
     }

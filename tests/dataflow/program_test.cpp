@@ -55,7 +55,9 @@ struct Stage {
 struct LoneProgram {
   LoneProgram(const Stage& stage, std::uint32_t index, std::span<const dataflow::PrimaryRun> primaries = {})
       : single(stage.plan.node_memory(index), index, stage.plan.node_count() + 1),
-        program(single.node, stage.plan, {stage.distribution.parts[index], primaries, stage.settings, stage.distribution.bsp}) {}
+        program(
+            single.node, stage.plan,
+            {stage.distribution.parts[index], primaries, stage.settings, stage.distribution.bsp, stage.distribution.outline}) {}
 
   void receive(std::uint32_t sender, const RayMessage& message) {
     const dataflow::RayPacketHeader header{1, static_cast<std::uint16_t>(nodes::index_of(single.node.id()))};

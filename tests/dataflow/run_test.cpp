@@ -25,6 +25,10 @@ namespace {
 Report run(const Subject& subject, const RunOptions& options) {
   return dataflow::run_dataflow(subject.database(), subject.settings(), options, {});
 }
+/// Every ray asks every region on its way.
+Report run_asking(const Subject& subject, const RunOptions& options) {
+  return dataflow::run_dataflow(subject.database(), subject.settings({.empty_regions = false}), options, {});
+}
 
 std::uint64_t sum(const std::array<std::uint64_t, core::ray_kind_count>& by_kind) {
   return std::accumulate(by_kind.begin(), by_kind.end(), std::uint64_t{0});
@@ -50,7 +54,7 @@ RunOptions cut_across_x(const Subject& subject, std::uint32_t node_count) {
 
 TEST_CASE("a ray that passes from one region to the other is one message in a packet of its own") {
   const Subject subject = lone_ray();
-  const Report report = run(subject, cut_across_x(subject, 2));
+  const Report report = run_asking(subject, cut_across_x(subject, 2));
   CHECK(tests::outcome_of(report) == subject.outcome());
   CHECK(report.ray_matrix() == std::vector<std::uint64_t>{0, 1, 0, 0});
   CHECK(report.messages_per_ray() == 1.0);
@@ -65,12 +69,20 @@ TEST_CASE("a ray that passes from one region to the other is one message in a pa
   CHECK(report.host_rays.rays_in == 0);
 }
 
+TEST_CASE("a ray that meets nothing on its way asks no region") {
+  const Subject subject = lone_ray();
+  const Report report = run(subject, cut_across_x(subject, 2));
+  CHECK(tests::outcome_of(report) == subject.outcome());
+  CHECK(report.messages_per_ray() == 0.0);
+  CHECK(report.rays().ended == 1);
+}
+
 TEST_CASE("the same ray by way of the host is one message, too") {
   const Subject subject = lone_ray();
   RunOptions options = cut_across_x(subject, 2);
   options.rays.ray_batch = 1;
   options.rays.ray_credits = 0;
-  const Report report = run(subject, options);
+  const Report report = run_asking(subject, options);
   CHECK(report.ray_matrix() == std::vector<std::uint64_t>{0, 1, 0, 0});
   CHECK(report.messages_per_ray() == 1.0);
   CHECK(report.mean_fill() == 1.0);
@@ -85,7 +97,7 @@ TEST_CASE("the same ray by way of the host is one message, too") {
 
 TEST_CASE("a node whose region no ray enters sleeps but for the token, and sends no ray and no light") {
   const Subject subject = lone_ray();
-  const Report report = run(subject, cut_across_x(subject, 4));
+  const Report report = run_asking(subject, cut_across_x(subject, 4));
   CHECK(tests::outcome_of(report) == subject.outcome());
   int idle = 0;
   for (const NodeReport& node : report.nodes) {

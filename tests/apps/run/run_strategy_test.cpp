@@ -165,7 +165,7 @@ TEST_CASE("links that do not contend let no message wait") {
 TEST_CASE("dataflow's defaults are those that the help tells") {
   const Rendered rendered(small(Strategy::dataflow));
   const auto& plan = std::get<dataflow::Report>(*rendered.report).plan;
-  CHECK(plan.ray_batch == dataflow::rays_in(1_KiB));
+  CHECK(plan.ray_batch == dataflow::rays_in(2_KiB));
   CHECK(plan.ray_credits == 4);
   CHECK(plan.queue_packets == 512);
 }

@@ -9,6 +9,7 @@
 #include "apps/bench/stability/random.h"
 #include "core/trace/traversal.h"
 #include "dataflow/next_stop.h"
+#include "tests/support/surroundings.h"
 
 using namespace dmpc;
 using dataflow::Bsp;
@@ -44,7 +45,7 @@ core::Ray ray_along_planes(apps::Random& random) {
 std::optional<std::uint32_t> owner_on_planes(const core::Ray& ray, const Bsp& bsp) {
   if (const auto passage = core::first_passage(ray, walked_frame)) {
     core::Operations operations;
-    const dataflow::NextStop stop = dataflow::next_stop(ray, *passage, walked_frame, bsp, operations);
+    const dataflow::NextStop stop = tests::next_stop_without_outline(ray, *passage, walked_frame, bsp, operations);
     if (stop.traced == core::Traced::left) {
       return nodes::index_of(bsp.owner_of(stop.passage.cell));
     }
