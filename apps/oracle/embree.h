@@ -1,4 +1,4 @@
-// The only file that includes Embree, version 3 or 4: what dmpc calls of it, its geometries, and one ray asked of it.
+// The only file that includes Embree, version 3 or 4: what dmpc calls of it, its geometries, and rays asked of it.
 #pragma once
 
 #include <cstdint>
@@ -43,6 +43,8 @@ struct Library {
   decltype(&rtcSetGeometryOccludedFilterFunction) set_geometry_occluded_filter_function;
   decltype(&rtcIntersect1) intersect;
   decltype(&rtcOccluded1) occluded;
+  decltype(&rtcIntersect16) intersect_packet;
+  decltype(&rtcOccluded16) occluded_packet;
 };
 
 /// Opened at the first call, as open_module() says. Thread-safe.
@@ -90,6 +92,18 @@ inline void occlude(const Library& library, RTCScene scene, Context& context, RT
   arguments.context = &context;
   library.occluded(scene, &ray, &arguments);
 }
+inline void intersect(const Library& library, RTCScene scene, Context& context, const int* valid, RTCRayHit16& rays) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context;
+  library.intersect_packet(valid, scene, &rays, &arguments);
+}
+inline void occlude(const Library& library, RTCScene scene, Context& context, const int* valid, RTCRay16& rays) {
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &context;
+  library.occluded_packet(valid, scene, &rays, &arguments);
+}
 #else
 /// What a query's callbacks are handed: make it the first member of a structure to let them find more.
 using Context = RTCIntersectContext;
@@ -101,6 +115,13 @@ inline void intersect(const Library& library, RTCScene scene, Context& context, 
 /// Any hit.
 inline void occlude(const Library& library, RTCScene scene, Context& context, RTCRay& ray) {
   library.occluded(scene, &context, &ray);
+}
+/// The same of each of 16 rays whose number in `valid`, aligned to 64 bytes, is -1; the others' is 0.
+inline void intersect(const Library& library, RTCScene scene, Context& context, const int* valid, RTCRayHit16& rays) {
+  library.intersect_packet(valid, scene, &context, &rays);
+}
+inline void occlude(const Library& library, RTCScene scene, Context& context, const int* valid, RTCRay16& rays) {
+  library.occluded_packet(valid, scene, &context, &rays);
 }
 #endif
 
@@ -131,7 +152,8 @@ struct CurvedQuery {
   const Shapes& shapes;
   std::uint32_t id;
   RTCRayN* ray;
-  unsigned ray_count;  ///< side by side in `ray`; the first is meant
+  unsigned ray_count;  ///< side by side in `ray`
+  unsigned index;      ///< of the one that is meant
   Context* context;
 };
 /// Where the ray meets the primitive; nothing if nowhere, or if the query does not want it.
@@ -143,27 +165,33 @@ RTCGeometry curved_geometry(RTCDevice device, const Shapes& shapes, RTCIntersect
 template <CurvedDistance distance>
 RTCGeometry curved_geometry(RTCDevice device, const Shapes& shapes);
 
+/// What a callback is to ask about ray `index` of `ray`.
+template <class Arguments>
+CurvedQuery curved_query(const Arguments& arguments, RTCRayN* ray, unsigned index) {
+  const Shapes& shapes = *static_cast<const Shapes*>(arguments.geometryUserPtr);
+  return {shapes, shapes.curved[arguments.primID], ray, arguments.N, index, arguments.context};
+}
+
 template <CurvedDistance distance>
 void intersect_curved(const RTCIntersectFunctionNArguments* arguments) {
   RTCRayN* const ray = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
-  const Shapes& shapes = *static_cast<const Shapes*>(arguments->geometryUserPtr);
-  if (arguments->valid[0] == 0) {
-    return;
-  }
-  if (const auto t = distance({shapes, shapes.curved[arguments->primID], ray, arguments->N, arguments->context})) {
-    RTCRayN_tfar(ray, arguments->N, 0) = *t;
-    RTCHitN* const hit = RTCRayHitN_HitN(arguments->rayhit, arguments->N);
-    RTCHitN_primID(hit, arguments->N, 0) = arguments->primID;
-    RTCHitN_geomID(hit, arguments->N, 0) = arguments->geomID;
+  RTCHitN* const hit = RTCRayHitN_HitN(arguments->rayhit, arguments->N);
+  for (unsigned i = 0; i < arguments->N; ++i) {
+    const auto t = arguments->valid[i] != 0 ? distance(curved_query(*arguments, ray, i)) : std::nullopt;
+    if (t) {
+      RTCRayN_tfar(ray, arguments->N, i) = *t;
+      RTCHitN_primID(hit, arguments->N, i) = arguments->primID;
+      RTCHitN_geomID(hit, arguments->N, i) = arguments->geomID;
+    }
   }
 }
 
 template <CurvedDistance distance>
 void occlude_curved(const RTCOccludedFunctionNArguments* arguments) {
-  const Shapes& shapes = *static_cast<const Shapes*>(arguments->geometryUserPtr);
-  if (arguments->valid[0] != 0 &&
-      distance({shapes, shapes.curved[arguments->primID], arguments->ray, arguments->N, arguments->context})) {
-    RTCRayN_tfar(arguments->ray, arguments->N, 0) = -std::numeric_limits<float>::infinity();
+  for (unsigned i = 0; i < arguments->N; ++i) {
+    if (arguments->valid[i] != 0 && distance(curved_query(*arguments, arguments->ray, i))) {
+      RTCRayN_tfar(arguments->ray, arguments->N, i) = -std::numeric_limits<float>::infinity();
+    }
   }
 }
 

@@ -11,11 +11,11 @@ namespace {
 /// Within the ray, whose components Embree keeps one by one.
 std::optional<float> distance(const embree::CurvedQuery& query) {
   RTCRayN* const ray = query.ray;
-  const unsigned count = query.ray_count;
+  const unsigned count = query.ray_count, i = query.index;
   core::Ray asked;
-  asked.origin = {RTCRayN_org_x(ray, count, 0), RTCRayN_org_y(ray, count, 0), RTCRayN_org_z(ray, count, 0)};
-  asked.direction = {RTCRayN_dir_x(ray, count, 0), RTCRayN_dir_y(ray, count, 0), RTCRayN_dir_z(ray, count, 0)};
-  asked.t_max = RTCRayN_tfar(ray, count, 0);
+  asked.origin = {RTCRayN_org_x(ray, count, i), RTCRayN_org_y(ray, count, i), RTCRayN_org_z(ray, count, i)};
+  asked.direction = {RTCRayN_dir_x(ray, count, i), RTCRayN_dir_y(ray, count, i), RTCRayN_dir_z(ray, count, i)};
+  asked.t_max = RTCRayN_tfar(ray, count, i);
   const std::optional<double> t = nearest_on_curved(query.shapes.primitives[query.id], asked);
   return t ? std::optional(static_cast<float>(*t)) : std::nullopt;
 }

@@ -1,4 +1,4 @@
-// The kernel of `bench speed`: rays a second of our grid, over local records and through a pager, beside Embree's.
+// The kernel of `bench speed`: rays a second of our grid, one by one and in bundles, beside Embree's.
 #pragma once
 
 #include <vector>

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numeric>
 
 #include "core/base/elementary.h"
+#include "core/base/expect.h"
 #include "core/base/sampling.h"
-#include "core/picture/render.h"
+#include "core/picture/bundle_task.h"
 #include "core/picture/shade.h"
+#include "svm/work_items.h"
 
 namespace dmpc::apps {
 namespace {
@@ -43,33 +47,77 @@ RayClass class_of(core::RayKind kind) {
   return RayClass::secondary;
 }
 
-/// A core::Tracer that notes what it is asked.
+/// A core::BundleTracer that notes what it is asked.
 class RecordingTracer {
  public:
   RecordingTracer(const core::Database& database, std::size_t most)
-      : records_(database.bytes()), header_(database.header()), grid_(records_, header_, {}) {
-    samples_.fill(RaySample(most));
-  }
+      : records_(database.bytes()), header_(database.header()), grid_(records_, header_, {}), samples_(of_each_class(most)) {}
 
-  core::Traced trace(const core::Ray& ray, core::Cursor& cursor, core::Operations& operations) {
-    const core::Traced result = grid_.trace(ray, cursor, operations);
-    sample(class_of(ray.kind)).offer(ray);
-    if (ray.kind == core::RayKind::primary && result == core::Traced::hit) {
-      sample(RayClass::bounce).offer(bounce_ray(ray, cursor.best, records_, header_, bounces_++));
+  bool trace(core::RayBundle& bundle, core::Operations& operations) {
+    const bool is_ended = grid_.trace(bundle, operations);
+    const core::RayKind kind = bundle.rays[0].kind;
+    sample(class_of(kind)).offer(std::span(bundle.rays).first(bundle.count));
+    if (kind == core::RayKind::primary) {
+      sample_bounces(bundle);
     }
-    return result;
+    return is_ended;
   }
   const std::byte* find(core::Address address) { return grid_.find(address); }
 
-  RaySample& sample(RayClass ray_class) { return samples_[static_cast<std::size_t>(ray_class)]; }
+  BundleSample& sample(RayClass ray_class) { return samples_[static_cast<std::size_t>(ray_class)]; }
 
  private:
+  using Samples = std::array<BundleSample, ray_class_count>;
+
+  static Samples of_each_class(std::size_t most) {
+    return {BundleSample(most), BundleSample(most), BundleSample(most), BundleSample(most)};
+  }
+
+  void sample_bounces(const core::RayBundle& primary) {
+    std::array<core::Ray, core::bundle_rays_max> bounces;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < primary.count; ++i) {
+      if ((primary.found >> i & 1U) != 0) {
+        bounces[count++] = bounce_ray(primary.rays[i], primary.best.of(i), records_, header_, bounces_++);
+      }
+    }
+    if (count > 0) {
+      sample(RayClass::bounce).offer(std::span(bounces).first(count));
+    }
+  }
+
   core::LocalRecords records_;
   core::DatabaseHeader header_;
   core::GridTracer<core::LocalRecords> grid_;
-  std::array<RaySample, ray_class_count> samples_{RaySample(1), RaySample(1), RaySample(1), RaySample(1)};
+  Samples samples_;
   std::uint64_t bounces_ = 0;
 };
+
+/// The next pixels whose rays walk together: those of a tile.
+std::vector<std::uint32_t> next_tile(svm::PixelScan& scan, std::uint32_t image_width) {
+  std::vector<std::uint32_t> pixels;
+  do {
+    pixels.push_back(scan.next(image_width));
+  } while (scan.stays_in_tile());
+  return pixels;
+}
+
+void render_in_bundles(RecordingTracer& tracer, const core::RenderSettings& settings, core::Operations& operations) {
+  const core::SampleRange samples = settings.first_samples();
+  const auto width = static_cast<std::uint32_t>(settings.camera.width());
+  const auto height = static_cast<std::uint32_t>(settings.camera.height());
+  std::vector<core::BundleHit> stack(static_cast<std::size_t>(settings.shade.depth_max));
+  const auto task = std::make_unique<core::BundleTask>(stack);
+  svm::PixelScan scan({0, 0, width, height}, svm::tile_for(samples.count, core::BundleTask::pixels_max));
+  while (!scan.empty()) {
+    task->start(next_tile(scan, width), samples, settings, operations);
+    core::TaskState state = core::TaskState::more;
+    while (state == core::TaskState::more) {
+      state = task->run(tracer, settings, operations);
+    }
+    core::expect(state == core::TaskState::finished, "who records rays has every record");
+  }
+}
 
 }  // namespace
 
@@ -78,22 +126,31 @@ const char* name_of(RayClass ray_class) {
   return names[static_cast<std::size_t>(ray_class)];
 }
 
-void RaySample::offer(const core::Ray& ray) {
+void BundleSample::offer(std::span<const core::Ray> bundle) {
   const std::uint64_t hash = core::mix(++shot_);
   if (!is_kept(hash)) {
     return;
   }
-  kept_.push_back({hash, ray});
-  while (kept_.size() > most_) {
-    stride_ *= 2;
-    std::erase_if(kept_, [this](const Numbered& numbered) { return !is_kept(numbered.hash); });
+  kept_.push_back({hash, {bundle.begin(), bundle.end()}});
+  rays_kept_ += bundle.size();
+  while (rays_kept_ > most_) {
+    halve();
   }
 }
 
-std::vector<core::Ray> RaySample::rays() const {
-  std::vector<core::Ray> rays(kept_.size());
-  std::transform(kept_.begin(), kept_.end(), rays.begin(), [](const Numbered& numbered) { return numbered.ray; });
-  return rays;
+void BundleSample::halve() {
+  stride_ *= 2;
+  std::erase_if(kept_, [this](const Numbered& numbered) { return !is_kept(numbered.hash); });
+  rays_kept_ = std::accumulate(kept_.begin(), kept_.end(), std::size_t{0},
+                               [](std::size_t sum, const Numbered& numbered) { return sum + numbered.rays.size(); });
+}
+
+BundledRays BundleSample::bundles() const {
+  BundledRays bundles;
+  for (const Numbered& numbered : kept_) {
+    bundles.add(numbered.rays);
+  }
+  return bundles;
 }
 
 core::Ray bounce_ray(const core::Ray& primary, const core::Hit& hit, const core::LocalRecords& records,
@@ -116,9 +173,9 @@ core::Ray bounce_ray(const core::Ray& primary, const core::Hit& hit, const core:
 Recording record_rays(const core::Database& database, const core::RenderSettings& settings, std::size_t most) {
   RecordingTracer tracer(database, most);
   Recording recording;
-  core::render(tracer, settings.with_every_ray_traced(), recording.operations);
+  render_in_bundles(tracer, settings.with_every_ray_traced(), recording.operations);
   for (std::size_t i = 0; i < ray_class_count; ++i) {
-    recording.rays[i] = tracer.sample(RayClass{static_cast<std::uint8_t>(i)}).rays();
+    recording.rays[i] = tracer.sample(RayClass{static_cast<std::uint8_t>(i)}).bundles();
   }
   return recording;
 }

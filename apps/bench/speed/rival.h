@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "apps/bench/speed/bundled_rays.h"
 #include "apps/oracle/oracle.h"
 #include "apps/system/stopwatch.h"
 #include "core/build/database.h"
@@ -21,7 +22,7 @@ enum class Query : std::uint8_t { closest, any };
 /// nothing to robust ones.
 enum class EmbreeQuality : std::uint8_t { medium, high };
 
-/// No filters, no order among equal t, no triangle left out: a raw ray and a plain call. Spheres and cones are user geometry.
+/// No filters, no order among equal t, no triangle left out: raw rays and plain calls. Spheres and cones are user geometry.
 /// Immutable once built; every query is thread-safe.
 class EmbreeRival {
  public:
@@ -34,6 +35,8 @@ class EmbreeRival {
 
   /// Asks about the rays, one by one, up to their t_max; returns how many hit.
   std::uint64_t trace(std::span<const core::Ray> rays, Query query) const;
+  /// The same of bundles, each as a packet of up to 16 rays.
+  std::uint64_t trace_packets(const BundleSpan& bundles, Query query) const;
   /// What Embree took to build its tree, from vertices that lay ready.
   Times build_times() const;
 

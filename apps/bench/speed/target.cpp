@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "apps/bench/speed/recording.h"
 #include "apps/line/number_text.h"
 #include "apps/table/averages.h"
 
@@ -23,6 +24,15 @@ bool is_kernel(const Comparison& comparison, const char* subject) {
          comparison.rival == "Embree robust";
 }
 
+/// Of rays that a render shoots; bounces are a path tracer's.
+bool is_rendered(const Comparison& comparison, const char* subject) {
+  return is_kernel(comparison, subject) && comparison.detail != name_of(RayClass::bounce);
+}
+
+bool is_coherent(const Comparison& comparison, const char* subject) {
+  return is_rendered(comparison, subject) && comparison.detail != name_of(RayClass::secondary);
+}
+
 bool is_of(const Comparison& comparison, SpeedPart part, const char* what, const char* subject) {
   return comparison.part == part && comparison.what == what && comparison.subject == subject;
 }
@@ -41,6 +51,12 @@ const std::vector<Target>& speed_targets() {
        [](const C& c) { return is_kernel(c, "grid"); }},
       {"Kernel over Embree robust, through the pager with every page cached, one thread", 0.65, 0.9, true, false,
        [](const C& c) { return is_kernel(c, "paged grid"); }},
+      {"Kernel in bundles over Embree robust, records local, primary and shadow, one thread", 1.2, 1.8, true, false,
+       [](const C& c) { return is_coherent(c, "bundles"); }},
+      {"Kernel in bundles over Embree robust, records local, all rays, one thread", 1.0, 1.2, true, false,
+       [](const C& c) { return is_rendered(c, "bundles"); }},
+      {"Kernel in bundles over Embree robust, through the pager with every page cached, all rays, one thread", 0.95, 1.1, true,
+       false, [](const C& c) { return is_rendered(c, "paged bundles"); }},
       {"Whole picture on 2 nodes over the same with --tracer=embree", 1.3, 1.0, false, false,
        [](const C& c) { return is_timed(c, SpeedPart::picture, "whole picture", "svm"); }},
       {"64 nodes over 2 on the same cores, pages fit", 1.3, 1.15, false, false,

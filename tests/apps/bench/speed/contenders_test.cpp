@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "apps/bench/speed/crew.h"
+#include "apps/bench/speed/kernel_arena.h"
 #include "apps/bench/speed/recording.h"
 #include "apps/bench/speed/rival.h"
 #include "apps/bench/speed/warm_pager.h"
@@ -16,10 +18,12 @@
 
 namespace dmpc::tests {
 
+using apps::Contender;
 using apps::EmbreeMode;
 using apps::EmbreeQuality;
 using apps::EmbreeRival;
 using apps::Query;
+using apps::RayClass;
 
 namespace {
 
@@ -39,7 +43,7 @@ TEST_CASE("the rival hits as many primary rays as our grid, triangles and sphere
   for (const char* scene : {"tetra-3", "balls-2"}) {
     CAPTURE(std::string(scene));
     const apps::Subject subject = small_subject(scene, {32, 32});
-    const auto rays = apps::record_rays(subject.database, subject.settings, 10'000).of(apps::RayClass::primary);
+    const auto rays = apps::record_rays(subject.database, subject.settings, 10'000).of(apps::RayClass::primary).rays;
     core::LocalRecords records(subject.database.bytes());
     const std::uint64_t hits = hits_of(rays, records, subject.settings.header);
     REQUIRE(hits > 100);
@@ -53,9 +57,46 @@ TEST_CASE("the rival hits as many primary rays as our grid, triangles and sphere
   }
 }
 
+TEST_CASE("the rival hits as much by packets, full and not, as by single rays") {
+  for (const char* scene : {"tetra-3", "balls-2"}) {
+    CAPTURE(std::string(scene));
+    const apps::Subject subject = small_subject(scene, {30, 30});
+    const apps::Recording recording = apps::record_rays(subject.database, subject.settings, 10'000);
+    const EmbreeRival rival(subject.database.primitives(), EmbreeMode::robust, EmbreeQuality::medium, 1);
+    for (std::size_t i = 0; i < apps::ray_class_count; ++i) {
+      const apps::BundledRays& rays = recording.rays[i];
+      for (const Query query : {Query::closest, Query::any}) {
+        const auto single = static_cast<double>(rival.trace(rays.rays, query));
+        CHECK(std::fabs(static_cast<double>(rival.trace_packets(rays.bundles(), query)) - single) <= 2);
+      }
+    }
+    CHECK(rival.trace_packets(apps::BundledRays().bundles(), Query::closest) == 0);
+  }
+}
+
+TEST_CASE("all contenders hit about as much of every class, ours the same") {
+  apps::SpeedSettings settings;
+  settings.is_quick = true;
+  settings.resolution = apps::Resolution{32, 32};
+  settings.thread_counts = {1, 2};
+  apps::KernelArena arena("balls-2", settings);
+  for (const RayClass ray_class : {RayClass::primary, RayClass::shadow, RayClass::secondary, RayClass::bounce}) {
+    CAPTURE(std::string(name_of(ray_class)));
+    const std::uint64_t hits = arena.trace(Contender::grid, ray_class, Query::closest, 1).hits;
+    CHECK(hits > 0);
+    for (const Contender ours : {Contender::paged_grid, Contender::bundles, Contender::paged_bundles}) {
+      CHECK(arena.trace(ours, ray_class, Query::closest, 1).hits == hits);
+      CHECK(arena.trace(ours, ray_class, Query::any, 2).hits == hits);
+    }
+    for (const Contender rival : {Contender::robust, Contender::fast, Contender::robust_packets}) {
+      CHECK(static_cast<double>(arena.trace(rival, ray_class, Query::closest, 2).hits) == doctest::Approx(hits).epsilon(0.02));
+    }
+  }
+}
+
 TEST_CASE("the rival looks no farther than a ray goes") {
   const apps::Subject subject = small_subject("balls-2", {32, 32});
-  auto rays = apps::record_rays(subject.database, subject.settings, 10'000).of(apps::RayClass::primary);
+  auto rays = apps::record_rays(subject.database, subject.settings, 10'000).of(apps::RayClass::primary).rays;
   for (core::Ray& ray : rays) {
     ray.t_max = 1e-3F;
   }
@@ -70,7 +111,7 @@ TEST_CASE("a warm pager lacks no page, and has all but its own in the cache") {
   const svm::PageCounters before = warm.pager().counters();
   CHECK(before.faults == subject.database.page_count() - (subject.database.page_count() + 3) / 4);
   CHECK(before.evictions == 0);
-  const auto rays = apps::record_rays(subject.database, subject.settings, 10'000).of(apps::RayClass::primary);
+  const auto rays = apps::record_rays(subject.database, subject.settings, 10'000).of(apps::RayClass::primary).rays;
   core::LocalRecords records(subject.database.bytes());
   CHECK(hits_of(rays, warm.pager(), subject.settings.header) == hits_of(rays, records, subject.settings.header));
   const svm::PageCounters after = warm.pager().counters();

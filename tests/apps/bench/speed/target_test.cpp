@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <string>
 #include <vector>
 
 namespace dmpc::tests {
@@ -21,14 +22,20 @@ Target target(bool is_more_better, bool is_worst) {
   return {"Pace", 2, 1, is_more_better, is_worst, [](const Comparison& one) { return one.scene == "tetra-2"; }};
 }
 
-/// The sentence of the first target that counts the comparison.
-std::string sentence_of(const Comparison& comparison) {
+/// Those of the targets that count the comparison.
+std::vector<std::string> sentences_of(const Comparison& comparison) {
+  std::vector<std::string> sentences;
   for (const Target& one : apps::speed_targets()) {
     if (const auto sentence = sentence_on(one, std::vector{comparison})) {
-      return *sentence;
+      sentences.push_back(*sentence);
     }
   }
-  return "";
+  return sentences;
+}
+
+std::string sentence_of(const Comparison& comparison) {
+  const std::vector<std::string> sentences = sentences_of(comparison);
+  return sentences.empty() ? "" : sentences.front();
 }
 
 }  // namespace
@@ -69,6 +76,28 @@ TEST_CASE("the kernel's target is that of one thread over robust Embree") {
   CHECK(sentence_of(kernel).empty());
   kernel.threads = 1, kernel.rival = "Embree fast";
   CHECK(sentence_of(kernel).empty());
+}
+
+TEST_CASE("bundles have targets of their own, of rays that a render shoots") {
+  const auto in_bundles = [](const char* subject, const char* detail) {
+    const Comparison kernel{.part = SpeedPart::kernel,
+                            .detail = detail,
+                            .threads = 1,
+                            .subject = subject,
+                            .rival = "Embree robust",
+                            .subject_figures = {1},
+                            .rival_figures = {1}};
+    return sentences_of(kernel);
+  };
+  CHECK(in_bundles("bundles", "primary").size() == 2);
+  CHECK(in_bundles("bundles", "shadow").size() == 2);
+  CHECK(in_bundles("bundles", "primary").front().starts_with("Kernel in bundles over Embree robust, records local, primary"));
+  REQUIRE(in_bundles("bundles", "secondary").size() == 1);
+  CHECK(in_bundles("bundles", "secondary").front().ends_with("1.000; to reach 1.00, goal 1.20: met."));
+  CHECK(in_bundles("bundles", "bounce").empty());
+  REQUIRE(in_bundles("paged bundles", "primary").size() == 1);
+  CHECK(in_bundles("paged bundles", "primary").front().starts_with("Kernel in bundles over Embree robust, through the pager"));
+  CHECK(in_bundles("paged bundles", "bounce").empty());
 }
 
 TEST_CASE("the wall clock decides where two clocks are read") {
