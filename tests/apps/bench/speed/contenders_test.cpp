@@ -89,7 +89,8 @@ TEST_CASE("all contenders hit about as much of every class, ours the same") {
       CHECK(arena.trace(ours, ray_class, Query::any, 2).hits == hits);
     }
     for (const Contender rival : {Contender::robust, Contender::fast, Contender::robust_packets}) {
-      CHECK(static_cast<double>(arena.trace(rival, ray_class, Query::closest, 2).hits) == doctest::Approx(hits).epsilon(0.02));
+      const auto its = static_cast<double>(arena.trace(rival, ray_class, Query::closest, 2).hits);
+      CHECK(its == doctest::Approx(static_cast<double>(hits)).epsilon(0.02));
     }
   }
 }

@@ -124,7 +124,7 @@ TEST_CASE("sampled bundles are whole, and up to 16 rays of one kind") {
   for (std::size_t i = 0; i < apps::ray_class_count; ++i) {
     const apps::BundleSpan bundles = all.rays[i].bundles();
     CAPTURE(std::string(name_of(RayClass{static_cast<std::uint8_t>(i)})));
-    CHECK(few.rays[i].rays.size() < all.rays[i].rays.size());
+    CHECK(few.rays[i].rays.size() <= 200);
     CHECK(few.rays[i].bundles().count() > 0);
     CHECK(are_whole(few.rays[i].bundles(), bundles));
     for (std::size_t k = 0; k < bundles.count(); ++k) {
