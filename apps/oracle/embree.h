@@ -1,6 +1,7 @@
 // The only file that includes Embree, version 3 or 4: what dmpc calls of it, its geometries, and rays asked of it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -76,6 +77,12 @@ class OwnedScene {
   RTCScene scene_;
 };
 
+/// Which of 16 rays are asked about, and how.
+struct Packet {
+  alignas(64) std::array<int, 16> valid{};  ///< -1 for those, 0 for the others
+  bool is_coherent = false;                 ///< Embree walks with all of them at a time as long as it can
+};
+
 // Embree 4 renamed the context and moved it into an arguments structure. That branch is untested: Debian 12 has 3.13.
 #if RTC_VERSION_MAJOR >= 4
 using Context = RTCRayQueryContext;
@@ -92,17 +99,19 @@ inline void occlude(const Library& library, RTCScene scene, Context& context, RT
   arguments.context = &context;
   library.occluded(scene, &ray, &arguments);
 }
-inline void intersect(const Library& library, RTCScene scene, Context& context, const int* valid, RTCRayHit16& rays) {
+inline void intersect(const Library& library, RTCScene scene, Context& context, const Packet& packet, RTCRayHit16& rays) {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
   arguments.context = &context;
-  library.intersect_packet(valid, scene, &rays, &arguments);
+  arguments.flags = packet.is_coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+  library.intersect_packet(packet.valid.data(), scene, &rays, &arguments);
 }
-inline void occlude(const Library& library, RTCScene scene, Context& context, const int* valid, RTCRay16& rays) {
+inline void occlude(const Library& library, RTCScene scene, Context& context, const Packet& packet, RTCRay16& rays) {
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);
   arguments.context = &context;
-  library.occluded_packet(valid, scene, &rays, &arguments);
+  arguments.flags = packet.is_coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+  library.occluded_packet(packet.valid.data(), scene, &rays, &arguments);
 }
 #else
 /// What a query's callbacks are handed: make it the first member of a structure to let them find more.
@@ -116,12 +125,14 @@ inline void intersect(const Library& library, RTCScene scene, Context& context, 
 inline void occlude(const Library& library, RTCScene scene, Context& context, RTCRay& ray) {
   library.occluded(scene, &context, &ray);
 }
-/// The same of each of 16 rays whose number in `valid`, aligned to 64 bytes, is -1; the others' is 0.
-inline void intersect(const Library& library, RTCScene scene, Context& context, const int* valid, RTCRayHit16& rays) {
-  library.intersect_packet(valid, scene, &context, &rays);
+/// The same of those of 16 rays that the packet has.
+inline void intersect(const Library& library, RTCScene scene, Context& context, const Packet& packet, RTCRayHit16& rays) {
+  context.flags = packet.is_coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  library.intersect_packet(packet.valid.data(), scene, &context, &rays);
 }
-inline void occlude(const Library& library, RTCScene scene, Context& context, const int* valid, RTCRay16& rays) {
-  library.occluded_packet(valid, scene, &context, &rays);
+inline void occlude(const Library& library, RTCScene scene, Context& context, const Packet& packet, RTCRay16& rays) {
+  context.flags = packet.is_coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  library.occluded_packet(packet.valid.data(), scene, &context, &rays);
 }
 #endif
 

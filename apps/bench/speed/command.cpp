@@ -125,8 +125,9 @@ const char* explanation_of(SpeedPart part) {
              "trace the same rays as closest and as any hit, in the processor time of the busiest thread. Bundles are those of "
              "a render in tiles of 4x4 pixels: up to 16 rays that walk together; grids take their rays one by one, in the same "
              "order. Embree is asked by rtcIntersect1 and rtcOccluded1, for packets, which are the same bundles, by "
-             "rtcIntersect16 and rtcOccluded16, without filters, its trees are of high quality. The pager is that of a node of "
-             "eight, all other nodes' pages in its cache. Targets of all rays leave bounces out: a path tracer shoots them.";
+             "rtcIntersect16 and rtcOccluded16, told that all but bounces are coherent, without filters, its trees are of high "
+             "quality. The pager is that of a node of eight, all other nodes' pages in its cache. Targets of all rays leave "
+             "bounces out: a path tracer shoots them.";
     case SpeedPart::picture:
       return "picture: what `render` does, on 2 nodes. Embree's tree is built within its phase render; the whole is the sum of "
              "the phases.";

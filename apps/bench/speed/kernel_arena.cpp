@@ -18,6 +18,9 @@ Subject subject_of(const std::string& scene, const SpeedSettings& settings) {
   return build_subject(settings.load(picture), picture);
 }
 
+/// As a renderer would tell Embree.
+Coherence coherence_of(RayClass ray_class) { return ray_class == RayClass::bounce ? Coherence::incoherent : Coherence::coherent; }
+
 /// Asks about each ray, and counts the hits.
 template <core::Records R>
 std::uint64_t trace_rays(std::span<const core::Ray> rays, R&& records, const core::DatabaseHeader& header) {
@@ -76,7 +79,7 @@ RaysTraced KernelArena::trace(Contender contender, RayClass ray_class, Query que
     ProcessorStopwatch stopwatch(CLOCK_THREAD_CPUTIME_ID);
     std::uint64_t hits = 0;
     for (std::size_t first = thread * piece_bundles; first < bundles.count(); first += threads * piece_bundles) {
-      hits += trace_piece(contender, bundles.part(first, piece_bundles), query, thread);
+      hits += trace_piece(contender, ray_class, bundles.part(first, piece_bundles), query, thread);
     }
     shares[thread] = {hits, stopwatch.lap()};
   });
@@ -92,7 +95,8 @@ void KernelArena::ask(RayClass ray_class, Query query) {
   }
 }
 
-std::uint64_t KernelArena::trace_piece(Contender contender, const BundleSpan& piece, Query query, std::size_t thread) {
+std::uint64_t KernelArena::trace_piece(Contender contender, RayClass ray_class, const BundleSpan& piece, Query query,
+                                       std::size_t thread) {
   const core::DatabaseHeader& header = subject_.settings.header;
   switch (contender) {
     case Contender::grid:
@@ -110,7 +114,7 @@ std::uint64_t KernelArena::trace_piece(Contender contender, const BundleSpan& pi
     case Contender::robust_packets:
       break;
   }
-  return robust_.trace_packets(piece, query);
+  return robust_.trace_packets(piece, query, coherence_of(ray_class));
 }
 
 }  // namespace dmpc::apps

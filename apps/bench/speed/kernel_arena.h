@@ -42,7 +42,7 @@ class KernelArena {
 
  private:
   void ask(RayClass ray_class, Query query);
-  std::uint64_t trace_piece(Contender contender, const BundleSpan& piece, Query query, std::size_t thread);
+  std::uint64_t trace_piece(Contender contender, RayClass ray_class, const BundleSpan& piece, Query query, std::size_t thread);
 
   std::string name_;
   Subject subject_;

@@ -1,21 +1,19 @@
 #include "apps/bench/speed/rival.h"
 
 #include <algorithm>
-#include <array>
 
 #include "apps/bench/speed/embree_tree.h"
-#include "core/trace/bundle.h"
 
 namespace dmpc::apps {
 namespace {
 
 /// Up to 16 rays as Embree takes them, side by side.
-struct Packet {
-  alignas(64) std::array<int, core::bundle_rays_max> valid{};
+struct FilledPacket {
+  embree::Packet packet;
   RTCRayHit16 asked{};
 
   void fill(std::span<const core::Ray> rays) {
-    std::fill(std::fill_n(valid.begin(), rays.size(), -1), valid.end(), 0);
+    std::fill(std::fill_n(packet.valid.begin(), rays.size(), -1), packet.valid.end(), 0);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       set(i, embree::ray_of(rays[i]));
     }
@@ -23,10 +21,10 @@ struct Packet {
 
  private:
   void set(std::size_t i, const RTCRay& ray) {
-    RTCRay16& packet = asked.ray;
-    packet.org_x[i] = ray.org_x, packet.org_y[i] = ray.org_y, packet.org_z[i] = ray.org_z;
-    packet.dir_x[i] = ray.dir_x, packet.dir_y[i] = ray.dir_y, packet.dir_z[i] = ray.dir_z;
-    packet.tnear[i] = ray.tnear, packet.tfar[i] = ray.tfar, packet.mask[i] = ray.mask;
+    RTCRay16& rays = asked.ray;
+    rays.org_x[i] = ray.org_x, rays.org_y[i] = ray.org_y, rays.org_z[i] = ray.org_z;
+    rays.dir_x[i] = ray.dir_x, rays.dir_y[i] = ray.dir_y, rays.dir_z[i] = ray.dir_z;
+    rays.tnear[i] = ray.tnear, rays.tfar[i] = ray.tfar, rays.mask[i] = ray.mask;
     asked.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
   }
 };
@@ -59,21 +57,22 @@ std::uint64_t EmbreeRival::trace(std::span<const core::Ray> rays, Query query) c
   return hits;
 }
 
-std::uint64_t EmbreeRival::trace_packets(const BundleSpan& bundles, Query query) const {
+std::uint64_t EmbreeRival::trace_packets(const BundleSpan& bundles, Query query, Coherence coherence) const {
   embree::Context context;
   embree::start(context);
-  Packet packet;
+  FilledPacket filled;
+  filled.packet.is_coherent = coherence == Coherence::coherent;
   std::uint64_t hits = 0;
   for (std::size_t i = 0; i < bundles.count(); ++i) {
     const auto count = static_cast<std::ptrdiff_t>(bundles.bundle(i).size());
-    packet.fill(bundles.bundle(i));
+    filled.fill(bundles.bundle(i));
     if (query == Query::any) {
-      embree::occlude(tree_->library(), tree_->scene(), context, packet.valid.data(), packet.asked.ray);
-      const float* const ends = packet.asked.ray.tfar;
+      embree::occlude(tree_->library(), tree_->scene(), context, filled.packet, filled.asked.ray);
+      const float* const ends = filled.asked.ray.tfar;
       hits += static_cast<std::uint64_t>(std::count_if(ends, ends + count, [](float end) { return end < 0; }));
     } else {
-      embree::intersect(tree_->library(), tree_->scene(), context, packet.valid.data(), packet.asked);
-      const unsigned* const met = packet.asked.hit.geomID;
+      embree::intersect(tree_->library(), tree_->scene(), context, filled.packet, filled.asked);
+      const unsigned* const met = filled.asked.hit.geomID;
       hits += static_cast<std::uint64_t>(count - std::count(met, met + count, RTC_INVALID_GEOMETRY_ID));
     }
   }

@@ -18,6 +18,10 @@ class EmbreeTree;
 /// What every traced ray is asked for.
 enum class Query : std::uint8_t { closest, any };
 
+/// What is known of rays that are asked about together: that they start or end near each other, as a picture's do, or nothing, as
+/// of bounces. Embree walks with them accordingly; the wrong choice costs it much of its speed.
+enum class Coherence : std::uint8_t { incoherent, coherent };
+
 /// How much work Embree puts into its tree: its default, or all it can. In version 3 that adds spatial splits to fast trees, and
 /// nothing to robust ones.
 enum class EmbreeQuality : std::uint8_t { medium, high };
@@ -36,7 +40,7 @@ class EmbreeRival {
   /// Asks about the rays, one by one, up to their t_max; returns how many hit.
   std::uint64_t trace(std::span<const core::Ray> rays, Query query) const;
   /// The same of bundles, each as a packet of up to 16 rays.
-  std::uint64_t trace_packets(const BundleSpan& bundles, Query query) const;
+  std::uint64_t trace_packets(const BundleSpan& bundles, Query query, Coherence coherence) const;
   /// What Embree took to build its tree, from vertices that lay ready.
   Times build_times() const;
 

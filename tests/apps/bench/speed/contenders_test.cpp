@@ -18,6 +18,7 @@
 
 namespace dmpc::tests {
 
+using apps::Coherence;
 using apps::Contender;
 using apps::EmbreeMode;
 using apps::EmbreeQuality;
@@ -67,10 +68,12 @@ TEST_CASE("the rival hits as much by packets, full and not, as by single rays") 
       const apps::BundledRays& rays = recording.rays[i];
       for (const Query query : {Query::closest, Query::any}) {
         const auto single = static_cast<double>(rival.trace(rays.rays, query));
-        CHECK(std::fabs(static_cast<double>(rival.trace_packets(rays.bundles(), query)) - single) <= 2);
+        for (const Coherence coherence : {Coherence::incoherent, Coherence::coherent}) {
+          CHECK(std::fabs(static_cast<double>(rival.trace_packets(rays.bundles(), query, coherence)) - single) <= 2);
+        }
       }
     }
-    CHECK(rival.trace_packets(apps::BundledRays().bundles(), Query::closest) == 0);
+    CHECK(rival.trace_packets(apps::BundledRays().bundles(), Query::closest, Coherence::coherent) == 0);
   }
 }
 
