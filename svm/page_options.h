@@ -21,7 +21,7 @@ struct PageOptions {
   std::optional<std::uint32_t> cache_pages = std::nullopt;
   Replacement replacement = Replacement::lru;  ///< which page of the cache makes room; svm only
   /// Pixels under way on a node, rounded down to whole bundles where rays walk in bundles of 16. Without it 64 for svm: a node
-  /// whose bundle waits for a page has others to go on with, while their stacks take about 4 % of a 4 MiB node; and 16 for
+  /// whose bundle waits for a page has others to go on with, while their stacks take about 3 % of a 4 MiB node; and 16 for
   /// replicated, where nothing is ever waited for. Where rays walk alone 16 and 1.
   std::optional<std::uint32_t> in_flight = std::nullopt;
   /// Pixels along the side of a work item; 0: no node gives work to another. Without it 4, a bundle, or 3 where rays walk alone.
