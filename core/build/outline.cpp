@@ -35,8 +35,8 @@ class Outliner {
     for (; !waiting_.empty(); waiting_.pop_front()) {
       copy_brick(waiting_.front().first, waiting_.front().second);
     }
+    part.record_bytes = writer_.page_bytes();
     part.bytes = std::move(writer_).finish();
-    part.record_bytes = part.bytes.size() - overread_bytes;
     return part;
   }
 
@@ -44,14 +44,11 @@ class Outliner {
   const std::byte* at(Address address) const { return bytes_ + byte_offset(address); }
 
   /// For one brick more, the last page filled up.
-  bool has_room() const {
-    return round_up(place_in_page(end_, sizeof(Brick), outline_page_bytes) + sizeof(Brick), outline_page_bytes) <= bytes_max_;
-  }
+  bool has_room() const { return writer_.page_bytes_with(sizeof(Brick)) <= bytes_max_; }
 
   /// Room for the copy of a brick, which is made when its turn comes.
   Address wait_for(Address from) {
     const Address to = writer_.allocate(sizeof(Brick));
-    end_ = byte_offset(to) + sizeof(Brick);
     waiting_.emplace_back(from, to);
     return to;
   }
@@ -61,7 +58,6 @@ class Outliner {
     const std::uint64_t count = directory_entry_count(whole_.directory_size);
     bool fits = count * sizeof(DirectoryEntry) <= bytes_max_;
     header.directory = fits ? writer_.allocate_array<DirectoryEntry>(count) : no_address;
-    end_ = count * sizeof(DirectoryEntry);
     for (std::uint64_t index = 0; index < count && fits; ++index) {
       auto entry = read<DirectoryEntry>(at(directory_address(whole_, index)) + directory_offset(index));
       fits = entry.empty() || has_room();
@@ -86,7 +82,6 @@ class Outliner {
   const DatabaseHeader& whole_;
   const std::byte* bytes_;
   std::size_t bytes_max_;
-  std::size_t end_ = 0;  ///< of the room that has been taken
   RecordWriter writer_;
   std::deque<std::pair<Address, Address>> waiting_;  ///< bricks to be copied: from, to
 };

@@ -33,7 +33,7 @@ bool BundleTask::next_samples(const RenderSettings& settings, Operations& operat
     }
   }
   sample_ += count;
-  is_shot();
+  begin_tracing();
   return true;
 }
 
@@ -47,7 +47,7 @@ void BundleTask::shoot_primary(std::uint32_t place, std::uint32_t sample, const 
   ++operations.skipped.background;
   ++ended_;
   const Ray ray{.pixel = pixels_[place], .sample = sample};
-  deposit(ray, place, ray.weight * settings.header.background, operations);
+  deposit(sums_[place], ray, ray.weight * settings.header.background, operations);
 }
 
 /// One step of every hit that is at `stage`, in what order does not matter to the picture.
@@ -86,8 +86,8 @@ void BundleTask::add_ray(const Ray& ray, std::uint32_t place, Operations& operat
   ++operations.rays[static_cast<std::size_t>(ray.kind)];
 }
 
-/// Whether there are rays to be traced; they then are under way.
-bool BundleTask::is_shot() {
+/// Returns whether there are rays to be traced, which then are under way.
+bool BundleTask::begin_tracing() {
   tracing_ = bundle_.count > 0;
   bundle_.start();
   return tracing_;
@@ -104,16 +104,9 @@ void BundleTask::end_rays(const RenderSettings& settings, Operations& operations
   }
   for (std::uint32_t i = 0; i < bundle_.count; ++i) {
     const Ray& ray = bundle_.rays[i];
-    const bool hit = (bundle_.found >> i & 1U) != 0;
-    if (is_shadow) {
-      operations.shadow_blocked += hit ? 1 : 0;
-      if (!hit) {
-        deposit(ray, place_[i], ray.weight, operations);
-      }
-    } else if (!hit) {
-      deposit(ray, place_[i], ray.weight * settings.header.background, operations);
-    } else {
-      ++(ray.kind == RayKind::primary ? operations.primary_hits : operations.secondary_hits);
+    if (const auto light = light_of_ended(ray, (bundle_.found >> i & 1U) != 0, settings, operations)) {
+      deposit(sums_[place_[i]], ray, *light, operations);
+    } else if (!is_shadow) {
       hits->place[hits->count] = place_[i];
       hits->hit[hits->count++] = begin_shading(ray, bundle_.best.of(i));
     }
@@ -122,12 +115,6 @@ void BundleTask::end_rays(const RenderSettings& settings, Operations& operations
   ended_ += bundle_.count;
   bundle_.count = 0;
   tracing_ = false;
-}
-
-void BundleTask::deposit(const Ray& ray, std::uint32_t place, const Color& light, Operations& operations) {
-  if (add(sums_[place].plane[ray.sample % 2], to_fixed(light))) {
-    ++operations.deposits_saturated;
-  }
 }
 
 }  // namespace dmpc::core

@@ -84,9 +84,8 @@ class BundleTask {
                       Operations& operations);
   static void next_phase(BundleHit& hits, const RenderSettings& settings);
   void add_ray(const Ray& ray, std::uint32_t place, Operations& operations);
-  bool is_shot();
+  bool begin_tracing();
   void end_rays(const RenderSettings& settings, Operations& operations);
-  void deposit(const Ray& ray, std::uint32_t place, const Color& light, Operations& operations);
 
   std::span<BundleHit> stack_;
   std::array<std::uint32_t, pixels_max> pixels_;
@@ -146,7 +145,7 @@ TaskState BundleTask::shade(T& tracer, const RenderSettings& settings, Operation
         continue;
     }
     next_phase(hits, settings);
-    if (is_shot()) {
+    if (begin_tracing()) {
       return TaskState::more;
     }
   }

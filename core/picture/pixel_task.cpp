@@ -32,31 +32,16 @@ void PixelTask::shoot(const Ray& ray, Operations& operations) {
   ++operations.rays[static_cast<std::size_t>(ray.kind)];
 }
 
-void PixelTask::deposit(const Color& light, Operations& operations) {
-  if (add(sums_.plane[ray_.sample % 2], to_fixed(light))) {
-    ++operations.deposits_saturated;
-  }
-}
-
 /// What a traced ray leaves: light on the film, or a hit on the stack.
 void PixelTask::end_ray(Traced result, const RenderSettings& settings, Operations& operations) {
   expect(result == Traced::hit || result == Traced::miss, "a pixel's tracer sees the whole scene");
   tracing_ = false;
-  const bool hit = result == Traced::hit;
-  if (ray_.kind == RayKind::shadow) {
-    operations.shadow_blocked += hit ? 1 : 0;
-    if (!hit) {
-      deposit(ray_.weight, operations);
-    }
-    return;
+  if (const auto light = light_of_ended(ray_, result == Traced::hit, settings, operations)) {
+    deposit(sums_, ray_, *light, operations);
+  } else if (ray_.kind != RayKind::shadow) {
+    expect(stack_size_ < stack_.size(), "the ray stack holds a hit a depth");
+    stack_[stack_size_++] = begin_shading(ray_, cursor_.best);
   }
-  if (!hit) {
-    deposit(ray_.weight * settings.header.background, operations);
-    return;
-  }
-  ++(ray_.kind == RayKind::primary ? operations.primary_hits : operations.secondary_hits);
-  expect(stack_size_ < stack_.size(), "the ray stack holds a hit a depth");
-  stack_[stack_size_++] = begin_shading(ray_, cursor_.best);
 }
 
 /// With no hit left to shade: the next sample, if there is one.

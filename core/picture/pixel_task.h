@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "core/picture/background.h"
@@ -60,6 +61,26 @@ struct RenderSettings {
   SampleRange first_samples() const { return {0, static_cast<std::uint32_t>(camera.samples())}; }
 };
 
+/// Adds what a sample of the ray's number finds to its pixel's sums.
+inline void deposit(PixelSums& sums, const Ray& ray, const Color& light, Operations& operations) {
+  if (add(sums.plane[ray.sample % 2], to_fixed(light))) {
+    ++operations.deposits_saturated;
+  }
+}
+
+/// What a ray that has been traced brings to its pixel. None if it brings nothing: then a shadow ray was blocked, and the hit of
+/// any other is to be shaded.
+inline std::optional<Color> light_of_ended(const Ray& ray, bool hit, const RenderSettings& settings, Operations& operations) {
+  const bool is_shadow = ray.kind == RayKind::shadow;
+  if (hit) {
+    ++(is_shadow                      ? operations.shadow_blocked
+       : ray.kind == RayKind::primary ? operations.primary_hits
+                                      : operations.secondary_hits);
+    return std::nullopt;
+  }
+  return is_shadow ? ray.weight : ray.weight * settings.header.background;
+}
+
 enum class TaskState : std::uint8_t { finished, more, absent };
 
 /// Renders samples of one pixel, depth first, last in first out: a hit is shaded one child at a time, and each child is
@@ -99,7 +120,6 @@ class PixelTask {
   TaskState shade(T& tracer, const RenderSettings& settings, Operations& operations);
   void shoot_primary(const RenderSettings& settings, Operations& operations);
   void shoot(const Ray& ray, Operations& operations);
-  void deposit(const Color& light, Operations& operations);
   void end_ray(Traced result, const RenderSettings& settings, Operations& operations);
   bool next_sample(const RenderSettings& settings, Operations& operations);
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/trace/bundle_kernel.h"
+#include "core/trace/ray_planes.h"
 
 // clang-format off
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
@@ -19,9 +20,6 @@ HWY_BEFORE_NAMESPACE();
 namespace dmpc::core::HWY_NAMESPACE {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-/// As in walk.cpp: up to here a point on a ray is off by less than 2^-31 of the grid.
-constexpr double near_t_max = 0x1p20;
-constexpr std::size_t walk_starts = 3;
 
 // --- From rays to rows ---
 
@@ -148,19 +146,9 @@ struct Cells {
 /// Walk::locate(), from a guess on.
 std::int32_t locate(const RayBundle& bundle, std::size_t ray, std::size_t axis, double t, std::int32_t cell, const Cells& among,
                     std::size_t entry_axis) {
-  const auto is_crossed = [&](std::int32_t index) { return crossed(bundle, ray, axis, index, t, entry_axis); };
-  if ((bundle.forward[axis] >> ray & 1U) != 0) {
-    for (; cell + 1 < among.high && is_crossed(cell + 1); ++cell) {
-    }
-    for (; cell > among.low && !is_crossed(cell); --cell) {
-    }
-  } else if ((bundle.backward[axis] >> ray & 1U) != 0) {
-    for (; cell > among.low && is_crossed(cell); --cell) {
-    }
-    for (; cell + 1 < among.high && !is_crossed(cell + 1); ++cell) {
-    }
-  }
-  return cell;
+  const std::int32_t step = (bundle.forward[axis] >> ray & 1U) != 0 ? 1 : (bundle.backward[axis] >> ray & 1U) != 0 ? -1 : 0;
+  return settle(cell, among.low, among.high, step,
+                [&](std::int32_t index) { return crossed(bundle, ray, axis, index, t, entry_axis); });
 }
 
 /// Walk::locate_top() along an axis, of those of the rays from `first` on that are wanted.

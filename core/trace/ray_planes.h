@@ -15,6 +15,33 @@
 
 namespace dmpc::core {
 
+/// In place of the axis of the plane through which a cell was entered: the walk starts there.
+inline constexpr std::uint8_t walk_starts = 3;
+/// Up to here a point on a ray, in double, is off by less than 2^-31 of the grid.
+inline constexpr double near_t_max = 0x1p20;
+
+/// The cell in [low, high) that holds a ray whose step along the axis is `step`, sought from `cell` on. `crossed(index)`: whether
+/// it has crossed that plane.
+template <class Crossed>
+std::int32_t settle(std::int32_t cell, std::int32_t low, std::int32_t high, std::int32_t step, const Crossed& crossed) {
+  if (step > 0) {
+    while (cell + 1 < high && crossed(cell + 1)) {
+      ++cell;
+    }
+    while (cell > low && !crossed(cell)) {
+      --cell;
+    }
+  } else if (step < 0) {
+    while (cell > low && crossed(cell)) {
+      --cell;
+    }
+    while (cell + 1 < high && !crossed(cell + 1)) {
+      ++cell;
+    }
+  }
+  return cell;
+}
+
 /// What a ray and a grid determine, recomputed from the ray's bits wherever it comes.
 ///
 /// The one formula for a plane anywhere: plane i of an axis (in finest cells) is crossed at t = i * slope + offset, in double.

@@ -10,10 +10,6 @@
 namespace dmpc::core {
 namespace {
 
-constexpr std::uint8_t walk_starts = 3;
-/// Up to here a point on a ray, in double, is off by less than 2^-31 of the grid.
-constexpr double near_t_max = 0x1p20;
-
 /// Spelt out, since a comparison of arrays is a call.
 bool is_whole(const Region& region, const Corner& size) {
   return (region.low[0] | region.low[1] | region.low[2]) == 0 && region.high[0] == size[0] && region.high[1] == size[1] &&
@@ -45,23 +41,8 @@ bool Walk::crossed(std::size_t axis, std::int32_t index, double t, std::uint8_t 
 /// The finest cell in [low, high) that holds the ray at t.
 std::int32_t Walk::locate(std::size_t axis, double t, std::int32_t low, std::int32_t high, std::uint8_t entry_axis) const {
   const double guess = std::clamp(planes_.place(axis, t), static_cast<double>(low), static_cast<double>(high - 1));
-  auto cell = static_cast<std::int32_t>(guess);  // not negative: truncation is the floor
-  if (planes_.step(axis) > 0) {
-    while (cell + 1 < high && crossed(axis, cell + 1, t, entry_axis)) {
-      ++cell;
-    }
-    while (cell > low && !crossed(axis, cell, t, entry_axis)) {
-      --cell;
-    }
-  } else if (planes_.step(axis) < 0) {
-    while (cell > low && crossed(axis, cell, t, entry_axis)) {
-      --cell;
-    }
-    while (cell + 1 < high && !crossed(axis, cell + 1, t, entry_axis)) {
-      ++cell;
-    }
-  }
-  return cell;
+  const auto cell = static_cast<std::int32_t>(guess);  // not negative: truncation is the floor
+  return settle(cell, low, high, planes_.step(axis), [&](std::int32_t index) { return crossed(axis, index, t, entry_axis); });
 }
 
 /// The lower corner of the top cell that holds the ray at t, of those with finest cells in [low, high).

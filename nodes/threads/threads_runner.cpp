@@ -46,6 +46,7 @@ struct Computer {
   const std::optional<Chaos>& chaos;
   Observer* observer;
   const std::uint64_t& start_ns;  ///< of the run
+  std::size_t core_count;         ///< 0: not known
 };
 
 /// Between a program and the network, chaos or not: tells an observer what is sent, when the program sends it.
@@ -80,7 +81,7 @@ struct alignas(cache_line_bytes) Processor {
         mailbox(specification.mailbox, memory),
         held(held_packets_of(computer.chaos, specification, id, memory, computer.network)),
         patience(specification.patience),
-        looks(looks_before_sleep(computer.peer_count, std::thread::hardware_concurrency()), std::thread::hardware_concurrency()),
+        looks(looks_before_sleep(computer.peer_count, computer.core_count), computer.core_count),
         node(id, computer.peer_count, memory, way_out(computer)) {
     core::expect(specification.plan[Category::reserve] >= thread_stack_bytes_min, "a plan reserves room for the thread's stack");
     if (computer.chaos) {
@@ -155,7 +156,12 @@ struct ThreadsRunner::Implementation final : Network {
   Implementation(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos, Observer* observer)
       : chaos_(chaos), observer_(observer), awake_(static_cast<std::uint32_t>(specifications.size())) {
     core::expect(!specifications.empty(), "a computer has at least the host");
-    const Computer computer{static_cast<std::uint32_t>(specifications.size()), *this, chaos_, observer_, start_ns_};
+    const Computer computer{static_cast<std::uint32_t>(specifications.size()),
+                            *this,
+                            chaos_,
+                            observer_,
+                            start_ns_,
+                            std::thread::hardware_concurrency()};
     for (std::uint32_t i = 0; i < computer.peer_count; ++i) {
       processors_.push_back(std::make_unique<Processor>(specifications[i], NodeId{i}, computer));
     }
