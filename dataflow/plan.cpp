@@ -4,6 +4,7 @@
 
 #include "core/base/expect.h"
 #include "core/record/records.h"
+#include "dataflow/bundle_task.h"
 #include "dataflow/film_gather.h"
 #include "dataflow/gather.h"
 #include "dataflow/host.h"
@@ -74,6 +75,7 @@ void plan_chaos(Plan& plan, const nodes::Chaos& chaos) {
 /// What may be given up where memory is scarce.
 struct Bounds {
   std::uint32_t ray_batch = 1, ray_credits = 1, queue_packets = 0;
+  bool bundles = false;
 };
 
 /// The plan with these bounds, whether or not it fits.
@@ -84,6 +86,7 @@ Plan plan_with(const PlanRequest& request, const Bounds& bounds) {
   plan.ray_credits = bounds.ray_credits;
   plan.host_credits = std::max(1U, bounds.ray_credits);
   plan.queue_packets = bounds.ray_credits == 0 || request.node_count() == 1 ? 0 : bounds.queue_packets;
+  plan.rays_a_task = bounds.bundles ? BundleTask::rays_max : RayTask::rays_max;
   plan.film_credits = nodes::patient_credits(request.node_count(), request.computer.machine.has_value());
   plan.node_mailbox = node_mailbox_of(plan);
   plan.host_mailbox = host_mailbox_of(plan);
@@ -129,17 +132,17 @@ std::uint32_t default_batch(const PlanRequest& request) {
 Bounds wanted(const PlanRequest& request) {
   return {request.rays.ray_batch.value_or(default_batch(request)),
           request.rays.ray_credits.value_or(default_credits(request.node_count())),
-          request.rays.queue_packets.value_or(default_queue_packets)};
+          request.rays.queue_packets.value_or(default_queue_packets), request.bundles};
 }
 
 /// With the least of what the request leaves open.
 Plan smallest_plan(const PlanRequest& request) {
   return plan_with(request, {request.rays.ray_batch.value_or(1), request.rays.ray_credits.value_or(1),
-                             request.rays.queue_packets.value_or(0)});
+                             request.rays.queue_packets.value_or(0), false});
 }
 
-/// Gives up queued packets first, then credits, then the length of packets, as far as the request leaves them open and the memory
-/// asks.
+/// Gives up queued packets first, then credits, then bundles, then the length of packets, as far as the request leaves them open
+/// and the memory asks.
 Plan fitting_plan(const PlanRequest& request, std::size_t memory_bytes) {
   Bounds bounds = wanted(request);
   Plan plan = plan_with(request, bounds);
@@ -148,6 +151,8 @@ Plan fitting_plan(const PlanRequest& request, std::size_t memory_bytes) {
       --bounds.queue_packets;
     } else if (!request.rays.ray_credits && bounds.ray_credits > 1) {
       --bounds.ray_credits;
+    } else if (bounds.bundles) {
+      bounds.bundles = false;
     } else {
       core::expect(!request.rays.ray_batch && bounds.ray_batch > 1, "the smallest plan fits");
       --bounds.ray_batch;
