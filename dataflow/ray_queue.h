@@ -35,6 +35,7 @@ class RayQueue {
       : packets_each_(capacity.packets_each),
         ray_batch_(capacity.ray_batch),
         lists_a_depth_(capacity.are_kinds_apart ? 2 : 1),
+        rays_(memory.allocate<RayMessage>(nodes::Category::queues, capacity.rays())),
         entries_(memory.allocate<Entry>(nodes::Category::queues, capacity.rays())),
         newest_(memory.allocate<std::uint32_t>(nodes::Category::queues, capacity.lists())),
         senders_(memory.allocate<Sender>(nodes::Category::queues, capacity.sender_count)) {
@@ -49,9 +50,9 @@ class RayQueue {
   /// Adds to `plan` exactly what the constructor takes.
   static void add_needs(nodes::MemoryPlan& plan, const Capacity& capacity) {
     using nodes::LocalMemory;
-    plan[nodes::Category::queues] += LocalMemory::bytes_for<Entry>(capacity.rays()) +
-                                     LocalMemory::bytes_for<std::uint32_t>(capacity.lists()) +
-                                     LocalMemory::bytes_for<Sender>(capacity.sender_count);
+    plan[nodes::Category::queues] +=
+        LocalMemory::bytes_for<RayMessage>(capacity.rays()) + LocalMemory::bytes_for<Entry>(capacity.rays()) +
+        LocalMemory::bytes_for<std::uint32_t>(capacity.lists()) + LocalMemory::bytes_for<Sender>(capacity.sender_count);
   }
 
   /// A packet with `ray_count` rays from `sender` has come; put() them next.
@@ -68,7 +69,8 @@ class RayQueue {
     core::expect(list < newest_.size(), "a ray is no deeper than the picture's depth");
     const std::uint32_t place = free_;
     free_ = entries_[place].older;
-    entries_[place] = {message, newest_[list], sender};
+    rays_[place] = message;
+    entries_[place] = {newest_[list], sender};
     newest_[list] = place;
     last_ = std::max<std::uint32_t>(last_, list);
     ++senders_[sender].rays;
@@ -122,11 +124,11 @@ class RayQueue {
     --size_;
     sender = entry.sender;
     --senders_[sender].rays;
-    return entry.message;
+    return rays_[place];
   }
 
+  /// What the list needs to know of a ray, by itself: places are found without waiting for the rays' memory.
   struct Entry {
-    RayMessage message;
     std::uint32_t older = none;  ///< the next of the same depth, or of the free ones
     std::uint32_t sender = 0;
   };
@@ -136,6 +138,7 @@ class RayQueue {
   };
 
   std::uint32_t packets_each_, ray_batch_, lists_a_depth_;
+  std::span<RayMessage> rays_;
   std::span<Entry> entries_;
   std::span<std::uint32_t> newest_;  ///< by depth, and by kind if they are apart
   std::span<Sender> senders_;

@@ -166,19 +166,24 @@ std::int32_t locate(const RayBundle& bundle, std::size_t ray, std::size_t axis, 
                 [&](std::int32_t index) { return crossed(bundle, ray, axis, index, t, entry_axis); });
 }
 
-/// Walk::locate_top() along an axis, of those of the rays from `first` on that are wanted.
-HWY_INLINE void locate_top(RayBundle& bundle, std::size_t axis, std::size_t first, RayMask wanted, hn::Vec<Doubles> t,
-                           const Cells& among, std::size_t entry_axis) {
+/// RayPlanes::place(), of the rays from `first` on.
+HWY_INLINE hn::Vec<Doubles> place(const RayBundle& bundle, std::size_t axis, std::size_t first, hn::Vec<Doubles> t) {
   const Doubles tag;
   const HalfFloats half;
-  const HalfIntegers integers;
   const auto origin = hn::PromoteTo(tag, hn::Load(half, bundle.origin[axis].data() + first));
   const auto direction = hn::PromoteTo(tag, hn::Load(half, bundle.direction[axis].data() + first));
   const RayMask steps = (bundle.forward[axis] | bundle.backward[axis]) >> first;
   const auto along = hn::IfThenElse(mask_of(tag, steps), hn::Add(origin, hn::Mul(t, direction)), origin);
-  const auto guess =
-      hn::Min(hn::Max(hn::Mul(along, hn::Set(tag, bundle.finest_cells)), hn::Set(tag, static_cast<double>(among.low))),
-              hn::Set(tag, static_cast<double>(among.high - 1)));
+  return hn::Mul(along, hn::Set(tag, bundle.finest_cells));
+}
+
+/// Walk::locate_top() along an axis, of those of the rays from `first` on that are wanted.
+HWY_INLINE void locate_top(RayBundle& bundle, std::size_t axis, std::size_t first, RayMask wanted, hn::Vec<Doubles> t,
+                           const Cells& among, std::size_t entry_axis) {
+  const Doubles tag;
+  const HalfIntegers integers;
+  const auto guess = hn::Min(hn::Max(place(bundle, axis, first, t), hn::Set(tag, static_cast<double>(among.low))),
+                             hn::Set(tag, static_cast<double>(among.high - 1)));
   const auto cell = hn::DemoteTo(integers, guess);
   const auto inside = hn::And(cell, hn::Set(integers, finest_per_top - 1));
   const RayMask certain =
@@ -233,12 +238,44 @@ HWY_INLINE RayMask well_inside(const RayBundle& bundle, RayMask rays) {
   return rays;
 }
 
+/// Whether the finest cells in which rays from `first` on are at t are certain to lie within `among`, by a guess that is off by
+/// less than a finest cell.
+HWY_INLINE RayMask surely_among(const RayBundle& bundle, std::size_t axis, std::size_t first, const Cells& among) {
+  const Doubles tag;
+  const auto t = hn::Load(tag, bundle.t_enter.data() + first);
+  const auto at = place(bundle, axis, first, t);
+  const auto is_inside = hn::And(hn::Gt(at, hn::Set(tag, static_cast<double>(among.low) + 1.0)),
+                                 hn::Lt(at, hn::Set(tag, static_cast<double>(among.high) - 1.0)));
+  return bits_of(tag, hn::And(is_inside, hn::Lt(t, hn::Set(tag, near_t_max))));
+}
+
+/// Those of `rays` that are certain to be in the region, though their top cells are not.
+RayMask surely_inside(const RayBundle& bundle, RayMask rays, std::size_t entry_axis, std::int32_t face) {
+  for (std::size_t axis = 0; axis < 3 && rays != 0; ++axis) {
+    const Cells among{bundle.region.low[axis], bundle.region.high[axis]};
+    if (axis == entry_axis) {
+      rays = face >= among.low && face < among.high ? rays : 0;
+      continue;
+    }
+    const Cells beyond{among.low > 0 ? among.low : -2, among.high < bundle.grid_size[axis] ? among.high : among.high + 2};
+    RayMask inside = 0;
+    for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Doubles>()) {
+      if ((rays >> first & first_bits(lanes_of<Doubles>())) != 0) {
+        inside |= surely_among(bundle, axis, first, beyond) << first;
+      }
+    }
+    rays &= inside;
+  }
+  return rays;
+}
+
 /// Walk::stays(): those of `rays` that have not left the region. Notes where the others have gone.
 RayMask stay(RayBundle& bundle, RayMask rays, std::size_t entry_axis, std::int32_t face) {
   if (rays == 0) {
     return 0;
   }
   RayMask inside = well_inside(bundle, rays);
+  inside |= surely_inside(bundle, rays & ~inside, entry_axis, face);
   for (RayMask rest = rays & ~inside; rest != 0; rest &= rest - 1) {
     const auto ray = static_cast<std::size_t>(std::countr_zero(rest));
     const Corner finest = finest_cell_of(bundle, ray, entry_axis, face);
