@@ -27,11 +27,16 @@ using nodes::size_text;
 /// One packet travelling, one being worked off, and twice that so that neither waits for the other's credit. Eight send a tenth
 /// fewer packets, but take 0.5 MB more of a node among 64.
 constexpr std::uint32_t default_ray_credits = 4;
+/// Bundles are worked off faster than a sleeping node wakes, so few nodes, which have room for it, get more: two with 4 idle for
+/// a quarter of the time.
+constexpr std::uint32_t few_nodes_ray_credits = 64;
 /// Among many nodes a node has a few neighbours and room for all: beyond 128 nodes there are fewer credits a pair.
 constexpr std::uint32_t default_ray_credits_in_all = 512;
 /// Where many nodes share a core, a receiver may not run for milliseconds, and the others go on until the announcement of a long
 /// queue reaches them. 8 to 64 nodes on two cores that others used, too, queued up to 464 packets on seven scenes at 512x512.
 constexpr std::uint32_t default_queue_packets = 512;
+/// Packets of bundles are twice as long.
+constexpr std::uint32_t default_bundle_queue_packets = 256;
 constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 
 /// What a node's mailbox must be able to hold, whoever sends when; the mailbox itself adds the slot of the packet being received.
@@ -119,20 +124,21 @@ void check(const PlanRequest& request) {
   core::expect(request.width >= 1 && request.height >= 1, "a picture has a pixel");
 }
 
-std::uint32_t default_credits(std::uint32_t node_count) {
-  return std::clamp(default_ray_credits_in_all / node_count, 1U, default_ray_credits);
+std::uint32_t default_credits(const PlanRequest& request) {
+  const std::uint32_t most = std::max(default_ray_credits, request.bundles ? few_nodes_ray_credits / request.node_count() : 0);
+  return std::clamp(default_ray_credits_in_all / request.node_count(), 1U, most);
 }
 
 /// Threads that share cores are woken less often by packets twice as long: 64 on two cores took 0.89 of the processor time for
-/// three scenes. On a modelled machine nobody is woken.
+/// three scenes. On a modelled machine nobody is woken. Bundles double that once more: 0.8 on two scenes.
 std::uint32_t default_batch(const PlanRequest& request) {
-  return rays_in(request.computer.machine ? packet_bytes : 2 * packet_bytes);
+  return rays_in(request.computer.machine ? packet_bytes : request.bundles ? 4 * packet_bytes : 2 * packet_bytes);
 }
 
 Bounds wanted(const PlanRequest& request) {
-  return {request.rays.ray_batch.value_or(default_batch(request)),
-          request.rays.ray_credits.value_or(default_credits(request.node_count())),
-          request.rays.queue_packets.value_or(default_queue_packets), request.bundles};
+  return {request.rays.ray_batch.value_or(default_batch(request)), request.rays.ray_credits.value_or(default_credits(request)),
+          request.rays.queue_packets.value_or(request.bundles ? default_bundle_queue_packets : default_queue_packets),
+          request.bundles};
 }
 
 /// With the least of what the request leaves open.

@@ -196,6 +196,9 @@ NodeState RayProgram<RaysTask>::state() const {
 template <class RaysTask>
 bool RayProgram<RaysTask>::work() {
   const Task task = next_task(state());
+  if (puts_off(task)) {
+    return false;
+  }
   if (meter_) [[unlikely]] {
     perform_metered(task);
   } else {
@@ -206,6 +209,16 @@ bool RayProgram<RaysTask>::work() {
     rest();
   }
   return next != Task::rest && next != Task::send_waiting;
+}
+
+/// Bundles fill packets fast, so a node among many is soon without work, and its neighbours' rays may fill more: before it sends
+/// packets that are not full it lets others run. Not twice in succession.
+template <class RaysTask>
+bool RayProgram<RaysTask>::puts_off(Task task) {
+  const bool is_first_flush = task == Task::flush && !flushes_;
+  puts_off_flush_ = is_first_flush && RaysTask::rays_max > 1;
+  flushes_ = task == Task::flush;
+  return puts_off_flush_;
 }
 
 template <class RaysTask>

@@ -101,6 +101,7 @@ class RayProgram final : public NodeProgram {
   void receive(const nodes::Packet& packet) override;
   bool work() override;
   bool finished() const override { return stopped_; }
+  bool has_leftovers() const override { return puts_off_flush_; }
   nodes::Charges charges() const override;
   nodes::Levels levels() const override;
   std::string describe() const override;
@@ -113,6 +114,7 @@ class RayProgram final : public NodeProgram {
   };
   NodeState state() const;
   bool packet_waits() const { return gather_.waits() || film_.waits(); }
+  bool puts_off(Task task);
   void perform(Task task);
   void perform_metered(Task task);
   nodes::HeatTotals totals() const { return {.rays = operations_.ray_count(), .charges = charges()}; }
@@ -162,8 +164,10 @@ class RayProgram final : public NodeProgram {
   Termination termination_ = Termination::member();
   core::Operations operations_;
   RayCounters counters_;
-  Newest newest_;           ///< of the quantum under way or just over, if it was one that works on a ray
-  bool finishing_ = false;  ///< the host has proved that no ray of the pass is left
+  Newest newest_;                ///< of the quantum under way or just over, if it was one that works on a ray
+  bool finishing_ = false;       ///< the host has proved that no ray of the pass is left
+  bool flushes_ = false;         ///< or would have, in the last quantum
+  bool puts_off_flush_ = false;  ///< until it is known that no packet comes soon
   bool done_ = false;
   bool stopped_ = false;
 };
