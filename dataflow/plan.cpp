@@ -192,6 +192,7 @@ void note_reductions(Plan& plan) {
   const Plan unbounded = plan_with(request, wanted(request));
   note("packets of rays that wait for credits", unbounded.queue_packets, plan.queue_packets);
   note("credits for rays", unbounded.ray_credits, plan.ray_credits);
+  note("rays that walk together", unbounded.rays_a_task, plan.rays_a_task);
   note("rays in a packet", unbounded.ray_batch, plan.ray_batch);
 }
 
