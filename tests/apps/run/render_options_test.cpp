@@ -325,7 +325,7 @@ TEST_CASE("the help of render names every option and its default") {
                                  "--subsample",
                                  "--balance-grid",
                                  "--ray-batch",
-                                 "1..682 [what fills 2 KiB, modelled machines 1 KiB]",
+                                 "1..682 [what fills 4 KiB; 2 KiB if rays walk alone, modelled machines 1 KiB]",
                                  "--ray-credits",
                                  "0..64 [4]",
                                  "--ray-queue",
