@@ -380,3 +380,24 @@ TEST_CASE("a candidate that was read elsewhere gives way to the same hit read he
   bundle.arrive(4, {});
   CHECK_FALSE(bundle.hit(4).found());
 }
+
+TEST_CASE("a hit that is nearer than a candidate read elsewhere takes its place, be its id the next one") {
+  std::uint64_t hits = 0;
+  for_some_bundles(80, 400, [&](const Database& database, const BundleRays& rays) {
+    const Ray& ray = rays[0];
+    const Hit hit = walk_alone(database, {ray}).hits[0];
+    const auto passage = first_passage(ray, database.header().frame);
+    if (!hit.found() || hit.primitive == 0 || !passage) {
+      return;
+    }
+    LocalRecords records(database.bytes());
+    Operations operations;
+    const auto bundle = bundle_of({ray});
+    bundle->arrive(0, {passage->t_enter, passage->cell, passage->entry_axis, {hit.t + 1, hit.primitive - 1}});
+    trace(*bundle, records, database.header(), no_skips(), operations);
+    CHECK(same_hit(bundle->hit(0), hit));
+    CHECK(bundle->hit(0).block == hit.block);
+    ++hits;
+  });
+  CHECK(hits > 50);
+}
