@@ -385,7 +385,7 @@ TEST_CASE("a hit that is nearer than a candidate read elsewhere takes its place,
   std::uint64_t hits = 0;
   for_some_bundles(80, 400, [&](const Database& database, const BundleRays& rays) {
     const Ray& ray = rays[0];
-    const Hit hit = walk_alone(database, {ray}).hits[0];
+    const Hit hit = walk_alone(database, {ray}, no_skips()).hits[0];
     const auto passage = first_passage(ray, database.header().frame);
     if (!hit.found() || hit.primitive == 0 || !passage) {
       return;
