@@ -1,6 +1,7 @@
 #include "dataflow/gather.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "core/base/expect.h"
@@ -62,12 +63,13 @@ std::uint32_t Gather::credits_returned(NodeId receiver, std::uint32_t count) {
 void Gather::add(NodeId owner, const RayMessage& message) {
   core::expect(!waits(), "no ray is gathered while a packet waits");
   core::expect(owner != node_->id() && owner != host_, "a ray leaves for another node");
-  std::uint16_t& open = owner_at(owner).open;
-  if (open == none) {
+  if (owner_at(owner).open == none) {
     core::expect(free_ != none, "every owner finds a slot to be filled");
-    open = free_;
-    free_ = slots_[open].next;
+    const std::uint16_t slot = free_;
+    free_ = slots_[slot].next;
+    set_open(owner, slot);
   }
+  const std::uint16_t open = owner_at(owner).open;
   Slot& slot = slots_[open];
   std::memcpy(packet_in(open).data() + ray_packet_bytes(slot.count), &message, sizeof(message));
   ++size_;
@@ -81,22 +83,36 @@ void Gather::add(NodeId owner, const RayMessage& message) {
 bool Gather::may_leave(NodeId owner) const { return owner_at(owner).open != none && (has_credit(owner) || !are_nodes_joined_); }
 
 bool Gather::can_flush() const {
-  for (std::uint32_t i = 0; i < owners_.size(); ++i) {
-    if (may_leave(NodeId{i})) {
-      return true;
+  bool can = false;
+  for_each_open([&](std::uint32_t i) { can = can || may_leave(NodeId{i}); });
+  return can;
+}
+
+/// In ascending order.
+template <class Visit>
+void Gather::for_each_open(const Visit& visit) const {
+  for (std::uint32_t word = 0; 64 * word < owners_.size(); ++word) {
+    for (std::uint64_t owners = open_[word]; owners != 0; owners &= owners - 1) {
+      visit(64 * word + static_cast<std::uint32_t>(std::countr_zero(owners)));
     }
   }
-  return false;
+}
+
+void Gather::set_open(NodeId owner, std::uint16_t slot) {
+  owner_at(owner).open = slot;
+  const std::uint32_t i = nodes::index_of(owner);
+  const std::uint64_t bit = std::uint64_t{1} << (i % 64);
+  open_[i / 64] = slot == none ? open_[i / 64] & ~bit : open_[i / 64] | bit;
 }
 
 void Gather::flush() {
   std::uint16_t most = 0;
-  for (std::uint32_t i = 0; i < owners_.size(); ++i) {
+  for_each_open([&](std::uint32_t i) {
     if (may_leave(NodeId{i}) && slots_[owners_[i].open].count > most) {
       most = slots_[owners_[i].open].count;
       closed_ = NodeId{i};
     }
-  }
+  });
   core::expect(closed_.has_value(), "an open packet is flushed that may leave");
   ++counters_.packets_flushed;
 }
@@ -114,7 +130,7 @@ Way Gather::send() {
   } else {
     transmit(owner, owner_at(owner).open, way == Way::to_host);
   }
-  owner_at(owner).open = none;
+  set_open(owner, none);
   closed_.reset();
   return way;
 }

@@ -105,6 +105,9 @@ class Gather {
   bool has_credit(nodes::NodeId owner) const { return node_->credits(owner, ray_channel) > 0; }
   Owner& owner_at(nodes::NodeId owner) const { return owners_[nodes::index_of(owner)]; }
   bool may_leave(nodes::NodeId owner) const;
+  template <class Visit>
+  void for_each_open(const Visit& visit) const;
+  void set_open(nodes::NodeId owner, std::uint16_t slot);
   void enqueue(nodes::NodeId owner);
   void dequeue(nodes::NodeId owner);
   void transmit(nodes::NodeId owner, std::uint16_t slot, bool overflows);
@@ -118,6 +121,7 @@ class Gather {
   std::span<std::byte> room_;
   std::span<Slot> slots_;
   std::span<Owner> owners_;
+  std::array<std::uint64_t, region_count_max / 64> open_{};  ///< a bit for each owner whose packet is being filled
   std::uint16_t free_ = none;
   std::uint32_t size_ = 0;
   std::uint32_t queued_ = 0;

@@ -35,9 +35,13 @@ NextStop next_stop(const core::Ray& ray, const core::Passage& passage, const Sur
   }
   while (stop.traced == core::Traced::left && stop.region != here) {
     walk.move_to(bsp.region_at(stop.region));
+    if (!bsp.is_empty(stop.region) && static_cast<float>(walk.region_exit().t) >= first) {
+      ++operations.cell_steps;
+      break;
+    }
     core::Passage next = stop.passage;
     const core::Traced traced = core::pass(ray, walk, next, operations);
-    if (!bsp.is_empty(stop.region) && (traced != core::Traced::left || static_cast<float>(next.t_enter) >= first)) {
+    if (!bsp.is_empty(stop.region) && traced != core::Traced::left) {
       break;
     }
     stop = {.traced = traced, .passage = next, .region = bsp.region_index_of(next.cell)};

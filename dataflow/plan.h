@@ -34,6 +34,7 @@ struct PlanRequest {
   std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
   core::RefinementOptions refinement;
   bool is_dealt_on_the_way = false;  ///< the host deals the primary rays of the first pass as nodes have room for them
+  bool bundles = false;              ///< rays walk together, where the memory has room for that
   std::uint32_t node_count() const { return static_cast<std::uint32_t>(shares.size()); }
   /// The host deals primary rays after the start, for which nodes have room.
   bool is_dealt() const { return is_dealt_on_the_way || refinement.is_wanted(); }
@@ -49,6 +50,7 @@ struct Plan {
   std::uint32_t ray_credits = 1;    ///< from each node for each other
   std::uint32_t host_credits = 1;   ///< packets of rays from each node for the host, and from the host for each node
   std::uint32_t queue_packets = 0;  ///< full packets that may wait at their sender for credits
+  std::uint32_t rays_a_task = 1;    ///< rays that a node traces at a time, at most: more than one where they walk in bundles
   std::uint32_t film_credits = 1;   ///< film packets from each node for the host
   std::size_t held_bytes = 0;       ///< room at each node and the host for packets that chaos holds back
   nodes::MailboxCapacity node_mailbox, host_mailbox;

@@ -50,14 +50,17 @@ RayCounters& operator+=(RayCounters& sum, const RayCounters& more) {
   return sum;
 }
 
-RayQueue::Capacity NodeProgram::backlog_capacity(const Plan& plan) {
+namespace {
+
+RayQueue::Capacity backlog_capacity(const Plan& plan) {
   return {.sender_count = plan.node_count() + 1,
           .packets_each = plan.packets_each(),
           .ray_batch = plan.ray_batch,
-          .depth_max = plan.request.depth_max};
+          .depth_max = plan.request.depth_max,
+          .are_kinds_apart = plan.rays_a_task > 1};
 }
 
-Gather::Capacity NodeProgram::gather_capacity(const Plan& plan) {
+Gather::Capacity gather_capacity(const Plan& plan) {
   return {.node_count = plan.node_count(),
           .ray_batch = plan.ray_batch,
           .ray_credits = plan.ray_credits,
@@ -65,7 +68,11 @@ Gather::Capacity NodeProgram::gather_capacity(const Plan& plan) {
           .queue_packets = plan.queue_packets};
 }
 
-NodeProgram::NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& deal, const std::optional<nodes::Meter>& meter)
+}  // namespace
+
+template <class RaysTask>
+RayProgram<RaysTask>::RayProgram(nodes::Node& node, const Plan& plan, const NodeDeal& deal,
+                                 const std::optional<nodes::Meter>& meter)
     : meter_(meter),
       node_(&node),
       host_(plan.host()),
@@ -84,7 +91,9 @@ NodeProgram::NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& de
       task_(node.memory(), node.id(), plan.request.depth_max),
       gather_(node, gather_capacity(plan)),
       film_(node, plan.node_count(), plan.film_credits),
-      backpressure_(plan.node_count() - 1, plan.queue_packets) {}
+      backpressure_(plan.node_count() - 1, plan.queue_packets) {
+  core::expect(RaysTask::rays_max == plan.rays_a_task, "a node's task is that of the plan");
+}
 
 void NodeProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index) {
   const Share& share = plan.request.shares[index];
@@ -93,12 +102,13 @@ void NodeProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::ui
   memory[Category::home_pages] += LocalMemory::bytes_for<std::byte>(share.part_bytes + core::overread_bytes);
   Primaries::add_needs(memory, share.primary_runs, plan.request.is_dealt());
   RayQueue::add_needs(memory, backlog_capacity(plan));
-  RayTask::add_needs(memory, plan.request.depth_max);
+  (plan.rays_a_task > 1 ? BundleTask::add_needs : RayTask::add_needs)(memory, plan.request.depth_max);
   Gather::add_needs(memory, gather_capacity(plan));
   FilmGather::add_needs(memory);
 }
 
-void NodeProgram::receive(const nodes::Packet& packet) {
+template <class RaysTask>
+void RayProgram<RaysTask>::receive(const nodes::Packet& packet) {
   switch (Kind{packet.kind}) {
     case Kind::rays:
     case Kind::forwarded:
@@ -131,18 +141,21 @@ void NodeProgram::receive(const nodes::Packet& packet) {
 }
 
 /// A packet with rays has come: this pass has not ended, or the next has begun.
-void NodeProgram::wake() {
+template <class RaysTask>
+void RayProgram<RaysTask>::wake() {
   core::expect(!finishing_ || done_, "no ray comes after the end");
   finishing_ = false;
   termination_.ray_packet_received();
 }
 
-void NodeProgram::receive_primaries(const DealtPrimaries& dealt) {
+template <class RaysTask>
+void RayProgram<RaysTask>::receive_primaries(const DealtPrimaries& dealt) {
   wake();
   primaries_.put(dealt);
 }
 
-void NodeProgram::receive_rays(const nodes::Packet& packet) {
+template <class RaysTask>
+void RayProgram<RaysTask>::receive_rays(const nodes::Packet& packet) {
   wake();
   core::expect(packet.payload.size() >= sizeof(RayPacketHeader), "a packet of rays has a header");
   RayPacketHeader header;
@@ -159,16 +172,18 @@ void NodeProgram::receive_rays(const nodes::Packet& packet) {
   }
 }
 
-void NodeProgram::take_credits(nodes::NodeId receiver, std::uint32_t count) {
+template <class RaysTask>
+void RayProgram<RaysTask>::take_credits(nodes::NodeId receiver, std::uint32_t count) {
   for (std::uint32_t sent = gather_.credits_returned(receiver, count); sent > 0; --sent) {
     termination_.ray_packet_sent();
   }
 }
 
-NodeState NodeProgram::state() const {
+template <class RaysTask>
+NodeState RayProgram<RaysTask>::state() const {
   const bool has_work = !task_.is_idle() || !backlog_.empty();
   return {.must_announce = backpressure_.is_due(gather_.queued()),
-          .packet_waits = gather_.waits() || film_.waits(),
+          .packet_waits = packet_waits(),
           .is_tracing = !task_.is_idle(),
           .has_backlog = !backlog_.empty(),
           .has_primaries = !primaries_.empty(),
@@ -178,8 +193,12 @@ NodeState NodeProgram::state() const {
           .is_unacknowledged = !backpressure_.is_settled()};
 }
 
-bool NodeProgram::work() {
+template <class RaysTask>
+bool RayProgram<RaysTask>::work() {
   const Task task = next_task(state());
+  if (puts_off(task)) {
+    return false;
+  }
   if (meter_) [[unlikely]] {
     perform_metered(task);
   } else {
@@ -192,7 +211,18 @@ bool NodeProgram::work() {
   return next != Task::rest && next != Task::send_waiting;
 }
 
-void NodeProgram::perform_metered(Task task) {
+/// Bundles fill packets fast, so a node among many is soon without work, and its neighbours' rays may fill more: before it sends
+/// packets that are not full it lets others run. Not twice in succession.
+template <class RaysTask>
+bool RayProgram<RaysTask>::puts_off(Task task) {
+  const bool is_first_flush = task == Task::flush && !flushes_;
+  puts_off_flush_ = is_first_flush && RaysTask::rays_max > 1;
+  flushes_ = task == Task::flush;
+  return puts_off_flush_;
+}
+
+template <class RaysTask>
+void RayProgram<RaysTask>::perform_metered(Task task) {
   if (task != Task::start_primary && task != Task::take_received && task != Task::go_on) {
     perform(task);
     return;
@@ -205,7 +235,8 @@ void NodeProgram::perform_metered(Task task) {
   }
 }
 
-void NodeProgram::perform(Task task) {
+template <class RaysTask>
+void RayProgram<RaysTask>::perform(Task task) {
   switch (task) {
     case Task::announce:
       return announce();
@@ -216,7 +247,7 @@ void NodeProgram::perform(Task task) {
     case Task::take_received:
       return take_received();
     case Task::start_primary:
-      return start_primary();
+      return start_primaries();
     case Task::flush:
       gather_.flush();
       return send_waiting();
@@ -225,7 +256,8 @@ void NodeProgram::perform(Task task) {
   }
 }
 
-void NodeProgram::announce() {
+template <class RaysTask>
+void RayProgram<RaysTask>::announce() {
   const Hold hold{backpressure_.announce(gather_.queued()) ? 1U : 0U};
   for (std::uint32_t i = 0; i < nodes::index_of(host_); ++i) {
     if (nodes::NodeId{i} != node_->id()) {
@@ -235,7 +267,8 @@ void NodeProgram::announce() {
 }
 
 /// A film packet that waits is sent as soon as the host acknowledges another.
-void NodeProgram::send_waiting() {
+template <class RaysTask>
+void RayProgram<RaysTask>::send_waiting() {
   if (!gather_.waits()) {
     return;
   }
@@ -245,9 +278,20 @@ void NodeProgram::send_waiting() {
   }
 }
 
-void NodeProgram::take_received() {
+template <class RaysTask>
+void RayProgram<RaysTask>::take_received() {
   std::uint32_t sender = 0;
-  const RayMessage message = backlog_.take(sender);
+  const RayMessage first = backlog_.take(sender);
+  take_up(first, sender);
+  for (std::uint32_t i = 1; i < RaysTask::rays_max && backlog_.has_alike(first.ray); ++i) {
+    const RayMessage message = backlog_.take_alike(first.ray, sender);
+    take_up(message, sender);
+  }
+  go_on();
+}
+
+template <class RaysTask>
+void RayProgram<RaysTask>::take_up(const RayMessage& message, std::uint32_t sender) {
   give_back(sender, false);
   newest_.pixel = message.ray.pixel;
   newest_.depth = message.ray.depth;
@@ -256,10 +300,18 @@ void NodeProgram::take_received() {
   } else {
     task_.enter(message);
   }
-  go_on();
 }
 
-void NodeProgram::start_primary() {
+template <class RaysTask>
+void RayProgram<RaysTask>::start_primaries() {
+  for (std::uint32_t i = 0; i < RaysTask::rays_max && !primaries_.empty() && !packet_waits(); ++i) {
+    start_primary();
+  }
+  trace();
+}
+
+template <class RaysTask>
+void RayProgram<RaysTask>::start_primary() {
   const std::uint64_t number = primaries_.take();
   const core::SampleRange& samples = primaries_.samples();
   if (const std::uint32_t count = primaries_.packets_worked_off(); count > 0) {
@@ -271,46 +323,36 @@ void NodeProgram::start_primary() {
     return leave_background(pixel, sample);
   }
   shoot(constants_->settings.camera.primary_ray(pixel, sample));
-  if (task_.is_tracing()) {
-    trace();
-  }
 }
 
 /// What a primary ray that needs not be traced comes to.
-void NodeProgram::leave_background(std::uint32_t pixel, std::uint32_t sample) {
+template <class RaysTask>
+void RayProgram<RaysTask>::leave_background(std::uint32_t pixel, std::uint32_t sample) {
   ++operations_.rays[static_cast<std::size_t>(core::RayKind::primary)];
   ++operations_.skipped.background;
   end_miss({.pixel = pixel, .sample = sample});
 }
 
-/// Traces the ray under way, or the next child of the hit under way.
-void NodeProgram::go_on() {
-  if (!task_.is_tracing()) {
-    core::Ray child;
-    if (!task_.next_child(tracer_, constants_->settings, child, operations_)) {
-      return;
-    }
-    shoot(child);
+/// Traces the rays under way, or the next children of the hits under way.
+template <class RaysTask>
+void RayProgram<RaysTask>::go_on() {
+  if (!task_.has_rays() && !task_.has_ended()) {
+    task_.next_children(tracer_, constants_->settings, operations_, [this](const core::Ray& child) { shoot(child); });
   }
-  if (task_.is_tracing()) {
-    trace();
-  }
+  trace();
 }
 
-/// A fresh ray starts here, leaves at once, or meets nothing.
-void NodeProgram::shoot(const core::Ray& ray) {
+/// A fresh ray.
+template <class RaysTask>
+void RayProgram<RaysTask>::shoot(const core::Ray& ray) {
   ++operations_.rays[static_cast<std::size_t>(ray.kind)];
   newest_.depth = ray.depth;
-  const auto passage = core::first_passage(ray, constants_->settings.header.frame);
-  if (passage) {
-    go_to_next(message_of(ray, *passage, node_->id()));
-  } else {
-    end_miss(ray);
-  }
+  task_.shoot(ray);
 }
 
 /// Past regions where it meets nothing, to the owner of the next where it may meet something: this node or another.
-void NodeProgram::go_to_next(RayMessage message) {
+template <class RaysTask>
+void RayProgram<RaysTask>::go_to_next(const RayMessage& message) {
   const NextStop stop = next_stop(message.ray, message.passage(), surroundings_, constants_->region, operations_);
   if (stop.traced == core::Traced::miss) {
     return end_miss(message.ray);
@@ -327,24 +369,48 @@ void NodeProgram::go_to_next(RayMessage message) {
   }
 }
 
-void NodeProgram::trace() {
-  switch (task_.trace(tracer_, operations_)) {
-    case core::Traced::left:
-      return go_to_next(task_.leaving());
-    case core::Traced::miss:
-      return end_miss(task_.ray());
-    default:
-      return end_hit();
+/// Rays that do not start in this region may go on in it, but none comes back.
+template <class RaysTask>
+void RayProgram<RaysTask>::trace() {
+  while (task_.has_rays() || task_.has_ended()) {
+    if (!task_.has_ended()) {
+      task_.trace(tracer_, constants_->settings.header, operations_);
+    }
+    for (; task_.has_ended(); end_ray()) {
+      if (packet_waits()) {
+        return;
+      }
+    }
   }
 }
 
-void NodeProgram::end_blocked() {
+template <class RaysTask>
+void RayProgram<RaysTask>::end_ray() {
+  switch (task_.traced()) {
+    case core::Traced::left: {
+      const RayMessage message = task_.leaving();
+      task_.drop_ended();
+      return go_to_next(message);
+    }
+    case core::Traced::miss:
+      end_miss(task_.ray());
+      break;
+    default:
+      end_hit();
+      break;
+  }
+  task_.drop_ended();
+}
+
+template <class RaysTask>
+void RayProgram<RaysTask>::end_blocked() {
   ++operations_.shadow_blocked;
   ++counters_.ended;
 }
 
 /// The nearest hit of a ray is proved where nothing is.
-void NodeProgram::end_confirmed(RayMessage message) {
+template <class RaysTask>
+void RayProgram<RaysTask>::end_confirmed(RayMessage message) {
   if (message.ray.kind == core::RayKind::shadow) {
     return end_blocked();
   }
@@ -353,7 +419,8 @@ void NodeProgram::end_confirmed(RayMessage message) {
 }
 
 /// A ray has met its nearest hit, or a shadow ray any.
-void NodeProgram::end_hit() {
+template <class RaysTask>
+void RayProgram<RaysTask>::end_hit() {
   if (task_.ray().kind == core::RayKind::shadow) {
     end_blocked();
   } else if (task_.found_here()) {
@@ -365,7 +432,8 @@ void NodeProgram::end_hit() {
 }
 
 /// A hit is known to be the nearest where its record is not, or not at hand.
-void NodeProgram::shade_at_finder(const RayMessage& hit) {
+template <class RaysTask>
+void RayProgram<RaysTask>::shade_at_finder(const RayMessage& hit) {
   const nodes::NodeId finder{hit.finder};
   if (finder == node_->id()) {
     task_.resume_hit(hit);
@@ -377,13 +445,15 @@ void NodeProgram::shade_at_finder(const RayMessage& hit) {
 }
 
 /// This node shades the hit of a ray, and no other does.
-void NodeProgram::count_claim(core::RayKind kind) {
+template <class RaysTask>
+void RayProgram<RaysTask>::count_claim(core::RayKind kind) {
   ++counters_.ended;
   ++(kind == core::RayKind::primary ? operations_.primary_hits : operations_.secondary_hits);
 }
 
 /// A shadow ray brings its light, any other the background's.
-void NodeProgram::end_miss(const core::Ray& ray) {
+template <class RaysTask>
+void RayProgram<RaysTask>::end_miss(const core::Ray& ray) {
   ++counters_.ended;
   const core::Color background = constants_->settings.header.background;
   const core::FixedColor light = core::to_fixed(ray.kind == core::RayKind::shadow ? ray.weight : ray.weight * background);
@@ -392,13 +462,15 @@ void NodeProgram::end_miss(const core::Ray& ray) {
   }
 }
 
-void NodeProgram::dispatch(nodes::NodeId owner, const RayMessage& message) {
+template <class RaysTask>
+void RayProgram<RaysTask>::dispatch(nodes::NodeId owner, const RayMessage& message) {
   ++counters_.out[static_cast<std::size_t>(message.ray.kind)];
   gather_.add(owner, message);
   send_waiting();
 }
 
-void NodeProgram::give_back(std::uint32_t sender, bool rests) {
+template <class RaysTask>
+void RayProgram<RaysTask>::give_back(std::uint32_t sender, bool rests) {
   const std::uint32_t owed = backlog_.owed(sender);
   const nodes::NodeId target{sender};
   if (returns_credits(owed, target == host_ ? return_batch_host_ : return_batch_, rests)) {
@@ -408,7 +480,8 @@ void NodeProgram::give_back(std::uint32_t sender, bool rests) {
 }
 
 /// Nothing to do until a packet comes: keeps nobody's credit.
-void NodeProgram::rest() {
+template <class RaysTask>
+void RayProgram<RaysTask>::rest() {
   ++counters_.rests;
   for (std::uint32_t sender = 0; sender < backlog_.sender_count(); ++sender) {
     give_back(sender, true);
@@ -419,7 +492,8 @@ void NodeProgram::rest() {
 }
 
 /// Keeps no token, and once the end is proved no light.
-void NodeProgram::be_passive() {
+template <class RaysTask>
+void RayProgram<RaysTask>::be_passive() {
   if (const std::optional<Token> token = termination_.hand_on()) {
     send_control(*node_, next_on_ring(node_->id(), nodes::index_of(host_)), Kind::token, *token);
   }
@@ -428,7 +502,8 @@ void NodeProgram::be_passive() {
   }
 }
 
-void NodeProgram::settle() {
+template <class RaysTask>
+void RayProgram<RaysTask>::settle() {
   film_.flush();
   if (film_.settled()) {
     send_control(*node_, host_, Kind::done, Done{film_.counters().entries});
@@ -436,23 +511,26 @@ void NodeProgram::settle() {
   }
 }
 
-nodes::Charges NodeProgram::charges() const {
+template <class RaysTask>
+nodes::Charges RayProgram<RaysTask>::charges() const {
   nodes::Charges charges = nodes::charges_of(operations_);
   const auto add_up = [](const auto& by_kind) { return std::accumulate(by_kind.begin(), by_kind.end(), std::uint64_t{0}); };
   charges[nodes::Charge::ray_packing] = add_up(counters_.in) + add_up(counters_.out);
   return charges;
 }
 
-nodes::Levels NodeProgram::levels() const {
+template <class RaysTask>
+nodes::Levels RayProgram<RaysTask>::levels() const {
   return {{"rays in backlog", backlog_.size()}, {"rays gathered", gather_.size()}, {"packets queued", gather_.queued()}};
 }
 
-std::string NodeProgram::describe() const {
+template <class RaysTask>
+std::string RayProgram<RaysTask>::describe() const {
   return std::to_string(primaries_.left()) + " primary rays not started, " + std::to_string(backlog_.size()) +
          " rays in the backlog, " +
-         (task_.is_idle()      ? "none"
-          : task_.is_tracing() ? "a ray"
-                               : "a hit") +
+         (task_.is_idle()                         ? "none"
+          : task_.has_rays() || task_.has_ended() ? "rays"
+                                                  : "hits") +
          " under way, " + std::to_string(gather_.size()) + " rays gathered" +
          (gather_.waits() ? " (a packet waits for room), " : ", ") + std::to_string(gather_.queued()) + " packets queued, " +
          (backpressure_.admits_primaries() ? "" : "asked to hold primary rays back, ") + std::to_string(film_.gathered()) +
@@ -465,7 +543,8 @@ std::string NodeProgram::describe() const {
                        : "");
 }
 
-ProgramReport NodeProgram::report() const {
+template <class RaysTask>
+ProgramReport RayProgram<RaysTask>::report() const {
   ProgramReport report{.operations = operations_,
                        .rays = counters_,
                        .gather = gather_.counters(),
@@ -475,6 +554,17 @@ ProgramReport NodeProgram::report() const {
   report.rays.holds = backpressure_.count();
   report.operations.deposits_saturated += film_.counters().saturated;
   return report;
+}
+
+template class RayProgram<RayTask>;
+template class RayProgram<BundleTask>;
+
+std::unique_ptr<NodeProgram> make_node_program(nodes::Node& node, const Plan& plan, const NodeDeal& deal,
+                                               const std::optional<nodes::Meter>& meter) {
+  if (plan.rays_a_task > 1) {
+    return std::make_unique<RayProgram<BundleTask>>(node, plan, deal, meter);
+  }
+  return std::make_unique<RayProgram<RayTask>>(node, plan, deal, meter);
 }
 
 }  // namespace dmpc::dataflow

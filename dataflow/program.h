@@ -1,8 +1,9 @@
 // The node program of dataflow: rays that come in, go on, hit, and leave for other regions.
 //
-// A quantum follows the table of flow_control.h: one ray is traced, from where it starts or enters until it ends or leaves the
-// region, and at most one ray goes out. What keeps the last node moving, and why every queue is bounded, is said there; the sums
-// are in plan.cpp.
+// A quantum follows the table of flow_control.h: one ray, or one bundle of rays of a kind, is traced, from where it starts or
+// enters until it ends or leaves the region; then rays go out one by one, as long as none of them has made a packet wait: the
+// others stay in the bundle. What keeps the last node moving, and why every queue is bounded, is said there; the sums are in
+// plan.cpp.
 //
 // Primary rays are started by credit: while a packet of this node's waits for one, or another node's queue is long, none is. A
 // node that holds its primary rays back has no other work. It is not passive, so it keeps the token; but like one that rests it
@@ -15,6 +16,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,6 +26,7 @@
 #include "core/picture/pixel_task.h"
 #include "core/trace/operations.h"
 #include "dataflow/backpressure.h"
+#include "dataflow/bundle_task.h"
 #include "dataflow/film_gather.h"
 #include "dataflow/flow_control.h"
 #include "dataflow/gather.h"
@@ -69,29 +72,15 @@ struct NodeDeal {
   const core::DatabasePart& outline;  ///< of the whole database
 };
 
-class NodeProgram final : public nodes::Program {
+/// What all node programs of dataflow are, whatever their rays share.
+class NodeProgram : public nodes::Program {
  public:
-  /// Takes all its memory and credits from `node`. `meter` is there where somebody wants to know what is done for which pixel: a
-  /// quantum that works on a ray is that ray's pixel's; what rays cost when they come in, and sending what waits, is nobody's.
-  NodeProgram(nodes::Node& node, const Plan& plan, const NodeDeal& deal, const std::optional<nodes::Meter>& meter = std::nullopt);
-  /// Adds to `memory` exactly what the constructor takes at node `index`.
+  /// Adds to `memory` exactly what the program of the plan takes at node `index`.
   static void add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index);
-
-  void receive(const nodes::Packet& packet) override;
-  bool work() override;
-  bool finished() const override { return stopped_; }
-  nodes::Charges charges() const override;
-  nodes::Levels levels() const override;
-  std::string describe() const override;
-
   /// Call it only while the program is not running.
-  ProgramReport report() const;
+  virtual ProgramReport report() const = 0;
 
- private:
-  /// Of the ray that was started, taken up or made last; `sample`: that of the primary ray started last.
-  struct Newest {
-    std::uint32_t pixel = 0, sample = 0, depth = 1;
-  };
+ protected:
   /// What never changes, in local memory.
   struct Constants {
     core::RenderSettings settings;  ///< header: the part's
@@ -99,11 +88,33 @@ class NodeProgram final : public nodes::Program {
     core::DatabaseHeader outline;
     std::uint32_t region;  ///< the node's, by number
   };
+};
 
-  static RayQueue::Capacity backlog_capacity(const Plan& plan);
-  static Gather::Capacity gather_capacity(const Plan& plan);
+/// `RaysTask` is RayTask or BundleTask, as the plan says.
+template <class RaysTask>
+class RayProgram final : public NodeProgram {
+ public:
+  /// Takes all its memory and credits from `node`. `meter` is there where somebody wants to know what is done for which pixel: a
+  /// quantum that works on a ray is that ray's pixel's; what rays cost when they come in, and sending what waits, is nobody's.
+  RayProgram(nodes::Node& node, const Plan& plan, const NodeDeal& deal, const std::optional<nodes::Meter>& meter = std::nullopt);
 
+  void receive(const nodes::Packet& packet) override;
+  bool work() override;
+  bool finished() const override { return stopped_; }
+  bool has_leftovers() const override { return puts_off_flush_; }
+  nodes::Charges charges() const override;
+  nodes::Levels levels() const override;
+  std::string describe() const override;
+  ProgramReport report() const override;
+
+ private:
+  /// Of the ray that was started, taken up or made last; `sample`: that of the primary ray started last.
+  struct Newest {
+    std::uint32_t pixel = 0, sample = 0, depth = 1;
+  };
   NodeState state() const;
+  bool packet_waits() const { return gather_.waits() || film_.waits(); }
+  bool puts_off(Task task);
   void perform(Task task);
   void perform_metered(Task task);
   nodes::HeatTotals totals() const { return {.rays = operations_.ray_count(), .charges = charges()}; }
@@ -114,12 +125,15 @@ class NodeProgram final : public nodes::Program {
   void announce();
   void send_waiting();
   void take_received();
+  void take_up(const RayMessage& message, std::uint32_t sender);
+  void start_primaries();
   void start_primary();
   void leave_background(std::uint32_t pixel, std::uint32_t sample);
   void go_on();
   void trace();
   void shoot(const core::Ray& ray);
-  void go_to_next(RayMessage message);
+  void go_to_next(const RayMessage& message);
+  void end_ray();
   void end_hit();
   void end_blocked();
   void end_confirmed(RayMessage message);
@@ -143,17 +157,26 @@ class NodeProgram final : public nodes::Program {
   PartTracer tracer_;
   Primaries primaries_;
   RayQueue backlog_;
-  RayTask task_;
+  RaysTask task_;
   Gather gather_;
   FilmGather film_;
   Backpressure backpressure_;
   Termination termination_ = Termination::member();
   core::Operations operations_;
   RayCounters counters_;
-  Newest newest_;           ///< of the quantum under way or just over, if it was one that works on a ray
-  bool finishing_ = false;  ///< the host has proved that no ray of the pass is left
+  Newest newest_;                ///< of the quantum under way or just over, if it was one that works on a ray
+  bool finishing_ = false;       ///< the host has proved that no ray of the pass is left
+  bool flushes_ = false;         ///< or would have, in the last quantum
+  bool puts_off_flush_ = false;  ///< until it is known that no packet comes soon
   bool done_ = false;
   bool stopped_ = false;
 };
+
+extern template class RayProgram<RayTask>;
+extern template class RayProgram<BundleTask>;
+
+/// The program of the plan.
+std::unique_ptr<NodeProgram> make_node_program(nodes::Node& node, const Plan& plan, const NodeDeal& deal,
+                                               const std::optional<nodes::Meter>& meter = std::nullopt);
 
 }  // namespace dmpc::dataflow

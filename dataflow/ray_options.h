@@ -12,14 +12,15 @@ namespace dmpc::dataflow {
 /// `optional` without a value means: choose.
 struct RayOptions {
   BalanceOptions balance = {};  ///< how the regions are cut
-  /// Rays in a full packet. Without it what fills a packet of 2 KiB, or of 1 KiB on a modelled machine, or fewer if the memory is
-  /// scarce.
+  /// Rays in a full packet. Without it what fills a packet of 4 KiB, or of 2 KiB where rays walk alone, of 1 KiB on a modelled
+  /// machine, or fewer if the memory is scarce.
   std::optional<std::uint32_t> ray_batch = std::nullopt;
-  /// Packets of rays that may be under way, or in the receiver's backlog, for each sender and receiver. Without it 4, or fewer
-  /// among more than 128 nodes or if the memory is scarce. 0: no node sends to another, every ray goes by way of the host.
+  /// Packets of rays that may be under way, or in the receiver's backlog, for each sender and receiver. Without it 4, with
+  /// bundles up to 64 among fewer than 16 nodes, or fewer among more than 128 nodes or if the memory is scarce. 0: no node sends
+  /// to another, every ray goes by way of the host.
   std::optional<std::uint32_t> ray_credits = std::nullopt;
-  /// Full packets that may wait at their sender for credits before rays overflow. Without it 512, or fewer if the memory is
-  /// scarce. Of no use without credits.
+  /// Full packets that may wait at their sender for credits before rays overflow. Without it 512, half as many of bundles, whose
+  /// packets are twice as long, or fewer if the memory is scarce. Of no use without credits.
   std::optional<std::uint32_t> queue_packets = std::nullopt;
   /// Neighbouring regions are put on nodes that are few hops apart in this machine. Without it region i is node i's.
   std::optional<nodes::TopologyKind> topology = std::nullopt;

@@ -23,17 +23,21 @@ class RayQueue {
     std::uint32_t packets_each = 0;  ///< that one sender's credits allow
     std::uint32_t ray_batch = 1;     ///< rays in a full packet
     std::uint32_t depth_max = 1;     ///< rays have depths 1 .. depth_max
+    bool are_kinds_apart = false;    ///< shadow rays of a depth are not among its other rays
 
     /// All senders but the node itself.
     std::uint32_t rays() const { return (sender_count - 1) * packets_each * ray_batch; }
+    std::uint32_t lists() const { return (depth_max + 1) * (are_kinds_apart ? 2 : 1); }
   };
 
   /// Empty.
   RayQueue(nodes::LocalMemory& memory, const Capacity& capacity)
       : packets_each_(capacity.packets_each),
         ray_batch_(capacity.ray_batch),
+        lists_a_depth_(capacity.are_kinds_apart ? 2 : 1),
+        rays_(memory.allocate<RayMessage>(nodes::Category::queues, capacity.rays())),
         entries_(memory.allocate<Entry>(nodes::Category::queues, capacity.rays())),
-        newest_(memory.allocate<std::uint32_t>(nodes::Category::queues, capacity.depth_max + 1)),
+        newest_(memory.allocate<std::uint32_t>(nodes::Category::queues, capacity.lists())),
         senders_(memory.allocate<Sender>(nodes::Category::queues, capacity.sender_count)) {
     for (std::uint32_t& newest : newest_) {
       newest = none;
@@ -46,9 +50,9 @@ class RayQueue {
   /// Adds to `plan` exactly what the constructor takes.
   static void add_needs(nodes::MemoryPlan& plan, const Capacity& capacity) {
     using nodes::LocalMemory;
-    plan[nodes::Category::queues] += LocalMemory::bytes_for<Entry>(capacity.rays()) +
-                                     LocalMemory::bytes_for<std::uint32_t>(capacity.depth_max + 1) +
-                                     LocalMemory::bytes_for<Sender>(capacity.sender_count);
+    plan[nodes::Category::queues] +=
+        LocalMemory::bytes_for<RayMessage>(capacity.rays()) + LocalMemory::bytes_for<Entry>(capacity.rays()) +
+        LocalMemory::bytes_for<std::uint32_t>(capacity.lists()) + LocalMemory::bytes_for<Sender>(capacity.sender_count);
   }
 
   /// A packet with `ray_count` rays from `sender` has come; put() them next.
@@ -61,33 +65,34 @@ class RayQueue {
 
   void put(std::uint32_t sender, const RayMessage& message) {
     core::expect(free_ != none, "a received ray has its place in the backlog");
-    core::expect(message.ray.depth < newest_.size(), "a ray is no deeper than the picture's depth");
+    const std::uint32_t list = list_of(message.ray);
+    core::expect(list < newest_.size(), "a ray is no deeper than the picture's depth");
     const std::uint32_t place = free_;
     free_ = entries_[place].older;
-    entries_[place] = {message, newest_[message.ray.depth], sender};
-    newest_[message.ray.depth] = place;
-    deepest_ = std::max<std::uint32_t>(deepest_, message.ray.depth);
+    rays_[place] = message;
+    entries_[place] = {newest_[list], sender};
+    newest_[list] = place;
+    last_ = std::max<std::uint32_t>(last_, list);
     ++senders_[sender].rays;
     high_water_ = std::max(high_water_, ++size_);
   }
 
-  /// Takes out the deepest ray, of equally deep ones the newest, and says who sent it. Requires that there is one.
+  /// Takes out the deepest ray, of equally deep ones the newest, and says who sent it. With kinds apart it is a shadow ray if one
+  /// is as deep. Requires that there is one.
   RayMessage take(std::uint32_t& sender) {
     core::expect(size_ > 0, "a ray is taken from a backlog that has one");
-    while (newest_[deepest_] == none) {
-      --deepest_;
+    while (newest_[last_] == none) {
+      --last_;
     }
-    const std::uint32_t place = newest_[deepest_];
-    Entry& entry = entries_[place];
-    newest_[deepest_] = entry.older;
-    entry.older = free_;
-    free_ = place;
-    --size_;
-    sender = entry.sender;
-    --senders_[sender].rays;
-    return entry.message;
+    return take_from(last_, sender);
   }
-
+  /// Whether there is another as deep as that ray, and of its kind.
+  bool has_alike(const core::Ray& ray) const { return newest_[list_of(ray)] != none; }
+  /// Takes out the newest of these.
+  RayMessage take_alike(const core::Ray& ray, std::uint32_t& sender) {
+    core::expect(has_alike(ray), "a ray is taken from a backlog that has one");
+    return take_from(list_of(ray), sender);
+  }
   /// The credits that `sender` can have back: its packets that its rays still here would not fill.
   std::uint32_t owed(std::uint32_t sender) const {
     return senders_[sender].packets - core::ceil_divide(senders_[sender].rays, ray_batch_);
@@ -107,8 +112,23 @@ class RayQueue {
  private:
   static constexpr std::uint32_t none = 0xffffffffU;
 
+  std::uint32_t list_of(const core::Ray& ray) const {
+    return lists_a_depth_ * ray.depth + (lists_a_depth_ > 1 && ray.kind == core::RayKind::shadow ? 1 : 0);
+  }
+  RayMessage take_from(std::uint32_t list, std::uint32_t& sender) {
+    const std::uint32_t place = newest_[list];
+    Entry& entry = entries_[place];
+    newest_[list] = entry.older;
+    entry.older = free_;
+    free_ = place;
+    --size_;
+    sender = entry.sender;
+    --senders_[sender].rays;
+    return rays_[place];
+  }
+
+  /// What the list needs to know of a ray, by itself: places are found without waiting for the rays' memory.
   struct Entry {
-    RayMessage message;
     std::uint32_t older = none;  ///< the next of the same depth, or of the free ones
     std::uint32_t sender = 0;
   };
@@ -117,12 +137,13 @@ class RayQueue {
     std::uint32_t rays = 0;     ///< here
   };
 
-  std::uint32_t packets_each_, ray_batch_;
+  std::uint32_t packets_each_, ray_batch_, lists_a_depth_;
+  std::span<RayMessage> rays_;
   std::span<Entry> entries_;
-  std::span<std::uint32_t> newest_;  ///< by depth
+  std::span<std::uint32_t> newest_;  ///< by depth, and by kind if they are apart
   std::span<Sender> senders_;
   std::uint32_t free_ = none;
-  std::uint32_t deepest_ = 0;  ///< no ray is deeper
+  std::uint32_t last_ = 0;  ///< no list behind it has a ray
   std::uint32_t size_ = 0, high_water_ = 0;
 };
 

@@ -17,8 +17,14 @@ void RayTask::add_needs(nodes::MemoryPlan& plan, std::uint32_t depth_max) {
   plan[Category::ray_stacks] += LocalMemory::bytes_for<Flight>(1) + LocalMemory::bytes_for<core::HitState>(depth_max);
 }
 
+void RayTask::shoot(const core::Ray& ray) {
+  core::expect(stage_ == Stage::none, "one ray at a time is under way");
+  flight_->ray = ray;
+  stage_ = Stage::shot;
+}
+
 void RayTask::enter(const RayMessage& message) {
-  core::expect(!is_tracing_, "one ray at a time is under way");
+  core::expect(stage_ == Stage::none, "one ray at a time is under way");
   flight_->ray = message.ray;
   flight_->cursor = core::arrive(message.passage());
   flight_->finder = nodes::NodeId{message.finder};
@@ -26,20 +32,35 @@ void RayTask::enter(const RayMessage& message) {
   if (flight_->finder != self_) {
     flight_->cursor.best.block = core::no_address;
   }
-  is_tracing_ = true;
+  stage_ = Stage::entered;
 }
 
 void RayTask::resume_hit(const RayMessage& message) {
-  core::expect(!is_tracing_, "one ray at a time is under way");
+  core::expect(stage_ == Stage::none, "one ray at a time is under way");
   core::expect(nodes::NodeId{message.finder} == self_, "a confirmed hit comes to its finder");
   push(message.ray, message.best);
 }
 
-core::Traced RayTask::trace(PartTracer& tracer, core::Operations& operations) {
-  const core::Traced traced = tracer.trace(flight_->ray, flight_->cursor, operations);
-  core::expect(traced != core::Traced::absent, "a node has every record of its region");
-  is_tracing_ = false;
-  return traced;
+void RayTask::trace(PartTracer& tracer, const core::DatabaseHeader& header, core::Operations& operations) {
+  const bool is_here = stage_ == Stage::entered || begin(header);
+  if (is_here) {
+    traced_ = tracer.trace(flight_->ray, flight_->cursor, operations);
+  }
+  core::expect(traced_ != core::Traced::absent, "a node has every record of its region");
+  stage_ = Stage::ended;
+}
+
+/// Whether the ray starts in the region of `header`. If not, it has left that, or misses the grid.
+bool RayTask::begin(const core::DatabaseHeader& header) {
+  const auto passage = core::first_passage(flight_->ray, header.frame);
+  flight_->finder = self_;
+  flight_->cursor = core::arrive(passage.value_or(core::Passage{}));
+  const bool is_here = passage && header.region.contains(passage->cell);
+  if (passage && !is_here) {
+    flight_->cursor.arrival = passage->cell;
+  }
+  traced_ = passage ? core::Traced::left : core::Traced::miss;
+  return is_here;
 }
 
 void RayTask::shade_hit() {
@@ -75,7 +96,7 @@ RayMessage RayTask::confirmed_hit() const {
 
 bool RayTask::next_child(PartTracer& tracer, const core::RenderSettings& settings, core::Ray& child,
                          core::Operations& operations) {
-  core::expect(!is_tracing_, "a child is made when its parent's ray has ended");
+  core::expect(stage_ == Stage::none, "a child is made when its parent's ray has ended");
   while (depth_ > 0) {
     core::HitState& hit = stack_[depth_ - 1];
     if (hit.stage == core::HitState::Stage::finished) {

@@ -20,26 +20,34 @@ using PartTracer = core::GridTracer<core::LocalRecords>;
 /// leaves is the caller's to send on; it leaves nothing behind. Thread safety: belongs to one node.
 class RayTask {
  public:
+  static constexpr std::uint32_t rays_max = 1;
+
   /// Nothing under way. A stack of `depth_max` hits.
   RayTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max);
   /// Adds to `plan` exactly what the constructor takes.
   static void add_needs(nodes::MemoryPlan& plan, std::uint32_t depth_max);
 
-  /// A ray is to be traced on.
-  bool is_tracing() const { return is_tracing_; }
+  /// A ray is to be traced.
+  bool has_rays() const { return stage_ == Stage::shot || stage_ == Stage::entered; }
+  /// A ray has been traced, and the caller has not seen to it.
+  bool has_ended() const { return stage_ == Stage::ended; }
   /// No ray, and no hit that has children to be made.
-  bool is_idle() const { return !is_tracing_ && depth_ == 0; }
+  bool is_idle() const { return stage_ == Stage::none && depth_ == 0; }
 
-  /// Takes up a ray that enters the region, fresh or from elsewhere. Where its candidate was found on another node the block's
-  /// address is forgotten here, and kept for that node. Requires that no ray is being traced.
+  // Requires that no ray is under way:
+  /// Takes up a ray that starts, wherever that is.
+  void shoot(const core::Ray& ray);
+  /// Takes up a ray that enters the region. Where its candidate was found on another node the block's address is forgotten here,
+  /// and kept for that node.
   void enter(const RayMessage& message);
-  /// Takes up a hit of this node's that another has confirmed. Requires that no ray is being traced.
+  /// Takes up a hit of this node's that another has confirmed.
   void resume_hit(const RayMessage& message);
 
-  /// Traces the ray until it ends here or leaves the region; it is no longer under way. Never absent.
-  core::Traced trace(PartTracer& tracer, core::Operations& operations);
+  /// Traces the ray until it ends here or leaves the region, or does not start in it. Never absent.
+  void trace(PartTracer& tracer, const core::DatabaseHeader& header, core::Operations& operations);
 
   // After trace():
+  core::Traced traced() const { return traced_; }
   const core::Ray& ray() const { return flight_->ray; }
   /// The hit's block was read on this node.
   bool found_here() const { return flight_->cursor.best.block != core::no_address; }
@@ -50,11 +58,25 @@ class RayTask {
   /// The hit as it goes to its finder.
   RayMessage confirmed_hit() const;
   nodes::NodeId finder() const { return flight_->finder; }
+  /// The caller has seen to the ray: it is no longer under way.
+  void drop_ended() { stage_ = Stage::none; }
 
-  /// Shades the newest hit until it makes a child (true), or no hit is left (false). Requires that no ray is being traced.
-  bool next_child(PartTracer& tracer, const core::RenderSettings& settings, core::Ray& child, core::Operations& operations);
+  /// Shades the newest hit until it makes a child (true), for which shoot(child) is called, or no hit is left (false). Requires
+  /// that no ray is under way.
+  template <class Shoot>
+  bool next_children(PartTracer& tracer, const core::RenderSettings& settings, core::Operations& operations, const Shoot& shoot) {
+    core::Ray child;
+    const bool has_child = next_child(tracer, settings, child, operations);
+    if (has_child) {
+      shoot(child);
+    }
+    return has_child;
+  }
 
  private:
+  /// Of the ray under way.
+  enum class Stage : std::uint8_t { none, shot, entered, ended };
+
   /// A ray, where it is, and where its candidate's block is if that is not here.
   struct Flight {
     core::Ray ray;
@@ -67,12 +89,15 @@ class RayTask {
   core::Hit travelling_candidate() const;
   nodes::NodeId finder_of_candidate() const { return found_here() ? self_ : flight_->finder; }
   void push(const core::Ray& ray, const core::Hit& hit);
+  bool next_child(PartTracer& tracer, const core::RenderSettings& settings, core::Ray& child, core::Operations& operations);
+  bool begin(const core::DatabaseHeader& header);
 
   nodes::NodeId self_;
   Flight* flight_;
   std::span<core::HitState> stack_;
   std::uint32_t depth_ = 0;  ///< hits on the stack
-  bool is_tracing_ = false;
+  Stage stage_ = Stage::none;
+  core::Traced traced_ = core::Traced::miss;
 };
 
 }  // namespace dmpc::dataflow

@@ -13,6 +13,10 @@ namespace {
 
 using TrafficByKind = std::array<nodes::Traffic, nodes::packet_kind_count>;
 
+/// What is told pixel by pixel needs rays that walk alone; and the nodes of a modelled machine compute as those of the article
+/// did.
+bool walks_in_bundles(const RunOptions& options) { return !options.computer.machine && !options.watching.is_metered(); }
+
 /// What was dealt before the start would have to be done before anything can be kept.
 bool is_dealt_on_the_way(const RunOptions& options) { return options.continuation.start != nullptr || options.continuation.keep; }
 
@@ -224,7 +228,8 @@ PlanRequest plan_request(std::vector<Share> shares, const core::RenderSettings& 
           .height = static_cast<std::uint32_t>(settings.camera.height()),
           .first_samples = settings.first_samples().count,
           .refinement = settings.refinement,
-          .is_dealt_on_the_way = is_dealt_on_the_way(options)};
+          .is_dealt_on_the_way = is_dealt_on_the_way(options),
+          .bundles = settings.skips.bundles && walks_in_bundles(options)};
 }
 
 Prepared prepare(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
@@ -268,7 +273,7 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
   std::vector<nodes::NodeSpecification> specifications;
   for (std::uint32_t i = 0; i < plan.node_count(); ++i) {
     const auto make_program = [&, i](nodes::Node& node) {
-      return std::make_unique<NodeProgram>(
+      return make_node_program(
           node, plan,
           NodeDeal{distribution.parts[i], distribution.primaries[i], settings, distribution.bsp, distribution.outline},
           nodes::meter_for(options.watching, options.computer, node.id()));

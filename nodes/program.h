@@ -22,6 +22,10 @@ class Program {
   /// One quantum: bounded, small. Returns whether there is more to do without a packet arriving first.
   virtual bool work() = 0;
 
+  /// After a work() that had no more to do: whether there is something, after all, that had better wait for a packet that comes
+  /// soon. If none does, the program is not to sleep: it does that something in the next quantum.
+  virtual bool has_leftovers() const { return false; }
+
   /// True once this program will neither work nor need to receive any more. The run ends when all programs are finished.
   virtual bool finished() const = 0;
 

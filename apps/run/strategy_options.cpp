@@ -120,11 +120,12 @@ void add_ray_options(OptionSet options, dataflow::RayOptions& rays) {
   options.begin_group("Strategy dataflow");
   add_balance_option(options, rays.balance.balance);
   add_region_options(options, rays.balance);
-  options.add_number("--ray-batch", rays.ray_batch, 1, dataflow::ray_batch_max, "what fills 2 KiB, modelled machines 1 KiB",
-                     "Rays in a packet, at most");
-  options.add_number("--ray-credits", rays.ray_credits, 0, dataflow::ray_credits_max, "4",
+  options.add_number("--ray-batch", rays.ray_batch, 1, dataflow::ray_batch_max,
+                     "what fills 4 KiB; 2 KiB if rays walk alone, modelled machines 1 KiB", "Rays in a packet, at most");
+  options.add_number("--ray-credits", rays.ray_credits, 0, dataflow::ray_credits_max,
+                     "4; up to 64 of few nodes whose rays walk together",
                      "Packets of rays that each node may have under way to each other; 0: all go by way of the host");
-  options.add_number("--ray-queue", rays.queue_packets, 0, dataflow::queue_packets_max, "512",
+  options.add_number("--ray-queue", rays.queue_packets, 0, dataflow::queue_packets_max, "256, or 512 if rays walk alone",
                      "Packets of rays that can wait on a node for credit before more go by way of the host");
 }
 

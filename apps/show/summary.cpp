@@ -37,23 +37,29 @@ std::string memory_text(const Account& account) {
   return text;
 }
 
+/// Walks from record to record: each ray's, and one more in every region that it travels to.
+std::uint64_t walks_of(const core::Operations& operations, const svm::Report&) { return operations.traced_ray_count(); }
+std::uint64_t walks_of(const core::Operations& operations, const dataflow::Report& report) {
+  return operations.traced_ray_count() + report.gathers().rays;
+}
+
 /// Nothing where all rays walked alone.
-std::string bundles_text(const core::Operations& operations) {
+std::string bundles_text(const core::Operations& operations, std::uint64_t walks) {
   if (operations.bundles == 0) {
     return "";
   }
   const double width = static_cast<double>(operations.rays_in_bundles) / static_cast<double>(operations.bundles);
-  return "; " + percent_text(percent_of(operations.rays_in_bundles, operations.traced_ray_count()), 1) + " in bundles of " +
+  return "; " + percent_text(percent_of(std::min(operations.rays_in_bundles, walks), walks), 1) + " in bundles of " +
          fixed(width, 1);
 }
 
-std::string rays_text(const core::Operations& operations, double render_seconds) {
+std::string rays_text(const core::Operations& operations, std::uint64_t walks, double render_seconds) {
   const auto count = [&](core::RayKind kind) { return grouped(operations.rays[static_cast<std::size_t>(kind)]); };
   const std::uint64_t total = operations.ray_count();
   const double rate = render_seconds > 0 ? static_cast<double>(total) / render_seconds : 0;
   return grouped(total) + " (primary " + count(core::RayKind::primary) + ", reflected " + count(core::RayKind::reflected) +
          ", refracted " + count(core::RayKind::refracted) + ", shadow " + count(core::RayKind::shadow) + "), " +
-         grouped(static_cast<std::uint64_t>(rate)) + " a second" + bundles_text(operations);
+         grouped(static_cast<std::uint64_t>(rate)) + " a second" + bundles_text(operations, walks);
 }
 
 std::string pages_text(const svm::Report& report) {
@@ -139,12 +145,13 @@ std::string time_text(const Seconds& seconds) {
 void print_summary(std::ostream& output, const RenderRecord& record) {
   const Account account = account_of(record.report);
   const StrategyLines special = std::visit([&](const auto& report) { return lines_of(record.options, report); }, record.report);
+  const std::uint64_t walks = std::visit([&](const auto& report) { return walks_of(account.operations, report); }, record.report);
   output << "scene    " << shown(record.options.picture.scene) << ", "
          << counted(record.database.header().primitive_count, "primitive") << " in "
          << counted(record.database.page_count(), "page") << " of " << nodes::size_text(record.database.page_size())
          << "\ncomputer " << counted(account.nodes.size(), "node") << ", " << name_of(record.options.strategy) << ", "
          << special.computer << "\nmemory   " << memory_text(account) << "\nrays     "
-         << rays_text(account.operations, record.seconds.render) << '\n'
+         << rays_text(account.operations, walks, record.seconds.render) << '\n'
          << sampling_line(record.options, account) << special.figures << virtual_lines(account, record.options.computer.machine)
          << "time     " << time_text(record.seconds) << "\npicture  " << shown(record.options.image.string()) << ", "
          << account.film.width() << "x" << account.film.height() << ", film " << hash_text(account.film.hash()) << '\n';

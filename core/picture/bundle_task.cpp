@@ -50,36 +50,6 @@ void BundleTask::shoot_primary(std::uint32_t place, std::uint32_t sample, const 
   deposit(sums_[place], ray, ray.weight * settings.header.background, operations);
 }
 
-/// One step of every hit that is at `stage`, in what order does not matter to the picture.
-void BundleTask::shoot_children(BundleHit& hits, HitState::Stage stage, const std::byte* record, const RenderSettings& settings,
-                                Operations& operations) {
-  const Shader shader(settings.header, settings.shade, settings.skips, operations);
-  for (std::uint32_t i = 0; i < hits.count; ++i) {
-    Ray child;
-    if (hits.hit[i].stage == stage && shader.step(hits.hit[i], record, child)) {
-      add_ray(child, hits.place[i], operations);
-    }
-  }
-}
-
-void BundleTask::next_phase(BundleHit& hits, const RenderSettings& settings) {
-  switch (hits.phase) {
-    case Phase::surface:
-      hits.phase = settings.header.light_count > 0 ? Phase::light : Phase::reflected;
-      return;
-    case Phase::light:
-      hits.phase = ++hits.light < settings.header.light_count ? Phase::light : Phase::reflected;
-      return;
-    case Phase::reflected:
-      hits.phase = Phase::refracted;
-      return;
-    case Phase::refracted:
-    case Phase::finished:
-      hits.phase = Phase::finished;
-      return;
-  }
-}
-
 void BundleTask::add_ray(const Ray& ray, std::uint32_t place, Operations& operations) {
   bundle_.rays[bundle_.count] = ray;
   place_[bundle_.count++] = static_cast<std::uint8_t>(place);
@@ -99,16 +69,14 @@ void BundleTask::end_rays(const RenderSettings& settings, Operations& operations
   expect(is_shadow || stack_size_ < stack_.size(), "the ray stack holds a hit a depth");
   BundleHit* const hits = is_shadow ? nullptr : &stack_[stack_size_];
   if (!is_shadow) {
-    hits->count = hits->next = hits->light = 0;
-    hits->phase = Phase::surface;
+    hits->clear();
   }
   for (std::uint32_t i = 0; i < bundle_.count; ++i) {
     const Ray& ray = bundle_.rays[i];
     if (const auto light = light_of_ended(ray, (bundle_.found >> i & 1U) != 0, settings, operations)) {
       deposit(sums_[place_[i]], ray, *light, operations);
     } else if (!is_shadow) {
-      hits->place[hits->count] = place_[i];
-      hits->hit[hits->count++] = begin_shading(ray, bundle_.best.of(i));
+      hits->add(ray, bundle_.best.of(i), place_[i]);
     }
   }
   stack_size_ += hits != nullptr && hits->count > 0 ? 1 : 0;

@@ -1,42 +1,16 @@
 // Some neighbouring pixels under way: their rays of one kind walk together, run against any tracer of bundles.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
 
 #include "core/base/expect.h"
+#include "core/picture/bundle_hit.h"
 #include "core/picture/pixel_task.h"
 #include "core/trace/bundle.h"
 
 namespace dmpc::core {
-
-/// Finds what the rays of a bundle hit, and the records that shading reads. trace() has the contract of
-/// core/trace/bundle_walk.h's.
-template <class T>
-concept BundleTracer = requires(T& tracer, RayBundle& bundle, Operations& operations, Address address) {
-  { tracer.trace(bundle, operations) } -> std::same_as<bool>;
-  { tracer.find(address) } -> std::same_as<const std::byte*>;
-};
-
-/// The hits of a bundle's rays, being shaded side by side: all read what they are, then each light sends its bundle of shadow
-/// rays, then the mirrored rays are a bundle, then the refracted ones.
-struct BundleHit {
-  enum class Phase : std::uint8_t { surface, light, reflected, refracted, finished };
-
-  std::array<HitState, bundle_rays_max> hit;
-  std::array<std::uint8_t, bundle_rays_max> place;  ///< of the hit's pixel
-  std::uint32_t count = 0;
-  std::uint32_t next = 0;   ///< the hit that goes on next, while surfaces are read
-  std::uint32_t light = 0;  ///< whose shadow rays are next
-  Phase phase = Phase::surface;
-
-  bool has_unread_surface() const {
-    return std::any_of(hit.begin(), hit.begin() + count,
-                       [](const HitState& state) { return state.stage < HitState::Stage::light; });
-  }
-};
 
 /// Renders samples of up to 16 pixels, or more samples of one: 16 rays at a time. Depth first, last in first out: a bundle's
 /// hits are shaded one bundle of children at a time, and each is traced to its end before the next is made, so the stack holds at
@@ -69,20 +43,11 @@ class BundleTask {
   const Ray& ray() const { return bundle_.rays[0]; }
 
  private:
-  using Phase = BundleHit::Phase;
-
   template <BundleTracer T>
   TaskState shade(T& tracer, const RenderSettings& settings, Operations& operations);
-  template <BundleTracer T>
-  bool read_surfaces(T& tracer, BundleHit& hits, const RenderSettings& settings, Operations& operations);
-  template <BundleTracer T>
-  bool shoot_at_light(T& tracer, BundleHit& hits, const RenderSettings& settings, Operations& operations);
 
   bool next_samples(const RenderSettings& settings, Operations& operations);
   void shoot_primary(std::uint32_t place, std::uint32_t sample, const RenderSettings& settings, Operations& operations);
-  void shoot_children(BundleHit& hits, HitState::Stage stage, const std::byte* record, const RenderSettings& settings,
-                      Operations& operations);
-  static void next_phase(BundleHit& hits, const RenderSettings& settings);
   void add_ray(const Ray& ray, std::uint32_t place, Operations& operations);
   bool begin_tracing();
   void end_rays(const RenderSettings& settings, Operations& operations);
@@ -123,72 +88,19 @@ template <BundleTracer T>
 TaskState BundleTask::shade(T& tracer, const RenderSettings& settings, Operations& operations) {
   while (stack_size_ > 0) {
     BundleHit& hits = stack_[stack_size_ - 1];
-    switch (hits.phase) {
-      case Phase::surface:
-        if (!read_surfaces(tracer, hits, settings, operations)) {
-          return TaskState::absent;
-        }
-        break;
-      case Phase::light:
-        if (!shoot_at_light(tracer, hits, settings, operations)) {
-          return TaskState::absent;
-        }
-        break;
-      case Phase::reflected:
-        shoot_children(hits, HitState::Stage::reflected, nullptr, settings, operations);
-        break;
-      case Phase::refracted:
-        shoot_children(hits, HitState::Stage::refracted, nullptr, settings, operations);
-        break;
-      case Phase::finished:
-        --stack_size_;
-        continue;
+    if (hits.phase == BundleHit::Phase::finished) {
+      --stack_size_;
+      continue;
     }
-    next_phase(hits, settings);
+    const auto shoot = [&](const Ray& child, std::uint32_t i) { add_ray(child, hits.place[i], operations); };
+    if (!BundleShader<T>(hits, tracer, settings, operations).step(absent_, shoot)) {
+      return TaskState::absent;
+    }
     if (begin_tracing()) {
       return TaskState::more;
     }
   }
   return next_samples(settings, operations) ? TaskState::more : TaskState::finished;
-}
-
-/// Round by round a step of each hit, so that neighbours, which often need one record, find it together. False if one is absent.
-template <BundleTracer T>
-bool BundleTask::read_surfaces(T& tracer, BundleHit& hits, const RenderSettings& settings, Operations& operations) {
-  const Shader shader(settings.header, settings.shade, settings.skips, operations);
-  Address found = no_address;
-  const std::byte* record = nullptr;
-  for (; hits.has_unread_surface(); hits.next = 0) {
-    for (; hits.next < hits.count; ++hits.next) {
-      HitState& state = hits.hit[hits.next];
-      if (state.stage >= HitState::Stage::light) {
-        continue;
-      }
-      absent_ = record_needed(state, settings.header);
-      operations.skipped.bundles += absent_ == found ? 1 : 0;
-      record = absent_ == found ? record : tracer.find(absent_);
-      if (record == nullptr) {
-        return false;
-      }
-      found = absent_;
-      Ray none;
-      shader.step(state, record, none);
-    }
-  }
-  return true;
-}
-
-/// The light's record is read once for all hits. False if it is absent.
-template <BundleTracer T>
-bool BundleTask::shoot_at_light(T& tracer, BundleHit& hits, const RenderSettings& settings, Operations& operations) {
-  absent_ = advance(settings.header.lights, hits.light * sizeof(LightRecord));
-  const std::byte* const record = tracer.find(absent_);
-  if (record == nullptr) {
-    return false;
-  }
-  operations.skipped.bundles += hits.count - 1;
-  shoot_children(hits, HitState::Stage::light, record, settings, operations);
-  return true;
 }
 
 }  // namespace dmpc::core

@@ -47,8 +47,10 @@ struct BundleChildren {
   std::uint32_t count;
 };
 
-/// A ray's t, primitive, and where that was read, of up to 16 rays.
+/// A ray's t, primitive, and where that was read, of up to 16 rays. A candidate whose record is not here has `elsewhere` for a
+/// block and the next higher id: so the same hit counts as nearer where it is met, see replaces(), and no other that did not.
 struct BundleHits {
+  static constexpr Address elsewhere{0xfffffffeU};
   alignas(64) Row<float> t;
   Row<std::uint32_t> primitive, block, lane;
 
@@ -68,6 +70,7 @@ struct RayBundle {
   // What its owner sets.
   std::array<Ray, bundle_rays_max> rays;
   std::uint32_t count;  ///< of them, all of one kind
+  RayMask arrived;      ///< rays that come from another region, by arrive()
 
   // What the rays and the grid determine: see Walk, BoxRay and ShearedRay, whose bits these are.
   alignas(64) std::array<Row<float>, 3> origin, direction, reciprocal;
@@ -80,22 +83,27 @@ struct RayBundle {
   std::array<std::uint32_t, 3> near_row, far_row;  ///< of a brick's bounds, where all rays agree
   bool is_one_octant;                              ///< all rays agree
   Corner grid_size;                                ///< in finest cells
+  Region region;                                   ///< in which they walk
+  bool is_whole;                                   ///< that is the whole grid: nothing leaves it
   double finest_cells;                             ///< a unit of length, in finest cells
 
   // Where they are.
   enum class Stage : std::uint8_t { start, directory, child, finished } stage;
-  bool any;                                            ///< any hit will do
-  RayMask alive;                                       ///< rays whose walk has not ended
-  RayMask found;                                       ///< rays that have a hit
-  RayMask group;                                       ///< the rays in `cell`, of those alive
-  Corner cell;                                         ///< the lower corner of the top cell that comes next, in finest cells
-  BrickChild next;                                     ///< what the next step reads, with Stage::child
-  RayMask next_rays;                                   ///< for these rays
-  Address absent;                                      ///< the record that the walk needs next
-  std::array<RayMask, 3> exit_axis;                    ///< through which plane rays leave the cell
-  alignas(64) std::array<Row<std::int32_t>, 3> cells;  ///< each ray's top cell
-  alignas(64) Row<double> t_enter, t_exit;             ///< where the ray enters its cell, and leaves it
-  alignas(64) Row<float> t_low, t_high;                ///< the same as boxes need it
+  bool any;                                              ///< any hit will do
+  RayMask alive;                                         ///< rays whose walk has not ended
+  RayMask found;                                         ///< rays that have a hit
+  RayMask left;                                          ///< rays that have left the region: see passage()
+  RayMask group;                                         ///< the rays in `cell`, of those alive
+  Corner cell;                                           ///< the lower corner of the top cell that comes next, in finest cells
+  BrickChild next;                                       ///< what the next step reads, with Stage::child
+  RayMask next_rays;                                     ///< for these rays
+  Address absent;                                        ///< the record that the walk needs next
+  std::array<RayMask, 3> exit_axis;                      ///< through which plane rays leave the cell
+  alignas(64) std::array<Row<std::int32_t>, 3> cells;    ///< each ray's top cell
+  alignas(64) Row<double> t_enter, t_exit;               ///< where the ray enters its cell, and leaves it
+  alignas(64) Row<float> t_low, t_high;                  ///< the same as boxes need it
+  std::array<Row<std::int32_t>, 3> arrival;              ///< of a ray that has left: the finest cell that it enters
+  std::array<std::uint8_t, bundle_rays_max> entry_axis;  ///< and through which plane
   BundleHits best;
   BundleChildren waiting;
 
@@ -104,9 +112,37 @@ struct RayBundle {
 
   RayMask all() const { return (RayMask{1} << count) - 1; }
   /// Once `count` rays are set: their walk is to begin.
-  void start() { stage = Stage::start; }
+  void start() {
+    stage = Stage::start;
+    arrived = 0;
+  }
+  /// After start(): this ray does not begin, but enters the region by `passage`.
+  void arrive(std::size_t ray, const Passage& passage);
+  /// A ray's nearest hit, or candidate, as Cursor::best has it.
+  Hit hit(std::size_t ray) const;
+  /// Where a ray that has left goes on.
+  Passage passage(std::size_t ray) const;
 };
 static_assert(std::is_trivially_copyable_v<RayBundle>);
+
+inline void RayBundle::arrive(std::size_t ray, const Passage& passage) {
+  arrived |= RayMask{1} << ray;
+  t_enter[ray] = passage.t_enter;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    cells[axis][ray] = passage.cell[axis] & -finest_per_top;
+  }
+  const bool is_elsewhere = passage.best.found() && passage.best.block == no_address;
+  best.set(ray, is_elsewhere ? Hit{passage.best.t, passage.best.primitive + 1, BundleHits::elsewhere} : passage.best);
+}
+
+inline Hit RayBundle::hit(std::size_t ray) const {
+  const Hit hit = best.of(ray);
+  return hit.block == BundleHits::elsewhere ? Hit{hit.t, hit.primitive - 1} : hit;
+}
+
+inline Passage RayBundle::passage(std::size_t ray) const {
+  return {t_enter[ray], {arrival[0][ray], arrival[1][ray], arrival[2][ray]}, entry_axis[ray], hit(ray)};
+}
 
 inline ShearedRay RayBundle::sheared(std::size_t ray) const {
   const auto is = [&](std::size_t axis, std::size_t down) { return (sheared_along[axis][down] >> ray & 1U) != 0; };

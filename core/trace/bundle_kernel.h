@@ -19,15 +19,16 @@ struct PlanesAhead {
 
 /// How bundles walk: each does for the rays of `bundle` what Walk does for one, to the bit.
 struct BundleSteps {
-  /// From bundle.rays to rows, and the rays that meet the grid to their first cells: those are `alive`.
-  void (*enter)(RayBundle& bundle, const GridFrame& frame);
+  /// From bundle.rays to rows, and the rays that meet the grid to their first cells: those that are in the region are `alive`,
+  /// the others have `left`.
+  void (*enter)(RayBundle& bundle, const GridFrame& frame, const Region& region);
   /// Of those alive the rays in one cell: the first as the first of them goes. Sets `cell` and `group`.
   void (*next_group)(RayBundle& bundle);
   /// Where the rays of the group leave for the planes.
   void (*find_exits)(RayBundle& bundle, const PlanesAhead& ahead);
   /// Takes the rays of `leaving`, whose exits are found, to the next cell: the neighbour, or, from several cells `around`, the
-  /// one that holds the ray. Those whose walk has ended are no longer alive. Returns how many cells they have come by, beside one
-  /// each.
+  /// one that holds the ray. Those whose walk has ended, or that have left the region, are no longer alive. Returns how many
+  /// cells they have come by, beside one each.
   std::uint64_t (*leave)(RayBundle& bundle, RayMask leaving, const PlanesAhead& ahead, const Region* around);
 };
 

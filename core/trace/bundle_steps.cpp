@@ -45,12 +45,27 @@ HWY_INLINE void load(RayBundle& bundle) {
   bundle.ignored_primitive = std::bit_cast<Row<std::uint32_t>>(ignored);
 }
 
-HWY_INLINE void clear(RayBundle& bundle) {
-  bundle.best.t.fill(std::numeric_limits<float>::infinity());
-  bundle.best.primitive.fill(no_primitive);
-  bundle.best.block.fill(static_cast<std::uint32_t>(no_address));
-  bundle.best.lane.fill(0);
+/// No ray has a candidate that has not brought one along.
+HWY_INLINE void clear_hits(RayBundle& bundle) {
   bundle.found = 0;
+  if (bundle.arrived == 0) {
+    bundle.best.t.fill(std::numeric_limits<float>::infinity());
+    bundle.best.primitive.fill(no_primitive);
+    bundle.best.block.fill(static_cast<std::uint32_t>(no_address));
+    bundle.best.lane.fill(0);
+    return;
+  }
+  for (std::size_t ray = 0; ray < bundle_rays_max; ++ray) {
+    if ((bundle.arrived >> ray & 1U) == 0) {
+      bundle.best.set(ray, {});
+    }
+    bundle.found |= (Address{bundle.best.block[ray]} != no_address ? RayMask{1} : RayMask{0}) << ray;
+  }
+}
+
+HWY_INLINE void clear(RayBundle& bundle) {
+  clear_hits(bundle);
+  bundle.left = 0;
   bundle.forward = bundle.backward = {};
   bundle.sheared_along = {};
 }
@@ -151,19 +166,24 @@ std::int32_t locate(const RayBundle& bundle, std::size_t ray, std::size_t axis, 
                 [&](std::int32_t index) { return crossed(bundle, ray, axis, index, t, entry_axis); });
 }
 
-/// Walk::locate_top() along an axis, of those of the rays from `first` on that are wanted.
-HWY_INLINE void locate_top(RayBundle& bundle, std::size_t axis, std::size_t first, RayMask wanted, hn::Vec<Doubles> t,
-                           const Cells& among, std::size_t entry_axis) {
+/// RayPlanes::place(), of the rays from `first` on.
+HWY_INLINE hn::Vec<Doubles> place(const RayBundle& bundle, std::size_t axis, std::size_t first, hn::Vec<Doubles> t) {
   const Doubles tag;
   const HalfFloats half;
-  const HalfIntegers integers;
   const auto origin = hn::PromoteTo(tag, hn::Load(half, bundle.origin[axis].data() + first));
   const auto direction = hn::PromoteTo(tag, hn::Load(half, bundle.direction[axis].data() + first));
   const RayMask steps = (bundle.forward[axis] | bundle.backward[axis]) >> first;
   const auto along = hn::IfThenElse(mask_of(tag, steps), hn::Add(origin, hn::Mul(t, direction)), origin);
-  const auto guess =
-      hn::Min(hn::Max(hn::Mul(along, hn::Set(tag, bundle.finest_cells)), hn::Set(tag, static_cast<double>(among.low))),
-              hn::Set(tag, static_cast<double>(among.high - 1)));
+  return hn::Mul(along, hn::Set(tag, bundle.finest_cells));
+}
+
+/// Walk::locate_top() along an axis, of those of the rays from `first` on that are wanted.
+HWY_INLINE void locate_top(RayBundle& bundle, std::size_t axis, std::size_t first, RayMask wanted, hn::Vec<Doubles> t,
+                           const Cells& among, std::size_t entry_axis) {
+  const Doubles tag;
+  const HalfIntegers integers;
+  const auto guess = hn::Min(hn::Max(place(bundle, axis, first, t), hn::Set(tag, static_cast<double>(among.low))),
+                             hn::Set(tag, static_cast<double>(among.high - 1)));
   const auto cell = hn::DemoteTo(integers, guess);
   const auto inside = hn::And(cell, hn::Set(integers, finest_per_top - 1));
   const RayMask certain =
@@ -183,6 +203,94 @@ HWY_INLINE void locate_top(RayBundle& bundle, std::size_t axis, std::size_t firs
     const auto i = static_cast<std::size_t>(std::countr_zero(rest));
     bundle.cells[axis][first + i] = locate(bundle, first + i, axis, at[i], guessed[i], among, entry_axis) & -finest_per_top;
   }
+}
+
+/// Walk::finest_cell_of(), of a ray that has entered its top cell through a plane beside finest index `face` of `entry_axis`.
+Corner finest_cell_of(const RayBundle& bundle, std::size_t ray, std::size_t entry_axis, std::int32_t face) {
+  Corner finest;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (axis == entry_axis) {
+      finest[axis] = face;
+      continue;
+    }
+    const std::int32_t low = bundle.cells[axis][ray], high = std::min(low + finest_per_top, bundle.grid_size[axis]);
+    const bool steps = ((bundle.forward[axis] | bundle.backward[axis]) >> ray & 1U) != 0;
+    const double origin{bundle.origin[axis][ray]}, t = bundle.t_enter[ray];
+    const double place = (steps ? origin + t * double{bundle.direction[axis][ray]} : origin) * bundle.finest_cells;
+    const double guess = std::clamp(place, static_cast<double>(low), static_cast<double>(high - 1));
+    finest[axis] = locate(bundle, ray, axis, t, static_cast<std::int32_t>(guess), {low, high}, entry_axis);
+  }
+  return finest;
+}
+
+/// Those of `rays` whose top cell lies in the region, all of it.
+HWY_INLINE RayMask well_inside(const RayBundle& bundle, RayMask rays) {
+  const Integers tag;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto low = hn::Set(tag, bundle.region.low[axis]), high = hn::Set(tag, bundle.region.high[axis] - finest_per_top);
+    RayMask outside = 0;
+    for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Integers>()) {
+      const auto cells = hn::Load(tag, bundle.cells[axis].data() + first);
+      outside |= bits_of(tag, hn::Or(hn::Lt(cells, low), hn::Gt(cells, high))) << first;
+    }
+    rays &= ~outside;
+  }
+  return rays;
+}
+
+/// Whether the finest cells in which rays from `first` on are at t are certain to lie within `among`, by a guess that is off by
+/// less than a finest cell.
+HWY_INLINE RayMask surely_among(const RayBundle& bundle, std::size_t axis, std::size_t first, const Cells& among) {
+  const Doubles tag;
+  const auto t = hn::Load(tag, bundle.t_enter.data() + first);
+  const auto at = place(bundle, axis, first, t);
+  const auto is_inside = hn::And(hn::Gt(at, hn::Set(tag, static_cast<double>(among.low) + 1.0)),
+                                 hn::Lt(at, hn::Set(tag, static_cast<double>(among.high) - 1.0)));
+  return bits_of(tag, hn::And(is_inside, hn::Lt(t, hn::Set(tag, near_t_max))));
+}
+
+/// Those of `rays` that are certain to be in the region, though their top cells are not.
+RayMask surely_inside(const RayBundle& bundle, RayMask rays, std::size_t entry_axis, std::int32_t face) {
+  for (std::size_t axis = 0; axis < 3 && rays != 0; ++axis) {
+    const Cells among{bundle.region.low[axis], bundle.region.high[axis]};
+    if (axis == entry_axis) {
+      rays = face >= among.low && face < among.high ? rays : 0;
+      continue;
+    }
+    const Cells beyond{among.low > 0 ? among.low : -2, among.high < bundle.grid_size[axis] ? among.high : among.high + 2};
+    RayMask inside = 0;
+    for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Doubles>()) {
+      if ((rays >> first & first_bits(lanes_of<Doubles>())) != 0) {
+        inside |= surely_among(bundle, axis, first, beyond) << first;
+      }
+    }
+    rays &= inside;
+  }
+  return rays;
+}
+
+/// Walk::stays(): those of `rays` that have not left the region. Notes where the others have gone.
+RayMask stay(RayBundle& bundle, RayMask rays, std::size_t entry_axis, std::int32_t face) {
+  if (rays == 0) {
+    return 0;
+  }
+  RayMask inside = well_inside(bundle, rays);
+  inside |= surely_inside(bundle, rays & ~inside, entry_axis, face);
+  for (RayMask rest = rays & ~inside; rest != 0; rest &= rest - 1) {
+    const auto ray = static_cast<std::size_t>(std::countr_zero(rest));
+    const Corner finest = finest_cell_of(bundle, ray, entry_axis, face);
+    const RayMask bit = RayMask{1} << ray;
+    if (bundle.region.contains(finest)) {
+      inside |= bit;
+      continue;
+    }
+    bundle.left |= bit;
+    bundle.entry_axis[ray] = static_cast<std::uint8_t>(entry_axis);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      bundle.arrival[axis][ray] = finest[axis];
+    }
+  }
+  return inside;
 }
 
 /// Walk::enter(), of the rays from `first` on: those that meet the grid.
@@ -207,15 +315,18 @@ HWY_INLINE RayMask enter_grid(RayBundle& bundle, std::size_t first) {
   // Something is not finite: doubles cannot overflow from floats.
   inside &= bits_of(tag, hn::Eq(hn::Mul(sum, zero), zero));
   inside &= bits_of(tag, hn::Lt(t_enter, t_exit));
-  hn::Store(t_enter, tag, bundle.t_enter.data() + first);
+  inside &= ~(bundle.arrived >> first);
+  hn::BlendedStore(t_enter, mask_of(tag, ~(bundle.arrived >> first)), tag, bundle.t_enter.data() + first);
   for (std::size_t axis = 0; axis < 3 && inside != 0; ++axis) {
     locate_top(bundle, axis, first, inside, t_enter, {0, bundle.grid_size[axis]}, walk_starts);
   }
   return inside;
 }
 
-void enter(RayBundle& bundle, const GridFrame& frame) {
+void enter(RayBundle& bundle, const GridFrame& frame, const Region& region) {
   bundle.grid_size = grid_size(frame);
+  bundle.region = region;
+  bundle.is_whole = region == Region{.high = bundle.grid_size};
   bundle.finest_cells = 1.0 / double{frame.finest_cell};
   clear(bundle);
   load(bundle);
@@ -231,6 +342,10 @@ void enter(RayBundle& bundle, const GridFrame& frame) {
     bundle.alive |= enter_grid(bundle, first) << first;
   }
   bundle.alive &= bundle.all();
+  if (!bundle.is_whole) {
+    bundle.alive = stay(bundle, bundle.alive, walk_starts, 0);
+  }
+  bundle.alive |= bundle.arrived;
 }
 
 /// How far along the way of the first ray a cell lies.
@@ -354,7 +469,7 @@ std::uint64_t cells_passed(const RayBundle& bundle, RayMask rays) {
 /// Walk::leave().
 std::uint64_t leave(RayBundle& bundle, RayMask leaving, const PlanesAhead& ahead, const Region* around) {
   const RayMask on = goes_on(bundle, leaving);
-  RayMask kept = 0;
+  RayMask entered = 0, kept = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const RayMask through = on & bundle.exit_axis[axis];
     const std::int32_t above = ahead.above[axis], below = ahead.below[axis] - 1;
@@ -366,10 +481,11 @@ std::uint64_t leave(RayBundle& bundle, RayMask leaving, const PlanesAhead& ahead
     if (down != 0) {
       cross(bundle, down, axis, below & -finest_per_top, around);
     }
-    kept |= up | down;
+    entered |= up | down;
+    kept |= bundle.is_whole ? up | down : stay(bundle, up, axis, above) | stay(bundle, down, axis, below);
   }
   bundle.alive = (bundle.alive & ~leaving) | kept;
-  return around != nullptr ? cells_passed(bundle, kept) : 0;
+  return around != nullptr ? cells_passed(bundle, entered) : 0;
 }
 
 const BundleSteps* steps() {

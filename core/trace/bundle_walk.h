@@ -1,4 +1,5 @@
-// trace(bundle, records): all rays' hits, or absent record r; resumable at every record, with the bits that single rays have.
+// trace(bundle, records): all rays' hits or ways out, or absent record r; resumable at every record, with the bits that single
+// rays have.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +20,6 @@ namespace dmpc::core {
 template <Records R>
 class BundleWalk {
  public:
-  /// `header` is of a whole grid: bundles do not leave regions.
   BundleWalk(RayBundle& bundle, R& records, const DatabaseHeader& header, const Skips& skips, Operations& operations,
              const BundleSteps& steps = fastest_bundle_steps,
              const BundleIntersectors& intersectors = fastest_bundle_intersectors)
@@ -47,7 +47,7 @@ class BundleWalk {
  private:
   void start() {
     bundle_.any = skips_.any_hit && bundle_.rays[0].kind == RayKind::shadow;
-    steps_.enter(bundle_, header_.frame);
+    steps_.enter(bundle_, header_.frame, header_.region);
     if (bundle_.count > 1) {
       ++operations_.bundles;
       operations_.rays_in_bundles += bundle_.count;
@@ -73,12 +73,12 @@ class BundleWalk {
     return record;
   }
 
-  /// The planes where rays leave the box of all cells nearer to the bundle's than `reach`.
-  PlanesAhead planes_ahead(std::int32_t reach) const {
+  /// The planes where rays leave the box of all cells nearer to the bundle's than `reach`, as far as they lie within `limits`.
+  PlanesAhead planes_ahead(std::int32_t reach, const Region& limits) const {
     PlanesAhead ahead;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      ahead.above[axis] = std::min(bundle_.cell[axis] + reach, bundle_.grid_size[axis]);
-      ahead.below[axis] = std::max(bundle_.cell[axis] - reach + finest_per_top, 0);
+      ahead.above[axis] = std::min(bundle_.cell[axis] + reach, limits.high[axis]);
+      ahead.below[axis] = std::max(bundle_.cell[axis] - reach + finest_per_top, limits.low[axis]);
     }
     return ahead;
   }
@@ -92,10 +92,10 @@ class BundleWalk {
     }
     const auto entry = read<DirectoryEntry>(record + directory_offset(index));
     if (entry.empty()) {
-      pass(skips_.empty_space ? std::max(1, entry.radius()) : 1);
+      pass(entry.radius());
       return true;
     }
-    steps_.find_exits(bundle_, planes_ahead(finest_per_top));
+    steps_.find_exits(bundle_, planes_ahead(finest_per_top, bundle_.region));
     bundle_.waiting.count = 0;
     bundle_.next = BrickChild::brick(entry.brick());
     bundle_.next_rays = bundle_.group;
@@ -103,13 +103,15 @@ class BundleWalk {
     return true;
   }
 
-  /// Leaves the box of empty cells nearer than `radius`.
+  /// Leaves the box of empty cells nearer than `radius`; with 0 others have something in this cell.
   void pass(std::int32_t radius) {
-    const PlanesAhead ahead = planes_ahead(radius * finest_per_top);
+    const bool jumps = skips_.empty_space && radius > 1;
+    const Region limits = radius > 0 ? Region{.high = bundle_.grid_size} : bundle_.region;
+    const PlanesAhead ahead = planes_ahead((jumps ? radius : 1) * finest_per_top, limits);
     const Region around{.low = ahead.below, .high = ahead.above};
     steps_.find_exits(bundle_, ahead);
     operations_.cell_steps += count_of(bundle_.group);
-    operations_.skipped.empty_space += steps_.leave(bundle_, bundle_.group, ahead, radius > 1 ? &around : nullptr);
+    operations_.skipped.empty_space += steps_.leave(bundle_, bundle_.group, ahead, jumps ? &around : nullptr);
     next_cell();
   }
 
@@ -133,7 +135,7 @@ class BundleWalk {
     bundle_.alive &= ~(bundle_.group & done);
     if (leaving != 0) {
       operations_.cell_steps += count_of(leaving);
-      steps_.leave(bundle_, leaving, planes_ahead(finest_per_top), nullptr);
+      steps_.leave(bundle_, leaving, planes_ahead(finest_per_top, bundle_.region), nullptr);
     }
     next_cell();
     return true;
@@ -159,7 +161,7 @@ class BundleWalk {
       const auto ray = static_cast<std::size_t>(std::countr_zero(rays));
       Hit best = bundle_.best.of(ray);
       core::test_block(bundle_.rays[ray], bundle_.sheared(ray), record, block, best, operations_);
-      if (best.primitive != bundle_.best.primitive[ray]) {
+      if (best.t != bundle_.best.t[ray] || best.primitive != bundle_.best.primitive[ray]) {
         bundle_.best.set(ray, best);
         bundle_.found |= RayMask{1} << ray;
       }
@@ -188,10 +190,11 @@ class BundleWalk {
 };
 
 /// Walks the rays of `bundle` through the grid until each one's nearest hit in (0, t_max) is known (for shadow rays: any hit,
-/// unless that skip is off), or a record is absent (false). After that, call again with the same bundle once the record of
-/// bundle.absent is there. What bundle.best then holds has the bits that trace() finds for each ray by itself; what is counted is
-/// a little more, since a bundle comes to children in one order for all its rays. Walks of bundles: I. Wald, P. Slusallek, C.
-/// Benthin, M. Wagner, "Interactive Rendering with Coherent Ray Tracing", Eurographics 2001.
+/// unless that skip is off), or it has left the region that `header` is of, or a record is absent (false). After that, call again
+/// with the same bundle once the record of bundle.absent is there. What bundle.best then holds, and where rays leave, has the
+/// bits that trace() finds for each ray by itself; what is counted is a little more, since a bundle comes to children in one
+/// order for all its rays. Walks of bundles: I. Wald, P. Slusallek, C. Benthin, M. Wagner, "Interactive Rendering with Coherent
+/// Ray Tracing", Eurographics 2001.
 template <Records R>
 bool trace(RayBundle& bundle, R& records, const DatabaseHeader& header, const Skips& skips, Operations& operations) {
   return BundleWalk<R>(bundle, records, header, skips, operations).run();

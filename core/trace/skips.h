@@ -60,8 +60,8 @@ inline constexpr std::array all_skips{
     Skip{"background", "no primary ray is traced in parts of the picture, found beforehand, where nothing is to be seen",
          "primary rays", &Skips::background, &SkippedWork::background},
     // References and these are what the rays would look up one by one.
-    Skip{"bundles", "rays of neighbouring pixels walk together, and look up what they all read once (pages)", "look-ups",
-         &Skips::bundles, &SkippedWork::bundles},
+    Skip{"bundles", "rays of neighbouring pixels walk together, and look up what they all read once", "look-ups", &Skips::bundles,
+         &SkippedWork::bundles},
 };
 
 /// All on but this one.

@@ -83,12 +83,8 @@ bool Walk::jump(const Ray& ray, std::int32_t radius, Cursor& cursor, Operations&
 }
 
 void Walk::leave_region(const Ray& ray, const Corner& cell, Cursor& cursor, Operations& operations) const {
-  Corner planes;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    planes[axis] = planes_.step(axis) > 0 ? region_.high[axis] : region_.low[axis];
-  }
   cursor.cell = cell;
-  leave(ray, exit_through(planes), &region_, cursor, operations);
+  leave(ray, region_exit(), &region_, cursor, operations);
 }
 
 /// The finest cell that the ray enters with the cursor's cell, through the plane beside finest index `face` of the entry axis.

@@ -53,6 +53,8 @@ class Walk {
   /// Takes a ray that enters the region in finest cell `cell` through all of it, as if nothing were there. The walk is then
   /// finished or has left.
   void leave_region(const Ray& ray, const Corner& cell, Cursor& cursor, Operations& operations) const;
+  /// Where it would leave the region then, if it went on for ever.
+  Exit region_exit() const;
 
  private:
   double plane(std::size_t axis, std::int32_t index) const { return planes_.plane(axis, index); }
@@ -94,6 +96,14 @@ inline Exit Walk::exit_through(const Corner& planes) const {
     }
   }
   return exit;
+}
+
+inline Exit Walk::region_exit() const {
+  Corner planes;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    planes[axis] = planes_.step(axis) > 0 ? region_.high[axis] : region_.low[axis];
+  }
+  return exit_through(planes);
 }
 
 inline bool Walk::read(const Ray& ray, const DirectoryEntry& entry, Cursor& cursor, const Skips& skips,

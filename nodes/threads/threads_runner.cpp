@@ -279,7 +279,7 @@ struct ThreadsRunner::Implementation final : Network {
     }
     if (!has_more && holds_packets) {
       self.pass_idly();
-    } else if (!has_more && !packet_comes_soon(self)) {
+    } else if (!has_more && !packet_comes_soon(self) && !self.program->has_leftovers()) {
       sleep(self);
     }
   }

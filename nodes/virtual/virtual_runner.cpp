@@ -198,7 +198,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     } else if (self.has_more && !self.program->finished()) {
       begin(self, self.span, Activity::work, 0, now_ns);
       ++self.node.counters().quanta;
-      self.has_more = self.program->work();
+      self.has_more = self.program->work() || self.program->has_leftovers();
     } else {
       self.idle_since_ns = now_ns;
       self.lent_before_ns = self.times.lent_ns;

@@ -2,10 +2,12 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "core/base/expect.h"
 #include "core/base/units.h"
+#include "dataflow/bundle_task.h"
 #include "dataflow/packets.h"
 #include "nodes/size_text.h"
 
@@ -45,6 +47,50 @@ TEST_CASE("without a memory bound a packet of rays fills 2 KiB, on a modelled ma
   CHECK(plan.ray_credits == 4);
   CHECK(plan.queue_packets == 512);
   CHECK(plan.notes.empty());
+}
+
+TEST_CASE("bundles have packets of 4 KiB, few nodes more credits, and each node room for 16 rays and their hits") {
+  for (const std::uint32_t nodes : {1U, 2U, 8U, 16U, 64U}) {
+    CAPTURE(nodes);
+    PlanRequest request = request_with(nodes, 100_KiB);
+    const Plan alone = make_plan(request);
+    request.bundles = true;
+    const Plan plan = make_plan(request);
+    CHECK(alone.rays_a_task == 1);
+    CHECK(plan.rays_a_task == 16);
+    CHECK(plan.ray_batch == 42);
+    CHECK(dataflow::ray_packet_bytes(42) <= 4_KiB);
+    CHECK(plan.ray_credits == std::max(64 / nodes, 4U));
+    CHECK(plan.queue_packets == (nodes == 1 ? 0 : 256));
+    const nodes::MemoryPlan more = plan.node_memory(0), less = alone.node_memory(0);
+    nodes::MemoryPlan task;
+    dataflow::BundleTask::add_needs(task, request.depth_max);
+    CHECK(more[nodes::Category::ray_stacks] == task[nodes::Category::ray_stacks]);
+    CHECK(more[nodes::Category::ray_stacks] > less[nodes::Category::ray_stacks]);
+    CHECK(more[nodes::Category::ray_stacks] < 32_KiB);
+  }
+}
+
+TEST_CASE("where memory is scarce rays walk alone before packets get shorter, and bundles ask for no more memory than that") {
+  PlanRequest request = request_with(16, 100_KiB), alone = request;
+  request.bundles = true;
+  CHECK(dataflow::smallest_node_memory_bytes(request) == dataflow::smallest_node_memory_bytes(alone));
+  std::uint32_t rays = 16;
+  for (std::size_t memory = make_plan(request).node_memory_max_bytes(); memory >= dataflow::smallest_node_memory_bytes(request);
+       memory -= 1_KiB) {
+    request.computer.node_memory_bytes = memory;
+    const Plan plan = make_plan(request);
+    CHECK(plan.node_memory_max_bytes() <= memory);
+    CHECK(plan.rays_a_task <= rays);
+    CHECK((plan.rays_a_task == 1 || plan.ray_batch == 42));
+    CHECK((plan.rays_a_task == 16 || plan.ray_credits == 1));
+    rays = plan.rays_a_task;
+  }
+  CHECK(rays == 1);
+  request.computer.node_memory_bytes = dataflow::smallest_node_memory_bytes(request);
+  const std::vector<std::string> notes = make_plan(request).notes;
+  CHECK(std::any_of(notes.begin(), notes.end(),
+                    [](const std::string& note) { return note.starts_with("rays that walk together reduced from 16 to 1"); }));
 }
 
 TEST_CASE("the smallest memory that is named works, and one byte less does not") {

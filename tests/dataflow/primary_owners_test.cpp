@@ -21,8 +21,8 @@ using dataflow::Bsp;
 namespace {
 
 /// A hat of which many columns are empty, looked at in some way, and its regions for several computers.
-struct Hat {
-  Hat(const core::View& view, int side_pixels, int samples, const std::vector<std::uint32_t>& region_counts)
+struct SharedHat {
+  SharedHat(const core::View& view, int side_pixels, int samples, const std::vector<std::uint32_t>& region_counts)
       : scene(tests::built_in("sombrero-1")),
         database(core::build_database(scene, apps::several_top_cells(scene))),
         settings{.header = database.header(),
@@ -42,7 +42,7 @@ struct Hat {
 };
 
 /// From region to region, as rays travel.
-std::uint32_t owner_by_next_stop(const Hat& hat, const Bsp& bsp, std::uint32_t pixel, std::uint32_t sample) {
+std::uint32_t owner_by_next_stop(const SharedHat& hat, const Bsp& bsp, std::uint32_t pixel, std::uint32_t sample) {
   const core::GridFrame& frame = hat.settings.header.frame;
   const core::Ray ray = hat.settings.camera.primary_ray(pixel, sample);
   if (const auto passage = core::first_passage(ray, frame); passage && !hat.settings.shows_background(pixel)) {
@@ -62,7 +62,7 @@ std::uint32_t owner_by_next_stop(const Hat& hat, const Bsp& bsp, std::uint32_t p
 }
 
 /// How many rays pass regions that hold nothing in the last Bsp.
-int check_owners(const Hat& hat) {
+int check_owners(const SharedHat& hat) {
   dataflow::PrimaryOwners owners(hat.settings, hat.bsps);
   int passed = 0;
   for (std::uint32_t pixel = 0; pixel < hat.settings.camera.pixel_count(); ++pixel) {
@@ -86,14 +86,14 @@ core::View looking(const core::Vec3d& from, const core::Vec3d& at, double angle_
 
 TEST_CASE("a primary ray is the node's to which it is led from region to region, in every way of sharing out at once") {
   const core::View view = tests::built_in("sombrero-1").view;
-  CHECK(check_owners(Hat(view, 40, 2, {1, 2, 3, 8, 24, 64, 100})) > 100);
+  CHECK(check_owners(SharedHat(view, 40, 2, {1, 2, 3, 8, 24, 64, 100})) > 100);
 }
 
 TEST_CASE("so is one whose eye is within the grid, or that runs along planes and edges of cells") {
   int passed = 0;
   for (const core::View& view : {looking({0.1, 0.2, 0.05}, {1, 0.1, 0}, 100), looking({0, -5, 0}, {0, 0, 0}, 60),
                                  looking({0, 0, 0}, {0, 3, 0}, 80), looking({-3, -3, 0.01}, {0, 0, 0.01}, 30)}) {
-    passed += check_owners(Hat(view, 33, 1, {16, 5, 64}));
+    passed += check_owners(SharedHat(view, 33, 1, {16, 5, 64}));
   }
   CHECK(passed > 0);
 }
@@ -103,7 +103,7 @@ TEST_CASE("runs of primary rays are counted for many computers as they are dealt
   for (std::uint32_t i = 0; i < dataflow::JointLattice::bsps_max + 5; ++i) {
     region_counts.push_back(1 + i % 9);
   }
-  const Hat hat(tests::built_in("sombrero-1").view, 24, 3, region_counts);
+  const SharedHat hat(tests::built_in("sombrero-1").view, 24, 3, region_counts);
   core::PixelMask pixels(hat.settings.camera.pixel_count());
   for (std::uint32_t pixel = 0; pixel < hat.settings.camera.pixel_count(); ++pixel) {
     if (pixel % 7 != 3) {

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <optional>
 #include <vector>
@@ -52,8 +53,9 @@ struct Stage {
 };
 
 /// One node of a stage, with the primary rays given.
-struct LoneProgram {
-  LoneProgram(const Stage& stage, std::uint32_t index, std::span<const dataflow::PrimaryRun> primaries = {})
+template <class RaysTask>
+struct LoneProgramOf {
+  LoneProgramOf(const Stage& stage, std::uint32_t index, std::span<const dataflow::PrimaryRun> primaries = {})
       : single(stage.plan.node_memory(index), index, stage.plan.node_count() + 1),
         program(
             single.node, stage.plan,
@@ -67,7 +69,7 @@ struct LoneProgram {
     program.receive({NodeId{sender}, dataflow::number_of(Kind::rays), payload});
   }
   void work_to_rest() {
-    while (program.work()) {
+    while (program.work() || program.has_leftovers()) {
     }
   }
   std::vector<RayMessage> rays_sent() const {
@@ -83,8 +85,9 @@ struct LoneProgram {
   }
 
   tests::SingleNode single;
-  dataflow::NodeProgram program;
+  dataflow::RayProgram<RaysTask> program;
 };
+using LoneProgram = LoneProgramOf<dataflow::RayTask>;
 
 /// A primary ray that hits in the region in which it enters, its first passage and its hit in that region's part.
 struct LocalHit {
@@ -285,6 +288,7 @@ TEST_CASE("any legal order of events gives the same film, and no mailbox overflo
     bounds.rays.ray_batch = seed % 3 == 0 ? 1 : seed % 3 == 1 ? 3 : 10;
     bounds.rays.ray_credits = seed % 4;
     bounds.rays.queue_packets = seed % 5 * 2;
+    bounds.bundles = seed / 4 % 2 == 0;
     run_shuffled(Stage(tests::mirrors_and_glass(), static_cast<std::uint32_t>(1 + seed % 7), 8, bounds), seed);
   }
 }
@@ -292,4 +296,34 @@ TEST_CASE("any legal order of events gives the same film, and no mailbox overflo
 TEST_CASE("one node alone never sends a ray") {
   const Stage stage(tests::mirrors_and_glass(), 1, 8);
   run_shuffled(stage, 1);
+}
+
+TEST_CASE("a bundle whose packet waits keeps its other rays, and goes on with them when a credit has come") {
+  const Stage stage(tests::mirrors_and_glass(), 2, 16, {.rays = {.ray_batch = 1, .ray_credits = 0}, .bundles = true});
+  LoneProgramOf<dataflow::BundleTask> node(stage, 0, stage.distribution.primaries[0]);
+  const auto overflowed = [&] {
+    return std::count_if(node.single.post.parcels.begin(), node.single.post.parcels.end(),
+                         [](const Parcel& parcel) { return Kind{parcel.kind} == Kind::overflow; });
+  };
+  node.work_to_rest();  // packets have left for the host, which does not answer
+  for (int turn = 0; turn < 40; ++turn) {
+    CAPTURE(turn);
+    const auto before = overflowed();
+    CHECK(node.program.describe().find("(a packet waits for room)") != std::string::npos);
+    const dataflow::Credits credits{1};
+    node.program.receive({stage.plan.host(), dataflow::number_of(Kind::credits), std::as_bytes(std::span(&credits, 1))});
+    node.work_to_rest();
+    CHECK(overflowed() == before + 1);
+  }
+}
+
+TEST_CASE("a node with bundles gives others time to fill its packets before it sends them") {
+  const Stage stage(tests::mirrors_and_glass(), 2, 16, {.bundles = true});
+  LoneProgramOf<dataflow::BundleTask> node(stage, 0, stage.distribution.primaries[0]);
+  while (node.program.work()) {
+  }
+  const std::size_t sent = node.rays_sent().size();
+  CHECK(node.program.has_leftovers());
+  CHECK_FALSE((node.program.work(), node.program.has_leftovers()));
+  CHECK(node.rays_sent().size() > sent);
 }

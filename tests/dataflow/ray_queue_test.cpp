@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "core/base/expect.h"
@@ -125,4 +126,33 @@ TEST_CASE("whatever comes and goes, a sender within its credits always finds roo
   for (const std::uint32_t sender : {0U, 1U, 2U, 3U}) {
     CHECK(credits[sender] == 3);
   }
+}
+
+TEST_CASE("with kinds apart the deepest comes first, then all that are as deep and shadow rays, or not, as it is") {
+  Backlog backlog({.sender_count = 2, .packets_each = 1, .ray_batch = 6, .depth_max = 3, .are_kinds_apart = true});
+  CHECK(backlog.memory.used().bytes == backlog.memory.plan().bytes);
+  backlog.queue.accept_packet(0, 6);
+  const std::pair<int, core::RayKind> rays[] = {{1, core::RayKind::primary}, {3, core::RayKind::reflected},
+                                                {1, core::RayKind::shadow},  {3, core::RayKind::shadow},
+                                                {3, core::RayKind::shadow},  {3, core::RayKind::refracted}};
+  for (const auto& [depth, kind] : rays) {
+    RayMessage message;
+    message.ray.depth = static_cast<std::uint8_t>(depth);
+    message.ray.kind = kind;
+    message.ray.pixel = backlog.next_pixel++;
+    backlog.queue.put(0, message);
+  }
+  const std::vector<std::vector<std::uint32_t>> expected{{4, 3}, {5, 1}, {2}, {0}};
+  for (const std::vector<std::uint32_t>& alike : expected) {
+    std::uint32_t sender = 99;
+    const core::Ray first = backlog.queue.take(sender).ray;
+    std::vector<std::uint32_t> taken{first.pixel};
+    while (backlog.queue.has_alike(first)) {
+      taken.push_back(backlog.queue.take_alike(first, sender).ray.pixel);
+    }
+    CHECK(taken == alike);
+    CHECK(sender == 0);
+    CHECK_THROWS_AS(backlog.queue.take_alike(first, sender), core::InternalError);
+  }
+  CHECK(backlog.queue.empty());
 }

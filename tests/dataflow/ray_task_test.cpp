@@ -45,10 +45,16 @@ struct Bench {
     return plan;
   }
 
-  core::Traced trace() { return task.trace(tracer, operations); }
+  core::Traced trace() {
+    task.trace(tracer, part.header, operations);
+    CHECK(task.has_ended());
+    task.drop_ended();
+    return task.traced();
+  }
   std::optional<core::Ray> next_child() {
-    core::Ray child;
-    return task.next_child(tracer, settings, child, operations) ? std::optional(child) : std::nullopt;
+    std::optional<core::Ray> child;
+    task.next_children(tracer, settings, operations, [&](const core::Ray& ray) { child = ray; });
+    return child;
   }
 
   core::DatabasePart part;
@@ -110,7 +116,7 @@ TEST_CASE("a task takes exactly the memory that it has named, and starts with no
   const Bench bench(whole());
   CHECK(bench.memory.used().bytes == Bench::needs(5).bytes);
   CHECK(bench.task.is_idle());
-  CHECK(!bench.task.is_tracing());
+  CHECK(!bench.task.has_rays());
 }
 
 TEST_CASE("a task over the whole scene shoots every ray of the reference renderer, depth first on a stack of a hit a depth") {
@@ -127,9 +133,9 @@ TEST_CASE("a task over the whole scene shoots every ray of the reference rendere
 TEST_CASE("a ray is under way from where it enters until it has been traced, its hit until it has made its last child") {
   Bench bench(whole());
   bench.task.enter(primary_that(core::Traced::hit, whole()));
-  CHECK(bench.task.is_tracing());
+  CHECK(bench.task.has_rays());
   CHECK(bench.trace() == core::Traced::hit);
-  CHECK(!bench.task.is_tracing());
+  CHECK(!bench.task.has_rays());
   CHECK(bench.task.is_idle());
   CHECK(bench.task.found_here());
   bench.task.shade_hit();
@@ -239,4 +245,30 @@ TEST_CASE("a task refuses a second ray, another finder's hit, and a hit too deep
   RayMessage foreign = message;
   foreign.finder = 9;
   CHECK_THROWS_AS(bench.task.resume_hit(foreign), core::InternalError);
+}
+
+TEST_CASE("a ray that starts is traced where it starts in the region, and has left it at once, or missed, where it does not") {
+  std::array<std::uint64_t, 4> seen{};
+  for (std::uint32_t pixel = 0; pixel < subject().settings().camera.pixel_count(); ++pixel) {
+    const core::Ray ray = subject().settings().camera.primary_ray(pixel, 0);
+    const auto message = starting(ray);
+    Bench shot(half(0)), entered(half(0));
+    shot.task.shoot(ray);
+    const core::Traced traced = shot.trace();
+    ++seen[static_cast<std::size_t>(traced)];
+    if (!message) {
+      CHECK(traced == core::Traced::miss);
+    } else if (!half(0).contains(message->cell)) {
+      CHECK(traced == core::Traced::left);
+      CHECK(shot.task.leaving().cell == message->cell);
+      CHECK(shot.task.leaving().t_enter == message->t_enter);
+      CHECK(shot.task.leaving().entry_axis == message->entry_axis);
+    } else {
+      entered.task.enter(*message);
+      CHECK(traced == entered.trace());
+      CHECK(shot.task.leaving().t_enter == entered.task.leaving().t_enter);
+    }
+  }
+  CHECK(seen[static_cast<std::size_t>(core::Traced::hit)] > 0);
+  CHECK(seen[static_cast<std::size_t>(core::Traced::left)] > 0);
 }

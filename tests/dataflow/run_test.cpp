@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cstdint>
 #include <numeric>
 #include <vector>
@@ -211,4 +212,41 @@ TEST_CASE("the host may forget the parts once they are distributed, and the outc
   CHECK(tests::outcome_of(report) == subject.outcome());
   CHECK(report.nodes[1].part_bytes == part_bytes);
   CHECK(times == 1);
+}
+
+TEST_CASE("rays that walk in bundles travel as they do alone, from node to node, and give the same picture") {
+  const Subject subject(tests::mirrors_and_glass(), {32, 32});
+  const auto run_with = [&](std::uint32_t nodes, bool bundles) {
+    return dataflow::run_dataflow(subject.database(), subject.settings({.bundles = bundles}), {.computer = {.node_count = nodes}},
+                                  {});
+  };
+  for (const std::uint32_t nodes : {1U, 2U, 5U, 16U}) {
+    CAPTURE(nodes);
+    const Report together = run_with(nodes, true), alone = run_with(nodes, false);
+    CHECK(tests::outcome_of(together) == subject.outcome());
+    CHECK(tests::outcome_of(alone) == subject.outcome());
+    CHECK(together.rays().in == alone.rays().in);
+    CHECK(together.rays().ended == alone.rays().ended);
+    CHECK(together.rays().hits_sent_back == alone.rays().hits_sent_back);
+    CHECK(together.ray_matrix() == alone.ray_matrix());
+    CHECK(together.operations().rays_in_bundles > together.operations().bundles);
+    CHECK(together.operations().rays_in_bundles >= together.operations().ray_count() / 2);
+    CHECK(alone.operations().bundles == 0);
+    for (const NodeReport& node : together.nodes) {
+      CHECK(node.memory_used.bytes == node.memory_planned.bytes);
+    }
+  }
+}
+
+TEST_CASE("rays walk in bundles on threads, unless single ones are watched or that skip is off") {
+  const Subject subject(tests::mirrors_and_glass(), {8, 8});
+  const auto rays_a_task = [&](const RunOptions& options, const core::Skips& skips = {}) {
+    return run_dataflow(subject.database(), subject.settings(skips), options, {}).plan.rays_a_task;
+  };
+  constexpr std::array kinds{nodes::HeatKind::rays};
+  nodes::HeatMap heat(64, kinds);
+  CHECK(rays_a_task({.computer = {.node_count = 2}}) == 16);
+  CHECK(rays_a_task({.computer = {.node_count = 2}}, {.bundles = false}) == 1);
+  CHECK(rays_a_task({.computer = {.node_count = 2, .machine = nodes::Machine{}}}) == 1);
+  CHECK(rays_a_task({.computer = {.node_count = 2}, .watching = {.heat = &heat}}) == 1);
 }

@@ -56,6 +56,21 @@ class ToyProgram : public nodes::Program {
   nodes::Node& node_;
 };
 
+/// Puts its work off once, in case a packet comes.
+class PutsOff : public ToyProgram {
+ public:
+  using ToyProgram::ToyProgram;
+  bool work() override {
+    ++quanta_;
+    return false;
+  }
+  bool has_leftovers() const override { return quanta_ == 1; }
+  bool finished() const override { return quanta_ == 2; }
+
+ private:
+  std::uint32_t quanta_ = 0;
+};
+
 /// Keeps a token going round the ring of all nodes and the host: `rounds` times.
 class TokenRound : public ToyProgram {
  public:

@@ -71,6 +71,7 @@ class WatchedProgram final : public nodes::Program {
     allocation_guard::is_watched = true;
     return program_->work();
   }
+  bool has_leftovers() const override { return program_->has_leftovers(); }
   bool finished() const override { return program_->finished(); }
   std::string describe() const override { return program_->describe(); }
 

@@ -131,7 +131,7 @@ class ShuffledComputer {
     if (!peer.may_work || peer.program->finished()) {
       return false;
     }
-    peer.may_work = peer.program->work();
+    peer.may_work = peer.program->work() || peer.program->has_leftovers();
     return true;
   }
 

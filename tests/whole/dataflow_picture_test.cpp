@@ -67,13 +67,15 @@ core::Scene seen_edge_on() {
 void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
   const std::array<Subject, 2> subjects = along_both_axes(scene, size);
   for (const auto& row :
-       pairwise({std::size(node_counts), std::size(ray_batches), std::size(ray_credits), std::size(queues), 2, 2, 2, 2})) {
+       pairwise({std::size(node_counts), std::size(ray_batches), std::size(ray_credits), std::size(queues), 2, 2, 2, 2, 2})) {
     RunOptions options{.computer = {.node_count = node_counts[row[0]]}};
     options.rays.ray_batch = ray_batches[row[1]];
     options.rays.ray_credits = ray_credits[row[2]];
     options.rays.queue_packets = queues[row[3]];
     options.rays.balance = {.balance = row[4] == 0 ? Balance::subsampled : Balance::equal_size, .subsample = 4};
-    const core::Skips skips{.empty_space = row[5] == 0, .any_hit = row[5] == 0, .empty_regions = row[5] == 0};
+    const core::Skips skips{
+        .empty_space = row[5] == 0, .any_hit = row[5] == 0, .empty_regions = row[5] == 0, .bundles = row[8] == 0};
+    CAPTURE(row[8]);
     if (row[6] == 1) {
       options.rays.topology = nodes::TopologyKind::hypercube;
     }
@@ -120,7 +122,9 @@ TEST_CASE("dataflow: a thousand lights need no more memory for rays and give the
   const Subject subject(thousand_lights(), {6, 6});
   for (const std::uint32_t nodes : {2U, 7U}) {
     const dataflow::Report report = check(subject, {.computer = {.node_count = nodes}});
-    CHECK(report.nodes[0].memory_planned[nodes::Category::ray_stacks] < 4096);
+    CHECK(report.nodes[0].memory_planned[nodes::Category::ray_stacks] < 32768);
+    const dataflow::Report alone = check(subject, {.computer = {.node_count = nodes}}, {.bundles = false});
+    CHECK(alone.nodes[0].memory_planned[nodes::Category::ray_stacks] < 4096);
   }
 }
 

@@ -165,9 +165,9 @@ TEST_CASE("links that do not contend let no message wait") {
 TEST_CASE("dataflow's defaults are those that the help tells") {
   const Rendered rendered(small(Strategy::dataflow));
   const auto& plan = std::get<dataflow::Report>(*rendered.report).plan;
-  CHECK(plan.ray_batch == dataflow::rays_in(2_KiB));
-  CHECK(plan.ray_credits == 4);
-  CHECK(plan.queue_packets == 512);
+  CHECK(plan.ray_batch == dataflow::rays_in(4_KiB));
+  CHECK(plan.ray_credits == 64 / plan.node_count());
+  CHECK(plan.queue_packets == 256);
 }
 
 TEST_CASE("a memory that is too small is bad input, and one that is scarce is worth a note") {

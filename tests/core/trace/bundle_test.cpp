@@ -11,6 +11,7 @@
 
 #include "apps/bench/stability/random.h"
 #include "apps/bench/stability/records.h"
+#include "core/build/extract.h"
 #include "core/trace/bundle_walk.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
@@ -240,4 +241,163 @@ TEST_CASE("rays with odd numbers miss or hit as they do alone, and do not distur
     trace(*bundle, records, database.header(), {}, operations);
     check_hits(*bundle, walk_alone(database, rays));
   }
+}
+
+namespace {
+
+/// A ray on its way from region to region.
+struct Traveller {
+  Ray ray;
+  std::optional<Passage> passage;  ///< none: it starts
+  Traced traced = Traced::left;
+};
+
+/// What a walk alone makes of it in the region of `part`.
+Traveller walk_on(const Traveller& traveller, const DatabasePart& part, Operations& operations) {
+  Traveller next = traveller;
+  next.passage = traveller.passage ? traveller.passage : first_passage(traveller.ray, part.header.frame);
+  next.traced = next.passage ? Traced::left : Traced::miss;
+  if (next.passage && part.header.region.contains(next.passage->cell)) {
+    Cursor cursor = arrive(*next.passage);
+    LocalRecords records(part.bytes);
+    next.traced = trace(traveller.ray, cursor, records, part.header, {}, operations);
+    next.passage = passage_of(cursor);
+  }
+  return next;
+}
+
+void check_same_way(const RayBundle& bundle, std::size_t ray, const Traveller& expected) {
+  const RayMask bit = RayMask{1} << ray;
+  CHECK(((bundle.left & bit) != 0) == (expected.traced == Traced::left));
+  if (expected.traced == Traced::left) {
+    const Passage passage = bundle.passage(ray);
+    CHECK(std::bit_cast<std::uint64_t>(passage.t_enter) == std::bit_cast<std::uint64_t>(expected.passage->t_enter));
+    CHECK(passage.cell == expected.passage->cell);
+    CHECK(passage.entry_axis == expected.passage->entry_axis);
+  } else {
+    CHECK(((bundle.found & bit) != 0) == (expected.traced == Traced::hit));
+  }
+  if (expected.traced != Traced::miss && !bundle.any) {
+    CHECK(same_hit(bundle.hit(ray), expected.passage->best));
+    CHECK(bundle.hit(ray).block == expected.passage->best.block);
+  }
+}
+
+/// The grid cut in two by planes of two axes, anywhere.
+std::vector<DatabasePart> random_parts(Random& random, const Database& database) {
+  const Corner size = grid_size(database.header().frame);
+  const std::size_t axis = random.below(3), other = (axis + 1 + random.below(2)) % 3;
+  std::vector<DatabasePart> parts;
+  Region low{.high = size}, high{.high = size}, highest{.high = size};
+  low.high[axis] = high.low[axis] = highest.low[axis] =
+      1 + static_cast<std::int32_t>(random.below(static_cast<std::size_t>(size[axis] - 1)));
+  high.high[other] = highest.low[other] = 1 + static_cast<std::int32_t>(random.below(static_cast<std::size_t>(size[other] - 1)));
+  for (const Region& region : {low, high, highest}) {
+    parts.push_back(extract(database, region));
+  }
+  return parts;
+}
+
+/// Walks those that are, or start, in the part's region together, and each alone: both come to the same.
+void walk_on_together(std::vector<Traveller>& all, const DatabasePart& part, const BundleSteps& steps,
+                      const BundleIntersectors& intersectors) {
+  std::vector<Traveller*> here;
+  BundleRays rays;
+  for (Traveller& traveller : all) {
+    if (traveller.traced == Traced::left && (!traveller.passage || part.header.region.contains(traveller.passage->cell))) {
+      here.push_back(&traveller);
+      rays.push_back(traveller.ray);
+    }
+  }
+  if (here.empty()) {
+    return;
+  }
+  const auto bundle = bundle_of(rays);
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    if (here[i]->passage) {
+      here[i]->passage->best.block = no_address;  // it was read elsewhere
+      bundle->arrive(i, *here[i]->passage);
+    }
+  }
+  LocalRecords records(part.bytes);
+  Operations together, alone;
+  CHECK(BundleWalk<LocalRecords>(*bundle, records, part.header, {}, together, steps, intersectors).run());
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    CAPTURE(i);
+    *here[i] = walk_on(*here[i], part, alone);
+    check_same_way(*bundle, i, *here[i]);
+  }
+  if (here.size() == 1) {
+    CHECK(together.cell_steps == alone.cell_steps);
+    CHECK(together.brick_reads == alone.brick_reads);
+    CHECK(together.primitive_tests == alone.primitive_tests);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("rays that walk together leave a region where and as they do alone, and go on so in the next, whatever instructions") {
+  std::size_t sets = 0;
+  for (const BundleSteps* steps = nullptr; (steps = bundle_steps(sets)) != nullptr; ++sets) {
+    CAPTURE(sets);
+    std::size_t hops = 0, hits = 0;
+    Random random(78);
+    std::vector<DatabasePart> parts;
+    const Database* cut = nullptr;
+    for_some_bundles(79, 1200, [&](const Database& database, const BundleRays& rays) {
+      if (&database != cut || random.below(8) == 0) {
+        parts = random_parts(random, database);
+        cut = &database;
+      }
+      std::vector<Traveller> travellers;
+      for (const Ray& ray : rays) {
+        travellers.push_back({ray, std::nullopt});
+      }
+      for (std::size_t round = 0; round < 3 * parts.size(); ++round) {
+        walk_on_together(travellers, parts[round % parts.size()], *steps, *bundle_intersectors(sets));
+      }
+      for (const Traveller& traveller : travellers) {
+        CHECK(traveller.traced != Traced::left);
+        hops += traveller.passage && traveller.passage->entry_axis != walk_starts ? 1 : 0;
+        hits += traveller.traced == Traced::hit ? 1 : 0;
+      }
+    });
+    CHECK(hops > 20);
+    CHECK(hits > 100);
+  }
+}
+
+TEST_CASE("a candidate that was read elsewhere gives way to the same hit read here, and to no other that is not nearer") {
+  RayBundle bundle;
+  bundle.start();
+  const Hit candidate{2.0F, 7};
+  bundle.arrive(3, {.best = candidate});
+  CHECK(bundle.hit(3).primitive == 7);
+  CHECK(bundle.hit(3).block == no_address);
+  CHECK(nearer(2.0F, 7, bundle.best.of(3)));
+  CHECK_FALSE(nearer(2.0F, 8, bundle.best.of(3)));
+  CHECK_FALSE(replaces(2.0F, 8, bundle.best.of(3)));
+  bundle.arrive(4, {});
+  CHECK_FALSE(bundle.hit(4).found());
+}
+
+TEST_CASE("a hit that is nearer than a candidate read elsewhere takes its place, be its id the next one") {
+  std::uint64_t hits = 0;
+  for_some_bundles(80, 400, [&](const Database& database, const BundleRays& rays) {
+    const Ray& ray = rays[0];
+    const Hit hit = walk_alone(database, {ray}, no_skips()).hits[0];
+    const auto passage = first_passage(ray, database.header().frame);
+    if (!hit.found() || hit.primitive == 0 || !passage) {
+      return;
+    }
+    LocalRecords records(database.bytes());
+    Operations operations;
+    const auto bundle = bundle_of({ray});
+    bundle->arrive(0, {passage->t_enter, passage->cell, passage->entry_axis, {hit.t + 1, hit.primitive - 1}});
+    trace(*bundle, records, database.header(), no_skips(), operations);
+    CHECK(same_hit(bundle->hit(0), hit));
+    CHECK(bundle->hit(0).block == hit.block);
+    ++hits;
+  });
+  CHECK(hits > 5);
 }

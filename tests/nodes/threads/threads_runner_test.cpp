@@ -344,6 +344,13 @@ TEST_CASE("a packet that may wait does not wait for as long as its sender has wo
   CHECK(runner.node(0).counters().quanta >= patience_quanta_max);
 }
 
+TEST_CASE("a node that puts work off, in case a packet comes, does it before it sleeps") {
+  for (const std::uint32_t nodes : {2U, 20U}) {  // which do not look again, and do
+    ThreadsRunner runner(equal_nodes(nodes, {.small_slots = 1}, making<PutsOff>()));
+    CHECK(runner.run({}) == RunEnd::finished);
+  }
+}
+
 TEST_CASE("packets that may wait have one target") {
   auto specifications = equal_nodes(2, {.small_slots = 4}, making<TwoTargets>());
   specifications[0].patience = {.kinds = 1U << 1U, .packets = 10};

@@ -188,6 +188,11 @@ TEST_CASE("a program's exception ends a virtual run and comes out of it") {
   CHECK_THROWS_WITH_AS(runner.run({}), "the hundredth quantum", std::runtime_error);
 }
 
+TEST_CASE("a node that puts work off, in case a packet comes, does it in virtual time, too") {
+  VirtualRunner runner(equal_nodes(2, {.small_slots = 1}, making<PutsOff>()), toy_model());
+  CHECK(runner.run({}) == RunEnd::finished);
+}
+
 TEST_CASE("a virtual computer of nothing and a second run are refused") {
   CHECK_THROWS_AS(VirtualRunner({}, toy_model()), core::InternalError);
   VirtualRunner runner(equal_nodes(1, {}, making<ToyProgram>()), toy_model());

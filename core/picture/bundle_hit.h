@@ -1,0 +1,153 @@
+// The hits of a bundle's rays, being shaded side by side: their children of one kind are the next bundle.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstdint>
+
+#include "core/picture/pixel_task.h"
+#include "core/trace/bundle.h"
+
+namespace dmpc::core {
+
+/// Finds what the rays of a bundle hit, and the records that shading reads. trace() has the contract of
+/// core/trace/bundle_walk.h's.
+template <class T>
+concept BundleTracer = requires(T& tracer, RayBundle& bundle, Operations& operations, Address address) {
+  { tracer.trace(bundle, operations) } -> std::same_as<bool>;
+  { tracer.find(address) } -> std::same_as<const std::byte*>;
+};
+
+/// The hits of a bundle's rays, being shaded side by side: all read what they are, then each light sends its bundle of shadow
+/// rays, then the mirrored rays are a bundle, then the refracted ones.
+struct BundleHit {
+  enum class Phase : std::uint8_t { surface, light, reflected, refracted, finished };
+
+  std::array<HitState, bundle_rays_max> hit;
+  std::array<std::uint8_t, bundle_rays_max> place;  ///< of the hit's pixel
+  std::uint32_t count = 0;
+  std::uint32_t next = 0;   ///< the hit that goes on next, while surfaces are read
+  std::uint32_t light = 0;  ///< whose shadow rays are next
+  Phase phase = Phase::surface;
+
+  bool has_unread_surface() const {
+    return std::any_of(hit.begin(), hit.begin() + count,
+                       [](const HitState& state) { return state.stage < HitState::Stage::light; });
+  }
+  /// No hit is there.
+  void clear() {
+    count = next = light = 0;
+    phase = Phase::surface;
+  }
+  /// Requires room, and that no phase is over.
+  void add(const Ray& ray, const Hit& met, std::size_t its_place) {
+    place[count] = static_cast<std::uint8_t>(its_place);
+    hit[count++] = begin_shading(ray, met);
+  }
+  /// To the next phase, with so many lights.
+  void end_phase(std::uint32_t light_count) {
+    if (phase == Phase::surface || phase == Phase::light) {
+      light += phase == Phase::light ? 1 : 0;
+      phase = light < light_count ? Phase::light : Phase::reflected;
+    } else {
+      phase = phase == Phase::reflected ? Phase::refracted : Phase::finished;
+    }
+  }
+};
+
+/// Shades the hits of a bundle, phase by phase. What it is made from outlives it; costs nothing to make.
+template <BundleTracer T>
+class BundleShader {
+ public:
+  BundleShader(BundleHit& hits, T& tracer, const RenderSettings& settings, Operations& operations)
+      : hits_(hits),
+        tracer_(tracer),
+        settings_(settings),
+        operations_(operations),
+        shader_(settings.header, settings.shade, settings.skips, operations) {}
+
+  /// Ends the phase that the hits are in: shoot(child, i) is called for every child of hit i, at most one for each. False if a
+  /// record is absent, whose address is then `absent`: call it again once that is there. Requires a phase other than finished.
+  template <class Shoot>
+  bool step(Address& absent, const Shoot& shoot) {
+    if (hits_.phase == Phase::surface ? !read_surfaces(absent) : hits_.phase == Phase::light && !shoot_at_light(absent, shoot)) {
+      return false;
+    }
+    if (hits_.phase == Phase::reflected) {
+      shoot_children(HitState::Stage::reflected, nullptr, shoot);
+    } else if (hits_.phase == Phase::refracted) {
+      shoot_children(HitState::Stage::refracted, nullptr, shoot);
+    }
+    hits_.end_phase(settings_.header.light_count);
+    return true;
+  }
+
+ private:
+  using Phase = BundleHit::Phase;
+
+  bool read_surfaces(Address& absent);
+  template <class Shoot>
+  bool shoot_at_light(Address& absent, const Shoot& shoot);
+  template <class Shoot>
+  void shoot_children(HitState::Stage stage, const std::byte* record, const Shoot& shoot);
+
+  BundleHit& hits_;
+  T& tracer_;
+  const RenderSettings& settings_;
+  Operations& operations_;
+  Shader shader_;
+};
+
+/// Round by round a step of each hit, so that neighbours, which often need one record, find it together.
+template <BundleTracer T>
+bool BundleShader<T>::read_surfaces(Address& absent) {
+  Address found = no_address;
+  const std::byte* record = nullptr;
+  for (; hits_.has_unread_surface(); hits_.next = 0) {
+    for (; hits_.next < hits_.count; ++hits_.next) {
+      HitState& state = hits_.hit[hits_.next];
+      if (state.stage >= HitState::Stage::light) {
+        continue;
+      }
+      absent = record_needed(state, settings_.header);
+      operations_.skipped.bundles += absent == found ? 1 : 0;
+      record = absent == found ? record : tracer_.find(absent);
+      if (record == nullptr) {
+        return false;
+      }
+      found = absent;
+      Ray none;
+      shader_.step(state, record, none);
+    }
+  }
+  return true;
+}
+
+/// The light's record is read once for all hits.
+template <BundleTracer T>
+template <class Shoot>
+bool BundleShader<T>::shoot_at_light(Address& absent, const Shoot& shoot) {
+  absent = advance(settings_.header.lights, hits_.light * sizeof(LightRecord));
+  const std::byte* const record = tracer_.find(absent);
+  if (record == nullptr) {
+    return false;
+  }
+  operations_.skipped.bundles += hits_.count - 1;
+  shoot_children(HitState::Stage::light, record, shoot);
+  return true;
+}
+
+/// One step of every hit that is at `stage`, in what order does not matter to the picture.
+template <BundleTracer T>
+template <class Shoot>
+void BundleShader<T>::shoot_children(HitState::Stage stage, const std::byte* record, const Shoot& shoot) {
+  for (std::uint32_t i = 0; i < hits_.count; ++i) {
+    Ray child;
+    if (hits_.hit[i].stage == stage && shader_.step(hits_.hit[i], record, child)) {
+      shoot(child, i);
+    }
+  }
+}
+
+}  // namespace dmpc::core
