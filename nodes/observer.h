@@ -56,7 +56,8 @@ struct Passing {
   NodeId peer{};  ///< the other
   PacketKind kind = 0;
   std::uint32_t call = 0;  ///< of the node's program, in which it is sent or received
-  std::span<const std::byte> payload;
+  std::span<const std::byte> payload;  ///< without an end that lasts and is handed over where it is (nodes/packet.h)
+  std::size_t payload_bytes = 0;       ///< with it
   /// When it is sent, the first two; on a modelled machine all when it is received, else only the last.
   MessageTimes times;
 };

@@ -27,17 +27,19 @@ struct Message {
   NodeId target{};
   PacketHeader header;
   std::vector<std::byte> payload;
-  MessageTimes times;  ///< for an observer
+  std::span<const std::byte> lasting;  ///< the payload's end, where it is, if the sender has said that it lasts
+  MessageTimes times;                  ///< for an observer
 
-  std::uint64_t bytes() const { return sizeof(PacketHeader) + payload.size(); }
-  bool is_bulk() const { return payload.size() > small_payload_bytes; }
-  Packet packet() const { return {NodeId{header.source}, header.kind, payload}; }
+  std::uint64_t bytes() const { return sizeof(PacketHeader) + header.bytes; }
+  bool is_bulk() const { return header.bytes > small_payload_bytes; }
+  Packet packet() const { return {NodeId{header.source}, header.kind, payload, lasting}; }
 };
 
 /// Messages by number; a number is used again, and so is its memory.
 class MessageStore {
  public:
-  std::uint32_t put(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) {
+  std::uint32_t put(NodeId target, const PacketHeader& header, std::span<const std::byte> payload,
+                    std::span<const std::byte> lasting) {
     if (free_.empty()) {
       free_.push_back(static_cast<std::uint32_t>(messages_.size()));
       messages_.emplace_back();
@@ -48,6 +50,7 @@ class MessageStore {
     message.target = target;
     message.header = header;
     message.payload.assign(payload.begin(), payload.end());
+    message.lasting = lasting;
     return number;
   }
   const Message& operator[](std::uint32_t number) const { return messages_[number]; }
@@ -79,7 +82,7 @@ struct VirtualProcessor final : Network {
       : computer(of),
         mailbox(specification.mailbox),
         interrupt_kinds(specification.interrupt_kinds),
-        memory(specification.plan),
+        memory(specification.plan, Lasting::is_referred_to),
         node(id, peer_count, memory, *this),
         ways(peer_count) {
     static_cast<void>(memory.allocate<std::byte>(Category::mailbox, specification.mailbox.bytes()));  // the model's, unused
@@ -88,22 +91,29 @@ struct VirtualProcessor final : Network {
     memory.seal();
   }
 
-  /// The sender's side: the message has its place in the target's mailbox from now on.
   void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) override {
-    sent.push_back(computer.messages.put(target, header, payload));
+    deliver_in_place(target, header, payload, {});
+  }
+
+  /// The sender's side: the message has its place in the target's mailbox from now on.
+  bool deliver_in_place(NodeId target, const PacketHeader& header, std::span<const std::byte> front,
+                        std::span<const std::byte> lasting) override {
+    const std::uint32_t number = computer.messages.put(target, header, front, lasting);
+    sent.push_back(number);
     VirtualProcessor& at = *computer.processors[index_of(target)];
-    const bool is_bulk = payload.size() > small_payload_bytes;
+    const bool is_bulk = computer.messages[number].is_bulk();
     std::uint32_t& held = is_bulk ? at.bulk_held : at.small_held;
     core::expect(++held <= (is_bulk ? at.mailbox.bulk_slots : at.mailbox.small_slots) &&
-                     payload.size() <= std::max(small_payload_bytes, at.mailbox.bulk_payload_bytes),
+                     header.bytes <= std::max(small_payload_bytes, at.mailbox.bulk_payload_bytes),
                  "credits leave room in the target's mailbox");
+    return true;
   }
 
   /// Lets the program receive a message of its mailbox.
   void receive(std::uint32_t number) {
     const Message& message = computer.messages[number];
     program->receive(message.packet());
-    --(message.payload.size() > small_payload_bytes ? bulk_held : small_held);
+    --(message.is_bulk() ? bulk_held : small_held);
     computer.messages.release(number);
   }
 

@@ -121,7 +121,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   void arrive(std::uint32_t number) {
     const Message& message = computer.messages[number];
     VirtualProcessor& target = *computer.processors[index_of(message.target)];
-    target.node.counters().received[message.header.kind].add(message.payload.size());
+    target.node.counters().received[message.header.kind].add(message.header.bytes);
     if ((target.interrupt_kinds >> message.header.kind & 1U) != 0) {
       return serve(target, number);
     }
@@ -232,8 +232,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     if constexpr (is_watched) {
       Message& message = computer.messages[number];
       message.times.received_ns = span.begin_ns;
-      observer->received(
-          {self.node.id(), NodeId{message.header.source}, message.header.kind, span.call, message.payload, message.times});
+      observer->received(passing(message, self.node.id(), NodeId{message.header.source}, span.call));
     }
     self.receive(number);
   }
@@ -275,7 +274,11 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   void tell_sent(std::uint32_t number, std::uint64_t time_ns, std::uint32_t call) {
     Message& message = computer.messages[number];
     message.times = {.sending_ns = time_ns - machine.cost_of_message(message.bytes()).send_ns, .left_ns = time_ns};
-    observer->sent({NodeId{message.header.source}, message.target, message.header.kind, call, message.payload, message.times});
+    observer->sent(passing(message, NodeId{message.header.source}, message.target, call));
+  }
+
+  static Passing passing(const Message& message, NodeId node, NodeId peer, std::uint32_t call) {
+    return {node, peer, message.header.kind, call, message.payload, message.header.bytes, message.times};
   }
 
   // ---- The end -----------------------------------------------------------------------------------------------------------
