@@ -45,4 +45,12 @@ class LastingPieces {
   bool is_referring_;
 };
 
+/// One piece: where its bytes are from now on, and `overread_bytes` that are readable behind them.
+inline std::span<const std::byte> kept(LocalMemory& memory, Category category, std::span<const std::byte> bytes,
+                                       std::size_t overread_bytes = 0) {
+  LastingPieces room(memory, category, bytes.size() + overread_bytes, bytes.size());
+  room.put(0, bytes);
+  return {room.at(0), bytes.size()};
+}
+
 }  // namespace dmpc::nodes

@@ -56,10 +56,12 @@ struct Passing {
   NodeId peer{};  ///< the other
   PacketKind kind = 0;
   std::uint32_t call = 0;  ///< of the node's program, in which it is sent or received
-  std::span<const std::byte> payload;  ///< without an end that lasts and is handed over where it is (nodes/packet.h)
-  std::size_t payload_bytes = 0;       ///< with it
+  std::span<const std::byte> payload;
   /// When it is sent, the first two; on a modelled machine all when it is received, else only the last.
   MessageTimes times;
+  std::size_t lasting_bytes = 0;  ///< that follow `payload` where they are (modelled machines, nodes/packet.h)
+
+  std::size_t payload_bytes() const { return payload.size() + lasting_bytes; }
 };
 
 /// What a call of a program has worked on. There may be several in a call, or none.

@@ -20,7 +20,7 @@ class LocalCopy {
 
   /// Puts `database` into the node's local memory.
   LocalCopy(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database)
-      : bytes_(put(node, database)) {
+      : bytes_(nodes::kept(node.memory(), nodes::Category::home_pages, database, core::overread_bytes)) {
     core::expect(database.size() == capacity.database_bytes(), "the plan is the database's");
   }
   /// Adds to `plan` exactly what the constructor takes.
@@ -35,13 +35,6 @@ class LocalCopy {
   PageCounters counters() const { return {}; }
 
  private:
-  static std::span<const std::byte> put(nodes::Node& node, std::span<const std::byte> database) {
-    nodes::LastingPieces whole(node.memory(), nodes::Category::home_pages, database.size() + core::overread_bytes,
-                               database.size());
-    whole.put(0, database);
-    return {whole.at(0), database.size()};
-  }
-
   std::span<const std::byte> bytes_;
 };
 static_assert(core::Records<LocalCopy>);

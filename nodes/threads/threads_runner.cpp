@@ -63,7 +63,6 @@ class Telling final : public Network {
                      .kind = header.kind,
                      .call = *call_,
                      .payload = payload,
-                     .payload_bytes = payload.size(),
                      .times = {.sending_ns = now_ns, .left_ns = now_ns}});
     next_->deliver(target, header, payload);
   }
@@ -312,7 +311,6 @@ struct ThreadsRunner::Implementation final : Network {
                          .kind = packet.kind,
                          .call = span.call,
                          .payload = packet.payload,
-                         .payload_bytes = packet.payload.size(),
                          .times = {.received_ns = span.begin_ns}});
     self.program->receive(packet);
     end_span(self, span);
