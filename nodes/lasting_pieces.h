@@ -11,7 +11,8 @@
 namespace dmpc::nodes {
 
 /// Pieces of equal size, by number. On a modelled machine, where all nodes share the real computer's caches,
-/// the room is there and counted, but has in it where each piece is, in place of a copy. Thread safety: none; belongs to one node.
+/// the room is there and counted, but has in it where each piece is, in place of a copy. Thread safety: none; belongs to one
+/// node.
 class LastingPieces {
  public:
   /// Takes `room_bytes`: those of all pieces, and what must be readable behind the last one. It is so behind each that is put
@@ -33,9 +34,7 @@ class LastingPieces {
     }
   }
   /// The first byte of the piece that was put there last.
-  const std::byte* at(std::size_t index) const {
-    return is_referring_ ? places()[index] : room_.data() + index * piece_bytes_;
-  }
+  const std::byte* at(std::size_t index) const { return is_referring_ ? places()[index] : room_.data() + index * piece_bytes_; }
 
  private:
   const std::byte** places() const { return reinterpret_cast<const std::byte**>(room_.data()); }

@@ -70,8 +70,8 @@ class Node {
   /// and go on receiving. A node may send to itself.
   [[nodiscard]] bool try_send(NodeId target, Channel channel, PacketKind kind, std::span<const std::byte> payload);
 
-  /// The same for a payload that is `front` and then `lasting`, bytes that never change and outlive the run. They are put together
-  /// in `room`, which is as long, unless the runner hands over what lasts where it is; both count alike.
+  /// The same for a payload that is `front` and then `lasting`, bytes that never change and outlive the run. They are put
+  /// together in `room`, which is as long, unless the runner hands over what lasts where it is; both count alike.
   [[nodiscard]] bool try_send(NodeId target, Channel channel, PacketKind kind, std::span<const std::byte> front,
                               std::span<const std::byte> lasting, std::span<std::byte> room);
 
@@ -93,7 +93,8 @@ class Node {
  private:
   bool take_credit(NodeId target, Channel channel, PacketKind kind, std::size_t payload_bytes);
   PacketHeader header_of(PacketKind kind, std::size_t payload_bytes) const {
-    return {.bytes = static_cast<std::uint32_t>(payload_bytes), .source = static_cast<std::uint16_t>(index_of(id_)), .kind = kind};
+    return {
+        .bytes = static_cast<std::uint32_t>(payload_bytes), .source = static_cast<std::uint16_t>(index_of(id_)), .kind = kind};
   }
   std::uint16_t& credit(NodeId target, Channel channel) const {
     core::expect(index_of(target) < peer_count_ && channel < channel_count, "a packet has a target and a channel that exist");

@@ -33,7 +33,8 @@ struct Packet {
   NodeId source{};
   PacketKind kind = 0;
   std::span<const std::byte> payload;
-  /// What follows it, if the sender has said that it lasts and the runner hands it over where it is. Else it is the payload's end.
+  /// What follows it, if the sender has said that it lasts and the runner hands it over where it is. Else it is the payload's
+  /// end.
   std::span<const std::byte> lasting = {};
 
   std::size_t payload_bytes() const { return payload.size() + lasting.size(); }

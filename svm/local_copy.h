@@ -13,7 +13,8 @@
 
 namespace dmpc::svm {
 
-/// A core::Records that is never absent; on a modelled machine the copy is counted and one for all nodes. Thread safety: belongs to one node.
+/// A core::Records that is never absent; on a modelled machine the copy is counted and one for all nodes. Thread safety: belongs
+/// to one node.
 class LocalCopy {
  public:
   static constexpr bool pages_travel = false;

@@ -25,7 +25,8 @@ class Pager {
   /// Programs with this kind of records exchange page requests and replies.
   static constexpr bool pages_travel = true;
 
-  /// Puts the node's home pages, from `database`, into its local memory (nodes::LastingPieces) and takes the credits for its requests.
+  /// Puts the node's home pages, from `database`, into its local memory (nodes::LastingPieces) and takes the credits for its
+  /// requests.
   Pager(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database);
   /// Adds to `memory` exactly what the constructor takes at node `index`.
   static void add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index);
@@ -73,9 +74,7 @@ class Pager {
   Translation& translation_of(PageId page) { return translations_[index_of(page) % translation_count]; }
   bool translate(PageId page, Translation& translation) const;
   const std::byte* find_other(PageId page, std::size_t offset);
-  std::span<const std::byte> home_page(std::uint32_t slot) const {
-    return {home_pages_.at(slot), geometry_.size_bytes()};
-  }
+  std::span<const std::byte> home_page(std::uint32_t slot) const { return {home_pages_.at(slot), geometry_.size_bytes()}; }
   void put_home_pages(std::span<const std::byte> database);
   void request(Faults::Fault& fault);
   void forget(PageId evicted);

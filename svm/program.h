@@ -40,8 +40,8 @@ namespace dmpc::svm {
 template <class Records, class Tracer, class Task = core::PixelTask>
 class ControlProgram final : public NodeProgram {
  public:
-  /// Takes all its memory from `node`, which keeps `settings` and `database` (nodes/lasting_pieces.h). make_tracer(Records&) returns the tracer. `meter`
-  /// is there where somebody wants to know what is done for which pixel.
+  /// Takes all its memory from `node`, which keeps `settings` and `database` (nodes/lasting_pieces.h). make_tracer(Records&)
+  /// returns the tracer. `meter` is there where somebody wants to know what is done for which pixel.
   template <class MakeTracer>
   ControlProgram(nodes::Node& node, const Plan& plan, const core::RenderSettings& settings, std::span<const std::byte> database,
                  const MakeTracer& make_tracer, const std::optional<nodes::Meter>& meter = std::nullopt)

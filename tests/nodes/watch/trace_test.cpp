@@ -123,7 +123,7 @@ TEST_CASE("a message is as long as its payload, an end that lasts and is not cop
   Scene scene;
   for (const std::size_t lasting_bytes : {0U, 512U}) {
     scene.recorder.sent({.node = NodeId{0}, .peer = NodeId{1}, .payload = scene.payload(), .lasting_bytes = lasting_bytes});
-    scene.receives(1, 0, 10, 1, 0);
+    scene.recorder.received({.node = NodeId{1}, .peer = NodeId{0}, .payload = scene.payload(), .lasting_bytes = lasting_bytes});
   }
   const std::vector<TraceMessage> messages = scene.recorder.take().messages;
   REQUIRE(messages.size() == 2);
