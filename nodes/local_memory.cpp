@@ -76,7 +76,8 @@ LocalMemory::Block LocalMemory::reserve(std::size_t bytes) {
   }
 }
 
-LocalMemory::LocalMemory(const MemoryPlan& plan) : plan_(plan), block_(reserve(block_bytes(plan))) {
+LocalMemory::LocalMemory(const MemoryPlan& plan, Lasting lasting)
+    : plan_(plan), block_(reserve(block_bytes(plan))), lasting_(lasting) {
   used_[Category::reserve] = plan[Category::reserve];
 }
 

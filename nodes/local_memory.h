@@ -41,6 +41,10 @@ struct MemoryPlan {
   std::size_t total() const;
 };
 
+/// How a memory keeps bytes that never change and outlive the run: as copies, or, where the nodes are modelled, by their places.
+/// Either takes the same bytes of the plan, and no program can tell.
+enum class Lasting : std::uint8_t { is_copied, is_referred_to };
+
 /// One block of memory, cut from the front and never given back; each allocation is rounded up to a cache line and counts against
 /// its category's share of the plan. Thread safety: none; belongs to one node. Under ASan the bytes not handed out are poisoned,
 /// the remainders of cache lines too.
@@ -51,7 +55,7 @@ class LocalMemory {
   /// Reserves plan.total() bytes at once, but for the `reserve` category: that is the thread's stack, which the runner makes; it
   /// counts as used from the start. The real computer sets bytes aside when they are first written. Throws core::RoomError if it
   /// has not so much, as far as it knows by then.
-  explicit LocalMemory(const MemoryPlan& plan);
+  explicit LocalMemory(const MemoryPlan& plan, Lasting lasting = Lasting::is_copied);
 
   /// Has the real computer set all bytes aside, which keep their values. Nobody else may be at work on them.
   void back();
@@ -76,6 +80,9 @@ class LocalMemory {
     return (count * sizeof(T) + alignment - 1) / alignment * alignment;
   }
 
+  /// For LastingPieces.
+  Lasting lasting() const { return lasting_; }
+
   /// From now on allocate() is a broken invariant.
   void seal() { sealed_ = true; }
   /// Whether seal() has been called.
@@ -94,6 +101,7 @@ class LocalMemory {
   MemoryPlan used_;
   Block block_;
   std::size_t offset_ = 0;
+  Lasting lasting_;
   bool sealed_ = false;
 };
 

@@ -40,14 +40,16 @@ struct Machine {
   const MessageCost& cost_of_message(std::uint64_t bytes) const {
     return bytes <= short_bytes_max ? short_message : long_message;
   }
-  /// What the operations take that were done from `before` to `after`.
-  std::uint64_t price_ps(const Charges& before, const Charges& after) const {
+  /// What these operations take; where that is too much for 64 bits, modulo 2^64, so that differences are right none the less.
+  std::uint64_t price_ps(const Charges& done) const {
     std::uint64_t sum_ps = 0;
     for (std::size_t i = 0; i < charge_count; ++i) {
-      sum_ps += (after.count[i] - before.count[i]) * cost_ps[i];
+      sum_ps += done.count[i] * cost_ps[i];
     }
     return sum_ps;
   }
+  /// What those take that were done from `before` to `after`.
+  std::uint64_t price_ps(const Charges& before, const Charges& after) const { return price_ps(after) - price_ps(before); }
   /// A hash of all that decides a run: every figure and switch and the topology, but not the name. The same on every computer.
   std::uint64_t digest() const;
 };

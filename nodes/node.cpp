@@ -1,5 +1,7 @@
 #include "nodes/node.h"
 
+#include <algorithm>
+
 namespace dmpc::nodes {
 
 std::size_t credit_table_bytes(std::uint32_t peer_count) {
@@ -21,7 +23,8 @@ void Node::grant(NodeId target, Channel channel, std::uint32_t count) {
   left = static_cast<std::uint16_t>(left + count);
 }
 
-bool Node::try_send(NodeId target, Channel channel, PacketKind kind, std::span<const std::byte> payload) {
+/// Counts the packet that the credit is spent on, or the refusal.
+bool Node::take_credit(NodeId target, Channel channel, PacketKind kind, std::size_t payload_bytes) {
   core::expect(kind < packet_kind_count, "a packet's kind is below the number of kinds");
   std::uint16_t& left = credit(target, channel);
   if (left == 0) {
@@ -29,10 +32,29 @@ bool Node::try_send(NodeId target, Channel channel, PacketKind kind, std::span<c
     return false;
   }
   --left;
-  counters_.sent[kind].add(payload.size());
-  const PacketHeader header{
-      .bytes = static_cast<std::uint32_t>(payload.size()), .source = static_cast<std::uint16_t>(index_of(id_)), .kind = kind};
-  network_->deliver(target, header, payload);
+  counters_.sent[kind].add(payload_bytes);
+  return true;
+}
+
+bool Node::try_send(NodeId target, Channel channel, PacketKind kind, std::span<const std::byte> payload) {
+  if (!take_credit(target, channel, kind, payload.size())) {
+    return false;
+  }
+  network_->deliver(target, header_of(kind, payload.size()), payload);
+  return true;
+}
+
+bool Node::try_send(NodeId target, Channel channel, PacketKind kind, std::span<const std::byte> front,
+                    std::span<const std::byte> lasting, std::span<std::byte> room) {
+  core::expect(room.size() == front.size() + lasting.size(), "a packet has room for its parts, and they fill it");
+  if (!take_credit(target, channel, kind, room.size())) {
+    return false;
+  }
+  if (!network_->deliver_in_place(target, header_of(kind, room.size()), front, lasting)) {
+    const auto end = std::copy(front.begin(), front.end(), room.begin());
+    std::copy(lasting.begin(), lasting.end(), end);
+    network_->deliver(target, header_of(kind, room.size()), room);
+  }
   return true;
 }
 

@@ -33,6 +33,12 @@ class Network {
   virtual ~Network() = default;
   /// Copies the packet into the mailbox of `target`, on the sender's thread.
   virtual void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) = 0;
+  /// The same for a payload with an end that lasts, of which the place will do. False, and nothing is delivered, if bytes are all
+  /// that this network carries.
+  virtual bool deliver_in_place(NodeId /*target*/, const PacketHeader& /*header*/, std::span<const std::byte> /*front*/,
+                                std::span<const std::byte> /*lasting*/) {
+    return false;
+  }
 };
 
 /// The bytes that a Node's own table of credits takes of Category::queues.
@@ -64,6 +70,11 @@ class Node {
   /// and go on receiving. A node may send to itself.
   [[nodiscard]] bool try_send(NodeId target, Channel channel, PacketKind kind, std::span<const std::byte> payload);
 
+  /// The same for a payload that is `front` and then `lasting`, bytes that never change and outlive the run. They are put
+  /// together in `room`, which is as long, unless the runner hands over what lasts where it is; both count alike.
+  [[nodiscard]] bool try_send(NodeId target, Channel channel, PacketKind kind, std::span<const std::byte> front,
+                              std::span<const std::byte> lasting, std::span<std::byte> room);
+
   /// The same for a trivially copyable value.
   template <PacketValue T>
   [[nodiscard]] bool try_send(NodeId target, Channel channel, PacketKind kind, const T& value) {
@@ -80,6 +91,11 @@ class Node {
   }
 
  private:
+  bool take_credit(NodeId target, Channel channel, PacketKind kind, std::size_t payload_bytes);
+  PacketHeader header_of(PacketKind kind, std::size_t payload_bytes) const {
+    return {
+        .bytes = static_cast<std::uint32_t>(payload_bytes), .source = static_cast<std::uint16_t>(index_of(id_)), .kind = kind};
+  }
   std::uint16_t& credit(NodeId target, Channel channel) const {
     core::expect(index_of(target) < peer_count_ && channel < channel_count, "a packet has a target and a channel that exist");
     return credits_[index_of(target) * channel_count + channel];

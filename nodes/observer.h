@@ -59,6 +59,9 @@ struct Passing {
   std::span<const std::byte> payload;
   /// When it is sent, the first two; on a modelled machine all when it is received, else only the last.
   MessageTimes times;
+  std::size_t lasting_bytes = 0;  ///< that follow `payload` where they are (modelled machines, nodes/packet.h)
+
+  std::size_t payload_bytes() const { return payload.size() + lasting_bytes; }
 };
 
 /// What a call of a program has worked on. There may be several in a call, or none.

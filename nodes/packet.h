@@ -1,4 +1,4 @@
-// What one node sends another: a small header and a bounded payload, copied, without pointers.
+// What one node sends another: a small header and a bounded payload, without pointers.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ using PacketKind = std::uint8_t;
 inline constexpr std::size_t packet_kind_count = 16;
 
 struct PacketHeader {
-  std::uint32_t bytes = 0;   ///< of the payload
+  std::uint32_t bytes = 0;   ///< of the payload, what lasts included
   std::uint16_t source = 0;  ///< index of the sending NodeId
   PacketKind kind = 0;
   std::uint8_t padding = 0;
@@ -33,6 +33,15 @@ struct Packet {
   NodeId source{};
   PacketKind kind = 0;
   std::span<const std::byte> payload;
+  /// What follows it, if the sender has said that it lasts and the runner hands it over where it is. Else it is the payload's
+  /// end.
+  std::span<const std::byte> lasting = {};
+
+  std::size_t payload_bytes() const { return payload.size() + lasting.size(); }
+  /// What follows the first `front_bytes`, wherever it is: all that lasts, if that is how the packet was sent.
+  std::span<const std::byte> behind(std::size_t front_bytes) const {
+    return lasting.empty() ? payload.subspan(front_bytes) : lasting;
+  }
 
   /// The payload as one value of a trivially copyable type; expects that the size is right.
   template <class T>

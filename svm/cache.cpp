@@ -32,9 +32,8 @@ void Cache::add_needs(nodes::MemoryPlan& plan, const CacheShape& shape) {
 }
 
 Cache::Cache(LocalMemory& memory, const CacheShape& shape, std::uint32_t seed)
-    : page_size_bytes_(shape.page_size_bytes),
-      hash_shift_(32U - static_cast<std::uint32_t>(std::countr_zero(table_size(shape.frame_count)))),
-      frames_(memory.allocate<std::byte>(Category::cache_frames, frame_bytes(shape))),
+    : hash_shift_(32U - static_cast<std::uint32_t>(std::countr_zero(table_size(shape.frame_count)))),
+      frames_(memory, Category::cache_frames, frame_bytes(shape), shape.page_size_bytes),
       table_(memory.allocate<Entry>(Category::page_table, table_size(shape.frame_count))),
       stamps_(memory.allocate<std::uint64_t>(Category::page_table, shape.frame_count)),
       pages_(memory.allocate<PageId>(Category::page_table, shape.frame_count)),
@@ -42,7 +41,6 @@ Cache::Cache(LocalMemory& memory, const CacheShape& shape, std::uint32_t seed)
 
 PageId Cache::install(PageId page, std::span<const std::byte> bytes) {
   core::expect(!stamps_.empty(), "a page is installed only where there is a frame");
-  core::expect(bytes.size() == page_size_bytes_, "an installed page is whole");
   core::expect(frame_of(page) == no_frame, "a page is in at most one frame");
   const bool is_full = filled_count_ == frame_count();
   const std::uint32_t frame = is_full ? victims_.victim(stamps_) : filled_count_++;
@@ -50,7 +48,7 @@ PageId Cache::install(PageId page, std::span<const std::byte> bytes) {
   if (is_full) {
     erase(evicted);
   }
-  std::copy(bytes.begin(), bytes.end(), frames_.begin() + static_cast<std::ptrdiff_t>(frame * page_size_bytes_));
+  frames_.put(frame, bytes);
   pages_[frame] = page;
   stamps_[frame] = ++clock_;
   insert(page, frame);

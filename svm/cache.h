@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "nodes/lasting_pieces.h"
 #include "nodes/local_memory.h"
 #include "svm/page.h"
 #include "svm/replacement.h"
@@ -46,10 +47,10 @@ class Cache {
   }
   /// The page in `frame` is now the most recently used.
   void touch(std::uint32_t frame) { stamps_[frame] = ++clock_; }
-  /// The first byte of a frame.
-  const std::byte* bytes_of(std::uint32_t frame) const { return frames_.data() + frame * page_size_bytes_; }
+  /// The first byte of a frame's page.
+  const std::byte* bytes_of(std::uint32_t frame) const { return frames_.at(frame); }
 
-  /// Copies an absent page into an empty frame, if there is one, or else into that of the page that has to go, and makes it the
+  /// Puts an absent page into an empty frame, if there is one, or else into that of the page that has to go, and makes it the
   /// most recently used. Returns the page that had to go, or no_page. Requires at least one frame and `bytes` of the page's
   /// size.
   PageId install(PageId page, std::span<const std::byte> bytes);
@@ -71,10 +72,9 @@ class Cache {
   void insert(PageId page, std::uint32_t frame);
   void erase(PageId page);
 
-  std::size_t page_size_bytes_;
   std::uint32_t hash_shift_;
   std::uint64_t clock_ = 0;
-  std::span<std::byte> frames_;
+  nodes::LastingPieces frames_;
   std::span<Entry> table_;
   std::span<std::uint64_t> stamps_;  ///< time of each frame's last reference
   std::span<PageId> pages_;          ///< the page in each frame

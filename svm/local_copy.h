@@ -1,29 +1,28 @@
 // The whole database in a node's local memory: what replicated has in place of a pager.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <span>
 
 #include "core/base/expect.h"
 #include "core/record/records.h"
+#include "nodes/lasting_pieces.h"
 #include "nodes/node.h"
 #include "svm/node_program.h"
 #include "svm/page_capacity.h"
 
 namespace dmpc::svm {
 
-/// A core::Records that is never absent. Thread safety: belongs to one node.
+/// A core::Records that is never absent; on a modelled machine the copy is counted and one for all nodes. Thread safety: belongs
+/// to one node.
 class LocalCopy {
  public:
   static constexpr bool pages_travel = false;
 
-  /// Copies `database` into the node's local memory.
+  /// Puts `database` into the node's local memory.
   LocalCopy(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database)
-      : bytes_(node.memory().allocate<std::byte>(nodes::Category::home_pages, database.size() + core::overread_bytes)),
-        database_(bytes_.first(database.size())) {
+      : bytes_(nodes::kept(node.memory(), nodes::Category::home_pages, database, core::overread_bytes)) {
     core::expect(database.size() == capacity.database_bytes(), "the plan is the database's");
-    std::copy(database.begin(), database.end(), bytes_.begin());
   }
   /// Adds to `plan` exactly what the constructor takes.
   static void add_needs(nodes::MemoryPlan& plan, std::size_t database_bytes) {
@@ -32,13 +31,12 @@ class LocalCopy {
 
   const std::byte* find(core::Address address) const { return bytes_.data() + core::byte_offset(address); }
   /// The copy, without the bytes that are readable behind it.
-  std::span<const std::byte> bytes() const { return database_; }
+  std::span<const std::byte> bytes() const { return bytes_; }
   /// No pages, so all zero.
   PageCounters counters() const { return {}; }
 
  private:
-  std::span<std::byte> bytes_;
-  std::span<const std::byte> database_;
+  std::span<const std::byte> bytes_;
 };
 static_assert(core::Records<LocalCopy>);
 

@@ -1,6 +1,6 @@
 #include "svm/pager.h"
 
-#include <algorithm>
+#include <cstring>
 
 #include "core/base/expect.h"
 #include "svm/packets.h"
@@ -31,15 +31,16 @@ Pager::Pager(nodes::Node& node, const PageCapacity& capacity, std::span<const st
       translations_(node.memory().allocate<Translation>(Category::page_table, translation_count)),
       homes_(capacity.node_count),
       self_(nodes::index_of(node.id())),
-      home_bytes_(node.memory().allocate<std::byte>(
-          Category::home_pages, home_bytes(capacity.pages_at(nodes::index_of(node.id())), capacity.page_size_bytes()))),
+      home_pages_(node.memory(), Category::home_pages,
+                  home_bytes(capacity.pages_at(nodes::index_of(node.id())), capacity.page_size_bytes()),
+                  capacity.page_size_bytes()),
       cache_(node.memory(), capacity.cache, self_),
       faults_(node.memory(), capacity.in_flight, capacity.faults_max),
       node_(&node),
       reply_(node.memory().allocate<std::byte>(Category::queues, sizeof(PageReplyHeader) + capacity.page_size_bytes())),
       home_page_count_(capacity.pages_at(nodes::index_of(node.id()))) {
   core::expect(database.size() == capacity.database_bytes(), "the plan is the database's");
-  copy_home_pages(database);
+  put_home_pages(database);
   for (std::uint32_t home = 0; home < capacity.node_count; ++home) {
     if (home != self_) {
       node.grant(nodes::NodeId{home}, request_channel, capacity.request_credits);
@@ -47,11 +48,10 @@ Pager::Pager(nodes::Node& node, const PageCapacity& capacity, std::span<const st
   }
 }
 
-void Pager::copy_home_pages(std::span<const std::byte> database) {
+void Pager::put_home_pages(std::span<const std::byte> database) {
   const std::size_t size = geometry_.size_bytes();
   for (std::uint32_t slot = 0; slot < home_page_count_; ++slot) {
-    const std::span<const std::byte> page = database.subspan(index_of(homes_.page_at({self_, slot})) * size, size);
-    std::copy(page.begin(), page.end(), home_bytes_.begin() + static_cast<std::ptrdiff_t>(slot * size));
+    home_pages_.put(slot, database.subspan(index_of(homes_.page_at({self_, slot})) * size, size));
   }
 }
 
@@ -76,7 +76,7 @@ const std::byte* Pager::find_other(PageId page, std::size_t offset) {
 bool Pager::translate(PageId page, Translation& translation) const {
   const Homes::Place place = homes_.place_of(page);
   if (place.node == self_) {
-    translation = {page, Cache::no_frame, home_page(place.slot).data()};
+    translation = {page, Cache::no_frame, home_pages_.at(place.slot)};
     return true;
   }
   const std::uint32_t frame = cache_.frame_of(page);
@@ -102,7 +102,7 @@ void Pager::request(Faults::Fault& fault) {
 }
 
 std::uint32_t Pager::install(const nodes::Packet& reply) {
-  core::expect(reply.payload.size() == sizeof(PageReplyHeader) + geometry_.size_bytes(), "a page reply carries one page");
+  core::expect(reply.payload_bytes() == sizeof(PageReplyHeader) + geometry_.size_bytes(), "a page reply carries one page");
   PageReplyHeader header;
   std::memcpy(&header, reply.payload.data(), sizeof(header));
   core::expect(homes_.place_of(header.page).node == nodes::index_of(reply.source), "a page comes from its home");
@@ -111,7 +111,7 @@ std::uint32_t Pager::install(const nodes::Packet& reply) {
   if (Faults::Fault* refused = faults_.oldest_refused(nodes::index_of(reply.source))) {
     request(*refused);
   }
-  forget(cache_.install(header.page, reply.payload.subspan(sizeof(header))));
+  forget(cache_.install(header.page, reply.behind(sizeof(header))));
   return first;
 }
 
@@ -131,11 +131,9 @@ void Pager::serve(const nodes::Packet& request) {
   const Homes::Place place = homes_.place_of(page);
   core::expect(place.node == self_ && place.slot < home_page_count_, "a request reaches its page's home");
   const PageReplyHeader header{page};
-  std::memcpy(reply_.data(), &header, sizeof(header));
-  const std::span<const std::byte> bytes = home_page(place.slot);
-  std::copy(bytes.begin(), bytes.end(), reply_.begin() + sizeof(header));
   node_->grant(request.source, bulk_channel);
-  core::expect(node_->try_send(request.source, bulk_channel, number_of(Kind::page_reply), std::span<const std::byte>(reply_)),
+  core::expect(node_->try_send(request.source, bulk_channel, number_of(Kind::page_reply), std::as_bytes(std::span(&header, 1)),
+                               home_page(place.slot), reply_),
                "a reply always has room");
   ++counters_.served;
 }

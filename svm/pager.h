@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/record/records.h"
+#include "nodes/lasting_pieces.h"
 #include "nodes/node.h"
 #include "svm/cache.h"
 #include "svm/faults.h"
@@ -24,7 +25,8 @@ class Pager {
   /// Programs with this kind of records exchange page requests and replies.
   static constexpr bool pages_travel = true;
 
-  /// Copies the node's home pages from `database` into its local memory and takes the credits for its requests.
+  /// Puts the node's home pages, from `database`, into its local memory (nodes::LastingPieces) and takes the credits for its
+  /// requests.
   Pager(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database);
   /// Adds to `memory` exactly what the constructor takes at node `index`.
   static void add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index);
@@ -72,10 +74,8 @@ class Pager {
   Translation& translation_of(PageId page) { return translations_[index_of(page) % translation_count]; }
   bool translate(PageId page, Translation& translation) const;
   const std::byte* find_other(PageId page, std::size_t offset);
-  std::span<const std::byte> home_page(std::uint32_t slot) const {
-    return home_bytes_.subspan(slot * geometry_.size_bytes(), geometry_.size_bytes());
-  }
-  void copy_home_pages(std::span<const std::byte> database);
+  std::span<const std::byte> home_page(std::uint32_t slot) const { return {home_pages_.at(slot), geometry_.size_bytes()}; }
+  void put_home_pages(std::span<const std::byte> database);
   void request(Faults::Fault& fault);
   void forget(PageId evicted);
 
@@ -87,13 +87,13 @@ class Pager {
   std::span<Translation> translations_;
   Homes homes_;
   std::uint32_t self_;
-  std::span<std::byte> home_bytes_;
+  nodes::LastingPieces home_pages_;
   PageCounters counters_;
   std::uint64_t retries_ = 0;
   Cache cache_;
   Faults faults_;
   nodes::Node* node_;
-  std::span<std::byte> reply_;  ///< where a reply is put together
+  std::span<std::byte> reply_;  ///< where a reply is put together, if it is
   std::uint32_t home_page_count_;
 };
 static_assert(core::Records<Pager>);

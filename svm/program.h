@@ -16,10 +16,12 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "core/base/expect.h"
 #include "core/picture/pixel_task.h"
+#include "nodes/lasting_pieces.h"
 #include "nodes/node.h"
 #include "nodes/watch/meter.h"
 #include "nodes/watch/operation_charges.h"
@@ -38,15 +40,12 @@ namespace dmpc::svm {
 template <class Records, class Tracer, class Task = core::PixelTask>
 class ControlProgram final : public NodeProgram {
  public:
-  /// Takes all its memory from `node`. `database` is read here and never again. make_tracer(Records&) returns the tracer. `meter`
-  /// is there where somebody wants to know what is done for which pixel.
+  /// Takes all its memory from `node`, which keeps `settings` and `database` (nodes/lasting_pieces.h). make_tracer(Records&)
+  /// returns the tracer. `meter` is there where somebody wants to know what is done for which pixel.
   template <class MakeTracer>
   ControlProgram(nodes::Node& node, const Plan& plan, const core::RenderSettings& settings, std::span<const std::byte> database,
                  const MakeTracer& make_tracer, const std::optional<nodes::Meter>& meter = std::nullopt)
-      : settings_(*std::construct_at(
-            reinterpret_cast<core::RenderSettings*>(
-                node.memory().template allocate<std::byte>(nodes::Category::constants, sizeof(settings)).data()),
-            settings)),
+      : settings_(kept(node, settings)),
         node_(&node),
         host_(nodes::NodeId{plan.request.computer.node_count}),
         records_(node, plan.pages(), database),
@@ -138,6 +137,12 @@ class ControlProgram final : public NodeProgram {
   }
 
  private:
+  static const core::RenderSettings& kept(nodes::Node& node, const core::RenderSettings& settings) {
+    static_assert(std::is_trivially_copyable_v<core::RenderSettings>);
+    return *reinterpret_cast<const core::RenderSettings*>(
+        nodes::kept(node.memory(), nodes::Category::constants, std::as_bytes(std::span(&settings, 1))).data());
+  }
+
   static constexpr bool counts_pages = requires(Records & records) { records.forget(); };
 
   bool can_start() const {

@@ -206,7 +206,7 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
   const auto runner =
       nodes::make_runner(specifications_of(plan, make_program, report.film, options.watching.progress, options.continuation),
                          options.computer, options.watching.observer);
-  if (options.watching.distributed) {
+  if (options.watching.distributed && !options.computer.machine) {  // whose nodes refer to the database
     options.watching.distributed();
   }
   report.end = runner->run(std::move(stop));

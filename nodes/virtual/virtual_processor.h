@@ -7,6 +7,7 @@
 #include <deque>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/base/expect.h"
@@ -27,17 +28,20 @@ struct Message {
   NodeId target{};
   PacketHeader header;
   std::vector<std::byte> payload;
-  MessageTimes times;  ///< for an observer
+  std::span<const std::byte> lasting;  ///< the payload's end, where it is, if the sender has said that it lasts
+  std::uint32_t next = 0;              ///< in a MessageQueue
+  MessageTimes times;                  ///< for an observer
 
-  std::uint64_t bytes() const { return sizeof(PacketHeader) + payload.size(); }
-  bool is_bulk() const { return payload.size() > small_payload_bytes; }
-  Packet packet() const { return {NodeId{header.source}, header.kind, payload}; }
+  std::uint64_t bytes() const { return sizeof(PacketHeader) + header.bytes; }
+  bool is_bulk() const { return header.bytes > small_payload_bytes; }
+  Packet packet() const { return {NodeId{header.source}, header.kind, payload, lasting}; }
 };
 
 /// Messages by number; a number is used again, and so is its memory.
 class MessageStore {
  public:
-  std::uint32_t put(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) {
+  std::uint32_t put(NodeId target, const PacketHeader& header, std::span<const std::byte> payload,
+                    std::span<const std::byte> lasting) {
     if (free_.empty()) {
       free_.push_back(static_cast<std::uint32_t>(messages_.size()));
       messages_.emplace_back();
@@ -48,6 +52,7 @@ class MessageStore {
     message.target = target;
     message.header = header;
     message.payload.assign(payload.begin(), payload.end());
+    message.lasting = lasting;
     return number;
   }
   const Message& operator[](std::uint32_t number) const { return messages_[number]; }
@@ -58,6 +63,26 @@ class MessageStore {
  private:
   std::deque<Message> messages_;  // whose addresses stay
   std::vector<std::uint32_t> free_;
+};
+
+/// Messages of a store, in the order in which they came; each is in one queue at most.
+class MessageQueue {
+ public:
+  bool empty() const { return count_ == 0; }
+  void push(MessageStore& store, std::uint32_t number) {
+    (empty() ? first_ : store[last_].next) = number;
+    last_ = number;
+    ++count_;
+  }
+  /// The oldest. Requires that there is one.
+  std::uint32_t pop(const MessageStore& store) {
+    core::expect(!empty(), "a message is taken that has come");
+    --count_;
+    return std::exchange(first_, store[first_].next);
+  }
+
+ private:
+  std::uint32_t first_ = 0, last_ = 0, count_ = 0;
 };
 
 /// From one node to another: messages keep their order, even a short one behind a long one.
@@ -74,62 +99,77 @@ struct VirtualComputer {
 };
 
 /// One node with all that belongs to it.
-struct VirtualProcessor final : Network {
-  VirtualProcessor(const NodeSpecification& specification, NodeId id, std::uint32_t peer_count, VirtualComputer& of)
+struct alignas(64) VirtualProcessor final : Network {
+  VirtualProcessor(const NodeSpecification& specification, NodeId name, std::uint32_t peer_count, VirtualComputer& of)
       : computer(of),
+        id(name),
         mailbox(specification.mailbox),
         interrupt_kinds(specification.interrupt_kinds),
-        memory(specification.plan),
-        node(id, peer_count, memory, *this),
-        ways(peer_count) {
+        ways(peer_count),
+        memory(specification.plan, Lasting::is_referred_to),
+        node(id, peer_count, memory, *this) {
     static_cast<void>(memory.allocate<std::byte>(Category::mailbox, specification.mailbox.bytes()));  // the model's, unused
     program = specification.make_program(node);
     core::expect(program != nullptr, "a specification makes a program");
     memory.seal();
   }
 
-  /// The sender's side: the message has its place in the target's mailbox from now on.
   void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) override {
-    sent.push_back(computer.messages.put(target, header, payload));
+    deliver_in_place(target, header, payload, {});
+  }
+
+  /// The sender's side: the message has its place in the target's mailbox from now on.
+  bool deliver_in_place(NodeId target, const PacketHeader& header, std::span<const std::byte> front,
+                        std::span<const std::byte> lasting) override {
+    const std::uint32_t number = computer.messages.put(target, header, front, lasting);
+    sent.push_back(number);
     VirtualProcessor& at = *computer.processors[index_of(target)];
-    const bool is_bulk = payload.size() > small_payload_bytes;
+    const bool is_bulk = computer.messages[number].is_bulk();
     std::uint32_t& held = is_bulk ? at.bulk_held : at.small_held;
     core::expect(++held <= (is_bulk ? at.mailbox.bulk_slots : at.mailbox.small_slots) &&
-                     payload.size() <= std::max(small_payload_bytes, at.mailbox.bulk_payload_bytes),
+                     header.bytes <= std::max(small_payload_bytes, at.mailbox.bulk_payload_bytes),
                  "credits leave room in the target's mailbox");
+    return true;
   }
+
+  ~VirtualProcessor() override { program.reset(); }  // which has what memory holds
 
   /// Lets the program receive a message of its mailbox.
   void receive(std::uint32_t number) {
     const Message& message = computer.messages[number];
     program->receive(message.packet());
-    --(message.payload.size() > small_payload_bytes ? bulk_held : small_held);
+    --(message.is_bulk() ? bulk_held : small_held);
     computer.messages.release(number);
   }
 
   VirtualComputer& computer;
-  MailboxCapacity mailbox;
-  std::uint32_t small_held = 0, bulk_held = 0;  ///< places of the mailbox that are taken
-  std::uint32_t interrupt_kinds;
-  LocalMemory memory;
-  Node node;
+
+  // What each quantum reads or writes, on few cache lines: with many nodes it is seldom still in the processor's own cache.
   std::unique_ptr<Program> program;
+  std::uint64_t sequence = 0;
+  std::uint64_t occupied_until_ns = 0;
+  std::uint64_t charged_ps = 0;    ///< the price of all that has been charged
+  std::uint64_t remainder_ps = 0;  ///< of that, what is not yet a whole nanosecond
+  NodeId id;
+  bool has_more = true;                 ///< work() may have something to do
+  bool is_occupied = false;             ///< an is_free event is under way
+  MessageQueue inbox;                   ///< arrived and not received
   std::vector<std::uint32_t> sent;      ///< in the call that is going on, in order
   std::vector<std::uint32_t> outgoing;  ///< sent in a call whose operations are not done yet
-  std::deque<std::uint32_t> inbox;      ///< arrived and not received
-  std::vector<Way> ways;                ///< by target
-  Charges charged;
-  std::uint64_t remainder_ps = 0;  ///< charged, and not yet a whole nanosecond
-  std::uint64_t sequence = 0;
-  bool has_more = true;      ///< work() may have something to do
-  bool is_occupied = false;  ///< an is_free event is under way
-  std::uint64_t occupied_until_ns = 0;
+  VirtualTimes times;
+
   std::uint64_t served_until_ns = 0;  ///< the last interrupt
   std::uint64_t idle_since_ns = 0;
-  std::uint64_t lent_before_ns = 0;  ///< times.lent_ns when it fell idle
-  std::uint32_t calls = 0;           ///< of the program, if somebody looks on
-  Span span, service;                ///< what it is doing and what it interrupted that for, likewise
-  VirtualTimes times;
+  std::uint64_t lent_before_ns = 0;             ///< times.lent_ns when it fell idle
+  std::uint32_t small_held = 0, bulk_held = 0;  ///< places of the mailbox that are taken
+  MailboxCapacity mailbox;
+  std::uint32_t interrupt_kinds;
+  std::vector<Way> ways;    ///< by target
+  std::uint32_t calls = 0;  ///< of the program, if somebody looks on
+  Charges charged;          ///< likewise
+  Span span, service;       ///< what it is doing and what it interrupted that for, likewise
+  LocalMemory memory;
+  Node node;
 };
 
 }  // namespace dmpc::nodes

@@ -60,9 +60,9 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   // ---- Events ------------------------------------------------------------------------------------------------------------
 
   void happen(const Event& event) {
-    if (event.kind == Event::Kind::is_free && event.time_ns < computer.processors[event.source]->occupied_until_ns) {
-      return post(*computer.processors[event.source], Event::Kind::is_free,
-                  computer.processors[event.source]->occupied_until_ns);  // delayed
+    VirtualProcessor& source = *computer.processors[event.source()];
+    if (event.kind == Event::Kind::is_free && event.time_ns() < source.occupied_until_ns) {
+      return post(source, Event::Kind::is_free, source.occupied_until_ns);  // delayed
     }
     ++result.events;
     take_into_hash(event);
@@ -72,13 +72,13 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
       case Event::Kind::arrives:
         return arrive(event.packet);
       case Event::Kind::is_free:
-        return become_free(*computer.processors[event.source]);
+        return become_free(source);
     }
   }
 
   void take_into_hash(const Event& event) {
-    result.hash = core::mix(result.hash ^ event.time_ns);
-    result.hash = core::mix(result.hash ^ (std::uint64_t{event.source} << 8U | static_cast<std::uint64_t>(event.kind)));
+    result.hash = core::mix(result.hash ^ event.time_ns());
+    result.hash = core::mix(result.hash ^ (std::uint64_t{event.source()} << 8U | static_cast<std::uint64_t>(event.kind)));
     if (event.kind != Event::Kind::is_free) {
       const Message& message = computer.messages[event.packet];
       const std::uint64_t to = std::uint64_t{index_of(message.target)} << 8U | message.header.kind;
@@ -87,7 +87,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   }
 
   void post(VirtualProcessor& source, Event::Kind kind, std::uint64_t time_ns, std::uint32_t packet = 0) {
-    events.push({time_ns, source.sequence++, index_of(source.node.id()), kind, packet});
+    events.push({Event::order_of(time_ns, source.id, source.sequence++), kind, packet});
   }
 
   /// A processor has sent a message, which enters the network after its latency, behind those to the same target.
@@ -121,13 +121,13 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   void arrive(std::uint32_t number) {
     const Message& message = computer.messages[number];
     VirtualProcessor& target = *computer.processors[index_of(message.target)];
-    target.node.counters().received[message.header.kind].add(message.payload.size());
+    target.node.counters().received[message.header.kind].add(message.header.bytes);
     if ((target.interrupt_kinds >> message.header.kind & 1U) != 0) {
       return serve(target, number);
     }
     const std::uint64_t receive_ns = machine.cost_of_message(message.bytes()).receive_ns;
     target.times.receiving_ns += receive_ns;
-    target.inbox.push_back(number);
+    target.inbox.push(computer.messages, number);
     if (target.is_occupied) {
       target.occupied_until_ns += receive_ns;
     } else {
@@ -190,8 +190,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   void go_on(VirtualProcessor& self) {
     const std::uint64_t now_ns = events.now_ns();
     if (!self.inbox.empty()) {
-      const std::uint32_t number = self.inbox.front();
-      self.inbox.pop_front();
+      const std::uint32_t number = self.inbox.pop(computer.messages);
       begin(self, self.span, Activity::receive, computer.messages[number].header.kind, now_ns);
       receive(self, number, self.span);
       self.has_more = true;
@@ -220,8 +219,11 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   /// What the operations take that the program has charged since the last call.
   std::uint64_t charge(VirtualProcessor& self) {
     const Charges now = self.program->charges();
-    const std::uint64_t price_ps = self.remainder_ps + machine.price_ps(self.charged, now);
-    self.charged = now;
+    if constexpr (is_watched) {
+      self.charged = now;
+    }
+    const std::uint64_t before_ps = std::exchange(self.charged_ps, machine.price_ps(now));
+    const std::uint64_t price_ps = self.remainder_ps + (self.charged_ps - before_ps);
     self.remainder_ps = price_ps % 1000;
     return price_ps / 1000;
   }
@@ -232,8 +234,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     if constexpr (is_watched) {
       Message& message = computer.messages[number];
       message.times.received_ns = span.begin_ns;
-      observer->received(
-          {self.node.id(), NodeId{message.header.source}, message.header.kind, span.call, message.payload, message.times});
+      observer->received(passing(message, self.node.id(), NodeId{message.header.source}, span.call));
     }
     self.receive(number);
   }
@@ -275,7 +276,11 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   void tell_sent(std::uint32_t number, std::uint64_t time_ns, std::uint32_t call) {
     Message& message = computer.messages[number];
     message.times = {.sending_ns = time_ns - machine.cost_of_message(message.bytes()).send_ns, .left_ns = time_ns};
-    observer->sent({NodeId{message.header.source}, message.target, message.header.kind, call, message.payload, message.times});
+    observer->sent(passing(message, NodeId{message.header.source}, message.target, call));
+  }
+
+  static Passing passing(const Message& message, NodeId node, NodeId peer, std::uint32_t call) {
+    return {node, peer, message.header.kind, call, message.payload, message.times, message.lasting.size()};
   }
 
   // ---- The end -----------------------------------------------------------------------------------------------------------

@@ -252,7 +252,7 @@ void TraceRecorder::note_end(Log& log, Ends& ends, const Passing& packet, std::u
                 .peer = index_of(packet.peer),
                 .ordinal = ordinal,
                 .call = packet.call,
-                .bytes = static_cast<std::uint32_t>(packet.payload.size()),
+                .bytes = static_cast<std::uint32_t>(packet.payload_bytes()),
                 .first_word = first_word_of(packet.payload),
                 .kind = packet.kind};
   if (choice_.every == 1) {

@@ -19,8 +19,8 @@ struct Watching {
   /// What each pixel takes is added to it, of the kinds that it records but `samples`. Of the size of the picture.
   HeatMap* heat = nullptr;
   Observer* observer = nullptr;  ///< sees the run happen
-  /// Called on the calling thread when the nodes hold the database, which is not read again, before any node starts. A run that
-  /// has it starts at most once.
+  /// Called on the calling thread when the nodes hold the database, which is not read again, before any node starts; by svm and
+  /// replicated not on a modelled machine, whose nodes refer to it. A run that has it starts at most once.
   std::function<void()> distributed = {};
 
   /// Whether what is done is told pixel by pixel: by nodes with a Meter.

@@ -52,6 +52,16 @@ TEST_CASE("an hour of operations is priced without overflow") {
   CHECK(machine.price_ps({}, done) == 3'600'000'000'000'000);
 }
 
+TEST_CASE("what has been done may cost more than 64 bits hold: the difference is priced right") {
+  Machine machine;
+  machine.cost_ps[static_cast<std::size_t>(Charge::cell_step)] = 1'000'000'000'000;
+  Charges before, after;
+  before[Charge::cell_step] = 18'446'744;
+  after[Charge::cell_step] = 18'446'746;
+  CHECK(machine.price_ps(after) < machine.price_ps(before));
+  CHECK(machine.price_ps(before, after) == 2'000'000'000'000);
+}
+
 TEST_CASE("the digest of a machine is the same number on every computer") {
   CHECK(Machine().digest() == 0xa7f973d69c543c8f);
   CHECK(Machine{.topology = nodes::TopologyKind::torus, .short_bytes_max = 64, .hop_ns = 1, .service_ns = 2}.digest() ==

@@ -55,6 +55,59 @@ TEST_CASE("a send spends one credit of its target and channel") {
   CHECK(machine.node.credits(target, 0) == 0);
 }
 
+/// Carries the place of what lasts.
+struct PlaceWire final : Network {
+  void deliver(NodeId, const PacketHeader&, std::span<const std::byte>) override { ++copies; }
+  bool deliver_in_place(NodeId, const PacketHeader& header, std::span<const std::byte> front,
+                        std::span<const std::byte> lasting) override {
+    sent = {NodeId{header.source}, header.kind, front, lasting};
+    bytes = header.bytes;
+    return true;
+  }
+  Packet sent;
+  std::uint32_t bytes = 0;
+  int copies = 0;
+};
+
+TEST_CASE("a payload whose end lasts is put together, or leaves its end where it is, and counts alike") {
+  const std::array<std::byte, 2> front{std::byte{1}, std::byte{2}};
+  const std::array<std::byte, 3> lasting{std::byte{3}, std::byte{4}, std::byte{5}};
+  std::array<std::byte, 5> room{};
+  OneNode copying;
+  copying.node.grant(target, 0);
+  CHECK(copying.node.try_send(target, 0, 7, front, lasting, room));
+  CHECK_FALSE(copying.node.try_send(target, 0, 7, front, lasting, room));
+  REQUIRE(copying.wire.sent.size() == 1);
+  const std::vector<std::byte> whole{std::byte{1}, std::byte{2}, std::byte{3}, std::byte{4}, std::byte{5}};
+  CHECK(copying.wire.sent.front().payload == whole);
+  CHECK(copying.wire.sent.front().header.bytes == 5);
+
+  LocalMemory memory(OneNode::plan());
+  PlaceWire wire;
+  Node referring(NodeId{1}, 3, memory, wire);
+  referring.grant(target, 0);
+  CHECK(referring.try_send(target, 0, 7, front, lasting, room));
+  CHECK_FALSE(referring.try_send(target, 0, 7, front, lasting, room));
+  CHECK(wire.copies == 0);
+  CHECK(wire.sent.lasting.data() == lasting.data());
+  CHECK(wire.bytes == 5);
+  CHECK(total(referring.counters().sent).bytes == total(copying.node.counters().sent).bytes);
+  CHECK(referring.counters().refused == 1);
+  CHECK_THROWS_AS(static_cast<void>(referring.try_send(target, 0, 7, front, lasting, std::span(room).first(4))),
+                  core::InternalError);
+}
+
+TEST_CASE("a packet tells what follows its front, wherever that is") {
+  const std::array<std::byte, 3> bytes{std::byte{1}, std::byte{2}, std::byte{3}};
+  const Packet whole{NodeId{0}, 0, bytes};
+  const Packet parted{NodeId{0}, 0, std::span(bytes).first(1), std::span(bytes).last(2)};
+  for (const Packet& packet : {whole, parted}) {
+    CHECK(packet.payload_bytes() == 3);
+    CHECK(packet.behind(1).data() == bytes.data() + 1);
+    CHECK(packet.behind(1).size() == 2);
+  }
+}
+
 TEST_CASE("a packet says who sent it, what it is and how long it is") {
   OneNode machine;
   machine.node.grant(target, 0);

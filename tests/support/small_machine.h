@@ -33,8 +33,8 @@ Parcel parcel_of(std::uint32_t source, svm::Kind kind, const T& value) {
 
 /// Node `index` of a plan, without a thread, and what it sends.
 struct LoneNode {
-  LoneNode(const svm::Plan& plan, std::uint32_t index)
-      : memory(index == plan.request.computer.node_count ? plan.host_memory() : plan.node_memory(index)),
+  LoneNode(const svm::Plan& plan, std::uint32_t index, nodes::Lasting lasting = nodes::Lasting::is_copied)
+      : memory(index == plan.request.computer.node_count ? plan.host_memory() : plan.node_memory(index), lasting),
         node(nodes::NodeId{index}, plan.request.computer.node_count + 1, memory, post) {}
 
   Post post;

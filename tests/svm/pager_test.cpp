@@ -28,9 +28,10 @@ svm::Plan plan_with(std::uint32_t nodes, std::uint32_t cache_pages, std::uint32_
 
 /// The pager of node 0.
 struct SmallPager {
-  SmallPager(std::uint32_t nodes, std::uint32_t cache_pages, std::uint32_t in_flight)
+  SmallPager(std::uint32_t nodes, std::uint32_t cache_pages, std::uint32_t in_flight,
+             nodes::Lasting lasting = nodes::Lasting::is_copied)
       : plan(plan_with(nodes, cache_pages, in_flight)),
-        lone(plan, 0),
+        lone(plan, 0, lasting),
         pages(page_count, page_size),
         pager(lone.node, plan.pages(), pages.bytes()) {}
 
@@ -147,6 +148,28 @@ TEST_CASE("a home replies with the page at once, to whoever asks") {
     CHECK(std::memcmp(parcel.payload.data() + 8, small.pages.page(8).data(), page_size) == 0);
   }
   CHECK(small.pager.counters().served == 4);
+}
+
+TEST_CASE("on a modelled machine pages at home and in the cache are where they are in the database, and count as copies") {
+  SmallPager copying(4, 2, 2), referring(4, 2, 2, nodes::Lasting::is_referred_to);
+  for (SmallPager* const small : {&copying, &referring}) {
+    for (const std::uint32_t page : {5U, 6U, 7U}) {
+      CHECK_FALSE(small->finds(page));
+      small->pager.park(0, start_of(page));
+      const svm::PageReplyHeader header{PageId{page}};
+      small->pager.install({nodes::NodeId{page % 4}, svm::number_of(Kind::page_reply), std::as_bytes(std::span(&header, 1)),
+                            small->pages.page(page)});
+      CHECK(small->finds(page));
+    }
+    CHECK(small->finds(6));
+    CHECK_FALSE(small->finds(5));
+    CHECK(small->lone.memory.used().bytes == copying.lone.memory.used().bytes);
+    CHECK(small->pager.counters().evictions == 1);
+  }
+  for (const std::uint32_t page : {8U, 6U, 7U}) {
+    CHECK(referring.pager.find(start_of(page)) == referring.pages.page(page).data());
+    CHECK(copying.pager.find(start_of(page)) != copying.pages.page(page).data());
+  }
 }
 
 TEST_CASE("a request at the wrong home, for a page that does not exist, or a reply of the wrong size is an error") {

@@ -218,6 +218,19 @@ TEST_CASE("the host may forget the database once it is distributed, and the film
   }
 }
 
+TEST_CASE("nobody is told to forget the database where modelled nodes refer to it") {
+  for (const svm::Strategy strategy : {svm::Strategy::svm, svm::Strategy::replicated}) {
+    const SmallScene small("rings-2", 512, 8);
+    svm::RunOptions options{.computer = {.node_count = 3, .machine = nodes::Machine{}}};
+    options.watching.distributed = [] { FAIL("the nodes have no copies"); };
+    const svm::Report report = strategy == svm::Strategy::svm ? svm::run_svm(small.database, small.settings, options, {})
+                                                              : svm::run_replicated(small.database, small.settings, options, {});
+    for (const svm::NodeReport& node : report.nodes) {
+      CHECK(node.memory_used.bytes == node.memory_planned.bytes);
+    }
+  }
+}
+
 TEST_CASE(
     "who walks in a bundle does not depend on who renders it, and what is looked up and avoided is what single rays look up") {
   const SmallScene small("teapot-4", 1024, 30);

@@ -16,8 +16,10 @@ using nodes::Event;
 using nodes::EventQueue;
 
 Event at(std::uint64_t time_ns, std::uint32_t source, std::uint64_t sequence) {
-  return {.time_ns = time_ns, .sequence = sequence, .source = source};
+  return {.order = Event::order_of(time_ns, nodes::NodeId{source}, sequence)};
 }
+
+bool is_next(EventQueue& queue, const Event& event) { return queue.pop().order == event.order; }
 
 }  // namespace
 
@@ -28,16 +30,18 @@ TEST_CASE("events come by time, then by source, then by the source's own count")
     queue.push(ordered[i]);
   }
   for (const Event& event : ordered) {
-    CHECK(queue.pop().key() == event.key());
-    CHECK(queue.now_ns() == event.time_ns);
+    CHECK(is_next(queue, event));
+    CHECK(queue.now_ns() == event.time_ns());
   }
   CHECK(queue.empty());
 }
 
 TEST_CASE("an event keeps what it is about") {
   EventQueue queue;
-  queue.push({.time_ns = 1, .sequence = 2, .source = 3, .kind = Event::Kind::arrives, .packet = 4});
+  queue.push({.order = Event::order_of(1, nodes::NodeId{3}, 2), .kind = Event::Kind::arrives, .packet = 4});
   const Event event = queue.pop();
+  CHECK(event.time_ns() == 1);
+  CHECK(event.source() == 3);
   CHECK(event.kind == Event::Kind::arrives);
   CHECK(event.packet == 4);
 }
@@ -50,8 +54,25 @@ TEST_CASE("nothing is pushed before now, but now will do") {
   queue.pop();
   queue.push(at(10, 0, 1));
   CHECK_THROWS_AS(queue.push(at(9, 0, 2)), core::InternalError);
-  CHECK(queue.pop().key() == at(10, 0, 1).key());
-  CHECK(queue.pop().key() == at(10, 0, 1).key());
+  CHECK(is_next(queue, at(10, 0, 1)));
+  CHECK(is_next(queue, at(10, 0, 1)));
+  CHECK(queue.empty());
+}
+
+TEST_CASE("an event that comes in place of the one popped, or one after it, has its turn") {
+  EventQueue queue;
+  for (const std::uint32_t source : {0U, 1U, 2U, 3U}) {
+    queue.push(at(10 + source, source, 0));
+  }
+  CHECK(is_next(queue, at(10, 0, 0)));
+  queue.push(at(12, 0, 1));
+  queue.push(at(11, 0, 2));
+  CHECK(is_next(queue, at(11, 0, 2)));
+  CHECK(is_next(queue, at(11, 1, 0)));
+  CHECK(is_next(queue, at(12, 0, 1)));
+  CHECK(is_next(queue, at(12, 2, 0)));
+  CHECK_FALSE(queue.empty());
+  CHECK(is_next(queue, at(13, 3, 0)));
   CHECK(queue.empty());
 }
 
@@ -65,14 +86,14 @@ TEST_CASE("an empty queue has no least event") {
 TEST_CASE("whatever the order of pushes and pops, events come out in theirs") {
   std::mt19937_64 random(5);
   EventQueue queue;
-  std::set<decltype(Event{}.key())> waiting;
+  std::set<Event::Order> waiting;
   for (std::uint64_t i = 0; i < 20'000; ++i) {
     if (waiting.empty() || random() % 2 == 0) {
       const Event event = at(queue.now_ns() + random() % 8, static_cast<std::uint32_t>(random() % 4), i);
-      waiting.insert(event.key());
+      waiting.insert(event.order);
       queue.push(event);
     } else {
-      REQUIRE(queue.pop().key() == *waiting.begin());
+      REQUIRE((queue.pop().order == *waiting.begin()));
       waiting.erase(waiting.begin());
     }
   }

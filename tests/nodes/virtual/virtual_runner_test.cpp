@@ -2,10 +2,12 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <random>
+#include <span>
 #include <stdexcept>
 #include <stop_token>
 #include <string>
@@ -227,6 +229,55 @@ TEST_CASE("a place in a mailbox is free again when its packet has been received"
   specifications[1].mailbox.small_slots = 1;
   VirtualRunner runner(specifications, toy_model());
   CHECK(runner.run({}) == RunEnd::finished);
+}
+
+namespace {
+
+/// The first node sends the host, which is all that remembers where it got it from, bytes that last.
+class LastingSender final : public ToyProgram {
+ public:
+  static constexpr MailboxCapacity mailbox{.small_slots = 1, .bulk_slots = 1, .bulk_payload_bytes = 104};
+
+  LastingSender(Node& node, std::span<const std::byte> lasting, bool is_in_place)
+      : ToyProgram(node), lasting_(lasting), is_in_place_(is_in_place), is_sender_(index() == 0) {
+    node.grant(host(), 0);
+  }
+  void receive(const Packet& packet) override {
+    CHECK(packet.payload_bytes() == 4 + lasting_.size());
+    CHECK((packet.behind(4).data() == lasting_.data()) == is_in_place_);
+    CHECK(std::equal(lasting_.begin(), lasting_.end(), packet.behind(4).begin()));
+  }
+  bool work() override {
+    if (std::exchange(is_sender_, false)) {
+      const std::array<std::byte, 4> front{};
+      std::vector<std::byte> room(front.begin(), front.end());
+      room.insert(room.end(), lasting_.begin(), lasting_.end());
+      CHECK((is_in_place_ ? node().try_send(host(), 0, ping, front, lasting_, room) : node().try_send(host(), 0, ping, room)));
+    }
+    return false;
+  }
+  bool finished() const override { return !is_sender_; }
+
+ private:
+  std::span<const std::byte> lasting_;
+  bool is_in_place_;
+  bool is_sender_;
+};
+
+}  // namespace
+
+TEST_CASE("what lasts is handed over where it is, in virtual time, which is the same as of a copy") {
+  const std::vector<std::byte> lasting(100, std::byte{9});
+  std::vector<std::uint64_t> hashes;
+  for (const bool is_in_place : {true, false}) {
+    VirtualRunner runner(
+        equal_nodes(2, LastingSender::mailbox, making<LastingSender>(std::span<const std::byte>(lasting), is_in_place)),
+        toy_model(TopologyKind::crossbar));
+    CHECK(runner.run({}) == RunEnd::finished);
+    hashes.push_back(runner.virtual_report()->hash);
+    CHECK(total(runner.node(1).counters().received).bytes == sizeof(PacketHeader) + 104);
+  }
+  CHECK(hashes[0] == hashes[1]);
 }
 
 TEST_CASE("a packet longer than the target's bulk places is found out") {

@@ -119,6 +119,18 @@ TEST_CASE("a call has the pixel that it worked on, and an interrupt leaves it al
   CHECK(spans[2].pixel == TraceSpan::no_pixel);
 }
 
+TEST_CASE("a message is as long as its payload, an end that lasts and is not copied included") {
+  Scene scene;
+  for (const std::size_t lasting_bytes : {0U, 512U}) {
+    scene.recorder.sent({.node = NodeId{0}, .peer = NodeId{1}, .payload = scene.payload(), .lasting_bytes = lasting_bytes});
+    scene.recorder.received({.node = NodeId{1}, .peer = NodeId{0}, .payload = scene.payload(), .lasting_bytes = lasting_bytes});
+  }
+  const std::vector<TraceMessage> messages = scene.recorder.take().messages;
+  REQUIRE(messages.size() == 2);
+  CHECK(messages[0].bytes == 8);
+  CHECK(messages[1].bytes == 520);
+}
+
 TEST_CASE("of one kind between two nodes the n-th packet received is the n-th sent") {
   Scene scene;
   scene.sends(0, 1, 10, 1);

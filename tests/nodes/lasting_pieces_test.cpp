@@ -1,0 +1,73 @@
+#include "nodes/lasting_pieces.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cstring>
+#include <span>
+
+namespace dmpc::nodes {
+namespace {
+
+constexpr std::size_t piece_bytes = 64;
+
+/// Room for three pieces.
+struct Room {
+  static MemoryPlan plan() {
+    MemoryPlan plan;
+    plan[Category::home_pages] = 3 * piece_bytes;
+    return plan;
+  }
+
+  explicit Room(Lasting lasting) : memory(plan(), lasting), pieces(memory, Category::home_pages, 3 * piece_bytes, piece_bytes) {}
+
+  LocalMemory memory;
+  LastingPieces pieces;
+};
+
+std::array<std::byte, 2 * piece_bytes> numbers() {
+  std::array<std::byte, 2 * piece_bytes> bytes{};
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    bytes[i] = static_cast<std::byte>(i);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("pieces that last are copied, or stay where they are, and take the same of a node's memory") {
+  const auto bytes = numbers();
+  const std::span<const std::byte> first = std::span(bytes).first(piece_bytes), second = std::span(bytes).last(piece_bytes);
+  for (const Lasting lasting : {Lasting::is_copied, Lasting::is_referred_to}) {
+    Room room(lasting);
+    room.pieces.put(0, first);
+    room.pieces.put(2, first);
+    room.pieces.put(2, second);
+    CHECK(std::memcmp(room.pieces.at(0), first.data(), piece_bytes) == 0);
+    CHECK(std::memcmp(room.pieces.at(2), second.data(), piece_bytes) == 0);
+    CHECK((room.pieces.at(2) == second.data()) == (lasting == Lasting::is_referred_to));
+    CHECK(room.memory.used().bytes == room.memory.plan().bytes);
+  }
+}
+
+TEST_CASE("a piece of another size is refused, wherever it would be kept") {
+  const auto bytes = numbers();
+  for (const Lasting lasting : {Lasting::is_copied, Lasting::is_referred_to}) {
+    Room room(lasting);
+    CHECK_THROWS_AS(room.pieces.put(0, std::span(bytes).first(piece_bytes - 1)), core::InternalError);
+    CHECK_THROWS_AS(room.pieces.put(0, bytes), core::InternalError);
+  }
+}
+
+TEST_CASE("one piece is kept with what must be readable behind it") {
+  const auto bytes = numbers();
+  for (const Lasting lasting : {Lasting::is_copied, Lasting::is_referred_to}) {
+    LocalMemory memory(Room::plan(), lasting);
+    const auto there = kept(memory, Category::home_pages, std::span(bytes).first(piece_bytes), 32);
+    CHECK(there.size() == piece_bytes);
+    CHECK((there.data() == bytes.data()) == (lasting == Lasting::is_referred_to));
+    CHECK(memory.used()[Category::home_pages] == 2 * piece_bytes);
+  }
+}
+
+}  // namespace dmpc::nodes
