@@ -60,9 +60,8 @@ std::size_t joint_count(std::span<const Bsp> bsps) {
 
 }  // namespace
 
-std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& settings, const Bsp& bsp,
-                                                    const core::Pass& pass, const core::PixelMask& done,
-                                                    const std::stop_token& stop) {
+std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& settings, const Bsp& bsp, const core::Pass& pass,
+                                                    const core::PixelMask& done, const std::stop_token& stop) {
   std::vector<std::vector<PrimaryRun>> runs(bsp.region_count());
   PrimaryRun* before = nullptr;
   deal(settings, std::span(&bsp, 1), pass, done, stop, [&](std::size_t, std::uint32_t node, std::uint64_t number) {

@@ -252,9 +252,9 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
                 .duplication = prepared.duplication};
   core::expect(options.watching.heat == nullptr || options.watching.heat->pixel_count() == report.film.pixels().size(),
                "a heat map is of the picture's size");
-  const auto runner =
-      nodes::make_runner(specifications_of(report.plan, prepared.distribution, settings, report.film, options, stop, &prepared.detail),
-                         options.computer, options.watching.observer);
+  const auto runner = nodes::make_runner(
+      specifications_of(report.plan, prepared.distribution, settings, report.film, options, stop, &prepared.detail),
+      options.computer, options.watching.observer);
   if (options.watching.distributed) {
     options.watching.distributed();
   }
@@ -282,7 +282,7 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
     std::optional runs = deal_primaries(settings, distribution.bsp, pass, done, stop);
     return stop.stop_requested() ? std::nullopt : std::move(runs);
   };
-  const auto make_host = [&, deal](nodes::Node& node) {
+  const auto make_host = [&, deal, detail](nodes::Node& node) {
     return std::make_unique<HostProgram>(node, plan, film, options.watching.progress, deal, options.continuation, detail);
   };
   specifications.push_back({plan.host_memory(), plan.host_mailbox, make_host, plan.held_bytes});

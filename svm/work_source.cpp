@@ -170,7 +170,8 @@ void WorkSource::reply(std::uint32_t asker, const PixelRectangle& item) {
   node_->grant(nodes::NodeId{asker}, control_channel);  // the place that the request has reserved
   const WorkReply work{item, self_};
   if (is_masked()) {
-    node_->send_reserved(nodes::NodeId{asker}, control_channel, number_of(Kind::work_reply), MaskedWorkReply{work, steps_of(item)});
+    node_->send_reserved(nodes::NodeId{asker}, control_channel, number_of(Kind::work_reply),
+                         MaskedWorkReply{work, steps_of(item)});
   } else {
     node_->send_reserved(nodes::NodeId{asker}, control_channel, number_of(Kind::work_reply), work);
   }

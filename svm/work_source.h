@@ -31,8 +31,8 @@ struct WorkShape {
 /// an asker that is so told rests for that pass). The first request enters the ring at the next node, a later one at the node
 /// that gave last, because all before it had nothing. Thread safety: none.
 ///
-/// Where the picture is refined, a pass after the first has those samples of the submap's pixels that the host's mask names; where
-/// it was begun by another run, so has the first one, of the pixels that are missing.
+/// Where the picture is refined, a pass after the first has those samples of the submap's pixels that the host's mask names;
+/// where it was begun by another run, so has the first one, of the pixels that are missing.
 class WorkSource {
  public:
   /// In the first pass all samples are wanted that shape.start lacks.

@@ -198,7 +198,9 @@ void write_checkpoint(const fs::path& path, const PictureIdentity& identity, con
   put_pass(writer, pass);
   writer.put(std::as_bytes(done.words()));
   put_pixels(writer, film);
-  writer.put(std::as_bytes(pass.past()));
+  if (!pass.past().empty()) {
+    writer.put(std::as_bytes(pass.past()));
+  }
   writer.put_end();
   file.commit();
 }

@@ -33,19 +33,19 @@ double spread(std::uint32_t samples);
 /// what the contrast between them suggests.
 ///
 /// *What is known of the scene*: a pixel with fine detail (core/picture/fine_detail.h) is not like its neighbours. Its variance
-/// is half its own, half what its detail would make; as long as it looks even, its detail may all have been missed. How much light
-/// details differ by is found from all such pixels together.
+/// is half its own, half what its detail would make; as long as it looks even, its detail may all have been missed. How much
+/// light details differ by is found from all such pixels together.
 ///
-/// *What is known of neither*: of the pixels that look even, and have no such detail, some get more samples for no reason of their
-/// own. How much their means change, beyond what was expected, is evidence of the error of those that do not get more, nearby and
-/// in all of the picture.
+/// *What is known of neither*: of the pixels that look even, and have no such detail, some get more samples for no reason of
+/// their own. How much their means change, beyond what was expected, is evidence of the error of those that do not get more,
+/// nearby and in all of the picture.
 class ErrorEstimate {
  public:
   /// `detail` outlives it, if there is any. Pixels below `even` look even: a square error.
   ErrorEstimate(int width, int height, const FineDetail* detail, double even);
 
-  /// Goes on with the past of a pass under way, one for each pixel; what else it knows of the pixels that the pass leaves out, the
-  /// film tells.
+  /// Goes on with the past of a pass under way, one for each pixel; what else it knows of the pixels that the pass leaves out,
+  /// the film tells.
   void resume(const Film& film, std::span<const PixelPast> past);
   /// The samples of the pass are counted on the film, whose light is all there.
   void end_pass(const Film& film, const Pass& pass);

@@ -117,11 +117,14 @@ class FineDetailFinder {
     const Vec3d seen = on_film(value);
     const double radius = seen.z > 0 ? pixels_of(value[3], seen.z) : width_max;
     const Place middle = place_of(seen);
-    if (!(2 * radius < width_max) || !(middle.x > -1 && middle.x < camera_.width() && middle.y > -1 && middle.y < camera_.height())) {
+    if (!(2 * radius < width_max) ||
+        !(middle.x > -1 && middle.x < camera_.width() && middle.y > -1 && middle.y < camera_.height())) {
       return;
     }
-    const int columns[] = {static_cast<int>(std::floor(middle.x - radius + 0.5)), static_cast<int>(std::floor(middle.x + radius + 0.5))};
-    const int rows[] = {static_cast<int>(std::floor(middle.y - radius + 0.5)), static_cast<int>(std::floor(middle.y + radius + 0.5))};
+    const int columns[] = {static_cast<int>(std::floor(middle.x - radius + 0.5)),
+                           static_cast<int>(std::floor(middle.x + radius + 0.5))};
+    const int rows[] = {static_cast<int>(std::floor(middle.y - radius + 0.5)),
+                        static_cast<int>(std::floor(middle.y + radius + 0.5))};
     for (int row = rows[0]; row <= rows[1]; ++row) {
       for (int column = columns[0]; column <= columns[1]; ++column) {
         const double across = std::min(middle.x + radius, column + 0.5) - std::max(middle.x - radius, column - 0.5);
@@ -146,7 +149,8 @@ class FineDetailFinder {
         radius[end] += (radius[1 - end] - radius[end]) * t;
       }
     }
-    look_at_strip({place_of(seen[0]), place_of(seen[1]), 2 * pixels_of(radius[0], seen[0].z), 2 * pixels_of(radius[1], seen[1].z)});
+    look_at_strip(
+        {place_of(seen[0]), place_of(seen[1]), 2 * pixels_of(radius[0], seen[0].z), 2 * pixels_of(radius[1], seen[1].z)});
   }
 
   /// A strip on its longest side. One that reaches behind the eye is not looked at: it is not small.
@@ -168,7 +172,8 @@ class FineDetailFinder {
     if (side_length > 0) {
       const double height = (side.x * apex.y - side.y * apex.x) / side_length;
       const double peak = (side.x * apex.x + side.y * apex.y) / (side_length * side_length);
-      look_at_strip({.from = corner[longest], .to = corner[(longest + 1) % 3], .peak = std::clamp(peak, 0.0, 1.0), .peak_height = height});
+      look_at_strip(
+          {.from = corner[longest], .to = corner[(longest + 1) % 3], .peak = std::clamp(peak, 0.0, 1.0), .peak_height = height});
     }
   }
 
@@ -179,8 +184,8 @@ class FineDetailFinder {
     clip(strip.from.x, way.x, -1, camera_.width(), first, last);
     clip(strip.from.y, way.y, -1, camera_.height(), first, last);
     const double whole = length(way), seen = whole * (last - first);
-    const bool is_wide = strip.peak ? std::fabs(strip.peak_height) >= width_max
-                                    : std::min(strip.from_width, strip.to_width) >= width_max;
+    const bool is_wide =
+        strip.peak ? std::fabs(strip.peak_height) >= width_max : std::min(strip.from_width, strip.to_width) >= width_max;
     if (is_wide || !(seen > 0) || !(whole < 1e12)) {
       return;
     }
@@ -214,7 +219,8 @@ class FineDetailFinder {
       return;
     }
     const auto pixel = static_cast<std::uint32_t>(row * camera_.width() + column);
-    const auto found = std::find_if(under_way_.rbegin(), under_way_.rend(), [&](const Part& part) { return part.pixel == pixel; });
+    const auto found =
+        std::find_if(under_way_.rbegin(), under_way_.rend(), [&](const Part& part) { return part.pixel == pixel; });
     if (found != under_way_.rend()) {
       found->area += area;
       return;
@@ -259,7 +265,8 @@ class FineDetailFinder {
 };
 
 bool FineDetail::has(std::uint32_t pixel) const {
-  return !pixels_.empty() && pixels_[pixel].areas > 0 && pixels_[pixel].areas * unit < crowd_min && coverage(pixel) < coverage_max;
+  return !pixels_.empty() && pixels_[pixel].areas > 0 && pixels_[pixel].areas * unit < crowd_min &&
+         coverage(pixel) < coverage_max;
 }
 
 FineDetail find_fine_detail(const Database& database, const Camera& camera) { return FineDetailFinder(database, camera).find(); }

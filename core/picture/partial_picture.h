@@ -15,9 +15,9 @@ namespace dmpc::core {
 struct PartialPicture {
   /// The light of the passes that have ended and of what is done of the one under way; the samples are those of the former alone.
   Film film;
-  std::uint32_t passes = 1;  ///< the one under way included
-  Pass pass;                 ///< under way
-  PixelMask done;            ///< of its pixels: all light of their samples is on the film
+  std::uint32_t passes = 1;          ///< the one under way included
+  Pass pass;                         ///< under way
+  PixelMask done;                    ///< of its pixels: all light of their samples is on the film
   std::vector<PixelPast> past = {};  ///< where the picture is refined, of each pixel; in the first pass of no account
 
   /// Pixels of the pass that are still to be rendered.

@@ -179,7 +179,8 @@ void Refinement::explore(std::uint64_t samples_chosen) {
   for (std::uint32_t pixel = 0; pixel < square_errors_.size(); ++pixel) {
     samples_of_all += can_explore(pixel) ? samples_of(pass_.steps()[pixel].from()) : 0;
   }
-  double share = explored_share * static_cast<double>(samples_chosen) / static_cast<double>(std::max<std::uint64_t>(samples_of_all, 1));
+  double share =
+      explored_share * static_cast<double>(samples_chosen) / static_cast<double>(std::max<std::uint64_t>(samples_of_all, 1));
   share = result_.passes == 1 ? std::max(share, explored_first(options_.error)) : share;
   for (std::uint32_t pixel = 0; pixel < square_errors_.size(); ++pixel) {
     if (hash(pixel) < share && can_explore(pixel)) {
