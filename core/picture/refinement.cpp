@@ -21,15 +21,15 @@ constexpr double even_share = 0.1, negligible_share = 1e-3;
 /// Pixels are explored by two doublings, for at most this share of the samples that a pass has anyway.
 constexpr std::uint32_t explored_doublings = 2;
 constexpr double explored_share = 0.06;
-/// In the second pass one in so many pixels is explored where the error asked for is this one, more where it is smaller, since
-/// what is rarer matters then; one in four at most.
-constexpr double explored_first_share = 0.03, explored_error = 4.0 / 255, explored_share_max = 0.25;
+/// In the second pass so large a share of the pixels is explored where there are so many and the error asked for is this one: more
+/// where it is smaller, since what is rarer matters then, and less of a larger picture, since a number says more than a share.
+constexpr double explored_first_share = 0.03, explored_pixels = 16384, explored_error = 4.0 / 255, explored_share_max = 0.25;
 /// Promises that are worth the same are not all taken or all left.
 constexpr double worth_spread = 0.2;
 
-double explored_first(double error) {
-  const double finer = explored_error / error;
-  return std::min(explored_first_share * finer * std::sqrt(std::sqrt(finer)), explored_share_max);
+double explored_first(double error, std::size_t pixels) {
+  const double finer = explored_error / error, larger = static_cast<double>(pixels) / explored_pixels;
+  return std::min(explored_first_share * finer * std::sqrt(std::sqrt(finer)) / std::sqrt(larger), explored_share_max);
 }
 
 }  // namespace
@@ -181,7 +181,7 @@ void Refinement::explore(std::uint64_t samples_chosen) {
   }
   double share =
       explored_share * static_cast<double>(samples_chosen) / static_cast<double>(std::max<std::uint64_t>(samples_of_all, 1));
-  share = result_.passes == 1 ? std::max(share, explored_first(options_.error)) : share;
+  share = result_.passes == 1 ? std::max(share, explored_first(options_.error, square_errors_.size())) : share;
   for (std::uint32_t pixel = 0; pixel < square_errors_.size(); ++pixel) {
     if (hash(pixel) < share && can_explore(pixel)) {
       const std::uint32_t level = pass_.steps()[pixel].from();
