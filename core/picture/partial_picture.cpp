@@ -72,15 +72,19 @@ const char* fault_of_later_pass(const PartialPicture& picture, const PictureTerm
   return passes_doubling > doublings ? "samples of fewer passes" : nullptr;
 }
 
-bool can_be(const PixelPast& past) {
-  const auto is_mean = [](float channel) { return channel >= 0 && std::isfinite(channel); };
-  return std::all_of(past.mean.begin(), past.mean.end(), is_mean) && std::isfinite(past.expected) && past.expected >= -1 &&
-         std::isfinite(past.evidence) && past.weight >= 0 && past.weight <= 1;
+/// More than any film can show, and less than what overflows on the way. Only what looked even was expected to be so.
+bool can_be(const PixelPast& past, const RefinementOptions& options) {
+  constexpr float mean_max = 0x1p31F, evidence_max = 1e30F;
+  const auto is_mean = [](float channel) { return channel >= 0 && channel <= mean_max; };
+  return std::all_of(past.mean.begin(), past.mean.end(), is_mean) && past.expected >= -1 &&
+         double{past.expected} <= options.error * options.error && std::fabs(past.evidence) <= evidence_max && past.weight >= 0 &&
+         past.weight <= 1;
 }
 
-const char* fault_of_past(const PartialPicture& picture) {
+const char* fault_of_past(const PartialPicture& picture, const PictureTerms& terms) {
   const bool is_whole = picture.past.size() == picture.film.pixels().size();
-  return is_whole && std::all_of(picture.past.begin(), picture.past.end(), can_be) ? nullptr : "an estimate that no film has";
+  const auto is_right = [&](const PixelPast& past) { return can_be(past, terms.refinement); };
+  return is_whole && std::all_of(picture.past.begin(), picture.past.end(), is_right) ? nullptr : "an estimate that no film has";
 }
 
 const char* fault_of_light(const PartialPicture& picture, const PictureTerms& terms) {
@@ -127,7 +131,7 @@ const char* fault_of(const PartialPicture& picture, const PictureTerms& terms) {
   }
   const char* fault = picture.passes == 1 ? fault_of_first_pass(picture) : fault_of_later_pass(picture, terms);
   if (fault == nullptr && terms.refinement.is_wanted()) {
-    fault = fault_of_past(picture);
+    fault = fault_of_past(picture, terms);
   }
   return fault != nullptr ? fault : fault_of_light(picture, terms);
 }

@@ -119,8 +119,9 @@ TEST_CASE("what no film can have left in an estimate is a fault") {
   const std::string expected = "an estimate that no film has";
   const float infinite = std::numeric_limits<float>::infinity();
   CHECK(fault_after(in_third_pass(), [](auto& picture) { picture.past.clear(); }) == expected);
-  for (const PixelPast& past : {PixelPast{.mean = {0, -1, 0}}, PixelPast{.mean = {0, 0, infinite}}, PixelPast{.expected = -2},
-                                PixelPast{.evidence = -infinite}, PixelPast{.weight = 1.5F}, PixelPast{.weight = -1}}) {
+  for (const PixelPast& past :
+       {PixelPast{.mean = {0, -1, 0}}, PixelPast{.mean = {0, 0, infinite}}, PixelPast{.expected = -2}, PixelPast{.expected = 1},
+        PixelPast{.evidence = -infinite}, PixelPast{.weight = 1.5F}, PixelPast{.weight = -1}}) {
     CHECK(fault_after(in_third_pass(), [&](auto& picture) { picture.past[50] = past; }) == expected);
   }
 }
