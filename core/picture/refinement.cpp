@@ -21,8 +21,9 @@ constexpr double even_share = 0.1, negligible_share = 1e-3;
 /// Pixels are explored by two doublings, for at most this share of the samples that a pass has anyway.
 constexpr std::uint32_t explored_doublings = 2;
 constexpr double explored_share = 0.06;
-/// In the second pass so large a share of the pixels is explored where there are so many and the error asked for is this one: more
-/// where it is smaller, since what is rarer matters then, and less of a larger picture, since a number says more than a share.
+/// In the second pass so large a share of the pixels is explored where there are so many and the error asked for is this one:
+/// more where it is smaller, since what is rarer matters then, and less of a larger picture, since a number says more than a
+/// share.
 constexpr double explored_first_share = 0.03, explored_pixels = 16384, explored_error = 4.0 / 255, explored_share_max = 0.25;
 /// Promises that are worth the same are not all taken or all left.
 constexpr double worth_spread = 0.2;
