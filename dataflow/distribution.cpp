@@ -51,8 +51,8 @@ Distribution distribute(const core::Database& database, const core::RenderSettin
     distribution.parts.push_back(core::extract(database, bsp.region_of(nodes::NodeId{node})));
     mark_if_empty(distribution.bsp, node, distribution.parts.back(), settings);
   }
-  distribution.primaries = deal_primaries(settings, distribution.bsp, settings.first_samples(),
-                                          core::PixelMask(settings.camera.pixel_count(), deals_primaries), stop);
+  distribution.primaries = deal_primaries(settings, distribution.bsp, settings.first_pass(),
+                                          core::PixelMask(settings.camera.pixel_count(), !deals_primaries), stop);
   return distribution;
 }
 
@@ -73,8 +73,8 @@ MeasuredParts measure_parts(const core::Database& database, const core::RenderSe
 std::vector<std::vector<Share>> measure_shares(const core::RenderSettings& settings, std::span<const Bsp> bsps,
                                                std::span<const MeasuredParts> parts, const std::stop_token& stop,
                                                bool deals_primaries) {
-  const auto runs = count_primary_runs(settings, bsps, settings.first_samples(),
-                                       core::PixelMask(settings.camera.pixel_count(), deals_primaries), stop);
+  const auto runs = count_primary_runs(settings, bsps, settings.first_pass(),
+                                       core::PixelMask(settings.camera.pixel_count(), !deals_primaries), stop);
   std::vector<std::vector<Share>> shares(bsps.size());
   for (std::size_t i = 0; i < bsps.size(); ++i) {
     for (std::uint32_t node = 0; node < bsps[i].region_count(); ++node) {

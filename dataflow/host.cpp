@@ -23,13 +23,13 @@ std::size_t light_words(const Plan& plan) {
 }  // namespace
 
 HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, nodes::Progress progress, DealPrimaries deal,
-                         const core::Continuation& continuation)
+                         const core::Continuation& continuation, const core::FineDetail* detail)
     : node_(&node),
       film_(&film),
       progress_(std::move(progress)),
       deal_(std::move(deal)),
       continuation_(continuation),
-      refinement_(plan.request.refinement, plan.request.first_samples, film.width(), film.height()),
+      refinement_(plan.request.refinement, plan.request.first_samples, film.width(), film.height(), detail),
       undealt_(plan.node_count(), plan.request.is_dealt_on_the_way ? run_rays_max : ~std::uint64_t{0}),
       kept_(plan.node_count()),
       packet_(node.memory().allocate<std::byte>(Category::queues, ray_packet_bytes(plan.ray_batch))),
@@ -62,9 +62,9 @@ void HostProgram::begin_first_pass() {
 
 /// The rays of the pass's pixels, but those that are done, from now on wait for deal_all().
 void HostProgram::deal_pass(const core::PixelMask& done) {
-  std::optional<std::vector<std::vector<PrimaryRun>>> runs = deal_(refinement_.samples(), refinement_.pixels().without(done));
+  std::optional<std::vector<std::vector<PrimaryRun>>> runs = deal_(refinement_.pass(), done);
   if (runs) {
-    undealt_.begin_pass(std::move(*runs), refinement_.samples(), done);
+    undealt_.begin_pass(std::move(*runs), numbered_samples(refinement_.pass()), done);
   }
   is_cut_short_ = !runs;
 }
@@ -173,7 +173,7 @@ void HostProgram::take_film(const nodes::Packet& packet) {
 }
 
 void HostProgram::take_entry(const FilmEntry& entry) {
-  core::expect(entry.pixel < pixels_total_ && refinement_.pixels().has(entry.pixel) && entry.plane < 2,
+  core::expect(entry.pixel < pixels_total_ && refinement_.pass().has(entry.pixel) && entry.plane < 2,
                "light falls on a pixel of the pass");
   core::PixelSums sums;
   sums.plane[entry.plane] = entry.light;

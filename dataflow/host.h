@@ -23,9 +23,10 @@
 
 namespace dmpc::dataflow {
 
-/// The primary rays of a pass, by node: all of them, or nothing if a stop of the run was requested meanwhile.
-using DealPrimaries = std::function<std::optional<std::vector<std::vector<PrimaryRun>>>(const core::SampleRange& samples,
-                                                                                        const core::PixelMask& pixels)>;
+/// The primary rays of a pass, but for those of pixels that are done, by node: all of them, or nothing if a stop of the run was
+/// requested meanwhile.
+using DealPrimaries =
+    std::function<std::optional<std::vector<std::vector<PrimaryRun>>>(const core::Pass& pass, const core::PixelMask& done)>;
 
 /// What the host counts beside the packets.
 struct HostCounters {
@@ -47,9 +48,9 @@ class HostProgram final : public nodes::Program {
  public:
   /// `film` outlives the program and is written by it alone until the run's end; it is as continuation.start has it.
   /// `progress` may be empty. `deal` finds whose the primary rays are that are dealt after the start; nothing is kept unless the
-  /// plan says that all are.
+  /// plan says that all are. `detail` is the picture's, if it is refined, and outlives the program.
   HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, nodes::Progress progress, DealPrimaries deal,
-              const core::Continuation& continuation = {});
+              const core::Continuation& continuation = {}, const core::FineDetail* detail = nullptr);
   /// Adds to `memory` exactly what the constructor takes of the local memory.
   static void add_needs(nodes::MemoryPlan& memory, const Plan& plan);
 

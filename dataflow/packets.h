@@ -170,7 +170,7 @@ struct DealtPrimaries {
   core::SampleRange samples;
   std::uint32_t count = 0;  ///< of runs
   std::uint32_t padding = 0;
-  std::array<PrimaryRun, 60> runs{};  ///< numbered within the pass
+  std::array<PrimaryRun, 60> runs{};  ///< numbered by `samples`
 };
 static_assert(std::is_trivially_copyable_v<DealtPrimaries> && sizeof(DealtPrimaries) > nodes::small_payload_bytes);
 /// So many of them a node can keep: one is worked off while the next is under way.

@@ -15,8 +15,8 @@ constexpr std::uint32_t nobody = ~std::uint32_t{0};
 /// Goes through the rays of a pass. Calls begin(bsp, node, number) where a Bsp's run of consecutive rays of one node begins, with
 /// `nobody` for rays that are not dealt and, in the end, behind the last.
 template <class Begin>
-void deal(const core::RenderSettings& settings, std::span<const Bsp> bsps, const core::SampleRange& samples,
-          const core::PixelMask& pixels, const std::stop_token& stop, const Begin& begin) {
+void deal(const core::RenderSettings& settings, std::span<const Bsp> bsps, const core::Pass& pass, const core::PixelMask& done,
+          const std::stop_token& stop, const Begin& begin) {
   PrimaryOwners owners(settings, bsps);
   const auto begin_each = [&](std::uint64_t those, std::uint64_t number, bool is_dealt) {
     for (; those != 0; those &= those - 1) {
@@ -24,21 +24,27 @@ void deal(const core::RenderSettings& settings, std::span<const Bsp> bsps, const
       begin(bsp, is_dealt ? owners.owners()[bsp] : nobody, number);
     }
   };
-  std::uint64_t number = 0;
-  bool is_dealt = false;  // the ray before
+  const core::SampleRange numbered = numbered_samples(pass);
+  std::uint64_t end = 0;    // behind the ray before
+  bool follows_on = false;  // there is one that is dealt
   for (std::uint32_t pixel = 0; pixel < settings.camera.pixel_count() && !stop.stop_requested(); ++pixel) {
-    const bool was_dealt = std::exchange(is_dealt, pixels.has(pixel));
-    if (!is_dealt) {
-      begin_each(was_dealt ? owners.all_bsps() : 0, number, false);
-      number += samples.count;
+    if (done.has(pixel) || !pass.has(pixel)) {
       continue;
+    }
+    const core::SampleRange samples = pass.samples(pixel);
+    std::uint64_t number = std::uint64_t{pixel} * numbered.count + samples.first;
+    if (follows_on && number != end) {
+      begin_each(owners.all_bsps(), end, false);
+      follows_on = false;
     }
     for (std::uint32_t i = 0; i < samples.count; ++i, ++number) {
       const std::uint64_t changed = owners.find(pixel, samples.first + i);
-      begin_each(was_dealt || i > 0 ? changed : owners.all_bsps(), number, true);
+      begin_each(follows_on ? changed : owners.all_bsps(), number, true);
+      follows_on = true;
     }
+    end = number;
   }
-  begin_each(is_dealt ? owners.all_bsps() : 0, number, false);
+  begin_each(follows_on ? owners.all_bsps() : 0, end, false);
 }
 
 /// As many of the first of `bsps` as one lattice may be of. Cuts that do not go on in each other's make many cells.
@@ -54,12 +60,11 @@ std::size_t joint_count(std::span<const Bsp> bsps) {
 
 }  // namespace
 
-std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& settings, const Bsp& bsp,
-                                                    const core::SampleRange& samples, const core::PixelMask& pixels,
-                                                    const std::stop_token& stop) {
+std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& settings, const Bsp& bsp, const core::Pass& pass,
+                                                    const core::PixelMask& done, const std::stop_token& stop) {
   std::vector<std::vector<PrimaryRun>> runs(bsp.region_count());
   PrimaryRun* before = nullptr;
-  deal(settings, std::span(&bsp, 1), samples, pixels, stop, [&](std::size_t, std::uint32_t node, std::uint64_t number) {
+  deal(settings, std::span(&bsp, 1), pass, done, stop, [&](std::size_t, std::uint32_t node, std::uint64_t number) {
     if (before != nullptr) {
       before->count = number - before->first;
     }
@@ -69,7 +74,7 @@ std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& 
 }
 
 std::vector<std::vector<std::size_t>> count_primary_runs(const core::RenderSettings& settings, std::span<const Bsp> bsps,
-                                                         const core::SampleRange& samples, const core::PixelMask& pixels,
+                                                         const core::Pass& pass, const core::PixelMask& done,
                                                          const std::stop_token& stop) {
   std::vector<std::vector<std::size_t>> counts;
   while (counts.size() < bsps.size()) {
@@ -78,7 +83,7 @@ std::vector<std::vector<std::size_t>> count_primary_runs(const core::RenderSetti
     for (const Bsp& bsp : joint) {
       counts.emplace_back(bsp.region_count());
     }
-    deal(settings, joint, samples, pixels, stop, [&](std::size_t bsp, std::uint32_t node, std::uint64_t) {
+    deal(settings, joint, pass, done, stop, [&](std::size_t bsp, std::uint32_t node, std::uint64_t) {
       if (node != nobody) {
         ++counts[first + bsp][node];
       }

@@ -8,25 +8,24 @@
 #include <vector>
 
 #include "core/picture/pixel_task.h"
-#include "core/picture/refinement.h"
+#include "core/picture/sample_pass.h"
 #include "dataflow/packets.h"
 #include "dataflow/regions/bsp.h"
 #include "nodes/local_memory.h"
 
 namespace dmpc::dataflow {
 
-/// For each node, the rays that enter the grid in its region, or reach it before any other that holds something, ascending. A ray
-/// that meets no such region, or whose pixel shows the background, only leaves that on the film: these are spread by pixel
-/// number, an equal share of the picture a node, so that no node has all of the sky. Nodes whose region holds nothing get no ray
-/// at all. After a stop is requested it ends early, with what it has.
-std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& settings, const Bsp& bsp,
-                                                    const core::SampleRange& samples, const core::PixelMask& pixels,
-                                                    const std::stop_token& stop = {});
+/// For each node, the rays of a pass, but for those of pixels that are done, that enter the grid in its region, or reach it
+/// before any other that holds something, ascending. A ray that meets no such region, or whose pixel shows the background, only
+/// leaves that on the film: these are spread by pixel number, an equal share of the picture a node, so that no node has all of
+/// the sky. Nodes whose region holds nothing get no ray at all. After a stop is requested it ends early, with what it has.
+std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& settings, const Bsp& bsp, const core::Pass& pass,
+                                                    const core::PixelMask& done, const std::stop_token& stop = {});
 
 /// How many runs deal_primaries() would deal to each node, for each of `bsps`, which share out one grid. Takes hardly longer for
 /// many Bsps than for one.
 std::vector<std::vector<std::size_t>> count_primary_runs(const core::RenderSettings& settings, std::span<const Bsp> bsps,
-                                                         const core::SampleRange& samples, const core::PixelMask& pixels,
+                                                         const core::Pass& pass, const core::PixelMask& done,
                                                          const std::stop_token& stop = {});
 
 /// A node's own primary rays, in its local memory: those dealt before the start, then packets of those that the host deals on the
@@ -41,7 +40,7 @@ class Primaries {
   bool empty() const { return left_ == 0; }
   /// Rays that have not started.
   std::uint64_t left() const { return left_; }
-  /// Samples of a pixel in this pass.
+  /// By which the rays of this pass are numbered.
   const core::SampleRange& samples() const { return samples_; }
   /// The number of the next ray to start. Requires that one is left.
   std::uint64_t take();

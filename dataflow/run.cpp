@@ -237,7 +237,8 @@ Prepared prepare(const core::Database& database, const core::RenderSettings& set
   const ColumnLoads loads = column_loads(database, settings, options.rays.balance, stop);
   Regions regions = regions_for(options.computer.node_count, loads, settings, options);
   Prepared prepared{.distribution = distribute(database, settings, regions.bsp, stop, !is_dealt_on_the_way(options)),
-                    .predicted = std::move(regions.predicted)};
+                    .predicted = std::move(regions.predicted),
+                    .detail = settings.fine_detail(database)};
   prepared.duplication = prepared.distribution.duplication(database);
   prepared.plan = plan_for(prepared.distribution, database, loads, settings, options, stop);
   return prepared;
@@ -256,9 +257,9 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
                 .duplication = prepared.duplication};
   core::expect(options.watching.heat == nullptr || options.watching.heat->pixel_count() == report.film.pixels().size(),
                "a heat map is of the picture's size");
-  const auto runner =
-      nodes::make_runner(specifications_of(report.plan, prepared.distribution, settings, report.film, options, stop),
-                         options.computer, options.watching.observer);
+  const auto runner = nodes::make_runner(
+      specifications_of(report.plan, prepared.distribution, settings, report.film, options, stop, &prepared.detail),
+      options.computer, options.watching.observer);
   if (options.watching.distributed) {
     options.watching.distributed();
   }
@@ -269,7 +270,8 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
 
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,
                                                         const core::RenderSettings& settings, core::Film& film,
-                                                        const RunOptions& options, const std::stop_token& stop) {
+                                                        const RunOptions& options, const std::stop_token& stop,
+                                                        const core::FineDetail* detail) {
   std::vector<nodes::NodeSpecification> specifications;
   for (std::uint32_t i = 0; i < plan.node_count(); ++i) {
     const auto make_program = [&, i](nodes::Node& node) {
@@ -281,12 +283,12 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
     specifications.push_back({plan.node_memory(i), plan.node_mailbox, make_program, plan.held_bytes, 0,
                               nodes::patience_of(number_of(Kind::film), plan.film_credits)});
   }
-  const auto deal = [&settings, &distribution, stop](const core::SampleRange& samples, const core::PixelMask& pixels) {
-    std::optional runs = deal_primaries(settings, distribution.bsp, samples, pixels, stop);
+  const auto deal = [&settings, &distribution, stop](const core::Pass& pass, const core::PixelMask& done) {
+    std::optional runs = deal_primaries(settings, distribution.bsp, pass, done, stop);
     return stop.stop_requested() ? std::nullopt : std::move(runs);
   };
-  const auto make_host = [&, deal](nodes::Node& node) {
-    return std::make_unique<HostProgram>(node, plan, film, options.watching.progress, deal, options.continuation);
+  const auto make_host = [&, deal, detail](nodes::Node& node) {
+    return std::make_unique<HostProgram>(node, plan, film, options.watching.progress, deal, options.continuation, detail);
   };
   specifications.push_back({plan.host_memory(), plan.host_mailbox, make_host, plan.held_bytes});
   return specifications;

@@ -85,6 +85,7 @@ struct Prepared {
   Distribution distribution;      ///< regions on their nodes, and what these are dealt
   std::vector<double> predicted;  ///< as in Report
   double duplication = 1;         ///< as in Report
+  core::FineDetail detail;        ///< of the picture, if it is refined
   Plan plan;
 };
 
@@ -109,6 +110,7 @@ Report run_dataflow(const core::Database& database, const core::RenderSettings& 
 /// the runner. Of `options` it reads what meters are for. `stop` is that of the run.
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,
                                                         const core::RenderSettings& settings, core::Film& film,
-                                                        const RunOptions& options, const std::stop_token& stop = {});
+                                                        const RunOptions& options, const std::stop_token& stop = {},
+                                                        const core::FineDetail* detail = nullptr);
 
 }  // namespace dmpc::dataflow

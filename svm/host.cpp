@@ -20,9 +20,9 @@ HostProgram::HostProgram(nodes::Node& node, const HostShape& shape, core::Film& 
       film_(&film),
       progress_(std::move(progress)),
       continuation_(continuation),
-      refinement_(shape.refinement, shape.first_samples, film.width(), film.height()),
+      refinement_(shape.refinement, shape.first_samples, film.width(), film.height(), shape.detail),
       arrived_(node.memory().allocate<std::uint64_t>(nodes::Category::film_tiles, words_for(shape.pixel_count()))),
-      words_sent_(shape.refinement.is_wanted() ? shape.node_count : 0),
+      pixels_sent_(shape.refinement.is_wanted() ? shape.node_count : 0),
       node_count_(shape.node_count),
       width_(shape.width),
       height_(shape.height) {
@@ -84,7 +84,7 @@ void HostProgram::keep() const {
 }
 
 void HostProgram::take_pixel(const FilmEntry& entry) {
-  core::expect(entry.pixel < film_->pixels().size() && refinement_.pixels().has(entry.pixel), "a finished pixel is of the pass");
+  core::expect(entry.pixel < film_->pixels().size() && refinement_.pass().has(entry.pixel), "a finished pixel is of the pass");
   std::uint64_t& word = arrived_[entry.pixel / 64];
   const std::uint64_t bit = std::uint64_t{1} << (entry.pixel % 64);
   core::expect((word & bit) == 0, "each pixel arrives once");
@@ -113,7 +113,7 @@ void HostProgram::end_pass() {
     return stop();
   }
   std::fill(arrived_.begin(), arrived_.end(), 0);
-  std::fill(words_sent_.begin(), words_sent_.end(), 0);
+  std::fill(pixels_sent_.begin(), pixels_sent_.end(), 0);
   pixels_of_old_passes_ += std::exchange(pixels_done_, 0) - std::exchange(pixels_found_done_, 0);
   pixels_announced_ = nodes_done_ = nodes_masked_ = 0;
   for (std::uint32_t i = 0; i < node_count_; ++i) {
@@ -124,18 +124,18 @@ void HostProgram::end_pass() {
 /// The next part of a node's mask; when all nodes have theirs, the word to begin.
 void HostProgram::send_mask(std::uint32_t index) {
   const PixelRectangle submap = submap_of({0, 0, width_, height_}, index, node_count_);
-  MaskPart part{words_sent_[index]};
-  const std::uint64_t first = std::uint64_t{part.first_word} * 64;
-  if (first >= submap.pixel_count()) {
+  MaskPart part{pixels_sent_[index]};
+  if (part.first_pixel >= submap.pixel_count()) {
     nodes_masked_ += 1;
     return nodes_masked_ == node_count_ ? begin_pass() : void();
   }
-  const std::uint64_t count = std::min<std::uint64_t>(part.words.size() * 64, submap.pixel_count() - first);
+  const std::uint64_t count = std::min<std::uint64_t>(part.steps.size(), submap.pixel_count() - part.first_pixel);
   for (std::uint64_t i = 0; i < count; ++i) {
-    const std::uint64_t x = submap.x + (first + i) % submap.width, y = submap.y + (first + i) / submap.width;
-    part.words[i / 64] |= std::uint64_t{refinement_.pixels().has(static_cast<std::uint32_t>(y * width_ + x))} << (i % 64);
+    const std::uint64_t place = part.first_pixel + i;
+    const std::uint64_t x = submap.x + place % submap.width, y = submap.y + place / submap.width;
+    part.steps[i] = refinement_.pass().steps()[y * width_ + x];
   }
-  words_sent_[index] += static_cast<std::uint32_t>(part.words.size());
+  pixels_sent_[index] += static_cast<std::uint32_t>(part.steps.size());
   node_->grant(nodes::NodeId{index}, bulk_channel);  // one part is under way to each node
   node_->send_reserved(nodes::NodeId{index}, bulk_channel, number_of(Kind::mask_part), part);
 }
@@ -143,7 +143,7 @@ void HostProgram::send_mask(std::uint32_t index) {
 void HostProgram::begin_pass() {
   for (std::uint32_t i = 0; i < node_count_; ++i) {
     node_->grant(nodes::NodeId{i}, control_channel);  // its node is done, so that nothing else of the host's is under way
-    node_->send_reserved(nodes::NodeId{i}, control_channel, number_of(Kind::begin_pass), BeginPass{refinement_.samples()});
+    node_->send_reserved(nodes::NodeId{i}, control_channel, number_of(Kind::begin_pass), BeginPass{});
   }
 }
 

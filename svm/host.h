@@ -23,6 +23,7 @@ struct HostShape {
   std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
   core::RefinementOptions refinement;
   const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; read by the constructor alone
+  const core::FineDetail* detail = nullptr;     ///< the picture's, if it is refined; outlives the host
 
   std::uint32_t pixel_count() const { return width * height; }
 };
@@ -67,8 +68,8 @@ class HostProgram final : public nodes::Program {
   nodes::Progress progress_;
   core::Continuation continuation_;
   core::Refinement refinement_;
-  std::span<std::uint64_t> arrived_;       ///< a bit a pixel
-  std::vector<std::uint32_t> words_sent_;  ///< of the mask, to each node; empty unless the picture is refined
+  std::span<std::uint64_t> arrived_;        ///< a bit a pixel
+  std::vector<std::uint32_t> pixels_sent_;  ///< of the mask, to each node; empty unless the picture is refined
   std::uint32_t node_count_, width_, height_;
   std::uint32_t nodes_masked_ = 0;  ///< how many have their whole mask
   std::uint32_t pixels_done_ = 0;

@@ -13,8 +13,8 @@
 //   mask_acknowledgement   node -> host        control   small  the part of the mask
 //   begin_pass             host -> node        control   small  once a pass, when all nodes are done with the one before
 //
-// The last three exist only where the picture is refined: when all nodes are done with a pass, each gets the bits of its submap
-// that tell which pixels have more samples, part by part, and when all nodes have theirs the pass begins.
+// The last three exist only where the picture is refined: when all nodes are done with a pass, each gets the mask of its submap,
+// which tells how many more samples each pixel has, part by part, and when all nodes have theirs the pass begins.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@
 #include <type_traits>
 
 #include "core/picture/film.h"
-#include "core/picture/refinement.h"
+#include "core/picture/sample_pass.h"
 #include "nodes/node.h"
 #include "nodes/packet.h"
 #include "svm/page.h"
@@ -92,7 +92,7 @@ static_assert(is_small_packet<WorkReply>);
 /// What answers a work request where passes leave pixels out.
 struct MaskedWorkReply {
   WorkReply reply;
-  std::uint64_t pixels = 0;  ///< of the item, row by row: a bit for each that has samples in this pass
+  ItemSteps steps;  ///< which samples the item's pixels have in this pass
 };
 static_assert(is_small_packet<MaskedWorkReply>);
 
@@ -125,11 +125,11 @@ struct Done {
 };
 static_assert(is_small_packet<Done>);
 
-/// Bits of the target's submap, row by row, a bit for each pixel that has samples in the next pass.
+/// Which samples pixels of the target's submap, row by row, have in the next pass.
 struct MaskPart {
-  std::uint32_t first_word = 0;
+  std::uint32_t first_pixel = 0;
   std::uint32_t padding = 0;
-  std::array<std::uint64_t, 60> words{};  ///< those beyond the submap are 0
+  std::array<core::SampleStep, 480> steps{};  ///< those beyond the submap bring none
 };
 static_assert(std::is_trivially_copyable_v<MaskPart> && sizeof(MaskPart) > nodes::small_payload_bytes, "every part is bulk");
 
@@ -138,9 +138,9 @@ struct MaskAcknowledgement {
 };
 static_assert(is_small_packet<MaskAcknowledgement>);
 
-/// Every node has its part of the mask: render these samples of the mask's pixels.
+/// Every node has its part of the mask: render the samples that it says.
 struct BeginPass {
-  core::SampleRange samples;
+  std::uint32_t padding = 0;
 };
 static_assert(is_small_packet<BeginPass>);
 

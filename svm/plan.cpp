@@ -300,7 +300,8 @@ WorkShape Plan::work() const {
   return {.node_count = request.computer.node_count,
           .width = request.width,
           .height = request.height,
-          .tile = tile_for(request.start_samples().count, pixels_a_task),
+          .first_samples = request.first_samples,
+          .tile = request.is_masked() ? tile_of(pixels_a_task) : tile_for(request.first_samples, pixels_a_task),
           .item_side = work_item_side,
           .is_masked = request.is_masked(),
           .start = request.start};
@@ -312,7 +313,8 @@ HostShape Plan::host() const {
           .height = request.height,
           .first_samples = request.first_samples,
           .refinement = request.refinement,
-          .start = request.start};
+          .start = request.start,
+          .detail = request.detail};
 }
 
 nodes::Patience Plan::patience() const { return nodes::patience_of(number_of(Kind::film_sums), film_credits); }

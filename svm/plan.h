@@ -38,12 +38,11 @@ struct PlanRequest {
   std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
   core::RefinementOptions refinement;
   const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; outlives plan and run
+  const core::FineDetail* detail = nullptr;     ///< the picture's, if it is refined; the host's alone; outlives plan and run
   bool bundles = false;                         ///< rays of neighbouring pixels walk together, where enough are in flight
 
-  /// Some pass may leave pixels out, so that each node keeps a bit for each pixel of its submap.
+  /// Some pass may leave pixels out, so that each node keeps a byte for each pixel of its submap.
   bool is_masked() const { return refinement.is_wanted() || start != nullptr; }
-  /// Of each pixel in the pass that the run begins with.
-  core::SampleRange start_samples() const { return start != nullptr ? start->samples : core::SampleRange{0, first_samples}; }
 };
 
 inline constexpr std::uint32_t node_count_max = 4096;

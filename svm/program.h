@@ -10,6 +10,7 @@
 // the host, which waits for nobody.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -53,7 +54,6 @@ class ControlProgram final : public NodeProgram {
         slots_(node.memory(), plan.task_count(), static_cast<std::uint32_t>(plan.request.depth_max)),
         work_(node, plan.work()),
         film_(node, plan.film()),
-        samples_(plan.request.start_samples()),
         meter_(meter) {
     core::expect(Task::pixels_max == plan.pixels_a_task, "a node's tasks are those of the plan");
     node.grant(host_, control_channel, 1);  // for Done
@@ -74,7 +74,7 @@ class ControlProgram final : public NodeProgram {
       case Kind::mask_part:
         return take_mask(packet);
       case Kind::begin_pass:
-        return begin_pass(packet.as<BeginPass>());
+        return begin_pass();
       case Kind::stop:
         return stop();
       case Kind::film_sums:
@@ -149,15 +149,17 @@ class ControlProgram final : public NodeProgram {
     return slots_.has_free() && work_.has_pixel() && film_.has_room_for(pixels_in_flight_ + Task::pixels_max);
   }
 
-  /// A task takes the pixels of one tile, so who walks together does not depend on who takes which item.
+  /// A task takes pixels of one tile with the same samples, so who walks together does not depend on who takes which item.
   void start() {
     const std::uint32_t slot = slots_.take_free();
     std::array<std::uint32_t, Task::pixels_max> pixels;
     std::uint32_t count = 0;
+    const core::SampleRange samples = work_.next_samples();
+    const std::uint32_t most = std::max(Task::pixels_max / samples.count, 1U);
     do {
       pixels[count++] = work_.next_pixel();
-    } while (count < Task::pixels_max && work_.stays_in_tile());
-    slots_.task(slot).start(std::span<const std::uint32_t>(pixels).first(count), samples_, settings_, operations_);
+    } while (count < most && work_.stays_in_tile() && work_.next_samples() == samples);
+    slots_.task(slot).start(std::span<const std::uint32_t>(pixels).first(count), samples, settings_, operations_);
     pixels_in_flight_ += count;
     if constexpr (counts_pages) {
       records_.select(slot);
@@ -272,10 +274,9 @@ class ControlProgram final : public NodeProgram {
     node_->send_reserved(host_, control_channel, number_of(Kind::mask_acknowledgement), MaskAcknowledgement{});
   }
 
-  void begin_pass(const BeginPass& pass) {
+  void begin_pass() {
     core::expect(done_ && !stopped_, "a pass begins when the one before has ended");
-    samples_ = pass.samples;
-    work_.begin_pass(tile_for(pass.samples.count, Task::pixels_max));
+    work_.begin_pass();
     node_->grant(host_, control_channel);  // for Done
     done_ = false;
   }
@@ -300,7 +301,6 @@ class ControlProgram final : public NodeProgram {
   Slots<Task> slots_;
   WorkSource work_;
   FilmGather film_;
-  core::SampleRange samples_;  ///< of the pass
   core::Operations operations_;
   std::uint64_t pixels_rendered_ = 0, pixels_announced_ = 0;
   std::uint64_t rays_ended_ = 0;

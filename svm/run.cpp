@@ -201,6 +201,7 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
                 .plan = plan,
                 .nodes = {},
                 .host = {}};
+  report.plan.request.detail = nullptr;  // it is the run's
   core::expect(options.watching.heat == nullptr || options.watching.heat->pixel_count() == report.film.pixels().size(),
                "a heat map is of the picture's size");
   const auto runner =
@@ -229,7 +230,9 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
 
 Report run_svm(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                std::stop_token stop) {
-  const Plan plan = plan_of(Strategy::svm, database, settings, options);
+  Plan plan = plan_of(Strategy::svm, database, settings, options);
+  const core::FineDetail detail = settings.fine_detail(database);
+  plan.request.detail = &detail;
   if (options.pages.record_references) {
     return run_recording(database, settings, plan, options, std::move(stop));
   }
@@ -242,7 +245,9 @@ Report run_svm(const core::Database& database, const core::RenderSettings& setti
 
 Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                       std::stop_token stop) {
-  const Plan plan = plan_of(Strategy::replicated, database, settings, options);
+  Plan plan = plan_of(Strategy::replicated, database, settings, options);
+  const core::FineDetail detail = settings.fine_detail(database);
+  plan.request.detail = &detail;
   return run_programs(plan, maker<LocalCopy>(database, settings, plan, options), options, std::move(stop));
 }
 

@@ -97,7 +97,9 @@ Report run_replicated(const core::Database& database, const core::RenderSettings
                       std::stop_token stop, const MakeTracer& make_tracer) {
   core::expect(options.tracer_is_own, "a run with a tracer of one's own says so");
   using Tracer = std::invoke_result_t<const MakeTracer&, std::uint32_t, std::span<const std::byte>>;
-  const Plan plan = plan_of(Strategy::replicated, database, settings, options);
+  Plan plan = plan_of(Strategy::replicated, database, settings, options);
+  const core::FineDetail detail = settings.fine_detail(database);
+  plan.request.detail = &detail;
   const auto make_program = [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
     const auto tracer_over = [&](LocalCopy& copy) { return make_tracer(index, copy.bytes()); };
     return std::make_unique<ControlProgram<LocalCopy, Tracer>>(node, plan, settings, database.bytes(), tracer_over,

@@ -1,8 +1,12 @@
 // The image cut into submaps, one a node, and a submap as work items: taken in scan order, given away from the far end.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+
+#include "core/picture/sample_pass.h"
 
 namespace dmpc::svm {
 
@@ -43,8 +47,10 @@ class WorkItems {
   std::uint64_t next_ = 0, end_ = 0;
 };
 
-/// A masked item has as many pixels a side at most, so that a word has a bit for each of its pixels.
-inline constexpr std::uint32_t masked_side_max = 8;
+/// A masked item has as many pixels a side at most, so that a small packet has a step for each of its pixels.
+inline constexpr std::uint32_t masked_side_max = 4;
+/// Of the pixels of a masked item, row by row; those beyond it bring no samples.
+using ItemSteps = std::array<core::SampleStep, std::size_t{masked_side_max} * masked_side_max>;
 
 /// Pixels that one task takes at a time.
 struct PixelTile {
@@ -75,17 +81,19 @@ class PixelScan {
   PixelScan() = default;
   explicit PixelScan(const PixelRectangle& item, const PixelTile& tile = {})
       : item_(item), tile_(tile), left_(item.pixel_count()) {}
-  /// `wanted`: a bit for each pixel, row by row. Requires sides of at most masked_side_max.
+  /// `wanted`: a bit for each pixel, row by row. Requires at most 64 pixels.
   PixelScan(const PixelRectangle& item, const PixelTile& tile, std::uint64_t wanted);
 
   bool empty() const { return left_ == 0; }
   /// The next pixel lies in the tile of the one before.
   bool stays_in_tile() const { return left_ > 0 && in_tile_; }
+  /// The next pixel's place in the item, row by row. Requires !empty().
+  std::uint64_t place() const { return std::uint64_t{y_} * item_.width + x_; }
   /// The next pixel's index in an image of this width. Requires !empty().
   std::uint32_t next(std::uint32_t image_width);
 
  private:
-  bool is_wanted() const { return !wanted_ || (*wanted_ >> (std::uint64_t{y_} * item_.width + x_) & 1U) != 0; }
+  bool is_wanted() const { return !wanted_ || (*wanted_ >> place() & 1U) != 0; }
   void step();
 
   PixelRectangle item_;

@@ -12,10 +12,17 @@ PixelRectangle own_submap(const WorkShape& shape, std::uint32_t index) {
   return submap_of({0, 0, shape.width, shape.height}, index, shape.node_count);
 }
 
-/// A bit a pixel; at least a word, so that a node without pixels has a mask, too.
-std::size_t mask_words(const WorkShape& shape, std::uint32_t index) {
-  const std::uint64_t pixels = std::max<std::uint64_t>(own_submap(shape, index).pixel_count(), 1);
-  return shape.is_masked ? core::ceil_divide<std::size_t>(pixels, 64) : 0;
+/// At least one, so that a node without pixels has a mask, too.
+std::size_t mask_pixels(const WorkShape& shape, std::uint32_t index) {
+  return shape.is_masked ? std::max<std::size_t>(own_submap(shape, index).pixel_count(), 1) : 0;
+}
+
+std::uint64_t bits_of(const ItemSteps& steps) {
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    bits |= std::uint64_t{steps[i].is_none() ? 0U : 1U} << i;
+  }
+  return bits;
 }
 
 /// A node that gives no work away has its submap as one item, or in masked ones.
@@ -30,68 +37,80 @@ WorkSource::WorkSource(nodes::Node& node, const WorkShape& shape)
       node_count_(shape.node_count),
       self_(nodes::index_of(node.id())),
       image_width_(shape.width),
+      first_samples_(shape.first_samples),
       item_side_(item_side_of(shape)),
       tile_(shape.tile),
       submap_(own_submap(shape, self_)),
-      mask_(node.memory().allocate<std::uint64_t>(nodes::Category::queues, mask_words(shape, self_))),
+      mask_(node.memory().allocate<core::SampleStep>(nodes::Category::queues, mask_pixels(shape, self_))),
       items_(submap_, item_side_),
       last_giver_((self_ + 1) % node_count_),
       is_alone_(shape.item_side == 0 || node_count_ == 1),
       no_more_(is_alone_) {
-  std::fill(mask_.begin(), mask_.end(), ~std::uint64_t{0});
+  std::fill(mask_.begin(), mask_.end(), core::SampleStep::first());
   if (shape.start != nullptr) {
-    want_only(shape.start->missing());
+    want_missing(*shape.start);
   }
 }
 
-/// The host has said before the start which pixels are wanted.
-void WorkSource::want_only(const core::PixelMask& pixels) {
-  std::fill(mask_.begin(), mask_.end(), 0);
+/// What the host has said before the start.
+void WorkSource::want_missing(const core::PartialPicture& start) {
   for (std::uint64_t i = 0; i < submap_.pixel_count(); ++i) {
     const std::uint64_t x = submap_.x + i % submap_.width, y = submap_.y + i / submap_.width;
-    mask_[i / 64] |= std::uint64_t{pixels.has(static_cast<std::uint32_t>(y * image_width_ + x))} << (i % 64);
+    const auto pixel = static_cast<std::uint32_t>(y * image_width_ + x);
+    mask_[i] = start.done.has(pixel) ? core::SampleStep() : start.pass.steps()[pixel];
   }
   skip_unwanted();
 }
 
 void WorkSource::add_needs(nodes::MemoryPlan& memory, const WorkShape& shape, std::uint32_t index) {
-  memory[nodes::Category::queues] += nodes::LocalMemory::bytes_for<std::uint64_t>(mask_words(shape, index));
+  memory[nodes::Category::queues] += nodes::LocalMemory::bytes_for<core::SampleStep>(mask_pixels(shape, index));
 }
 
 void WorkSource::take_mask(const MaskPart& part) {
-  core::expect(exhausted() && part.first_word < mask_.size(), "a mask is the next pass's, and the submap's");
-  const std::size_t count = std::min(part.words.size(), mask_.size() - part.first_word);
-  std::copy_n(part.words.begin(), count, mask_.begin() + part.first_word);
+  core::expect(exhausted() && part.first_pixel < mask_.size(), "a mask is the next pass's, and the submap's");
+  const std::size_t count = std::min(part.steps.size(), mask_.size() - part.first_pixel);
+  std::copy_n(part.steps.begin(), count, mask_.begin() + part.first_pixel);
 }
 
-void WorkSource::begin_pass(const PixelTile& tile) {
+void WorkSource::begin_pass() {
   core::expect(exhausted() && !asking_, "a pass begins when the one before has ended");
-  tile_ = tile;
   items_ = WorkItems(submap_, item_side_);
   last_giver_ = (self_ + 1) % node_count_;
   no_more_ = is_alone_;
   skip_unwanted();
 }
 
-/// The bits of an item of the submap; none of an empty one.
-std::uint64_t WorkSource::wanted(const PixelRectangle& item) const {
-  std::uint64_t bits = 0, bit = 1;
-  for (std::uint32_t y = 0; y < item.height; ++y) {
-    std::uint64_t index = std::uint64_t{item.y - submap_.y + y} * submap_.width + (item.x - submap_.x);
-    for (std::uint32_t x = 0; x < item.width; ++x, ++index, bit <<= 1U) {
-      bits |= (mask_[index / 64] >> (index % 64) & 1U) != 0 ? bit : 0;
-    }
+/// Of an item of the submap.
+ItemSteps WorkSource::steps_of(const PixelRectangle& item) const {
+  ItemSteps steps;
+  auto step = steps.begin();
+  for (std::uint32_t y = 0; y < item.height && is_masked(); ++y) {
+    const std::uint64_t index = std::uint64_t{item.y - submap_.y + y} * submap_.width + (item.x - submap_.x);
+    step = std::copy_n(mask_.begin() + static_cast<std::ptrdiff_t>(index), item.width, step);
   }
-  return bits;
+  return steps;
 }
 
-PixelScan WorkSource::scan_of(const PixelRectangle& item) const {
-  return is_masked() ? PixelScan(item, tile_, wanted(item)) : PixelScan(item, tile_);
+bool WorkSource::is_wanted(const PixelRectangle& item) const { return !is_masked() || bits_of(steps_of(item)) != 0; }
+
+void WorkSource::open(const PixelRectangle& item, const ItemSteps& steps) {
+  steps_ = steps;
+  scan_ = is_masked() ? PixelScan(item, tile_, bits_of(steps)) : PixelScan(item, tile_);
+}
+
+/// The next item, if the one under way has no pixel left.
+void WorkSource::open_next() {
+  if (scan_.empty()) {
+    const auto item = items_.take();
+    core::expect(item.has_value(), "a node takes pixels only while it has some");
+    open(*item, steps_of(*item));
+    skip_unwanted();
+  }
 }
 
 /// So that the first item left, if any, has a pixel.
 void WorkSource::skip_unwanted() {
-  while (is_masked() && !items_.empty() && wanted(*items_.front()) == 0) {
+  while (!items_.empty() && !is_wanted(*items_.front())) {
     items_.take();
   }
 }
@@ -99,20 +118,20 @@ void WorkSource::skip_unwanted() {
 /// The last item that has a pixel.
 std::optional<PixelRectangle> WorkSource::give() {
   std::optional<PixelRectangle> item = items_.give();
-  while (is_masked() && item && wanted(*item) == 0) {
+  while (item && !is_wanted(*item)) {
     item = items_.give();
   }
   return item;
 }
 
 std::uint32_t WorkSource::next_pixel() {
-  if (scan_.empty()) {
-    const auto item = items_.take();
-    core::expect(item.has_value(), "a node takes pixels only while it has some");
-    scan_ = scan_of(*item);
-    skip_unwanted();
-  }
+  open_next();
   return scan_.next(image_width_);
+}
+
+core::SampleRange WorkSource::next_samples() {
+  open_next();
+  return is_masked() ? steps_[scan_.place()].samples(first_samples_) : core::SampleRange{0, first_samples_};
 }
 
 /// The ring passes over the asker, who is known to have nothing.
@@ -151,7 +170,8 @@ void WorkSource::reply(std::uint32_t asker, const PixelRectangle& item) {
   node_->grant(nodes::NodeId{asker}, control_channel);  // the place that the request has reserved
   const WorkReply work{item, self_};
   if (is_masked()) {
-    node_->send_reserved(nodes::NodeId{asker}, control_channel, number_of(Kind::work_reply), MaskedWorkReply{work, wanted(item)});
+    node_->send_reserved(nodes::NodeId{asker}, control_channel, number_of(Kind::work_reply),
+                         MaskedWorkReply{work, steps_of(item)});
   } else {
     node_->send_reserved(nodes::NodeId{asker}, control_channel, number_of(Kind::work_reply), work);
   }
@@ -159,7 +179,7 @@ void WorkSource::reply(std::uint32_t asker, const PixelRectangle& item) {
 
 void WorkSource::take_reply(const nodes::Packet& packet) {
   core::expect(asking_ && !has_pixel(), "a work reply answers the one request under way");
-  const auto masked = is_masked() ? packet.as<MaskedWorkReply>() : MaskedWorkReply{packet.as<WorkReply>()};
+  const auto masked = is_masked() ? packet.as<MaskedWorkReply>() : MaskedWorkReply{packet.as<WorkReply>(), {}};
   const WorkReply& reply = masked.reply;
   asking_ = false;
   if (reply.item.pixel_count() == 0) {
@@ -168,7 +188,7 @@ void WorkSource::take_reply(const nodes::Packet& packet) {
   }
   ++counters_.items_taken;
   last_giver_ = reply.giver;
-  scan_ = is_masked() ? PixelScan(reply.item, tile_, masked.pixels) : PixelScan(reply.item, tile_);
+  open(reply.item, masked.steps);
 }
 
 std::string WorkSource::describe() const {

@@ -18,7 +18,8 @@ namespace dmpc::svm {
 struct WorkShape {
   std::uint32_t node_count = 1;
   std::uint32_t width = 1, height = 1;
-  PixelTile tile;                               ///< pixels that a task takes in the first pass
+  std::uint32_t first_samples = 1;              ///< of each pixel in the first pass
+  PixelTile tile;                               ///< pixels that a task takes at most
   std::uint32_t item_side = 3;                  ///< pixels along the side of a work item; 0: no node gives work to another
   bool is_masked = false;                       ///< some pass may leave pixels out
   const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; read by the constructor alone
@@ -30,11 +31,11 @@ struct WorkShape {
 /// an asker that is so told rests for that pass). The first request enters the ring at the next node, a later one at the node
 /// that gave last, because all before it had nothing. Thread safety: none.
 ///
-/// Where the picture is refined, a pass after the first has only those pixels of the submap that the host's mask names; where it
-/// was begun by another run, the first one has those that are missing.
+/// Where the picture is refined, a pass after the first has those samples of the submap's pixels that the host's mask names;
+/// where it was begun by another run, so has the first one, of the pixels that are missing.
 class WorkSource {
  public:
-  /// In the first pass all pixels are wanted that shape.start lacks.
+  /// In the first pass all samples are wanted that shape.start lacks.
   WorkSource(nodes::Node& node, const WorkShape& shape);
   /// Adds to `memory` exactly what the constructor takes at node `index`.
   static void add_needs(nodes::MemoryPlan& memory, const WorkShape& shape, std::uint32_t index);
@@ -43,6 +44,8 @@ class WorkSource {
   bool has_pixel() const { return !scan_.empty() || !items_.empty(); }
   /// Requires has_pixel().
   std::uint32_t next_pixel();
+  /// Of the next pixel, in this pass. Requires has_pixel().
+  core::SampleRange next_samples();
   /// The next pixel lies in the tile of the one before.
   bool stays_in_tile() const { return scan_.stays_in_tile(); }
   /// Sends a work request, unless one is under way or would be in vain. Requires !has_pixel().
@@ -53,8 +56,8 @@ class WorkSource {
   void take_reply(const nodes::Packet& packet);
   /// Takes a part of the next pass's mask. Requires exhausted(), as begin_pass() does.
   void take_mask(const MaskPart& part);
-  /// Starts with the whole submap again, as far as the mask wants it, in tiles of this size.
-  void begin_pass(const PixelTile& tile);
+  /// Starts with the whole submap again, as far as the mask wants it.
+  void begin_pass();
 
   /// No pixel is left here, and none anywhere else.
   bool exhausted() const { return !has_pixel() && no_more_; }
@@ -64,9 +67,11 @@ class WorkSource {
  private:
   std::uint32_t after(std::uint32_t node, std::uint32_t asker) const;
   bool is_masked() const { return !mask_.empty(); }
-  void want_only(const core::PixelMask& pixels);
-  std::uint64_t wanted(const PixelRectangle& item) const;
-  PixelScan scan_of(const PixelRectangle& item) const;
+  void want_missing(const core::PartialPicture& start);
+  ItemSteps steps_of(const PixelRectangle& item) const;
+  bool is_wanted(const PixelRectangle& item) const;
+  void open(const PixelRectangle& item, const ItemSteps& steps);
+  void open_next();
   void skip_unwanted();
   std::optional<PixelRectangle> give();
   void reply(std::uint32_t asker, const PixelRectangle& item);
@@ -75,12 +80,14 @@ class WorkSource {
   std::uint32_t node_count_;
   std::uint32_t self_;
   std::uint32_t image_width_;
+  std::uint32_t first_samples_;
   std::uint32_t item_side_;
   PixelTile tile_;
   PixelRectangle submap_;
-  std::span<std::uint64_t> mask_;  ///< of the submap, row by row; empty unless is_masked()
+  std::span<core::SampleStep> mask_;  ///< of the submap, row by row; empty unless is_masked()
   WorkItems items_;
   PixelScan scan_;
+  ItemSteps steps_;  ///< of the item under way, if is_masked()
   WorkCounters counters_;
   std::uint32_t last_giver_;
   bool asking_ = false;

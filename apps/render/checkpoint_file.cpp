@@ -10,6 +10,7 @@
 #include "apps/system/digest.h"
 #include "apps/system/file_source.h"
 #include "core/base/expect.h"
+#include "core/base/units.h"
 
 namespace dmpc::apps {
 
@@ -17,17 +18,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view first_line = "dmpc checkpoint 1";
-
-struct PassRecord {
-  std::uint64_t number = 0, first_sample = 0, samples = 0;
-};
+constexpr std::string_view first_line = "dmpc checkpoint 2";
 
 struct PixelRecord {
   core::PixelSums sums;
   std::uint64_t samples = 0;
 };
 static_assert(sizeof(PixelRecord) == 56 && std::is_trivially_copyable_v<PixelRecord>);
+
+static_assert(sizeof(core::PixelPast) == 24 && std::is_trivially_copyable_v<core::PixelPast>);
 
 /// Settings and digests of less than 2 KiB, as a rule.
 constexpr std::size_t head_bytes_max = 65536;
@@ -76,6 +75,20 @@ void put_pixels(Writer& writer, const core::Film& film) {
     }
     writer.put(std::as_bytes(std::span(block)));
   }
+}
+
+/// The steps of all pixels, filled up to whole words.
+std::vector<std::uint8_t> step_bytes(std::size_t pixel_count) {
+  return std::vector<std::uint8_t>(core::round_up(pixel_count, sizeof(std::uint64_t)));
+}
+
+void put_pass(Writer& writer, const core::Refinement& refinement) {
+  const std::uint64_t number = refinement.result().passes;
+  const auto steps = refinement.pass().steps();
+  std::vector<std::uint8_t> bytes = step_bytes(steps.size());
+  std::transform(steps.begin(), steps.end(), bytes.begin(), [](const core::SampleStep& step) { return step.bits(); });
+  writer.put(std::as_bytes(std::span(&number, 1)));
+  writer.put(std::as_bytes(std::span(bytes)));
 }
 
 /// Bytes from a file, and whether they are those that were written.
@@ -162,6 +175,18 @@ void take_pixels(Reader& reader, core::Film& film) {
   }
 }
 
+void take_steps(Reader& reader, core::Pass& pass) {
+  std::vector<std::uint8_t> bytes = step_bytes(pass.steps().size());
+  reader.take(std::span(bytes));
+  for (std::size_t pixel = 0; pixel < bytes.size(); ++pixel) {
+    if (pixel < pass.steps().size()) {
+      pass.steps()[pixel] = core::SampleStep::of_bits(bytes[pixel]);
+    } else {
+      reader.check(bytes[pixel] == 0);
+    }
+  }
+}
+
 }  // namespace
 
 void write_checkpoint(const fs::path& path, const PictureIdentity& identity, const core::Film& film, const core::Refinement& pass,
@@ -169,12 +194,13 @@ void write_checkpoint(const fs::path& path, const PictureIdentity& identity, con
   OutputFile file(path, {.name = TemporaryName::of_target, .option = "--checkpoint"}, files);
   Writer writer(file.stream());
   const std::string head = head_of(identity);
-  const PassRecord record{pass.result().passes, pass.samples().first, pass.samples().count};
   writer.put(std::as_bytes(std::span(head)));
-  writer.put(std::as_bytes(std::span(&record, 1)));
-  writer.put(std::as_bytes(pass.pixels().words()));
+  put_pass(writer, pass);
   writer.put(std::as_bytes(done.words()));
   put_pixels(writer, film);
+  if (!pass.past().empty()) {
+    writer.put(std::as_bytes(pass.past()));
+  }
   writer.put_end();
   file.commit();
 }
@@ -186,18 +212,18 @@ core::PartialPicture read_checkpoint(const fs::path& path, const PictureIdentity
     fail(path, "this is the checkpoint of another picture: " + difference);
   }
   reader.check(facts == identity.facts);
-  PassRecord pass;
-  reader.take(std::span(&pass, 1));
+  std::uint64_t passes = 0;
+  reader.take(std::span(&passes, 1));
   const auto pixel_count = static_cast<std::uint32_t>(identity.width) * static_cast<std::uint32_t>(identity.height);
-  core::PixelMask pixels(pixel_count), done(pixel_count);
-  reader.take(pixels.words());
-  reader.take(done.words());
-  core::PartialPicture picture{core::Film(identity.width, identity.height),
-                               reader.narrow(pass.number),
-                               {reader.narrow(pass.first_sample), reader.narrow(pass.samples)},
-                               pixels,
-                               done};
+  core::PartialPicture picture{core::Film(identity.width, identity.height), reader.narrow(passes),
+                               core::Pass(pixel_count, identity.terms.samples), core::PixelMask(pixel_count)};
+  take_steps(reader, picture.pass);
+  reader.take(picture.done.words());
   take_pixels(reader, picture.film);
+  if (identity.terms.refinement.is_wanted()) {
+    picture.past.resize(pixel_count);
+    reader.take(std::span(picture.past));
+  }
   reader.take_end();
   if (const char* const fault = core::fault_of(picture, identity.terms)) {
     reader.refuse(fault);

@@ -15,8 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string start_text(const fs::path& file, const core::PartialPicture& start) {
-  return "going on from " + file.string() + ": " + grouped(start.done.count()) + " of " + counted(start.pixels.count(), "pixel") +
-         " of pass " + std::to_string(start.passes) + " are done";
+  return "going on from " + file.string() + ": " + grouped(start.done.count()) + " of " +
+         counted(start.pass.pixel_count(), "pixel") + " of pass " + std::to_string(start.passes) + " are done";
 }
 
 bool is_there(const fs::path& file) {

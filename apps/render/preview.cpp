@@ -48,12 +48,13 @@ Preview::Preview(const ViewerAddress& address, std::string picture, int width, i
       height_(static_cast<std::uint32_t>(height)),
       columns_(core::ceil_divide(width_, tile_side)),
       is_dirty_(columns_ * core::ceil_divide(height_, tile_side), start != nullptr ? 1 : 0),
-      is_lit_(width_ * height_),
+      new_samples_(std::size_t{width_} * height_),
       next_(Clock::now()) {
   if (start != nullptr) {
-    is_lit_ = start->done;
     pass_ = start->passes;
-    pass_samples_ = start->samples.count;
+    for (std::uint32_t pixel = 0; pixel < new_samples_.size(); ++pixel) {
+      new_samples_[pixel] = start->done.has(pixel) ? start->pass.samples(pixel).count : 0;
+    }
   }
   if (connection_.is_open()) {
     sender_ = std::jthread([this](const std::stop_token& ending) { run_sender(ending); });
@@ -66,10 +67,9 @@ void Preview::watch(const core::Film& film, const core::Refinement& pass, std::u
   }
   if (pass.result().passes != pass_) {
     pass_ = pass.result().passes;
-    pass_samples_ = pass.samples().count;
-    is_lit_ = core::PixelMask(width_ * height_);
+    std::fill(new_samples_.begin(), new_samples_.end(), 0);
   }
-  is_lit_.add(pixel);
+  new_samples_[pixel] = pass.pass().samples(pixel).count;
   is_dirty_[pixel / width_ / tile_side * columns_ + pixel % width_ / tile_side] = 1;
   if (++calls_ % pixels_a_look == 0 && Clock::now() >= next_) {
     hand_over(film);
@@ -104,7 +104,7 @@ PictureTile Preview::tile_of(const core::Film& film, std::uint32_t index) const 
   tile.rgb.reserve(std::size_t{3} * width * height);
   for (std::uint32_t row = y; row < y + height; ++row) {
     for (std::uint32_t pixel = row * width_ + x; pixel < row * width_ + x + width; ++pixel) {
-      add_pixel(tile.rgb, film.pixels()[pixel], film.samples(pixel) + (is_lit_.has(pixel) ? pass_samples_ : 0));
+      add_pixel(tile.rgb, film.pixels()[pixel], film.samples(pixel) + new_samples_[pixel]);
     }
   }
   return tile;
@@ -140,7 +140,7 @@ void Preview::finish(const core::Film& film) {
   deadline_.store(Clock::now() + patience_at_the_end, std::memory_order_relaxed);  // the sender may see it a little later
   sender_.request_stop();
   sender_.join();
-  is_lit_ = core::PixelMask(width_ * height_);  // all samples are counted on the film
+  std::fill(new_samples_.begin(), new_samples_.end(), 0);  // all samples are counted on the film
   for (std::uint32_t tile = 0; tile < is_dirty_.size() && connection_.is_open(); ++tile) {
     connection_.send(tile_packet_(picture_, tile_of(film, tile)));
   }

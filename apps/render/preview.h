@@ -63,11 +63,10 @@ class Preview {
   std::string picture_;
   TilePacket tile_packet_;
   std::uint32_t width_, height_, columns_;
-  std::vector<std::uint8_t> is_dirty_;  ///< tile by tile: to be sent
-  core::PixelMask is_lit_;              ///< in the pass under way
-  std::uint32_t next_tile_ = 0;         ///< at which to look first, so that each has its turn
+  std::vector<std::uint8_t> is_dirty_;      ///< tile by tile: to be sent
+  std::vector<std::uint32_t> new_samples_;  ///< of each pixel, in the pass under way: those that light has come of
+  std::uint32_t next_tile_ = 0;             ///< at which to look first, so that each has its turn
   std::uint32_t pass_ = 0;
-  std::uint32_t pass_samples_ = 0;
   std::uint32_t calls_ = 0;
   Clock::time_point next_;
   std::mutex mutex_;

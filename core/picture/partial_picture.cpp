@@ -2,28 +2,20 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <optional>
 
 namespace dmpc::core {
 
 namespace {
 
-/// How often the samples of the first pass can be doubled; 0 without refinement.
-std::uint32_t level_max(const PictureTerms& terms) {
-  std::uint32_t level = 0;
-  while (terms.refinement.is_wanted() && std::uint64_t{terms.samples} << (level + 1) <= terms.refinement.samples_max) {
-    ++level;
-  }
-  return level;
-}
-
-/// How often the picture's samples were doubled to make `samples`; nothing if they were not.
+/// What a pixel's level was before the pass, by its samples; nothing if no passes come to them.
 std::optional<std::uint32_t> level_of(std::uint32_t samples, const PictureTerms& terms) {
   if (samples < terms.samples || samples % terms.samples != 0 || !std::has_single_bit(samples / terms.samples)) {
     return std::nullopt;
   }
-  const auto level = static_cast<std::uint32_t>(std::bit_width(samples / terms.samples) - 1);
-  return level <= level_max(terms) ? std::optional(level) : std::nullopt;
+  const auto level = static_cast<std::uint32_t>(std::bit_width(samples / terms.samples));
+  return level <= level_max(terms.refinement, terms.samples) ? std::optional(level) : std::nullopt;
 }
 
 bool is_beyond(const PixelMask& mask, std::uint32_t pixel_count) {
@@ -37,52 +29,67 @@ bool can_hold(const FixedColor& sum, std::uint32_t samples, const PictureTerms& 
                      [&](std::int64_t channel) { return channel == 0 || (channel > 0 && static_cast<double>(channel) <= most); });
 }
 
-const char* fault_of_masks(const PartialPicture& picture) {
+const char* fault_of_done(const PartialPicture& picture) {
   const auto pixel_count = static_cast<std::uint32_t>(picture.film.pixels().size());
-  if (is_beyond(picture.pixels, pixel_count) || is_beyond(picture.done, pixel_count)) {
+  if (is_beyond(picture.done, pixel_count)) {
     return "a pixel beyond the picture";
   }
-  if (picture.done.without(picture.pixels).count() > 0) {
-    return "a pixel that is done, and not of the pass";
+  for (std::uint32_t pixel = 0; pixel < pixel_count; ++pixel) {
+    if (picture.done.has(pixel) && !picture.pass.has(pixel)) {
+      return "a pixel that is done, and not of the pass";
+    }
   }
   return nullptr;
 }
 
-const char* fault_of_first_pass(const PartialPicture& picture, const PictureTerms& terms) {
-  if (picture.samples != SampleRange{0, terms.samples}) {
-    return "a first pass with other samples than the picture's";
-  }
-  if (picture.pixels.count() != picture.film.pixels().size()) {
+const char* fault_of_first_pass(const PartialPicture& picture) {
+  const auto steps = picture.pass.steps();
+  if (!std::all_of(steps.begin(), steps.end(), [](const SampleStep& step) { return step == SampleStep::first(); })) {
     return "a first pass without all pixels";
   }
   return picture.film.samples() > 0 ? "samples of passes before the first" : nullptr;
 }
 
-/// Each pass after the first doubles the samples of some pixels of one level.
+/// Each pass after the first doubles the samples of some pixels, a few times at most.
 const char* fault_of_later_pass(const PartialPicture& picture, const PictureTerms& terms) {
-  const auto pass_level = level_of(picture.samples.count, terms);
-  if (!pass_level || *pass_level >= level_max(terms) || picture.samples.first != picture.samples.count) {
-    return "a pass that doubles no pixel's samples";
-  }
-  if (picture.pixels.count() == 0) {
+  if (picture.pass.pixel_count() == 0) {
     return "a pass without pixels";
   }
-  std::uint64_t doublings = 0, doublings_of_one = 0;
+  const std::uint32_t passes_doubling = picture.passes - 2;  // that have ended
+  std::uint64_t doublings = 0;
   for (std::uint32_t pixel = 0; pixel < picture.film.pixels().size(); ++pixel) {
     const auto level = level_of(picture.film.samples(pixel), terms);
-    if (!level || (picture.pixels.has(pixel) && *level != *pass_level)) {
+    const SampleStep step = picture.pass.steps()[pixel];
+    if (!level || *level - 1 > passes_doubling * doublings_max) {
       return "samples that no passes come to";
     }
-    doublings += *level;
-    doublings_of_one = std::max<std::uint64_t>(doublings_of_one, *level);
+    if (step.from() != *level || step.to() < *level || step.to() > *level + doublings_max ||
+        step.to() > level_max(terms.refinement, terms.samples)) {
+      return "a pass that goes on from other samples";
+    }
+    doublings += *level - 1;
   }
-  const std::uint64_t doubling_passes = picture.passes - 2;
-  return doubling_passes < doublings_of_one || doubling_passes > doublings ? "samples of more or fewer passes" : nullptr;
+  return passes_doubling > doublings ? "samples of fewer passes" : nullptr;
+}
+
+/// More than any film can show, and less than what overflows on the way. Only what looked even was expected to be so.
+bool can_be(const PixelPast& past, const RefinementOptions& options) {
+  constexpr float mean_max = 0x1p31F, evidence_max = 1e30F;
+  const auto is_mean = [](float channel) { return channel >= 0 && channel <= mean_max; };
+  return std::all_of(past.mean.begin(), past.mean.end(), is_mean) && past.expected >= -1 &&
+         double{past.expected} <= options.error * options.error && std::fabs(past.evidence) <= evidence_max && past.weight >= 0 &&
+         past.weight <= 1;
+}
+
+const char* fault_of_past(const PartialPicture& picture, const PictureTerms& terms) {
+  const bool is_whole = picture.past.size() == picture.film.pixels().size();
+  const auto is_right = [&](const PixelPast& past) { return can_be(past, terms.refinement); };
+  return is_whole && std::all_of(picture.past.begin(), picture.past.end(), is_right) ? nullptr : "an estimate that no film has";
 }
 
 const char* fault_of_light(const PartialPicture& picture, const PictureTerms& terms) {
   for (std::uint32_t pixel = 0; pixel < picture.film.pixels().size(); ++pixel) {
-    const std::uint32_t samples = picture.film.samples(pixel) + (picture.done.has(pixel) ? picture.samples.count : 0);
+    const std::uint32_t samples = picture.film.samples(pixel) + (picture.done.has(pixel) ? picture.pass.samples(pixel).count : 0);
     const auto& [even, odd] = picture.film.pixels()[pixel].plane;
     if (!can_hold(even, samples - samples / 2, terms) || !can_hold(odd, samples / 2, terms)) {
       return "light that no samples have brought";
@@ -93,14 +100,39 @@ const char* fault_of_light(const PartialPicture& picture, const PictureTerms& te
 
 }  // namespace
 
-const char* fault_of(const PartialPicture& picture, const PictureTerms& terms) {
-  if (const char* const fault = fault_of_masks(picture)) {
-    return fault;
+PixelMask PartialPicture::missing() const {
+  PixelMask missing(static_cast<std::uint32_t>(film.pixels().size()));
+  for (std::uint32_t pixel = 0; pixel < film.pixels().size(); ++pixel) {
+    if (pass.has(pixel) && !done.has(pixel)) {
+      missing.add(pixel);
+    }
   }
-  if (picture.passes == 0 || (picture.passes > 1 && !terms.refinement.is_wanted())) {
+  return missing;
+}
+
+std::uint64_t PartialPicture::samples_done() const {
+  std::uint64_t sum = film.samples();
+  for (std::uint32_t pixel = 0; pixel < film.pixels().size(); ++pixel) {
+    sum += done.has(pixel) ? pass.samples(pixel).count : 0;
+  }
+  return sum;
+}
+
+PartialPicture partial_picture(const Film& film, const Refinement& refinement, const PixelMask& done) {
+  return {film, refinement.result().passes, refinement.pass(), done, {refinement.past().begin(), refinement.past().end()}};
+}
+
+const char* fault_of(const PartialPicture& picture, const PictureTerms& terms) {
+  if (picture.passes == 0 || picture.passes > passes_max || (picture.passes > 1 && !terms.refinement.is_wanted())) {
     return "a pass that the picture does not have";
   }
-  const char* const fault = picture.passes == 1 ? fault_of_first_pass(picture, terms) : fault_of_later_pass(picture, terms);
+  if (const char* const fault = fault_of_done(picture)) {
+    return fault;
+  }
+  const char* fault = picture.passes == 1 ? fault_of_first_pass(picture) : fault_of_later_pass(picture, terms);
+  if (fault == nullptr && terms.refinement.is_wanted()) {
+    fault = fault_of_past(picture, terms);
+  }
   return fault != nullptr ? fault : fault_of_light(picture, terms);
 }
 

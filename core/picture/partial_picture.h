@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <vector>
 
 #include "core/picture/film.h"
 #include "core/picture/refinement.h"
@@ -14,16 +15,19 @@ namespace dmpc::core {
 struct PartialPicture {
   /// The light of the passes that have ended and of what is done of the one under way; the samples are those of the former alone.
   Film film;
-  std::uint32_t passes = 1;  ///< the one under way included
-  SampleRange samples;       ///< of each pixel of the pass
-  PixelMask pixels;          ///< of the pass
-  PixelMask done;            ///< of these: all light of their samples is on the film
+  std::uint32_t passes = 1;          ///< the one under way included
+  Pass pass;                         ///< under way
+  PixelMask done;                    ///< of its pixels: all light of their samples is on the film
+  std::vector<PixelPast> past = {};  ///< where the picture is refined, of each pixel; in the first pass of no account
 
   /// Pixels of the pass that are still to be rendered.
-  PixelMask missing() const { return pixels.without(done); }
+  PixelMask missing() const;
   /// Of all pixels, in passes that have ended and in the one under way.
-  std::uint64_t samples_done() const { return film.samples() + std::uint64_t{done.count()} * samples.count; }
+  std::uint64_t samples_done() const;
 };
+
+/// What a run has under way.
+PartialPicture partial_picture(const Film& film, const Refinement& refinement, const PixelMask& done);
 
 /// What decides which partial pictures there can be.
 struct PictureTerms {

@@ -58,7 +58,12 @@ struct RenderSettings {
     settings.skips.background = false;
     return settings;
   }
+  /// What refinement is to know of the scene, beside the film: of nothing, if none is wanted.
+  FineDetail fine_detail(const Database& database) const {
+    return refinement.is_wanted() ? find_fine_detail(database, camera) : FineDetail();
+  }
   SampleRange first_samples() const { return {0, static_cast<std::uint32_t>(camera.samples())}; }
+  Pass first_pass() const { return {camera.pixel_count(), first_samples().count}; }
 };
 
 /// Adds what a sample of the ray's number finds to its pixel's sums.

@@ -5,47 +5,45 @@
 #include <cmath>
 
 #include "core/base/expect.h"
-#include "core/base/units.h"
+#include "core/base/sampling.h"
 #include "core/picture/partial_picture.h"
 
 namespace dmpc::core {
 namespace {
 
-/// The least variance of a sample that a difference of 1 between the darkest and the brightest of nine neighbouring means
-/// suggests. An even ramp makes 1/48 in each pixel, an edge through the middle one up to 1/4 in that one.
-constexpr double contrast_share = 0.03;
-
-double square_mean(const Vec3d& color) { return dot(color, color) / 3; }
-
-/// samples^(3/2): what the variance of evenly spread samples is divided by.
-double spread(std::uint32_t samples) { return samples * std::sqrt(double{1} * samples); }
-
 /// By what a square error falls when samples double: 1 / spread(2).
 constexpr double doubling = 0.35355339059327373;
-/// The share of the square error asked for that a pass aims at: a little lower, or many small passes come at the end. It aims
-/// lower again, a few times, if it would have fewer than one in so many samples of those that there are.
+/// The share of the square error asked for that a pass aims at: a little lower, or small passes come at the end.
 constexpr double aim = 0.9;
-constexpr std::uint64_t pass_share_min = 32;
-constexpr int attempts_max = 6;
+/// Of the square error asked for: pixels below the first look even, those below the second are good enough, whatever becomes of
+/// the others.
+constexpr double even_share = 0.1, negligible_share = 1e-3;
+/// Pixels are explored by two doublings, for at most this share of the samples that a pass has anyway.
+constexpr std::uint32_t explored_doublings = 2;
+constexpr double explored_share = 0.06;
+/// In the second pass so large a share of the pixels is explored where there are so many and the error asked for is this one:
+/// more where it is smaller, since what is rarer matters then, and less of a larger picture, since a number says more than a
+/// share.
+constexpr double explored_first_share = 0.03, explored_pixels = 16384, explored_error = 4.0 / 255, explored_share_max = 0.25;
+/// Promises that are worth the same are not all taken or all left.
+constexpr double worth_spread = 0.2;
 
-/// Pixels with less than this square error are good enough, whatever becomes of the others.
-double negligible(const RefinementOptions& options) { return 1e-3 * options.error * options.error; }
-
-/// What is won for a sample where `samples` are doubled, but for a constant factor.
-double worth(double square_error, std::uint32_t samples) { return square_error / samples; }
+double explored_first(double error, std::size_t pixels) {
+  const double finer = explored_error / error, larger = static_cast<double>(pixels) / explored_pixels;
+  return std::min(explored_first_share * finer * std::sqrt(std::sqrt(finer)) / std::sqrt(larger), explored_share_max);
+}
 
 }  // namespace
 
-/// Eight bins an octave, by the bits of a positive number: an order that needs no sorting.
-class Refinement::Bins {
+/// Doublings by what they are worth, in 32 bins an octave, by the bits of a positive number: an order that needs no sorting.
+class Refinement::Promises {
  public:
-  static constexpr std::size_t count = std::size_t{2048} * 8;
-  static std::size_t of(double value) { return std::bit_cast<std::uint64_t>(value) >> 49U; }
+  static std::size_t bin_of(double worth) { return std::bit_cast<std::uint64_t>(worth) >> 47U; }
 
-  void add(double key, double weight) { weights_[of(key)] += weight; }
-  /// The highest bin above which, itself included, the weights sum up to `sum`; 0 if all together do not.
+  void add(double worth, double less_error) { weights_[bin_of(worth)] += less_error; }
+  /// The highest bin above which, itself included, square errors become less by `sum`; 0 if all together do not.
   std::size_t threshold(double sum) const {
-    std::size_t bin = count;
+    std::size_t bin = weights_.size();
     while (bin > 0 && sum > 0) {
       sum -= weights_[--bin];
     }
@@ -53,194 +51,144 @@ class Refinement::Bins {
   }
 
  private:
-  std::vector<double> weights_ = std::vector<double>(count);
+  std::vector<double> weights_ = std::vector<double>(std::size_t{2048} * 32);
 };
 
-PixelMask::PixelMask(std::uint32_t pixel_count, bool all) : words_(ceil_divide(pixel_count, 64U), all ? ~std::uint64_t{0} : 0) {
-  if (all && pixel_count % 64 != 0) {
-    words_.back() = (std::uint64_t{1} << (pixel_count % 64)) - 1;
+std::uint32_t level_max(const RefinementOptions& options, std::uint32_t samples) {
+  std::uint32_t level = 1;
+  while (options.is_wanted() && level < SampleStep::level_max && std::uint64_t{samples} << level <= options.samples_max) {
+    ++level;
   }
+  return level;
 }
 
-std::uint32_t PixelMask::count() const {
-  std::uint32_t sum = 0;
-  for (const std::uint64_t word : words_) {
-    sum += static_cast<std::uint32_t>(std::popcount(word));
-  }
-  return sum;
-}
-
-PixelMask PixelMask::without(const PixelMask& other) const {
-  expect(words_.size() == other.words_.size(), "masks are of one picture");
-  PixelMask rest = *this;
-  for (std::size_t i = 0; i < words_.size(); ++i) {
-    rest.words_[i] &= ~other.words_[i];
-  }
-  return rest;
-}
-
-Refinement::Refinement(const RefinementOptions& options, std::uint32_t samples, int width, int height)
+Refinement::Refinement(const RefinementOptions& options, std::uint32_t samples, int width, int height, const FineDetail* detail)
     : options_(options),
-      first_samples_(samples),
-      width_(width),
-      height_(height),
-      samples_{0, samples},
-      pixels_(static_cast<std::uint32_t>(width * height), true),
+      level_max_(core::level_max(options, samples)),
+      pass_(static_cast<std::uint32_t>(width * height), samples),
       pixel_count_(static_cast<std::uint32_t>(width * height)) {
   expect(samples > 0, "a picture has samples");
   if (options.is_wanted()) {
     expect(samples % 2 == 0 && samples <= options.samples_max, "a picture that is refined starts with samples on both planes");
-    levels_.resize(pixel_count_);
-    variances_.resize(pixel_count_);
+    estimate_.emplace(width, height, detail, even_share * options.error * options.error);
     square_errors_.resize(pixel_count_);
-    while (samples_at(level_max_) <= options.samples_max / 2) {
-      ++level_max_;
-    }
   }
 }
 
-/// What next_pass() will not find anew belongs to pixels that neither are in the pass nor touch one of it: on their part of the
-/// film nothing has changed since it was estimated last, so that it is estimated alike. The rest does not matter.
 void Refinement::resume(const PartialPicture& start) {
-  expect(result_.passes == 1 && samples_total_ == 0 && start.film.pixels().size() == pixel_count_,
-         "a picture is gone on with from the start");
-  samples_ = start.samples;
-  pixels_ = start.pixels;
-  pixel_count_ = pixels_.count();
-  samples_total_ = start.film.samples();
+  expect(result_.passes == 1 && start.film.pixels().size() == pass_.steps().size(), "a picture is gone on with from the start");
+  pass_ = start.pass;
+  pixel_count_ = pass_.pixel_count();
   result_.passes = start.passes;
-  if (levels_.empty() || start.passes == 1) {
-    return;
-  }
-  for (std::uint32_t pixel = 0; pixel < levels_.size(); ++pixel) {
-    levels_[pixel] = static_cast<std::uint8_t>(std::bit_width(start.film.samples(pixel) / first_samples_) - 1);
-    note_variance(start.film, pixel);
-  }
-  for (std::uint32_t pixel = 0; pixel < levels_.size(); ++pixel) {
-    square_errors_[pixel] = estimate(start.film, pixel);
+  if (estimate_ && start.passes > 1) {
+    estimate_->resume(start.film, start.past);
   }
 }
+
+std::span<const PixelPast> Refinement::past() const { return estimate_ ? estimate_->past() : std::span<const PixelPast>(); }
 
 bool Refinement::next_pass(Film& film) {
-  end_pass(film);
-  if (levels_.empty()) {
+  for (std::uint32_t pixel = 0; pixel < pass_.steps().size(); ++pixel) {
+    film.add_samples(pixel, pass_.samples(pixel).count);
+  }
+  if (!estimate_) {
     return false;
   }
-  for (std::uint32_t pixel = 0; pixel < levels_.size(); ++pixel) {
-    if (touches_pass(pixel)) {
-      square_errors_[pixel] = estimate(film, pixel);
-    }
-  }
+  estimate_->end_pass(film, pass_);
+  find_errors(film);
+  return result_.error > options_.error && result_.passes < passes_max && choose();
+}
+
+void Refinement::find_errors(const Film& film) {
   double sum = 0;
-  for (const double square_error : square_errors_) {
-    sum += square_error;
+  for (std::uint32_t pixel = 0; pixel < square_errors_.size(); ++pixel) {
+    square_errors_[pixel] = static_cast<float>(estimate_->square_error(film, pixel));
+    sum += double{square_errors_[pixel]};
   }
   result_.error = std::sqrt(sum / static_cast<double>(square_errors_.size()));
-  return result_.error > options_.error && choose(sum);
 }
 
-/// Counts the samples of the pass, and notes the own variance of its pixels.
-void Refinement::end_pass(Film& film) {
-  samples_total_ += pass_samples();
-  for (std::uint32_t pixel = 0; pixel < film.pixels().size(); ++pixel) {
-    if (!pixels_.has(pixel)) {
-      continue;
-    }
-    film.add_samples(pixel, samples_.count);
-    if (!levels_.empty()) {
-      levels_[pixel] = static_cast<std::uint8_t>(levels_[pixel] + (result_.passes > 1 ? 1 : 0));
-      note_variance(film, pixel);
-    }
+/// The next pass, for an error that is too large.
+bool Refinement::choose() {
+  for (SampleStep& step : pass_.steps()) {
+    const std::uint32_t level = std::max(step.from(), step.to());
+    step = {level, level};
   }
-}
-
-void Refinement::note_variance(const Film& film, std::uint32_t pixel) {
-  variances_[pixel] = square_mean(film.half_difference(pixel)) * spread(film.samples(pixel));
-}
-
-/// Calls visit(pixel) for the pixel and those around it, as far as the picture goes.
-template <class Visit>
-void Refinement::visit_around(std::uint32_t pixel, const Visit& visit) const {
-  const int column = static_cast<int>(pixel) % width_, row = static_cast<int>(pixel) / width_;
-  for (int y = std::max(row - 1, 0); y <= std::min(row + 1, height_ - 1); ++y) {
-    for (int x = std::max(column - 1, 0); x <= std::min(column + 1, width_ - 1); ++x) {
-      visit(static_cast<std::uint32_t>(y * width_ + x));
-    }
+  const double wanted = aim * options_.error * options_.error, too_much = result_.error * result_.error - wanted;
+  const std::uint64_t samples = take_best(promises().threshold(too_much * static_cast<double>(square_errors_.size())));
+  if (samples > 0) {
+    explore(samples);
+    estimate_->begin_pass();
+    ++result_.passes;
   }
+  pixel_count_ = pass_.pixel_count();
+  return samples > 0;
 }
 
-/// Whether the pass has changed anything that the estimate of this pixel depends on.
-bool Refinement::touches_pass(std::uint32_t pixel) const {
-  bool touches = false;
-  visit_around(pixel, [&](std::uint32_t near) { touches = touches || pixels_.has(near); });
-  return touches;
+/// What is won for a sample by going on from a level, but for a constant factor.
+double Refinement::worth(std::uint32_t pixel, double square_error, std::uint32_t level) const {
+  return square_error * (1 + worth_spread * hash(pixel)) / samples_at(level);
 }
 
-/// The square of the error of a pixel's mean.
-double Refinement::estimate(const Film& film, std::uint32_t pixel) const {
-  double variance = 0;
-  int count = 0;
-  Vec3d darkest = film.radiance(pixel), brightest = darkest;
-  visit_around(pixel, [&](std::uint32_t near) {
-    variance += variances_[near];
-    ++count;
-    const Vec3d mean = film.radiance(near);
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      darkest[channel] = std::min(darkest[channel], mean[channel]);
-      brightest[channel] = std::max(brightest[channel], mean[channel]);
-    }
-  });
-  return std::max(variance / count, contrast_share * square_mean(brightest - darkest)) / spread(film.samples(pixel));
-}
-
-/// The next pass, for a sum of all square errors that is too large.
-bool Refinement::choose(double sum) {
-  const Bins gains = this->gains();
-  double wanted = options_.error * options_.error * static_cast<double>(levels_.size());
-  for (int attempt = 0; attempt < attempts_max; ++attempt) {
-    wanted *= aim;
-    select(gains.threshold(sum - wanted));
-    if (pass_samples() * pass_share_min >= samples_total_) {
-      break;
-    }
-  }
-  result_.passes += pixel_count_ > 0 ? 1 : 0;
-  return pixel_count_ > 0;
-}
-
-/// Pixels of the lowest level that has any whose next doubling is worth at least as much as the threshold's bin says.
-void Refinement::select(std::size_t threshold) {
-  const auto is_worth_it = [&](std::uint32_t pixel) {
-    return levels_[pixel] < level_max_ && square_errors_[pixel] > negligible(options_) &&
-           Bins::of(worth(square_errors_[pixel], samples_at(levels_[pixel]))) >= threshold;
-  };
-  std::uint32_t level = level_max_;
-  for (std::uint32_t pixel = 0; pixel < levels_.size(); ++pixel) {
-    if (levels_[pixel] < level && is_worth_it(pixel)) {
-      level = levels_[pixel];
-    }
-  }
-  pixels_ = PixelMask(static_cast<std::uint32_t>(levels_.size()));
-  for (std::uint32_t pixel = 0; pixel < levels_.size(); ++pixel) {
-    if (levels_[pixel] == level && is_worth_it(pixel)) {
-      pixels_.add(pixel);
-    }
-  }
-  samples_ = {samples_at(level), samples_at(level)};
-  pixel_count_ = pixels_.count();
+/// From 0 to 1, another one in each pass.
+double Refinement::hash(std::uint32_t pixel) const {
+  const std::uint64_t bits = mix((std::uint64_t{pixel} << 8U | result_.passes) + 0x9e3779b97f4a7c15ULL);
+  return static_cast<double>(bits >> 11U) * 0x1p-53;
 }
 
 /// What each doubling of any pixel's samples would take off the sum of square errors, by what it is worth.
-Refinement::Bins Refinement::gains() const {
-  Bins gains;
-  for (std::uint32_t pixel = 0; pixel < levels_.size(); ++pixel) {
+Refinement::Promises Refinement::promises() const {
+  Promises promises;
+  const double negligible = negligible_share * options_.error * options_.error;
+  for (std::uint32_t pixel = 0; pixel < square_errors_.size(); ++pixel) {
     double square_error = square_errors_[pixel];
-    for (std::uint32_t level = levels_[pixel]; level < level_max_ && square_error > negligible(options_); ++level) {
-      gains.add(worth(square_error, samples_at(level)), square_error * (1 - doubling));
+    const std::uint32_t from = pass_.steps()[pixel].from(), end = std::min(level_max_, from + doublings_max);
+    for (std::uint32_t level = from; level < end && square_error > negligible; ++level) {
+      promises.add(worth(pixel, square_error, level), square_error * (1 - doubling));
       square_error *= doubling;
     }
   }
-  return gains;
+  return promises;
+}
+
+/// Takes all promises that are worth as much as the threshold's bin says. Returns how many samples that takes.
+std::uint64_t Refinement::take_best(std::size_t threshold) {
+  const double negligible = negligible_share * options_.error * options_.error;
+  std::uint64_t samples = 0;
+  for (std::uint32_t pixel = 0; pixel < square_errors_.size(); ++pixel) {
+    double square_error = square_errors_[pixel];
+    const std::uint32_t from = pass_.steps()[pixel].from(), end = std::min(level_max_, from + doublings_max);
+    std::uint32_t to = from;
+    while (to < end && square_error > negligible && Promises::bin_of(worth(pixel, square_error, to)) >= threshold) {
+      square_error *= doubling;
+      ++to;
+    }
+    pass_.steps()[pixel] = {from, to};
+    samples += pass_.samples(pixel).count;
+  }
+  return samples;
+}
+
+bool Refinement::can_explore(std::uint32_t pixel) const {
+  return !pass_.has(pixel) && pass_.steps()[pixel].from() + explored_doublings <= level_max_ && estimate_->looks_even(pixel);
+}
+
+/// Some of the pixels that were not chosen and look even.
+void Refinement::explore(std::uint64_t samples_chosen) {
+  const auto samples_of = [&](std::uint32_t level) { return samples_at(level + explored_doublings) - samples_at(level); };
+  std::uint64_t samples_of_all = 0;
+  for (std::uint32_t pixel = 0; pixel < square_errors_.size(); ++pixel) {
+    samples_of_all += can_explore(pixel) ? samples_of(pass_.steps()[pixel].from()) : 0;
+  }
+  double share =
+      explored_share * static_cast<double>(samples_chosen) / static_cast<double>(std::max<std::uint64_t>(samples_of_all, 1));
+  share = result_.passes == 1 ? std::max(share, explored_first(options_.error, square_errors_.size())) : share;
+  for (std::uint32_t pixel = 0; pixel < square_errors_.size(); ++pixel) {
+    if (hash(pixel) < share && can_explore(pixel)) {
+      const std::uint32_t level = pass_.steps()[pixel].from();
+      pass_.steps()[pixel] = {level, level + explored_doublings};
+    }
+  }
 }
 
 }  // namespace dmpc::core

@@ -1,26 +1,24 @@
-// Adaptive sampling: which pixels get more samples, decided pass by pass from the film alone, so that every strategy refines the
-// same pixels.
+// Adaptive sampling: which pixels get more samples, decided pass by pass from the film and the scene, so that every strategy
+// refines the same pixels.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "core/picture/error_estimate.h"
 #include "core/picture/film.h"
+#include "core/picture/fine_detail.h"
+#include "core/picture/sample_pass.h"
 
 namespace dmpc::core {
 
 struct PartialPicture;
 
-/// Consecutive samples that each pixel of a pass gets.
-struct SampleRange {
-  std::uint32_t first = 0, count = 1;
-  constexpr bool operator==(const SampleRange&) const = default;
-};
-
 /// How far a picture is refined beyond the camera's samples, which every pixel gets.
 struct RefinementOptions {
-  /// Estimated root mean square error of the picture's linear channels at which it is good enough; 0: no refinement.
+  /// Root mean square error of the picture's linear channels at which it is good enough; 0: no refinement.
   double error = 0;
   /// Of a pixel. Pixels stop below it: their samples double.
   std::uint32_t samples_max = 4096;
@@ -28,87 +26,65 @@ struct RefinementOptions {
   constexpr bool is_wanted() const { return error > 0; }
 };
 
+/// The last pass ends a picture, whatever its error: with samples enough for any it comes sooner.
+inline constexpr std::uint32_t passes_max = 12;
+/// In one pass a pixel's samples are doubled so often at most: what few samples say is then looked at again.
+inline constexpr std::uint32_t doublings_max = 3;
+/// The level that a pixel of `samples` in the first pass may come to; at most SampleStep::level_max.
+std::uint32_t level_max(const RefinementOptions& options, std::uint32_t samples);
+
 /// What came of it.
 struct RefinementResult {
   std::uint32_t passes = 1;
   double error = 0;  ///< estimated, of the picture as it is; 0 unless refinement was wanted
 };
 
-/// A bit for each pixel of a picture.
-class PixelMask {
- public:
-  explicit PixelMask(std::uint32_t pixel_count, bool all = false);
-
-  bool has(std::uint32_t pixel) const { return (words_[pixel / 64] >> (pixel % 64) & 1U) != 0; }
-  void add(std::uint32_t pixel) { words_[pixel / 64] |= std::uint64_t{1} << (pixel % 64); }
-  std::uint32_t count() const;
-  /// Those that `other`, a mask of the same picture, does not have.
-  PixelMask without(const PixelMask& other) const;
-  /// 64 pixels each, the first the lowest bit. Whoever writes them sets no bit beyond the picture.
-  std::span<const std::uint64_t> words() const { return words_; }
-  std::span<std::uint64_t> words() { return words_; }
-  bool operator==(const PixelMask&) const = default;
-
- private:
-  std::vector<std::uint64_t> words_;
-};
-
 /// The host's: the pass under way, and the choice of the next. Not thread-safe.
 ///
-/// A pixel's error is that of its mean: half of the difference between the means of its even and its odd samples is an estimate
-/// of it. One pixel's difference says little, and may be 0 by chance where an edge runs; so a pixel's variance is the mean over
-/// it and its neighbours, and at least what the contrast between them suggests. It falls with samples^-3/2, as that of evenly
-/// spread samples does where edges make it (D. P. Mitchell, "Consequences of Stratified Sampling in Graphics", SIGGRAPH 1996).
-///
-/// Every pixel has the camera's samples or those doubled a number of times, its level. A pass doubles the samples of pixels of
-/// one level, the lowest of which any promises enough: those whose error falls most for a sample, as many as are needed for the
-/// picture's estimate to come down to the error asked for.
+/// Every pixel has the camera's samples or those doubled a number of times. Each doubling of a pixel's samples promises so much
+/// less error (ErrorEstimate) for so many samples: the best promises are taken, as many as are needed for the picture's estimate
+/// to come down to the error asked for, at once and for all levels. Besides, some of the pixels that look even, chosen by a hash,
+/// get four times their samples, for what they show of the others.
 class Refinement {
  public:
   /// `samples`: of every pixel in the first pass, which is under way from the start. Requires an even number of them, and a film
-  /// of this size, if there is an error to come down to; else any number.
-  Refinement(const RefinementOptions& options, std::uint32_t samples, int width, int height);
+  /// of this size, if there is an error to come down to; else any number. `detail`, if there is any, outlives it.
+  Refinement(const RefinementOptions& options, std::uint32_t samples, int width, int height, const FineDetail* detail = nullptr);
 
-  /// Goes on where another has left off, from whose film all that it had estimated is found again. Before the first next_pass().
+  /// Goes on where another has left off. Before the first next_pass().
   void resume(const PartialPicture& start);
 
-  SampleRange samples() const { return samples_; }
-  /// The pixels of the pass under way.
-  const PixelMask& pixels() const { return pixels_; }
+  /// Under way.
+  const Pass& pass() const { return pass_; }
   std::uint32_t pixel_count() const { return pixel_count_; }
   /// All light of the pass under way has arrived: counts its samples on the film, and chooses the next one. Returns false if the
   /// picture is good enough, or no pixel may have more samples.
   bool next_pass(Film& film);
   /// Up to the pass under way, its error not yet known.
   const RefinementResult& result() const { return result_; }
+  /// What it remembers of the pixels, for who goes on; of none, if no refinement is wanted.
+  std::span<const PixelPast> past() const;
 
  private:
-  class Bins;
+  class Promises;
 
-  void end_pass(Film& film);
-  void note_variance(const Film& film, std::uint32_t pixel);
-  template <class Visit>
-  void visit_around(std::uint32_t pixel, const Visit& visit) const;
-  bool touches_pass(std::uint32_t pixel) const;
-  double estimate(const Film& film, std::uint32_t pixel) const;
-  bool choose(double sum);
-  void select(std::size_t threshold);
-  std::uint64_t pass_samples() const { return std::uint64_t{pixel_count_} * samples_.count; }
-  Bins gains() const;
-  std::uint32_t samples_at(std::uint32_t level) const { return first_samples_ << level; }
+  void find_errors(const Film& film);
+  bool choose();
+  Promises promises() const;
+  std::uint64_t take_best(std::size_t threshold);
+  void explore(std::uint64_t samples_chosen);
+  bool can_explore(std::uint32_t pixel) const;
+  std::uint32_t samples_at(std::uint32_t level) const { return SampleStep::samples_at(level, pass_.first_samples()); }
+  double worth(std::uint32_t pixel, double square_error, std::uint32_t level) const;
+  double hash(std::uint32_t pixel) const;
 
   RefinementOptions options_;
-  std::uint32_t first_samples_;
-  int width_, height_;
-  std::uint32_t level_max_ = 0;
-  SampleRange samples_;
-  PixelMask pixels_;
+  std::uint32_t level_max_ = 1;
+  Pass pass_;
   std::uint32_t pixel_count_;
-  std::uint64_t samples_total_ = 0;  ///< of all pixels, in passes that have ended
   RefinementResult result_;
-  std::vector<std::uint8_t> levels_;  ///< of each pixel; this and the next are empty without refinement
-  std::vector<double> variances_;     ///< of a sample, by the pixel's own difference
-  std::vector<double> square_errors_;
+  std::optional<ErrorEstimate> estimate_;  ///< this and the next are empty without refinement
+  std::vector<float> square_errors_;
 };
 
 }  // namespace dmpc::core

@@ -22,18 +22,18 @@ PixelSums render_pixel(PixelTask& task, std::uint32_t pixel, const SampleRange& 
   return task.sums();
 }
 
-/// Renders every pixel in order, pass after pass.
+/// Renders every pixel in order, pass after pass. `detail` is the picture's, if it is refined: find_fine_detail().
 template <Tracer T>
-Film render(T& tracer, const RenderSettings& settings, Operations& operations) {
+Film render(T& tracer, const RenderSettings& settings, Operations& operations, const FineDetail* detail = nullptr) {
   const int width = settings.camera.width(), height = settings.camera.height();
   Film film(width, height);
-  Refinement refinement(settings.refinement, settings.first_samples().count, width, height);
+  Refinement refinement(settings.refinement, settings.first_samples().count, width, height, detail);
   std::vector<HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
   PixelTask task(stack);
   do {
     for (std::uint32_t pixel = 0; pixel < settings.camera.pixel_count(); ++pixel) {
-      if (refinement.pixels().has(pixel)) {
-        film.deposit(pixel, render_pixel(task, pixel, refinement.samples(), tracer, settings, operations));
+      if (refinement.pass().has(pixel)) {
+        film.deposit(pixel, render_pixel(task, pixel, refinement.pass().samples(pixel), tracer, settings, operations));
       }
     }
   } while (refinement.next_pass(film));

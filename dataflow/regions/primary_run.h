@@ -3,16 +3,19 @@
 
 #include <cstdint>
 
-#include "core/picture/refinement.h"
+#include "core/picture/sample_pass.h"
 
 namespace dmpc::dataflow {
 
-/// Consecutive primary rays of a pass. The ray of sample `first + i` of a pixel, in a pass of `count` samples from `first` on,
-/// has the number pixel * count + i.
+/// Consecutive primary rays of a pass. They are numbered by the samples that some pixel of it may have: of `count` samples from
+/// `first` on, the ray of sample `first + i` of a pixel has the number pixel * count + i.
 struct PrimaryRun {
   std::uint64_t first = 0;
   std::uint64_t count = 0;
 };
+
+/// From 0 on to the last that any pixel of the pass has, since every pixel may have others.
+inline core::SampleRange numbered_samples(const core::Pass& pass) { return {0, pass.samples_end()}; }
 
 constexpr std::uint32_t pixel_of(std::uint64_t number, const core::SampleRange& samples) {
   return static_cast<std::uint32_t>(number / samples.count);

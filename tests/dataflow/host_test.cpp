@@ -88,7 +88,7 @@ TEST_CASE("primary rays of a later pass are dealt as nodes have room, and the ho
   plan.request.refinement.error = 1e-9;
   core::Film film(4, 2);
   tests::SingleNode single(plan.host_memory(), 2, 3);
-  const auto deal = [&](const core::SampleRange&, const core::PixelMask&) {
+  const auto deal = [&](const core::Pass&, const core::PixelMask&) {
     return std::vector<std::vector<dataflow::PrimaryRun>>{{}, std::vector<dataflow::PrimaryRun>(2 * room + 1, {0, 1})};
   };
   dataflow::HostProgram host(single.node, plan, film, {}, deal);
@@ -124,8 +124,7 @@ TEST_CASE("a pass whose rays were not all found, as a stop was requested, is not
   plan.request.is_dealt_on_the_way = true;
   core::Film film(4, 2);
   tests::SingleNode single(plan.host_memory(), 2, 3);
-  dataflow::HostProgram host(single.node, plan, film, {},
-                             [](const core::SampleRange&, const core::PixelMask&) { return std::nullopt; });
+  dataflow::HostProgram host(single.node, plan, film, {}, [](const core::Pass&, const core::PixelMask&) { return std::nullopt; });
   for (int quanta = 0; quanta < 3; ++quanta) {
     CHECK(host.work());
   }

@@ -77,7 +77,7 @@ TEST_CASE("every primary ray is dealt once, to the owner of the cell in which it
   const core::Camera camera(scene.view, frame, 30, 20, 3);
   const dataflow::Bsp bsp = dataflow::equal_size_bsp(core::grid_size(frame), dataflow::axes_facing(camera), 5);
   const core::RenderSettings settings{.header = database.header(), .camera = camera};
-  const auto runs = dataflow::deal_primaries(settings, bsp, {0, 3}, core::PixelMask(camera.pixel_count(), true));
+  const auto runs = dataflow::deal_primaries(settings, bsp, settings.first_pass(), core::PixelMask(camera.pixel_count()));
   std::vector<int> dealt(camera.pixel_count() * 3);
   std::vector<int> sky(5);
   for (std::uint32_t node = 0; node < 5; ++node) {
@@ -107,13 +107,13 @@ TEST_CASE("rays of pixels that show the background are shared out by pixel numbe
   bits.fill(~std::uint64_t{0});
   core::RenderSettings settings{.header = database.header(), .camera = camera, .background = core::BackgroundTiles(camera, bits)};
   const dataflow::Bsp bsp = dataflow::equal_size_bsp(core::grid_size(frame), dataflow::axes_facing(camera), 3);
-  const core::PixelMask pixels(camera.pixel_count(), true);
-  const auto runs = dataflow::deal_primaries(settings, bsp, {0, 2}, pixels);
+  const core::PixelMask done(camera.pixel_count());
+  const auto runs = dataflow::deal_primaries(settings, bsp, settings.first_pass(), done);
   for (std::uint32_t node = 0; node < 3; ++node) {
     REQUIRE(runs[node].size() == 1);
     CHECK(runs[node][0].first == node * 800);
     CHECK(runs[node][0].count == 800);
   }
   settings.skips.background = false;
-  CHECK(dataflow::deal_primaries(settings, bsp, {0, 2}, pixels)[0].size() > 1);
+  CHECK(dataflow::deal_primaries(settings, bsp, settings.first_pass(), done)[0].size() > 1);
 }

@@ -104,29 +104,40 @@ TEST_CASE("runs of primary rays are counted for many computers as they are dealt
     region_counts.push_back(1 + i % 9);
   }
   const SharedHat hat(tests::built_in("sombrero-1").view, 24, 3, region_counts);
-  core::PixelMask pixels(hat.settings.camera.pixel_count());
+  core::Pass pass(hat.settings.camera.pixel_count(), 2);
+  core::PixelMask done(hat.settings.camera.pixel_count());
+  std::uint64_t samples = 0;
   for (std::uint32_t pixel = 0; pixel < hat.settings.camera.pixel_count(); ++pixel) {
-    if (pixel % 7 != 3) {
-      pixels.add(pixel);
+    pass.steps()[pixel] = {pixel % 3, pixel % 4};
+    if (pixel % 7 == 3) {
+      done.add(pixel);
+    } else {
+      samples += pass.samples(pixel).count;
     }
   }
-  const auto counts = dataflow::count_primary_runs(hat.settings, hat.bsps, {2, 3}, pixels);
+  const core::SampleRange numbered = dataflow::numbered_samples(pass);
+  const auto counts = dataflow::count_primary_runs(hat.settings, hat.bsps, pass, done);
   REQUIRE(counts.size() == hat.bsps.size());
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    const auto runs = dataflow::deal_primaries(hat.settings, hat.bsps[i], {2, 3}, pixels);
+    const auto runs = dataflow::deal_primaries(hat.settings, hat.bsps[i], pass, done);
     REQUIRE(counts[i].size() == runs.size());
     std::uint64_t rays = 0;
     for (std::size_t node = 0; node < runs.size(); ++node) {
       CHECK(counts[i][node] == runs[node].size());
       for (const dataflow::PrimaryRun& run : runs[node]) {
         rays += run.count;
-        const std::uint32_t first = dataflow::pixel_of(run.first, {2, 3}),
-                            last = dataflow::pixel_of(run.first + run.count - 1, {2, 3});
-        CHECK((pixels.has(first) && pixels.has(last)));
-        CHECK(owner_by_next_stop(hat, hat.bsps[i], first, dataflow::sample_of(run.first, {2, 3})) == node);
+        CHECK(run.count > 0);
+        for (std::uint64_t number = run.first; number < run.first + run.count; ++number) {
+          const std::uint32_t pixel = dataflow::pixel_of(number, numbered), sample = dataflow::sample_of(number, numbered);
+          const core::SampleRange range = pass.samples(pixel);
+          CHECK_FALSE(done.has(pixel));
+          CHECK((sample >= range.first && sample < range.first + range.count));
+        }
+        const std::uint32_t first = dataflow::pixel_of(run.first, numbered);
+        CHECK(owner_by_next_stop(hat, hat.bsps[i], first, dataflow::sample_of(run.first, numbered)) == node);
       }
     }
-    CHECK(rays == std::uint64_t{3} * pixels.count());
+    CHECK(rays == samples);
   }
 }
 

@@ -31,7 +31,7 @@ using namespace dmpc;
 namespace {
 
 constexpr std::size_t word_bytes = sizeof(std::uint64_t);
-constexpr std::size_t pass_bytes = 3 * word_bytes, pixel_bytes = 7 * word_bytes;
+constexpr std::size_t pixel_bytes = 7 * word_bytes, past_bytes = 3 * word_bytes;
 constexpr int side = 3;
 constexpr std::size_t pixels = side * side;
 
@@ -71,7 +71,11 @@ class Picture {
     const std::size_t head = genuine_.front().find("\n\n") + 2;
     apps::Digest digest;
     auto bytes = std::as_bytes(std::span(text));
-    for (const std::size_t part : {head, pass_bytes, word_bytes, word_bytes, pixels * pixel_bytes}) {
+    std::vector<std::size_t> parts = {head, word_bytes, 2 * word_bytes, word_bytes, pixels * pixel_bytes};
+    if (identity_.terms.refinement.is_wanted()) {
+      parts.push_back(pixels * past_bytes);
+    }
+    for (const std::size_t part : parts) {
       const std::size_t count = std::min(part, bytes.size());
       digest.add(bytes.first(count));
       bytes = bytes.subspan(count);
@@ -85,7 +89,7 @@ class Picture {
     core::Continuation continuation{.start = &start};
     continuation.is_due = [] { return true; };
     continuation.keep = [&](const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) {
-      const core::PartialPicture kept{film, pass.result().passes, pass.samples(), pass.pixels(), done};
+      const core::PartialPicture kept = core::partial_picture(film, pass, done);
       core::expect(core::fault_of(kept, identity_.terms) == nullptr, "what is kept on the way could have come about");
     };
     const auto machine = tests::priced_machine();

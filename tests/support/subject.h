@@ -69,7 +69,8 @@ class Subject {
     core::LocalRecords records(database_.bytes());
     core::GridTracer tracer(records, settings_.header, core::Skips{});
     core::Operations operations;
-    outcome_ = outcome_of(core::render(tracer, settings_, operations), operations);
+    const core::FineDetail detail = settings_.fine_detail(database_);
+    outcome_ = outcome_of(core::render(tracer, settings_, operations, &detail), operations);
     if (size.knows_background) {
       settings_.background = core::find_background(database_, settings_.camera);
     }

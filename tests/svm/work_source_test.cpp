@@ -119,7 +119,7 @@ TEST_CASE("an empty item ends the asking") {
   CHECK(small.lone.post.parcels.empty());
 }
 
-TEST_CASE("a later pass has the pixels of the mask alone") {
+TEST_CASE("a later pass has the pixels of the mask alone, each with samples of its own") {
   svm::Plan plan = svm::make_plan({.page_count = 4,
                                    .computer = {.node_count = 1},
                                    .pages = {.work_item_side = 3},
@@ -131,21 +131,26 @@ TEST_CASE("a later pass has the pixels of the mask alone") {
   svm::WorkSource work(lone.node, plan.work());
   std::set<std::uint32_t> first, second;
   while (work.has_pixel()) {
+    CHECK(work.next_samples() == core::SampleRange{0, 2});
     first.insert(work.next_pixel());
   }
   CHECK(first.size() == 96);
   svm::MaskPart mask;
-  mask.words[0] = std::uint64_t{1} << 13U | 1U;
-  mask.words[1] = std::uint64_t{1} << 31U;
+  mask.steps[0] = {1, 2};
+  mask.steps[13] = {1, 4};
+  mask.steps[95] = {3, 4};
   work.take_mask(mask);
-  work.begin_pass({});
+  work.begin_pass();
   while (work.has_pixel()) {
-    second.insert(work.next_pixel());
+    const core::SampleRange samples = work.next_samples();
+    const std::uint32_t pixel = work.next_pixel();
+    CHECK(samples == mask.steps[pixel].samples(2));
+    second.insert(pixel);
   }
   CHECK(second == std::set<std::uint32_t>{0, 13, 95});
   CHECK(work.exhausted());
   work.take_mask({});
-  work.begin_pass({});
+  work.begin_pass();
   CHECK(work.exhausted());
 }
 
@@ -168,18 +173,21 @@ TEST_CASE("an item that is given away takes its part of the mask along, and item
   giver.take_reply(parcel_of(1, Kind::work_reply, svm::MaskedWorkReply{}).packet());
   taker.take_reply(parcel_of(0, Kind::work_reply, svm::MaskedWorkReply{}).packet());
   svm::MaskPart mask;
-  mask.words[0] = 0b0010'0001;  // of a submap of 4x2: the first item's first pixel and its last one
+  mask.steps[0] = {1, 2};  // of a submap of 4x2: the first item's first pixel and its last one
+  mask.steps[5] = {1, 3};
   giver.take_mask(mask);
-  giver.begin_pass({});
+  giver.begin_pass();
   taker.take_mask({});
-  taker.begin_pass({});
+  taker.begin_pass();
   giver_node.post.parcels.clear();
   giver.answer({1, 1});
   REQUIRE(giver_node.post.parcels.size() == 1);
   CHECK_FALSE(giver.has_pixel());
   taker.ask();
   taker.take_reply(giver_node.post.parcels.front().packet());
+  CHECK(taker.next_samples() == core::SampleRange{2, 2});
   CHECK(taker.next_pixel() == 0);
+  CHECK(taker.next_samples() == core::SampleRange{2, 6});
   CHECK(taker.next_pixel() == 8 + 1);
   CHECK_FALSE(taker.has_pixel());
 }

@@ -43,7 +43,7 @@ class StoppingKeeper {
   core::Continuation continuation(const std::optional<core::PartialPicture>& start) {
     return {start ? &*start : nullptr, [this] { return ++asked_ % every_ == 0; },
             [this](const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) {
-              kept.emplace(core::PartialPicture{film, pass.result().passes, pass.samples(), pass.pixels(), done});
+              kept.emplace(core::partial_picture(film, pass, done));
               stop_.request_stop();
             }};
   }

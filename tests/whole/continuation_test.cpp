@@ -63,7 +63,7 @@ class Keeper {
   core::Continuation continuation(const PartialPicture* start = nullptr) {
     return {start, [this] { return ++asked_ % every_ == 0; },
             [this](const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) {
-              last_.emplace(PartialPicture{film, pass.result().passes, pass.samples(), pass.pixels(), done});
+              last_.emplace(core::partial_picture(film, pass, done));
               ++count_;
               if (stops_) {
                 stop_.request_stop();
@@ -131,7 +131,7 @@ void check_relays(const core::Scene& scene, const Subject::Size& size, std::uint
 /// `pixel_count` pixels with a sample each, none of which is done.
 PartialPicture nothing_done(int width, int height) {
   const auto pixel_count = static_cast<std::uint32_t>(width * height);
-  return {core::Film(width, height), 1, {0, 1}, core::PixelMask(pixel_count, true), core::PixelMask(pixel_count)};
+  return {core::Film(width, height), 1, core::Pass(pixel_count, 1), core::PixelMask(pixel_count)};
 }
 
 }  // namespace
@@ -201,7 +201,7 @@ TEST_CASE("a picture of which nothing or everything is done can be gone on with"
   const Subject subject(tests::mirrors_and_glass(), {16, 9});
   PartialPicture nothing = nothing_done(16, 9), everything = nothing_done(16, 9);
   everything.film = run(subject, {}).film;
-  everything.done = everything.pixels;
+  everything.done = everything.pass.pixels();
   core::Film sums(16, 9);
   for (std::uint32_t pixel = 0; pixel < 16 * 9; ++pixel) {
     sums.deposit(pixel, everything.film.pixels()[pixel]);

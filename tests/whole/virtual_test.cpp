@@ -97,7 +97,7 @@ TEST_CASE("virtual time: svm, replicated and dataflow give the reference's pictu
 }
 
 TEST_CASE("virtual time: a refined picture is the same, and equal runs have equal events") {
-  const Subject subject(mirrors_and_glass(), {.width = 16, .height = 16, .samples = 2, .refinement = {.error = 0.02}});
+  const Subject subject(mirrors_and_glass(), {.width = 16, .height = 16, .samples = 2, .refinement = {.error = 0.004}});
   const auto svm = [&] {
     return run_svm(subject, {.computer = {.node_count = 5, .machine = slow_network()}, .pages = {.cache_pages = 2}});
   };

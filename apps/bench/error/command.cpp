@@ -65,7 +65,7 @@ TableFiles files_of(const ErrorOptions& options) {
   std::vector<PlottedNames> plotted;
   for (const std::string& scene : options.scenes) {
     add_scene_file(scene, others.inputs);
-    plotted.push_back({data_file_of(scene), {plot_name_of(scene) + "_rays", plot_name_of(scene) + "_seconds"}});
+    plotted.push_back({data_file_of(scene), {plot_name_of(scene) + "_seconds", plot_name_of(scene) + "_rays"}});
   }
   if (options.measure.pictures) {
     make_output_folder(*options.measure.pictures, "--pictures");

@@ -142,8 +142,8 @@ Table plotted_table(const SceneResult& result) {
 }
 
 std::vector<Plot> plots_of(const SceneResult& result, const std::string& name) {
-  return {plot_of(result, name + "_rays", {.label = "rays of all kinds"}, "rays", "front by rays"),
-          plot_of(result, name + "_seconds", {.label = "seconds to render (median)"}, "seconds median", "front by seconds")};
+  return {plot_of(result, name + "_seconds", {.label = "seconds to render (median)"}, "seconds median", "front by seconds"),
+          plot_of(result, name + "_rays", {.label = "rays of all kinds"}, "rays", "front by rays")};
 }
 
 }  // namespace dmpc::apps

@@ -18,7 +18,7 @@ Table table_of(std::span<const SceneResult> results, const std::string& title);
 /// The claimed rows of one scene, which its plots are drawn from.
 Table plotted_table(const SceneResult& result);
 
-/// RMSE against rays and against seconds, named after `name`: a curve a knob, and the Pareto front.
+/// RMSE against seconds and against rays, named after `name`: a curve a knob, and the Pareto front.
 std::vector<Plot> plots_of(const SceneResult& result, const std::string& name);
 
 }  // namespace dmpc::apps

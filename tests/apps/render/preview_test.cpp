@@ -138,7 +138,7 @@ TEST_CASE("in the end a viewer that takes nothing is not waited for when a stop 
 TEST_CASE("what was done before is shown, too") {
   LoopbackListener listener;
   SmallFilm small;
-  core::PartialPicture start{core::Film(100, 70), 1, {0, 1}, core::PixelMask(7000, true), core::PixelMask(7000)};
+  core::PartialPicture start{core::Film(100, 70), 1, core::Pass(7000, 1), core::PixelMask(7000)};
   small.light(5);
   start.done.add(5);
   {

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace dmpc::core {
 
@@ -20,10 +21,14 @@ void bring(PartialPicture& picture, std::uint32_t pixel, std::int64_t even, std:
   picture.film.deposit(pixel, sums);
 }
 
+PartialPicture with_samples(std::uint32_t samples) {
+  return {Film(picture_width, picture_height), 1, Pass(picture_pixels, samples), PixelMask(picture_pixels),
+          std::vector<PixelPast>(picture_pixels)};
+}
+
 /// Two samples a pixel, of which three have theirs.
 PartialPicture in_first_pass() {
-  PartialPicture picture{
-      Film(picture_width, picture_height), 1, {0, 2}, PixelMask(picture_pixels, true), PixelMask(picture_pixels)};
+  PartialPicture picture = with_samples(2);
   for (const std::uint32_t pixel : {0U, 63U, 69U}) {
     picture.done.add(pixel);
     bring(picture, pixel, 1, 1);
@@ -31,15 +36,19 @@ PartialPicture in_first_pass() {
   return picture;
 }
 
-/// The second pass has doubled the samples of pixels 5 to 9, the third is about to double those of 7 and 8 again; 8 is done.
+/// The second pass has doubled the samples of pixels 5 to 9, the third is about to double those of 7 again, and those of 8 twice,
+/// which is done.
 PartialPicture in_third_pass() {
-  PartialPicture picture{Film(picture_width, picture_height), 3, {4, 4}, PixelMask(picture_pixels), PixelMask(picture_pixels)};
+  PartialPicture picture = with_samples(2);
+  picture.passes = 3;
   for (std::uint32_t pixel = 0; pixel < picture_pixels; ++pixel) {
-    picture.film.add_samples(pixel, pixel >= 5 && pixel <= 9 ? 4 : 2);
+    const bool is_refined = pixel >= 5 && pixel <= 9;
+    picture.film.add_samples(pixel, is_refined ? 4 : 2);
+    picture.pass.steps()[pixel] = is_refined ? SampleStep(2, 2) : SampleStep(1, 1);
     bring(picture, pixel, 1, 1);
   }
-  picture.pixels.add(7);
-  picture.pixels.add(8);
+  picture.pass.steps()[7] = {2, 3};
+  picture.pass.steps()[8] = {2, 4};
   picture.done.add(8);
   return picture;
 }
@@ -68,25 +77,30 @@ TEST_CASE("a picture that could have come about has no fault") {
 
 TEST_CASE("a pass that the picture cannot have is a fault") {
   CHECK(fault_after(in_first_pass(), [](auto& picture) { picture.passes = 0; }) == "a pass that the picture does not have");
+  CHECK(fault_after(in_third_pass(), [](auto& picture) { picture.passes = passes_max + 1; }) ==
+        "a pass that the picture does not have");
   CHECK(fault_after(in_third_pass(), unchanged, {.samples = 2}) == "a pass that the picture does not have");
-  CHECK(fault_after(in_first_pass(), [](auto& picture) { picture.samples.count = 3; }) ==
-        "a first pass with other samples than the picture's");
-  CHECK(fault_after(in_first_pass(), [](auto& picture) { picture.samples.first = 1; }) ==
-        "a first pass with other samples than the picture's");
-  CHECK(fault_after(in_first_pass(), [](auto& picture) { picture.pixels.words()[0] ^= 4U; }) ==
-        "a first pass without all pixels");
-  for (const SampleRange& samples : {SampleRange{0, 0}, SampleRange{6, 6}, SampleRange{4, 2}, SampleRange{16, 16},
-                                     SampleRange{std::uint32_t{1} << 31, std::uint32_t{1} << 31}}) {
-    CHECK(fault_after(in_third_pass(), [&](auto& picture) { picture.samples = samples; }) ==
-          "a pass that doubles no pixel's samples");
+  CHECK(fault_after(in_first_pass(), [](auto& picture) { picture.pass.steps()[3] = {}; }) == "a first pass without all pixels");
+  CHECK(fault_after(in_first_pass(), [](auto& picture) {
+          picture.pass.steps()[3] = {0, 2};
+        }) == "a first pass without all pixels");
+  for (const SampleStep step : {SampleStep(1, 2), SampleStep(3, 4), SampleStep(2, 1), SampleStep(2, 5), SampleStep(2, 15)}) {
+    CHECK(fault_after(in_third_pass(), [&](auto& picture) { picture.pass.steps()[7] = step; }) ==
+          "a pass that goes on from other samples");
   }
-  CHECK(fault_after(in_third_pass(), [](auto& picture) { picture.pixels = picture.done = PixelMask(picture_pixels); }) ==
-        "a pass without pixels");
+  CHECK(fault_after(in_third_pass(),
+                    [](auto& picture) {
+                      picture.pass.steps()[6] = {2, 6};
+                    },
+                    {2, {.error = 1}}) == "a pass that goes on from other samples");  // more doublings than a pass may have
+  const auto without_pixels = [](auto& picture) {
+    picture.pass.steps()[7] = picture.pass.steps()[8] = {2, 2};
+    picture.done = PixelMask(picture_pixels);
+  };
+  CHECK(fault_after(in_third_pass(), without_pixels) == "a pass without pixels");
 }
 
-TEST_CASE("masks that do not fit the picture or each other are a fault") {
-  CHECK(fault_after(in_first_pass(), [](auto& picture) { picture.pixels.words()[1] |= 1U << 6; }) ==
-        "a pixel beyond the picture");
+TEST_CASE("pixels that are done beyond the picture or the pass are a fault") {
   CHECK(fault_after(in_first_pass(), [](auto& picture) { picture.done.words()[1] |= std::uint64_t{1} << 63; }) ==
         "a pixel beyond the picture");
   CHECK(fault_after(in_third_pass(), [](auto& picture) { picture.done.add(9); }) == "a pixel that is done, and not of the pass");
@@ -97,9 +111,26 @@ TEST_CASE("samples that the passes do not come to are a fault") {
         "samples of passes before the first");
   CHECK(fault_after(in_third_pass(), [](auto& picture) { picture.film.add_samples(3, 1); }) == "samples that no passes come to");
   CHECK(fault_after(in_third_pass(), [](auto& picture) { picture.film.add_samples(3, 30); }) == "samples that no passes come to");
-  CHECK(fault_after(in_third_pass(), [](auto& picture) { picture.pixels.add(3); }) == "samples that no passes come to");
-  CHECK(fault_after(in_third_pass(), [](auto& picture) { picture.passes = 8; }) == "samples of more or fewer passes");
-  CHECK(fault_after(in_third_pass(), [](auto& picture) { picture.passes = 2; }) == "samples of more or fewer passes");
+  CHECK(fault_after(in_third_pass(), [](auto& picture) { picture.passes = 8; }) == "samples of fewer passes");
+  CHECK(fault_after(in_third_pass(), [](auto& picture) { picture.passes = 2; }) == "samples that no passes come to");
+}
+
+TEST_CASE("what no film can have left in an estimate is a fault") {
+  const std::string expected = "an estimate that no film has";
+  const float infinite = std::numeric_limits<float>::infinity();
+  CHECK(fault_after(in_third_pass(), [](auto& picture) { picture.past.clear(); }) == expected);
+  for (const PixelPast& past :
+       {PixelPast{.mean = {0, -1, 0}}, PixelPast{.mean = {0, 0, infinite}}, PixelPast{.expected = -2}, PixelPast{.expected = 1},
+        PixelPast{.evidence = -infinite}, PixelPast{.weight = 1.5F}, PixelPast{.weight = -1}}) {
+    CHECK(fault_after(in_third_pass(), [&](auto& picture) { picture.past[50] = past; }) == expected);
+  }
+}
+
+TEST_CASE("what is missing of a pass, and the samples that are done, count each pixel's own") {
+  const PartialPicture picture = in_third_pass();
+  CHECK(picture.missing().count() == 1);
+  CHECK(picture.missing().has(7));
+  CHECK(picture.samples_done() == picture.film.samples() + 12);
 }
 
 TEST_CASE("light without samples, below nothing or above what they can bring is a fault") {
@@ -112,7 +143,7 @@ TEST_CASE("light without samples, below nothing or above what they can bring is 
   CHECK(fault_after(in_third_pass(), [&](auto& picture) { bring(picture, 7, 5 * one, 0); }) == expected);
   CHECK(fault_after(in_third_pass(), [&](auto& picture) { bring(picture, 8, 5 * one, 0); }).empty());
   const PictureTerms terms_of_one{.samples = 1};
-  const auto has_one = [](auto& picture) { picture.samples.count = 1; };
+  const auto has_one = [](auto& picture) { picture.pass = Pass(picture_pixels, 1); };
   CHECK(fault_after(in_first_pass(), has_one, terms_of_one) == expected);  // there is no second sample
 }
 

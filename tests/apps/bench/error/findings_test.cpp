@@ -66,6 +66,18 @@ TEST_CASE("adaptive sampling is held against uniform sampling at the same error"
   CHECK(ratios[0].is_claimed);
 }
 
+TEST_CASE("what adaptive sampling is worth in time stands first, at an error of one 8-bit step") {
+  SceneResult result = scene_result(0.25);
+  CHECK_FALSE(apps::adaptive_gain(result).seconds);  // no error is so small
+  for (Measurement& one : result.measurements) {
+    one.error.root_mean_square /= 50;
+  }
+  REQUIRE(apps::adaptive_gain(result).rays);
+  CHECK(*apps::adaptive_gain(result).rays == doctest::Approx(4));
+  CHECK(contains(apps::findings_of(result).front(), "for an RMSE of 1/255 uniform samples take "));
+  CHECK(contains(apps::findings_of_all(std::vector{result, result}).front(), "(of 2 scenes) times the time of adaptive ones"));
+}
+
 TEST_CASE("an error below the reference is not claimed and one that is hidden by it gives no ratio") {
   const auto ratios = apps::adaptive_ratios(scene_result(0.5, 0.1));
   CHECK(*ratios[0].rays == doctest::Approx(0.5).epsilon(0.1));
@@ -97,7 +109,7 @@ TEST_CASE("several scenes are summed up by geometric means of those that have a 
   const std::vector<SceneResult> results = {scene_result(0.1), scene_result(0.4), SceneResult()};
   const auto sentences = apps::findings_of_all(results);
   REQUIRE(sentences.size() == 2);
-  CHECK(contains(sentences[0], "RMSE of 16 uniform samples adaptive sampling takes 0.200 (of 2 scenes) times the rays"));
+  CHECK(contains(sentences[0], "RMSE of 16 uniform samples adaptive sampling takes 0.200 (of 2 scenes) times the seconds"));
   CHECK(apps::findings_of_all(std::vector{scene_result(0.1)}).empty());
 }
 

@@ -1,0 +1,215 @@
+#include "core/picture/error_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/expect.h"
+#include "core/base/units.h"
+
+namespace dmpc::core {
+namespace {
+
+/// The least variance of a sample that a difference of 1 between the darkest and the brightest of nine neighbouring means
+/// suggests. An even ramp makes 1/48 in each pixel, an edge through the middle one up to 1/4 in that one.
+constexpr double contrast_share = 0.03;
+/// Pixels along the side of a tile: evidence counts in its own and in those around it.
+constexpr std::uint32_t nearby_side = 8;
+/// What the evidence in all of the picture counts for, beside that of so many pixels nearby.
+constexpr double picture_weight = 8;
+constexpr float remembered_share = 0.5F;
+
+double square_mean(const Vec3d& color) { return dot(color, color) / 3; }
+
+double power(double base, std::uint32_t exponent) {
+  double result = 1;
+  for (; exponent != 0; exponent >>= 1U, base *= base) {
+    result *= (exponent & 1U) != 0 ? base : 1;
+  }
+  return result;
+}
+
+Vec3d vector_of(const std::array<float, 3>& color) { return {double{color[0]}, double{color[1]}, double{color[2]}}; }
+
+std::array<float, 3> rounded(const Vec3d& color) {
+  return {static_cast<float>(color.x), static_cast<float>(color.y), static_cast<float>(color.z)};
+}
+
+/// Calls visit(pixel) for the pixel and those around it, as far as the picture goes.
+template <class Visit>
+void visit_around(std::uint32_t pixel, std::uint32_t width, std::uint32_t height, const Visit& visit) {
+  const std::uint32_t column = pixel % width, row = pixel / width;
+  for (std::uint32_t y = row - (row > 0 ? 1 : 0); y <= std::min(row + 1, height - 1); ++y) {
+    for (std::uint32_t x = column - (column > 0 ? 1 : 0); x <= std::min(column + 1, width - 1); ++x) {
+      visit(y * width + x);
+    }
+  }
+}
+
+}  // namespace
+
+double spread(std::uint32_t samples) { return samples * std::sqrt(double{1} * samples); }
+
+ErrorEstimate::ErrorEstimate(int width, int height, const FineDetail* detail, double even)
+    : width_(static_cast<std::uint32_t>(width)),
+      height_(static_cast<std::uint32_t>(height)),
+      tile_columns_(ceil_divide(width_, nearby_side)),
+      tile_rows_(ceil_divide(height_, nearby_side)),
+      detail_(detail),
+      even_(even),
+      variances_(std::size_t{width_} * height_),
+      seen_(variances_.size()),
+      past_(variances_.size()),
+      unseen_(std::size_t{tile_columns_} * tile_rows_) {}
+
+void ErrorEstimate::resume(const Film& film, std::span<const PixelPast> past) {
+  expect(past.size() == past_.size(), "a pass under way has the past of all pixels");
+  std::copy(past.begin(), past.end(), past_.begin());
+  for (std::uint32_t pixel = 0; pixel < past_.size(); ++pixel) {
+    note_variance(film, pixel);
+  }
+}
+
+void ErrorEstimate::end_pass(const Film& film, const Pass& pass) {
+  for (std::uint32_t pixel = 0; pixel < past_.size(); ++pixel) {
+    past_[pixel].weight *= remembered_share;
+    if (pass.has(pixel)) {
+      note_evidence(film, pass, pixel);
+      note_variance(film, pixel);
+      past_[pixel].mean = rounded(film.radiance(pixel));
+    }
+  }
+  find_contrast(film);
+  for (std::uint32_t pixel = 0; pixel < past_.size(); ++pixel) {
+    seen_[pixel] = static_cast<float>(seen_error(film, pixel));
+  }
+  find_unseen();
+}
+
+void ErrorEstimate::begin_pass() {
+  for (std::uint32_t pixel = 0; pixel < past_.size(); ++pixel) {
+    past_[pixel].expected = looks_even(pixel) ? seen_[pixel] : -1;
+  }
+}
+
+/// A mean of some samples and that of more, among which these are, differ by the difference of their square errors.
+void ErrorEstimate::note_evidence(const Film& film, const Pass& pass, std::uint32_t pixel) {
+  PixelPast& past = past_[pixel];
+  const std::uint32_t before = pass.samples(pixel).first, now = film.samples(pixel);
+  if (before > 0 && past.expected >= 0) {
+    const double change = square_mean(film.radiance(pixel) - vector_of(past.mean)) / (1 - double{1} * before / now);
+    past.evidence = static_cast<float>((change - double{past.expected}) * spread(before));
+    past.weight = 1;
+  }
+}
+
+void ErrorEstimate::note_variance(const Film& film, std::uint32_t pixel) {
+  const std::uint32_t samples = film.samples(pixel);
+  variances_[pixel] = samples > 1 ? static_cast<float>(square_mean(film.half_difference(pixel)) * spread(samples)) : 0.0F;
+}
+
+/// Of one met by few samples nobody knows how bright others are: what is expected counts as much as one that was met. Pixels
+/// whose details are met by many count as if each of them was met once.
+void ErrorEstimate::find_contrast(const Film& film) {
+  if (detail_ == nullptr || detail_->is_empty()) {
+    return;
+  }
+  contrast_ = 1;
+  double found = detail_->contrast(), expected = 1;
+  for (std::uint32_t pixel = 0; pixel < past_.size(); ++pixel) {
+    if (has_detail(pixel)) {
+      const std::uint32_t samples = film.samples(pixel);
+      const double met = std::max(1.0, samples * detail_->coverage(pixel)), weight = samples / met * (samples / met);
+      found += weight * double{variances_[pixel]} / spread(samples);
+      expected += weight * detail_variance(pixel, samples);
+    }
+  }
+  contrast_ = found / expected;
+}
+
+/// Of the pixel's mean, by its details: they are met at random where there are few samples, evenly where there are many.
+double ErrorEstimate::detail_variance(std::uint32_t pixel, std::uint32_t samples) const {
+  const double met = std::max(1.0, samples * detail_->coverage(pixel));
+  return contrast_ * detail_->variance(pixel) / (samples * std::sqrt(met));
+}
+
+/// The square error of a mean that knows nothing of the pixel's details, times the chance that no sample has met one.
+double ErrorEstimate::unmet_detail(std::uint32_t pixel, std::uint32_t samples) const {
+  return contrast_ * detail_->squares(pixel) * power(1 - detail_->coverage(pixel), samples);
+}
+
+double ErrorEstimate::seen_error(const Film& film, std::uint32_t pixel) const {
+  const bool is_detail = has_detail(pixel);
+  double variance = 0;
+  int count = 0;
+  std::array<float, 3> darkest = past_[pixel].mean, brightest = darkest;
+  visit_around(pixel, width_, height_, [&](std::uint32_t near) {
+    if (has_detail(near) != is_detail) {
+      return;
+    }
+    variance += double{variances_[near]};
+    ++count;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      darkest[channel] = std::min(darkest[channel], past_[near].mean[channel]);
+      brightest[channel] = std::max(brightest[channel], past_[near].mean[channel]);
+    }
+  });
+  const double samples_spread = spread(film.samples(pixel));
+  if (is_detail) {
+    variance += detail_variance(pixel, film.samples(pixel)) * samples_spread;
+    ++count;
+  }
+  return std::max(variance / count, contrast_share * square_mean(vector_of(brightest) - vector_of(darkest))) / samples_spread;
+}
+
+double ErrorEstimate::square_error(const Film& film, std::uint32_t pixel) const {
+  const double seen{seen_[pixel]};
+  if (seen >= even_) {
+    return seen;
+  }
+  const std::uint32_t samples = film.samples(pixel);
+  return seen + (has_detail(pixel) ? unmet_detail(pixel, samples) : unseen_[tile_of(pixel)] / spread(samples));
+}
+
+std::uint32_t ErrorEstimate::tile_of(std::uint32_t pixel) const {
+  return pixel / width_ / nearby_side * tile_columns_ + pixel % width_ / nearby_side;
+}
+
+ErrorEstimate::Evidence ErrorEstimate::evidence_around(const std::vector<Evidence>& tiles, std::uint32_t tile) const {
+  Evidence sum;
+  visit_around(tile, tile_columns_, tile_rows_, [&](std::uint32_t near) {
+    sum.sum += tiles[near].sum;
+    sum.weight += tiles[near].weight;
+  });
+  return sum;
+}
+
+/// By what evidence there is nearby, so that the mean over the picture is that of all evidence: what single tiles are taken to
+/// have at least, which is nothing, would else add up.
+void ErrorEstimate::find_unseen() {
+  std::vector<Evidence> tiles(unseen_.size());
+  std::vector<std::uint32_t> even_pixels(unseen_.size());
+  Evidence all;
+  for (std::uint32_t pixel = 0; pixel < past_.size(); ++pixel) {
+    const PixelPast& past = past_[pixel];
+    const double weighed = double{past.weight} * double{past.evidence};
+    const std::uint32_t tile = tile_of(pixel);
+    tiles[tile].sum += weighed;
+    tiles[tile].weight += double{past.weight};
+    all.sum += weighed;
+    all.weight += double{past.weight};
+    even_pixels[tile] += looks_even(pixel) ? 1 : 0;
+  }
+  const double mean = all.weight > 0 ? std::max(0.0, all.sum / all.weight) : 0;
+  double wanted = 0, found = 0;
+  for (std::uint32_t tile = 0; tile < tiles.size(); ++tile) {
+    const Evidence near = evidence_around(tiles, tile);
+    unseen_[tile] = std::max(0.0, (near.sum + picture_weight * mean) / (near.weight + picture_weight));
+    found += even_pixels[tile] * unseen_[tile];
+    wanted += even_pixels[tile] * mean;
+  }
+  for (double& unseen : unseen_) {
+    unseen *= found > 0 ? wanted / found : 0;
+  }
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,87 @@
+// How far a picture's pixels are from converged ones, estimated from the film, and from what is known of what it cannot show.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/picture/film.h"
+#include "core/picture/fine_detail.h"
+#include "core/picture/sample_pass.h"
+
+namespace dmpc::core {
+
+/// What an estimate remembers of a pixel that a film does not tell.
+struct PixelPast {
+  std::array<float, 3> mean{};  ///< when the pass under way was chosen
+  float expected = -1;          ///< its square error then, if it looked even; less than 0: it did not
+  float evidence = 0;           ///< what it has shown of error unseen by pixels that look even, times spread(samples)
+  float weight = 0;             ///< of the evidence: 1 at first, half as much after each pass
+
+  bool operator==(const PixelPast&) const = default;
+};
+
+/// samples^(3/2): what the variance of evenly spread samples is divided by where edges make it (D. P. Mitchell, "Consequences of
+/// Stratified Sampling in Graphics", SIGGRAPH 1996).
+double spread(std::uint32_t samples);
+
+/// Square errors of the means of pixels; not thread-safe.
+///
+/// *What the film shows*: half of the difference between the means of a pixel's even and odd samples is an estimate of its error.
+/// One difference says little, and may be 0 by chance; so a pixel's variance is the mean over it and its neighbours, and at least
+/// what the contrast between them suggests.
+///
+/// *What is known of the scene*: a pixel with fine detail (core/picture/fine_detail.h) is not like its neighbours. Its variance
+/// is half its own, half what its detail would make; as long as it looks even, its detail may all have been missed. How much
+/// light details differ by is found from all such pixels together.
+///
+/// *What is known of neither*: of the pixels that look even, and have no such detail, some get more samples for no reason of
+/// their own. How much their means change, beyond what was expected, is evidence of the error of those that do not get more,
+/// nearby and in all of the picture.
+class ErrorEstimate {
+ public:
+  /// `detail` outlives it, if there is any. Pixels below `even` look even: a square error.
+  ErrorEstimate(int width, int height, const FineDetail* detail, double even);
+
+  /// Goes on with the past of a pass under way, one for each pixel; what else it knows of the pixels that the pass leaves out,
+  /// the film tells.
+  void resume(const Film& film, std::span<const PixelPast> past);
+  /// The samples of the pass are counted on the film, whose light is all there.
+  void end_pass(const Film& film, const Pass& pass);
+  /// Remembers what is expected now, before the next pass.
+  void begin_pass();
+
+  /// Of a pixel's mean, as it is on the film.
+  double square_error(const Film& film, std::uint32_t pixel) const;
+  /// Nothing is known of why it should be uneven.
+  bool looks_even(std::uint32_t pixel) const { return double{seen_[pixel]} < even_ && !has_detail(pixel); }
+  std::span<const PixelPast> past() const { return past_; }
+
+ private:
+  struct Evidence {
+    double sum = 0, weight = 0;
+  };
+
+  bool has_detail(std::uint32_t pixel) const { return detail_ != nullptr && detail_->has(pixel); }
+  void note_evidence(const Film& film, const Pass& pass, std::uint32_t pixel);
+  void note_variance(const Film& film, std::uint32_t pixel);
+  void find_contrast(const Film& film);
+  double detail_variance(std::uint32_t pixel, std::uint32_t samples) const;
+  double unmet_detail(std::uint32_t pixel, std::uint32_t samples) const;
+  double seen_error(const Film& film, std::uint32_t pixel) const;
+  void find_unseen();
+  std::uint32_t tile_of(std::uint32_t pixel) const;
+  Evidence evidence_around(const std::vector<Evidence>& tiles, std::uint32_t tile) const;
+
+  std::uint32_t width_, height_, tile_columns_, tile_rows_;
+  const FineDetail* detail_;
+  double even_;
+  double contrast_ = 0;           ///< the square of that of details
+  std::vector<float> variances_;  ///< of a sample, by the pixel's own difference
+  std::vector<float> seen_;       ///< square errors, but for what is unseen
+  std::vector<PixelPast> past_;
+  std::vector<double> unseen_;  ///< of pixels that look even, by tile, times spread(samples)
+};
+
+}  // namespace dmpc::core
