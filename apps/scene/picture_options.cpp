@@ -60,6 +60,10 @@ void check_refinement(const OptionSet& options, PictureOptions& picture) {
   }
 }
 
+/// A picture that is refined looks at textures through cones half as wide: its estimate of the error sees how samples differ, but
+/// not what all of them blur alike.
+double cone_share(const PictureOptions& picture) { return picture.is_refined ? 0.5 : 1; }
+
 }  // namespace
 
 QualityChoice choice_of(Quality quality) {
@@ -126,7 +130,8 @@ core::RenderSettings render_settings(const PictureOptions& options, const core::
                     .depth_max = options.depth,
                     .cutoff = options.cutoff,
                     .radiance_bound = core::radiance_bound(scene, options.depth),
-                    .pixel_angle = database.records().textured > 0 ? camera.pixel_size() : 0},
+                    .pixel_angle = database.records().textured > 0 ? camera.pixel_size() * cone_share(options) : 0,
+                    .first_samples = static_cast<std::uint32_t>(options.samples)},
           .refinement = options.refinement,
           .skips = options.skips,
           .background = options.skips.background ? core::find_background(database, camera) : core::BackgroundTiles()};

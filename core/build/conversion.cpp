@@ -40,17 +40,7 @@ bool degenerate_triangle(const PrimitiveValues& triangle) {
   return a == b || b == c || c == a || !(dot(area, area) > 0);
 }
 
-double area_of(const PrimitiveValues& triangle) {
-  const Vec3d a = get(triangle, 0), area = cross(get(triangle, 3) - a, get(triangle, 6) - a);
-  return 0.5 * length(area);
-}
-
 using Place = std::array<float, 2>;
-
-double area_of(const std::array<Place, 3>& places) {
-  const auto step = [&](std::size_t corner, std::size_t side) { return double{places[corner][side]} - double{places[0][side]}; };
-  return 0.5 * std::fabs(step(1, 0) * step(2, 1) - step(2, 0) * step(1, 1));
-}
 
 /// A place that is no number counts as the texture's corner; one that is too far away to be told from its neighbours, too.
 Place usable_place(Place place) {
@@ -131,7 +121,7 @@ class Converter {
       add_normals(object, corners);
     }
     if (object.kind == ObjectKind::textured && !degenerate) {
-      add_texture(object, corners, triangle);
+      add_texture(object, corners);
     }
     add(triangle, index, degenerate, object.material);
   }
@@ -144,7 +134,7 @@ class Converter {
     result_.smooth.push_back({static_cast<std::uint32_t>(result_.primitives.size()), normals});
   }
 
-  void add_texture(const Object& object, const std::array<std::uint32_t, 3>& corners, const PrimitiveValues& triangle) {
+  void add_texture(const Object& object, const std::array<std::uint32_t, 3>& corners) {
     const std::uint32_t index = scene_.materials[object.material].texture;
     TexturedNormals textured;
     textured.normals.material_bits = object.material | PatchNormals::textured_flag;
@@ -153,9 +143,6 @@ class Converter {
       textured.normals.normal[i] = unit_normal(turned(frame_.axes, corner.normal));
       textured.place[i] = usable_place(corner.place);
     }
-    const TextureLevel& finest = scene_.textures[index].levels.front();
-    const double texels = area_of(textured.place) * finest.width * finest.height, area = area_of(triangle);
-    textured.texels_per_unit = static_cast<float>(std::sqrt(texels / area));
     result_.textured.push_back({static_cast<std::uint32_t>(result_.primitives.size()), index, textured});
   }
 

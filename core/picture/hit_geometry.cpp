@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/base/mutation.h"
+
 namespace dmpc::core {
 namespace {
 
@@ -17,6 +19,11 @@ struct Lane {
 };
 
 Vec3d along(const Ray& ray, double t) { return Vec3d(ray.origin) + Vec3d(ray.direction) * t; }
+
+Lane lane_of(const HitState& state, const std::byte* record) {
+  const auto header = read<BlockHeader>(record);
+  return {reinterpret_cast<const float*>(record + sizeof(BlockHeader)), header.count, state.hit.lane};
+}
 
 /// Point, true normal and barycentric weights in double, after T. Moeller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle
 /// Intersection", 1997; weights clamped, so that the point lies on the triangle even where the float test let the ray in by
@@ -40,6 +47,13 @@ void sphere_geometry(HitState& state, const Lane& lane) {
   state.point = center + state.geometric_normal * std::fabs(lane.value(3));
 }
 
+/// The least cosine of a cone's axis with a surface that is told from 0.
+constexpr double cosine_min = 1e-6;
+/// Weights change by less than this along an ellipse, or are taken to.
+constexpr double change_max = 1e30;
+
+float bounded(double change) { return static_cast<float>(std::clamp(change, -change_max, change_max)); }
+
 void cone_geometry(HitState& state, const Lane& lane) {
   const Vec3d base = lane.vector(0), axis = lane.vector(4) - base, from_base = along(state.ray, double{state.hit.t}) - base;
   const double base_radius = std::fabs(lane.value(3)), widening = std::fabs(lane.value(7)) - base_radius;
@@ -56,8 +70,7 @@ void cone_geometry(HitState& state, const Lane& lane) {
 
 void read_geometry(HitState& state, const std::byte* record) {
   const auto header = read<BlockHeader>(record);
-  const auto* rows = reinterpret_cast<const float*>(record + sizeof(BlockHeader));
-  const Lane lane{rows, header.count, state.hit.lane};
+  const Lane lane = lane_of(state, record);
   switch (header.kind) {
     case PrimitiveKind::triangle:
       triangle_geometry(state, lane);
@@ -75,6 +88,27 @@ void read_geometry(HitState& state, const std::byte* record) {
   state.leaving = dot(Vec3d(state.ray.direction), state.geometric_normal) > 0.0;
   state.normal = state.leaving ? -state.geometric_normal : state.geometric_normal;
   state.stage = state.shading.is_smooth() ? HitState::Stage::normals : HitState::Stage::material;
+}
+
+CutEllipse cut_ellipse(const HitState& state, const std::byte* record) {
+  const Lane lane = lane_of(state, record);
+  const Vec3d v0 = lane.vector(0), edge1 = lane.vector(3) - v0, edge2 = lane.vector(6) - v0, normal = cross(edge1, edge2);
+  const double square = dot(normal, normal);
+  if (!(square > 0.0)) {
+    return {};
+  }
+  const Vec3d direction(state.ray.direction), unit = state.geometric_normal;
+  const double approach = dot(direction, unit), cosine = std::fabs(approach);
+  const Vec3d slope = direction - unit * approach;
+  const Vec3d along = dot(slope, slope) > 0.0 ? normalize(slope) : normalize(edge1);
+  const double length = mutation == Mutation::dropped_slant ? 1.0 : 1.0 / std::max(cosine, cosine_min);
+  const std::array<Vec3d, 2> axes{along * length, cross(unit, along)};
+  const Vec3d of_u = cross(edge2, normal), of_v = cross(normal, edge1);
+  CutEllipse ellipse;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    ellipse.axis[axis] = {bounded(dot(axes[axis], of_u) / square), bounded(dot(axes[axis], of_v) / square)};
+  }
+  return ellipse;
 }
 
 }  // namespace dmpc::core

@@ -21,7 +21,7 @@ Address record_needed(const HitState& state, const DatabaseHeader& header) {
     case HitState::Stage::textured_material:
       return advance(header.materials, state.shading.material() * sizeof(MaterialRecord));
     case HitState::Stage::light:
-      return advance(header.lights, state.next_light * sizeof(LightRecord));
+      return advance(header.lights, state.surface.next_light * sizeof(LightRecord));
     default:
       return no_address;
   }

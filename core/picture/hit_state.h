@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/base/vec.h"
+#include "core/picture/texture_footprint.h"
 #include "core/picture/texture_lookup.h"
 #include "core/record/hit.h"
 #include "core/record/ray.h"
@@ -26,7 +27,13 @@ struct HitState {
     finished
   };
 
-  HitState() : material() {}
+  /// What lights fall on.
+  struct Surface {
+    MaterialRecord material;
+    std::uint32_t next_light = 0;
+  };
+
+  HitState() : surface() {}
 
   Ray ray;  ///< the ray that hit
   Hit hit;
@@ -35,17 +42,17 @@ struct HitState {
   Vec3d normal;            ///< shading normal on the ray's side, unit length
   double u = 0, v = 0;     ///< barycentric weights of vertices 1 and 2 (triangles); the place on the texture, once it is known
   union {
-    MaterialRecord material;  ///< once it has been read
-    TextureLookup lookup;     ///< before that, if there is a texture
+    Surface surface;       ///< once its material has been read
+    TextureLookup lookup;  ///< before that, if there is a texture
+    CutEllipse ellipse;    ///< before that, where there may be one
   };
   ShadingReference shading;
-  std::uint32_t next_light = 0;
   bool curved = false;          ///< a ray from here may meet the same primitive again
   bool leaving = false;         ///< the ray goes along the true normal: out of the body
   bool has_refraction = false;  ///< Snell's law has an answer: known if this hit may have children
   Stage stage = Stage::geometry;
 };
-static_assert(std::is_trivially_copyable_v<HitState>);
+static_assert(sizeof(HitState) == 208 && std::is_trivially_copyable_v<HitState>);
 
 /// The state of a fresh hit.
 HitState begin_shading(const Ray& ray, const Hit& hit);

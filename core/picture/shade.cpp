@@ -7,6 +7,7 @@
 
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
+#include "core/base/mutation.h"
 #include "core/picture/hit_geometry.h"
 
 namespace dmpc::core {
@@ -22,7 +23,9 @@ constexpr double surface_offset = 0x1p-21;
 /// A shadow ray ends this share of its length before the light.
 constexpr double light_gap = 1e-6;
 
-TexturePlace texture_place(const HitState& state) { return {state.u, state.v}; }
+TexturePlace texture_place(const HitState& state) {
+  return mutation == Mutation::exchanged_places ? TexturePlace{state.v, state.u} : TexturePlace{state.u, state.v};
+}
 
 /// The square of the cosine behind the surface by Snell's law; below 0 there is no refracted ray.
 double refracted_cosine_squared(const HitState& state, double relative_index) {
@@ -31,13 +34,13 @@ double refracted_cosine_squared(const HitState& state, double relative_index) {
 }
 
 double relative_index(const HitState& state) {
-  const double inside = state.material.refraction_index > 0.0F ? double{state.material.refraction_index} : 1.0;
+  const double inside = state.surface.material.refraction_index > 0.0F ? double{state.surface.material.refraction_index} : 1.0;
   return state.leaving ? inside : 1.0 / inside;
 }
 
 /// What of the light found by a reflected ray counts: what cannot be transmitted is reflected, too.
 float mirrored_share(const HitState& state) {
-  return state.material.specular + (state.has_refraction ? 0.0F : state.material.transmittance);
+  return state.surface.material.specular + (state.has_refraction ? 0.0F : state.surface.material.transmittance);
 }
 
 /// A child that starts beside the hit, on the side that it goes to.
@@ -58,10 +61,12 @@ Vec3d mirrored(const Vec3d& direction, const Vec3d& normal) { return direction -
 
 /// Diffuse plus Phong's highlight (NFF) for light from the unit direction `to_light`.
 Color reflected_light(const HitState& state, const LightRecord& light, const Vec3d& to_light, double cosine) {
-  const MaterialRecord& material = state.material;
+  const MaterialRecord& material = state.surface.material;
   const double lobe = std::clamp(dot(mirrored(Vec3d(state.ray.direction), state.normal), to_light), 0.0, 1.0);
   const double highlight = material.specular > 0.0F ? double{material.specular} * pow_unit(lobe, double{material.shine}) : 0.0;
-  const Vec3d surface = Vec3d(material.color) * (double{material.diffuse} * cosine) + Vec3d{highlight, highlight, highlight};
+  const Vec3d surface =
+      Vec3d(material.color) * (double{material.diffuse} * (mutation == Mutation::dropped_cosine ? 1.0 : cosine)) +
+      Vec3d{highlight, highlight, highlight};
   return Color(Vec3d(state.ray.weight) * Vec3d(light.intensity) * surface);
 }
 
@@ -87,27 +92,35 @@ double radiance_bound(const Scene& scene, int depth_max) {
   return bound;
 }
 
-/// The width, grid-local, of the ray's cone where it hits.
-double Shader::cone_at_hit(const HitState& state) const {
-  return cone_width(state.ray) + options_.pixel_angle * double{state.hit.t};
+double sample_spacing(std::uint32_t sample, std::uint32_t first_samples) {
+  std::uint64_t count = first_samples;
+  while (sample >= count) {
+    count *= 2;
+  }
+  return mutation == Mutation::pixels_footprint ? 1.0 : 1.0 / std::sqrt(static_cast<double>(count));
 }
 
-/// What the cone covers of a surface at an angle is longer than wide; its length counts (T. Akenine-Moeller et al., "Texture
-/// Level of Detail Strategies for Real-Time Ray Tracing", Ray Tracing Gems, 2019, chapter 20).
+/// The width, grid-local, of the ray's cone where it hits.
+double Shader::cone_at_hit(const HitState& state) const {
+  const double angle = options_.pixel_angle * sample_spacing(state.ray.sample, options_.first_samples);
+  return cone_width(state.ray) + angle * double{state.hit.t};
+}
+
+void Shader::read_geometry(HitState& state, const std::byte* record) const {
+  core::read_geometry(state, record);
+  if (options_.pixel_angle > 0 && state.stage == Stage::normals) {
+    std::construct_at(&state.ellipse, cut_ellipse(state, record));
+  }
+}
+
 void Shader::begin_texture(HitState& state, const std::byte* record) const {
   ++operations_.texture_lookups;
   const auto textured = read<TexturedNormals>(record);
-  const std::array<double, 3> weight{1.0 - state.u - state.v, state.u, state.v};
-  TexturePlace place;
-  for (std::size_t corner = 0; corner < 3; ++corner) {
-    place.s += weight[corner] * double{textured.place[corner][0]};
-    place.t += weight[corner] * double{textured.place[corner][1]};
-  }
-  const double cosine = std::fabs(dot(Vec3d(state.ray.direction), state.geometric_normal));
-  const double texels = cone_at_hit(state) * double{textured.texels_per_unit} / std::max(cosine, 1e-6);
-  state.u = place.s;
-  state.v = place.t;
-  std::construct_at(&state.lookup, begin_lookup(textured.texture, place, texels));
+  const CutEllipse ellipse = options_.pixel_angle > 0 ? state.ellipse : CutEllipse{};
+  const TextureFootprint footprint = footprint_of(textured, state.u, state.v, ellipse, cone_at_hit(state));
+  state.u = footprint.middle.s;
+  state.v = footprint.middle.t;
+  std::construct_at(&state.lookup, begin_lookup(textured.texture, footprint));
   state.stage = Stage::texture;
 }
 
@@ -137,7 +150,7 @@ void Shader::read_normals(HitState& state, const std::byte* record) const {
 bool Shader::reflects(const HitState& state) const { return mirrored_share(state) > 0.0F || !skips_.zero_terms; }
 
 bool Shader::refracts(const HitState& state) const {
-  return state.has_refraction && (state.material.transmittance > 0.0F || !skips_.zero_terms);
+  return state.has_refraction && (state.surface.material.transmittance > 0.0F || !skips_.zero_terms);
 }
 
 Stage Shader::after_reflection(const HitState& state) const { return refracts(state) ? Stage::refracted : Stage::finished; }
@@ -154,7 +167,7 @@ Stage Shader::after_lights(const HitState& state) const {
 void Shader::judge_children(HitState& state) const {
   const double index = relative_index(state);
   state.has_refraction = index <= 1.0 || !(refracted_cosine_squared(state, index) < 0.0);
-  operations_.total_internal_reflections += !state.has_refraction && state.material.transmittance > 0.0F ? 1 : 0;
+  operations_.total_internal_reflections += !state.has_refraction && state.surface.material.transmittance > 0.0F ? 1 : 0;
   operations_.skipped.zero_terms += reflects(state) ? 0 : 1;
   operations_.skipped.zero_terms += !state.has_refraction || refracts(state) ? 0 : 1;
 }
@@ -164,7 +177,7 @@ void Shader::read_material(HitState& state, const std::byte* record) const {
   if (state.stage == Stage::textured_material) {
     material.color = material.color * state.lookup.sum;
   }
-  std::construct_at(&state.material, material);
+  std::construct_at(&state.surface, HitState::Surface{.material = material, .next_light = 0});
   ++operations_.shadings;
   if (state.ray.depth < options_.depth_max) {
     judge_children(state);
@@ -184,7 +197,7 @@ bool Shader::leaves_out(bool is_lit, const Color& weight) const {
 
 bool Shader::read_light(HitState& state, const std::byte* record, Ray& child) const {
   const auto light = read<LightRecord>(record);
-  if (++state.next_light == header_.light_count) {
+  if (++state.surface.next_light == header_.light_count) {
     state.stage = after_lights(state);
   }
   const Vec3d towards = Vec3d(light.position) - state.point;
@@ -205,7 +218,7 @@ bool Shader::read_light(HitState& state, const std::byte* record, Ray& child) co
 
 /// A reflected or refracted ray's cone goes on with its parent's width and angle: what a curved surface does to it is left out.
 void Shader::widen(const HitState& state, Ray& child) const {
-  if (options_.pixel_angle > 0) {
+  if (options_.pixel_angle > 0 && mutation != Mutation::dropped_cone) {
     child.cone = cone_bits(cone_at_hit(state));
   }
 }
@@ -223,7 +236,7 @@ void Shader::refract(HitState& state, Ray& child) const {
   const Vec3d towards = Vec3d(state.ray.direction) * index + state.normal * (index * cosine - behind);
   child = child_ray(state, towards, RayKind::refracted);
   widen(state, child);
-  child.weight = state.ray.weight * state.material.transmittance;
+  child.weight = state.ray.weight * state.surface.material.transmittance;
   state.stage = Stage::finished;
 }
 

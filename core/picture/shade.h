@@ -25,9 +25,16 @@ struct ShadeOptions {
   /// sample's error. 0: none is cut (after R. Hall, D. Greenberg, "A Testbed for Realistic Image Synthesis", 1983).
   double cutoff = 0;
   double radiance_bound = 0;  ///< radiance_bound() of the scene; read only if there is a cutoff
-  /// Between the rays of neighbouring pixels, in radians: how fast the cones of rays widen. 0: no texture asks for them.
+  /// Between the rays of neighbouring pixels, in radians: how fast the cones of rays would widen, if pixels had one each. 0: no
+  /// texture asks for them.
   double pixel_angle = 0;
+  std::uint32_t first_samples = 1;  ///< of every pixel; more follow if it is refined
 };
+
+/// How far a pixel's samples lie from each other, in sides of the pixel, when those of the pass that this one belongs to have
+/// been taken: passes double them. It is by so much that a sample's cone is narrower than its pixel's, so the more samples there
+/// are, the less a texture is blurred before they see it.
+double sample_spacing(std::uint32_t sample, std::uint32_t first_samples);
 
 /// No reflected or refracted ray in the scene finds more light than this, in any channel: each hit reflects at most the share of
 /// all lights that its material allows, and passes on at most its share of what a ray of the next depth finds.
@@ -44,6 +51,7 @@ class Shader {
   bool step(HitState& state, const std::byte* record, Ray& child) const;
 
  private:
+  void read_geometry(HitState& state, const std::byte* record) const;
   void read_normals(HitState& state, const std::byte* record) const;
   void begin_texture(HitState& state, const std::byte* record) const;
   void step_texture(HitState& state, const std::byte* record) const;

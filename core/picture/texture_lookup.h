@@ -1,45 +1,51 @@
 // A filtered look-up in a texture, resumable between any two of its records.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
 #include "core/base/vec.h"
+#include "core/picture/texture_footprint.h"
 #include "core/record/record.h"
 #include "core/trace/operations.h"
 
 namespace dmpc::core {
 
-/// Trilinear (L. Williams, "Pyramidal Parametrics", SIGGRAPH 1983): the four texels about a place on each of the two levels whose
-/// texels are next in size to what the ray's cone covers. Level by level, and tile by tile in each: at most 8 tiles, each found
-/// by an entry of the texture's table, one record a step. The place itself is its owner's to keep.
+/// The mean over a footprint by up to probes_max probes. Each is trilinear (L. Williams, "Pyramidal Parametrics", SIGGRAPH 1983):
+/// the four texels about a place on each of the two levels whose texels are next in size to the probe's width. Level by level,
+/// probe by probe, tile by tile: at most 8 tiles for each probe, each found by an entry of the texture's table, one record a
+/// step; probes that follow each other in one tile share the step. The footprint's middle is its owner's to keep.
 struct TextureLookup {
-  Color sum;  ///< of the texels so far, by their weights
-  TextureReference texture;
-  std::uint32_t tile = 0;          ///< that is due: its number in the texture's table; once that has been read, its address
+  Color sum;                       ///< of the texels so far, by their weights
+  std::array<float, 2> stride{};   ///< from probe to probe: s and t
+  Address tiles = no_address;      ///< here and below: what the texture's reference says
+  std::uint32_t tile : 31 = 0;     ///< that is due: its number in the texture's table; once that has been read, its address
+  std::uint32_t is_found : 1 = 0;  ///< its address is known
+  std::uint16_t width = 1, height = 1;
   std::uint16_t coarse_share = 0;  ///< of the coarser level, in 1/65536
-  std::uint8_t level = 0;          ///< the finer one
-  std::uint8_t turn : 4 = 0;       ///< which tile: bit 2 on the coarser level, bit 1 in the lower row, bit 0 on the right
-  bool is_found : 1 = false;       ///< its address is known
+  std::uint16_t end_share = 0;     ///< what there is of the first and of the last probe, in 1/65536: one more
+  TexelFormat format : 1 = {};
+  TextureWrap wrap_s : 2 = {}, wrap_t : 2 = {};
+  std::uint32_t level : 4 = 0;      ///< the finer one
+  std::uint32_t ends : 3 = 0;       ///< the number of probes on either side of the one in the middle
+  std::uint32_t probe : 4 = 0;      ///< from one end to the other: the one that is due
+  std::uint32_t quarter : 2 = 0;    ///< which tile of its: bit 1 in the lower row, bit 0 on the right
+  std::uint32_t is_coarse : 1 = 0;  ///< on the coarser level
+  std::uint32_t is_done : 1 = 0;
 };
-static_assert(sizeof(TextureLookup) == 32 && std::is_trivially_copyable_v<TextureLookup>);
+static_assert(sizeof(TextureLookup) == 40 && std::is_trivially_copyable_v<TextureLookup>);
 
-/// A place on a texture: s to the right, t downwards.
-struct TexturePlace {
-  double s = 0, t = 0;
-};
-
-/// Of what covers `texels` texels of the finest level across, not below 0.
-TextureLookup begin_lookup(const TextureReference& texture, const TexturePlace& place, double texels);
+TextureLookup begin_lookup(const TextureReference& texture, const TextureFootprint& footprint);
 
 /// All has been read, and `sum` is the colour.
-bool is_finished(const TextureLookup& lookup);
+inline bool is_finished(const TextureLookup& lookup) { return lookup.is_done != 0; }
 
 /// What the next step reads. Requires a look-up that is not finished, here and below.
 Address record_needed(const TextureLookup& lookup);
 
-/// One step; `record` is that of record_needed().
-void step(TextureLookup& lookup, const TexturePlace& place, const std::byte* record, Operations& operations);
+/// One step; `record` is that of record_needed(), `middle` the footprint's.
+void step(TextureLookup& lookup, const TexturePlace& middle, const std::byte* record, Operations& operations);
 
 }  // namespace dmpc::core

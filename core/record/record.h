@@ -180,7 +180,7 @@ struct TexturedNormals {
   PatchNormals normals;
   TextureReference texture;
   std::array<std::array<float, 2>, 3> place{};  ///< (s, t) of its corners
-  float texels_per_unit = 0;  ///< texels of the finest level along a grid-local unit: the root of the ratio of areas
+  std::uint32_t padding = 0;
 };
 static_assert(sizeof(TexturedNormals) == 80 && sizeof(TexturedNormals) <= record_bytes_max);
 

@@ -11,8 +11,8 @@
 namespace dmpc::core {
 
 /// Corner indices of the triangles of a simple polygon, with the polygon's winding; `vertices` has at least 3. Adds no vertices,
-/// so neighbours that share an edge stay closed. Convex polygons become a fan, others lose one ear after the other (G. Meisters,
-/// "Polygons Have Ears", 1975). A polygon without area gives nothing.
+/// so neighbours that share an edge stay closed. Convex polygons become a fan, others lose one ear after the other
+/// (core/scene/ear_clipper.h). A polygon without area gives nothing; one that crosses itself gives what it may, as quickly.
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Vec3d> vertices);
 
 }  // namespace dmpc::core

@@ -19,7 +19,7 @@ struct Operations {
   std::uint64_t shadings = 0;                                         ///< hits that were shaded
   std::uint64_t normal_reads = 0;                                     ///< of those, hits on smooth triangles
   std::uint64_t texture_lookups = 0;                                  ///< of those, hits on textured triangles
-  std::uint64_t tile_reads = 0;                                       ///< of tiles of textures: 1 to 8 for each of those
+  std::uint64_t tile_reads = 0;                                       ///< of tiles of textures: 1 to 8 for each probe of those
 
   std::array<std::uint64_t, ray_kind_count> rays{};  ///< shot, hit or miss, by kind
   std::uint64_t primary_hits = 0;

@@ -33,17 +33,23 @@ class ShownTexture {
 
   /// By the records, one a step.
   core::Color look_up(const core::TexturePlace& place, double texels) {
+    return look_up({.middle = place, .stride = {}, .width = texels});
+  }
+  core::Color look_up(const core::TextureFootprint& footprint) {
     tiles_read.clear();
-    core::TextureLookup lookup = core::begin_lookup(reference_, place, texels);
+    tile_steps = 0;
+    core::TextureLookup lookup = core::begin_lookup(reference_, footprint);
     core::Operations operations;
     while (!core::is_finished(lookup)) {
       const core::Address address = core::record_needed(lookup);
       if (lookup.is_found) {
-        CHECK(tiles_read.insert(address).second);  // none is read twice
+        ++tile_steps;
+        const bool is_new = tiles_read.insert(address).second;
+        CHECK((is_new || footprint.strides > 1));  // a single probe reads none twice
       }
-      core::step(lookup, place, records().find(address), operations);
+      core::step(lookup, footprint.middle, records().find(address), operations);
     }
-    CHECK(operations.tile_reads == tiles_read.size());
+    CHECK(operations.tile_reads >= tiles_read.size());
     return lookup.sum;
   }
 
@@ -58,6 +64,19 @@ class ShownTexture {
     return blend(texture_.levels[index], place) * (1 - share) + coarse * share;
   }
 
+  /// By the definition: the mean over probes of a stride each, from the middle of the line outwards.
+  core::Vec3d expected(const core::TextureFootprint& line) const {
+    core::Vec3d sum = expected(line.middle, line.width);
+    for (double left = (line.strides - 1) / 2, offset = 0; left > 0; left -= 1) {
+      const double share = std::min(left, 1.0);
+      offset += share;
+      for (const double off : {-offset, offset}) {
+        sum = sum + expected({line.middle.s + off * line.stride.s, line.middle.t + off * line.stride.t}, line.width) * share;
+      }
+    }
+    return sum * (1 / line.strides);
+  }
+
   const core::Texture& texture() const { return texture_; }
   const core::TextureReference& reference() const { return reference_; }
   core::LocalRecords records() const { return core::LocalRecords(bytes_); }
@@ -67,6 +86,7 @@ class ShownTexture {
                                      core::tile_entry_offset(number));
   }
   std::set<core::Address> tiles_read;  ///< by the last look-up
+  int tile_steps = 0;                  ///< of it that read a tile
 
  private:
   static std::uint32_t wrapped(double texel, std::uint32_t size, core::TextureWrap wrap) {

@@ -64,7 +64,10 @@ class Subject {
       : database_(core::build_database(scene, options)),
         settings_{database_.header(),
                   core::Camera(scene.view, database_.header().frame, size.width, size.height, size.samples),
-                  {.cutoff = size.cutoff, .radiance_bound = 10, .pixel_angle = 0.01},
+                  {.cutoff = size.cutoff,
+                   .radiance_bound = 10,
+                   .pixel_angle = 0.01,
+                   .first_samples = static_cast<std::uint32_t>(size.samples)},
                   size.refinement} {
     core::LocalRecords records(database_.bytes());
     core::GridTracer tracer(records, settings_.header, core::Skips{});

@@ -194,6 +194,7 @@ void add_options(OptionSet set, ErrorOptions& options) {
   set.add_number("--repeat", measure.rounds, 1, 1000, "3", "Rounds in which everything is rendered and timed");
   set.add_number("--samples", measure.picture.samples, 2, 4096, std::to_string(measure.picture.samples),
                  "Rays through each pixel where they are not what is turned");
+  add_options(set, measure.picture.staging);
   add_view_options(set, measure.picture);
   set.add_text(
       "--reference-samples", "N, even, 2..128 [" + std::to_string(default_reference_side) + "]",

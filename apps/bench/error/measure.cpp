@@ -185,9 +185,9 @@ class Bench {
     const AccurateFinder finder(scene, scenes_.exact().view.from);
     const AccurateCamera camera(scenes_.exact().view, result_.width, result_.height);
     const auto pattern = SamplePattern::of_product(static_cast<std::uint32_t>(result_.base.samples));
-    accurate_ = accurate_image(render_accurately(scene, finder, camera, pattern,
-                                                 {.convention = options_.picture.convention, .depth_max = result_.base.depth},
-                                                 attendance(progress)));
+    const core::RenderSettings settings =
+        render_settings(picture_of(options_.picture, result_.base), scenes_.exact(), scenes_.of(0).subject.database);
+    accurate_ = accurate_image(render_accurately(scene, finder, camera, pattern, settings.shade, attendance(progress)));
   }
 
   Rendered render(const Setting& setting) {

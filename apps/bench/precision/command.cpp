@@ -94,7 +94,7 @@ Effort effort_of(const PrecisionOptions& options, std::size_t scene_count) {
 }
 
 Precision measure(const PrecisionOptions& options, const std::string& name, const TableFiles& files, Interrupt& interrupt) {
-  PictureOptions picture{.scene = name, .resolution = options.resolution, .depth = options.depth};
+  PictureOptions picture{.scene = name, .resolution = options.resolution, .depth = options.depth, .staging = options.staging};
   const core::Scene scene = load_scene_beside(picture, files.names());
   Progress progress(std::cerr, stderr_is_terminal(), name + " ", "rows");
   return measure_precision(
@@ -135,6 +135,7 @@ void add_options(OptionSet set, PrecisionOptions& options) {
       "--resolution", "WxH [256x256]", [&options](const std::string& text) { options.resolution = parse_resolution(text); },
       "Pixels of the pictures");
   set.add_number("--depth", options.depth, 1, 255, "5", "Longest chain of reflections and refractions");
+  add_options(set, options.staging);
   add_options(set, options.table, TableExtras::none);
   set.add_quiet(options.quiet);
   set.set_examples(
@@ -142,6 +143,7 @@ void add_options(OptionSet set, PrecisionOptions& options) {
       "  dmpc bench precision\n"
       "  dmpc bench precision teapot-12 balls-4 --resolution=512x512\n"
       "  dmpc bench precision mine.nff --format=csv -o mine.csv\n"
+      "  dmpc bench precision model.glb --camera=4,3,5/0,0,0 --light=10,20,10\n"
       "Exit status 3 says that a pixel differs for no reason that rounding gives.");
 }
 

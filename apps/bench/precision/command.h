@@ -16,6 +16,7 @@ struct PrecisionOptions {
   std::vector<std::string> scenes;  ///< NFF files or built-in names; none: every family in its own size
   Resolution resolution{256, 256};
   int depth = 5;
+  Staging staging;     ///< of all scenes
   TableOutput table;   ///< without a page and plots
   bool quiet = false;  ///< no progress
 };

@@ -27,9 +27,11 @@ struct AccurateBody {
   std::uint32_t material = 0;
   std::uint32_t object = 0;               ///< index into core::Scene::objects
   std::uint32_t first_normal = flat;      ///< of a smooth triangle: index of its three normals in AccurateScene::normals
+  std::uint32_t first_place = flat;       ///< of a textured one: index of its three places in AccurateScene::places
   std::array<std::uint32_t, 3> corner{};  ///< of a triangle: which corners of the object it has
 
   bool is_smooth() const { return first_normal != flat; }
+  bool is_textured() const { return first_place != flat; }
 };
 
 /// The place that a ray hits.

@@ -10,6 +10,8 @@ namespace {
 using core::Vec3d;
 
 constexpr double float_rounding = 0x1p-24;
+/// The product counts shares of levels and of probes in steps of half of this.
+constexpr double share_rounding = 0x1p-15;
 /// What the product's secondary rays start off their surface by, grid-local.
 constexpr double surface_offset = 0x1p-21;
 
@@ -53,6 +55,11 @@ void Disturbance::touch(const AccurateRay& ray, const AccurateBody& body, Accura
     surface.normal = normalize(surface.normal + random_vector() * (float_rounding * unit_ / height_of(body)));
   }
   normal_ = surface.normal;
+}
+
+void Disturbance::look_up(AccurateFootprint& footprint) {
+  footprint.width *= 1 + share_rounding * random();
+  footprint.strides = std::max(1.0, footprint.strides * (1 + share_rounding * random()));
 }
 
 }  // namespace dmpc::apps

@@ -15,6 +15,7 @@ namespace dmpc::apps {
 ///   a surface         u L against the ray, which moves the hit the farther the more they graze each other; then the distance is
 ///                     rounded, u (t + L), and point, normal and weights follow
 ///   a triangle        its corners are rounded by u L, which turns it by that over its height; a cone's ends likewise
+///   a texture         the level of detail and the length of a line of probes by some 2^-16, in which the product counts shares
 class Disturbance final : public RayWatcher {
  public:
   /// `unit`: L in world units.
@@ -23,6 +24,7 @@ class Disturbance final : public RayWatcher {
   /// A primary ray, or one that starts from the surface last touched.
   void shoot(AccurateRay& ray) override;
   void touch(const AccurateRay& ray, const AccurateBody& body, AccurateSurface& surface) override;
+  void look_up(AccurateFootprint& footprint) override;
 
  private:
   double random();  ///< uniform in -1 to 1

@@ -19,6 +19,7 @@ struct AccurateRay {
   int depth = 1;
   core::RayKind kind = core::RayKind::primary;
   std::uint32_t light = 0;  ///< of a shadow ray: index into the scene's lights
+  double cone = 0;          ///< the width, where it starts, of what it stands for
 };
 
 /// The least (t, body) that a ray meets; of a shadow ray some hit, whichever was found.

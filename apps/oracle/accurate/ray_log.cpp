@@ -86,7 +86,8 @@ class NotingTracer {
             .weight = Vec3d(ray.weight),
             .depth = ray.depth,
             .kind = ray.kind,
-            .light = noted.light};
+            .light = noted.light,
+            .cone = core::cone_width(ray) / frame_.scale};
   }
   Vec3d along_axes(const Vec3d& v) const { return frame_.axes[0] * v.x + frame_.axes[1] * v.y + frame_.axes[2] * v.z; }
   /// The light that a shadow ray goes to: of those after the last one of this hit, the one nearest to the ray's end.

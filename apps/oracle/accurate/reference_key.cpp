@@ -78,6 +78,28 @@ class HashingSink final : public core::SceneSink {
   Digest& digest_;
 };
 
+/// What replay() leaves out.
+void add_textures(const core::Scene& scene, Digest& digest) {
+  for (const core::Texture& texture : scene.textures) {
+    for (const std::uint64_t value : {std::uint64_t{9}, static_cast<std::uint64_t>(texture.format),
+                                      static_cast<std::uint64_t>(texture.wrap_s), static_cast<std::uint64_t>(texture.wrap_t),
+                                      std::uint64_t{texture.levels[0].width}, std::uint64_t{texture.levels[0].height}}) {
+      digest.add(value);
+    }
+    for (const std::uint32_t texel : texture.levels[0].texels) {
+      digest.add(std::uint64_t{texel});
+    }
+  }
+  for (const core::Object& object : scene.objects) {
+    for (std::uint32_t i = 0; object.kind == core::ObjectKind::textured && i < object.vertex_count; ++i) {
+      const core::TexturedCorner& corner = scene.corners[object.first_normal + i];
+      digest.add(double{corner.place[0]});
+      digest.add(double{corner.place[1]});
+      digest.add(std::uint64_t{scene.materials[object.material].texture});
+    }
+  }
+}
+
 }  // namespace
 
 std::string reference_key(const core::Scene& scene, const Resolution& resolution, const PictureOptions& picture,
@@ -91,6 +113,7 @@ std::string reference_key(const core::Scene& scene, const Resolution& resolution
   }
   HashingSink sink(digest);
   core::replay(scene, sink);
+  add_textures(scene, digest);
   return digest.text();
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <span>
 
-#include "core/base/expect.h"
 #include "core/scene/triangulate.h"
 
 namespace dmpc::apps {
@@ -27,6 +26,27 @@ void add(AccurateScene& to, AccurateBody body) {
   }
 }
 
+/// A place that is far away or no number counts as 0.
+AccuratePlace usable(const std::array<float, 2>& place) {
+  constexpr double place_max = 1 << 20;
+  const auto usable = [](double coordinate) { return std::fabs(coordinate) < place_max ? coordinate : 0; };
+  return {usable(double{place[0]}), usable(double{place[1]})};
+}
+
+/// What the corners of a triangle have beside their positions.
+void add_corners(AccurateScene& to, const core::Scene& scene, const core::Object& object, AccurateBody& body) {
+  const bool is_textured = object.kind == core::ObjectKind::textured;
+  body.first_normal = static_cast<std::uint32_t>(to.normals.size());
+  body.first_place = is_textured ? static_cast<std::uint32_t>(to.places.size()) : AccurateBody::flat;
+  for (const std::uint32_t index : body.corner) {
+    const std::size_t corner = object.first_normal + index;
+    to.normals.push_back(unit_or_zero(is_textured ? scene.corners[corner].normal : scene.normals[corner]));
+    if (is_textured) {
+      to.places.push_back(usable(scene.corners[corner].place));
+    }
+  }
+}
+
 void add_polygon(AccurateScene& to, const core::Scene& scene, const core::Object& object, AccurateBody body) {
   const auto vertices = std::span(scene.vertices).subspan(object.first, object.vertex_count);
   for (const auto& corners : core::triangulate(vertices)) {
@@ -34,11 +54,8 @@ void add_polygon(AccurateScene& to, const core::Scene& scene, const core::Object
     for (std::size_t k = 0; k < 3; ++k) {
       body.place[k] = vertices[corners[k]];
     }
-    if (object.kind == core::ObjectKind::patch) {
-      body.first_normal = static_cast<std::uint32_t>(to.normals.size());
-      for (const std::uint32_t corner : corners) {
-        to.normals.push_back(unit_or_zero(scene.normals[object.first_normal + corner]));
-      }
+    if (object.kind == core::ObjectKind::patch || object.kind == core::ObjectKind::textured) {
+      add_corners(to, scene, object, body);
     }
     add(to, body);
   }
@@ -67,12 +84,8 @@ void add_object(AccurateScene& to, const core::Scene& scene, std::uint32_t index
 }  // namespace
 
 AccurateScene accurate_scene(const core::Scene& scene) {
-  if (!scene.textures.empty()) {
-    throw core::InputError(scene.name +
-                           ": it has textures, which the renderer in double precision does not know: measure errors on "
-                           "scenes without them");
-  }
   AccurateScene result;
+  result.textures = scene.textures;
   result.materials = scene.materials;
   result.background = scene.background;
   for (const core::PointLight& light : scene.lights) {

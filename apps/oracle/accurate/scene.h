@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/oracle/accurate/body.h"
+#include "apps/oracle/accurate/texture.h"
 #include "core/base/box.h"
 #include "core/scene/scene.h"
 
@@ -19,7 +20,9 @@ struct AccurateLight {
 /// them. The product leaves out what has no area in float; here only what has none in double is missing. Immutable once made.
 struct AccurateScene {
   std::vector<AccurateBody> bodies;
-  std::vector<core::Vec3d> normals;  ///< of smooth triangles, of unit length
+  std::vector<core::Vec3d> normals;   ///< of smooth triangles, of unit length; 0 for none
+  std::vector<AccuratePlace> places;  ///< of textured triangles' corners
+  std::vector<core::Texture> textures;
   std::vector<core::Material> materials;
   std::vector<AccurateLight> lights;
   core::Vec3d background;

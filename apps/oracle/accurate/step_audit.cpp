@@ -19,6 +19,8 @@ constexpr double float_rounding = 0x1p-24;
 constexpr double weight_rounding = 1e-6;
 /// The product's shadow rays end so much of their length before the light.
 constexpr double end_rounding = 4e-6;
+/// The product's rays have the width of their cones in two bytes.
+constexpr double cone_rounding = 0x1p-7;
 /// A body's own distance, if it is so near to the product's, in sizes of both.
 constexpr double same_hit = 1e-4;
 
@@ -167,6 +169,9 @@ class StepAudit::Case {
     }
     if (std::isfinite(right.t_max) && !(std::fabs(found.t_max - right.t_max) <= end_rounding * (right.t_max + audit_.unit_))) {
       complain(text_of(found) + " with another end");
+    }
+    if (!(std::fabs(found.cone - right.cone) <= cone_rounding * right.cone)) {
+      complain(text_of(found) + " with another cone");
     }
   }
 

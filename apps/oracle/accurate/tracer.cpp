@@ -30,6 +30,8 @@ struct AccurateTracer::Touch {
   AccurateSurface surface;
   Vec3d normal;      ///< for shading: on the ray's side, between a patch's normals
   double index = 1;  ///< of refraction: on the ray's side over the other one
+  double cone = 0;   ///< the width of the ray's cone here
+  Vec3d color;       ///< of the diffuse part, with what a texture makes of it
 
   /// The square of the cosine behind the surface by Snell's law; below 0 all is reflected.
   double refracted_cosine_squared() const {
@@ -96,7 +98,22 @@ AccurateTracer::Touch AccurateTracer::touch(const AccurateRay& ray, const Accura
   }
   const double inside = result.material.refraction_index > 0 ? result.material.refraction_index : 1;
   result.index = leaving ? inside : 1 / inside;
+  result.cone = ray.cone + hit.t * options_.pixel_angle / std::sqrt(static_cast<double>(options_.first_samples));
+  result.color = body.is_textured() ? painted(result) : result.material.color;
   return result;
+}
+
+/// The material's colour times the texture's.
+Vec3d AccurateTracer::painted(const Touch& touch) const {
+  const AccurateBody& body = scene_.bodies[touch.body];
+  AccuratePaint paint{.corner = body.place, .place = {}};
+  std::copy_n(scene_.places.begin() + body.first_place, paint.place.size(), paint.place.begin());
+  const core::Texture& texture = scene_.textures[touch.material.texture];
+  AccurateFootprint footprint = footprint_of(paint, texture, touch.surface.weight, touch.ray.direction, touch.cone);
+  if (watcher_ != nullptr) {
+    watcher_->look_up(footprint);
+  }
+  return touch.material.color * texture_color(texture, footprint);
 }
 
 AccurateRay AccurateTracer::child(const Touch& touch, const Vec3d& towards, RayKind kind) const {
@@ -108,6 +125,7 @@ AccurateRay AccurateTracer::child(const Touch& touch, const Vec3d& towards, RayK
   ray.weight = touch.ray.weight;
   ray.depth = touch.ray.depth + (kind == RayKind::shadow ? 0 : 1);
   ray.kind = kind;
+  ray.cone = kind == RayKind::shadow ? 0 : touch.cone;
   return ray;
 }
 
@@ -132,7 +150,7 @@ void AccurateTracer::add_shadow_rays(const Touch& touch, std::vector<AccurateRay
       const double lobe = std::clamp(dot(mirror, towards) / distance, 0.0, 1.0);
       const double highlight = material.specular > 0 ? material.specular * std::pow(lobe, material.shine) : 0;
       ray.weight = touch.ray.weight * light.intensity *
-                   (material.color * (material.diffuse * cosine) + Vec3d{highlight, highlight, highlight});
+                   (touch.color * (material.diffuse * cosine) + Vec3d{highlight, highlight, highlight});
     }
     if (options_.convention == core::Convention::paper || !brings_nothing(ray)) {
       rays.push_back(ray);

@@ -21,6 +21,8 @@ class RayWatcher {
   virtual void shoot(AccurateRay&) {}
   /// A ray that is no shadow ray met `body` here.
   virtual void touch(const AccurateRay&, const AccurateBody&, AccurateSurface&) {}
+  /// A texture is about to be looked up there.
+  virtual void look_up(AccurateFootprint&) {}
   /// A ray was traced.
   virtual void end(const AccurateRay&, const AccurateHit&) {}
 };
@@ -28,7 +30,8 @@ class RayWatcher {
 /// Not thread-safe: one a thread.
 class AccurateTracer {
  public:
-  /// All outlive the tracer; `watcher` may be null. Secondary rays start 1e-9 of the scene's size off their surface.
+  /// All outlive the tracer; `watcher` may be null. Secondary rays start 1e-9 of the scene's size off their surface. Rays look at
+  /// textures as the product's first samples do; where the options have no pixel angle, at points of them.
   AccurateTracer(const AccurateScene& scene, const AccurateFinder& finder, const core::ShadeOptions& options,
                  RayWatcher* watcher = nullptr)
       : scene_(scene), finder_(finder), options_(options), watcher_(watcher) {}
@@ -45,6 +48,7 @@ class AccurateTracer {
 
   AccurateHit trace(AccurateRay& ray);
   Touch touch(const AccurateRay& ray, const AccurateHit& hit) const;
+  core::Vec3d painted(const Touch& touch) const;
   AccurateRay child(const Touch& touch, const core::Vec3d& towards, core::RayKind kind) const;
   void add_shadow_rays(const Touch& touch, std::vector<AccurateRay>& rays) const;
   void add_children(const Touch& touch, std::vector<AccurateRay>& rays) const;

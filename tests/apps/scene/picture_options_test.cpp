@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/expect.h"
+#include "tests/support/checked_floor.h"
 
 namespace dmpc::apps {
 
@@ -18,6 +19,18 @@ TEST_CASE("a resolution is two numbers with an x between them") {
     CAPTURE(std::string(text));
     CHECK_THROWS_AS(parse_resolution(text), UsageError);
   }
+}
+
+TEST_CASE("cones are as wide as pixels where there is a texture, half as wide where a picture is refined, and else nothing") {
+  const core::Scene painted = tests::CheckedFloor::painted(), laid = tests::CheckedFloor::laid();
+  const core::Database database = core::build_database(painted, {});
+  PictureOptions picture{.resolution = Resolution{16, 16}, .samples = 9};
+  const core::RenderSettings plain = render_settings(picture, painted, database);
+  CHECK(plain.shade.pixel_angle == plain.camera.pixel_size());
+  CHECK(plain.shade.first_samples == 9);
+  picture.is_refined = true;
+  CHECK(render_settings(picture, painted, database).shade.pixel_angle == plain.camera.pixel_size() / 2);
+  CHECK(render_settings(picture, laid, core::build_database(laid, {})).shade.pixel_angle == 0);
 }
 
 }  // namespace dmpc::apps

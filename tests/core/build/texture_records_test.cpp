@@ -18,21 +18,20 @@ namespace dmpc::core {
 
 namespace {
 
-std::vector<TexturePlace> places_on(const TexturedNormals& triangle, std::mt19937& random) {
-  std::vector<TexturePlace> places;
-  std::uniform_real_distribution<double> share(0, 1);
+/// What rays of all sizes and directions cover of it.
+std::vector<TextureFootprint> footprints_on(const TexturedNormals& triangle, std::mt19937& random) {
+  std::vector<TextureFootprint> footprints;
+  std::uniform_real_distribution<double> share(0, 1), exponent(-10, 3);
+  std::uniform_real_distribution<float> change(-1, 1);
   for (int i = 0; i < 60; ++i) {
     double u = i < 3 ? i % 2 : share(random), v = i < 3 ? i / 2 : share(random);  // the corners first
     if (u + v > 1) {
       u = 1 - u, v = 1 - v;
     }
-    const auto blend = [&](std::size_t side) {
-      return (1 - u - v) * double{triangle.place[0][side]} + u * double{triangle.place[1][side]} +
-             v * double{triangle.place[2][side]};
-    };
-    places.push_back({blend(0), blend(1)});
+    const CutEllipse ellipse{{{{change(random), change(random)}, {change(random), change(random)}}}};
+    footprints.push_back(footprint_of(triangle, u, v, ellipse, std::exp2(exponent(random))));
   }
-  return places;
+  return footprints;
 }
 
 }  // namespace
@@ -43,7 +42,6 @@ TEST_CASE("a triangle's tiles are all that any look-up on it asks for") {
     const tests::ShownTexture shown(tests::noise_texture(100, 61, wrap, wrap));
     const TextureReference& reference = shown.reference();
     std::uniform_real_distribution<float> middle(-3, 3), size(0, 0.3F);
-    std::uniform_real_distribution<double> detail(-1, 8);
     std::size_t fewest = tile_count(reference);
     for (int round = 0; round < 100; ++round) {
       TexturedNormals triangle{.texture = reference};
@@ -54,15 +52,15 @@ TEST_CASE("a triangle's tiles are all that any look-up on it asks for") {
       std::set<Address> allowed;
       for_each_tile(triangle, [&](std::uint32_t tile) { allowed.insert(shown.tile(tile)); });
       fewest = std::min(fewest, allowed.size());
-      for (const TexturePlace& place : places_on(triangle, random)) {
-        TextureLookup lookup = begin_lookup(reference, place, std::exp2(detail(random)));
+      for (const TextureFootprint& footprint : footprints_on(triangle, random)) {
+        TextureLookup lookup = begin_lookup(reference, footprint);
         Operations operations;
         while (!is_finished(lookup)) {
           const Address address = record_needed(lookup);
           if (lookup.is_found) {
             CHECK(allowed.contains(address));
           }
-          step(lookup, place, shown.records().find(address), operations);
+          step(lookup, footprint.middle, shown.records().find(address), operations);
         }
       }
     }

@@ -151,12 +151,14 @@ TEST_CASE("pixels known to show the background are not traced, alone or beside o
 }
 
 TEST_CASE("bundles that wait for every record give the same light, count the same work and look up as often") {
-  const TiledPicture subject(everything());
+  const TiledPicture subject(everything(), 1, {.pixel_angle = 0.03});
   Operations once, often;
   int never = 0, waits = 0;
   CHECK(same_sums(tiled<LocalRecords>(subject, 16, once, never), tiled<apps::OneRecord>(subject, 16, often, waits)));
   CHECK(never == 0);
   CHECK(waits > 1000);
+  CHECK(once.tile_reads > 2 * once.texture_lookups);
+  CHECK(once.tile_reads == often.tile_reads);
   CHECK(once.rays == often.rays);
   CHECK(once.cell_steps == often.cell_steps);
   CHECK(once.brick_reads == often.brick_reads);

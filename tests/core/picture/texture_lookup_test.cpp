@@ -81,14 +81,51 @@ TEST_CASE("a texture of a single texel has one colour everywhere") {
   CHECK(shown.look_up({0, 0}, 0) == shown.look_up({-17.25, 1e5}, 100));
 }
 
+TEST_CASE("a look-up along a line is the mean of its probes, those at its ends by what is left for them") {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> place(-2.5, 3.5), step(-0.1, 0.1), detail(-1, 6), strides(1, probes_max);
+  for (const TextureWrap wrap : {repeat, mirror, clamp}) {
+    ShownTexture shown(tests::noise_texture(37, 20, wrap, wrap));
+    for (int i = 0; i < 300; ++i) {
+      const TextureFootprint line{
+          {place(random), place(random)}, {step(random), step(random)}, std::exp2(detail(random)), strides(random)};
+      CAPTURE(line.strides);
+      check_near(shown.look_up(line), shown.expected(line), 1e-4);
+    }
+  }
+}
+
+TEST_CASE("nothing jumps where a line gets two more probes") {
+  ShownTexture shown(tests::noise_texture(64, 64));
+  TextureFootprint line{{0.4, 0.6}, {0.03, 0.02}, 1.5, 1};
+  Color before = shown.look_up(line);
+  for (; line.strides < probes_max; line.strides += 0.001) {
+    const Color now = shown.look_up(line);
+    check_near(now, Vec3d(before), 2e-3);
+    before = now;
+  }
+}
+
+TEST_CASE("probes that follow each other in a tile read it once") {
+  ShownTexture shown(tests::noise_texture(64, 64));
+  shown.look_up({{4.0 / 64, 4.0 / 64}, {1.0 / 64, 0}, 1, 5});
+  CHECK(shown.tiles_read.size() == 1);
+  CHECK(shown.tile_steps == 1);
+  shown.look_up({{8.0 / 64, 4.0 / 64}, {1.0 / 64, 0}, 1, 5});
+  CHECK(shown.tiles_read.size() == 2);
+  CHECK(shown.tile_steps <= 4);
+}
+
 TEST_CASE("the sum of all weights is 1 wherever the place lies") {
   Texture white{.levels = {{100, 3, std::vector<std::uint32_t>(300, 0xffffff)}}};
   add_levels(white);
   ShownTexture shown(std::move(white));
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> place(-1e5, 1e5), texels(0, 200);
+  std::uniform_real_distribution<double> place(-1e5, 1e5), texels(0, 200), strides(1, probes_max);
   for (int i = 0; i < 1000; ++i) {
     check_near(shown.look_up({place(random), place(random)}, texels(random)), {1, 1, 1}, 1e-6);
+    const TextureFootprint line{{place(random), place(random)}, {place(random), place(random)}, texels(random), strides(random)};
+    check_near(shown.look_up(line), {1, 1, 1}, 1e-4);
   }
 }
 

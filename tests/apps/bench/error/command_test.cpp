@@ -12,6 +12,7 @@
 #include "apps/bench/error/measure.h"
 #include "apps/commands.h"
 #include "core/base/expect.h"
+#include "tests/support/painted_square.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -69,6 +70,18 @@ TEST_CASE("the base point of bench error has no deterministic error and float ne
   CHECK(result.arithmetic->root_mean_square < 1e-4);
   CHECK(base.error.root_mean_square > result.arithmetic->root_mean_square);
   CHECK(base.samples == 16U * 16 * 16);
+}
+
+TEST_CASE("bench error takes meshes with textures, seen and lit as one likes, and float is next to double") {
+  const TemporaryFolder folder;
+  ErrorOptions options = tiny_error(folder, {"--knobs=samples,arithmetic", "--camera=0.5,0.4,1/0.5,0.5,0", "--light=3,4,5"});
+  apps::Interrupt interrupt;
+  apps::SceneResult result;
+  apps::measure_scene(write_painted_square(folder, 64), options.measure, interrupt, result);
+  CHECK(result.arithmetic->root_mean_square < 1e-4);
+  const apps::Measurement& base = result.measurements.front();
+  CHECK(base.error.root_mean_square > result.arithmetic->root_mean_square);
+  CHECK(base.error.root_mean_square < 0.1);
 }
 
 TEST_CASE("bench error writes its table, plots and pictures of errors where they are asked for") {

@@ -4,8 +4,10 @@
 
 #include <array>
 #include <string>
+#include <utility>
 
 #include "tests/apps/oracle/accurate/workbench.h"
+#include "tests/support/checked_floor.h"
 #include "tests/support/small_scenes.h"
 
 namespace dmpc::tests {
@@ -63,6 +65,27 @@ TEST_CASE("another light than the scene's is unexplained") {
   core::Scene other = scene;
   other.lights[2].color.x += 0.01;
   CHECK(Causes(Workbench(scene, other, 24)).of(PixelCause::unexplained) > 10);
+}
+
+TEST_CASE("textures part the renderers by rounding alone") {
+  for (const core::Scene& scene : {CheckedFloor::painted(), everything()}) {
+    CHECK(Causes(Workbench(scene, 24)).of(PixelCause::unexplained) == 0);
+  }
+}
+
+TEST_CASE("another place on a texture and another texture are unexplained") {
+  const core::Scene scene = CheckedFloor::painted();
+  core::Scene exchanged = scene, darker = scene;
+  for (core::TexturedCorner& corner : exchanged.corners) {
+    std::swap(corner.place[0], corner.place[1]);
+  }
+  for (core::TextureLevel& level : darker.textures[0].levels) {
+    for (std::uint32_t& texel : level.texels) {
+      texel &= 0xfefefeU;
+    }
+  }
+  CHECK(Causes(Workbench(scene, exchanged, 24)).of(PixelCause::unexplained) > 100);
+  CHECK(Causes(Workbench(scene, darker, 24)).of(PixelCause::unexplained) > 100);
 }
 
 TEST_CASE("every cause has a name of its own") {

@@ -11,6 +11,7 @@
 #include "apps/picture/picture_error.h"
 #include "apps/system/interrupt.h"
 #include "core/base/expect.h"
+#include "tests/support/checked_floor.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/temporary_folder.h"
 
@@ -125,6 +126,26 @@ TEST_CASE("the key follows all that the picture depends on and nothing else") {
   core::Scene smoothed = scene;
   smoothed.normals[0].x += 1;
   CHECK(key_of(smoothed) != key);
+}
+
+TEST_CASE("the key follows textures and the places on them") {
+  const core::Scene scene = everything();
+  const std::string key = key_of(scene);
+  core::Scene repainted = scene, shifted = scene, wrapped = scene;
+  repainted.textures[1].levels[0].texels[5] ^= 1U;
+  shifted.corners[2].place[1] += 0.5F;
+  wrapped.textures[0].wrap_s = core::TextureWrap::clamp;
+  CHECK(key_of(repainted) != key);
+  CHECK(key_of(shifted) != key);
+  CHECK(key_of(wrapped) != key);
+}
+
+TEST_CASE("a reference sees textures as they are, without cones") {
+  PictureOptions picture = small_picture();
+  const ReferenceOptions options{.samples_a_side = 8, .folder = TemporaryFolder().path()};
+  const Reference painted = apps::reference_for(CheckedFloor::painted(), picture, options);
+  const Reference laid = apps::reference_for(CheckedFloor::laid(), picture, options);
+  CHECK(apps::measure_error(painted.picture, laid.picture).root_mean_square < 0.004);  // blurred by a texel
 }
 
 TEST_CASE("the key follows the picture's options and the samples") {

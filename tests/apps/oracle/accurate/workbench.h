@@ -19,7 +19,7 @@ struct Workbench {
   Workbench(core::Scene given, const core::Scene& for_accurate, int side)
       : scene(std::move(given)),
         database(core::build_database(scene, {})),
-        settings{database.header(), core::Camera(scene.view, database.header().frame, side, side, 1), {}},
+        settings(settings_of(scene, database, side)),
         accurate(apps::accurate_scene(for_accurate)),
         finder(accurate, scene.view.from),
         camera(scene.view, side, side),
@@ -34,6 +34,11 @@ struct Workbench {
   }
   apps::RayLog accurate_log(std::uint32_t pixel) const {
     return apps::accurate_log(accurate, finder, settings.shade, primary(pixel));
+  }
+
+  static core::RenderSettings settings_of(const core::Scene& scene, const core::Database& database, int side) {
+    const core::Camera camera(scene.view, database.header().frame, side, side, 1);
+    return {database.header(), camera, {.pixel_angle = scene.textures.empty() ? 0 : camera.pixel_size()}};
   }
 
   core::Scene scene;

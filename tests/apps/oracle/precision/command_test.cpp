@@ -8,6 +8,7 @@
 
 #include "apps/commands.h"
 #include "core/base/expect.h"
+#include "tests/support/painted_square.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -41,6 +42,14 @@ TEST_CASE("bench precision prints a row a scene and that all is explained") {
   CHECK(contains(table, "| tetra-3 |         64 |"));
   CHECK(contains(table, "| balls-2 |"));
   CHECK(contains(table, "40x30 pixels"));
+  CHECK(contains(table, "Every pixel is explained."));
+}
+
+TEST_CASE("bench precision takes meshes with textures, seen and lit as one likes") {
+  const TemporaryFolder folder;
+  const std::string square = write_painted_square(folder, 64).string();
+  const std::string table = output_of(parse({square, "--resolution=24x24", "--camera=0.5,0.4,1/0.5,0.5,0", "--light=3,4,5"}));
+  CHECK(contains(table, "|          2 |"));
   CHECK(contains(table, "Every pixel is explained."));
 }
 
