@@ -89,7 +89,7 @@ struct RayMessage {
 
   core::Passage passage() const { return {t_enter, cell, entry_axis, best}; }
 };
-static_assert(sizeof(RayMessage) == 96 && std::is_trivially_copyable_v<RayMessage>);
+static_assert(sizeof(RayMessage) == 120 && std::is_trivially_copyable_v<RayMessage>);
 static_assert(region_count_max <= 0x10000, "a finder's index fits a message");
 
 /// A fresh ray, or one that leaves a region.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/expect.h"
+#include "core/record/curved_values.h"
 
 namespace dmpc::apps {
 namespace {
@@ -35,11 +36,11 @@ std::optional<double> first_of(const std::array<double, 2>& candidates, float t_
   return std::nullopt;
 }
 
-std::optional<double> nearest_on_sphere(const std::array<float, 9>& value, const core::Ray& ray) {
-  const Vec3d center = Vec3d(core::Vec3f{value[0], value[1], value[2]});
-  const double radius = static_cast<double>(value[3]);
-  const Vec3d direction(ray.direction);
-  const Vec3d from_center = Vec3d(ray.origin) - center;
+std::optional<double> nearest_on_sphere(const core::CurvedValues& value, const core::Ray& ray) {
+  const Vec3d center = value.vector(0);
+  const double radius = value.value(3);
+  const Vec3d direction = ray.full_direction();
+  const Vec3d from_center = ray.full_origin() - center;
   const double a = dot(direction, direction);
   const double b = dot(from_center, direction);
   // The squared distance of centre and line is taken from its own vector: b^2 - a c would cancel for a far, small sphere.
@@ -57,19 +58,22 @@ struct Axial {
   bool inside_only;
 };
 
-Axial axial(const std::array<float, 9>& value) {
-  const Vec3d base = Vec3d(core::Vec3f{value[0], value[1], value[2]});
-  const Vec3d to_apex = Vec3d(core::Vec3f{value[4], value[5], value[6]}) - base;
+Axial axial(const core::CurvedValues& value) {
+  const Vec3d base = value.vector(0), to_apex = value.vector(4) - base;
   const double height = length(to_apex);
-  const double base_radius = std::fabs(static_cast<double>(value[3]));
-  const double apex_radius = std::fabs(static_cast<double>(value[7]));
-  return {base, to_apex * (1 / height), base_radius, height, (apex_radius - base_radius) / height, value[3] < 0 || value[7] < 0};
+  const double base_radius = std::fabs(value.value(3)), apex_radius = std::fabs(value.value(7));
+  return {base,
+          to_apex * (1 / height),
+          base_radius,
+          height,
+          (apex_radius - base_radius) / height,
+          value.value(3) < 0 || value.value(7) < 0};
 }
 
-std::optional<double> nearest_on_cone(const std::array<float, 9>& value, const core::Ray& ray) {
+std::optional<double> nearest_on_cone(const core::CurvedValues& value, const core::Ray& ray) {
   const Axial cone = axial(value);
-  const Vec3d from_base = Vec3d(ray.origin) - cone.base;
-  const Vec3d direction(ray.direction);
+  const Vec3d from_base = ray.full_origin() - cone.base;
+  const Vec3d direction = ray.full_direction();
   const double along_origin = dot(from_base, cone.axis);
   const double along_direction = dot(direction, cone.axis);
   const Vec3d across_origin = from_base - cone.axis * along_origin;
@@ -103,7 +107,8 @@ void enclose(std::array<float, 6>& box, const float* center, float radius) {
 
 std::optional<double> nearest_on_curved(const core::PrimitiveValues& values, const core::Ray& ray) {
   core::expect(values.kind != core::PrimitiveKind::triangle, "a curved primitive is a sphere or a cone");
-  return values.kind == core::PrimitiveKind::sphere ? nearest_on_sphere(values.value, ray) : nearest_on_cone(values.value, ray);
+  const core::CurvedValues exact(values.kind, values.value.data(), 1, 0);
+  return values.kind == core::PrimitiveKind::sphere ? nearest_on_sphere(exact, ray) : nearest_on_cone(exact, ray);
 }
 
 std::array<float, 6> bounds_of_curved(const core::PrimitiveValues& values) {

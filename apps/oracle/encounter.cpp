@@ -27,6 +27,7 @@
 #include <limits>
 
 #include "core/base/expect.h"
+#include "core/record/curved_values.h"
 
 namespace dmpc::apps {
 namespace {
@@ -56,7 +57,7 @@ Vec3f vertex(const core::PrimitiveValues& values, std::size_t index) {
 /// D . (a x b) in precision T, from the floats themselves.
 template <class T>
 T spanned(const Ray& ray, const Vec3f& a, const Vec3f& b) {
-  const core::Vec3<T> origin(ray.origin);
+  const core::Vec3<T> origin = core::Vec3<T>(ray.origin) + core::Vec3<T>(ray.origin_rest);
   return dot(core::Vec3<T>(ray.direction), cross(core::Vec3<T>(a) - origin, core::Vec3<T>(b) - origin));
 }
 
@@ -82,7 +83,7 @@ bool quickly_outside(const Ray& ray, const std::array<Vec3d, 3>& at) {
   const std::array<double, 3> area{dot(d, cross(at[0], at[1])), dot(d, cross(at[1], at[2])), dot(d, cross(at[2], at[0]))};
   const double reach = std::sqrt(std::max({dot(at[0], at[0]), dot(at[1], at[1]), dot(at[2], at[2])}));
   // More than any bound above: every length in them is at most 2 reach, and |D| at most 2 in a ray of unit length.
-  const double bound = 64 * unit_rounding * reach * reach * (1 + dot(d, d));
+  const double bound = (64 * unit_rounding * reach + 2 * length(Vec3d(ray.origin_rest))) * reach * (1 + dot(d, d));
   return std::min({area[0], area[1], area[2]}) < -bound && std::max({area[0], area[1], area[2]}) > bound;
 }
 
@@ -90,10 +91,12 @@ Sight see(const Vec3d& at, const Vec3d& direction, double direction_length) {
   return {at, length(at), length(cross(at, direction)) / direction_length};
 }
 
-std::array<double, 2> area_bounds(const Sight& a, const Sight& b, double direction_length, double area_sum) {
+/// `rest`: how far from where its floats say the ray starts, which counts next to the start.
+std::array<double, 2> area_bounds(const Sight& a, const Sight& b, double direction_length, double area_sum, double rest) {
   const double moved = a.distance * b.across + b.distance * a.across;
   const double rounded = length(a.position - b.position) * length(a.position + b.position);
-  return {unit_rounding * direction_length * (7 * moved + 2 * a.across * b.across) + tiny,
+  const double by_rest = direction_length * length(a.position - b.position) * rest;
+  return {unit_rounding * direction_length * (7 * moved + 2 * a.across * b.across) + by_rest + tiny,
           unit_rounding * (direction_length * (moved + 3.5 * rounded) + 2 * std::fabs(area_sum)) + tiny};
 }
 
@@ -111,7 +114,8 @@ SeenTriangle see_triangle(const Ray& ray, const core::PrimitiveValues& values, c
     seen.area += seen.edge[k].area;
   }
   for (std::size_t k = 0; k < 3; ++k) {
-    seen.edge[k].bound = area_bounds(seen.sight[k], seen.sight[(k + 1) % 3], seen.direction_length, seen.area);
+    seen.edge[k].bound =
+        area_bounds(seen.sight[k], seen.sight[(k + 1) % 3], seen.direction_length, seen.area, length(Vec3d(ray.origin_rest)));
   }
   return seen;
 }
@@ -128,10 +132,12 @@ double margin_of(const SeenTriangle& seen, Renderer renderer) {
   return inside >= 0 ? inside : -std::min(greatest, -least);
 }
 
-double distance_error(const SeenTriangle& seen, double cosine) {
+/// Edges are those of a ray that starts where its floats say; next to the start the grid's t is that of where it starts in full.
+double distance_error(const Ray& ray, const SeenTriangle& seen, double cosine) {
   const double area = std::fabs(seen.area) + tiny;
   const double tilt = 6 * seen.longest * seen.longest * seen.longest * seen.direction_length / area;
-  const double moved = unit_rounding * (8 * seen.reach / (cosine + tiny) + tilt);
+  const double moved =
+      unit_rounding * (8 * seen.reach / (cosine + tiny) + tilt) + length(Vec3d(ray.origin_rest)) / (cosine + tiny);
   return (std::min(seen.longest, moved) + 8 * unit_rounding * seen.reach) / seen.direction_length;
 }
 
@@ -153,7 +159,7 @@ Encounter meet_triangle(const Ray& ray, const core::PrimitiveValues& values, con
   const std::array<double, 3> depth = depths_of(ray, at);
   const auto [least, greatest] = std::minmax_element(depth.begin(), depth.end());
   encounter.t = across != 0 ? std::clamp(dot(at[0], normal) / across, *least, *greatest) : *least;
-  encounter.t_error = distance_error(seen, std::fabs(across) / (normal_length * seen.direction_length + tiny));
+  encounter.t_error = distance_error(ray, seen, std::fabs(across) / (normal_length * seen.direction_length + tiny));
   encounter.exact = encounter.margin[0] >= 0 && seen.area != 0;
   return encounter;
 }
@@ -221,15 +227,18 @@ struct Curved {
   }
 };
 
-Vec3l row(const core::PrimitiveValues& values, std::size_t first) {
-  return {Long{values.value[first]}, Long{values.value[first + 1]}, Long{values.value[first + 2]}};
-}
+core::CurvedValues curved_values(const core::PrimitiveValues& values) { return {values.kind, values.value.data(), 1, 0}; }
+
+/// What the two floats of each coordinate add up to.
+Vec3l full_origin(const Ray& ray) { return Vec3l(ray.origin) + Vec3l(ray.origin_rest); }
+Vec3l full_direction(const Ray& ray) { return Vec3l(ray.direction) + Vec3l(ray.direction_rest); }
 
 Curved see_sphere(const Ray& ray, const core::PrimitiveValues& values) {
   Curved curved;
-  curved.direction = Vec3l(ray.direction);
-  curved.from_center = Vec3l(ray.origin) - row(values, 0);
-  const Long radius = Long{values.value[3]}, direction = length(curved.direction), distance = length(curved.from_center);
+  curved.direction = full_direction(ray);
+  curved.from_center = full_origin(ray) - Vec3l(curved_values(values).vector(0));
+  const Long radius = Long{curved_values(values).value(3)}, direction = length(curved.direction),
+             distance = length(curved.from_center);
   curved.quadratic = {direction * direction, dot(curved.from_center, curved.direction), distance * distance - radius * radius,
                       direction, distance + std::fabs(radius)};
   curved.inside_only = radius < 0;
@@ -238,13 +247,14 @@ Curved see_sphere(const Ray& ray, const core::PrimitiveValues& values) {
 
 Curved see_cone(const Ray& ray, const core::PrimitiveValues& values) {
   Curved curved;
-  const Vec3l base = row(values, 0), to_apex = row(values, 4) - base;
-  const Long apex_radius = std::fabs(Long{values.value[7]});
-  curved.direction = Vec3l(ray.direction);
-  curved.from_center = Vec3l(ray.origin) - base;
+  const core::CurvedValues cone = curved_values(values);
+  const Vec3l base(cone.vector(0)), to_apex = Vec3l(cone.vector(4)) - base;
+  const Long apex_radius = std::fabs(Long{cone.value(7)});
+  curved.direction = full_direction(ray);
+  curved.from_center = full_origin(ray) - base;
   curved.height = length(to_apex);
   curved.axis = to_apex * (1 / curved.height);
-  curved.base_radius = std::fabs(Long{values.value[3]});
+  curved.base_radius = std::fabs(Long{cone.value(3)});
   curved.slope = (apex_radius - curved.base_radius) / curved.height;
   curved.inside_only = values.value[3] < 0 || values.value[7] < 0;
   const Long along = dot(curved.from_center, curved.axis), along_rate = dot(curved.direction, curved.axis);
@@ -290,7 +300,7 @@ bool within_ends(const Ray& ray, std::uint32_t primitive, Encounter& encounter) 
 }
 
 std::array<Vec3d, 3> seen_from(const Ray& ray, const core::PrimitiveValues& values) {
-  const Vec3d origin(ray.origin);
+  const Vec3d origin = ray.full_origin();
   return {Vec3d(vertex(values, 0)) - origin, Vec3d(vertex(values, 1)) - origin, Vec3d(vertex(values, 2)) - origin};
 }
 

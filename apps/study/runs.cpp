@@ -44,7 +44,9 @@ class CommonProgress {
 
 StudyRuns::StudyRuns(const core::Database& database, const core::RenderSettings& settings, const StudyProgress& progress,
                      const Interrupt& interrupt)
-    : database_(database), settings_(settings), progress_(progress), interrupt_(interrupt) {}
+    : database_(database), settings_(settings), alone_(settings), progress_(progress), interrupt_(interrupt) {
+  alone_.skips.bundles = false;
+}
 
 /// Of the next ones: "3 of 8", "3 to 8 of 8".
 std::string StudyRuns::numbers(std::size_t run_count) const {
@@ -54,11 +56,12 @@ std::string StudyRuns::numbers(std::size_t run_count) const {
 }
 
 template <class Options, class Render>
-auto StudyRuns::run_shown(const std::string& computer, Options options, const Render& render) {
+auto StudyRuns::run_shown(const std::string& computer, const core::RenderSettings& settings, Options options,
+                          const Render& render) {
   interrupt_.check();
   Progress progress(progress_.output, progress_.is_shown, "run " + numbers(1) + ", " + computer + ": ");
   options.watching.progress = [&progress](std::uint32_t done, std::uint32_t total) { progress.update(done, total); };
-  auto report = render(database_, settings_, options, interrupt_.token());
+  auto report = render(database_, settings, options, interrupt_.token());
   interrupt_.check();
   core::expect(report.end == nodes::RunEnd::finished, "a run that nobody stopped is finished");
   compare(report.film);
@@ -67,11 +70,11 @@ auto StudyRuns::run_shown(const std::string& computer, Options options, const Re
 }
 
 dataflow::Report StudyRuns::run(const std::string& computer, dataflow::RunOptions options) {
-  return run_shown(computer, std::move(options), dataflow::run_dataflow);
+  return run_shown(computer, alone_, std::move(options), dataflow::run_dataflow);
 }
 
 svm::Report StudyRuns::run(const std::string& computer, svm::RunOptions options) {
-  return run_shown(computer, std::move(options), svm::run_svm);
+  return run_shown(computer, settings_, std::move(options), svm::run_svm);
 }
 
 /// Nothing if a signal kept it from its end. Throws what the run throws. Only a plan that cannot be made is a misfit: what goes

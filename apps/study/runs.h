@@ -48,8 +48,9 @@ class StudyRuns {
             const Interrupt& interrupt);
 
   /// Renders with strategy dataflow or svm and the given options, whose progress is replaced. `computer` says which they are, in
-  /// a few words, to who is waiting. Throws as the run does, Interrupted if a signal comes before its end, and
-  /// core::InternalError if the film is not the first run's.
+  /// a few words, to who is waiting. Rays that travel walk alone: with whom else they walk depends on the schedule, and their
+  /// work on that. Throws as the run does, Interrupted if a signal comes before its end, and core::InternalError if the film is
+  /// not the first run's.
   dataflow::Report run(const std::string& computer, dataflow::RunOptions options);
   svm::Report run(const std::string& computer, svm::RunOptions options);
 
@@ -76,12 +77,13 @@ class StudyRuns {
  private:
   std::string numbers(std::size_t run_count) const;
   template <class Options, class Render>
-  auto run_shown(const std::string& computer, Options options, const Render& render);
+  auto run_shown(const std::string& computer, const core::RenderSettings& settings, Options options, const Render& render);
   std::optional<StudyOutcome> outcome_of(const StrategyOptions& run,
                                          const std::function<void(std::uint32_t, std::uint32_t)>& progress) const;
 
   const core::Database& database_;
   const core::RenderSettings& settings_;
+  core::RenderSettings alone_;  ///< the same, for rays that walk alone
   StudyProgress progress_;
   const Interrupt& interrupt_;
   std::uint32_t count_ = 0;

@@ -1,11 +1,13 @@
 #include "core/build/conversion.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 
 #include "core/base/box.h"
 #include "core/base/units.h"
+#include "core/record/curved_values.h"
 #include "core/scene/frame.h"
 #include "core/scene/triangulate.h"
 
@@ -26,6 +28,17 @@ void put(PrimitiveValues& primitive, std::size_t row, const Vec3d& v) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     primitive.value[row + axis] = static_cast<float>(v[axis]);
   }
+}
+
+/// Values from `first` on, each to its row, and their rests.
+void put_four(PrimitiveValues& primitive, std::size_t first, const Vec3d& v, double radius) {
+  const std::array<double, 4> values{v.x, v.y, v.z, radius};
+  std::uint32_t rests = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    float& rounded = primitive.value[first + i] = static_cast<float>(values[i]);
+    rests |= std::uint32_t{static_cast<std::uint8_t>(rest_of(values[i], rounded))} << (8 * i);
+  }
+  primitive.value[rest_row(primitive.kind) + first / 4] = std::bit_cast<float>(rests);
 }
 
 Vec3d get(const PrimitiveValues& primitive, std::size_t row) {
@@ -148,18 +161,15 @@ class Converter {
 
   void add_sphere(std::uint32_t index, const Object& object, const Sphere& sphere) {
     PrimitiveValues values{.kind = PrimitiveKind::sphere};
-    put(values, 0, local(sphere.center));
-    values.value[3] = static_cast<float>(sphere.radius * frame_.scale);
+    put_four(values, 0, local(sphere.center), sphere.radius * frame_.scale);
     const bool usable_radius = values.value[3] != 0.0F && std::fabs(sphere.radius) < coordinate_max;
     add(values, index, !usable(sphere.center) || !usable_radius, object.material);
   }
 
   void add_cone(std::uint32_t index, const Object& object, const Cone& cone) {
     PrimitiveValues values{.kind = PrimitiveKind::cone};
-    put(values, 0, local(cone.base));
-    put(values, 4, local(cone.apex));
-    values.value[3] = static_cast<float>(cone.base_radius * frame_.scale);
-    values.value[7] = static_cast<float>(cone.apex_radius * frame_.scale);
+    put_four(values, 0, local(cone.base), cone.base_radius * frame_.scale);
+    put_four(values, 4, local(cone.apex), cone.apex_radius * frame_.scale);
     const bool finite = usable(cone.base) && usable(cone.apex) && std::fabs(cone.base_radius) < coordinate_max &&
                         std::fabs(cone.apex_radius) < coordinate_max;
     add(values, index, !finite || degenerate_cone(values), object.material);

@@ -95,7 +95,7 @@ class DatabaseBuilder {
     if (!bounds.empty()) {
       const Vec3d extent = bounds.high - bounds.low;
       const double size = std::max({extent.x, extent.y, extent.z, 1e-30});
-      view_distance_ = length(turned(options_.axes, scene_.view.from) - bounds.center()) / size;
+      view_distance_ = std::min(length(turned(options_.axes, scene_.view.from) - bounds.center()) / size, 2 * far_eye_diagonals);
     }
     set_pad();
   }
@@ -176,7 +176,7 @@ class DatabaseBuilder {
 
   /// Cells are built at the same time, then take their room in order, and are written at the same time.
   void write_grid(const TopCells& cells) {
-    const BrickBuilder builder(conversion_.primitives, result_.pad_, header().frame.finest_cell, parallel_);
+    const BrickBuilder builder(conversion_.primitives, result_.pad_, header().frame, parallel_);
     std::vector<BrickTree> trees(cells.size());
     std::uint64_t sorted = 0;
     parallel_.for_each(

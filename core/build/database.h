@@ -35,7 +35,7 @@ struct PrimitiveSource {
 /// One primitive as its records hold it, for the oracle and the referee. Rows as in BlockHeader.
 struct PrimitiveValues {
   PrimitiveKind kind{};
-  std::array<float, 9> value{};
+  std::array<float, value_count_max> value{};
 };
 
 /// Records of the grid and of shading, by kind.

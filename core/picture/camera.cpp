@@ -8,11 +8,22 @@
 #include "core/scene/frame.h"
 
 namespace dmpc::core {
+namespace {
+
+Vec3d high_of(const GridFrame& frame) {
+  const Corner size = grid_size(frame);
+  return {plane_at(frame, 0, size[0]), plane_at(frame, 1, size[1]), plane_at(frame, 2, size[2])};
+}
+
+}  // namespace
 
 Camera::Camera(const View& view, const GridFrame& frame, int width, int height, int samples)
     : width_(width), height_(height), samples_(samples) {
   expect(width > 0 && height > 0 && samples > 0, "a camera has pixels and samples");
-  origin_ = Vec3f(to_local(frame, view.from));
+  eye_ = to_local(frame, view.from);
+  const Vec3d low = frame.low, extent = high_of(frame) - low;
+  middle_ = low + extent * 0.5;
+  reach_ = length(eye_ - middle_) > far_eye_diagonals * length(extent) ? length(extent) : 0;
   const GridAxes screen = screen_axes(view);
   const Vec3d right = turned(frame.axes, screen[0]), up = turned(frame.axes, screen[1]);
   forward_ = -turned(frame.axes, screen[2]);
@@ -21,6 +32,11 @@ Camera::Camera(const View& view, const GridFrame& frame, int width, int height, 
   const double pixel = 2.0 * tan_degrees(view.angle_degrees / 2) / intervals;
   right_ = right * pixel;
   down_ = up * -pixel;
+}
+
+/// Before the ray comes as near to the middle as it does, by a diagonal of the grid: no hit lies before.
+double Camera::start_of(const Vec3d& towards) const {
+  return reach_ > 0 ? std::max(0.0, dot(middle_ - eye_, towards) - reach_) : 0.0;
 }
 
 Ray Camera::primary_ray(std::uint32_t pixel, std::uint32_t sample) const {
@@ -32,8 +48,11 @@ Ray Camera::primary_ray(std::uint32_t pixel, std::uint32_t sample) const {
     row += position.y - 0.5;
   }
   Ray ray;
-  ray.origin = origin_;
-  ray.direction = Vec3f(normalize(forward_ + right_ * column + down_ * row));
+  const Vec3d towards = normalize(forward_ + right_ * column + down_ * row);
+  const double start = start_of(towards);
+  ray.start_at(eye_ + towards * start);
+  ray.cone = cone_bits(start);
+  ray.go_along(towards);
   ray.pixel = pixel;
   ray.sample = sample;
   return ray;

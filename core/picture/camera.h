@@ -22,7 +22,7 @@ class Camera {
   /// Where an offset from the eye is seen: its column and row, whole numbers in the middles of pixels, each times z, the depth
   /// along the direction in which the camera looks. Behind the eye the depth is negative.
   Vec3d on_film(const Vec3d& offset) const;
-  const Vec3f& eye() const { return origin_; }
+  const Vec3d& eye() const { return eye_; }
   /// The side of a pixel on a film at distance 1.
   double pixel_size() const { return length(right_); }
   int width() const { return width_; }
@@ -31,7 +31,12 @@ class Camera {
   int samples() const { return samples_; }
 
  private:
-  Vec3f origin_;
+  /// How far from the eye a ray along the unit direction `towards` starts.
+  double start_of(const Vec3d& towards) const;
+
+  Vec3d eye_;
+  Vec3d middle_;                  ///< of the grid
+  double reach_ = 0;              ///< from there to where rays of an eye that is far away start; 0: they start at the eye
   Vec3d forward_, right_, down_;  ///< right_ and down_: one pixel's step in the plane at distance 1
   int width_, height_, samples_;
 };

@@ -3,11 +3,44 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+
+#include "core/record/curved_values.h"
+#include "core/trace/primitive.h"
 
 #include "core/base/mutation.h"
 
 namespace dmpc::core {
 namespace {
+
+// How far off its surface a ray starts: more than the point may be off, and the surfaces that go on there (after M. Pharr, W.
+// Jakob, G. Humphreys, Physically Based Rendering, section 6.8: an offset follows from the bound of the error).
+
+/// Of the largest coordinates, each by its share in the normal: vertices of triangles are rounded to float, by 2^-25, and planes
+/// through others that were one plane may be off by a few times that.
+constexpr double flat_clearance = 0x1p-22;
+/// Of the largest coordinate and radius: solved in double from rays that are exact to 2^-49.
+constexpr double curved_clearance = 0x1p-40;
+/// Of the ray's t, which is rounded to float: another surface may lie so much nearer.
+constexpr double tie_clearance = 0x1p-23;
+
+double largest_coordinate(const Vec3d& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
+
+double shared_by(const Vec3d& normal, const Vec3d& v) {
+  return std::fabs(normal.x * v.x) + std::fabs(normal.y * v.y) + std::fabs(normal.z * v.z);
+}
+
+Clearance clearance_on_triangle(const HitState& state, const Vec3d& v0, const Vec3d& v1, const Vec3d& v2) {
+  const Vec3d& n = state.geometric_normal;
+  const double clearance =
+      flat_clearance * std::max({shared_by(n, v0), shared_by(n, v1), shared_by(n, v2)}) + tie_clearance * double{state.hit.t};
+  return {clearance, clearance, std::numeric_limits<double>::max()};
+}
+
+/// `size`: the largest coordinate and radius; `radius`: of the surface where it was hit.
+Clearance clearance_on_curved(const HitState& state, double size, double radius) {
+  return {flat_clearance * size + tie_clearance * double{state.hit.t}, curved_clearance * size, radius};
+}
 
 /// One lane of a block's values, in double.
 struct Lane {
@@ -18,7 +51,7 @@ struct Lane {
   Vec3d vector(std::size_t row) const { return {value(row), value(row + 1), value(row + 2)}; }
 };
 
-Vec3d along(const Ray& ray, double t) { return Vec3d(ray.origin) + Vec3d(ray.direction) * t; }
+Vec3d along(const Ray& ray, double t) { return ray.full_origin() + ray.full_direction() * t; }
 
 Lane lane_of(const HitState& state, const std::byte* record) {
   const auto header = read<BlockHeader>(record);
@@ -29,22 +62,27 @@ Lane lane_of(const HitState& state, const std::byte* record) {
 /// Intersection", 1997; weights clamped, so that the point lies on the triangle even where the float test let the ray in by
 /// rounding.
 void triangle_geometry(HitState& state, const Lane& lane) {
-  const Vec3d v0 = lane.vector(0), edge1 = lane.vector(3) - v0, edge2 = lane.vector(6) - v0;
-  const Vec3d direction(state.ray.direction), p = cross(direction, edge2);
+  const Vec3d v0 = lane.vector(0), v1 = lane.vector(3), v2 = lane.vector(6), edge1 = v1 - v0, edge2 = v2 - v0;
+  const Vec3d direction = state.ray.full_direction(), p = cross(direction, edge2);
   const double determinant = dot(edge1, p);
   if (determinant != 0.0) {
-    const Vec3d from_v0 = Vec3d(state.ray.origin) - v0;
+    const Vec3d from_v0 = state.ray.full_origin() - v0;
     state.u = std::clamp(dot(from_v0, p) / determinant, 0.0, 1.0);
     state.v = std::clamp(dot(direction, cross(from_v0, edge1)) / determinant, 0.0, 1.0 - state.u);
   }
   state.point = v0 + edge1 * state.u + edge2 * state.v;
   state.geometric_normal = normalize(cross(edge1, edge2));
+  state.clearance = clearance_on_triangle(state, v0, v1, v2);
 }
 
 void sphere_geometry(HitState& state, const Lane& lane) {
-  const Vec3d center = lane.vector(0);
-  state.geometric_normal = normalize(along(state.ray, double{state.hit.t}) - center);
-  state.point = center + state.geometric_normal * std::fabs(lane.value(3));
+  const CurvedValues sphere(PrimitiveKind::sphere, lane.rows, lane.stride, lane.lane);
+  const Vec3d center = sphere.vector(0);
+  const double radius = std::fabs(sphere.value(3));
+  const double t = sphere_distance(state.ray, lane.rows, lane.stride, lane.lane);
+  state.geometric_normal = normalize(along(state.ray, t) - center);
+  state.point = center + state.geometric_normal * radius;
+  state.clearance = clearance_on_curved(state, largest_coordinate(center) + radius, radius);
 }
 
 /// The least cosine of a cone's axis with a surface that is told from 0.
@@ -55,8 +93,11 @@ constexpr double change_max = 1e30;
 float bounded(double change) { return static_cast<float>(std::clamp(change, -change_max, change_max)); }
 
 void cone_geometry(HitState& state, const Lane& lane) {
-  const Vec3d base = lane.vector(0), axis = lane.vector(4) - base, from_base = along(state.ray, double{state.hit.t}) - base;
-  const double base_radius = std::fabs(lane.value(3)), widening = std::fabs(lane.value(7)) - base_radius;
+  const CurvedValues cone(PrimitiveKind::cone, lane.rows, lane.stride, lane.lane);
+  const Vec3d base = cone.vector(0), apex = cone.vector(4), axis = apex - base;
+  const double t = cone_distance(state.ray, lane.rows, lane.stride, lane.lane);
+  const Vec3d from_base = along(state.ray, t) - base;
+  const double base_radius = std::fabs(cone.value(3)), widening = std::fabs(cone.value(7)) - base_radius;
   const double height = std::clamp(dot(from_base, axis) / dot(axis, axis), 0.0, 1.0);
   const Vec3d outward = from_base - axis * height;
   const double distance = length(outward), radius = base_radius + widening * height;
@@ -64,6 +105,8 @@ void cone_geometry(HitState& state, const Lane& lane) {
   state.point = base + axis * height + radial * radius;
   const Vec3d normal = radial * dot(axis, axis) - axis * widening;
   state.geometric_normal = normalize(normal);
+  const double size = std::max(largest_coordinate(base), largest_coordinate(apex)) + base_radius + std::max(widening, 0.0);
+  state.clearance = clearance_on_curved(state, size, radius);
 }
 
 }  // namespace
@@ -85,7 +128,7 @@ void read_geometry(HitState& state, const std::byte* record) {
   const std::size_t references = (value_count(header.kind) + 1) * header.count;
   state.shading = read<ShadingReference>(record + sizeof(BlockHeader) + 4 * (references + state.hit.lane));
   state.curved = header.kind != PrimitiveKind::triangle;
-  state.leaving = dot(Vec3d(state.ray.direction), state.geometric_normal) > 0.0;
+  state.leaving = dot(state.ray.full_direction(), state.geometric_normal) > 0.0;
   state.normal = state.leaving ? -state.geometric_normal : state.geometric_normal;
   state.stage = state.shading.is_smooth() ? HitState::Stage::normals : HitState::Stage::material;
 }

@@ -13,6 +13,13 @@
 
 namespace dmpc::core {
 
+/// How far from a hit's point rays start, grid-local.
+struct Clearance {
+  double along = 0;   ///< the way of a ray that leaves the surface at a right angle; others more
+  double across = 0;  ///< of the surface, for rays that graze it
+  double radius = 0;  ///< of what is curved, which a ray within must not pass: no limit for what is flat
+};
+
 /// A hit being shaded: a record on the ray stack, resumable between any two of its records. Each step reads exactly one record.
 struct HitState {
   enum class Stage : std::uint8_t {
@@ -40,7 +47,8 @@ struct HitState {
   Vec3d point;             ///< on the primitive
   Vec3d geometric_normal;  ///< true normal, unit length
   Vec3d normal;            ///< shading normal on the ray's side, unit length
-  double u = 0, v = 0;     ///< barycentric weights of vertices 1 and 2 (triangles); the place on the texture, once it is known
+  Clearance clearance;
+  double u = 0, v = 0;  ///< barycentric weights of vertices 1 and 2 (triangles); the place on the texture, once it is known
   union {
     Surface surface;       ///< once its material has been read
     TextureLookup lookup;  ///< before that, if there is a texture
@@ -52,7 +60,7 @@ struct HitState {
   bool has_refraction = false;  ///< Snell's law has an answer: known if this hit may have children
   Stage stage = Stage::geometry;
 };
-static_assert(sizeof(HitState) == 208 && std::is_trivially_copyable_v<HitState>);
+static_assert(sizeof(HitState) == 256 && std::is_trivially_copyable_v<HitState>);
 
 /// The state of a fresh hit.
 HitState begin_shading(const Ray& ray, const Hit& hit);

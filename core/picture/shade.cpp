@@ -15,11 +15,8 @@ namespace {
 
 using Stage = HitState::Stage;
 
-/// How far a secondary ray starts from its surface, along the true normal, grid-local. Coordinates are below about 1, so rounding
-/// a point to float moves it by at most 2^-25 an axis, and the float plane of a neighbouring triangle is off by a few times that:
-/// 2^-21 is ten times their sum (after M. Pharr, W. Jakob, G. Humphreys, Physically Based Rendering, section 6.8, with the bound
-/// made a constant by the grid-local frame).
-constexpr double surface_offset = 0x1p-21;
+/// A ray that grazes its surface starts no farther along its way than so many clearances.
+constexpr double clearances_along = 8;
 /// A shadow ray ends this share of its length before the light.
 constexpr double light_gap = 1e-6;
 
@@ -29,7 +26,7 @@ TexturePlace texture_place(const HitState& state) {
 
 /// The square of the cosine behind the surface by Snell's law; below 0 there is no refracted ray.
 double refracted_cosine_squared(const HitState& state, double relative_index) {
-  const double cosine = dot(Vec3d(state.ray.direction), state.normal);
+  const double cosine = dot(state.ray.full_direction(), state.normal);
   return 1.0 - relative_index * relative_index * (1.0 - cosine * cosine);
 }
 
@@ -43,12 +40,26 @@ float mirrored_share(const HitState& state) {
   return state.surface.material.specular + (state.has_refraction ? 0.0F : state.surface.material.transmittance);
 }
 
-/// A child that starts beside the hit, on the side that it goes to.
-Ray child_ray(const HitState& state, const Vec3d& towards, RayKind kind) {
-  const double side = dot(towards, state.geometric_normal) < 0.0 ? -1.0 : 1.0;
+/// Where a ray starts: so far along its way from the hit's point, then along the true normal.
+struct Start {
+  double along, across;
+};
+
+/// Off the surface, on the side of the unit direction `towards`: along the way as far as may be, since that leads nowhere else.
+/// Within a sphere of radius r the way is 2 r cos long.
+Start start_towards(const HitState& state, const Vec3d& towards) {
+  const auto& [clearance, least, radius] = state.clearance;
+  const double cosine = dot(towards, state.geometric_normal), steep = std::fabs(cosine);
+  const double wanted = steep * clearances_along > 1.0 ? clearance / steep : clearance * clearances_along;
+  const double along = std::min(wanted, radius * steep);
+  return {along, std::copysign(std::max(least - along * steep, 0.0), cosine)};
+}
+
+/// A child along the unit direction `towards`.
+Ray child_ray(const HitState& state, const Vec3d& towards, const Start& start, RayKind kind) {
   Ray ray;
-  ray.origin = Vec3f(state.point + state.geometric_normal * (side * surface_offset));
-  ray.direction = Vec3f(normalize(towards));
+  ray.start_at(state.point + towards * start.along + state.geometric_normal * start.across);
+  ray.go_along(towards);
   ray.ignored_primitive = state.curved ? no_primitive : state.hit.primitive;
   ray.pixel = state.ray.pixel;
   ray.sample = state.ray.sample;
@@ -57,12 +68,31 @@ Ray child_ray(const HitState& state, const Vec3d& towards, RayKind kind) {
   return ray;
 }
 
+Ray mirrored_or_bent(const HitState& state, const Vec3d& towards, RayKind kind) {
+  const Vec3d unit = normalize(towards);
+  return child_ray(state, unit, start_towards(state, unit), kind);
+}
+
+/// A shadow ray to a light at `distance`, along the unit direction `towards`. One that starts off the way there is aimed anew.
+Ray shadow_ray(const HitState& state, const LightRecord& light, const Vec3d& towards, double distance) {
+  const Start start = start_towards(state, towards);
+  Ray ray = child_ray(state, towards, start, RayKind::shadow);
+  double length_left = distance - start.along;
+  if (start.across != 0.0) {
+    const Vec3d from_start = Vec3d(light.position) - ray.full_origin();
+    length_left = length(from_start);
+    ray.go_along(from_start * (1.0 / length_left));
+  }
+  ray.t_max = static_cast<float>(length_left * (1.0 - light_gap));
+  return ray;
+}
+
 Vec3d mirrored(const Vec3d& direction, const Vec3d& normal) { return direction - normal * (2.0 * dot(direction, normal)); }
 
 /// Diffuse plus Phong's highlight (NFF) for light from the unit direction `to_light`.
 Color reflected_light(const HitState& state, const LightRecord& light, const Vec3d& to_light, double cosine) {
   const MaterialRecord& material = state.surface.material;
-  const double lobe = std::clamp(dot(mirrored(Vec3d(state.ray.direction), state.normal), to_light), 0.0, 1.0);
+  const double lobe = std::clamp(dot(mirrored(state.ray.full_direction(), state.normal), to_light), 0.0, 1.0);
   const double highlight = material.specular > 0.0F ? double{material.specular} * pow_unit(lobe, double{material.shine}) : 0.0;
   const Vec3d surface =
       Vec3d(material.color) * (double{material.diffuse} * (mutation == Mutation::dropped_cosine ? 1.0 : cosine)) +
@@ -103,7 +133,8 @@ double sample_spacing(std::uint32_t sample, std::uint32_t first_samples) {
 /// The width, grid-local, of the ray's cone where it hits.
 double Shader::cone_at_hit(const HitState& state) const {
   const double angle = options_.pixel_angle * sample_spacing(state.ray.sample, options_.first_samples);
-  return cone_width(state.ray) + angle * double{state.hit.t};
+  const double t{state.hit.t};
+  return state.ray.kind == RayKind::primary ? angle * (cone_width(state.ray) + t) : cone_width(state.ray) + angle * t;
 }
 
 void Shader::read_geometry(HitState& state, const std::byte* record) const {
@@ -202,16 +233,14 @@ bool Shader::read_light(HitState& state, const std::byte* record, Ray& child) co
   }
   const Vec3d towards = Vec3d(light.position) - state.point;
   const double distance = length(towards);
-  const double cosine = distance > 0.0 ? dot(towards, state.normal) / distance : 0.0;
+  const Vec3d unit = distance > 0.0 ? towards * (1.0 / distance) : Vec3d{};
+  const double cosine = dot(unit, state.normal);
   const bool is_lit = cosine > 0.0;
-  const Color weight = is_lit ? reflected_light(state, light, towards * (1.0 / distance), cosine) : Color{};
+  const Color weight = is_lit ? reflected_light(state, light, unit, cosine) : Color{};
   if (leaves_out(is_lit, weight)) {
     return false;
   }
-  child = child_ray(state, towards, RayKind::shadow);
-  const Vec3d from_start = Vec3d(light.position) - Vec3d(child.origin);
-  child.direction = Vec3f(normalize(from_start));
-  child.t_max = static_cast<float>(length(from_start) * (1.0 - light_gap));
+  child = shadow_ray(state, light, unit, distance);
   child.weight = weight;
   return true;
 }
@@ -224,17 +253,17 @@ void Shader::widen(const HitState& state, Ray& child) const {
 }
 
 void Shader::reflect(HitState& state, Ray& child) const {
-  child = child_ray(state, mirrored(Vec3d(state.ray.direction), state.normal), RayKind::reflected);
+  child = mirrored_or_bent(state, mirrored(state.ray.full_direction(), state.normal), RayKind::reflected);
   widen(state, child);
   child.weight = state.ray.weight * mirrored_share(state);
   state.stage = after_reflection(state);
 }
 
 void Shader::refract(HitState& state, Ray& child) const {
-  const double index = relative_index(state), cosine = -dot(Vec3d(state.ray.direction), state.normal);
+  const double index = relative_index(state), cosine = -dot(state.ray.full_direction(), state.normal);
   const double behind = std::sqrt(refracted_cosine_squared(state, index));
-  const Vec3d towards = Vec3d(state.ray.direction) * index + state.normal * (index * cosine - behind);
-  child = child_ray(state, towards, RayKind::refracted);
+  const Vec3d towards = state.ray.full_direction() * index + state.normal * (index * cosine - behind);
+  child = mirrored_or_bent(state, towards, RayKind::refracted);
   widen(state, child);
   child.weight = state.ray.weight * state.surface.material.transmittance;
   state.stage = Stage::finished;

@@ -20,6 +20,9 @@ inline constexpr std::uint32_t no_primitive = 0xffffffffU;
 
 /// A ray in grid-local coordinates (GridFrame in core/record/record.h). Nothing returns to whoever spawned it: where it ends, it
 /// deposits light at `pixel` or spawns further rays (as pbrt-v4's wavefront work items do).
+///
+/// The grid, its boxes and the edges of triangles know a ray by its floats. Whatever is solved in double, curved surfaces and the
+/// points and normals of hits, takes it with what rounding left over, so that mirrors multiply next to no error.
 struct Ray {
   Vec3f origin;
   float t_max = std::numeric_limits<float>::infinity();  ///< hits count in (0, t_max)
@@ -30,9 +33,26 @@ struct Ray {
   std::uint32_t sample = 0;  ///< below the samples per pixel
   std::uint8_t depth = 1;    ///< 1 for a primary ray; a shadow ray has the depth of the ray whose hit cast it
   RayKind kind = RayKind::primary;
-  std::uint16_t cone = 0;  ///< cone_bits() of its cone's width where it starts; 0 where no texture asks for it
+  /// cone_bits() of its cone's width where it starts, 0 where no texture asks for it; of a primary ray, of how far from the eye
+  /// that is.
+  std::uint16_t cone = 0;
+  Vec3f origin_rest, direction_rest;  ///< what rounding left of the full origin and direction
+
+  /// Sets `origin` and its rest.
+  void start_at(const Vec3d& point) {
+    origin = Vec3f(point);
+    origin_rest = Vec3f(point - Vec3d(origin));
+  }
+  /// Sets `direction` and its rest.
+  void go_along(const Vec3d& unit) {
+    direction = Vec3f(unit);
+    direction_rest = Vec3f(unit - Vec3d(direction));
+  }
+  /// To 2^-49.
+  Vec3d full_origin() const { return Vec3d(origin) + Vec3d(origin_rest); }
+  Vec3d full_direction() const { return Vec3d(direction) + Vec3d(direction_rest); }
 };
-static_assert(sizeof(Ray) == 56 && std::is_trivially_copyable_v<Ray>);
+static_assert(sizeof(Ray) == 80 && std::is_trivially_copyable_v<Ray>);
 
 /// A width, grid-local and not negative, as the upper half of a float: to 1 in 128, which is as good as a level of detail needs.
 inline std::uint16_t cone_bits(double width) {

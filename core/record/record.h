@@ -105,10 +105,12 @@ inline constexpr std::size_t primitive_kind_count = 3;
 
 inline constexpr std::size_t block_lanes = 8;
 
-/// Up to 8 primitives of one kind, as a structure of arrays with `count` lanes: `value_count(kind)` rows of floats, then a row of
-/// primitive ids (ascending), then a row of ShadingReference. Grid-local coordinates.
-///   triangle rows: v0.x v0.y v0.z v1.x .. v2.z    sphere rows: centre.x .y .z radius
-///   cone rows:     base.x .y .z radius, apex.x .y .z radius
+/// Up to 8 primitives of one kind, as a structure of arrays with `count` lanes: `value_count(kind)` rows of values, then a row of
+/// primitive ids (ascending), then a row of ShadingReference. Grid-local coordinates, floats.
+///   triangle rows: v0.x v0.y v0.z v1.x .. v2.z
+///   sphere rows:   centre.x .y .z radius, rests
+///   cone rows:     base.x .y .z radius, apex.x .y .z radius, rests of the first four, of the last four
+/// Rests: what rounding left of four values, a byte each, the first lowest (core/record/curved_values.h).
 struct BlockHeader {
   PrimitiveKind kind{};
   std::uint8_t count = 0;
@@ -117,8 +119,11 @@ struct BlockHeader {
 static_assert(sizeof(BlockHeader) == 8);
 
 constexpr std::size_t value_count(PrimitiveKind kind) {
-  return kind == PrimitiveKind::triangle ? 9 : kind == PrimitiveKind::sphere ? 4 : 8;
+  return kind == PrimitiveKind::triangle ? 9 : kind == PrimitiveKind::sphere ? 5 : 10;
 }
+inline constexpr std::size_t value_count_max = 10;
+/// The first row of rests of a sphere or cone.
+constexpr std::size_t rest_row(PrimitiveKind kind) { return kind == PrimitiveKind::sphere ? 4 : 8; }
 constexpr std::size_t block_bytes(PrimitiveKind kind, std::size_t count) {
   return sizeof(BlockHeader) + count * 4 * (value_count(kind) + 2);
 }
@@ -209,7 +214,13 @@ struct GridFrame {
   double scale = 1;
   std::array<std::int32_t, 3> resolution{1, 1, 1};  ///< cells along x, y, z
   float finest_cell = 1;                            ///< edge of a finest cell, grid-local
+  Vec3d low;                                        ///< where the grid begins, grid-local
 };
+
+/// The coordinate, grid-local, of a plane of the finest lattice.
+constexpr double plane_at(const GridFrame& frame, std::size_t axis, std::int32_t plane) {
+  return frame.low[axis] + static_cast<double>(plane) * double{frame.finest_cell};
+}
 
 /// The grid's size in finest cells.
 constexpr Corner grid_size(const GridFrame& frame) {

@@ -17,6 +17,10 @@ namespace dmpc::core {
 GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double cells_per_primitive,
                     const GridAxes& axes = world_axes);
 
+/// An eye farther from the grid's middle than so many of the grid's diagonals is far: its rays start within a diagonal of it, so
+/// that floats need not tell the way there.
+inline constexpr double far_eye_diagonals = 4;
+
 /// Within which distance of a cell a primitive must be listed there, grid-local: more than the rounding of a ray and of its hit's
 /// t can move the hit, for rays that start up to `distance` scene extents away (2^-21 of the extent times 1 + distance: eight
 /// units in the last place of a float there), and never below 1e-3 of a finest cell. The walk's planes, in double, add nothing to

@@ -85,6 +85,7 @@ struct RayBundle {
   Corner grid_size;                                ///< in finest cells
   Region region;                                   ///< in which they walk
   bool is_whole;                                   ///< that is the whole grid: nothing leaves it
+  Vec3d grid_low;                                  ///< where the grid begins
   double finest_cells;                             ///< a unit of length, in finest cells
 
   // Where they are.
@@ -150,6 +151,7 @@ inline ShearedRay RayBundle::sheared(std::size_t ray) const {
   const std::uint32_t second = (axis + 1) % 3, third = (axis + 2) % 3;
   const bool is_down = is(axis, 1);
   return {{origin[0][ray], origin[1][ray], origin[2][ray]},
+          rays[ray].origin_rest,
           shear_x[ray],
           shear_y[ray],
           scale_z[ray],

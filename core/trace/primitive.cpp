@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/mutation.h"
+#include "core/record/curved_values.h"
 
 namespace dmpc::core {
 namespace {
@@ -46,30 +47,62 @@ bool outside(float u, float v, float w) {
 
 /// A vertex as seen from the ray's origin, in the ray's order of axes: exact but for double's rounding.
 Vec3d seen_vertex(const ShearedRay& ray, const float* vertex, std::size_t stride) {
-  const auto along = [&](std::uint32_t axis) { return double{vertex[axis * stride]} - double{ray.origin[axis]}; };
+  const auto along = [&](std::uint32_t axis) {
+    return double{vertex[axis * stride]} - double{ray.origin[axis]} - double{ray.origin_rest[axis]};
+  };
   return {along(ray.axis_x), along(ray.axis_y), along(ray.axis_z)};
 }
 
-/// t of the plane of the lane that `rows` starts with, no farther than the triangle reaches: a ray that all but lies in the plane
-/// crosses it anywhere. Not finite for a ray parallel to it.
-double plane_distance(const ShearedRay& ray, const float* rows, std::size_t stride) {
-  const Vec3d a = seen_vertex(ray, rows, stride), b = seen_vertex(ray, rows + 3 * stride, stride),
-              c = seen_vertex(ray, rows + 6 * stride, stride);
-  const Vec3d normal = cross(b - a, c - a);
-  const double depth = dot(normal, a) / dot(normal, {double{ray.shear_x}, double{ray.shear_y}, 1.0});
-  const auto [least, greatest] = std::minmax({a.z, b.z, c.z});
-  return (std::isfinite(depth) ? std::clamp(depth, least, greatest) : depth) * double{ray.scale_z};
-}
+/// A triangle as seen from where the ray starts in full, sheared in double.
+struct SeenTriangle {
+  SeenTriangle(const ShearedRay& ray, const float* rows, std::size_t stride)
+      : shear{double{ray.shear_x}, double{ray.shear_y}, 1.0},
+        scale_z(double{ray.scale_z}),
+        a(seen_vertex(ray, rows, stride)),
+        b(seen_vertex(ray, rows + 3 * stride, stride)),
+        c(seen_vertex(ray, rows + 6 * stride, stride)) {}
 
-Vec3d row_vector(const float* rows, std::size_t stride, std::size_t lane, std::size_t row) {
-  return {double{rows[row * stride + lane]}, double{rows[(row + 1) * stride + lane]}, double{rows[(row + 2) * stride + lane]}};
-}
+  /// t of its plane, no farther than the triangle reaches: a ray that all but lies in the plane crosses it anywhere. Not finite
+  /// for a ray parallel to it.
+  double plane_distance() const {
+    const Vec3d normal = cross(b - a, c - a);
+    const double depth = dot(normal, a) / dot(normal, shear);
+    const auto [least, greatest] = std::minmax({a.z, b.z, c.z});
+    return (std::isfinite(depth) ? std::clamp(depth, least, greatest) : depth) * scale_z;
+  }
+  /// Edges belong to both their triangles.
+  bool is_crossed() const {
+    const double u = turn(c, b), v = turn(a, c), w = turn(b, a);
+    return !((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0));
+  }
+
+  Vec3d shear;
+  double scale_z;
+  Vec3d a, b, c;
+
+ private:
+  /// Changes its sign, and nothing else, with its vertices.
+  double turn(const Vec3d& from, const Vec3d& to) const {
+    const double from_x = from.x - shear.x * from.z, from_y = from.y - shear.y * from.z;
+    const double to_x = to.x - shear.x * to.z, to_y = to.y - shear.y * to.z;
+    return from_x * to_y - from_y * to_x;
+  }
+};
 
 float rounded(double t) { return static_cast<float>(t); }
 
+/// A t next to 0, of a triangle that floats let the ray cross, as doubles have it.
+float judged(float t, const SeenTriangle& seen) {
+  const double exact = seen.plane_distance();
+  if (exact > 0.0 && exact < near_edge && !seen.is_crossed()) {
+    return missed;
+  }
+  return (exact > 0.0) == (t > 0.0F) ? t : exact > 0.0 ? rounded(exact) : missed;
+}
+
 }  // namespace
 
-ShearedRay::ShearedRay(const Ray& ray) : origin(ray.origin) {
+ShearedRay::ShearedRay(const Ray& ray) : origin(ray.origin), origin_rest(ray.origin_rest) {
   axis_z = largest_axis(ray.direction);
   axis_x = (axis_z + 1) % 3;
   axis_y = (axis_z + 2) % 3;
@@ -100,25 +133,60 @@ float intersect_triangle(const ShearedRay& ray, const float* rows, std::size_t s
   // Each weight is divided before the sum: a cubic in length would overflow and underflow far too soon.
   const float weighted = std::fma(u / determinant, a.z, std::fma(v / determinant, b.z, (w / determinant) * c.z));
   const float t = weighted * ray.scale_z;
-  if (std::fabs(t) < near_start) {
-    const double exact = plane_distance(ray, rows + lane, stride);
-    return (exact > 0.0) == (t > 0.0F) ? t : exact > 0.0 ? rounded(exact) : missed;
-  }
-  return t;
+  return std::fabs(t) < near_start ? judged(t, SeenTriangle(ray, rows + lane, stride)) : t;
 }
 
-float intersect_sphere(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
-  const double radius = double{rows[3 * stride + lane]};
-  const Vec3d d(ray.direction), to_origin = Vec3d(ray.origin) - row_vector(rows, stride, lane, 0);
+namespace {
+
+/// In a quick look, by floats alone, ray and surface may lie nearer to each other than they seem, by this share of coordinates:
+/// more than all that their rests add up to.
+constexpr double rests_share = 0x1p-20;
+
+double farthest_coordinate(const Vec3d& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
+
+Vec3d row_vector(const float* rows, std::size_t stride, std::size_t lane, std::size_t row) {
+  return {double{rows[row * stride + lane]}, double{rows[(row + 1) * stride + lane]}, double{rows[(row + 2) * stride + lane]}};
+}
+
+/// For certain: the ray's line passes the sphere.
+bool passes_sphere(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
+  const Vec3d center = row_vector(rows, stride, lane, 0), d(ray.direction), to_origin = Vec3d(ray.origin) - center;
+  const Vec3d away = cross(to_origin, d);
+  const double radius = std::fabs(double{rows[3 * stride + lane]});
+  const double reach = radius + rests_share * (radius + farthest_coordinate(center) + farthest_coordinate(to_origin));
+  return dot(away, away) > reach * reach * dot(d, d);
+}
+
+/// For certain: the ray's line passes the cone's axis at more than its largest radius.
+bool passes_cone(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
+  const Vec3d base = row_vector(rows, stride, lane, 0), axis = row_vector(rows, stride, lane, 4) - base;
+  const Vec3d d(ray.direction), to_origin = Vec3d(ray.origin) - base, across = cross(d, axis);
+  const double radius = std::max(std::fabs(double{rows[3 * stride + lane]}), std::fabs(double{rows[7 * stride + lane]}));
+  const double reach =
+      radius + rests_share * (radius + farthest_coordinate(base) + farthest_coordinate(axis) + farthest_coordinate(to_origin));
+  const double off = dot(to_origin, across), area = dot(across, across);
+  return area > 1e-6 * dot(axis, axis) && off * off > reach * reach * area;
+}
+
+}  // namespace
+
+double sphere_distance(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
+  const CurvedValues sphere(PrimitiveKind::sphere, rows, stride, lane);
+  const double radius = sphere.value(3);
+  const Vec3d d = ray.full_direction(), to_origin = ray.full_origin() - sphere.vector(0);
   const double a = dot(d, d), middle = -dot(to_origin, d) / a;
   const Vec3d nearest = to_origin + d * middle;
   const double rest = radius * radius - dot(nearest, nearest);
   if (!(rest >= 0.0)) {
-    return missed;
+    return double{missed};
   }
   const double half = std::sqrt(rest / a);
   const double near = middle - half, far = middle + half;
-  return near > 0.0 && radius > 0.0 ? rounded(near) : far > 0.0 ? rounded(far) : missed;
+  return near > 0.0 && radius > 0.0 ? near : far > 0.0 ? far : double{missed};
+}
+
+float intersect_sphere(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
+  return passes_sphere(ray, rows, stride, lane) ? missed : rounded(sphere_distance(ray, rows, stride, lane));
 }
 
 namespace {
@@ -156,12 +224,13 @@ bool solve(double a, double b, double c, double& first, double& second) {
 
 }  // namespace
 
-float intersect_cone(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
-  const Vec3d base = row_vector(rows, stride, lane, 0), axis = row_vector(rows, stride, lane, 4) - base;
-  const double signed_radius = double{rows[3 * stride + lane]}, base_radius = std::fabs(signed_radius);
-  const double widening = std::fabs(double{rows[7 * stride + lane]}) - base_radius;
+double cone_distance(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
+  const CurvedValues cone(PrimitiveKind::cone, rows, stride, lane);
+  const Vec3d base = cone.vector(0), axis = cone.vector(4) - base;
+  const double signed_radius = cone.value(3), base_radius = std::fabs(signed_radius);
+  const double widening = std::fabs(cone.value(7)) - base_radius;
   const bool inside_only = signed_radius < 0.0 || rows[7 * stride + lane] < 0.0F;
-  const Vec3d d(ray.direction), from_base = Vec3d(ray.origin) - base;
+  const Vec3d d = ray.full_direction(), from_base = ray.full_origin() - base;
   const double shift = -dot(from_base, d) / dot(d, d), axis_squared = dot(axis, axis);
   const Vec3d start = from_base + d * shift;
 
@@ -177,16 +246,20 @@ float intersect_cone(const Ray& ray, const float* rows, std::size_t stride, std:
   if (!solve(dot(line.across_rate, line.across_rate) - line.radius_rate * line.radius_rate,
              dot(line.across, line.across_rate) - line.radius * line.radius_rate,
              dot(line.across, line.across) - line.radius * line.radius, roots[0], roots[1])) {
-    return missed;
+    return double{missed};
   }
   for (const double root : roots) {
     const double height = line.height + line.height_rate * root;
     if (root + shift > 0.0 && height >= 0.0 && height <= 1.0 &&
         (!inside_only || line.leaving(d, axis, widening / axis_squared, root))) {
-      return rounded(root + shift);
+      return root + shift;
     }
   }
-  return missed;
+  return double{missed};
+}
+
+float intersect_cone(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
+  return passes_cone(ray, rows, stride, lane) ? missed : rounded(cone_distance(ray, rows, stride, lane));
 }
 
 }  // namespace dmpc::core

@@ -13,10 +13,11 @@ namespace dmpc::core {
 struct ShearedRay {
   explicit ShearedRay(const Ray& ray);
   /// Of what has been computed before.
-  ShearedRay(const Vec3f& start, float x_shear, float y_shear, float z_scale, std::uint32_t x, std::uint32_t y, std::uint32_t z)
-      : origin(start), shear_x(x_shear), shear_y(y_shear), scale_z(z_scale), axis_x(x), axis_y(y), axis_z(z) {}
+  ShearedRay(const Vec3f& start, const Vec3f& rest, float x_shear, float y_shear, float z_scale, std::uint32_t x, std::uint32_t y,
+             std::uint32_t z)
+      : origin(start), origin_rest(rest), shear_x(x_shear), shear_y(y_shear), scale_z(z_scale), axis_x(x), axis_y(y), axis_z(z) {}
 
-  Vec3f origin;
+  Vec3f origin, origin_rest;
   float shear_x, shear_y, scale_z;
   std::uint32_t axis_x, axis_y, axis_z;  ///< which coordinate plays x, y, z; axis_z is the direction's largest
 };
@@ -24,6 +25,10 @@ struct ShearedRay {
 /// Nearer to 0 than this the sign of a triangle's t is decided in double. Rounding moves t by some 2^-24 of the distance, on a
 /// triangle of length E and area A by E^3 / A times as much.
 inline constexpr float near_start = 0x1p-10F;
+
+/// Nearer than this a triangle is hit only where doubles say so, too: a ray that starts next to an edge must not meet, from
+/// within, the triangle behind that edge. Less than near_start by more than t is off, so that neighbours are judged alike.
+inline constexpr double near_edge = 0x1p-12;
 
 /// The t of a ray that misses: never in (0, t_max).
 inline constexpr float missed = -1.0F;
@@ -40,5 +45,8 @@ float intersect_triangle(const ShearedRay& ray, const float* rows, std::size_t s
 /// t rounded to float once. A negative radius shows the inside only. Nearest root with t > 0.
 float intersect_sphere(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane);
 float intersect_cone(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane);
+/// The same before t is rounded; `missed` if the ray misses.
+double sphere_distance(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane);
+double cone_distance(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane);
 
 }  // namespace dmpc::core

@@ -80,7 +80,7 @@ TEST_CASE("a batch of one is one ray a message") {
   sender.add(2, 5);
   CHECK(sender.gather.waits());
   CHECK(sender.gather.send() == Way::to_owner);
-  CHECK(sender.single.take().payload.size() == 104);
+  CHECK(sender.single.take().payload.size() == 128);
 }
 
 TEST_CASE("without a credit for the owner a packet goes to the host, named with its owner, and without that it waits") {

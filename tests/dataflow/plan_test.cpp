@@ -38,12 +38,12 @@ std::string error_of(const PlanRequest& request, const dataflow::OtherNodeCount&
 
 TEST_CASE("without a memory bound a packet of rays fills 2 KiB, on a modelled machine 1 KiB, and there are four credits") {
   const Plan plan = make_plan(request_with(8, 100_KiB));
-  CHECK(plan.ray_batch == 21);
+  CHECK(plan.ray_batch == 17);
   CHECK(dataflow::ray_packet_bytes(plan.ray_batch) <= 2_KiB);
   CHECK(dataflow::ray_packet_bytes(plan.ray_batch + 1) > 2_KiB);
   PlanRequest modelled = request_with(8, 100_KiB);
   modelled.computer.machine.emplace();
-  CHECK(make_plan(modelled).ray_batch == 10);
+  CHECK(make_plan(modelled).ray_batch == 8);
   CHECK(plan.ray_credits == 4);
   CHECK(plan.queue_packets == 512);
   CHECK(plan.notes.empty());
@@ -58,8 +58,8 @@ TEST_CASE("bundles have packets of 4 KiB, few nodes more credits, and each node 
     const Plan plan = make_plan(request);
     CHECK(alone.rays_a_task == 1);
     CHECK(plan.rays_a_task == 16);
-    CHECK(plan.ray_batch == 42);
-    CHECK(dataflow::ray_packet_bytes(42) <= 4_KiB);
+    CHECK(plan.ray_batch == 34);
+    CHECK(dataflow::ray_packet_bytes(34) <= 4_KiB);
     CHECK(plan.ray_credits == std::max(64 / nodes, 4U));
     CHECK(plan.queue_packets == (nodes == 1 ? 0 : 256));
     const nodes::MemoryPlan more = plan.node_memory(0), less = alone.node_memory(0);
@@ -82,7 +82,7 @@ TEST_CASE("where memory is scarce rays walk alone before packets get shorter, an
     const Plan plan = make_plan(request);
     CHECK(plan.node_memory_max_bytes() <= memory);
     CHECK(plan.rays_a_task <= rays);
-    CHECK((plan.rays_a_task == 1 || plan.ray_batch == 42));
+    CHECK((plan.rays_a_task == 1 || plan.ray_batch == 34));
     CHECK((plan.rays_a_task == 16 || plan.ray_credits == 1));
     rays = plan.rays_a_task;
   }
@@ -112,7 +112,7 @@ TEST_CASE("the smallest memory that is named works, and one byte less does not")
 TEST_CASE("scarce memory costs queued packets first, then credits, then the length of packets, and no more than it must") {
   PlanRequest request = request_with(16, 100_KiB);
   const std::size_t all = make_plan(request).node_memory_max_bytes();
-  std::uint32_t queue = 512, credits = 4, batch = 21;
+  std::uint32_t queue = 512, credits = 4, batch = 17;
   for (std::size_t memory = all; memory >= dataflow::smallest_node_memory_bytes(request); memory -= 1_KiB) {
     request.computer.node_memory_bytes = memory;
     const Plan plan = make_plan(request);
@@ -120,7 +120,7 @@ TEST_CASE("scarce memory costs queued packets first, then credits, then the leng
     CHECK(plan.ray_credits <= credits);
     CHECK(plan.ray_batch <= batch);
     CHECK(plan.queue_packets <= queue);
-    CHECK((plan.ray_batch == 21 || plan.ray_credits == 1));
+    CHECK((plan.ray_batch == 17 || plan.ray_credits == 1));
     CHECK((plan.ray_credits == 4 || plan.queue_packets == 0));
     queue = plan.queue_packets;
     credits = plan.ray_credits;

@@ -26,7 +26,8 @@ using core::Scene;
 using core::Vec3d;
 using Must = StabilityExpectation::Must;
 
-/// A child starts 2^-21 in front of its surface: what reaches less than half of that cannot be in its way.
+/// Surfaces are no flatter than float makes them: what reaches less than this in front of one cannot be in the way of its
+/// children.
 constexpr double reach_in_front = 0x1p-22;
 
 /// The plane that touches a hit's surface, with the side that a child starts on in front.
@@ -54,11 +55,11 @@ Tangent tangent_at(const PrimitiveValues& body, const Ray& parent, const Hit& hi
     tangent.point = point_of(body, 0);
     tangent.normal = cross(point_of(body, 3) - tangent.point, point_of(body, 6) - tangent.point);
   } else {
-    tangent.point = Vec3d(parent.origin) + Vec3d(parent.direction) * double{hit.t};
+    tangent.point = parent.full_origin() + parent.full_direction() * double{hit.t};
     tangent.normal = curved_normal(body, tangent.point);
   }
   tangent.normal = normalize(tangent.normal);
-  if (dot(tangent.normal, Vec3d(child.direction)) < 0) {
+  if (dot(tangent.normal, child.full_direction()) < 0) {
     tangent.normal = -tangent.normal;
   }
   return tangent;

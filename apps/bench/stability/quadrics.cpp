@@ -8,6 +8,7 @@
 #include "apps/bench/stability/case.h"
 #include "apps/bench/stability/rays.h"
 #include "apps/oracle/curved.h"
+#include "core/record/curved_values.h"
 #include "core/trace/primitive.h"
 
 namespace dmpc::apps {
@@ -40,25 +41,28 @@ Roots roots_of(Long a, Long b, Long c, Long shift) {
 }
 
 Vec3l row(const PrimitiveValues& values, std::size_t first) {
-  return {Long{values.value[first]}, Long{values.value[first + 1]}, Long{values.value[first + 2]}};
+  return Vec3l(core::CurvedValues(values.kind, values.value.data(), 1, 0).vector(first));
+}
+Long radius_in(const PrimitiveValues& values, std::size_t row) {
+  return Long{core::CurvedValues(values.kind, values.value.data(), 1, 0).value(row)};
 }
 
 Roots sphere_roots(const Ray& ray, const PrimitiveValues& sphere) {
-  const Vec3l d(ray.direction), from = Vec3l(ray.origin) - row(sphere, 0);
-  const Long a = dot(d, d), shift = -dot(from, d) / a, radius = Long{sphere.value[3]};
+  const Vec3l d(ray.full_direction()), from = Vec3l(ray.full_origin()) - row(sphere, 0);
+  const Long a = dot(d, d), shift = -dot(from, d) / a, radius = radius_in(sphere, 3);
   const Vec3l nearest = from + d * shift;
   return roots_of(a, 0, dot(nearest, nearest) - radius * radius, shift);
 }
 
 /// Of the whole double cone; the caller's rays meet it between its ends.
 Roots cone_roots(const Ray& ray, const PrimitiveValues& cone) {
-  const Vec3l base = row(cone, 0), axis = row(cone, 4) - base, d(ray.direction), from = Vec3l(ray.origin) - base;
+  const Vec3l base = row(cone, 0), axis = row(cone, 4) - base, d(ray.full_direction()), from = Vec3l(ray.full_origin()) - base;
   const Long squared = dot(axis, axis), shift = -dot(from, d) / dot(d, d);
   const Vec3l start = from + d * shift;
   const Long height = dot(start, axis) / squared, rate = dot(d, axis) / squared;
   const Vec3l across = start - axis * height, across_rate = d - axis * rate;
-  const Long widening = Long{cone.value[7]} - Long{cone.value[3]};
-  const Long radius = Long{cone.value[3]} + widening * height, radius_rate = widening * rate;
+  const Long widening = radius_in(cone, 7) - radius_in(cone, 3);
+  const Long radius = radius_in(cone, 3) + widening * height, radius_rate = widening * rate;
   return roots_of(dot(across_rate, across_rate) - radius_rate * radius_rate, dot(across, across_rate) - radius * radius_rate,
                   dot(across, across) - radius * radius, shift);
 }

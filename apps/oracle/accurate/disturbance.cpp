@@ -1,6 +1,7 @@
 #include "apps/oracle/accurate/disturbance.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/sampling.h"
 
@@ -12,8 +13,11 @@ using core::Vec3d;
 constexpr double float_rounding = 0x1p-24;
 /// The product counts shares of levels and of probes in steps of half of this.
 constexpr double share_rounding = 0x1p-15;
-/// What the product's secondary rays start off their surface by, grid-local.
-constexpr double surface_offset = 0x1p-21;
+/// Of a value with its rest; and of a ray with its own.
+constexpr double curved_rounding = 0x1p-32;
+constexpr double rest_rounding = 0x1p-45;
+/// What the product's secondary rays start off their surface by, grid-local, and how much farther along their way.
+constexpr double clearance = 0x1p-20, tie_clearance = 0x1p-23, clearances_along = 8;
 
 /// Of the triangle or the cone, whose normal turns where an end of it is moved.
 double height_of(const AccurateBody& body) {
@@ -35,26 +39,34 @@ Vec3d Disturbance::random_vector() {
 }
 
 void Disturbance::shoot(AccurateRay& ray) {
-  const Vec3d end = ray.origin + ray.direction * ray.t_max;
-  ray.origin = ray.origin + random_vector() * (float_rounding * unit_);
+  const Vec3d end = ray.origin + ray.direction * ray.t_max + random_vector() * (float_rounding * unit_);
+  ray.origin = ray.origin + random_vector() * (rest_rounding * unit_);
   if (ray.kind != core::RayKind::primary) {
-    const double side = dot(ray.direction, normal_) < 0 ? -1 : 1;
-    ray.origin = ray.origin + normal_ * (side * surface_offset * unit_ * (0.75 + random() / 4));
+    const double cosine = dot(ray.direction, normal_), gap = clearance * size_ + tie_clearance * t_;
+    const double along = std::min(gap / std::fabs(cosine), gap * clearances_along);
+    const double across = std::copysign(is_flat_ ? std::max(gap - along * std::fabs(cosine), 0.0) : 0.0, cosine);
+    ray.origin = ray.origin + (ray.direction * along + normal_ * across) * (0.75 + random() / 4);
   }
   // A shadow ray is aimed from where it starts.
   const Vec3d direction = ray.kind == core::RayKind::shadow ? normalize(end - ray.origin) : ray.direction;
-  ray.direction = normalize(direction + random_vector() * (4 * float_rounding));
+  const bool is_rounded = is_smooth_ || ray.kind == core::RayKind::refracted;
+  ray.direction = normalize(direction + random_vector() * (is_rounded ? 4 * float_rounding : rest_rounding));
 }
 
 void Disturbance::touch(const AccurateRay& ray, const AccurateBody& body, AccurateSurface& surface) {
-  const AccurateRay shifted{.origin = ray.origin + random_vector() * (float_rounding * unit_), .direction = ray.direction};
+  const double rounding = body.kind == core::PrimitiveKind::triangle ? float_rounding : curved_rounding;
+  const AccurateRay shifted{.origin = ray.origin + random_vector() * (rounding * unit_), .direction = ray.direction};
   const double before = dot(surface.point - ray.origin, ray.direction);
   const double t = distance_to(body, shifted).value_or(before);
-  surface = surface_at(body, shifted, t + float_rounding * (t + unit_) * random());
+  surface = surface_at(body, shifted, t + rounding * (t + unit_) * random());
   if (body.kind != core::PrimitiveKind::sphere) {
-    surface.normal = normalize(surface.normal + random_vector() * (float_rounding * unit_ / height_of(body)));
+    surface.normal = normalize(surface.normal + random_vector() * (rounding * unit_ / height_of(body)));
   }
   normal_ = surface.normal;
+  t_ = t;
+  size_ = unit_ + std::fabs(body.radius[0]) + std::fabs(body.radius[1]);
+  is_flat_ = body.kind == core::PrimitiveKind::triangle;
+  is_smooth_ = body.is_smooth();
 }
 
 void Disturbance::look_up(AccurateFootprint& footprint) {

@@ -10,11 +10,15 @@ namespace dmpc::apps {
 
 /// Moves what starts from one hit by as much as the product's arithmetic in float may. With u = 2^-24 and L the product's
 /// grid-local unit:
-///   a ray's start     u L, and what secondary rays start off their surface by (2^-21 L) in place of the accurate gap
-///   its direction     4 u: its own rounding, that of the normal and of the index of refraction
-///   a surface         u L against the ray, which moves the hit the farther the more they graze each other; then the distance is
-///                     rounded, u (t + L), and point, normal and weights follow
-///   a triangle        its corners are rounded by u L, which turns it by that over its height; a cone's ends likewise
+///   a ray's start     2^-45 L, and what secondary rays start off their surface by, 2^-20 (L + the body's radii) + 2^-23 t: along
+///                     their way, and off a triangle that they graze across it
+///   its direction     2^-45; behind glass or off a normal between those of vertices 4 u, as indices of refraction and such
+///                     normals are rounded
+///   a light           u L
+///   a surface         u L against the ray, 2^-32 L if it is curved, which moves the hit the farther the more they graze each
+///                     other; the radius is rounded likewise, which is as much along the ray, and point, normal and weights
+///                     follow
+///   a triangle        its corners are rounded by u L, which turns it by that over its height; a cone's ends by 2^-32 L
 ///   a texture         the level of detail and the length of a line of probes by some 2^-16, in which the product counts shares
 class Disturbance final : public RayWatcher {
  public:
@@ -32,7 +36,10 @@ class Disturbance final : public RayWatcher {
 
   double unit_;
   std::uint64_t state_;
-  core::Vec3d normal_;  ///< of the surface last touched
+  // Of the surface last touched.
+  core::Vec3d normal_;
+  double t_ = 0, size_ = 0;
+  bool is_flat_ = false, is_smooth_ = false;
 };
 
 }  // namespace dmpc::apps

@@ -78,7 +78,7 @@ class NotingTracer {
     }
   }
   AccurateRay in_world(const core::Ray& ray, const LoggedRay& noted) const {
-    const Vec3d origin = Vec3d(ray.origin) * (1 / frame_.scale) + frame_.origin, direction = normalize(Vec3d(ray.direction));
+    const Vec3d origin = ray.full_origin() * (1 / frame_.scale) + frame_.origin, direction = normalize(ray.full_direction());
     return {.origin = along_axes(origin),
             .direction = along_axes(direction),
             .t_max = noted.t_max,
@@ -92,7 +92,7 @@ class NotingTracer {
   Vec3d along_axes(const Vec3d& v) const { return frame_.axes[0] * v.x + frame_.axes[1] * v.y + frame_.axes[2] * v.z; }
   /// The light that a shadow ray goes to: of those after the last one of this hit, the one nearest to the ray's end.
   std::uint32_t next_light(const core::Ray& ray) {
-    const Vec3d end = Vec3d(ray.origin) + Vec3d(ray.direction) * static_cast<double>(ray.t_max);
+    const Vec3d end = ray.full_origin() + ray.full_direction() * static_cast<double>(ray.t_max);
     std::uint32_t nearest = light_;
     for (std::uint32_t light = light_; light < lights_.size(); ++light) {
       nearest = length(lights_[light] - end) < length(lights_[nearest] - end) ? light : nearest;

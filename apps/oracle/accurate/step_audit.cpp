@@ -74,7 +74,10 @@ class StepAudit::Case {
  private:
   void complain(const std::string& error) { result_.error = result_.error.empty() ? error : result_.error; }
 
-  void check_primary(const AccurateRay& primary) {
+  /// A ray of an eye that is far away starts nearer.
+  void check_primary(AccurateRay primary) {
+    primary.origin =
+        primary.origin + primary.direction * dot(log_.shots.front().world.origin - primary.origin, primary.direction);
     std::vector<Rays> trials;
     for (std::uint64_t seed = 0; seed < trial_count; ++seed) {
       trials.push_back({primary});

@@ -183,7 +183,7 @@ TEST_CASE("the smallest and largest values are taken") {
   }
   for (const std::string option :
        {"--nodes=1024", "--subsample=1", "--subsample=65536", "--balance-grid=1", "--balance-grid=4096", "--ray-batch=1",
-        "--ray-batch=682", "--ray-credits=0", "--ray-credits=64", "--ray-queue=0", "--ray-queue=16384"}) {
+        "--ray-batch=546", "--ray-credits=0", "--ray-credits=64", "--ray-queue=0", "--ray-queue=16384"}) {
     CAPTURE(option);
     CHECK_NOTHROW(render({"--strategy=dataflow", option}));
   }
@@ -325,7 +325,7 @@ TEST_CASE("the help of render names every option and its default") {
                                  "--subsample",
                                  "--balance-grid",
                                  "--ray-batch",
-                                 "1..682 [what fills 4 KiB; 2 KiB if rays walk alone, modelled machines 1 KiB]",
+                                 "1..546 [what fills 4 KiB; 2 KiB if rays walk alone, modelled machines 1 KiB]",
                                  "--ray-credits",
                                  "0..64 [4; up to 64 of few nodes whose rays walk together]",
                                  "--ray-queue",

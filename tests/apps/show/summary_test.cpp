@@ -38,7 +38,7 @@ TEST_CASE("the closing lines of replicated do without pages") {
 TEST_CASE("the closing lines of dataflow say how rays travelled and how evenly the work was shared") {
   const std::string text = summary(small(Strategy::dataflow));
   for (const std::string part :
-       {"computer 3 nodes, dataflow, 21 rays a packet, 4 credits a pair, 512 packets queued\n", "rays     ", "(primary 192, ",
+       {"computer 3 nodes, dataflow, 34 rays a packet, 21 credits a pair, 256 packets queued\n", "rays     ", "(primary 192, ",
         "travel   ", " messages, ", " hops a ray, in ", " % full; overflowed ", "load     predicted ", " %, achieved ",
         " % (mean over maximum of the nodes' work)\n", "regions  ", " copies of a record; on the hypercube ",
         " if mapped at random\n", ", prepare 0.250 s,"}) {

@@ -129,7 +129,7 @@ TEST_CASE("a scene that fits no computer is an error, once all have been told of
 TEST_CASE("memory that the real computer does not have is no misfit but an error") {
   ChildProcess process({"/bin/sh", "-c",
                         "ulimit -v 3000000; exec \"$0\" study speedup balls-1 --strategy=dataflow --nodes=1,64 "
-                        "--ray-queue=16384 --ray-batch=600 --resolution=8x8",
+                        "--ray-queue=16384 --ray-batch=546 --resolution=8x8",
                         DMPC_PROGRAM});
   CHECK(process.status() == 4);
   CHECK(process.errors().find("dmpc: this computer has no ") == 0);

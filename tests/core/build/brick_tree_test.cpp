@@ -32,6 +32,6 @@ TEST_CASE("a brick comes before its blocks, and these before its bricks, each wh
   const std::byte* const block = records.find(second.child[0].address());
   CHECK(read<BlockHeader>(block).count == 2);
   CHECK(read<float>(block + sizeof(BlockHeader) + 4) == 1.0F);
-  CHECK(read<std::uint32_t>(block + sizeof(BlockHeader) + 4 * 8) == 0);
-  CHECK(read<ShadingReference>(block + sizeof(BlockHeader) + 4 * 10).material() == 7);
+  CHECK(read<std::uint32_t>(block + sizeof(BlockHeader) + 4 * 10) == 0);
+  CHECK(read<ShadingReference>(block + sizeof(BlockHeader) + 4 * 12).material() == 7);
 }

@@ -13,7 +13,7 @@ using namespace dmpc::tests;
 
 namespace {
 
-PrimitiveValues values(PrimitiveKind kind, std::array<float, 9> row) { return {kind, row}; }
+PrimitiveValues values(PrimitiveKind kind, std::array<float, value_count_max> row) { return {kind, row}; }
 
 PrimitiveValues random_primitive(PrimitiveKind kind, Random& random) {
   PrimitiveValues primitive{.kind = kind};

@@ -95,3 +95,21 @@ TEST_CASE("a picture of one pixel looks straight ahead, one of none is refused")
   CHECK_THROWS_AS(Camera(straight, {}, 0, 1, 1), InternalError);
   CHECK_THROWS_AS(Camera(straight, {}, 1, 1, 0), InternalError);
 }
+
+TEST_CASE("rays of an eye far away start beside the grid and lead where those of the eye do") {
+  const GridFrame frame{.resolution = {8, 8, 8}, .finest_cell = 1.0F / (8 * finest_per_cell)};
+  const Vec3d middle{0.5, 0.5, 0.5};
+  for (const double distance : {2.0, 1e4, 1e8}) {
+    const View view{.from = middle + Vec3d{0, 0, distance}, .at = middle, .up = {0, 1, 0}, .angle_degrees = 114 / distance};
+    const Camera camera(view, frame, 5, 5, 1);
+    for (std::uint32_t pixel = 0; pixel < 25; ++pixel) {
+      const Ray ray = camera.primary_ray(pixel, 0);
+      const Vec3d start = ray.full_origin(), towards = ray.full_direction();
+      CHECK(length(start - middle) < (distance < 4 ? 2.1 : 4));
+      const Vec3d at = start + towards * ((0.5 - start.z) / towards.z);
+      const double pixel_step = 2 * distance * tan_degrees(57 / distance) / 4;
+      CHECK(std::fabs(at.x - (0.5 + (static_cast<double>(pixel % 5) - 2) * pixel_step)) < 1e-7);
+      CHECK(std::fabs(at.y - (0.5 - (static_cast<double>(pixel / 5) - 2) * pixel_step)) < 1e-7);
+    }
+  }
+}

@@ -225,3 +225,41 @@ TEST_CASE("spheres and cones have their normals outwards and may be met again") 
   REQUIRE(from_cone.size() == 1);
   check_direction(from_cone[0], {-1, 0, 0});
 }
+
+TEST_CASE("a ray starts along its way off the point of the hit, and off what it grazes") {
+  const Database database = database_of(floor_scene({.specular = 1}, {}));
+  const GridFrame& frame = database.header().frame;
+  for (const double rise : {1.0, 0.2, 1e-2, 1e-5}) {
+    const Ray parent = towards_middle(database, {-0.7, 0.1, 0.7 * rise});
+    const auto mirrored = shaded(database, parent).of(RayKind::reflected);
+    REQUIRE(mirrored.size() == 1);
+    const Vec3d start = mirrored[0].full_origin() - to_local(frame, {0, 0, 0}), along = mirrored[0].full_direction();
+    const double off = length(start - along * dot(start, along));
+    CHECK(start.z >= 0x1p-27);
+    CHECK(length(start) < 0x1p-16);
+    CHECK(off < (rise > 0.15 ? 1e-8 : 0x1p-19));
+  }
+}
+
+TEST_CASE("a ray off a sphere leads to where it would from the very point, whatever it grazes") {
+  Scene scene;
+  SceneBuilder builder(scene);
+  builder.material({.specular = 1});
+  builder.sphere({0, 0, 0}, 0.5);
+  const Database database = database_of(scene);
+  const GridFrame& frame = database.header().frame;
+  const Vec3d center = to_local(frame, {0, 0, 0});
+  for (const double height : {0.0, 0.3, 0.49, 0.4999}) {
+    Ray parent;
+    parent.start_at(to_local(frame, {0, height, 3}));
+    parent.go_along({0, 0, -1});
+    const auto mirrored = shaded(database, parent).of(RayKind::reflected);
+    REQUIRE(mirrored.size() == 1);
+    const double y = height * frame.scale, radius = 0.5 * frame.scale, z = std::sqrt(radius * radius - y * y);
+    const Vec3d normal = Vec3d{0, y, z} * (1 / radius), towards = normal * (2 * normal.z) - Vec3d{0, 0, 1};
+    const Vec3d from_point = mirrored[0].full_origin() - center - Vec3d{0, y, z};
+    CHECK(length(mirrored[0].full_direction() - towards) < 1e-7);
+    CHECK(length(from_point - towards * dot(from_point, towards)) < 1e-9);
+    CHECK(dot(from_point, normal) > 0);
+  }
+}

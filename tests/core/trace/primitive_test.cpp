@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/bench/stability/random.h"
+#include "core/record/curved_values.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
@@ -19,8 +20,15 @@ namespace {
 using Rows = std::vector<float>;
 
 float triangle(const Rows& rows, const Ray& ray) { return intersect_triangle(ShearedRay(ray), rows.data(), 1, 0); }
-float sphere(const Rows& rows, const Ray& ray) { return intersect_sphere(ray, rows.data(), 1, 0); }
-float cone(const Rows& rows, const Ray& ray) { return intersect_cone(ray, rows.data(), 1, 0); }
+/// Values without rests.
+float sphere(Rows rows, const Ray& ray) {
+  rows.resize(value_count(PrimitiveKind::sphere));
+  return intersect_sphere(ray, rows.data(), 1, 0);
+}
+float cone(Rows rows, const Ray& ray) {
+  rows.resize(value_count(PrimitiveKind::cone));
+  return intersect_cone(ray, rows.data(), 1, 0);
+}
 
 const Rows right_triangle{0, 0, 0, 1, 0, 0, 0, 1, 0};
 const Rows unit_sphere{0, 0, 0, 1}, hollow_sphere{0, 0, 0, -1};
@@ -164,4 +172,23 @@ TEST_CASE("hits on cones lie on their surface") {
   }
   CHECK(hits > 0);
   CHECK(worst < 1e-5);
+}
+
+TEST_CASE("what rounding left of a ray and of a sphere counts") {
+  const Vec3d center{0.1, 0.2, 0.3};
+  const double radius = 1.0 / 3;
+  PrimitiveValues ball{.kind = PrimitiveKind::sphere};
+  std::uint32_t rests = 0;
+  for (std::uint32_t row = 0; row < 4; ++row) {
+    const double value = row < 3 ? center[row] : radius;
+    ball.value[row] = static_cast<float>(value);
+    rests |= std::uint32_t{static_cast<std::uint8_t>(rest_of(value, ball.value[row]))} << (8 * row);
+  }
+  ball.value[4] = std::bit_cast<float>(rests);
+  Ray ray;
+  ray.start_at(center + Vec3d{0.7, 1.1, 1.9});
+  ray.go_along(normalize(Vec3d{-0.7, -1.1, -1.9}));
+  const double distance = sphere_distance(ray, ball.value.data(), 1, 0);
+  CHECK(std::fabs(distance - (length(Vec3d{0.7, 1.1, 1.9}) - radius)) < 0x1p-31);
+  CHECK(intersect_sphere(ray, ball.value.data(), 1, 0) == static_cast<float>(distance));
 }

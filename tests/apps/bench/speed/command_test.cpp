@@ -212,7 +212,8 @@ TEST_CASE("an ablation renders without each skip, without all, and with cutoffs,
     CHECK(one.work_ratio > 0.5);
     CHECK(one.is_exact() == !one.seconds.what.starts_with("cutoff"));
     CHECK(one.avoided.has_value() == (one.seconds.what != "all" && !one.is_control()));
-    CHECK((!one.is_control() || one.work_ratio == 1));
+    // With whom a ray of dataflow walks depends on the schedule, and so does its work, by some thousandths.
+    CHECK((!one.is_control() || std::abs(one.work_ratio - 1) < 0.02));
     CHECK(one.noise > 0);
   }
   CHECK(results.front().seconds.rival_figures == results[1].seconds.rival_figures);

@@ -33,8 +33,10 @@ TEST_CASE("where both renderers meet the same surfaces the cause is rounding") {
   CHECK(Causes(bench).of(PixelCause::rounding) == bench.pixel_count());
 }
 
-TEST_CASE("small mirrors part the renderers at silhouettes and terminators, all of them explained") {
-  const Causes causes(Workbench(built_in("balls-3"), 64));
+TEST_CASE("mirrors that multiply rounding part the renderers at silhouettes and terminators, all of them explained") {
+  Workbench bench(built_in("balls-3"), 64);
+  bench.settings.shade.depth_max = 12;
+  const Causes causes(bench);
   CHECK(causes.of(PixelCause::silhouette) > 0);
   CHECK(causes.of(PixelCause::shadow_silhouette) > 0);
   CHECK(causes.of(PixelCause::terminator) > 0);
