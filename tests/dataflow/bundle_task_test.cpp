@@ -6,68 +6,37 @@
 #include <memory>
 #include <vector>
 
-#include "core/build/extract.h"
-#include "dataflow/ray_task.h"
-#include "dataflow/regions/balance.h"
-#include "tests/support/small_scenes.h"
-#include "tests/support/subject.h"
+#include "tests/dataflow/part_bench.h"
 
 using namespace dmpc;
 using dataflow::BundleTask;
-using dataflow::PartTracer;
 using dataflow::RayMessage;
 using dataflow::RayTask;
 using nodes::NodeId;
+using tests::elsewhere;
+using tests::half;
+using tests::other;
+using tests::self;
 using tests::Subject;
+using tests::whole;
 
 namespace {
 
-constexpr NodeId self{4}, other{9};
-/// An address that is in no part of these scenes.
-constexpr core::Address elsewhere{0x7ffffff0};
+const Subject& subject() { return tests::part_subject(); }
 
-const Subject& subject() {
-  static const Subject subject(tests::mirrors_and_glass(), {16, 16});
-  return subject;
-}
-
-core::Region whole() { return {.high = core::grid_size(subject().settings().header.frame)}; }
-core::Region half(std::uint32_t index) {
-  return dataflow::equal_size_bsp(whole().high, dataflow::axes_facing(subject().settings().camera), 2).region_at(index);
-}
-
-/// A task over a region's part of the subject, in a memory that has room for it and no more.
 template <class Task>
-struct BenchOf {
-  explicit BenchOf(const core::Region& region, std::uint32_t depth_max = 5)
-      : part(core::extract(subject().database(), region)),
-        records(part.bytes),
-        tracer(records, part.header, {}),
-        settings{part.header, subject().settings().camera, subject().settings().shade},
-        memory(needs(depth_max)),
-        task(memory, self, depth_max) {}
-  static nodes::MemoryPlan needs(std::uint32_t depth_max) {
-    nodes::MemoryPlan plan;
-    Task::add_needs(plan, depth_max);
-    return plan;
-  }
-  void trace() { task.trace(tracer, part.header, operations); }
+struct BenchOf : tests::PartBench<Task> {
+  using tests::PartBench<Task>::PartBench;
+
+  void trace() { this->task.trace(this->tracer, this->part.header, this->operations); }
   std::vector<core::Ray> next_children() {
     std::vector<core::Ray> children;
-    task.next_children(tracer, settings, operations, [&](const core::Ray& child) {
-      task.shoot(child);
+    this->task.next_children(this->tracer, this->settings, this->operations, [&](const core::Ray& child) {
+      this->task.shoot(child);
       children.push_back(child);
     });
     return children;
   }
-
-  core::DatabasePart part;
-  core::LocalRecords records;
-  PartTracer tracer;
-  core::RenderSettings settings;
-  nodes::LocalMemory memory;
-  Task task;
-  core::Operations operations;
 };
 using Bench = BenchOf<BundleTask>;
 using Lone = BenchOf<RayTask>;

@@ -5,45 +5,27 @@
 #include <array>
 #include <optional>
 
-#include "core/build/extract.h"
 #include "core/trace/traversal.h"
-#include "dataflow/regions/balance.h"
-#include "tests/support/small_scenes.h"
-#include "tests/support/subject.h"
+#include "tests/dataflow/part_bench.h"
 
 using namespace dmpc;
-using dataflow::PartTracer;
 using dataflow::RayMessage;
 using dataflow::RayTask;
 using nodes::NodeId;
+using tests::elsewhere;
+using tests::half;
+using tests::other;
+using tests::self;
 using tests::Subject;
+using tests::whole;
 
 namespace {
 
-constexpr NodeId self{4}, other{9};
-/// An address that is in no part of these scenes.
-constexpr core::Address elsewhere{0x7ffffff0};
-
-const Subject& subject() {
-  static const Subject subject(tests::mirrors_and_glass(), {16, 16});
-  return subject;
-}
+const Subject& subject() { return tests::part_subject(); }
 const core::GridFrame& frame() { return subject().settings().header.frame; }
 
-/// A task over a region's part of the subject, in a memory that has room for it and no more.
-struct Bench {
-  explicit Bench(const core::Region& region, std::uint32_t depth_max = 5)
-      : part(core::extract(subject().database(), region)),
-        records(part.bytes),
-        tracer(records, part.header, {}),
-        settings{part.header, subject().settings().camera, subject().settings().shade},
-        memory(needs(depth_max)),
-        task(memory, self, depth_max) {}
-  static nodes::MemoryPlan needs(std::uint32_t depth_max) {
-    nodes::MemoryPlan plan;
-    RayTask::add_needs(plan, depth_max);
-    return plan;
-  }
+struct Bench : tests::PartBench<RayTask> {
+  using PartBench::PartBench;
 
   core::Traced trace() {
     task.trace(tracer, part.header, operations);
@@ -56,22 +38,7 @@ struct Bench {
     task.next_children(tracer, settings, operations, [&](const core::Ray& ray) { child = ray; });
     return child;
   }
-
-  core::DatabasePart part;
-  core::LocalRecords records;
-  PartTracer tracer;
-  core::RenderSettings settings;
-  nodes::LocalMemory memory;
-  RayTask task;
-  core::Operations operations;
 };
-
-core::Region whole() { return {.high = core::grid_size(frame())}; }
-/// The regions of two nodes.
-core::Region half(std::uint32_t index) {
-  return dataflow::equal_size_bsp(core::grid_size(frame()), dataflow::axes_facing(subject().settings().camera), 2)
-      .region_at(index);
-}
 
 /// A ray as it is sent to the owner of the cell in which it starts; of this node's own making unless said otherwise.
 std::optional<RayMessage> starting(const core::Ray& ray, NodeId finder = self) {

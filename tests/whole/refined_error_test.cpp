@@ -9,6 +9,7 @@
 #include "core/picture/pixel_task.h"
 #include "core/scene/scene.h"
 #include "svm/run.h"
+#include "tests/support/film_error.h"
 
 namespace dmpc::refined_error {
 
@@ -109,20 +110,11 @@ svm::Report rendered(const Scene& scene, int samples, double error) {
   return svm::run_replicated(database, settings, {.computer = {.node_count = 1}}, {});
 }
 
-double root_mean_square(const Film& film, const Film& truth) {
-  double sum = 0;
-  for (std::uint32_t i = 0; i < film.pixels().size(); ++i) {
-    const Vec3d difference = film.radiance(i) - truth.radiance(i);
-    sum += dot(difference, difference) / 3;
-  }
-  return std::sqrt(sum / static_cast<double>(film.pixels().size()));
-}
-
 void check_errors(const Scene& scene) {
   const Film truth = rendered(scene, 1000, 0).film;  // none of which a refined pixel has as many
   for (const double asked : {4.0 / 255, 2.0 / 255, 1.0 / 255}) {
     const svm::Report report = rendered(scene, 2, asked);
-    const double error = root_mean_square(report.film, truth);
+    const double error = tests::root_mean_square(report.film, truth);
     CAPTURE(asked);
     CAPTURE(error);
     CAPTURE(report.refinement.error);

@@ -8,6 +8,7 @@
 #include "core/base/expect.h"
 #include "core/build/database.h"
 #include "core/picture/render.h"
+#include "tests/support/film_error.h"
 #include "tests/support/small_scenes.h"
 
 using namespace dmpc::core;
@@ -57,15 +58,6 @@ Film rendered(const Scene& scene, int side, int samples, const RefinementOptions
   Operations operations;
   return render(tracer, {database.header(), Camera(scene.view, database.header().frame, side, side, samples), {}, refinement},
                 operations);
-}
-
-double root_mean_square(const Film& film, const Film& truth) {
-  double sum = 0;
-  for (std::uint32_t pixel = 0; pixel < film.pixels().size(); ++pixel) {
-    const Vec3d difference = film.radiance(pixel) - truth.radiance(pixel);
-    sum += dot(difference, difference) / 3;
-  }
-  return std::sqrt(sum / static_cast<double>(film.pixels().size()));
 }
 
 }  // namespace

@@ -1,0 +1,54 @@
+// A task of dataflow over a region's part of a small scene.
+#pragma once
+
+#include <cstdint>
+
+#include "core/build/extract.h"
+#include "dataflow/ray_task.h"
+#include "dataflow/regions/balance.h"
+#include "tests/support/small_scenes.h"
+#include "tests/support/subject.h"
+
+namespace dmpc::tests {
+
+inline constexpr nodes::NodeId self{4}, other{9};
+/// An address that is in no part of the scene.
+inline constexpr core::Address elsewhere{0x7ffffff0};
+
+inline const Subject& part_subject() {
+  static const Subject subject(mirrors_and_glass(), {16, 16});
+  return subject;
+}
+
+inline core::Region whole() { return {.high = core::grid_size(part_subject().settings().header.frame)}; }
+/// The regions of two nodes.
+inline core::Region half(std::uint32_t index) {
+  return dataflow::equal_size_bsp(whole().high, dataflow::axes_facing(part_subject().settings().camera), 2).region_at(index);
+}
+
+/// In a memory that has room for the task and no more.
+template <class Task>
+struct PartBench {
+  explicit PartBench(const core::Region& region, std::uint32_t depth_max = 5)
+      : part(core::extract(part_subject().database(), region)),
+        records(part.bytes),
+        tracer(records, part.header, {}),
+        settings{part.header, part_subject().settings().camera, part_subject().settings().shade},
+        memory(needs(depth_max)),
+        task(memory, self, depth_max) {}
+  static nodes::MemoryPlan needs(std::uint32_t depth_max) {
+    nodes::MemoryPlan plan;
+    Task::add_needs(plan, depth_max);
+    return plan;
+  }
+
+  core::DatabasePart part;
+  core::LocalRecords records;
+  dataflow::PartTracer tracer;
+  core::RenderSettings settings;
+  nodes::LocalMemory memory;
+  Task task;
+  core::Operations operations;
+};
+
+}  // namespace dmpc::tests
