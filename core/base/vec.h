@@ -1,6 +1,7 @@
 // Vectors of three components, in single and in double precision, and linear RGB colours.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -63,6 +64,11 @@ constexpr Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
 template <class T>
 T length(const Vec3<T>& a) {
   return std::sqrt(dot(a, a));
+}
+/// The largest of its components without their signs.
+template <class T>
+T largest_component(const Vec3<T>& a) {
+  return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
 }
 /// `a` scaled to length 1; requires a length above 0.
 template <class T>

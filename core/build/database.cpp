@@ -176,7 +176,7 @@ class DatabaseBuilder {
 
   /// Cells are built at the same time, then take their room in order, and are written at the same time.
   void write_grid(const TopCells& cells) {
-    const BrickBuilder builder(conversion_.primitives, result_.pad_, header().frame, parallel_);
+    const BrickBuilder builder(conversion_.primitives, result_.pad_, header().frame.finest_cell, parallel_);
     std::vector<BrickTree> trees(cells.size());
     std::uint64_t sorted = 0;
     parallel_.for_each(

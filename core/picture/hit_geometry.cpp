@@ -24,8 +24,6 @@ constexpr double curved_clearance = 0x1p-40;
 /// Of the ray's t, which is rounded to float: another surface may lie so much nearer.
 constexpr double tie_clearance = 0x1p-23;
 
-double largest_coordinate(const Vec3d& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
-
 double shared_by(const Vec3d& normal, const Vec3d& v) {
   return std::fabs(normal.x * v.x) + std::fabs(normal.y * v.y) + std::fabs(normal.z * v.z);
 }
@@ -82,7 +80,7 @@ void sphere_geometry(HitState& state, const Lane& lane) {
   const double t = sphere_distance(state.ray, lane.rows, lane.stride, lane.lane);
   state.geometric_normal = normalize(along(state.ray, t) - center);
   state.point = center + state.geometric_normal * radius;
-  state.clearance = clearance_on_curved(state, largest_coordinate(center) + radius, radius);
+  state.clearance = clearance_on_curved(state, largest_component(center) + radius, radius);
 }
 
 /// The least cosine of a cone's axis with a surface that is told from 0.
@@ -105,7 +103,7 @@ void cone_geometry(HitState& state, const Lane& lane) {
   state.point = base + axis * height + radial * radius;
   const Vec3d normal = radial * dot(axis, axis) - axis * widening;
   state.geometric_normal = normalize(normal);
-  const double size = std::max(largest_coordinate(base), largest_coordinate(apex)) + base_radius + std::max(widening, 0.0);
+  const double size = std::max(largest_component(base), largest_component(apex)) + base_radius + std::max(widening, 0.0);
   state.clearance = clearance_on_curved(state, size, radius);
 }
 

@@ -214,13 +214,7 @@ struct GridFrame {
   double scale = 1;
   std::array<std::int32_t, 3> resolution{1, 1, 1};  ///< cells along x, y, z
   float finest_cell = 1;                            ///< edge of a finest cell, grid-local
-  Vec3d low;                                        ///< where the grid begins, grid-local
 };
-
-/// The coordinate, grid-local, of a plane of the finest lattice.
-constexpr double plane_at(const GridFrame& frame, std::size_t axis, std::int32_t plane) {
-  return frame.low[axis] + static_cast<double>(plane) * double{frame.finest_cell};
-}
 
 /// The grid's size in finest cells.
 constexpr Corner grid_size(const GridFrame& frame) {

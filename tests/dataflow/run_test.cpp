@@ -38,7 +38,7 @@ std::uint64_t sum(const std::array<std::uint64_t, core::ray_kind_count>& by_kind
 /// One ray through a grid of two top cells each way, along x, past everything: from the low half to the high half, into the sky.
 Subject lone_ray() {
   core::Scene scene = tests::BorderScene().scene();
-  scene.view = {.from = {-1, 1.3, 1.3}, .at = {2, 1.3, 1.3}, .up = {0, 0, 1}};
+  scene.view = {.from = {-3, -0.7, -0.7}, .at = {0, -0.7, -0.7}, .up = {0, 0, 1}};
   return Subject(scene, {1, 1}, tests::BorderScene::options());
 }
 

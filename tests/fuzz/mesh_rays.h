@@ -91,7 +91,7 @@ class MeshRays {
     const int cells = frame.resolution[axis] * core::finest_per_cell;
     constexpr std::array<int, 5> spans{1, 4, 16, core::finest_per_cell, core::finest_per_top};
     const int span = spans[bytes_.below(spans.size())];
-    return core::plane_at(frame, axis, bytes_.word() % cells & -span);
+    return double{frame.finest_cell} * (bytes_.word() % cells & -span);
   }
 
   core::Vec3d on_primitive() {

@@ -10,14 +10,12 @@
 
 namespace dmpc::tests {
 
-/// Cuts a cube, which does not hold the world's zero, into 2x2x2 top cells. Plane i of an axis lies at i * finest_cell, which
-/// single precision holds where i is half an edge of a top cell or a whole one: borders of cells and top cells, and of regions of
-/// equal size.
+/// Cuts a cube into 2x2x2 top cells. Plane i of an axis lies at i * finest_cell, which single precision holds where i is half an
+/// edge of a top cell or a whole one: borders of cells and top cells, and of regions of equal size.
 class BorderScene {
  public:
   BorderScene() {
-    build({.origin = {2, 2, 2},
-           .finest_cell = 0});  // all planes in the middle: the bounds and the number of primitives, hence the grid, are the same
+    build({.finest_cell = 0});  // all planes in the middle: the bounds and the number of primitives, hence the grid, are the same
     build(core::build_database(scene_, options()).header().frame);
   }
 
@@ -36,15 +34,15 @@ class BorderScene {
     scene_ = {};
     scene_.name = "borders";
     scene_.background = {0.2, 0.3, 0.4};
-    scene_.view = {.from = {at(0, planes[0]), -1, at(2, planes[0])},
-                   .at = {at(0, planes[0]), 2, at(2, planes[0])},
+    scene_.view = {.from = {at(0, planes[0]), -3, at(2, planes[0])},
+                   .at = {at(0, planes[0]), 0, at(2, planes[0])},
                    .up = {0, 0, 1},
                    .angle_degrees = 60};
-    scene_.lights = {{scene_.view.from}, {{at(0, planes[1]), 0, at(2, planes[1])}}, {{at(0, planes[0]), 2.1, 5}}};
+    scene_.lights = {{scene_.view.from}, {{at(0, planes[1]), -2, at(2, planes[1])}}, {{at(0, planes[0]), 0.1, 3}}};
     core::SceneBuilder builder(scene_);
     builder.material({.color = {0.8, 0.7, 0.5}, .diffuse = 0.5, .specular = 0.4, .shine = 20, .transmittance = 0.5});
-    builder.polygon({{1, 1, 1}, {1.1, 1, 1}, {1, 1.1, 1}, {1, 1, 1.1}});  // two corners give the bounds
-    builder.polygon({{3, 3, 3}, {2.9, 3, 3}, {3, 2.9, 3}, {3, 3, 2.9}});
+    builder.polygon({{-1, -1, -1}, {-0.9, -1, -1}, {-1, -0.9, -1}, {-1, -1, -0.9}});  // two corners give the bounds
+    builder.polygon({{1, 1, 1}, {0.9, 1, 1}, {1, 0.9, 1}, {1, 1, 0.9}});
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (const std::int32_t plane : planes) {
         add_square(builder, axis, at(axis, plane), {at(0, planes[0]), at(1, planes[0]), at(2, planes[0])});
@@ -62,7 +60,7 @@ class BorderScene {
       p[v] = along_v;
       return p;
     };
-    builder.polygon({point(corner[u], corner[v]), point(2.9, corner[v]), point(2.9, 2.8), point(corner[u], 2.8)});
+    builder.polygon({point(corner[u], corner[v]), point(0.9, corner[v]), point(0.9, 0.8), point(corner[u], 0.8)});
   }
 
   core::Scene scene_;

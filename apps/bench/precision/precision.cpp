@@ -57,7 +57,7 @@ std::vector<std::uint32_t> compare(const std::vector<Vec3d>& product, const std:
   for (std::uint32_t pixel = 0; pixel < product.size(); ++pixel) {
     const Vec3d off = product[pixel] - accurate[pixel];
     squares += dot(off, off);
-    precision.largest = std::max({precision.largest, std::fabs(off.x), std::fabs(off.y), std::fabs(off.z)});
+    precision.largest = std::max(precision.largest, largest_component(off));
     if (!same_bytes(product[pixel], accurate[pixel])) {
       differing.push_back(pixel);
     }
