@@ -81,14 +81,6 @@ LocalMemory::LocalMemory(const MemoryPlan& plan, Lasting lasting)
   used_[Category::reserve] = plan[Category::reserve];
 }
 
-/// Not watched by ASan, which has the bytes that are not handed out poisoned.
-__attribute__((no_sanitize_address)) void LocalMemory::back() {
-  volatile std::byte* const first = block_.get();
-  for (std::size_t offset = 0; offset < block_bytes(plan_); offset += block_alignment) {
-    first[offset] = first[offset];
-  }
-}
-
 std::byte* LocalMemory::allocate_bytes(Category category, std::size_t bytes) {
   const std::size_t lines_bytes = core::round_up(bytes, alignment);
   core::expect(!sealed_, "nothing is allocated after the start");

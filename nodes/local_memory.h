@@ -57,9 +57,6 @@ class LocalMemory {
   /// has not so much, as far as it knows by then.
   explicit LocalMemory(const MemoryPlan& plan, Lasting lasting = Lasting::is_copied);
 
-  /// Has the real computer set all bytes aside, which keep their values. Nobody else may be at work on them.
-  void back();
-
   /// `count` value-initialised objects; expects that the memory is not sealed and that the category's plan has room.
   /// T needs no destructor. Objects without a constructor of their own are not touched: the block is zero, and so are they.
   template <class T>

@@ -133,6 +133,48 @@ double log_reduced(double significand) {
   return offset - s * (offset - square * polynomial(square, series));
 }
 
+double exponential_of(double x) {
+  if (!(x > -745.2)) {
+    return std::isnan(x) ? x : 0;
+  }
+  if (x > 709.79) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double count = std::nearbyint(x * one_over_log_2);
+  const double rest = std::fma(-count, log_2_tail, std::fma(-count, log_2, x));
+  return scale(exponential_reduced(rest), static_cast<int>(count));
+}
+
+double natural_log_of(double x) {
+  if (!(x > 0)) {
+    return x == 0 ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+  }
+  const Binary parts = split(x);
+  const double count = parts.exponent;
+  const double high = count * log_2;
+  const double low = std::fma(count, log_2, -high) + count * log_2_tail;
+  return high + (log_reduced(parts.significand) + low);
+}
+
+double power_of(double base, double exponent) {
+  if (exponent == 0 || base >= 1) {
+    return 1;
+  }
+  return base > 0 ? exponential_of(exponent * natural_log_of(base)) : 0;
+}
+
+/// `Function` with this processor's own fused multiply-add, which gives the bits of libm's without a call for each.
+template <auto Function, class... Numbers>
+[[gnu::target("fma"), gnu::flatten]] double fused(Numbers... numbers) {
+  return Function(numbers...);
+}
+
+template <auto Function, class... Numbers>
+double dispatched(Numbers... numbers) {
+  static const bool has_fma = __builtin_cpu_supports("fma") != 0;
+  return has_fma ? fused<Function>(numbers...) : Function(numbers...);
+}
+
 /// Powers of ten that a double holds exactly.
 constexpr std::array<double, 23> power_of_10 = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                                 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
@@ -211,35 +253,9 @@ double cos_degrees(double degrees) {
 
 double tan_degrees(double degrees) { return sin_degrees(degrees) / cos_degrees(degrees); }
 
-double exponential(double x) {
-  if (!(x > -745.2)) {
-    return std::isnan(x) ? x : 0;
-  }
-  if (x > 709.79) {
-    return std::numeric_limits<double>::infinity();
-  }
-  const double count = std::nearbyint(x * one_over_log_2);
-  const double rest = std::fma(-count, log_2_tail, std::fma(-count, log_2, x));
-  return scale(exponential_reduced(rest), static_cast<int>(count));
-}
-
-double natural_log(double x) {
-  if (!(x > 0)) {
-    return x == 0 ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
-  }
-  const Binary parts = split(x);
-  const double count = parts.exponent;
-  const double high = count * log_2;
-  const double low = std::fma(count, log_2, -high) + count * log_2_tail;
-  return high + (log_reduced(parts.significand) + low);
-}
-
-double pow_unit(double base, double exponent) {
-  if (exponent == 0 || base >= 1) {
-    return 1;
-  }
-  return base > 0 ? exponential(exponent * natural_log(base)) : 0;
-}
+double exponential(double x) { return dispatched<exponential_of>(x); }
+double natural_log(double x) { return dispatched<natural_log_of>(x); }
+double pow_unit(double base, double exponent) { return dispatched<power_of>(base, exponent); }
 
 double round_to_6_digits(double value) {
   const double magnitude = std::abs(value);

@@ -182,9 +182,6 @@ struct ThreadsRunner::Implementation final : Network {
     core::expect(!started_, "a runner runs once");
     started_ = true;
     start_ns_ = nanoseconds(CLOCK_MONOTONIC);
-    for (const auto& processor : processors_) {
-      processor->memory.back();
-    }
     {
       const std::stop_callback on_stop(std::move(stop), [this] { end(Ending::interrupted); });
       start_threads();
