@@ -11,6 +11,7 @@
 #include <string>
 
 #include "nodes/charge.h"
+#include "nodes/switching.h"
 #include "nodes/topology.h"
 
 namespace dmpc::nodes {
@@ -27,6 +28,8 @@ struct MessageCost {
 struct Machine {
   std::string name = "ideal";
   TopologyKind topology = TopologyKind::crossbar;
+  std::uint32_t uplinks = 1;  ///< of a switch of a fat tree, 1 to Topology::uplinks_max; 1 elsewhere
+  Switching switching = Switching::circuit;
   std::uint64_t short_bytes_max = 100;  ///< longer messages are of the class long_message
   MessageCost short_message, long_message;
   std::uint64_t hop_ns = 0;                           ///< for each link that a message passes

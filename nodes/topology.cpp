@@ -49,8 +49,10 @@ TopologyKind parse_topology(std::string_view name) {
   throw core::InputError("there is no topology \"" + std::string(name) + "\": use one of " + known);
 }
 
-Topology::Topology(TopologyKind kind, std::uint32_t node_count) : kind_(kind), node_count_(node_count), place_count_(node_count) {
+Topology::Topology(TopologyKind kind, std::uint32_t node_count, std::uint32_t uplinks)
+    : kind_(kind), node_count_(node_count), place_count_(node_count) {
   core::expect(node_count >= 1 && node_count <= node_count_max, "a topology has from 1 to 65536 nodes");
+  core::expect(uplinks >= 1 && uplinks <= (kind == TopologyKind::fat_tree ? uplinks_max : 1), "fat trees alone have uplinks");
   if (kind == TopologyKind::hypercube) {
     place_count_ = std::bit_ceil(node_count);
   } else if (kind == TopologyKind::mesh || kind == TopologyKind::torus) {
@@ -59,9 +61,12 @@ Topology::Topology(TopologyKind kind, std::uint32_t node_count) : kind_(kind), n
     place_count_ = width_ * height_;
   } else if (kind == TopologyKind::fat_tree) {
     level_first_ = {0};
-    for (std::uint32_t count = node_count; count > 1; place_count_ += count) {
+    level_copies_ = {1};
+    for (std::uint32_t count = node_count, copies = 1; count > 1; copies *= uplinks) {
       count = core::ceil_divide(count, switch_children);
       level_first_.push_back(place_count_);
+      level_copies_.push_back(copies);
+      place_count_ += count * copies;
     }
   }
 }
@@ -149,22 +154,22 @@ std::uint32_t Topology::levels_to_common_switch(std::uint32_t a, std::uint32_t b
   return levels;
 }
 
-/// The place of the switch that many levels above a node.
-std::uint32_t Topology::switch_above(std::uint32_t leaf, std::uint32_t level) const {
+/// The place of the switch that many levels above a node, on a way to the target.
+std::uint32_t Topology::switch_above(std::uint32_t leaf, std::uint32_t level, std::uint32_t target) const {
   std::uint32_t index = leaf;
   for (std::uint32_t i = 0; i < level; ++i) {
     index /= switch_children;
   }
-  return level_first_[level] + index;
+  return level_first_[level] + index * level_copies_[level] + target % level_copies_[level];
 }
 
 void Topology::append_tree_route(std::uint32_t source, std::uint32_t target, std::vector<Link>& links) const {
   const std::uint32_t top = levels_to_common_switch(source, target);
   for (std::uint32_t level = 0; level < top; ++level) {
-    links.push_back({switch_above(source, level), switch_above(source, level + 1)});
+    links.push_back({switch_above(source, level, target), switch_above(source, level + 1, target)});
   }
   for (std::uint32_t level = top; level > 0; --level) {
-    links.push_back({switch_above(target, level), switch_above(target, level - 1)});
+    links.push_back({switch_above(target, level, target), switch_above(target, level - 1, target)});
   }
 }
 

@@ -12,7 +12,7 @@ namespace dmpc::nodes {
 
 /// crossbar: every two nodes share a link. hypercube: neighbours differ in one bit. mesh, torus: two dimensions, as near to
 /// square as the count allows, the torus closed to rings. fat_tree: nodes are the leaves of a tree of switches with 4 children
-/// each.
+/// each; where a switch has several uplinks, each leads to a switch of its own, so that there are more ways the higher they lead.
 enum class TopologyKind : std::uint8_t { crossbar, hypercube, mesh, torus, fat_tree };
 
 /// "crossbar", "hypercube", "mesh", "torus" or "fat-tree".
@@ -32,8 +32,13 @@ class Topology {
  public:
   /// Any node_count from 1 to 65,536: a hypercube is the smallest that holds them; mesh and torus have width >= height, height
   /// being the largest divisor of the count that is at least half its root, or else the root rounded down, so that fewer than
-  /// `height` places stay unused.
-  Topology(TopologyKind kind, std::uint32_t node_count);
+  /// `height` places stay unused. `uplinks`, 1 to uplinks_max, are those of a fat tree's switch: the nodes below a switch of
+  /// level l have uplinks^(l-1) switches of that level above them (S. R. Oehring and others, "On Generalized Fat Trees", 1995:
+  /// XGFT(h; 4, ..., 4; 1, uplinks, ..., uplinks)). Other kinds have 1.
+  Topology(TopologyKind kind, std::uint32_t node_count, std::uint32_t uplinks = 1);
+
+  /// A switch with as many uplinks as children carries as much upwards as from below.
+  static constexpr std::uint32_t uplinks_max = 4;
 
   TopologyKind kind() const { return kind_; }
   std::uint32_t node_count() const { return node_count_; }
@@ -44,7 +49,9 @@ class Topology {
   std::uint32_t hops(NodeId source, NodeId target) const;
   /// These links, in order. Hypercube: e-cube, the lowest differing address bit first (H. Sullivan, T. R. Bashkow, 1977). Mesh
   /// and torus: along x, then along y, on a ring the shorter way, upwards if both are equal. Fat tree: up to the lowest common
-  /// switch and down.
+  /// switch and down; of several uplinks the one that the target's number says, so that different targets keep out of each
+  /// other's way (E. Zahavi, "D-Mod-K Routing Providing Non-Blocking Traffic for Shift Permutations on Real Life Fat Trees",
+  /// 2010).
   std::vector<Link> route(NodeId source, NodeId target) const;
   /// The same behind what is in `links` already.
   void append_route(NodeId source, NodeId target, std::vector<Link>& links) const;
@@ -56,15 +63,16 @@ class Topology {
   std::uint32_t ring_hops(std::uint32_t from, std::uint32_t to, std::uint32_t size) const;
   std::uint32_t ring_step(std::uint32_t from, std::uint32_t to, std::uint32_t size) const;
   std::uint32_t levels_to_common_switch(std::uint32_t a, std::uint32_t b) const;
-  std::uint32_t switch_above(std::uint32_t leaf, std::uint32_t level) const;
+  std::uint32_t switch_above(std::uint32_t leaf, std::uint32_t level, std::uint32_t target) const;
   std::uint32_t next_place(std::uint32_t at, std::uint32_t target) const;
   void append_tree_route(std::uint32_t source, std::uint32_t target, std::vector<Link>& links) const;
 
   TopologyKind kind_;
   std::uint32_t node_count_;
   std::uint32_t place_count_;
-  std::uint32_t width_ = 1, height_ = 1;      ///< of mesh and torus
-  std::vector<std::uint32_t> level_first_{};  ///< fat tree: the first place of each level; level 0 are the nodes
+  std::uint32_t width_ = 1, height_ = 1;       ///< of mesh and torus
+  std::vector<std::uint32_t> level_first_{};   ///< fat tree: the first place of each level; level 0 are the nodes
+  std::vector<std::uint32_t> level_copies_{};  ///< fat tree: switches with the same nodes below, by level
 };
 
 }  // namespace dmpc::nodes

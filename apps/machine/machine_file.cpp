@@ -163,6 +163,26 @@ std::vector<std::pair<std::string, std::string>> sources_of(const Fields& fields
   return sources;
 }
 
+nodes::Switching switching_of(const Fields& fields) {
+  const std::string name = fields.text("switching");
+  try {
+    return nodes::parse_switching(name);
+  } catch (const core::InputError& error) {
+    fields.refuse("switching", error.what());
+  }
+}
+
+std::uint32_t uplinks_of(const Fields& fields) {
+  const std::uint64_t uplinks = fields.number("uplinks", nodes::Topology::uplinks_max);
+  if (uplinks == 0) {
+    fields.refuse("uplinks", "expected a whole number from 1 to " + std::to_string(nodes::Topology::uplinks_max) + ", got 0");
+  }
+  if (uplinks > 1 && topology_of(fields) != nodes::TopologyKind::fat_tree) {
+    fields.refuse("uplinks", "expected 1, for only the switches of a fat-tree have more, got " + std::to_string(uplinks));
+  }
+  return static_cast<std::uint32_t>(uplinks);
+}
+
 /// A port is something to contend for.
 bool has_memory_port(const Fields& fields) {
   const bool has_port = fields.flag("has_memory_port");
@@ -178,6 +198,8 @@ MachineDescription description_of(const Fields& fields) {
   const Keys operation_keys(nodes::charge_names.begin(), nodes::charge_names.end());
   return {.machine = {.name = name_of(fields),
                       .topology = topology_of(fields),
+                      .uplinks = uplinks_of(fields),
+                      .switching = switching_of(fields),
                       .short_bytes_max = fields.number("short_bytes_max", bytes_max),
                       .short_message = message_of(fields.object("short_message", message_keys)),
                       .long_message = message_of(fields.object("long_message", message_keys)),
@@ -265,6 +287,8 @@ std::string read_text(const std::string& path) {
 Json machine_json(const nodes::Machine& machine) {
   return {{"name", machine.name},
           {"topology", nodes::name_of(machine.topology)},
+          {"uplinks", machine.uplinks},
+          {"switching", nodes::name_of(machine.switching)},
           {"short_bytes_max", machine.short_bytes_max},
           {"short_message", message_json(machine.short_message)},
           {"long_message", message_json(machine.long_message)},
@@ -290,8 +314,8 @@ MachineDescription parse_machine(std::string_view text, const std::string& file)
     throw core::InputError(file + ": expected an object of a machine's figures, see dmpc machine ipsc2 for an example");
   }
   return description_of(Fields(json, file + ": ",
-                               {"name", "topology", "short_bytes_max", "short_message", "long_message", "hop_ns", "service_ns",
-                                "operation_ps", "has_contention", "has_memory_port"},
+                               {"name", "topology", "uplinks", "switching", "short_bytes_max", "short_message", "long_message",
+                                "hop_ns", "service_ns", "operation_ps", "has_contention", "has_memory_port"},
                                {"sources"}));
 }
 

@@ -13,6 +13,8 @@ namespace dmpc::apps {
 /// All of a machine, by keys that are an interface, with units last:
 ///   name               1 to 64 characters
 ///   topology           crossbar, hypercube, mesh, torus or fat-tree
+///   uplinks            of a switch of a fat tree, 1 to 4; 1 elsewhere
+///   switching          circuit or packet: what a message holds of its way
 ///   short_bytes_max    longer messages, header included, are long
 ///   short_message, long_message   send_ns, latency_ns, receive_ns, byte_ps
 ///   hop_ns             for each link
@@ -28,7 +30,8 @@ std::string machine_text(const MachineDescription& description);
 
 /// Reads what machine_text() writes. "sources" may be missing, any other key may not. Throws core::InputError, naming `file`, the
 /// place or key and what was expected, for anything else: no JSON, unknown, missing and repeated keys, wrong types, numbers that
-/// are not whole or out of range (times to 1 s, operations to 0.1 s, bytes to 1 ms), memory ports without contention.
+/// are not whole or out of range (times to 1 s, operations to 0.1 s, bytes to 1 ms), memory ports without contention, uplinks
+/// without switches.
 MachineDescription parse_machine(std::string_view text, const std::string& file);
 
 /// The preset with this name, or what is in the file of that name, 1 MiB at most. Throws core::InputError if there is neither, or

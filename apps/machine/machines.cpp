@@ -9,6 +9,7 @@ namespace {
 
 using nodes::Charge;
 using nodes::MessageCost;
+using nodes::Switching;
 using nodes::TopologyKind;
 
 /// A figure, and a sentence on it. Certainty: high, medium or low. "Quoted" figures are commonly given for the machine, but the
@@ -23,6 +24,8 @@ struct Preset {
   const char* name;
   const char* title;
   Figure<TopologyKind> topology;
+  Figure<std::uint32_t> uplinks = {1, "no tree of switches"};
+  Figure<Switching> switching;
   Figure<std::uint64_t> short_bytes_max = {0, "one class of messages"};
   Figure<MessageCost> short_message = {{}, "as a long message"};
   Figure<MessageCost> long_message;
@@ -49,6 +52,7 @@ constexpr Preset presets[] = {
      .topology = {TopologyKind::hypercube,
                   "circuit-switched hypercube: S. Nugent, The iPSC/2 Direct-Connect Communications Technology, 1988, high; "
                   "e-cube routing: quoted, high"},
+     .switching = {Switching::circuit, "Direct-Connect modules make a circuit and hold it: S. Nugent, 1988, high"},
      .short_bytes_max = {100, "quoted, high: a short message travels with its header, a longer one first asks for a buffer"},
      .short_message = {{.send_ns = 160'000, .latency_ns = 50'000, .receive_ns = 160'000, .byte_ps = 200'000},
                        "350 to 390 us in all and 0.2 us a byte: quoted, medium; the 160 us of each processor: assumed, low"},
@@ -69,13 +73,14 @@ constexpr Preset presets[] = {
     {.name = "ipsc860",
      .title = "Intel iPSC/860 of 1990: i860 processors on the hypercube of the iPSC/2",
      .topology = {TopologyKind::hypercube, "hypercube and routers of the iPSC/2: quoted, high"},
+     .switching = {Switching::circuit, "routers of the iPSC/2: quoted, high"},
      .short_bytes_max = {100, "as the iPSC/2: quoted, high"},
-     .short_message = {{.send_ns = 30'000, .latency_ns = 10'000, .receive_ns = 30'000, .byte_ps = 380'000},
-                       "65 to 75 us in all: quoted after Bokhari and Dunigan, medium; 0.36 to 0.40 us a byte: quoted, high; the "
-                       "30 us of each processor: assumed, low"},
-     .long_message = {{.send_ns = 30'000, .latency_ns = 90'000, .receive_ns = 30'000, .byte_ps = 380'000},
-                      "136 to 164 us in all: quoted after Bokhari and Dunigan, medium; 0.36 to 0.40 us a byte: quoted, high; the "
-                      "30 us of each processor: assumed, low"},
+     .short_message = {{.send_ns = 29'000, .latency_ns = 1'000, .receive_ns = 29'000, .byte_ps = 380'000},
+                       "65 to 75 us in all, a hop among them: quoted after Bokhari and Dunigan, medium; 0.36 to 0.40 us a byte: "
+                       "quoted, high; the 29 us of each processor: assumed, low"},
+     .long_message = {{.send_ns = 29'000, .latency_ns = 81'000, .receive_ns = 29'000, .byte_ps = 380'000},
+                      "136 to 164 us in all, a hop among them: quoted after Bokhari and Dunigan, medium; 0.36 to 0.40 us a byte: "
+                      "quoted, high; the 29 us of each processor: assumed, low"},
      .hop_ns = {10'300, "measured by Bokhari: quoted, high"},
      .service_ns = {30'000, "a seventh of the iPSC/2's: assumed, low"},
      .slowdown = {ipsc860_slowdown, "i860 at 40 MHz, 7 times the iPSC/2's node: the 1994 paper, medium"},
@@ -83,6 +88,10 @@ constexpr Preset presets[] = {
     {.name = "paragon",
      .title = "Intel Paragon of 1993: i860XP processors, two-dimensional mesh",
      .topology = {TopologyKind::mesh, "two-dimensional mesh, wormhole routing along x, then y: quoted, high"},
+     .switching =
+         {Switching::circuit,
+          "wormhole routing: what waits holds the links behind it, as a circuit does, medium; a circuit holds those ahead "
+          "of it, too: assumed, low"},
      .long_message =
          {{.send_ns = 20'000, .latency_ns = 30'000, .receive_ns = 20'000, .byte_ps = 5'882},
           "70 us in all and 170 MB/s with SUNMOS: NASA Ames, RNR-94-016, 1994, high; the 20 us of each processor: assumed, low"},
@@ -93,6 +102,10 @@ constexpr Preset presets[] = {
     {.name = "cm5",
      .title = "Thinking Machines CM-5 of 1992: SPARC processors, fat tree",
      .topology = {TopologyKind::fat_tree, "fat tree with four children a switch: TOP500 report of 1994, high"},
+     .uplinks = {2,
+                 "two parents a switch in the lower levels, four above: quoted after C. Leiserson and others, The Network "
+                 "Architecture of the Connection Machine CM-5, 1992, medium"},
+     .switching = {Switching::packet, "messages travel as packets of 20 bytes: quoted after the same, high"},
      .long_message = {{.send_ns = 40'000, .latency_ns = 10'000, .receive_ns = 40'000, .byte_ps = 124'000},
                       "88 to 95 us in all with CMMD: quoted, medium; 8.06 MB/s: The Performance of PVM on MPP Systems, high; 10 "
                       "us of latency: assumed, near LogP's 6 us, low"},
@@ -102,6 +115,8 @@ constexpr Preset presets[] = {
     {.name = "cs2",
      .title = "Meiko CS-2 of 1993: SuperSPARC processors, fat tree",
      .topology = {TopologyKind::fat_tree, "multistage crossbar, a fat tree: Overview of Recent Supercomputers, medium"},
+     .uplinks = {4, "the same bandwidth at every level: quoted, medium"},
+     .switching = {Switching::packet, "packets through switches of eight links: quoted, medium"},
      .long_message = {{.send_ns = 30'000, .latency_ns = 25'000, .receive_ns = 30'000, .byte_ps = 24'100},
                       "83 to 87 us in all and 40 to 43 MB/s with MPI: quoted, medium; the 30 us of each processor: assumed, low"},
      .hop_ns = {200, "a layer of switches: Overview of Recent Supercomputers, medium"},
@@ -110,6 +125,8 @@ constexpr Preset presets[] = {
     {.name = "gigabit",
      .title = "a cluster of today on gigabit Ethernet",
      .topology = {TopologyKind::fat_tree, "star or Clos network of switches, medium"},
+     .uplinks = {4, "as many links up as down, as a star or a Clos network without oversubscription has: assumed, low"},
+     .switching = {Switching::packet, "Ethernet frames: IEEE 802.3, high"},
      .long_message =
          {{.send_ns = 5'000, .latency_ns = 35'000, .receive_ns = 5'000, .byte_ps = 8'772},
           "30 to 60 us in all, 1 to 5 us of them on each processor, and 110 to 118 MB/s with the kernel's TCP: quoted, "
@@ -120,8 +137,11 @@ constexpr Preset presets[] = {
     {.name = "hdr",
      .title = "a cluster of today on HDR InfiniBand, 200 Gbit/s",
      .topology = {TopologyKind::fat_tree, "HDR InfiniBand as a fat tree: quoted, medium"},
-     .long_message = {{.send_ns = 300, .latency_ns = 550, .receive_ns = 300, .byte_ps = 42},
-                      "1.0 to 1.3 us in all with MPI, 0.2 to 0.4 us of them on each processor, and 24 GB/s: quoted, medium"},
+     .uplinks = {4, "as many links up as down, without oversubscription: quoted as usual, medium"},
+     .switching = {Switching::packet, "packets of up to 4 KiB that switches cut through: InfiniBand, high"},
+     .long_message = {{.send_ns = 300, .latency_ns = 350, .receive_ns = 300, .byte_ps = 42},
+                      "1.0 to 1.3 us in all with MPI through one switch, 0.2 to 0.4 us of them on each processor, and 24 GB/s: "
+                      "quoted, medium"},
      .hop_ns = {100, "a switch: quoted, medium"},
      .service_ns = {300, "assumed, low"},
      .slowdown = {1, "a node is one core as that on which the operations were measured, medium"}},
@@ -136,18 +156,16 @@ std::string operations_source(const Figure<std::uint64_t>& slowdown) {
 
 MachineDescription description_of(const Preset& preset) {
   const bool is_one_class = preset.short_bytes_max.value == 0;
-  const std::array<std::string, sourced_keys.size()> sources = {preset.topology.source,
-                                                                preset.short_bytes_max.source,
-                                                                preset.short_message.source,
-                                                                preset.long_message.source,
-                                                                preset.hop_ns.source,
-                                                                preset.service_ns.source,
-                                                                operations_source(preset.slowdown),
-                                                                preset.cached_lookup_source,
-                                                                preset.has_memory_port.source};
+  const std::array<std::string, sourced_keys.size()> sources = {
+      preset.topology.source,        preset.uplinks.source,        preset.switching.source,
+      preset.short_bytes_max.source, preset.short_message.source,  preset.long_message.source,
+      preset.hop_ns.source,          preset.service_ns.source,     operations_source(preset.slowdown),
+      preset.cached_lookup_source,   preset.has_memory_port.source};
   MachineDescription description{
       .machine = {.name = preset.name,
                   .topology = preset.topology.value,
+                  .uplinks = preset.uplinks.value,
+                  .switching = preset.switching.value,
                   .short_bytes_max = preset.short_bytes_max.value,
                   .short_message = is_one_class ? preset.long_message.value : preset.short_message.value,
                   .long_message = preset.long_message.value,

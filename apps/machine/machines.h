@@ -14,9 +14,9 @@
 namespace dmpc::apps {
 
 /// The keys of a machine file that have a source, in order; cached_lookup is one of those in operation_ps.
-inline constexpr std::array<std::string_view, 9> sourced_keys = {"topology",     "short_bytes_max", "short_message",
-                                                                 "long_message", "hop_ns",          "service_ns",
-                                                                 "operation_ps", "cached_lookup",   "has_memory_port"};
+inline constexpr std::array<std::string_view, 11> sourced_keys = {
+    "topology", "uplinks",    "switching",    "short_bytes_max", "short_message",  "long_message",
+    "hop_ns",   "service_ns", "operation_ps", "cached_lookup",   "has_memory_port"};
 
 /// A machine and what its figures rest on.
 struct MachineDescription {

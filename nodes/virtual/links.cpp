@@ -8,7 +8,9 @@
 namespace dmpc::nodes {
 
 Links::Links(const Machine& machine, std::uint32_t node_count)
-    : topology_(machine.topology, node_count), machine_(machine), wires_(topology_.place_count() + 1 + node_count) {}
+    : topology_(machine.topology, node_count, machine.uplinks),
+      machine_(machine),
+      wires_(topology_.place_count() + 1 + node_count) {}
 
 std::uint32_t Links::hops(NodeId source, NodeId target) const {
   const NodeId host{topology_.node_count()}, door{0};
@@ -24,38 +26,57 @@ std::uint64_t Links::pass(NodeId source, NodeId target, std::uint64_t now_ns, st
     return now_ns;
   }
   const std::uint32_t hop_count = hops(source, target);
-  const std::uint64_t passage_ns = hop_count * machine_.hop_ns + bytes * machine_.cost_of_message(bytes).byte_ps / 1000;
+  const std::uint64_t bytes_ns = bytes * machine_.cost_of_message(bytes).byte_ps / 1000;
   find_route(source, target);
-  const std::uint64_t end_ns = start_ns(now_ns) + passage_ns;
-  for (Wire* const wire : route_) {
-    wire->free_at_ns = end_ns;
-    ++wire->messages;
-    wire->bytes += bytes;
-    wire->busy_ns += passage_ns;
-  }
   ++traffic_.messages;
   traffic_.hops += hop_count;
-  traffic_.passages += route_.size();
-  traffic_.bytes += route_.size() * bytes;
-  traffic_.busy_ns += route_.size() * passage_ns;
-  return end_ns;
+  return machine_.switching == Switching::circuit ? pass_circuit(now_ns, bytes, hop_count * machine_.hop_ns + bytes_ns)
+                                                  : pass_packet(now_ns, bytes, bytes_ns);
 }
 
-/// When all links of the route are free. The wait is charged to the one that was free last, the first of them if several were.
-std::uint64_t Links::start_ns(std::uint64_t now_ns) {
-  if (!machine_.has_contention) {
-    return now_ns;
-  }
+/// All links at once. The wait is charged to the one that is free last, the first of them if several are.
+std::uint64_t Links::pass_circuit(std::uint64_t now_ns, std::uint64_t bytes, std::uint64_t passage_ns) {
   Wire* last = route_.front();
   for (Wire* const wire : route_) {
     last = wire->free_at_ns > last->free_at_ns ? wire : last;
   }
-  if (last->free_at_ns <= now_ns) {
+  const std::uint64_t begin_ns = start_ns(*last, now_ns);
+  for (Wire* const wire : route_) {
+    hold(*wire, begin_ns, passage_ns, bytes);
+  }
+  return begin_ns + passage_ns;
+}
+
+/// Link by link: the header goes on after a hop, while the bytes behind it still pass. A memory port is no hop.
+std::uint64_t Links::pass_packet(std::uint64_t now_ns, std::uint64_t bytes, std::uint64_t bytes_ns) {
+  std::uint64_t at_ns = now_ns;
+  for (std::size_t i = 0; i < route_.size(); ++i) {
+    const bool is_port = links_[i].from > host_place() || links_[i].to > host_place();
+    const std::uint64_t begin_ns = start_ns(*route_[i], at_ns), hop_ns = is_port ? 0 : machine_.hop_ns;
+    hold(*route_[i], begin_ns, hop_ns + bytes_ns, bytes);
+    at_ns = begin_ns + hop_ns;
+  }
+  return at_ns + bytes_ns;
+}
+
+/// When the link is free for a message that is there now, which waits until then.
+std::uint64_t Links::start_ns(Wire& wire, std::uint64_t now_ns) {
+  if (!machine_.has_contention || wire.free_at_ns <= now_ns) {
     return now_ns;
   }
-  last->wait_ns += last->free_at_ns - now_ns;
-  traffic_.wait_ns += last->free_at_ns - now_ns;
-  return last->free_at_ns;
+  wire.wait_ns += wire.free_at_ns - now_ns;
+  traffic_.wait_ns += wire.free_at_ns - now_ns;
+  return wire.free_at_ns;
+}
+
+void Links::hold(Wire& wire, std::uint64_t from_ns, std::uint64_t busy_ns, std::uint64_t bytes) {
+  wire.free_at_ns = from_ns + busy_ns;
+  ++wire.messages;
+  wire.bytes += bytes;
+  wire.busy_ns += busy_ns;
+  ++traffic_.passages;
+  traffic_.bytes += bytes;
+  traffic_.busy_ns += busy_ns;
 }
 
 std::vector<LinkUse> Links::busiest(std::size_t count) const {

@@ -17,7 +17,7 @@ struct LinkUse {
   std::uint64_t messages = 0;  ///< that passed it
   std::uint64_t bytes = 0;     ///< of them, headers included
   std::uint64_t busy_ns = 0;   ///< held by them
-  std::uint64_t wait_ns = 0;   ///< that messages waited and this was the last of their links to become free
+  std::uint64_t wait_ns = 0;   ///< that messages waited for it; a circuit waits for the last of its links to become free
 };
 
 /// What the links of a run have carried together.
@@ -30,10 +30,11 @@ struct LinkTraffic {
   std::uint64_t wait_ns = 0;   ///< that messages stood before links that others held, summed
 };
 
-/// Circuit switching: a message reserves every link of its route for the whole time of its passage and waits until all are free.
-/// The host hangs on node 0 by a link of its own in each direction. If the machine has memory ports, every node but the host,
-/// whose only link is one, has one in each direction: the first and the last link of a route. Without contention nothing is ever
-/// waited for. Deterministic; belongs to one run.
+/// A message waits for what it holds of its route, as the machine's Switching says: in circuits for all links at once, as a
+/// packet for one after the other. Links are given in the order in which messages enter the network. The host hangs on node 0 by
+/// a link of its own in each direction. If the machine has memory ports, every node but the host, whose only link is one, has one
+/// in each direction: the first and the last link of a route. Without contention nothing is ever waited for. Deterministic;
+/// belongs to one run.
 class Links {
  public:
   /// `node_count` is without the host, at least 1.
@@ -42,8 +43,8 @@ class Links {
   /// Links of the way, without memory ports. The host is node `node_count`.
   std::uint32_t hops(NodeId source, NodeId target) const;
   /// Sends a message of so many bytes into the network at `now_ns`: when it has arrived. From its first byte to its last it takes
-  /// the machine's hop_ns for each hop and its byte_ps for each byte. A message from a node to itself passes no link and arrives
-  /// at once.
+  /// the machine's hop_ns for each hop and its byte_ps for each byte, and what it waits on its way. A message from a node to
+  /// itself passes no link and arrives at once.
   std::uint64_t pass(NodeId source, NodeId target, std::uint64_t now_ns, std::uint64_t bytes);
 
   const LinkTraffic& traffic() const { return traffic_; }
@@ -67,7 +68,10 @@ class Links {
   std::string place_name(std::uint32_t place) const;
   Wire& wire(const Link& link);
   void find_route(NodeId source, NodeId target);
-  std::uint64_t start_ns(std::uint64_t now_ns);
+  std::uint64_t pass_circuit(std::uint64_t now_ns, std::uint64_t bytes, std::uint64_t passage_ns);
+  std::uint64_t pass_packet(std::uint64_t now_ns, std::uint64_t bytes, std::uint64_t bytes_ns);
+  std::uint64_t start_ns(Wire& wire, std::uint64_t now_ns);
+  void hold(Wire& wire, std::uint64_t from_ns, std::uint64_t busy_ns, std::uint64_t bytes);
 
   Topology topology_;
   Machine machine_;

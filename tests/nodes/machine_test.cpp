@@ -21,6 +21,8 @@ TEST_CASE("a machine that is told nothing costs nothing") {
   CHECK(machine.cost_of_message(1'000'000).byte_ps == 0);
   CHECK(machine.has_contention);
   CHECK_FALSE(machine.has_memory_port);
+  CHECK(machine.switching == nodes::Switching::circuit);
+  CHECK(machine.uplinks == 1);
 }
 
 TEST_CASE("a message up to the limit is short, and any longer one is long") {
@@ -63,9 +65,9 @@ TEST_CASE("what has been done may cost more than 64 bits hold: the difference is
 }
 
 TEST_CASE("the digest of a machine is the same number on every computer") {
-  CHECK(Machine().digest() == 0xa7f973d69c543c8f);
+  CHECK(Machine().digest() == 0x84385035bf706eb);
   CHECK(Machine{.topology = nodes::TopologyKind::torus, .short_bytes_max = 64, .hop_ns = 1, .service_ns = 2}.digest() ==
-        0xe795784d135a125a);
+        0x9056e0a4caabaca8);
 }
 
 TEST_CASE("every figure and switch of a machine changes its digest, and its name does not") {
@@ -75,6 +77,8 @@ TEST_CASE("every figure and switch of a machine changes its digest, and its name
     change(machines.back());
   };
   add([](Machine& machine) { machine.topology = nodes::TopologyKind::mesh; });
+  add([](Machine& machine) { ++machine.uplinks; });
+  add([](Machine& machine) { machine.switching = nodes::Switching::packet; });
   add([](Machine& machine) { ++machine.short_bytes_max; });
   add([](Machine& machine) { ++machine.short_message.send_ns; });
   add([](Machine& machine) { ++machine.short_message.latency_ns; });

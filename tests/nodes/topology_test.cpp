@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/expect.h"
+#include "nodes/switching.h"
 #include "tests/support/topologies.h"
 
 namespace dmpc::tests {
@@ -100,6 +101,45 @@ TEST_CASE("a fat tree goes up to the lowest common switch") {
   CHECK(route(tree, 0, 3) == std::vector<Link>{{0, 16}, {16, 3}});
   CHECK(route(tree, 3, 4) == std::vector<Link>{{3, 16}, {16, 20}, {20, 17}, {17, 4}});
   CHECK(Topology(TopologyKind::fat_tree, 64).diameter() == 6);
+}
+
+TEST_CASE("a fat tree with two uplinks has twice as many switches a level higher, and the target says which") {
+  const Topology tree(TopologyKind::fat_tree, 16, 2);
+  CHECK(tree.place_count() == 16 + 4 + 2);
+  CHECK(route(tree, 0, 3) == std::vector<Link>{{0, 16}, {16, 3}});
+  CHECK(route(tree, 3, 4) == std::vector<Link>{{3, 16}, {16, 20}, {20, 17}, {17, 4}});
+  CHECK(route(tree, 3, 5) == std::vector<Link>{{3, 16}, {16, 21}, {21, 17}, {17, 5}});
+}
+
+TEST_CASE("more uplinks change no distance, and every way leads to its target") {
+  for (const std::uint32_t uplinks : {1U, 2U, 3U, 4U}) {
+    for (const std::uint32_t count : {1U, 5U, 16U, 61U, 64U, 257U}) {
+      const Topology thin(TopologyKind::fat_tree, count), tree(TopologyKind::fat_tree, count, uplinks);
+      bool is_right = true;
+      for (std::uint32_t a = 0; a < count; a += 3) {
+        for (std::uint32_t b = 0; b < count; ++b) {
+          const auto links = route(tree, a, b);
+          is_right = is_right && is_way(links, a, b, tree.place_count());
+          is_right = is_right && links.size() == thin.hops(NodeId{a}, NodeId{b});
+        }
+      }
+      CHECK(is_right);
+    }
+  }
+  CHECK(Topology(TopologyKind::fat_tree, 64, 4).place_count() == 64 + 3 * 16);
+}
+
+TEST_CASE("uplinks are a fat tree's, and at most as many as a switch has children") {
+  CHECK_THROWS_AS(Topology(TopologyKind::mesh, 16, 2), core::InternalError);
+  CHECK_THROWS_AS(Topology(TopologyKind::fat_tree, 16, 0), core::InternalError);
+  CHECK_THROWS_AS(Topology(TopologyKind::fat_tree, 16, 5), core::InternalError);
+}
+
+TEST_CASE("both kinds of switching have a name that is read back, and no other is") {
+  for (const nodes::Switching switching : {nodes::Switching::circuit, nodes::Switching::packet}) {
+    CHECK(nodes::parse_switching(nodes::name_of(switching)) == switching);
+  }
+  CHECK_THROWS_AS(nodes::parse_switching("wormhole"), core::InputError);
 }
 
 TEST_CASE("every topology's name is read back, and no other") {

@@ -75,7 +75,7 @@ TEST_CASE("what is printed of a machine reads back as the same") {
 }
 
 TEST_CASE("every figure reaches its own field") {
-  const std::string text = R"({"name": "mine", "topology": "torus", "short_bytes_max": 1,
+  const std::string text = R"({"name": "mine", "topology": "torus", "uplinks": 1, "switching": "packet", "short_bytes_max": 1,
     "short_message": {"send_ns": 2, "latency_ns": 3, "receive_ns": 4, "byte_ps": 5},
     "long_message": {"byte_ps": 9, "send_ns": 6, "latency_ns": 7, "receive_ns": 8}, "hop_ns": 10, "service_ns": 11,
     "operation_ps": {"ray_setup": 12, "cell_step": 13, "brick_read": 14, "triangle_test": 15, "sphere_test": 16, "cone_test": 17,
@@ -85,6 +85,8 @@ TEST_CASE("every figure reaches its own field") {
   const nodes::Machine& machine = description.machine;
   CHECK(machine.name == "mine");
   CHECK(machine.topology == nodes::TopologyKind::torus);
+  CHECK(machine.uplinks == 1);
+  CHECK(machine.switching == nodes::Switching::packet);
   CHECK(machine.short_bytes_max == 1);
   const nodes::MessageCost &small = machine.short_message, &large = machine.long_message;
   CHECK(std::vector{small.send_ns, small.latency_ns, small.receive_ns, small.byte_ps} == std::vector<std::uint64_t>{2, 3, 4, 5});
@@ -145,6 +147,26 @@ TEST_CASE("a value of the wrong type or out of range is named with what was expe
   CHECK(contains(machine_complaint_with("\"sources\": {}", "\"sources\": {\"hop_ns\": 3}"),
                  "sources.hop_ns: expected a text, got 3"));
   CHECK(contains(machine_complaint_with("\"sources\": {}", "\"sources\": []"), "sources: expected an object, got []"));
+}
+
+TEST_CASE("uplinks are a fat tree's, from 1 to 4") {
+  const std::string tree = with(plain_text(), "\"hypercube\"", "\"fat-tree\"");
+  for (const std::string uplinks : {"1", "2", "4"}) {
+    const std::string text = with(tree, "\"uplinks\": 1", "\"uplinks\": " + uplinks);
+    CHECK(std::to_string(parse_machine(text, "m.json").machine.uplinks) == uplinks);
+  }
+  CHECK(contains(machine_complaint(with(tree, "\"uplinks\": 1", "\"uplinks\": 0")),
+                 "m.json: uplinks: expected a whole number from 1 to 4, got 0"));
+  CHECK(contains(machine_complaint(with(tree, "\"uplinks\": 1", "\"uplinks\": 5")), "m.json: uplinks: expected a whole number"));
+  CHECK(contains(machine_complaint_with("\"uplinks\": 1", "\"uplinks\": 2"),
+                 "m.json: uplinks: expected 1, for only the switches of a fat-tree have more, got 2"));
+}
+
+TEST_CASE("another switching than the two is refused, with both named") {
+  CHECK(contains(machine_complaint_with("\"circuit\"", "\"wormhole\""),
+                 "m.json: switching: there is no switching \"wormhole\": use circuit or packet"));
+  CHECK(contains(machine_complaint_with("\"circuit\"", "1"), "m.json: switching: expected a text, got 1"));
+  CHECK(machine_complaint_with("\"switching\": \"circuit\",", "") == "m.json: switching: this key is missing");
 }
 
 TEST_CASE("memory ports without contention are refused, both named") {

@@ -46,9 +46,11 @@ TEST_CASE("every figure of every machine has a source and a certainty, or is tol
       CAPTURE(preset.machine.name);
       CAPTURE(key);
       CHECK(key == sourced_keys[i]);
+      const bool is_no_figure =
+          source == "one class of messages" || source == "as a long message" || source == "no tree of switches";
       const bool is_certain_to_a_degree = source.find("high") != std::string::npos ||
                                           source.find("medium") != std::string::npos || source.find("low") != std::string::npos;
-      CHECK((is_certain_to_a_degree || source == "one class of messages" || source == "as a long message"));
+      CHECK((is_certain_to_a_degree || is_no_figure));
     }
   }
 }
@@ -84,6 +86,28 @@ TEST_CASE("a message of the iPSC/2 takes what the 1994 paper and its handbooks s
   const auto alpha_us = 1e-3 * static_cast<double>(alpha_ns(ipsc2.long_message));
   CHECK(1024 / (alpha_us + 1024 * byte_us) == doctest::Approx(0.9).epsilon(0.05));  // MB a second in messages of 1 KB
   CHECK(1 / byte_us == doctest::Approx(2.8).epsilon(0.03));                         // and at most
+}
+
+TEST_CASE("the machines of 1988 to 1993 with routers of their own make circuits, trees of switches pass packets on") {
+  for (const std::string name : {"ipsc2", "ipsc860", "paragon"}) {
+    CHECK(machine(name).switching == nodes::Switching::circuit);
+    CHECK(machine(name).uplinks == 1);
+  }
+  for (const std::string name : {"cm5", "cs2", "gigabit", "hdr"}) {
+    CHECK(machine(name).switching == nodes::Switching::packet);
+    CHECK(machine(name).topology == nodes::TopologyKind::fat_tree);
+    CHECK(machine(name).uplinks == (name == "cm5" ? 2 : 4));
+  }
+}
+
+TEST_CASE("an empty message to a neighbour takes what is published, its hops among it") {
+  const auto neighbour_us = [](const nodes::Machine& of, std::uint64_t hops) {
+    return 1e-3 * static_cast<double>(alpha_ns(of.short_message) + hops * of.hop_ns);
+  };
+  CHECK(neighbour_us(machine("ipsc860"), 1) >= 65);
+  CHECK(neighbour_us(machine("ipsc860"), 1) <= 75);
+  CHECK(neighbour_us(machine("hdr"), 2) >= 1.0);
+  CHECK(neighbour_us(machine("hdr"), 2) <= 1.3);
 }
 
 TEST_CASE("every machine takes time for messages and contends for links") {

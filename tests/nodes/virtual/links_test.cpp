@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <random>
@@ -42,6 +43,15 @@ Links free_links_of(TopologyKind kind, std::uint32_t node_count) {
 Links ported_links_of(TopologyKind kind, std::uint32_t node_count) {
   Machine machine = wired_as(kind);
   machine.has_memory_port = true;
+  return Links(machine, node_count);
+}
+
+/// The same by packets, each hop of which takes 3 ns.
+Links packet_links_of(TopologyKind kind, std::uint32_t node_count, bool has_memory_port = false) {
+  Machine machine = wired_as(kind);
+  machine.switching = nodes::Switching::packet;
+  machine.hop_ns = 3;
+  machine.has_memory_port = has_memory_port;
   return Links(machine, node_count);
 }
 
@@ -314,6 +324,85 @@ TEST_CASE("the host's link is its port: messages of the host use the ports of th
                                                     "memory 0 - node 0: 1 messages, 20 bytes, busy 20, wait 0",
                                                     "node 0 - memory 0: 1 messages, 10 bytes, busy 10, wait 0",
                                                     "host - node 0: 1 messages, 10 bytes, busy 10, wait 0"});
+}
+
+TEST_CASE("a packet passes its links one after the other, its header a hop ahead of its bytes") {
+  Links links = packet_links_of(TopologyKind::hypercube, 8);
+  CHECK(links.pass(node(0), node(7), 100, 20) == 100 + 3 * 3 + 20);
+  CHECK(texts_of(links) == std::vector<std::string>{"node 0 - node 1: 1 messages, 20 bytes, busy 23, wait 0",
+                                                    "node 1 - node 3: 1 messages, 20 bytes, busy 23, wait 0",
+                                                    "node 3 - node 7: 1 messages, 20 bytes, busy 23, wait 0"});
+}
+
+TEST_CASE("a packet waits for each link where it stands, and leaves those behind it to others") {
+  Links links = packet_links_of(TopologyKind::hypercube, 8);
+  CHECK(links.pass(node(1), node(3), 0, 100) == 103);          // holds 1-3 until then
+  CHECK(links.pass(node(0), node(3), 0, 10) == 103 + 3 + 10);  // waits before 1-3, from 3 on
+  CHECK(links.pass(node(0), node(1), 13, 10) == 26);           // 0-1 has been free since 13
+  CHECK(links.traffic().wait_ns == 100);
+  CHECK(texts_of(links).front() == "node 1 - node 3: 2 messages, 110 bytes, busy 116, wait 100");
+}
+
+TEST_CASE("where circuits hold up all that cross them, packets do not") {
+  Links circuits = links_of(TopologyKind::mesh, 9), packets = packet_links_of(TopologyKind::mesh, 9);
+  for (Links* const links : {&circuits, &packets}) {
+    links->pass(node(2), node(5), 0, 1000);
+    links->pass(node(0), node(5), 0, 10);  // 0-1, 1-2, and waits for 2-5
+  }
+  CHECK(circuits.pass(node(0), node(1), 20, 10) == 1000 + 10 + 10);
+  CHECK(packets.pass(node(0), node(1), 20, 10) == 20 + 3 + 10);
+}
+
+TEST_CASE("packets offered beyond a link's rate leave it one after the other without a gap") {
+  Links links = packet_links_of(TopologyKind::crossbar, 2);
+  for (std::uint64_t i = 1; i <= 100; ++i) {
+    CHECK(links.pass(node(0), node(1), 0, 10) == 13 * i);
+  }
+  CHECK(links.traffic().wait_ns == 13 * 99 * 100 / 2);
+}
+
+TEST_CASE("to a packet a memory port is a link without a hop") {
+  Links links = packet_links_of(TopologyKind::crossbar, 3, true);
+  CHECK(links.pass(node(0), node(1), 0, 10) == 13);
+  CHECK(links.pass(node(0), node(2), 0, 10) == 10 + 13);
+  CHECK(links.pass(node(2), node(1), 0, 10) == 3 + 10 + 10);  // into 1 behind the first
+  CHECK_NOTHROW(links.expect_sums());
+}
+
+TEST_CASE("the links of packets add up, too, and without contention none is waited for") {
+  std::mt19937 random(5);
+  const auto draw = [&random](std::uint32_t below) { return static_cast<std::uint32_t>(random() % below); };
+  for (const TopologyKind kind : all_topologies) {
+    Links plain = packet_links_of(kind, 13), ported = packet_links_of(kind, 13, true);
+    Machine machine = wired_as(kind);
+    machine.switching = nodes::Switching::packet;
+    machine.has_contention = false;
+    Links free(machine, 13);
+    for (std::uint64_t now_ns = 0; now_ns < 2000; now_ns += 2) {
+      const std::uint32_t source = draw(14), target = draw(14), bytes = draw(40);
+      CHECK(free.pass(node(source), node(target), now_ns, bytes) == now_ns + (source == target ? 0 : bytes));
+      plain.pass(node(source), node(target), now_ns, bytes);
+      ported.pass(node(source), node(target), now_ns, bytes);
+    }
+    CHECK_NOTHROW(plain.expect_sums());
+    CHECK_NOTHROW(ported.expect_sums());
+    CHECK(plain.traffic().wait_ns > 0);
+    CHECK(free.traffic().wait_ns == 0);
+  }
+}
+
+TEST_CASE("messages to different targets keep out of each other's way in a tree with as many uplinks as children") {
+  Machine machine = wired_as(TopologyKind::fat_tree);
+  Links thin(machine, 64);
+  machine.uplinks = 4;
+  Links full(machine, 64);
+  std::uint64_t thin_ns = 0, full_ns = 0;
+  for (std::uint32_t source = 0; source < 64; ++source) {  // every node to the one 16 further: all by way of the root
+    thin_ns = std::max(thin_ns, thin.pass(node(source), node((source + 16) % 64), 0, 10));
+    full_ns = std::max(full_ns, full.pass(node(source), node((source + 16) % 64), 0, 10));
+  }
+  CHECK(full_ns == 10);
+  CHECK(thin_ns == 16 * 10);
 }
 
 TEST_CASE("without contention a memory port is never waited for") {

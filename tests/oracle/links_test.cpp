@@ -1,0 +1,172 @@
+// Times of messages through modelled networks, held against another's simulator.
+#include "nodes/virtual/links.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "tests/oracle/simulated_network.h"
+
+namespace dmpc::tests {
+namespace {
+
+using nodes::Machine;
+using nodes::MessageCost;
+using nodes::NodeId;
+using nodes::Switching;
+using nodes::TopologyKind;
+
+constexpr std::uint32_t node_count = 64;
+/// SimGrid's clock counts in doubles of seconds.
+constexpr double tolerance_ns = 2;
+
+/// With figures of the iPSC/2: circuits on a hypercube.
+Machine hypercube_of_circuits() {
+  return {.topology = TopologyKind::hypercube,
+          .switching = Switching::circuit,
+          .short_bytes_max = 100,
+          .short_message = {.byte_ps = 200'000},
+          .long_message = {.byte_ps = 353'000},
+          .hop_ns = 10'300};
+}
+
+/// With figures of HDR InfiniBand: packets through a fat tree.
+Machine tree_of_packets(std::uint32_t uplinks) {
+  const MessageCost cost{.byte_ps = 42};
+  return {.topology = TopologyKind::fat_tree,
+          .uplinks = uplinks,
+          .switching = Switching::packet,
+          .short_bytes_max = 0,
+          .short_message = cost,
+          .long_message = cost,
+          .hop_ns = 100};
+}
+
+std::vector<double> arrivals_by_links(const Machine& machine, const std::vector<TimedMessage>& messages) {
+  nodes::Links links(machine, node_count);
+  std::vector<double> arrivals_ns;
+  for (const TimedMessage& one : messages) {
+    arrivals_ns.push_back(static_cast<double>(links.pass(one.source, one.target, one.enters_ns, one.bytes)));
+  }
+  return arrivals_ns;
+}
+
+/// Messages whose times differ by more than the clocks do.
+std::size_t different(const Machine& machine, const std::vector<TimedMessage>& messages) {
+  const auto ours = arrivals_by_links(machine, messages), theirs = arrivals_by_simgrid(machine, node_count, messages);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < messages.size(); ++i) {
+    count += std::abs(ours[i] - theirs[i]) > tolerance_ns ? 1 : 0;
+  }
+  return count;
+}
+
+/// The mean time from entering to arrival, ours over SimGrid's.
+double mean_passage_ratio(const Machine& machine, const std::vector<TimedMessage>& messages) {
+  const auto ours = arrivals_by_links(machine, messages), theirs = arrivals_by_simgrid(machine, node_count, messages);
+  double our_sum = 0, their_sum = 0;
+  for (std::size_t i = 0; i < messages.size(); ++i) {
+    our_sum += ours[i] - static_cast<double>(messages[i].enters_ns);
+    their_sum += theirs[i] - static_cast<double>(messages[i].enters_ns);
+  }
+  return our_sum / their_sum;
+}
+
+/// One at a time, over 1 to 6 links of a hypercube.
+std::vector<TimedMessage> pings() {
+  std::vector<TimedMessage> messages;
+  for (std::uint32_t hops = 1; hops <= 6; ++hops) {
+    for (const std::uint64_t bytes : {8U, 64U, 100U, 108U, 1032U, 16384U}) {
+      messages.push_back({messages.size() * 100'000'000, NodeId{0}, NodeId{(1U << hops) - 1}, bytes});
+    }
+  }
+  return messages;
+}
+
+/// All over the link from node 0 to node 1, at once.
+std::vector<TimedMessage> over_one_link(std::size_t count) {
+  return std::vector<TimedMessage>(count, {0, NodeId{0}, NodeId{1}, 16384});
+}
+
+/// Between nodes drawn at random, half of them questions of 16 bytes, half answers; on the average so much time apart.
+std::vector<TimedMessage> uniform_load(std::size_t count, double mean_gap_ns, std::uint64_t answer_bytes) {
+  std::mt19937_64 random(7);
+  std::exponential_distribution<double> gap_ns(1 / mean_gap_ns);
+  std::vector<TimedMessage> messages;
+  double now_ns = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    now_ns += gap_ns(random);
+    const auto source = static_cast<std::uint32_t>(random() % node_count);
+    const auto target = static_cast<std::uint32_t>((source + 1 + random() % (node_count - 1)) % node_count);
+    messages.push_back(
+        {static_cast<std::uint64_t>(now_ns), NodeId{source}, NodeId{target}, random() % 2 == 0 ? 16 : answer_bytes});
+  }
+  return messages;
+}
+
+/// Each node of the hypercube sends so large a share of what one link carries.
+std::vector<TimedMessage> hypercube_load(double share) {
+  constexpr double answer_ns = 1032 * 353;
+  return uniform_load(3000, answer_ns / (share * node_count), 1032);
+}
+
+/// So many million messages a second by all nodes of the tree together.
+std::vector<TimedMessage> tree_load(double millions) { return uniform_load(3000, 1000 / millions, 520); }
+
+}  // namespace
+
+TEST_CASE("a message alone takes what SimGrid says, over 1 to 6 links, whatever its size and the switching") {
+  Machine machine = hypercube_of_circuits();
+  CHECK(different(machine, pings()) == 0);
+  machine.switching = Switching::packet;
+  CHECK(different(machine, pings()) == 0);
+  machine.hop_ns += 1'000;  // and the comparison can fail
+  CHECK(arrivals_by_links(machine, pings()) != arrivals_by_links(hypercube_of_circuits(), pings()));
+}
+
+TEST_CASE("messages over one link follow each other as SimGrid says") {
+  for (const Switching switching : {Switching::circuit, Switching::packet}) {
+    Machine machine = hypercube_of_circuits();
+    machine.switching = switching;
+    for (const std::size_t count : {2U, 8U, 64U}) {
+      CHECK(different(machine, over_one_link(count)) == 0);
+    }
+  }
+}
+
+TEST_CASE("circuits under uniform load take on the average what SimGrid says, within 2 % up to a fifth of a link's rate") {
+  for (const double share : {0.05, 0.2}) {
+    CAPTURE(share);
+    CHECK(mean_passage_ratio(hypercube_of_circuits(), hypercube_load(share)) == doctest::Approx(1).epsilon(0.02));
+  }
+}
+
+TEST_CASE("packets under uniform load take on the average what SimGrid says, within 1 % up to 8 million messages a second") {
+  for (const std::uint32_t uplinks : {1U, 2U, 4U}) {
+    for (const double millions : {1.0, 4.0, 8.0}) {
+      CAPTURE(uplinks);
+      CAPTURE(millions);
+      CHECK(mean_passage_ratio(tree_of_packets(uplinks), tree_load(millions)) == doctest::Approx(1).epsilon(0.01));
+    }
+  }
+}
+
+TEST_CASE("what circuits make of packets is no small thing: SimGrid tells them apart") {
+  Machine circuits = tree_of_packets(1);
+  circuits.switching = Switching::circuit;
+  const auto load = tree_load(8);
+  const auto by_circuits = arrivals_by_links(circuits, load),
+             by_simgrid = arrivals_by_simgrid(tree_of_packets(1), node_count, load);
+  double circuit_sum = 0, packet_sum = 0;
+  for (std::size_t i = 0; i < load.size(); ++i) {
+    circuit_sum += by_circuits[i] - static_cast<double>(load[i].enters_ns);
+    packet_sum += by_simgrid[i] - static_cast<double>(load[i].enters_ns);
+  }
+  CHECK(circuit_sum > 5 * packet_sum);
+}
+
+}  // namespace dmpc::tests
