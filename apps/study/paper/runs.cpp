@@ -64,6 +64,7 @@ PaperResult result_of(const Report& report) {
                      .rays = account.operations.ray_count(),
                      .film_hash = account.film.hash()};
   if (const auto* pages = std::get_if<svm::Report>(&report)) {
+    result.references = pages->pages().references;
     result.faults = pages->pages().faults;
     result.cache_pages = pages->plan.pages().cache.frame_count;
     result.page_bytes = account.sent[svm::number_of(svm::Kind::page_reply)].bytes;

@@ -33,12 +33,14 @@ struct PaperRun {
 struct PaperResult {
   std::uint64_t total_ns = 0;
   TimeParts parts;  ///< summed over the nodes
-  std::uint64_t rays = 0, faults = 0, page_bytes = 0;
+  std::uint64_t rays = 0, references = 0, faults = 0, page_bytes = 0;
   std::uint32_t cache_pages = 0;  ///< of a node, if pages travelled
   double pages_a_pixel = 0;       ///< if they were counted
   std::uint64_t film_hash = 0;
 
   double seconds() const { return 1e-9 * static_cast<double>(total_ns); }
+  /// Of the look-ups of pages, those that a page had to travel for.
+  double miss_ratio() const { return references == 0 ? 0 : static_cast<double>(faults) / static_cast<double>(references); }
   /// Bytes of pages that a node receives a second.
   double page_rate(std::uint32_t node_count) const {
     return static_cast<double>(page_bytes) / static_cast<double>(node_count) / seconds();

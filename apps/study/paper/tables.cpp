@@ -196,6 +196,7 @@ Table caches(const Catalogue& catalogue, const PaperResults& results) {
                                                                                             {"of the database", "%", 3},
                                                                                             {"efficiency", "%", 1},
                                                                                             {"faults"},
+                                                                                            {"miss ratio", "%", 3},
                                                                                             {"page traffic a node", "bytes/s", 0},
                                                                                             {"page wait", "%", 1},
                                                                                             {"stolen", "%", 1}});
@@ -206,11 +207,11 @@ Table caches(const Catalogue& catalogue, const PaperResults& results) {
       if (base && results[number]) {
         const PaperResult& result = *results[number];
         const auto percent = result.parts.percent();
-        table.add_row({cache_scenes[scene].row().scene, std::uint64_t{cache_scenes[scene].pages[size]},
-                       std::uint64_t{result.cache_pages}, 100 * cache_scenes[scene].share(size),
-                       efficiency(base->seconds(), 1, result.seconds(), cache_node_count), result.faults,
-                       result.page_rate(cache_node_count), percent[static_cast<std::size_t>(TimePart::data_wait)],
-                       percent[static_cast<std::size_t>(TimePart::stolen)]});
+        table.add_row(
+            {cache_scenes[scene].row().scene, std::uint64_t{cache_scenes[scene].pages[size]}, std::uint64_t{result.cache_pages},
+             100 * cache_scenes[scene].share(size), efficiency(base->seconds(), 1, result.seconds(), cache_node_count),
+             result.faults, 100 * result.miss_ratio(), result.page_rate(cache_node_count),
+             percent[static_cast<std::size_t>(TimePart::data_wait)], percent[static_cast<std::size_t>(TimePart::stolen)]});
       }
     }
   }

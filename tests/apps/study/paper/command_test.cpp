@@ -72,7 +72,7 @@ TEST_CASE("a whole study writes its report, every table twice and every picture 
     CHECK(has_text(folder / "paper" / (table + ".csv")));
     CHECK(has_text(folder / "paper" / (table + ".json")));
   }
-  for (const std::string plot : {"table_3", "losses", "algorithms", "caches", "traffic"}) {
+  for (const std::string plot : {"table_3", "losses", "algorithms", "caches", "misses", "traffic"}) {
     CHECK(has_text(folder / "paper" / (plot + ".gnuplot")));
     CHECK(has_text(folder / "paper" / (plot + ".svg")) == is_drawn);
   }

@@ -103,6 +103,7 @@ TEST_CASE("caches have their efficiency, faults and traffic beside what they hol
   figures.page_rate.fill(1e5);
   set_caches(results, catalogue, 1, figures);
   PaperResult& largest = *results[catalogue.cached[1].back()];
+  largest.references = 1'000;
   largest.faults = 77;
   largest.cache_pages = 1800;
   largest.parts.ns = {60, 30, 0, 0, 10, 0, 0, 0};
@@ -110,7 +111,8 @@ TEST_CASE("caches have their efficiency, faults and traffic beside what they hol
   REQUIRE(table.rows().size() == 10);
   const std::vector<Cell>& last = table.rows().back();
   CHECK(std::vector<Cell>(last.begin(), last.begin() + 3) == std::vector<Cell>{"tetra-9", whole(2895), whole(1800)});
-  const std::pair<std::size_t, double> figures_of_last[] = {{3, 100 * 2895 / 36189.0}, {4, 50}, {6, 1e5}, {7, 30}, {8, 10}};
+  const std::pair<std::size_t, double> figures_of_last[] = {
+      {3, 100 * 2895 / 36189.0}, {4, 50}, {6, 7.7}, {7, 1e5}, {8, 30}, {9, 10}};
   for (const auto& [column, expected] : figures_of_last) {
     CHECK(number(last[column]) == doctest::Approx(expected));
   }
