@@ -49,9 +49,9 @@ void add_rings(Catalogue& catalogue, const PaperRun& like) {
     for (std::size_t column = 0; column < paper_node_counts.size(); ++column) {
       run.node_count = paper_node_counts[column];
       run.node_memory_bytes = run.node_count > 1 ? std::optional(node_memory_bytes) : std::nullopt;
-      run.rays_travel = true;
+      run.strategy = Strategy::dataflow;
       catalogue.rings_by_rays[scene][column] = catalogue.add(run);
-      run.rays_travel = false;
+      run.strategy = Strategy::svm;
       const bool is_in_table_3 = run.scene == paper_scenes[rings_row].scene && column >= paper_scenes[rings_row].base();
       catalogue.rings_by_pages[scene][column] = is_in_table_3 ? catalogue.timed[rings_row][column] : catalogue.add(run);
     }
@@ -93,6 +93,24 @@ void add_caches(Catalogue& catalogue, const PaperRun& like) {
   }
 }
 
+/// What claims of the text hang on: sizes of work items, regions of equal size, and copies of the database on every node.
+void add_foils(Catalogue& catalogue) {
+  const std::size_t last = paper_node_counts.size() - 1;
+  for (std::size_t size = 0; size < item_sides.size(); ++size) {
+    const std::size_t timed = catalogue.timed[rings_row][last];
+    PaperRun run = catalogue.runs[timed];
+    run.work_item = item_sides[size];
+    catalogue.items[size] = size == article_item ? timed : catalogue.add(run);
+  }
+  PaperRun equal = catalogue.runs[catalogue.rings_by_rays[0][last]];
+  equal.balance = dataflow::Balance::equal_size;
+  catalogue.equal_regions = catalogue.add(equal);
+  PaperRun copies = catalogue.runs[catalogue.timed[small_row][last]];
+  copies.strategy = Strategy::replicated;
+  copies.cache_share.reset();
+  catalogue.copies = catalogue.add(copies);
+}
+
 }  // namespace
 
 Catalogue catalogue_of(std::uint32_t resolution) {
@@ -103,6 +121,7 @@ Catalogue catalogue_of(std::uint32_t resolution) {
   add_rings(catalogue, like);
   add_memories(catalogue);
   add_caches(catalogue, like);
+  add_foils(catalogue);
   PaperRun faster = catalogue.runs[catalogue.timed[rings_row][faster_column]];
   faster.machine = preset("ipsc860");
   catalogue.faster_machine = catalogue.add(faster);

@@ -17,6 +17,12 @@ inline constexpr std::uint32_t cache_node_count = 32;
 inline constexpr std::size_t cache_size_count = 10;
 /// Rows of Tables 2 and 3.
 inline constexpr std::size_t rings_row = 2, tetra_row = 3;
+/// Of Tables 2 and 3: the scene that is small beside a node's memory.
+inline constexpr std::size_t small_row = 0;
+/// Sides of work items that are tried on Rings4 and 64 nodes; 0: every node keeps its submap.
+inline constexpr std::array<std::uint32_t, 7> item_sides = {0, 1, 2, 3, 4, 6, 8};
+/// The article's compromise, of these.
+inline constexpr std::size_t article_item = 3;
 /// Scenes on which rays travel beside pages.
 inline constexpr std::array<const char*, 2> rings = {"rings-3-t1", "rings-4-t1"};
 /// The column of Table 3 that the iPSC/860 is held against: 32 nodes.
@@ -64,6 +70,9 @@ struct Catalogue {
   std::array<ByNodeCount, missing_rows.size()> figures_memory{};      ///< of `missing_rows`, memories of the cache experiments
   std::array<std::size_t, 2> cache_base{};                            ///< of `cache_scenes`, on one node
   std::array<std::array<std::size_t, cache_size_count>, 2> cached{};  ///< of `cache_scenes`, by size
+  std::array<std::size_t, item_sides.size()> items{};                 ///< Rings4 on 64 nodes, by size
+  std::size_t equal_regions = 0;                                      ///< the first of `rings` on 64 nodes, by rays
+  std::size_t copies = 0;                                             ///< the small scene on 64 nodes, replicated
   std::size_t faster_machine = 0;                                     ///< Rings4 on 32 nodes of an iPSC/860
   std::size_t dearer_cache = 0;  ///< the calibration's scene on two nodes, a cached look-up at twice its price
 

@@ -150,6 +150,53 @@ void claim_faster_machine(Claims& rows, const Catalogue& catalogue, const PaperR
   }
 }
 
+void claim_balance(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
+  const auto& subsampled = results[catalogue.rings_by_rays[0].back()];
+  const auto& equal = results[catalogue.equal_regions];
+  if (subsampled && equal) {
+    const double load = 100 * subsampled->average_load, of_equal = 100 * equal->average_load;
+    rows.add("Subsampled regions load nodes to about 82.5 % (Rings3), regions of equal size to less than 20 %",
+             load > 77.5 && load < 87.5 && of_equal < 20,
+             fixed(load, 1) + " and " + fixed(of_equal, 1) + " % on 64 nodes; the article does not say on how many");
+  }
+}
+
+void claim_tests(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
+  const auto& one = results[catalogue.rings_by_rays[1].front()];
+  const auto& many = results[catalogue.rings_by_rays[1].back()];
+  if (one && many && one->tests > 0) {
+    const double ratio = static_cast<double>(many->tests) / static_cast<double>(one->tests);
+    rows.add("An object in several regions is intersected again in each (Rings4)", ratio > 1,
+             fixed(ratio, 2) + " times the tests on 64 nodes as on one");
+  }
+}
+
+void claim_items(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
+  const auto is_known = [&](std::size_t run) { return results[run].has_value(); };
+  if (!std::all_of(catalogue.items.begin(), catalogue.items.end(), is_known)) {
+    return;
+  }
+  const auto seconds = [&](std::size_t size) { return results[catalogue.items[size]]->seconds(); };
+  double least = seconds(0);
+  std::string found;
+  for (std::size_t size = 0; size < item_sides.size(); ++size) {
+    least = std::min(least, seconds(size));
+    found += (size > 0 ? ", " : "") + item_text(item_sides[size]) + " " + fixed(seconds(size), 0);
+  }
+  rows.add("Work items of about 3x3 pixels are the good compromise (Rings4, 64 nodes)", seconds(article_item) <= 1.01 * least,
+           "seconds: " + found);
+}
+
+void claim_copies(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
+  const auto& pages = results[catalogue.timed[small_row].back()];
+  const auto& copies = results[catalogue.copies];
+  if (pages && copies) {
+    const double ratio = pages->seconds() / copies->seconds();
+    rows.add("A small scene ends up copied to all nodes at negligible cost (Teapot, 64 nodes)", ratio < 1.05,
+             "pages take " + fixed(ratio, 2) + " times as long as copies made beforehand");
+  }
+}
+
 }  // namespace
 
 Table claims(const Catalogue& catalogue, const PaperResults& results) {
@@ -158,6 +205,10 @@ Table claims(const Catalogue& catalogue, const PaperResults& results) {
   claim_rays_fall(rows, catalogue, results);
   claim_caches(rows, catalogue, results);
   claim_faster_machine(rows, catalogue, results);
+  claim_balance(rows, catalogue, results);
+  claim_tests(rows, catalogue, results);
+  claim_items(rows, catalogue, results);
+  claim_copies(rows, catalogue, results);
   return std::move(rows).table();
 }
 

@@ -185,6 +185,17 @@ std::string on_caches(const Table& table) {
          share(*worst) + " of the database to " + fixed(sizes.most, 1) + " % with " + share(*sizes.of_most) + ".";
 }
 
+std::string on_work_items(const Table& table) {
+  if (table.rows().empty()) {
+    return "";
+  }
+  const auto seconds = [&](const Row& row) { return number_in(table, row, "seconds").value_or(0); };
+  const auto [least, most] = std::minmax_element(table.rows().begin(), table.rows().end(),
+                                                 [&](const Row& a, const Row& b) { return seconds(a) < seconds(b); });
+  const auto of = [&](const Row& row) { return fixed(seconds(row), 0) + " s with " + texts_of(table, row)[0]; };
+  return "The picture takes from " + of(*least) + " to " + of(*most) + ".";
+}
+
 std::string on_claims(const Table& table) {
   std::map<std::string, std::size_t> verdicts;
   for (const Row& row : table.rows()) {
@@ -209,7 +220,7 @@ struct Conclusion {
   std::string (*on)(const Table& table);
 };
 
-constexpr std::array<Conclusion, 11> conclusions = {{{"table_2", on_table_2},
+constexpr std::array<Conclusion, 12> conclusions = {{{"table_2", on_table_2},
                                                      {"table_3", on_table_3},
                                                      {"calibration", on_calibration},
                                                      {"law", on_law},
@@ -217,6 +228,7 @@ constexpr std::array<Conclusion, 11> conclusions = {{{"table_2", on_table_2},
                                                      {"memories", on_memories},
                                                      {"losses", on_losses},
                                                      {"algorithms", on_algorithms},
+                                                     {"work_items", on_work_items},
                                                      {"caches", on_caches},
                                                      {"claims", on_claims},
                                                      {"sensitivity", on_sensitivity}}};

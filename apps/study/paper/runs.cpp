@@ -12,6 +12,7 @@
 #include "apps/system/progress.h"
 #include "apps/system/side_by_side.h"
 #include "core/base/expect.h"
+#include "dataflow/regions/bsp.h"
 #include "dataflow/run.h"
 #include "svm/packets.h"
 #include "svm/run.h"
@@ -45,15 +46,21 @@ std::optional<std::uint32_t> cache_pages_of(const PaperRun& run, const core::Dat
 }
 
 Report report_of(const PaperRun& run, const Subject& subject, const std::stop_token& stop) {
-  if (run.rays_travel) {
+  if (run.strategy == Strategy::dataflow) {
     const dataflow::RunOptions options{
         .computer = {.node_count = run.node_count, .node_memory_bytes = run.node_memory_bytes, .machine = run.machine},
-        .rays = {.topology = run.machine.topology}};
+        .rays = {.balance = {.balance = run.balance}, .topology = run.machine.topology}};
     return dataflow::run_dataflow(subject.database, subject.settings, options, stop);
   }
   const svm::RunOptions options{
       .computer = {.node_count = run.node_count, .node_memory_bytes = run.node_memory_bytes, .machine = run.machine},
-      .pages = {.cache_pages = cache_pages_of(run, subject.database), .in_flight = 1, .count_pages = run.count_pages}};
+      .pages = {.cache_pages = cache_pages_of(run, subject.database),
+                .in_flight = 1,
+                .work_item_side = run.work_item,
+                .count_pages = run.count_pages}};
+  if (run.strategy == Strategy::replicated) {
+    return svm::run_replicated(subject.database, subject.settings, options, stop);
+  }
   return svm::run_svm(subject.database, subject.settings, options, stop);
 }
 
@@ -62,7 +69,12 @@ PaperResult result_of(const Report& report) {
   PaperResult result{.total_ns = account.virtual_time->total_ns,
                      .parts = parts_of(sum_of_nodes(*account.virtual_time), account.waits),
                      .rays = account.operations.ray_count(),
+                     .tests = std::accumulate(account.operations.primitive_tests.begin(),
+                                              account.operations.primitive_tests.end(), std::uint64_t{0}),
                      .film_hash = account.film.hash()};
+  if (const auto* rays = std::get_if<dataflow::Report>(&report)) {
+    result.average_load = dataflow::average_load(rays->work());
+  }
   if (const auto* pages = std::get_if<svm::Report>(&report)) {
     result.references = pages->pages().references;
     result.faults = pages->pages().faults;

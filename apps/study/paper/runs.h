@@ -8,10 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "apps/run/strategy_options.h"
 #include "apps/run/time_parts.h"
 #include "apps/scene/subject.h"
 #include "apps/system/interrupt.h"
 #include "core/build/record_order.h"
+#include "dataflow/regions/balance.h"
 #include "nodes/machine.h"
 
 namespace dmpc::apps {
@@ -20,10 +22,12 @@ namespace dmpc::apps {
 struct PaperRun {
   std::string scene;  ///< a built-in scene's name
   std::uint32_t node_count = 1;
-  bool rays_travel = false;  ///< strategy dataflow in place of svm
+  Strategy strategy = Strategy::svm;
   nodes::Machine machine;
-  std::optional<double> cache_share = std::nullopt;  ///< of svm: what a node's cache holds, of the database; at least a page
-  bool count_pages = false;                          ///< of svm: the distinct pages a pixel
+  std::optional<double> cache_share = std::nullopt;       ///< of svm: what a node's cache holds, of the database; at least a page
+  bool count_pages = false;                               ///< of svm: the distinct pages a pixel
+  std::optional<std::uint32_t> work_item = std::nullopt;  ///< of svm: pixels along its side; 0: none is given away
+  dataflow::Balance balance = dataflow::Balance::subsampled;  ///< of dataflow
   std::optional<std::size_t> node_memory_bytes = std::nullopt;
   std::uint32_t resolution = 512;  ///< pixels a side
   core::RecordOrder record_order = core::RecordOrder::spatial;
@@ -34,6 +38,8 @@ struct PaperResult {
   std::uint64_t total_ns = 0;
   TimeParts parts;  ///< summed over the nodes
   std::uint64_t rays = 0, references = 0, faults = 0, page_bytes = 0;
+  std::uint64_t tests = 0;        ///< of rays against primitives
+  double average_load = 0;        ///< mean over maximum of the nodes' work, if rays travelled
   std::uint32_t cache_pages = 0;  ///< of a node, if pages travelled
   double pages_a_pixel = 0;       ///< if they were counted
   std::uint64_t film_hash = 0;

@@ -189,6 +189,31 @@ Table algorithms(const Catalogue& catalogue, const PaperResults& results) {
   return table;
 }
 
+std::string item_text(std::uint32_t side) { return side == 0 ? "static" : std::to_string(side) + "x" + std::to_string(side); }
+
+Table work_items(const Catalogue& catalogue, const PaperResults& results) {
+  const std::uint32_t node_count = paper_node_counts.back();
+  Table table("Work items of Rings4 on " + std::to_string(node_count) + " nodes", {{"item"},
+                                                                                   {"nodes"},
+                                                                                   {"seconds", "s", 0},
+                                                                                   {"computing", "%", 1},
+                                                                                   {"work wait", "%", 2},
+                                                                                   {"messages", "%", 2},
+                                                                                   {"idle at the end", "%", 2}});
+  for (std::size_t size = 0; size < item_sides.size(); ++size) {
+    if (const auto& result = results[catalogue.items[size]]) {
+      const auto percent = result->parts.percent();
+      const auto part = [&](TimePart which) { return Cell(percent[static_cast<std::size_t>(which)]); };
+      table.add_row({item_text(item_sides[size]), std::uint64_t{node_count}, result->seconds(), part(TimePart::computing),
+                     part(TimePart::work_wait), part(TimePart::messages), part(TimePart::idle_at_end)});
+    }
+  }
+  table.add_note(
+      "Static: every node renders its own submap, whatever the others have left. Items go to whoever asks on the ring.");
+  note_missing_rows(table, item_sides.size());
+  return table;
+}
+
 Table caches(const Catalogue& catalogue, const PaperResults& results) {
   Table table("Figures 8 to 10: caches on " + std::to_string(cache_node_count) + " nodes", {{"scene"},
                                                                                             {"cache in the article", "pages"},

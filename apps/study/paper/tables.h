@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "apps/run/time_parts.h"
@@ -71,6 +72,10 @@ Table table_3(const Catalogue& catalogue, const PaperResults& results);
 Table losses(const Catalogue& catalogue, const PaperResults& results);
 /// Figures 5 and 7: rays that travel beside pages that travel.
 Table algorithms(const Catalogue& catalogue, const PaperResults& results);
+/// "3x3", or "static" of 0.
+std::string item_text(std::uint32_t side);
+/// What the size of a work item is worth.
+Table work_items(const Catalogue& catalogue, const PaperResults& results);
 /// Figures 8 to 10: what the size of the cache is worth.
 Table caches(const Catalogue& catalogue, const PaperResults& results);
 

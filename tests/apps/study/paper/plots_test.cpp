@@ -53,7 +53,7 @@ TEST_CASE("every picture of the study has files of its own, a title, and axes wi
 
 TEST_CASE("every picture of the study is of columns and rows that its table has") {
   const std::map<std::string, Table> tables = drawn_tables();
-  CHECK(paper_plots().size() == 6);
+  CHECK(paper_plots().size() == 7);
   for (const PaperPlot& plot : paper_plots()) {
     CAPTURE(plot.plot.name);
     REQUIRE(tables.contains(plot.table));

@@ -21,7 +21,7 @@ std::vector<PaperRun> small_runs() {
   std::vector<PaperRun> runs(3, like);
   runs[1].node_count = 4;
   runs[2].node_count = 4;
-  runs[2].rays_travel = true;
+  runs[2].strategy = Strategy::dataflow;
   return runs;
 }
 
@@ -51,6 +51,10 @@ TEST_CASE("the runs of a study give one film, and more nodes are quicker") {
   CHECK(results[0]->faults == 0);
   CHECK(results[1]->faults > 0);
   CHECK(results[1]->parts.total_ns() == 4 * results[1]->total_ns);
+  CHECK(results[1]->references > results[1]->faults);
+  CHECK(results[1]->tests == results[0]->tests);
+  CHECK(results[2]->average_load > 0);
+  CHECK(results[2]->average_load <= 1);
 }
 
 TEST_CASE("the runs of a study take the same virtual time every time") {

@@ -120,6 +120,19 @@ TEST_CASE("caches have their efficiency, faults and traffic beside what they hol
   CHECK(table.notes().back() == "Unfinished: 10 of 20 rows are missing.");
 }
 
+TEST_CASE("work items have their seconds and where they go, static first") {
+  const Catalogue catalogue = catalogue_of(16);
+  PaperResults results(catalogue.runs.size());
+  results[catalogue.items[0]] = result_of_seconds(700);
+  results[catalogue.items[0]]->parts.ns = {60, 0, 10, 0, 0, 0, 5, 25};
+  results[catalogue.items[3]] = result_of_seconds(604);
+  const Table table = work_items(catalogue, results);
+  REQUIRE(table.rows().size() == 2);
+  CHECK(table.rows()[0] == std::vector<Cell>{"static", whole(64), 700.0, 60.0, 10.0, 5.0, 25.0});
+  CHECK(table.rows()[1][0] == Cell("3x3"));
+  CHECK(table.notes().back() == "Unfinished: 5 of 7 rows are missing.");
+}
+
 TEST_CASE("a table says how many rows are missing, if any, and cannot have more than all") {
   Table table("", {{"a"}});
   table.add_row({std::uint64_t{1}});
