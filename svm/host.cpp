@@ -24,6 +24,7 @@ HostProgram::HostProgram(nodes::Node& node, const HostShape& shape, core::Film& 
       arrived_(node.memory().allocate<std::uint64_t>(nodes::Category::film_tiles, words_for(shape.pixel_count()))),
       pixels_sent_(shape.refinement.is_wanted() ? shape.node_count : 0),
       node_count_(shape.node_count),
+      worker_count_(shape.worker_count),
       width_(shape.width),
       height_(shape.height) {
   for (std::uint32_t i = 0; i < node_count_; ++i) {
@@ -123,7 +124,7 @@ void HostProgram::end_pass() {
 
 /// The next part of a node's mask; when all nodes have theirs, the word to begin.
 void HostProgram::send_mask(std::uint32_t index) {
-  const PixelRectangle submap = submap_of({0, 0, width_, height_}, index, node_count_);
+  const PixelRectangle submap = submap_of({0, 0, width_, height_}, index, worker_count_);
   MaskPart part{pixels_sent_[index]};
   if (part.first_pixel >= submap.pixel_count()) {
     nodes_masked_ += 1;

@@ -19,6 +19,7 @@ namespace dmpc::svm {
 /// A picture and who renders it.
 struct HostShape {
   std::uint32_t node_count = 1;
+  std::uint32_t worker_count = 1;  ///< as WorkShape has it
   std::uint32_t width = 1, height = 1;
   std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
   core::RefinementOptions refinement;
@@ -70,7 +71,7 @@ class HostProgram final : public nodes::Program {
   core::Refinement refinement_;
   std::span<std::uint64_t> arrived_;        ///< a bit a pixel
   std::vector<std::uint32_t> pixels_sent_;  ///< of the mask, to each node; empty unless the picture is refined
-  std::uint32_t node_count_, width_, height_;
+  std::uint32_t node_count_, worker_count_, width_, height_;
   std::uint32_t nodes_masked_ = 0;  ///< how many have their whole mask
   std::uint32_t pixels_done_ = 0;
   std::uint32_t pixels_found_done_ = 0;  ///< of them, before the start

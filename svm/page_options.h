@@ -26,6 +26,9 @@ struct PageOptions {
   std::optional<std::uint32_t> in_flight = std::nullopt;
   /// Pixels along the side of a work item; 0: no node gives work to another. Without it 4, a bundle, or 3 where rays walk alone.
   std::optional<std::uint32_t> work_item_side = std::nullopt;
+  /// Nodes that render, the first ones; the others lend their memories and serve pages, as the article had for scenes that one
+  /// memory does not hold. Without it all do.
+  std::optional<std::uint32_t> worker_count = std::nullopt;
   bool count_pages = false;  ///< the distinct pages of each pixel; costs a bit a page for each pixel in flight
   /// Record every node's page references, run_svm() only: an instrument, whose memory is no node's and grows with the run. Needs
   /// work_item_side = 0 and in_flight = 1, else the references would depend on the cache and the schedule. Not with count_pages.

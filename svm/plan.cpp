@@ -50,6 +50,10 @@ std::uint32_t item_side_of(const PlanRequest& request) {
   return request.is_masked() ? std::min(side, masked_side_max) : side;
 }
 
+std::uint32_t worker_count_of(const PlanRequest& request) {
+  return request.pages.worker_count.value_or(request.computer.node_count);
+}
+
 /// The most pixels that are ever under way on a node: all of the picture where work moves, else the largest submap's. A node may
 /// have none, but has a place for one.
 std::uint64_t node_pixels_max(const PlanRequest& request) {
@@ -58,8 +62,9 @@ std::uint64_t node_pixels_max(const PlanRequest& request) {
     return image.pixel_count();
   }
   std::uint64_t most = 1;
-  for (std::uint32_t index = 0; index < request.computer.node_count; ++index) {
-    most = std::max(most, submap_of(image, index, request.computer.node_count).pixel_count());
+  const std::uint32_t workers = worker_count_of(request);
+  for (std::uint32_t index = 0; index < workers; ++index) {
+    most = std::max(most, submap_of(image, index, workers).pixel_count());
   }
   return most;
 }
@@ -129,6 +134,7 @@ Plan plan_with(const PlanRequest& request, std::uint32_t frames, std::uint32_t i
   plan.frames = frames;
   plan.in_flight = in_flight;
   plan.pixels_a_task = pixels_a_task(request, in_flight);
+  plan.worker_count = worker_count_of(request);
   plan.work_item_side = item_side_of(request);
   plan.request_credits = request_credits_of(request, plan.faults_max());
   plan.film_credits = film_credits_of(request);
@@ -168,6 +174,11 @@ void check(const PlanRequest& request) {
   check_use(
       request.computer.node_count >= 1 && request.computer.node_count <= node_count_max,
       "node_count=" + std::to_string(request.computer.node_count) + ": from 1 to " + std::to_string(node_count_max) + " nodes");
+  const std::uint32_t workers = worker_count_of(request);
+  check_use(workers >= 1 && workers <= request.computer.node_count,
+            "worker_count=" + std::to_string(workers) +
+                ": expected at least one worker, and at most as many as there are nodes, " +
+                std::to_string(request.computer.node_count));
   const std::uint32_t in_flight = request.pages.in_flight.value_or(1);
   check_use(in_flight >= 1 && in_flight <= in_flight_max,
             "in_flight=" + std::to_string(in_flight) + ": from 1 to " + std::to_string(in_flight_max) + " pixels");
@@ -297,7 +308,7 @@ FilmCapacity Plan::film() const {
 }
 
 WorkShape Plan::work() const {
-  return {.node_count = request.computer.node_count,
+  return {.worker_count = worker_count,
           .width = request.width,
           .height = request.height,
           .first_samples = request.first_samples,
@@ -309,6 +320,7 @@ WorkShape Plan::work() const {
 
 HostShape Plan::host() const {
   return {.node_count = request.computer.node_count,
+          .worker_count = worker_count,
           .width = request.width,
           .height = request.height,
           .first_samples = request.first_samples,

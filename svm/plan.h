@@ -54,6 +54,7 @@ struct Plan {
   std::uint32_t frames = 0;           ///< of each node's cache
   std::uint32_t in_flight = 1;        ///< pixels under way, after reduction; no more than a node ever has
   std::uint32_t pixels_a_task = 1;    ///< of them, at most: more than one where their rays walk in bundles
+  std::uint32_t worker_count = 1;     ///< nodes that render
   std::uint32_t work_item_side = 0;   ///< pixels; 0: no node gives work to another
   std::uint32_t request_credits = 0;  ///< page requests that one node may have under way to one home
   std::uint32_t film_credits = 0;     ///< film packets that one node may have under way to the host

@@ -27,15 +27,17 @@ PixelRectangle half(PixelRectangle rectangle, std::uint32_t part, std::uint32_t 
 
 }  // namespace
 
-PixelRectangle submap_of(const PixelRectangle& image, std::uint32_t index, std::uint32_t node_count) {
-  core::expect(index < node_count, "a submap belongs to one of the nodes");
+PixelRectangle submap_of(const PixelRectangle& image, std::uint32_t index, std::uint32_t worker_count) {
+  if (index >= worker_count) {
+    return {};
+  }
   PixelRectangle submap = image;
-  while (node_count > 1) {
-    const std::uint32_t first = node_count / 2;
+  while (worker_count > 1) {
+    const std::uint32_t first = worker_count / 2;
     const bool second = index >= first;
-    submap = half(submap, first, node_count, second);
+    submap = half(submap, first, worker_count, second);
     index -= second ? first : 0;
-    node_count = second ? node_count - first : first;
+    worker_count = second ? worker_count - first : first;
   }
   return submap;
 }

@@ -21,7 +21,7 @@ struct PixelRectangle {
 /// The part of the image that node `index` of `node_count` starts with. The submaps of all nodes cover each pixel exactly
 /// once; they are nearly square and of nearly equal area (the longer side is cut in proportion to the nodes on each side,
 /// again and again); where there are more nodes than pixels, some are empty. Requires index < node_count.
-PixelRectangle submap_of(const PixelRectangle& image, std::uint32_t index, std::uint32_t node_count);
+PixelRectangle submap_of(const PixelRectangle& image, std::uint32_t index, std::uint32_t worker_count);
 
 /// What is left of a submap, as items of side x side pixels, clipped at the submap's edge. Needs no memory beside itself.
 class WorkItems {

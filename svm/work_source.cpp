@@ -9,7 +9,7 @@ namespace dmpc::svm {
 namespace {
 
 PixelRectangle own_submap(const WorkShape& shape, std::uint32_t index) {
-  return submap_of({0, 0, shape.width, shape.height}, index, shape.node_count);
+  return submap_of({0, 0, shape.width, shape.height}, index, shape.worker_count);
 }
 
 /// At least one, so that a node without pixels has a mask, too.
@@ -34,7 +34,7 @@ std::uint32_t item_side_of(const WorkShape& shape) {
 
 WorkSource::WorkSource(nodes::Node& node, const WorkShape& shape)
     : node_(&node),
-      node_count_(shape.node_count),
+      worker_count_(shape.worker_count),
       self_(nodes::index_of(node.id())),
       image_width_(shape.width),
       first_samples_(shape.first_samples),
@@ -43,8 +43,8 @@ WorkSource::WorkSource(nodes::Node& node, const WorkShape& shape)
       submap_(own_submap(shape, self_)),
       mask_(node.memory().allocate<core::SampleStep>(nodes::Category::queues, mask_pixels(shape, self_))),
       items_(submap_, item_side_),
-      last_giver_((self_ + 1) % node_count_),
-      is_alone_(shape.item_side == 0 || node_count_ == 1),
+      last_giver_((self_ + 1) % worker_count_),
+      is_alone_(shape.item_side == 0 || worker_count_ == 1 || self_ >= worker_count_),
       no_more_(is_alone_) {
   std::fill(mask_.begin(), mask_.end(), core::SampleStep::first());
   if (shape.start != nullptr) {
@@ -75,7 +75,7 @@ void WorkSource::take_mask(const MaskPart& part) {
 void WorkSource::begin_pass() {
   core::expect(exhausted() && !asking_, "a pass begins when the one before has ended");
   items_ = WorkItems(submap_, item_side_);
-  last_giver_ = (self_ + 1) % node_count_;
+  last_giver_ = (self_ + 1) % worker_count_;
   no_more_ = is_alone_;
   skip_unwanted();
 }
@@ -136,8 +136,8 @@ core::SampleRange WorkSource::next_samples() {
 
 /// The ring passes over the asker, who is known to have nothing.
 std::uint32_t WorkSource::after(std::uint32_t node, std::uint32_t asker) const {
-  const std::uint32_t next = (node + 1) % node_count_;
-  return next == asker ? (next + 1) % node_count_ : next;
+  const std::uint32_t next = (node + 1) % worker_count_;
+  return next == asker ? (next + 1) % worker_count_ : next;
 }
 
 void WorkSource::ask() {
@@ -149,7 +149,7 @@ void WorkSource::ask() {
   ++counters_.items_asked;
   node_->grant(nodes::NodeId{last_giver_}, ring_channel);  // its own place on the ring: one request a node
   node_->send_reserved(nodes::NodeId{last_giver_}, ring_channel, number_of(Kind::work_request),
-                       WorkRequest{self_, node_count_ - 1});
+                       WorkRequest{self_, worker_count_ - 1});
 }
 
 void WorkSource::answer(const WorkRequest& request) {

@@ -16,7 +16,7 @@ namespace dmpc::svm {
 
 /// A picture whose pixels are shared out; the same on all nodes.
 struct WorkShape {
-  std::uint32_t node_count = 1;
+  std::uint32_t worker_count = 1;  ///< the nodes that have pixels, the first ones
   std::uint32_t width = 1, height = 1;
   std::uint32_t first_samples = 1;              ///< of each pixel in the first pass
   PixelTile tile;                               ///< pixels that a task takes at most
@@ -25,7 +25,7 @@ struct WorkShape {
   const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; read by the constructor alone
 };
 
-/// A node without pixels sends one work request at a time. It hops along the ring of nodes, from i to i + 1 mod N; the first
+/// A node without pixels sends one work request at a time. It hops along the ring of workers, from i to i + 1 mod N; the first
 /// that has items left answers the asker directly; the last of all others to be asked tells it that there is no more work,
 /// and since submaps only shrink this stays true (but for a node that the word to begin a later pass has not reached yet:
 /// an asker that is so told rests for that pass). The first request enters the ring at the next node, a later one at the node
@@ -77,7 +77,7 @@ class WorkSource {
   void reply(std::uint32_t asker, const PixelRectangle& item);
 
   nodes::Node* node_;
-  std::uint32_t node_count_;
+  std::uint32_t worker_count_;
   std::uint32_t self_;
   std::uint32_t image_width_;
   std::uint32_t first_samples_;

@@ -40,6 +40,7 @@ const std::vector<Belonging>& belongings() {
       {"--count-pages", {Strategy::svm}, "the others look up no pages"},
       {"--in-flight", {Strategy::svm, Strategy::replicated}, "a node of dataflow traces one ray at a time"},
       {"--work-item", {Strategy::svm, Strategy::replicated}, "a node of dataflow works on what comes to its region"},
+      {"--workers", {Strategy::svm, Strategy::replicated}, "every node of dataflow works on what comes to its region"},
       {"--balance", {Strategy::dataflow}, "the others share out pixels, not space"},
       {"--subsample", {Strategy::dataflow}, "the others share out pixels, not space"},
       {"--balance-grid", {Strategy::dataflow}, "the others share out pixels, not space"},
@@ -114,6 +115,8 @@ void add_page_options(OptionSet options, svm::PageOptions& pages, const std::str
                      "Pixels that a node works on at once; on threads the rays of 16 walk together, of fewer alone");
   options.add_number("--work-item", pages.work_item_side, 0, 1024, "4, or 3 if rays walk alone",
                      "Side in pixels of what a node gives to an idle one; 0: nothing is given");
+  options.add_number("--workers", pages.worker_count, 1, svm::node_count_max, "all nodes",
+                     "Nodes that render; the others lend their memories and serve pages");
 }
 
 void add_ray_options(OptionSet options, dataflow::RayOptions& rays) {

@@ -40,6 +40,7 @@ class ChaosCase {
     svm::RunOptions options{.computer = {.node_count = nodes_}};
     options.pages.in_flight = one_of<std::optional<std::uint32_t>>({1, 1, 2, 3, 5, 8, 64, 4096, std::nullopt});
     options.pages.work_item_side = one_of({0U, 1U, 2U, 3U, 3U, 7U, 100U});
+    options.pages.worker_count = draws_.chance(30) ? 1 + draws_.below(nodes_) : nodes_;
     if (strategy == svm::Strategy::svm) {
       options.pages.cache_pages = one_of<std::optional<std::uint32_t>>({1, 1, 2, 3, 16, std::nullopt});
       options.pages.replacement = one_of({svm::Replacement::lru, svm::Replacement::lru, svm::Replacement::clock,
@@ -92,6 +93,8 @@ class ChaosCase {
     for (std::uint64_t& cost_ps : machine.cost_ps) {
       cost_ps = draws_.below(100'000'000);
     }
+    machine.uplinks = machine.topology == nodes::TopologyKind::fat_tree ? 1 + draws_.below(nodes::Topology::uplinks_max) : 1;
+    machine.switching = one_of({nodes::Switching::circuit, nodes::Switching::packet});
     machine.has_contention = draws_.chance(50);
     machine.has_memory_port = draws_.chance(30);
     options.computer.machine = machine;

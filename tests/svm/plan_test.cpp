@@ -353,3 +353,16 @@ TEST_CASE("page references are recorded only where they depend on neither cache 
     CHECK_THROWS_AS(make_plan(request), core::UsageError);
   }
 }
+
+TEST_CASE("at least one node renders, and no more than there are") {
+  svm::PlanRequest request{.page_count = 4, .computer = {.node_count = 4}, .width = 8, .height = 8};
+  CHECK(make_plan(request).worker_count == 4);
+  for (const std::uint32_t workers : {1U, 3U, 4U}) {
+    request.pages.worker_count = workers;
+    CHECK(make_plan(request).worker_count == workers);
+  }
+  for (const std::uint32_t workers : {0U, 5U}) {
+    request.pages.worker_count = workers;
+    CHECK_THROWS_AS(make_plan(request), core::UsageError);
+  }
+}

@@ -51,6 +51,25 @@ svm::Report recorded_run(const SmallScene& small, std::uint32_t node_count) {
 
 }  // namespace
 
+TEST_CASE("one worker renders all of a picture from the memories of all nodes, which serve its pages") {
+  const SmallScene small("rings-2", 512, 24);
+  core::Operations reference;
+  const std::uint64_t hash = small.reference(reference).hash();
+  svm::RunOptions options;
+  options.computer.node_count = 5;
+  options.pages.worker_count = 1;
+  options.pages.cache_pages = 3;
+  const svm::Report report = svm::run_svm(small.database, small.settings, options, {});
+  CHECK(report.film.hash() == hash);
+  CHECK(report.nodes[0].program.work.pixels_rendered == 24 * 24);
+  CHECK(report.nodes[0].program.work.items_asked == 0);
+  CHECK(report.nodes[0].program.pages.faults > 0);
+  for (std::size_t node = 1; node < 5; ++node) {
+    CHECK(report.nodes[node].program.work.pixels_rendered == 0);
+    CHECK(report.nodes[node].counters.sent[svm::number_of(svm::Kind::page_reply)].packets > 0);
+  }
+}
+
 TEST_CASE("svm and replicated give the reference renderer's film and its counts of rays") {
   const SmallScene small("rings-2", 512, 24);
   core::Operations reference;

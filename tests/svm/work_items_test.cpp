@@ -73,7 +73,7 @@ TEST_CASE("where there are more nodes than pixels, some submaps are empty") {
     pixels += svm::submap_of({0, 0, 3, 2}, node, 50).pixel_count();
   }
   CHECK(pixels == 6);
-  CHECK_THROWS_AS(svm::submap_of({0, 0, 3, 2}, 50, 50), core::InternalError);
+  CHECK(svm::submap_of({0, 0, 3, 2}, 50, 50).pixel_count() == 0);  // behind those that render
 }
 
 TEST_CASE("an empty submap has no items") {

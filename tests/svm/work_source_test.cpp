@@ -208,3 +208,23 @@ TEST_CASE("a reply to no request, and a request of one's own, are errors") {
   CHECK_THROWS_AS(small.work.answer({1, 2}), core::InternalError);
   CHECK_THROWS_AS(small.work.answer({2, 0}), core::InternalError);
 }
+
+TEST_CASE("workers share the picture among themselves alone, and ask round a ring of their own") {
+  const svm::Plan plan = svm::make_plan({.page_count = 4,
+                                         .computer = {.node_count = 4},
+                                         .pages = {.work_item_side = 3, .worker_count = 2},
+                                         .width = 6,
+                                         .height = 3});
+  LoneNode second(plan, 1), third(plan, 2);
+  svm::WorkSource work(second.node, plan.work()), none(third.node, plan.work());
+  std::size_t pixels = 0;
+  for (; work.has_pixel(); ++pixels) {
+    work.next_pixel();
+  }
+  CHECK(pixels == 9);
+  work.ask();
+  REQUIRE(second.post.parcels.size() == 1);
+  CHECK(second.post.parcels.front().target == nodes::NodeId{0});
+  CHECK(second.post.parcels.front().packet().as<svm::WorkRequest>().visits_left == 1);
+  CHECK(none.exhausted());
+}

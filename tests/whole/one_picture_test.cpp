@@ -10,6 +10,7 @@
 #include <string>
 
 #include "apps/bench/stability/cells.h"
+#include "core/base/units.h"
 #include "dataflow/run.h"
 #include "svm/run.h"
 #include "tests/support/pairwise.h"
@@ -26,6 +27,8 @@ constexpr std::size_t page_sizes[] = {512, 1024, 4096, 65536};
 constexpr std::uint32_t node_counts[] = {1, 2, 3, 7, 8, 64};
 constexpr std::uint32_t in_flights[] = {1, 64};
 constexpr std::uint32_t item_sides[] = {0, 1, 3, 16};
+/// Nodes for each that renders.
+constexpr std::uint32_t nodes_a_worker[] = {1, 2, 64};
 /// Shares of the database in the cache; 0 stands for one page.
 constexpr double cache_shares[] = {0.0, 0.05, 1.0};
 
@@ -53,8 +56,8 @@ class Subjects {
 /// Every pair of choices occurs in some run.
 void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
   const Subjects subjects(scene, size);
-  const auto rows = tests::pairwise(
-      {std::size(node_counts), std::size(page_sizes), std::size(cache_shares), std::size(in_flights), std::size(item_sides), 2});
+  const auto rows = tests::pairwise({std::size(node_counts), std::size(page_sizes), std::size(cache_shares),
+                                     std::size(in_flights), std::size(item_sides), 2, std::size(nodes_a_worker)});
   for (const auto& row : rows) {
     const Subject& subject = subjects.with_pages_of(page_sizes[row[1]]);
     const bool replicated = row[5] == 1;
@@ -62,6 +65,7 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
     options.computer.node_count = node_counts[row[0]];
     options.pages.in_flight = in_flights[row[3]];
     options.pages.work_item_side = item_sides[row[4]];
+    options.pages.worker_count = core::ceil_divide(node_counts[row[0]], nodes_a_worker[row[6]]);
     if (!replicated) {
       const double frames = cache_shares[row[2]] * static_cast<double>(subject.database().page_count());
       options.pages.cache_pages = std::max(1U, static_cast<std::uint32_t>(frames));
@@ -70,6 +74,7 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
     CAPTURE(subject.database().page_size());
     CAPTURE(*options.pages.in_flight);
     CAPTURE(options.pages.work_item_side);
+    CAPTURE(*options.pages.worker_count);
     CAPTURE(options.pages.cache_pages.value_or(0));
     CAPTURE(replicated);
     CHECK(outcome_of(replicated ? run_replicated(subject, options) : run_svm(subject, options)) == subject.outcome());

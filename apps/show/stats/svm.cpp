@@ -37,6 +37,7 @@ StrategyStats strategy_stats(const RenderOptions& options, const svm::Report& re
   const bool counted = plan.request.pages.count_pages;
   StrategyStats stats{.options = {{"in_flight", plan.in_flight},
                                   {"work_item", plan.work_item_side},
+                                  {"workers", plan.worker_count},
                                   {"count_pages", plan.request.pages.count_pages}},
                       .all = pages_and_work_json(report.pages(), report.work(), counted),
                       .chaos = {{"request_credits", plan.request_credits}, {"film_credits", plan.film_credits}},

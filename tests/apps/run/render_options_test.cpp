@@ -309,6 +309,7 @@ TEST_CASE("the help of render names every option and its default") {
                                  "--replacement",
                                  "--in-flight",
                                  "--work-item",
+                                 "--workers",
                                  "--resolution",
                                  "--samples",
                                  "--depth",
