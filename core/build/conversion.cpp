@@ -7,6 +7,7 @@
 
 #include "core/base/box.h"
 #include "core/base/units.h"
+#include "core/record/coordinate.h"
 #include "core/record/curved_values.h"
 #include "core/scene/frame.h"
 #include "core/scene/triangulate.h"
@@ -26,7 +27,7 @@ bool usable(const Vec3d& v) {
 
 void put(PrimitiveValues& primitive, std::size_t row, const Vec3d& v) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    primitive.value[row + axis] = static_cast<float>(v[axis]);
+    primitive.value[row + axis] = coordinate_of(v[axis]);
   }
 }
 

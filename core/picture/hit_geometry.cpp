@@ -19,6 +19,11 @@ namespace {
 /// Of the largest coordinates, each by its share in the normal: vertices of triangles are rounded to float, by 2^-25, and planes
 /// through others that were one plane may be off by a few times that.
 constexpr double flat_clearance = 0x1p-22;
+/// But of the way to the triangle's own edge, behind which another may stand at a sharp angle: rays that start near it must not
+/// start behind that one. Triangles that share an edge agree about it however near it is.
+constexpr double edge_clearance = 0x1p-6;
+/// Points keep so much of a triangle's weights from its edges, so that there is such a way.
+constexpr double weight_min = 0x1p-32;
 /// Of the largest coordinate and radius: solved in double from rays that are exact to 2^-49.
 constexpr double curved_clearance = 0x1p-40;
 /// Of the ray's t, which is rounded to float: another surface may lie so much nearer.
@@ -28,10 +33,18 @@ double shared_by(const Vec3d& normal, const Vec3d& v) {
   return std::fabs(normal.x * v.x) + std::fabs(normal.y * v.y) + std::fabs(normal.z * v.z);
 }
 
-Clearance clearance_on_triangle(const HitState& state, const Vec3d& v0, const Vec3d& v1, const Vec3d& v2) {
+/// From the point to the nearest edge, at least; `area` is twice the triangle's.
+double way_to_edge(const HitState& state, const Vec3d& edge1, const Vec3d& edge2, double area) {
+  const Vec3d edge3 = edge2 - edge1;
+  const double longest = std::sqrt(std::max({dot(edge1, edge1), dot(edge2, edge2), dot(edge3, edge3)}));
+  return std::min({state.u, state.v, 1.0 - state.u - state.v}) * area / longest;
+}
+
+Clearance clearance_on_triangle(const HitState& state, const Vec3d& v0, const Vec3d& edge1, const Vec3d& edge2, double area) {
   const Vec3d& n = state.geometric_normal;
-  const double clearance =
-      flat_clearance * std::max({shared_by(n, v0), shared_by(n, v1), shared_by(n, v2)}) + tie_clearance * double{state.hit.t};
+  const double rounding = flat_clearance * std::max({shared_by(n, v0), shared_by(n, v0 + edge1), shared_by(n, v0 + edge2)});
+  const double clearance = std::min(rounding + tie_clearance * double{state.hit.t},
+                                    edge_clearance * std::max(way_to_edge(state, edge1, edge2, area), 0.0));
   return {clearance, clearance, std::numeric_limits<double>::max()};
 }
 
@@ -65,12 +78,14 @@ void triangle_geometry(HitState& state, const Lane& lane) {
   const double determinant = dot(edge1, p);
   if (determinant != 0.0) {
     const Vec3d from_v0 = state.ray.full_origin() - v0;
-    state.u = std::clamp(dot(from_v0, p) / determinant, 0.0, 1.0);
-    state.v = std::clamp(dot(direction, cross(from_v0, edge1)) / determinant, 0.0, 1.0 - state.u);
+    state.u = std::clamp(dot(from_v0, p) / determinant, weight_min, 1.0 - 2 * weight_min);
+    state.v = std::clamp(dot(direction, cross(from_v0, edge1)) / determinant, weight_min, 1.0 - weight_min - state.u);
   }
   state.point = v0 + edge1 * state.u + edge2 * state.v;
-  state.geometric_normal = normalize(cross(edge1, edge2));
-  state.clearance = clearance_on_triangle(state, v0, v1, v2);
+  const Vec3d normal = cross(edge1, edge2);
+  const double area = length(normal);
+  state.geometric_normal = normal * (1.0 / area);
+  state.clearance = clearance_on_triangle(state, v0, edge1, edge2, area);
 }
 
 void sphere_geometry(HitState& state, const Lane& lane) {

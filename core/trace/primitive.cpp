@@ -89,15 +89,36 @@ struct SeenTriangle {
   }
 };
 
+/// Distances that differ by less than this share are the same but for rounding.
+constexpr double same_distance = 0x1p-20;
+
 float rounded(double t) { return static_cast<float>(t); }
 
 /// A t next to 0, of a triangle that floats let the ray cross, as doubles have it.
 float judged(float t, const SeenTriangle& seen) {
   const double exact = seen.plane_distance();
-  if (exact > 0.0 && exact < near_edge && !seen.is_crossed()) {
+  if (!(exact > 0.0) || (exact < double{near_edge} && !seen.is_crossed())) {
     return missed;
   }
-  return (exact > 0.0) == (t > 0.0F) ? t : exact > 0.0 ? rounded(exact) : missed;
+  return std::fabs(exact - double{t}) <= same_distance * exact ? t : rounded(exact);
+}
+
+/// Of a triangle that floats let the ray pass at an edge.
+float judged_outside(const SeenTriangle& seen) {
+  const double exact = seen.plane_distance();
+  return exact > 0.0 && exact < double{near_edge} && seen.is_crossed() ? rounded(exact) : missed;
+}
+
+/// Whether floats may be wrong about a triangle that the ray passes where doubles judge: see near_edge.
+bool is_doubtful(const ShearedRay& ray, const ShearedVertex& a, const ShearedVertex& b, const ShearedVertex& c, float least,
+                 float greatest) {
+  if (!(std::min(std::min(a.z, b.z), c.z) < near_edge && std::max(std::max(a.z, b.z), c.z) > -near_edge)) {
+    return false;
+  }
+  const auto across = [](const ShearedVertex& v) { return std::max(std::fabs(v.x), std::fabs(v.y)); };
+  const float widest = std::max(std::max(across(a), across(b)), across(c));
+  const float deepest = std::max(std::max(std::fabs(a.z), std::fabs(b.z)), std::fabs(c.z));
+  return std::min(-least, greatest) <= (edge_rounding * std::max(widest, deepest) + rest_weight * ray.rest()) * widest;
 }
 
 }  // namespace
@@ -118,13 +139,14 @@ float intersect_triangle(const ShearedRay& ray, const float* rows, std::size_t s
   const ShearedVertex a(ray, rows + lane, stride), b(ray, rows + 3 * stride + lane, stride),
       c(ray, rows + 6 * stride + lane, stride);
   float u = edge(c, b), v = edge(a, c), w = edge(b, a);
+  const float least = std::min(std::min(u, v), w), greatest = std::max(std::max(u, v), w);
   if (u == 0.0F || v == 0.0F || w == 0.0F) {
     u = exact_edge(c, b);
     v = exact_edge(a, c);
     w = exact_edge(b, a);
   }
   if (outside(u, v, w)) {
-    return missed;
+    return is_doubtful(ray, a, b, c, least, greatest) ? judged_outside(SeenTriangle(ray, rows + lane, stride)) : missed;
   }
   const float determinant = u + v + w;
   if (determinant == 0.0F) {
