@@ -76,6 +76,7 @@ class DatabaseBuilder {
     result_.dropped_ = conversion_.dropped;
     result_.primitives_ = std::move(conversion_.primitives);
     result_.sources_ = std::move(conversion_.sources);
+    result_.collapsed_ = std::move(conversion_.collapsed);
     result_.bytes_ = std::move(writer_).finish();
     result_.page_count_ = (result_.bytes_.size() - overread_bytes) / result_.page_size_;
     return std::move(result_);

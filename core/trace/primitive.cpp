@@ -160,9 +160,9 @@ float intersect_triangle(const ShearedRay& ray, const float* rows, std::size_t s
 
 namespace {
 
-/// In a quick look, by floats alone, ray and surface may lie nearer to each other than they seem, by this share of coordinates:
-/// more than all that their rests add up to.
-constexpr double rests_share = 0x1p-20;
+/// In a quick look, by floats alone, ray and surface may lie nearer to each other than they seem: `size` is the sum of their
+/// coordinates, of which all their rests are a share but for those next to zero.
+double reach_of_rests(double size) { return 0x1p-20 * size + 2 * coordinate_step; }
 
 Vec3d row_vector(const float* rows, std::size_t stride, std::size_t lane, std::size_t row) {
   return {double{rows[row * stride + lane]}, double{rows[(row + 1) * stride + lane]}, double{rows[(row + 2) * stride + lane]}};
@@ -173,7 +173,7 @@ bool passes_sphere(const Ray& ray, const float* rows, std::size_t stride, std::s
   const Vec3d center = row_vector(rows, stride, lane, 0), d(ray.direction), to_origin = Vec3d(ray.origin) - center;
   const Vec3d away = cross(to_origin, d);
   const double radius = std::fabs(double{rows[3 * stride + lane]});
-  const double reach = radius + rests_share * (radius + largest_component(center) + largest_component(to_origin));
+  const double reach = radius + reach_of_rests(radius + largest_component(center) + largest_component(to_origin));
   return dot(away, away) > reach * reach * dot(d, d);
 }
 
@@ -183,7 +183,7 @@ bool passes_cone(const Ray& ray, const float* rows, std::size_t stride, std::siz
   const Vec3d d(ray.direction), to_origin = Vec3d(ray.origin) - base, across = cross(d, axis);
   const double radius = std::max(std::fabs(double{rows[3 * stride + lane]}), std::fabs(double{rows[7 * stride + lane]}));
   const double reach =
-      radius + rests_share * (radius + largest_component(base) + largest_component(axis) + largest_component(to_origin));
+      radius + reach_of_rests(radius + largest_component(base) + largest_component(axis) + largest_component(to_origin));
   const double off = dot(to_origin, across), area = dot(across, across);
   return area > 1e-6 * dot(axis, axis) && off * off > reach * reach * area;
 }
