@@ -33,7 +33,7 @@ void put(PrimitiveValues& primitive, std::size_t row, const Vec3d& v) {
 
 /// Values from `first` on, each to its row, and their rests.
 void put_four(PrimitiveValues& primitive, std::size_t first, const Vec3d& v, double radius) {
-  const std::array<double, 4> values{v.x, v.y, v.z, radius};
+  const std::array<double, 4> values{on_lattice(v.x), on_lattice(v.y), on_lattice(v.z), on_lattice(radius)};
   std::uint32_t rests = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     float& rounded = primitive.value[first + i] = static_cast<float>(values[i]);

@@ -23,7 +23,7 @@ constexpr double flat_clearance = 0x1p-22;
 /// start behind that one. Triangles that share an edge agree about it however near it is.
 constexpr double edge_clearance = 0x1p-6;
 /// Points keep so much of a triangle's weights from its edges, so that there is such a way.
-constexpr double weight_min = 0x1p-32;
+constexpr double weight_min = 0x1p-44;
 /// Of the largest coordinate and radius: solved in double from rays that are exact to 2^-49.
 constexpr double curved_clearance = 0x1p-40;
 /// Of the ray's t, which is rounded to float: another surface may lie so much nearer.
