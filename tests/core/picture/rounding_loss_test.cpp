@@ -33,8 +33,10 @@ RoundingLoss loss_of(const Scene& scene, int pixels = 256) {
 Scene with_tiny_triangles(double size) {
   Scene scene = long_rows(1000, 0);
   SceneBuilder builder(scene);
-  for (int i = 0; i < 3; ++i) {
-    builder.polygon({{1000, 1.0 + i, 0}, {1000 + size, 1.0 + i, 0}, {1000, 1.0 + i, size}});
+  for (const double x : {0.0, 1000.0}) {
+    for (int i = 1; i <= 3; ++i) {
+      builder.polygon({{x, 1.0 * i, 0}, {x + size, 1.0 * i, 0}, {x, 1.0 * i, size}});
+    }
   }
   return scene;
 }
@@ -74,11 +76,11 @@ TEST_CASE("a large plane that leans is off, even next to local zero") {
 }
 
 TEST_CASE("what rounding leaves nothing of is counted, with its size in pixels") {
-  const RoundingLoss loss = loss_of(with_tiny_triangles(2e-5));
-  CHECK(loss.collapsed == 3);
-  CHECK(loss.collapsed_pixels > 1e-4);
-  CHECK(loss.collapsed_pixels < 1e-2);
-  CHECK(build_database(with_tiny_triangles(2e-5), {}).dropped() == 3);
+  const RoundingLoss loss = loss_of(with_tiny_triangles(2e-6));
+  CHECK(loss.collapsed == 6);
+  CHECK(loss.collapsed_pixels > 1e-5);
+  CHECK(loss.collapsed_pixels < 1e-3);
+  CHECK(build_database(with_tiny_triangles(2e-6), {}).dropped() == 6);
   CHECK(loss_of(with_tiny_triangles(0)).collapsed == 0);
-  CHECK(build_database(with_tiny_triangles(0), {}).dropped() == 3);
+  CHECK(build_database(with_tiny_triangles(0), {}).dropped() == 6);
 }
