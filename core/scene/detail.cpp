@@ -15,8 +15,8 @@ constexpr std::size_t objects_max = 65536;
 /// Objects count as no smaller than this share of the scene: next to that doubles tell nothing apart.
 constexpr double least_share = 0x1p-40;
 
-/// So much of the detail is enough.
-constexpr double most = 0.75;
+/// So much of the detail must lie close together.
+constexpr double close_part = 0.75;
 
 struct Weighted {
   double value, weight;
@@ -97,7 +97,7 @@ std::optional<Vec3d> place_of_detail(const Scene& scene, const GridAxes& axes, c
   for (std::size_t axis = 0; axis < 3; ++axis) {
     place[axis] = quantile_of(0.5, [&](const Vec3d& center) { return center[axis]; });
   }
-  const double reach = quantile_of(most, [&](const Vec3d& center) { return largest_component(center - place); });
+  const double reach = quantile_of(close_part, [&](const Vec3d& center) { return largest_component(center - place); });
   return reach <= close_share * extent ? std::optional(place) : std::nullopt;
 }
 
