@@ -210,7 +210,8 @@ int check_command(const CheckOptions& options, Interrupt& interrupt, std::ostrea
   core::Scene scene = load_scene(options.picture);
   const Subject subject = build_subject(std::move(scene), options.picture, {}, true);
   announce_effort(options, subject);
-  const auto& [database, settings] = subject;
+  const core::Database& database = subject.database;
+  const core::RenderSettings& settings = subject.settings;
   const Inspection inspection = inspect_shown(options, database, settings);
   interrupt.set_consequence("the report is incomplete");
   const std::uint64_t unexplained = print_report(output, options, database, settings.camera, inspection);

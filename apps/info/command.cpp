@@ -73,6 +73,7 @@ InfoRecord find_out(const InfoOptions& options) {
   record.build_peak_bytes = peak_bytes();
   subject.database.forget_primitives();
   record.database = figures_of(subject.database, record.scene);
+  record.loss = subject.loss;
   record.width = subject.settings.camera.width();
   record.height = subject.settings.camera.height();
   record.room = memory_room();

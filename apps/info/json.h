@@ -13,6 +13,8 @@ struct InfoRecord;
 /// - scene: name or path
 /// - objects: polygon, patch, textured, sphere, cone (how many of each), total
 /// - primitives: count, dropped (degenerate ones: no area or length, radius 0, or not finite), copies (in blocks of all cells)
+/// - rounding, what it takes from the picture, 0 where that is nothing: moved (primitives that may be off), moved_pixels (by how
+///   much, at most), collapsed (of the dropped ones, those that have a size in the file), collapsed_pixels (the largest's)
 /// - bounds: low, high, extent; null if nothing is finite
 /// - view: camera (what --camera takes), from, at, up, degrees, width and height (pixels of the picture)
 /// - background: red, green, blue, linear

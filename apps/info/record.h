@@ -7,12 +7,14 @@
 #include "apps/info/forecast.h"
 #include "apps/info/scene_figures.h"
 #include "apps/system/memory_room.h"
+#include "core/picture/rounding_loss.h"
 
 namespace dmpc::apps {
 
 struct InfoRecord {
   SceneFigures scene;
   DatabaseFigures database;
+  core::RoundingLoss loss;
   Forecast forecast;
   std::uint64_t build_peak_bytes = 0;          ///< the most that this process held until the database was built
   MemoryRoom room;                             ///< for a render here

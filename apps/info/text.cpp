@@ -37,6 +37,12 @@ std::string primitives_text(const DatabaseFigures& database) {
   return grouped(database.primitives) + (dropped.empty() ? "" : "; " + dropped + ": no area or length, radius 0, or not finite");
 }
 
+/// Only where there is something to say.
+std::string rounding_line(const core::RoundingLoss& loss) {
+  const std::string text = loss_text(loss);
+  return text.empty() ? "" : "\nrounding   " + text;
+}
+
 std::string triple(const core::Vec3d& vector, const std::string& mark) {
   return rounded(vector.x) + mark + rounded(vector.y) + mark + rounded(vector.z);
 }
@@ -179,6 +185,7 @@ std::string info_text(const InfoRecord& record) {
   const SceneFigures& scene = record.scene;
   const std::string lines = "scene      " + scene.name + ": " + objects_text(scene) +  //
                             "\nprimitives " + primitives_text(record.database) +       //
+                            rounding_line(record.loss) +                               //
                             "\nbounds     " + bounds_text(scene.bounds) +              //
                             "\nview       " + view_text(record) +                      //
                             "\nlights     " + lights_text(scene) +                     //

@@ -27,11 +27,30 @@ Subject build_subject(core::Scene scene, const PictureOptions& picture, const Da
   if (database.dropped() > 0) {
     std::cerr << "dmpc: " << dropped_text(database.dropped()) << '\n';
   }
-  return {std::move(database), settings};
+  const core::RoundingLoss loss = core::find_rounding_loss(database, settings.camera);
+  if (!loss.is_none()) {
+    std::cerr << "dmpc: " << loss_text(loss) << '\n';
+  }
+  return {std::move(database), settings, loss};
 }
 
 std::string dropped_text(std::uint64_t count) {
   return count == 0 ? "" : counted(count, "degenerate primitive") + (count == 1 ? " was" : " were") + " left out";
+}
+
+std::string loss_text(const core::RoundingLoss& loss) {
+  std::string text;
+  if (loss.collapsed > 0) {
+    text = counted(loss.collapsed, "primitive") + (loss.collapsed == 1 ? " is" : " are") +
+           " left out, too small beside the scene " + "to have a size in its coordinates: up to " +
+           rounded(loss.collapsed_pixels) + " pixels across";
+  }
+  if (loss.moved > 0) {
+    text += (text.empty() ? "" : "; ") + counted(loss.moved, "primitive") + " may be off by up to " + rounded(loss.moved_pixels) +
+            " pixels, as coordinates are rounded beside something so large";
+  }
+  return text.empty() ? ""
+                      : text + ": bring the scene's parts nearer to each other or nearer in size, or view it from farther away";
 }
 
 }  // namespace dmpc::apps

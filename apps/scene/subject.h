@@ -8,6 +8,7 @@
 #include "apps/scene/picture_options.h"
 #include "core/build/database.h"
 #include "core/picture/pixel_task.h"
+#include "core/picture/rounding_loss.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {
@@ -16,9 +17,10 @@ namespace dmpc::apps {
 struct Subject {
   core::Database database;
   core::RenderSettings settings;
+  core::RoundingLoss loss;  ///< of the picture, by the rounding of coordinates
 };
 
-/// The database of `scene`, whose objects are freed on the way, and its picture. Says on stderr if primitives were left out,
+/// The database of `scene`, whose objects are freed on the way, and its picture. Says on stderr what was left out or is off,
 /// and with `shows_progress` how far it is if stderr is a terminal.
 /// Throws core::InputError as core::build_database() does.
 Subject build_subject(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options = {},
@@ -26,5 +28,8 @@ Subject build_subject(core::Scene scene, const PictureOptions& picture, const Da
 
 /// A sentence about the primitives that a database left out; empty if it left out none.
 std::string dropped_text(std::uint64_t count);
+
+/// A sentence about what rounding takes from a picture, in pixels, and what to do; empty if that is nothing.
+std::string loss_text(const core::RoundingLoss& loss);
 
 }  // namespace dmpc::apps

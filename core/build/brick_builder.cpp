@@ -121,13 +121,9 @@ class BrickBuilder::Drafter {
   const Parallel& parallel_;
 };
 
-BrickBuilder::BrickBuilder(std::span<const PrimitiveValues> primitives, double pad, float finest_cell, const Parallel& parallel,
-                           int levels_max)
-    : primitives_(primitives),
-      pad_(std::min(pad, pad_max)),
-      top_edge_(double{finest_cell} * finest_per_top),
-      parallel_(&parallel),
-      levels_max_(levels_max) {}
+BrickBuilder::BrickBuilder(std::span<const PrimitiveValues> primitives, double pad, const GridFrame& frame,
+                           const Parallel& parallel, int levels_max)
+    : primitives_(primitives), pad_(std::min(pad, pad_max)), frame_(frame), parallel_(&parallel), levels_max_(levels_max) {}
 
 BrickTree BrickBuilder::build(const Corner& corner, std::span<const std::uint32_t> ids) const {
   if (const std::size_t most = carefree_count(levels_max_); ids.size() > most) {
@@ -153,8 +149,8 @@ CutTree BrickBuilder::cut(std::span<const Group> kinds, Cutter& cutter) const {
 Bounds BrickBuilder::cell_at(const Corner& corner) const {
   Box cell;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    cell.low[axis] = corner[axis] / finest_per_top * top_edge_;
-    cell.high[axis] = cell.low[axis] + top_edge_;
+    cell.low[axis] = plane_at(frame_, axis, corner[axis]);
+    cell.high[axis] = plane_at(frame_, axis, corner[axis] + finest_per_top);
   }
   return Bounds::around(cell.padded({pad_, pad_, pad_}));
 }

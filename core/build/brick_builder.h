@@ -21,7 +21,7 @@ namespace dmpc::core {
 class BrickBuilder {
  public:
   /// The primitives and `parallel`, which builds large cells, outlive the builder. `levels_max`: 2 to brick_levels_max.
-  BrickBuilder(std::span<const PrimitiveValues> primitives, double pad, float finest_cell, const Parallel& parallel,
+  BrickBuilder(std::span<const PrimitiveValues> primitives, double pad, const GridFrame& frame, const Parallel& parallel,
                int levels_max = brick_levels_max);
 
   /// The bricks of the top cell at `corner`; `ids`, at least one and ascending, are the primitives that touch it. Throws
@@ -37,7 +37,7 @@ class BrickBuilder {
 
   std::span<const PrimitiveValues> primitives_;
   double pad_;
-  double top_edge_;
+  GridFrame frame_;
   const Parallel* parallel_;
   int levels_max_;
 };

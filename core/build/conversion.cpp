@@ -7,6 +7,7 @@
 
 #include "core/base/box.h"
 #include "core/base/units.h"
+#include "core/record/coordinate.h"
 #include "core/record/curved_values.h"
 #include "core/scene/frame.h"
 #include "core/scene/triangulate.h"
@@ -26,13 +27,13 @@ bool usable(const Vec3d& v) {
 
 void put(PrimitiveValues& primitive, std::size_t row, const Vec3d& v) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    primitive.value[row + axis] = static_cast<float>(v[axis]);
+    primitive.value[row + axis] = coordinate_of(v[axis]);
   }
 }
 
 /// Values from `first` on, each to its row, and their rests.
 void put_four(PrimitiveValues& primitive, std::size_t first, const Vec3d& v, double radius) {
-  const std::array<double, 4> values{v.x, v.y, v.z, radius};
+  const std::array<double, 4> values{on_lattice(v.x), on_lattice(v.y), on_lattice(v.z), on_lattice(radius)};
   std::uint32_t rests = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     float& rounded = primitive.value[first + i] = static_cast<float>(values[i]);
@@ -51,6 +52,17 @@ bool degenerate_triangle(const PrimitiveValues& triangle) {
   const Vec3d a = get(triangle, 0), b = get(triangle, 3), c = get(triangle, 6);
   const Vec3d area = cross(b - a, c - a);
   return a == b || b == c || c == a || !(dot(area, area) > 0);
+}
+
+/// Nearer to a line than this share of their coordinates, corners lie on it as far as doubles can tell.
+constexpr double line_share = 0x1p-48;
+
+/// The height of a triangle that is not degenerate, 0 of one that is; `coordinate` is its largest before anything was subtracted.
+double height_of(const std::array<Vec3d, 3>& corner, double coordinate) {
+  const Vec3d a = corner[1] - corner[0], b = corner[2] - corner[0];
+  const double longest = std::max({length(a), length(b), length(b - a)});
+  const double height = longest > 0 ? length(cross(a, b)) / longest : 0.0;
+  return height > line_share * coordinate ? height : 0.0;
 }
 
 using Place = std::array<float, 2>;
@@ -100,9 +112,15 @@ class Converter {
  private:
   Vec3d local(const Vec3d& point) const { return to_local(frame_, point); }
 
-  void add(const PrimitiveValues& primitive, std::uint32_t object, bool degenerate, std::uint32_t material) {
+  /// `size`: what it has across before it is rounded, `at` where; asked if it is degenerate.
+  template <class Size>
+  void add(const PrimitiveValues& primitive, std::uint32_t object, bool degenerate, std::uint32_t material, const Vec3d& at,
+           const Size& size) {
     if (degenerate) {
       ++result_.dropped;
+      if (const double across = size(); across > 0) {
+        result_.collapsed.push_back({Vec3f(local(at)), static_cast<float>(across * frame_.scale)});
+      }
       return;
     }
     result_.primitives.push_back(primitive);
@@ -136,7 +154,11 @@ class Converter {
     if (object.kind == ObjectKind::textured && !degenerate) {
       add_texture(object, corners);
     }
-    add(triangle, index, degenerate, object.material);
+    const std::array<Vec3d, 3> corner{vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]};
+    add(triangle, index, degenerate, object.material, corner[0], [&] {
+      return height_of(corner,
+                       std::max({largest_component(corner[0]), largest_component(corner[1]), largest_component(corner[2])}));
+    });
   }
 
   void add_normals(const Object& object, const std::array<std::uint32_t, 3>& corners) {
@@ -162,8 +184,9 @@ class Converter {
   void add_sphere(std::uint32_t index, const Object& object, const Sphere& sphere) {
     PrimitiveValues values{.kind = PrimitiveKind::sphere};
     put_four(values, 0, local(sphere.center), sphere.radius * frame_.scale);
-    const bool usable_radius = values.value[3] != 0.0F && std::fabs(sphere.radius) < coordinate_max;
-    add(values, index, !usable(sphere.center) || !usable_radius, object.material);
+    const bool finite = usable(sphere.center) && std::fabs(sphere.radius) < coordinate_max;
+    add(values, index, !finite || values.value[3] == 0.0F, object.material, sphere.center,
+        [&] { return finite ? 2 * std::fabs(sphere.radius) : 0.0; });
   }
 
   void add_cone(std::uint32_t index, const Object& object, const Cone& cone) {
@@ -172,7 +195,9 @@ class Converter {
     put_four(values, 4, local(cone.apex), cone.apex_radius * frame_.scale);
     const bool finite = usable(cone.base) && usable(cone.apex) && std::fabs(cone.base_radius) < coordinate_max &&
                         std::fabs(cone.apex_radius) < coordinate_max;
-    add(values, index, !finite || degenerate_cone(values), object.material);
+    const bool has_radius = cone.base_radius != 0 || cone.apex_radius != 0;
+    add(values, index, !finite || degenerate_cone(values), object.material, cone.base,
+        [&] { return finite && has_radius ? length(cone.apex - cone.base) : 0.0; });
   }
 
   const Scene& scene_;
@@ -217,6 +242,7 @@ void append(Conversion& all, const Conversion& more) {
   const auto before = static_cast<std::uint32_t>(all.primitives.size());
   append(all.primitives, more.primitives);
   append(all.sources, more.sources);
+  append(all.collapsed, more.collapsed);
   append(all.shading, more.shading);
   for (const Conversion::Smooth& smooth : more.smooth) {
     all.smooth.push_back({before + smooth.primitive, smooth.normals});
@@ -234,6 +260,7 @@ void clear(Conversion& conversion) {
   conversion.shading.clear();
   conversion.smooth.clear();
   conversion.textured.clear();
+  conversion.collapsed.clear();
   conversion.dropped = 0;
 }
 

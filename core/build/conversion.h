@@ -30,7 +30,8 @@ struct Conversion {
   std::vector<ShadingReference> shading;  ///< that of flat ones
   std::vector<Smooth> smooth;
   std::vector<Textured> textured;
-  std::uint32_t dropped = 0;  ///< degenerate: zero area or length, radius 0, not finite
+  std::uint32_t dropped = 0;                  ///< degenerate: zero area or length, radius 0, not finite
+  std::vector<CollapsedPrimitive> collapsed;  ///< of those, what was not degenerate before it was rounded
 };
 
 /// The bounds of what is finite in the scene, in the directions of `axes`.

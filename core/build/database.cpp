@@ -17,6 +17,7 @@
 #include "core/record/directory.h"
 #include "core/record/records.h"
 #include "core/record/texture_layout.h"
+#include "core/scene/detail.h"
 #include "core/scene/frame.h"
 
 namespace dmpc::core {
@@ -75,6 +76,7 @@ class DatabaseBuilder {
     result_.dropped_ = conversion_.dropped;
     result_.primitives_ = std::move(conversion_.primitives);
     result_.sources_ = std::move(conversion_.sources);
+    result_.collapsed_ = std::move(conversion_.collapsed);
     result_.bytes_ = std::move(writer_).finish();
     result_.page_count_ = (result_.bytes_.size() - overread_bytes) / result_.page_size_;
     return std::move(result_);
@@ -91,6 +93,9 @@ class DatabaseBuilder {
   void fit() {
     const Box bounds = bounds_of(scene_, options_.axes, parallel_);
     header().frame = fit_frame(bounds, scene_.objects.size(), options_.cells_per_primitive, options_.axes);
+    if (const auto place = place_of_detail(scene_, options_.axes, bounds)) {
+      move_zero(header().frame, *place);
+    }
     header().background = Color(scene_.background);
     if (!bounds.empty()) {
       const Vec3d extent = bounds.high - bounds.low;
@@ -176,7 +181,7 @@ class DatabaseBuilder {
 
   /// Cells are built at the same time, then take their room in order, and are written at the same time.
   void write_grid(const TopCells& cells) {
-    const BrickBuilder builder(conversion_.primitives, result_.pad_, header().frame.finest_cell, parallel_);
+    const BrickBuilder builder(conversion_.primitives, result_.pad_, header().frame, parallel_);
     std::vector<BrickTree> trees(cells.size());
     std::uint64_t sorted = 0;
     parallel_.for_each(

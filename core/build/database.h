@@ -32,6 +32,12 @@ struct PrimitiveSource {
   std::uint32_t object = 0;  ///< index into Scene::objects; triangles of one polygon share it
 };
 
+/// A primitive that rounding to the grid's coordinates left nothing of.
+struct CollapsedPrimitive {
+  Vec3f place;     ///< grid-local
+  float size = 0;  ///< what it would have across, grid-local
+};
+
 /// One primitive as its records hold it, for the oracle and the referee. Rows as in BlockHeader.
 struct PrimitiveValues {
   PrimitiveKind kind{};
@@ -72,6 +78,9 @@ class Database {
     forget(bytes_);
     give_back_freed();
   }
+  /// Those of dropped() that have a size in the scene.
+  std::span<const CollapsedPrimitive> collapsed() const { return collapsed_; }
+
   /// Frees primitives() and sources(): for when no oracle, no referee and no message will ask.
   void forget_primitives() {
     forget(primitives_);
@@ -93,6 +102,7 @@ class Database {
   std::vector<std::byte> bytes_;
   std::vector<PrimitiveValues> primitives_;
   std::vector<PrimitiveSource> sources_;
+  std::vector<CollapsedPrimitive> collapsed_;
   std::uint32_t dropped_ = 0;
   std::uint64_t references_ = 0;
   RecordCounts records_;

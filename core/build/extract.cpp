@@ -78,10 +78,9 @@ class Extractor {
 
   /// Whether a child's box, borders included, touches the region.
   bool touches(const Brick& brick, std::size_t child) const {
-    const double edge = double{whole_.frame.finest_cell};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (place_of(brick, axis, child) > region_.high[axis] * edge ||
-          place_of(brick, axis + 3, child) < region_.low[axis] * edge) {
+      if (place_of(brick, axis, child) > plane_at(whole_.frame, axis, region_.high[axis]) ||
+          place_of(brick, axis + 3, child) < plane_at(whole_.frame, axis, region_.low[axis])) {
         return false;
       }
     }

@@ -21,7 +21,11 @@ constexpr std::size_t chunk_size = 8192;
 class TopCells::Lister {
  public:
   Lister(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad)
-      : primitives_(primitives), size_(top_cells(frame)), edge_(double{frame.finest_cell} * finest_per_top), pad_(pad) {}
+      : primitives_(primitives),
+        size_(top_cells(frame)),
+        low_(frame.low),
+        edge_(double{frame.finest_cell} * finest_per_top),
+        pad_(pad) {}
 
   /// Lists the primitives of a chunk until there are more than `bound`.
   std::vector<Touch> touches_of(std::size_t chunk, std::size_t bound) const {
@@ -46,7 +50,9 @@ class TopCells::Lister {
     const Box box = bounds_of(primitives_[id]).padded({pad_, pad_, pad_});
     Place first{}, last{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto clamped = [&](double at) { return static_cast<std::int32_t>(std::clamp(at / edge_, 0.0, size_[axis] - 1.0)); };
+      const auto clamped = [&](double at) {
+        return static_cast<std::int32_t>(std::clamp((at - low_[axis]) / edge_, 0.0, size_[axis] - 1.0));
+      };
       first[axis] = clamped(box.low[axis]);
       last[axis] = clamped(box.high[axis]);
     }
@@ -63,7 +69,7 @@ class TopCells::Lister {
     for (std::int32_t z = first[2]; z <= last[2]; ++z) {
       for (std::int32_t y = first[1]; y <= last[1]; ++y) {
         for (std::int32_t x = first[0]; x <= last[0]; ++x) {
-          if (overlap.touches(Vec3d{x + 0.5, y + 0.5, z + 0.5} * edge_, half)) {
+          if (overlap.touches(low_ + Vec3d{x + 0.5, y + 0.5, z + 0.5} * edge_, half)) {
             touches.push_back({index_of({x, y, z}), id});
           }
         }
@@ -73,6 +79,7 @@ class TopCells::Lister {
 
   std::span<const PrimitiveValues> primitives_;
   Place size_;
+  Vec3d low_;  ///< where the grid begins
   double edge_;
   double pad_;
 };

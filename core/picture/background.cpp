@@ -29,8 +29,8 @@ Box box_of(const Brick& brick, std::size_t child) {
 Box box_of_cell(const Corner& corner, const GridFrame& frame) {
   Box box;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.low[axis] = corner[axis] * double{frame.finest_cell};
-    box.high[axis] = (corner[axis] + finest_per_top) * double{frame.finest_cell};
+    box.low[axis] = plane_at(frame, axis, corner[axis]);
+    box.high[axis] = plane_at(frame, axis, corner[axis] + finest_per_top);
   }
   return box;
 }

@@ -10,10 +10,9 @@
 namespace dmpc::core {
 namespace {
 
-Vec3d extent_of(const GridFrame& frame) {
+Vec3d high_of(const GridFrame& frame) {
   const Corner size = grid_size(frame);
-  const double edge = double{frame.finest_cell};
-  return {size[0] * edge, size[1] * edge, size[2] * edge};
+  return {plane_at(frame, 0, size[0]), plane_at(frame, 1, size[1]), plane_at(frame, 2, size[2])};
 }
 
 }  // namespace
@@ -22,8 +21,8 @@ Camera::Camera(const View& view, const GridFrame& frame, int width, int height, 
     : width_(width), height_(height), samples_(samples) {
   expect(width > 0 && height > 0 && samples > 0, "a camera has pixels and samples");
   eye_ = to_local(frame, view.from);
-  const Vec3d extent = extent_of(frame);
-  middle_ = extent * 0.5;
+  const Vec3d low = frame.low, extent = high_of(frame) - low;
+  middle_ = low + extent * 0.5;
   reach_ = length(eye_ - middle_) > far_eye_diagonals * length(extent) ? length(extent) : 0;
   const GridAxes screen = screen_axes(view);
   const Vec3d right = turned(frame.axes, screen[0]), up = turned(frame.axes, screen[1]);

@@ -19,6 +19,13 @@ namespace {
 /// Of the largest coordinates, each by its share in the normal: vertices of triangles are rounded to float, by 2^-25, and planes
 /// through others that were one plane may be off by a few times that.
 constexpr double flat_clearance = 0x1p-22;
+/// But of the way to the triangle's own edge, behind which another may stand at a sharp angle: rays that start near it must not
+/// start behind that one. Triangles that share an edge agree about it however near it is.
+constexpr double edge_clearance = 0x1p-6;
+/// Points keep so far from edges, of their coordinates, so that there is such a way, far longer than rays' starts are exact.
+constexpr double edge_inset = 0x1p-34;
+/// But no farther than this share of the triangle.
+constexpr double weight_least_max = 0x1p-8;
 /// Of the largest coordinate and radius: solved in double from rays that are exact to 2^-49.
 constexpr double curved_clearance = 0x1p-40;
 /// Of the ray's t, which is rounded to float: another surface may lie so much nearer.
@@ -28,10 +35,17 @@ double shared_by(const Vec3d& normal, const Vec3d& v) {
   return std::fabs(normal.x * v.x) + std::fabs(normal.y * v.y) + std::fabs(normal.z * v.z);
 }
 
-Clearance clearance_on_triangle(const HitState& state, const Vec3d& v0, const Vec3d& v1, const Vec3d& v2) {
+/// From a corner to the edge before it, at least; `area` is twice the triangle's.
+double height_of(const Vec3d& edge1, const Vec3d& edge2, double area) {
+  const Vec3d edge3 = edge2 - edge1;
+  return area / std::sqrt(std::max({dot(edge1, edge1), dot(edge2, edge2), dot(edge3, edge3)}));
+}
+
+Clearance clearance_on_triangle(const HitState& state, const Vec3d& v0, const Vec3d& edge1, const Vec3d& edge2, double height) {
   const Vec3d& n = state.geometric_normal;
-  const double clearance =
-      flat_clearance * std::max({shared_by(n, v0), shared_by(n, v1), shared_by(n, v2)}) + tie_clearance * double{state.hit.t};
+  const double rounding = flat_clearance * std::max({shared_by(n, v0), shared_by(n, v0 + edge1), shared_by(n, v0 + edge2)});
+  const double way_to_edge = std::max(std::min({state.u, state.v, 1.0 - state.u - state.v}) * height, 0.0);
+  const double clearance = std::min(rounding + tie_clearance * double{state.hit.t}, edge_clearance * way_to_edge);
   return {clearance, clearance, std::numeric_limits<double>::max()};
 }
 
@@ -60,17 +74,20 @@ Lane lane_of(const HitState& state, const std::byte* record) {
 /// Intersection", 1997; weights clamped, so that the point lies on the triangle even where the float test let the ray in by
 /// rounding.
 void triangle_geometry(HitState& state, const Lane& lane) {
-  const Vec3d v0 = lane.vector(0), v1 = lane.vector(3), v2 = lane.vector(6), edge1 = v1 - v0, edge2 = v2 - v0;
+  const Vec3d v0 = lane.vector(0), edge1 = lane.vector(3) - v0, edge2 = lane.vector(6) - v0, normal = cross(edge1, edge2);
+  const double area = length(normal), height = height_of(edge1, edge2, area);
   const Vec3d direction = state.ray.full_direction(), p = cross(direction, edge2);
   const double determinant = dot(edge1, p);
   if (determinant != 0.0) {
     const Vec3d from_v0 = state.ray.full_origin() - v0;
-    state.u = std::clamp(dot(from_v0, p) / determinant, 0.0, 1.0);
-    state.v = std::clamp(dot(direction, cross(from_v0, edge1)) / determinant, 0.0, 1.0 - state.u);
+    const double inset = edge_inset * largest_component(along(state.ray, double{state.hit.t}));
+    const double least = std::min(inset / height, weight_least_max);
+    state.u = std::clamp(dot(from_v0, p) / determinant, least, 1.0 - 2 * least);
+    state.v = std::clamp(dot(direction, cross(from_v0, edge1)) / determinant, least, 1.0 - least - state.u);
   }
   state.point = v0 + edge1 * state.u + edge2 * state.v;
-  state.geometric_normal = normalize(cross(edge1, edge2));
-  state.clearance = clearance_on_triangle(state, v0, v1, v2);
+  state.geometric_normal = normal * (1.0 / area);
+  state.clearance = clearance_on_triangle(state, v0, edge1, edge2, height);
 }
 
 void sphere_geometry(HitState& state, const Lane& lane) {

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "core/base/vec.h"
+#include "core/record/coordinate.h"
 
 namespace dmpc::core {
 
@@ -40,7 +41,7 @@ struct Ray {
 
   /// Sets `origin` and its rest.
   void start_at(const Vec3d& point) {
-    origin = Vec3f(point);
+    origin = coordinates_of(point);
     origin_rest = Vec3f(point - Vec3d(origin));
   }
   /// Sets `direction` and its rest.

@@ -17,6 +17,12 @@ namespace dmpc::core {
 GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double cells_per_primitive,
                     const GridAxes& axes = world_axes);
 
+/// Makes a place, in the directions of the frame's axes, local zero. The grid stays where it is.
+inline void move_zero(GridFrame& frame, const Vec3d& place) {
+  frame.low = frame.low + (frame.origin - place) * frame.scale;
+  frame.origin = place;
+}
+
 /// An eye farther from the grid's middle than so many of the grid's diagonals is far: its rays start within a diagonal of it, so
 /// that floats need not tell the way there.
 inline constexpr double far_eye_diagonals = 4;

@@ -85,6 +85,7 @@ struct RayBundle {
   Corner grid_size;                                ///< in finest cells
   Region region;                                   ///< in which they walk
   bool is_whole;                                   ///< that is the whole grid: nothing leaves it
+  Vec3d grid_low;                                  ///< where the grid begins
   double finest_cells;                             ///< a unit of length, in finest cells
 
   // Where they are.

@@ -257,6 +257,35 @@ HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) {
   return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
 }
 
+/// rest() of the ShearedRay of each ray from `first` on.
+HWY_INLINE Vector rests(const RayBundle& bundle, std::size_t first) {
+  alignas(64) std::array<float, step> rest;
+  for (std::size_t i = 0; i < step; ++i) {
+    const Vec3f& of_ray = bundle.rays[first + i < bundle.count ? first + i : 0].origin_rest;
+    rest[i] = largest_component(of_ray);
+  }
+  return hn::Load(Floats(), rest.data());
+}
+
+/// Of the rays `asked`, which pass the triangle from `first` on, those for which doubles judge and floats may be wrong.
+HWY_INLINE RayMask doubtful(const RayBundle& bundle, std::size_t first, RayMask asked, const Vertices& a, const Vertices& b,
+                            const Vertices& c, Vector least, Vector greatest) {
+  const Floats tag;
+  const auto limit = hn::Set(tag, near_edge);
+  const auto is_near =
+      hn::And(hn::Lt(hn::Min(hn::Min(a.z, b.z), c.z), limit), hn::Gt(hn::Max(hn::Max(a.z, b.z), c.z), hn::Neg(limit)));
+  asked &= bits_of(tag, is_near);
+  if (HWY_LIKELY(asked == 0)) {
+    return 0;
+  }
+  const auto across = [](const Vertices& v) { return hn::Max(hn::Abs(v.x), hn::Abs(v.y)); };
+  const Vector widest = hn::Max(hn::Max(across(a), across(b)), across(c));
+  const Vector deepest = hn::Max(hn::Max(hn::Abs(a.z), hn::Abs(b.z)), hn::Abs(c.z));
+  const Vector rounding = hn::Mul(hn::Set(tag, edge_rounding), hn::Max(widest, deepest));
+  const Vector bound = hn::Mul(hn::Add(rounding, hn::Mul(hn::Set(tag, rest_weight), rests(bundle, first))), widest);
+  return asked & bits_of(tag, hn::Le(hn::Min(hn::Neg(least), greatest), bound));
+}
+
 /// A hit in doubt, in the scalar twin.
 HWY_INLINE void hit_apart(RayBundle& bundle, const TriangleRows& triangles, Address block, std::size_t lane, std::uint32_t id,
                           std::size_t ray) {
@@ -276,8 +305,9 @@ HWY_INLINE void hit_triangle(RayBundle& bundle, const ShearedRays& rays, std::si
   const Vector u = edge(c, b), v = edge(a, c), w = edge(b, a), zero = hn::Zero(tag);
   const Vector least = hn::Min(hn::Min(u, v), w), greatest = hn::Max(hn::Max(u, v), w);
   const RayMask outside = bits_of(tag, hn::And(hn::Lt(least, zero), hn::Gt(greatest, zero)));
-  const RayMask on_edge = bits_of(tag, hn::Or(hn::Or(hn::Eq(u, zero), hn::Eq(v, zero)), hn::Eq(w, zero)));
-  if ((active & (~outside | on_edge)) == 0) {
+  const RayMask in_doubt = bits_of(tag, hn::Or(hn::Or(hn::Eq(u, zero), hn::Eq(v, zero)), hn::Eq(w, zero))) |
+                           doubtful(bundle, first, active & outside, a, b, c, least, greatest);
+  if ((active & (~outside | in_doubt)) == 0) {
     return;
   }
   const auto id = read<std::uint32_t>(triangles.ids() + lane * sizeof(std::uint32_t));
@@ -289,12 +319,12 @@ HWY_INLINE void hit_triangle(RayBundle& bundle, const ShearedRays& rays, std::si
   const RayMask others = active & ~bits_of(ids, ignored);
   const RayMask crossed = others & ~outside & ~bits_of(tag, hn::Eq(determinant, zero));
   const RayMask near = crossed & bits_of(tag, hn::Lt(hn::Abs(t), hn::Set(tag, near_start)));
-  RayMask doubtful = (on_edge & others) | near;
+  RayMask unsettled = (in_doubt & others) | near;
   const Vector best = hn::Load(tag, bundle.best.t.data() + first);
   const auto in_time = hn::And(hn::Gt(t, zero), hn::Lt(t, hn::Load(tag, bundle.t_max.data() + first)));
   const auto has_lower_id = hn::RebindMask(tag, hn::Gt(hn::Load(ids, bundle.best.primitive.data() + first), hn::Set(ids, id)));
   const auto is_nearer = hn::Or(hn::Lt(t, best), hn::And(hn::Eq(t, best), has_lower_id));
-  const RayMask hit = crossed & ~doubtful & bits_of(tag, hn::And(in_time, is_nearer));
+  const RayMask hit = crossed & ~unsettled & bits_of(tag, hn::And(in_time, is_nearer));
   if (hit != 0) {
     const auto takes = mask_of(tag, hit);
     const auto takes_ids = hn::RebindMask(ids, takes);
@@ -304,8 +334,8 @@ HWY_INLINE void hit_triangle(RayBundle& bundle, const ShearedRays& rays, std::si
     hn::BlendedStore(hn::Set(ids, static_cast<std::uint32_t>(lane)), takes_ids, ids, bundle.best.lane.data() + first);
     bundle.found |= hit << first;
   }
-  for (; doubtful != 0; doubtful &= doubtful - 1) {
-    hit_apart(bundle, triangles, block, lane, id, first + static_cast<std::size_t>(std::countr_zero(doubtful)));
+  for (; unsettled != 0; unsettled &= unsettled - 1) {
+    hit_apart(bundle, triangles, block, lane, id, first + static_cast<std::size_t>(std::countr_zero(unsettled)));
   }
 }
 

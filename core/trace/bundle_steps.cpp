@@ -96,6 +96,13 @@ HWY_INLINE void shear(RayBundle& bundle, std::size_t first) {
   }
 }
 
+/// Where rays start along an axis, from where the grid begins.
+HWY_INLINE hn::Vec<Doubles> from_grid(const RayBundle& bundle, std::size_t axis, std::size_t first) {
+  const Doubles tag;
+  const HalfFloats half;
+  return hn::Sub(hn::PromoteTo(tag, hn::Load(half, bundle.origin[axis].data() + first)), hn::Set(tag, bundle.grid_low[axis]));
+}
+
 /// Walk's constructor, of the rays from `first` on.
 HWY_INLINE void find_planes(RayBundle& bundle, const GridFrame& frame, std::size_t first) {
   const Doubles tag;
@@ -108,7 +115,7 @@ HWY_INLINE void find_planes(RayBundle& bundle, const GridFrame& frame, std::size
     const auto nonzero = hn::IfThenElse(counts, d, hn::CopySign(small, d));
     const auto reciprocal = hn::Div(hn::Set(tag, 1.0), hn::PromoteTo(tag, nonzero));
     hn::Store(hn::DemoteTo(half, reciprocal), half, bundle.reciprocal[axis].data() + first);
-    const auto origin = hn::PromoteTo(tag, hn::Load(half, bundle.origin[axis].data() + first));
+    const auto origin = from_grid(bundle, axis, first);
     const RayMask forward = bits_of(half, is_forward), backward = bits_of(half, is_backward);
     const auto steps = mask_of(tag, forward | backward);
     const auto slope = hn::Mul(hn::Set(tag, double{frame.finest_cell}), reciprocal);
@@ -170,7 +177,7 @@ std::int32_t locate(const RayBundle& bundle, std::size_t ray, std::size_t axis, 
 HWY_INLINE hn::Vec<Doubles> place(const RayBundle& bundle, std::size_t axis, std::size_t first, hn::Vec<Doubles> t) {
   const Doubles tag;
   const HalfFloats half;
-  const auto origin = hn::PromoteTo(tag, hn::Load(half, bundle.origin[axis].data() + first));
+  const auto origin = from_grid(bundle, axis, first);
   const auto direction = hn::PromoteTo(tag, hn::Load(half, bundle.direction[axis].data() + first));
   const RayMask steps = (bundle.forward[axis] | bundle.backward[axis]) >> first;
   const auto along = hn::IfThenElse(mask_of(tag, steps), hn::Add(origin, hn::Mul(t, direction)), origin);
@@ -215,7 +222,7 @@ Corner finest_cell_of(const RayBundle& bundle, std::size_t ray, std::size_t entr
     }
     const std::int32_t low = bundle.cells[axis][ray], high = std::min(low + finest_per_top, bundle.grid_size[axis]);
     const bool steps = ((bundle.forward[axis] | bundle.backward[axis]) >> ray & 1U) != 0;
-    const double origin{bundle.origin[axis][ray]}, t = bundle.t_enter[ray];
+    const double origin = double{bundle.origin[axis][ray]} - bundle.grid_low[axis], t = bundle.t_enter[ray];
     const double place = (steps ? origin + t * double{bundle.direction[axis][ray]} : origin) * bundle.finest_cells;
     const double guess = std::clamp(place, static_cast<double>(low), static_cast<double>(high - 1));
     finest[axis] = locate(bundle, ray, axis, t, static_cast<std::int32_t>(guess), {low, high}, entry_axis);
@@ -301,7 +308,7 @@ HWY_INLINE RayMask enter_grid(RayBundle& bundle, std::size_t first) {
   auto sum = zero, t_enter = zero, t_exit = hn::PromoteTo(tag, hn::Load(half, bundle.t_max.data() + first));
   RayMask inside = first_bits(lanes_of<Doubles>());
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto origin = hn::PromoteTo(tag, hn::Load(half, bundle.origin[axis].data() + first));
+    const auto origin = from_grid(bundle, axis, first);
     sum = hn::Add(sum, hn::Add(origin, hn::PromoteTo(tag, hn::Load(half, bundle.direction[axis].data() + first))));
     const RayMask forward = bundle.forward[axis] >> first, steps = forward | bundle.backward[axis] >> first;
     const auto is_forward = mask_of(tag, forward), has_step = mask_of(tag, steps);
@@ -327,6 +334,7 @@ void enter(RayBundle& bundle, const GridFrame& frame, const Region& region) {
   bundle.grid_size = grid_size(frame);
   bundle.region = region;
   bundle.is_whole = region == Region{.high = bundle.grid_size};
+  bundle.grid_low = frame.low;
   bundle.finest_cells = 1.0 / double{frame.finest_cell};
   clear(bundle);
   load(bundle);

@@ -119,6 +119,25 @@ HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) {
   return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
 }
 
+/// Those that the ray passes where doubles judge and floats may be wrong, of those `outside`.
+HWY_INLINE hn::Mask<Tag> doubtful(const ShearedRay& ray, const Vertices& a, const Vertices& b, const Vertices& c, Vector least,
+                                  Vector greatest, hn::Mask<Tag> outside) {
+  const Tag tag;
+  const auto limit = hn::Set(tag, near_edge);
+  const auto is_near =
+      hn::And(hn::Lt(hn::Min(hn::Min(a.z, b.z), c.z), limit), hn::Gt(hn::Max(hn::Max(a.z, b.z), c.z), hn::Neg(limit)));
+  const auto asked = hn::And(outside, is_near);
+  if (HWY_LIKELY(hn::AllFalse(tag, asked))) {
+    return asked;
+  }
+  const auto across = [](const Vertices& v) { return hn::Max(hn::Abs(v.x), hn::Abs(v.y)); };
+  const Vector widest = hn::Max(hn::Max(across(a), across(b)), across(c));
+  const Vector deepest = hn::Max(hn::Max(hn::Abs(a.z), hn::Abs(b.z)), hn::Abs(c.z));
+  const Vector rounding = hn::Mul(hn::Set(tag, edge_rounding), hn::Max(widest, deepest));
+  const Vector bound = hn::Mul(hn::Add(rounding, hn::Set(tag, rest_weight * ray.rest())), widest);
+  return hn::And(asked, hn::Le(hn::Min(hn::Neg(least), greatest), bound));
+}
+
 std::uint32_t triangles(const ShearedRay& ray, const TriangleRows& block, std::uint32_t ignored, float t_most, float* times) {
   const Tag tag;
   const hn::Rebind<std::uint32_t, Tag> id_tag;
@@ -130,8 +149,9 @@ std::uint32_t triangles(const ShearedRay& ray, const TriangleRows& block, std::u
   const Vector least = hn::Min(hn::Min(u, v), w), greatest = hn::Max(hn::Max(u, v), w);
   const auto outside = hn::And(hn::Lt(least, zero), hn::Gt(greatest, zero));
   const auto on_edge = hn::Or(hn::Or(hn::Eq(u, zero), hn::Eq(v, zero)), hn::Eq(w, zero));
+  const auto in_doubt = hn::Or(on_edge, doubtful(ray, a, b, c, least, greatest, outside));
   const auto real = hn::FirstN(tag, count);  // lanes behind the row's end hold other rows' values
-  if (hn::AllFalse(tag, hn::And(real, hn::Or(hn::Not(outside), on_edge)))) {
+  if (hn::AllFalse(tag, hn::And(real, hn::Or(hn::Not(outside), in_doubt)))) {
     return 0;
   }
   const Vector determinant = hn::Add(hn::Add(u, v), w);
@@ -145,7 +165,7 @@ std::uint32_t triangles(const ShearedRay& ray, const TriangleRows& block, std::u
   const auto in_time = hn::And(hn::Gt(t, zero), hn::Le(t, hn::Set(tag, t_most)));
   const auto near = hn::And(crossed, hn::Lt(hn::Abs(t), hn::Set(tag, near_start)));
   std::uint32_t hits = bits_of(hn::And(crossed, in_time));
-  std::uint32_t rest = bits_of(hn::Or(hn::And(on_edge, others), near));
+  std::uint32_t rest = bits_of(hn::Or(hn::And(in_doubt, others), near));
   for (; rest != 0; rest &= rest - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
     times[lane] = intersect_triangle(ray, rows, count, lane);

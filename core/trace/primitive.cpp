@@ -89,15 +89,36 @@ struct SeenTriangle {
   }
 };
 
+/// Distances that differ by less than this share are the same but for rounding.
+constexpr double same_distance = 0x1p-20;
+
 float rounded(double t) { return static_cast<float>(t); }
 
 /// A t next to 0, of a triangle that floats let the ray cross, as doubles have it.
 float judged(float t, const SeenTriangle& seen) {
   const double exact = seen.plane_distance();
-  if (exact > 0.0 && exact < near_edge && !seen.is_crossed()) {
+  if (!(exact > 0.0) || (exact < double{near_edge} && !seen.is_crossed())) {
     return missed;
   }
-  return (exact > 0.0) == (t > 0.0F) ? t : exact > 0.0 ? rounded(exact) : missed;
+  return std::fabs(exact - double{t}) <= same_distance * exact ? t : rounded(exact);
+}
+
+/// Of a triangle that floats let the ray pass at an edge.
+float judged_outside(const SeenTriangle& seen) {
+  const double exact = seen.plane_distance();
+  return exact > 0.0 && exact < double{near_edge} && seen.is_crossed() ? rounded(exact) : missed;
+}
+
+/// Whether floats may be wrong about a triangle that the ray passes where doubles judge: see near_edge.
+bool is_doubtful(const ShearedRay& ray, const ShearedVertex& a, const ShearedVertex& b, const ShearedVertex& c, float least,
+                 float greatest) {
+  if (!(std::min(std::min(a.z, b.z), c.z) < near_edge && std::max(std::max(a.z, b.z), c.z) > -near_edge)) {
+    return false;
+  }
+  const auto across = [](const ShearedVertex& v) { return std::max(std::fabs(v.x), std::fabs(v.y)); };
+  const float widest = std::max(std::max(across(a), across(b)), across(c));
+  const float deepest = std::max(std::max(std::fabs(a.z), std::fabs(b.z)), std::fabs(c.z));
+  return std::min(-least, greatest) <= (edge_rounding * std::max(widest, deepest) + rest_weight * ray.rest()) * widest;
 }
 
 }  // namespace
@@ -118,13 +139,14 @@ float intersect_triangle(const ShearedRay& ray, const float* rows, std::size_t s
   const ShearedVertex a(ray, rows + lane, stride), b(ray, rows + 3 * stride + lane, stride),
       c(ray, rows + 6 * stride + lane, stride);
   float u = edge(c, b), v = edge(a, c), w = edge(b, a);
+  const float least = std::min(std::min(u, v), w), greatest = std::max(std::max(u, v), w);
   if (u == 0.0F || v == 0.0F || w == 0.0F) {
     u = exact_edge(c, b);
     v = exact_edge(a, c);
     w = exact_edge(b, a);
   }
   if (outside(u, v, w)) {
-    return missed;
+    return is_doubtful(ray, a, b, c, least, greatest) ? judged_outside(SeenTriangle(ray, rows + lane, stride)) : missed;
   }
   const float determinant = u + v + w;
   if (determinant == 0.0F) {
@@ -138,9 +160,9 @@ float intersect_triangle(const ShearedRay& ray, const float* rows, std::size_t s
 
 namespace {
 
-/// In a quick look, by floats alone, ray and surface may lie nearer to each other than they seem, by this share of coordinates:
-/// more than all that their rests add up to.
-constexpr double rests_share = 0x1p-20;
+/// In a quick look, by floats alone, ray and surface may lie nearer to each other than they seem: `size` is the sum of their
+/// coordinates, of which all their rests are a share but for those next to zero.
+double reach_of_rests(double size) { return 0x1p-20 * size + 2 * coordinate_step; }
 
 Vec3d row_vector(const float* rows, std::size_t stride, std::size_t lane, std::size_t row) {
   return {double{rows[row * stride + lane]}, double{rows[(row + 1) * stride + lane]}, double{rows[(row + 2) * stride + lane]}};
@@ -151,7 +173,7 @@ bool passes_sphere(const Ray& ray, const float* rows, std::size_t stride, std::s
   const Vec3d center = row_vector(rows, stride, lane, 0), d(ray.direction), to_origin = Vec3d(ray.origin) - center;
   const Vec3d away = cross(to_origin, d);
   const double radius = std::fabs(double{rows[3 * stride + lane]});
-  const double reach = radius + rests_share * (radius + largest_component(center) + largest_component(to_origin));
+  const double reach = radius + reach_of_rests(radius + largest_component(center) + largest_component(to_origin));
   return dot(away, away) > reach * reach * dot(d, d);
 }
 
@@ -161,7 +183,7 @@ bool passes_cone(const Ray& ray, const float* rows, std::size_t stride, std::siz
   const Vec3d d(ray.direction), to_origin = Vec3d(ray.origin) - base, across = cross(d, axis);
   const double radius = std::max(std::fabs(double{rows[3 * stride + lane]}), std::fabs(double{rows[7 * stride + lane]}));
   const double reach =
-      radius + rests_share * (radius + largest_component(base) + largest_component(axis) + largest_component(to_origin));
+      radius + reach_of_rests(radius + largest_component(base) + largest_component(axis) + largest_component(to_origin));
   const double off = dot(to_origin, across), area = dot(across, across);
   return area > 1e-6 * dot(axis, axis) && off * off > reach * reach * area;
 }

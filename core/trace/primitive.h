@@ -17,6 +17,9 @@ struct ShearedRay {
              std::uint32_t z)
       : origin(start), origin_rest(rest), shear_x(x_shear), shear_y(y_shear), scale_z(z_scale), axis_x(x), axis_y(y), axis_z(z) {}
 
+  /// How far the ray starts from where its floats say, along any axis.
+  float rest() const { return largest_component(origin_rest); }
+
   Vec3f origin, origin_rest;
   float shear_x, shear_y, scale_z;
   std::uint32_t axis_x, axis_y, axis_z;  ///< which coordinate plays x, y, z; axis_z is the direction's largest
@@ -26,9 +29,14 @@ struct ShearedRay {
 /// triangle of length E and area A by E^3 / A times as much.
 inline constexpr float near_start = 0x1p-10F;
 
-/// Nearer than this a triangle is hit only where doubles say so, too: a ray that starts next to an edge must not meet, from
-/// within, the triangle behind that edge. Less than near_start by more than t is off, so that neighbours are judged alike.
-inline constexpr double near_edge = 0x1p-12;
+/// Nearer than this a triangle is hit where doubles say so, whatever floats say: a ray that starts next to an edge must not meet,
+/// from within, the triangle behind that edge, nor fall between two that share one because each is asked of another arithmetic.
+/// Less than near_start by more than t is off, so that neighbours are judged alike.
+inline constexpr float near_edge = 0x1p-12F;
+/// Edge functions in floats are off by less than (edge_rounding * R + rest_weight * rest) * W, where W is the triangle's largest
+/// coordinate across the ray, R any of its largest, as seen from where the ray starts: 140 u R W (apps/oracle/encounter.cpp), and
+/// what the start's rest moves an edge by.
+inline constexpr float edge_rounding = 160 * 0x1p-24F, rest_weight = 8;
 
 /// The t of a ray that misses: never in (0, t_max).
 inline constexpr float missed = -1.0F;

@@ -49,7 +49,7 @@ std::int32_t settle(std::int32_t cell, std::int32_t low, std::int32_t high, std:
 class RayPlanes {
  public:
   RayPlanes(const Ray& ray, const GridFrame& frame)
-      : origin_(ray.origin),
+      : origin_(Vec3d(ray.origin) - frame.low),
         direction_(ray.direction),
         reciprocal_(reciprocal_direction(ray)),
         finest_cells_(1.0 / double{frame.finest_cell}) {
@@ -60,7 +60,7 @@ class RayPlanes {
         step_[axis] = d >= 0.0F ? 1 : -1;
       }
       if constexpr (mutation == Mutation::world_coordinates) {
-        origin_[axis] = in_world_coordinates(origin_[axis], frame.origin[axis] * frame.scale);
+        origin_[axis] = in_world_coordinates(origin_[axis], frame.origin[axis] * frame.scale + frame.low[axis]);
       }
       if (step_[axis] != 0) {
         slope_[axis] = double{frame.finest_cell} * reciprocal_[axis];
@@ -113,7 +113,8 @@ class RayPlanes {
     return double{static_cast<float>(local + grid_origin)} - double{static_cast<float>(grid_origin)};
   }
 
-  Vec3d origin_, direction_, reciprocal_;
+  Vec3d origin_;  ///< from where the grid begins
+  Vec3d direction_, reciprocal_;
   std::array<double, 3> slope_{}, offset_{};
   std::array<std::int32_t, 3> step_{};
   double finest_cells_;  ///< a unit of length, in finest cells

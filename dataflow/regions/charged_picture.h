@@ -24,7 +24,8 @@ concept Charge = std::invocable<T&, const core::Corner&, std::uint64_t>;
 inline core::Corner finest_cell_at(const core::Ray& ray, double t, const core::Region& within, const core::GridFrame& frame) {
   core::Corner finest;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double along = (double{ray.origin[axis]} + t * double{ray.direction[axis]}) / double{frame.finest_cell};
+    const double at = double{ray.origin[axis]} + t * double{ray.direction[axis]};
+    const double along = (at - core::plane_at(frame, axis, 0)) / double{frame.finest_cell};
     const double low = within.low[axis], high = within.high[axis] - 1;
     finest[axis] = static_cast<std::int32_t>(std::clamp(along, low, high));
   }

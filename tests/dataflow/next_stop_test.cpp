@@ -100,7 +100,7 @@ TEST_CASE("a ray that passes empty regions ends with the bits that it has when e
     core::Ray ray;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double extent = static_cast<double>(size[axis]) * double{frame.finest_cell};
-      ray.origin[axis] = static_cast<float>(extent * (1.6 * random.unit() - 0.3));
+      ray.origin[axis] = static_cast<float>(core::plane_at(frame, axis, 0) + extent * (1.6 * random.unit() - 0.3));
       ray.direction[axis] = i % 5 == static_cast<int>(axis) ? 0.0F : static_cast<float>(2 * random.unit() - 1);
     }
     if (const auto first = core::first_passage(ray, frame)) {
@@ -126,7 +126,7 @@ TEST_CASE("a ray that passes regions where the outline says that it meets nothin
     core::Ray ray;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double extent = static_cast<double>(core::grid_size(frame)[axis]) * double{frame.finest_cell};
-      ray.origin[axis] = static_cast<float>(extent * (1.6 * random.unit() - 0.3));
+      ray.origin[axis] = static_cast<float>(core::plane_at(frame, axis, 0) + extent * (1.6 * random.unit() - 0.3));
       ray.direction[axis] = i % 5 == static_cast<int>(axis) ? 0.0F : static_cast<float>(2 * random.unit() - 1);
     }
     ray.t_max = i % 3 == 0 ? static_cast<float>(random.unit()) : ray.t_max;

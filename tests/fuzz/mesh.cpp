@@ -47,7 +47,7 @@ bool is_ordinary(const core::Database& database, const Ray& ray) {
   }
   const double extent = std::max({size.x, size.y, size.z});
   const double distance_max = ((database.pad() / extent - 1e-6) * 0x1p21 - 1) * extent;
-  const double distance = length(core::Vec3d(ray.origin) - size * 0.5);
+  const double distance = length(core::Vec3d(ray.origin) - frame.low - size * 0.5);
   return std::fabs(length(core::Vec3d(ray.direction)) - 1) < 1e-6 && distance <= distance_max;
 }
 

@@ -25,6 +25,7 @@ class MeshRays {
     core::Ray ray = aimed();
     constexpr std::array<float, 8> extents_back{0, 0, 0, 1, 3, 100, 1000, 1e6F};
     ray.origin = ray.origin - ray.direction * extents_back[bytes_.below(extents_back.size())];
+    ray.origin = core::coordinates_of(core::Vec3d(ray.origin));  // as all rays start
     ray.t_max = end();
     if (bytes_.byte() % 4 == 1) {
       ray.ignored_primitive = triangle();
@@ -91,7 +92,7 @@ class MeshRays {
     const int cells = frame.resolution[axis] * core::finest_per_cell;
     constexpr std::array<int, 5> spans{1, 4, 16, core::finest_per_cell, core::finest_per_top};
     const int span = spans[bytes_.below(spans.size())];
-    return double{frame.finest_cell} * (bytes_.word() % cells & -span);
+    return core::plane_at(frame, axis, bytes_.word() % cells & -span);
   }
 
   core::Vec3d on_primitive() {

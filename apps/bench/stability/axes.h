@@ -67,14 +67,14 @@ inline double awkward(const core::Database& database, std::size_t axis, Random& 
     case 0: {
       constexpr std::array<std::size_t, 5> spans{1, 4, 16, core::finest_per_cell, core::finest_per_top};
       const std::size_t plane = random.below(static_cast<std::size_t>(cells)), span = spans[random.below(spans.size())];
-      return double{frame.finest_cell} * static_cast<double>(plane - plane % span);
+      return core::plane_at(frame, axis, static_cast<std::int32_t>(plane - plane % span));
     }
     case 1:
       return to_local(frame, random.bits() % 2 == 0 ? core::Vec3d{-1, -1, -1} : core::Vec3d{1, 1, 1})[axis];
     case 2:
       return to_local(frame, core::Vec3d{0.25, 0.25, 0.25})[axis];
     default:
-      return random.between(0, double{frame.finest_cell} * cells);
+      return random.between(core::plane_at(frame, axis, 0), core::plane_at(frame, axis, cells));
   }
 }
 

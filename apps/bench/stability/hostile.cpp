@@ -89,7 +89,7 @@ Ray usual_ray(const core::Database& database, Random& random) {
   const auto point = [&] {
     Vec3d at = random.in_box(0, double{frame.finest_cell} * core::finest_per_cell);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      at[axis] *= frame.resolution[axis];
+      at[axis] = core::plane_at(frame, axis, 0) + at[axis] * frame.resolution[axis];
     }
     return at;
   };

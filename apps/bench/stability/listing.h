@@ -22,7 +22,7 @@ class Listing {
     std::array<std::int32_t, 3> cell{};
     const core::GridFrame& frame = database_->header().frame;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double place = std::floor(at[axis] / double{frame.finest_cell});
+      const double place = std::floor((at[axis] - core::plane_at(frame, axis, 0)) / double{frame.finest_cell});
       if (!(place >= 0 && place < frame.resolution[axis] * core::finest_per_cell)) {
         return {};
       }

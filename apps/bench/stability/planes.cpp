@@ -28,7 +28,7 @@ long double distance_from(const Ray& ray, const core::GridFrame& frame, const Co
   const auto edge = static_cast<long double>(frame.finest_cell);
   long double most = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const long double low = edge * static_cast<long double>(cell[axis]);
+    const long double low = static_cast<long double>(frame.low[axis]) + edge * static_cast<long double>(cell[axis]);
     most = std::max({most, low - at[axis], at[axis] - low - edge});
   }
   return most;

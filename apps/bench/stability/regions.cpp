@@ -57,7 +57,7 @@ core::Scene walls_in_planes(const core::GridFrame& frame) {
     const auto plane =
         slice * static_cast<std::int32_t>(random.below(slices_per_cell * static_cast<std::size_t>(frame.resolution[axis])));
     Vec3d corner{random.between(-1, 1), random.between(-1, 1), random.between(0, 0.3)};
-    corner[axis] = frame.origin[axis] + plane * double{frame.finest_cell} / frame.scale;
+    corner[axis] = frame.origin[axis] + core::plane_at(frame, axis, plane) / frame.scale;
     const auto at = [&](double along_u, double along_v) {
       Vec3d p = corner;
       p[u] += along_u;

@@ -38,8 +38,8 @@ ShootRays rays_in(const Scene& scene, std::uint64_t referee_interval, MakeRay ma
 Vec3d anywhere(const StabilitySubject& subject, Random& random) {
   Vec3d at;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    at[axis] = random.between(-0.5, 1.5) * subject.frame().resolution[axis] * double{subject.frame().finest_cell} *
-               core::finest_per_cell;
+    const double extent = subject.frame().resolution[axis] * double{subject.frame().finest_cell} * core::finest_per_cell;
+    at[axis] = core::plane_at(subject.frame(), axis, 0) + random.between(-0.5, 1.5) * extent;
   }
   return at;
 }

@@ -8,6 +8,7 @@
 #include "core/base/sampling.h"
 #include "core/picture/film.h"
 #include "core/picture/render.h"
+#include "core/record/coordinate.h"
 #include "core/scene/frame.h"
 
 namespace dmpc::apps {
@@ -135,7 +136,7 @@ bool same_values(const AccurateBody& body, const core::PrimitiveValues& values, 
     return values.kind == body.kind;
   }
   for (std::size_t corner = 0; corner < 3; ++corner) {
-    const core::Vec3f rounded(to_local(frame, body.place[corner]));
+    const core::Vec3f rounded = core::coordinates_of(to_local(frame, body.place[corner]));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (rounded[axis] != values.value[3 * corner + axis]) {
         return false;

@@ -9,13 +9,22 @@ namespace {
 using core::RayKind;
 using core::Vec3d;
 
-/// How far a secondary ray starts from its surface, in sizes of the scene. A point is computed to some 1e-16 of its coordinates,
-/// so this suffices for scenes up to a million times their size away from the origin, and shifts a shadow by no more than it.
-constexpr double start_gap = 1e-9;
+/// How far a secondary ray starts from its surface: of the body's coordinates, as a point is computed to some 1e-16 of them, and
+/// of its radius, next to which a ray that grazes it meets it again. Nothing else in the scene, however large, moves a shadow.
+constexpr double flat_gap = 1e-13, curved_gap = 1e-9;
 /// A shadow ray ends this share of its length before the light, so that a surface through the light does not hide it.
 constexpr double light_gap = 1e-9;
 
 Vec3d mirrored(const Vec3d& direction, const Vec3d& normal) { return direction - normal * (2 * dot(direction, normal)); }
+
+double start_gap(const AccurateBody& body) {
+  double coordinate = 0;
+  for (const Vec3d& place : body.place) {
+    coordinate = std::max(coordinate, largest_component(place));
+  }
+  const double radius = std::max(std::fabs(body.radius[0]), std::fabs(body.radius[1]));
+  return flat_gap * (coordinate + radius) + curved_gap * radius;
+}
 
 /// In single precision, as the product judges it.
 bool brings_nothing(const AccurateRay& shadow) { return core::Color(shadow.weight) == core::Color{}; }
@@ -119,7 +128,7 @@ Vec3d AccurateTracer::painted(const Touch& touch) const {
 AccurateRay AccurateTracer::child(const Touch& touch, const Vec3d& towards, RayKind kind) const {
   const double side = dot(towards, touch.surface.normal) < 0 ? -1 : 1;
   AccurateRay ray;
-  ray.origin = touch.surface.point + touch.surface.normal * (side * start_gap * scene_.size);
+  ray.origin = touch.surface.point + touch.surface.normal * (side * start_gap(scene_.bodies[touch.body]));
   ray.direction = normalize(towards);
   ray.ignored_body = touch.body;
   ray.weight = touch.ray.weight;

@@ -279,6 +279,7 @@ Json database_json(const core::Database& database) {
           {"primitives", database.header().primitive_count},
           {"references", database.references()},
           {"dropped", database.dropped()},
+          {"collapsed", database.collapsed().size()},
           {"bricks", records.bricks},
           {"triangle_blocks", block_count(core::PrimitiveKind::triangle)},
           {"sphere_blocks", block_count(core::PrimitiveKind::sphere)},

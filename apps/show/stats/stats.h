@@ -46,9 +46,9 @@ namespace dmpc::apps {
 ///                  rule all there are on machines of up to 32 nodes, though a crossbar has more. A wait counts for the link that
 ///                  became free last. The ends are "node 3", "host", "switch 0", "place 9" (a router without a node) and, of
 ///                  memory ports, "memory 3"
-///   database       bytes, pages, page_size, primitives, references, dropped; records by kind: bricks, triangle_blocks,
-///                  sphere_blocks, cone_blocks, normals (of smooth triangles), textured (triangles), texture_tiles, materials,
-///                  lights
+///   database       bytes, pages, page_size, primitives, references, dropped, collapsed (of those, what rounding left nothing
+///                  of); records by kind: bricks, triangle_blocks, sphere_blocks, cone_blocks, normals (of smooth triangles),
+///                  textured (triangles), texture_tiles, materials, lights
 ///   packets        sent, received, bytes, overflow (by way of the host), and by_kind: packets and bytes
 ///   pages          references, hits, home_hits, cache_hits, misses, faults, evictions, served, distinct, distinct_per_pixel
 ///   work           pixels (over all passes), items_asked, items_taken, items_given

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <string>
 
 #include "apps/scene/load_scene.h"
 
@@ -27,6 +28,16 @@ TEST_CASE("a subject's page size, order of records and axes are those asked for"
   CHECK(world.database.page_size() == 512);
   CHECK_FALSE(std::ranges::equal(world.database.bytes(), scattered.database.bytes()));
   CHECK(world.settings.camera.primary_ray(0, 0).direction != screen.settings.camera.primary_ray(0, 0).direction);
+}
+
+TEST_CASE("what rounding takes is told in pixels") {
+  CHECK(loss_text({}).empty());
+  CHECK(loss_text({.moved = 2, .moved_pixels = 0.25}) ==
+        "2 primitives may be off by up to 0.25 pixels, as coordinates are rounded beside something so large: bring the scene's "
+        "parts nearer to each other or nearer in size, or view it from farther away");
+  CHECK(loss_text({.collapsed = 1, .collapsed_pixels = 3}).find("1 primitive is left out, too small") == 0);
+  CHECK(loss_text({.moved = 1, .moved_pixels = 1, .collapsed = 2, .collapsed_pixels = 3})
+            .find("up to 3 pixels across; 1 primitive may") != std::string::npos);
 }
 
 TEST_CASE("what was left out is told in good grammar") {

@@ -62,7 +62,7 @@ BrickTree tree_of(const std::vector<PrimitiveValues>& primitives, int levels_max
   std::vector<std::uint32_t> ids(primitives.size());
   std::iota(ids.begin(), ids.end(), 0U);
   const Parallel serial(1);
-  return BrickBuilder(primitives, 0.0, 1e18F, serial, levels_max).build({0, 0, 0}, ids);
+  return BrickBuilder(primitives, 0.0, {.finest_cell = 1e18F}, serial, levels_max).build({0, 0, 0}, ids);
 }
 
 int levels_of(const BrickDraft& draft) {

@@ -20,7 +20,8 @@ std::size_t differences(const Database& database, std::size_t count) {
   const auto anywhere = [&] {
     Vec3d at;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      at[axis] = random.between(-0.5, 1.5) * frame.resolution[axis] * double{frame.finest_cell} * finest_per_cell;
+      at[axis] = plane_at(frame, axis, 0) +
+                 random.between(-0.5, 1.5) * frame.resolution[axis] * double{frame.finest_cell} * finest_per_cell;
     }
     return at;
   };

@@ -32,7 +32,7 @@ core::Ray random_ray(apps::Random& random, const core::GridFrame& frame) {
   core::Ray ray;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double extent = static_cast<double>(core::grid_size(frame)[axis]) * double{frame.finest_cell};
-    ray.origin[axis] = static_cast<float>(extent * (1.6 * random.unit() - 0.3));
+    ray.origin[axis] = static_cast<float>(core::plane_at(frame, axis, 0) + extent * (1.6 * random.unit() - 0.3));
     ray.direction[axis] = static_cast<float>(2 * random.unit() - 1);
   }
   return ray;

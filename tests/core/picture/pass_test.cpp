@@ -74,7 +74,7 @@ core::Ray random_ray(const core::GridFrame& frame, Random& random) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto cells = static_cast<std::int32_t>(random.below(static_cast<std::size_t>(size[axis]) + 200)) - 100;
     const double fraction = kind == 0 ? 0.0 : random.unit();
-    ray.origin[axis] = static_cast<float>((cells + fraction) * double{frame.finest_cell});
+    ray.origin[axis] = static_cast<float>(plane_at(frame, axis, cells) + fraction * double{frame.finest_cell});
     ray.direction[axis] =
         kind < 2 ? static_cast<float>(static_cast<std::int32_t>(random.below(3)) - 1) : static_cast<float>(random.between(-1, 1));
   }
@@ -107,7 +107,7 @@ TEST_CASE("a ray that passes a region ends there if its candidate or its end lie
   const core::Database database = core::build_database(built_in("tetra-4"), {});
   const core::GridFrame& frame = database.header().frame;
   core::Ray ray;
-  ray.origin = {-1.0F, 0.3F, 0.3F};
+  ray.origin = core::Vec3f(frame.low + core::Vec3d{-1, 0.3, 0.3});
   ray.direction = {1, 0, 0};
   core::Passage passage = *core::first_passage(ray, frame);
   const core::Region box{{0, 0, 0}, {50, core::grid_size(frame)[1], core::grid_size(frame)[2]}};

@@ -230,10 +230,11 @@ TEST_CASE("a ray starts along its way off the point of the hit, and off what it 
   const Database database = database_of(floor_scene({.specular = 1}, {}));
   const GridFrame& frame = database.header().frame;
   for (const double rise : {1.0, 0.2, 1e-2, 1e-5}) {
-    const Ray parent = towards_middle(database, {-0.7, 0.1, 0.7 * rise});
+    const Vec3d target{0.3, -0.2, 0};  // on no edge
+    const Ray parent = ray_through(to_local(frame, target + Vec3d{-0.7, 0.1, 0.7 * rise}), to_local(frame, target));
     const auto mirrored = shaded(database, parent).of(RayKind::reflected);
     REQUIRE(mirrored.size() == 1);
-    const Vec3d start = mirrored[0].full_origin() - to_local(frame, {0, 0, 0}), along = mirrored[0].full_direction();
+    const Vec3d start = mirrored[0].full_origin() - to_local(frame, target), along = mirrored[0].full_direction();
     const double off = length(start - along * dot(start, along));
     CHECK(start.z >= 0x1p-27);
     CHECK(length(start) < 0x1p-16);

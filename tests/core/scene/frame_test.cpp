@@ -25,7 +25,7 @@ double cells(const GridFrame& frame) {
 
 /// The box lies inside the grid, a margin from every side.
 void check_covers(const GridFrame& frame, const Box& box) {
-  const Vec3d low = to_local(frame, box.low), high = to_local(frame, box.high);
+  const Vec3d low = to_local(frame, box.low) - frame.low, high = to_local(frame, box.high) - frame.low;
   const double cell = double{frame.finest_cell} * finest_per_cell;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     CHECK(low[axis] > 0.07 * cell);
@@ -70,6 +70,7 @@ TEST_CASE("a scene scaled by a power of two gets the same grid to the last bit")
       REQUIRE(scaled.finest_cell == frame.finest_cell);
       REQUIRE(scaled.scale * factor == frame.scale);
       REQUIRE(scaled.origin == frame.origin * factor);
+      REQUIRE(scaled.low == frame.low);
     }
   }
 }
@@ -90,7 +91,7 @@ TEST_CASE("a scene that is tiny for its distance gets as much room as rounding t
       for (const Vec3d& center : {Vec3d{0, 0, far}, Vec3d{-far, 0.5, 0.5}, Vec3d{far, far, -far}}) {
         const Vec3d half{radius, radius, radius};
         const GridFrame frame = fit_frame(box_of(center - half, center + half), 10, 0.125);
-        const Vec3d local = to_local(frame, center), reach = half * frame.scale;
+        const Vec3d local = to_local(frame, center) - frame.low, reach = half * frame.scale;
         check_covers(frame, {center, center});
         for (std::size_t axis = 0; axis < 3; ++axis) {
           CHECK(local[axis] - reach[axis] > 0);

@@ -1,10 +1,12 @@
 // Closed meshes hold every ray that starts inside them.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "apps/bench/stability/mesh.h"
 #include "apps/bench/stability/random.h"
+#include "apps/bench/stability/rays.h"
 #include "apps/bench/stability/targets.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
@@ -48,11 +50,37 @@ std::size_t leaks(const Mesh& mesh, const Vec3d& center, double reach, std::size
   return leaks(database_of(seen_from(scene_of(mesh), 1)), origins);
 }
 
+/// From next to the edge that two sides of a cube share, or halves of one, at a point of it.
+Ray ray_at_edge(const Database& database, Random& random) {
+  const PrimitiveValues& triangle = database.primitives()[random.below(database.primitives().size())];
+  const std::size_t first = random.below(3);
+  const Vec3d a = point_of(triangle, 3 * first), b = point_of(triangle, 3 * ((first + 1) % 3));
+  const Vec3d at = a + (b - a) * random.between(0.01, 0.99), inwards = to_local(database.header().frame, {}) - at;
+  Ray ray;
+  ray.start_at(at + (normalize(inwards) + random.direction() * 0.3) * std::pow(2.0, -random.between(10, 24)));
+  ray.go_along(normalize(at - ray.full_origin()));
+  return ray;
+}
+
 constexpr Vec3d far_away{148376, 1234, -223423};
 
 }  // namespace
 
 TEST_CASE("a cube of twelve triangles holds every ray") { CHECK(leaks(cube(), {}, 0.95, 2000) == 0); }
+
+TEST_CASE("a cube holds rays that start next to its edges") {
+  const Database database = database_of(seen_from(scene_of(cube()), 1));
+  Random random(8);
+  std::size_t leaked = 0, differences = 0;
+  for (std::size_t i = 0; i < scaled(100'000); ++i) {
+    const Ray ray = ray_at_edge(database, random);
+    const Hit hit = shoot(database, ray);
+    leaked += hit.found() ? 0 : 1;
+    differences += same_hit(brute_force(database, ray), hit) ? 0 : 1;
+  }
+  CHECK(leaked == 0);
+  CHECK(differences == 0);
+}
 
 TEST_CASE("a tetrahedron holds every ray") { CHECK(leaks(tetrahedron(), {}, 0.5, 2000) == 0); }
 

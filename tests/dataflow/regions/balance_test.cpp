@@ -46,7 +46,8 @@ struct Stage {
 class Path {
  public:
   Path(const core::Ray& ray, const core::GridFrame& frame)
-      : origin_(core::Vec3d(ray.origin) * (1.0 / double{frame.finest_cell})), direction_(core::Vec3d(ray.direction)) {}
+      : origin_((core::Vec3d(ray.origin) - frame.low) * (1.0 / double{frame.finest_cell})),
+        direction_(core::Vec3d(ray.direction)) {}
 
   /// How far along the ray the middle of a finest cell lies.
   double along(const core::Corner& cell) const { return dot(middle(cell) - origin_, direction_); }

@@ -111,11 +111,13 @@ TEST_CASE("a triangle that only double precision can see is no primitive, and th
   core::Scene scene;
   core::SceneBuilder builder(scene);
   builder.polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
-  builder.polygon({{0.5, 0.5, 0.5}, {0.5 + 1e-12, 0.5, 0.5}, {0.5, 0.5 + 1e-12, 0.5}});
+  for (const double at : {0.4, 0.6}) {  // in two places: about one of them floats would see it
+    builder.polygon({{at, at, at}, {at + 1e-12, at, at}, {at, at + 1e-12, at}});
+  }
   builder.sphere({0, 0, 1}, 0.5);
   const Workbench bench(scene, 1);
-  CHECK(bench.accurate.bodies.size() == 3);
-  CHECK(apps::bodies_of_primitives(bench.accurate, bench.database) == std::vector<std::uint32_t>{0, 2});
+  CHECK(bench.accurate.bodies.size() == 4);
+  CHECK(apps::bodies_of_primitives(bench.accurate, bench.database) == std::vector<std::uint32_t>{0, 3});
 }
 
 }  // namespace

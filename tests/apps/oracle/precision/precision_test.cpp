@@ -66,8 +66,31 @@ core::Scene ball_on_square(double half_side) {
   return scene;
 }
 
-TEST_CASE("a ball on a square two thousand times as wide looks as in double") {
-  const apps::Precision precision = apps::measure_precision(ball_on_square(1000), sized(128));
+TEST_CASE("a ball on a square looks as in double, be it thousands or millions of times as wide") {
+  for (const double half_side : {1e3, 1e6, 1e8}) {
+    CAPTURE(half_side);
+    const apps::Precision precision = apps::measure_precision(ball_on_square(half_side), sized(128));
+    CHECK(static_cast<double>(precision.differing_pixels) < 0.001 * static_cast<double>(precision.pixels));
+    CHECK(precision.errors.empty());
+  }
+}
+
+TEST_CASE("a thing that is small beside a square looks as in double, wherever it stands") {
+  core::Scene scene = built_in("teapot-3");
+  const core::Vec3d place{1234.5, -876.5, 77};
+  scene.view.from = scene.view.from + place;
+  scene.view.at = scene.view.at + place;
+  for (core::PointLight& light : scene.lights) {
+    light.position = light.position + place;
+  }
+  for (core::Vec3d& vertex : scene.vertices) {
+    vertex = vertex + place;
+  }
+  core::SceneBuilder builder(scene);
+  builder.material({.color = {0.8, 0.7, 0.3}, .diffuse = 0.7});
+  const double h = 1e5, z = place.z - 0.01;
+  builder.polygon({{-h, -h, z}, {h, -h, z}, {h, h, z}, {-h, h, z}});
+  const apps::Precision precision = apps::measure_precision(scene, sized(128));
   CHECK(static_cast<double>(precision.differing_pixels) < 0.001 * static_cast<double>(precision.pixels));
   CHECK(precision.errors.empty());
 }

@@ -53,6 +53,7 @@ TEST_CASE("the keys of the counters are an interface") {
                                 "page_size",
                                 "primitives",
                                 "dropped",
+                                "collapsed",
                                 "references",
                                 "hits",
                                 "faults",

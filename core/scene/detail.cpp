@@ -1,0 +1,104 @@
+#include "core/scene/detail.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "core/scene/frame.h"
+
+namespace dmpc::core {
+namespace {
+
+/// Objects that are looked at, evenly spread over the file.
+constexpr std::size_t objects_max = 65536;
+/// Objects count as no smaller than this share of the scene: next to that doubles tell nothing apart.
+constexpr double least_share = 0x1p-40;
+
+/// So much of the detail must lie close together.
+constexpr double close_part = 0.75;
+
+struct Weighted {
+  double value, weight;
+};
+
+/// The least value up to which this share of the weight lies.
+double quantile(std::vector<Weighted>& all, double share) {
+  std::sort(all.begin(), all.end(), [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
+  double wanted = 0;
+  for (const Weighted& one : all) {
+    wanted += one.weight * share;
+  }
+  auto at = all.begin();
+  for (double sum = at->weight; sum < wanted && at + 1 != all.end(); sum += at->weight) {
+    ++at;
+  }
+  return at->value;
+}
+
+void include_ball(Box& box, const Vec3d& center, double radius) {
+  const Vec3d reach{radius, radius, radius};
+  box.include(center - reach);
+  box.include(center + reach);
+}
+
+Box box_of(const Scene& scene, const Object& object, const GridAxes& axes) {
+  Box box;
+  if (object.kind == ObjectKind::sphere) {
+    const Sphere& sphere = scene.spheres[object.first];
+    include_ball(box, turned(axes, sphere.center), std::fabs(sphere.radius));
+  } else if (object.kind == ObjectKind::cone) {
+    const Cone& cone = scene.cones[object.first];
+    include_ball(box, turned(axes, cone.base), std::fabs(cone.base_radius));
+    include_ball(box, turned(axes, cone.apex), std::fabs(cone.apex_radius));
+  } else {
+    for (const Vec3d& vertex : std::span(scene.vertices).subspan(object.first, object.vertex_count)) {
+      box.include(turned(axes, vertex));
+    }
+  }
+  return box;
+}
+
+struct Detail {
+  Vec3d center;
+  double weight;
+};
+
+std::vector<Detail> details_of(const Scene& scene, const GridAxes& axes, double extent) {
+  std::vector<Detail> details;
+  const std::size_t stride = (scene.objects.size() + objects_max - 1) / objects_max;
+  for (std::size_t i = 0; i < scene.objects.size(); i += stride) {
+    const Box box = box_of(scene, scene.objects[i], axes);
+    const double size = largest_component(box.high - box.low);
+    if (size > 0 && size <= 2 * extent) {
+      const double share = std::max(size / extent, least_share);
+      details.push_back({box.center(), 1 / (share * share)});
+    }
+  }
+  return details;
+}
+
+}  // namespace
+
+std::optional<Vec3d> place_of_detail(const Scene& scene, const GridAxes& axes, const Box& bounds) {
+  const double extent = bounds.empty() ? 0 : largest_component(bounds.high - bounds.low);
+  const std::vector<Detail> details = extent > 0 ? details_of(scene, axes, extent) : std::vector<Detail>();
+  if (details.empty()) {
+    return std::nullopt;
+  }
+  std::vector<Weighted> values(details.size());
+  const auto quantile_of = [&](double share, const auto& value) {
+    std::transform(details.begin(), details.end(), values.begin(), [&](const Detail& one) {
+      return Weighted{value(one.center), one.weight};
+    });
+    return quantile(values, share);
+  };
+  Vec3d place;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    place[axis] = quantile_of(0.5, [&](const Vec3d& center) { return center[axis]; });
+  }
+  const double reach = quantile_of(close_part, [&](const Vec3d& center) { return largest_component(center - place); });
+  return reach <= close_share * extent ? std::optional(place) : std::nullopt;
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,86 @@
+#include "core/picture/rounding_loss.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "tests/support/small_scenes.h"
+
+using namespace dmpc::core;
+using dmpc::tests::built_in;
+
+namespace {
+
+/// Balls of radius 0.1 in rows that reach so far; the eye is next to the last one, under a leaning square.
+Scene long_rows(double reach, double lean) {
+  Scene scene;
+  scene.view = {.from = {reach, -6, 2}, .at = {reach, 0, 0}, .up = {0, 0, 1}, .angle_degrees = 40};
+  SceneBuilder builder(scene);
+  builder.material({});
+  for (int i = -8; i <= 8; ++i) {
+    builder.sphere({reach * i / 8, 0, 0}, 0.1);
+    builder.polygon({{reach * i / 8, 0, 1}, {reach * i / 8 + 1, 0, 1}, {reach * i / 8, 0, 2}});
+  }
+  builder.polygon({{-reach, -reach, -1 - reach * lean}, {reach, -reach, -1 - reach * lean}, {reach, reach, -1 + reach * lean}});
+  return scene;
+}
+
+RoundingLoss loss_of(const Scene& scene, int pixels = 256) {
+  const Database database = build_database(scene, {});
+  return find_rounding_loss(database, Camera(scene.view, database.header().frame, pixels, pixels, 1));
+}
+
+Scene with_tiny_triangles(double size) {
+  Scene scene = long_rows(1000, 0);
+  SceneBuilder builder(scene);
+  for (const double x : {0.0, 1000.0}) {
+    for (int i = 1; i <= 3; ++i) {
+      builder.polygon({{x, 1.0 * i, 0}, {x + size, 1.0 * i, 0}, {x, 1.0 * i, size}});
+    }
+  }
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("nothing is lost to rounding in a scene that is of a size with its details") {
+  for (const char* name : {"balls-3", "gears-2", "mount-5", "rings-3", "shells-3", "teapot-5", "tree-6"}) {
+    CAPTURE(std::string(name));
+    CHECK(loss_of(built_in(name)).is_none());
+  }
+  CHECK(loss_of(long_rows(10, 0.1)).is_none());
+}
+
+TEST_CASE("what is small beside a scene and far from local zero is off, by so many pixels") {
+  const RoundingLoss loss = loss_of(long_rows(1e5, 0));
+  CHECK(loss.moved >= 1);
+  CHECK(loss.moved_pixels > 0.05);
+  CHECK(loss.moved_pixels < 1);
+  const RoundingLoss finer = loss_of(long_rows(1e5, 0), 2560);
+  CHECK(finer.moved_pixels / loss.moved_pixels == doctest::Approx(2559.0 / 255).epsilon(0.01));
+}
+
+TEST_CASE("a large plane that leans is off, even next to local zero") {
+  Scene scene = long_rows(1e-6, 0);
+  SceneBuilder builder(scene);
+  scene.view = {.from = {0, -6, 2}, .at = {0, 0, 0}, .up = {0, 0, 1}, .angle_degrees = 40};
+  const double h = 1e6;
+  builder.polygon({{-h, -h, -0.3 * h}, {h, -h, -0.3 * h}, {h, h, 0.3 * h}, {-h, h, 0.3 * h}});
+  const RoundingLoss leaning = loss_of(scene);
+  CHECK(leaning.moved == 2);
+  CHECK(leaning.moved_pixels > 0.5);
+  scene.vertices.resize(scene.vertices.size() - 4);
+  scene.objects.pop_back();
+  builder.polygon({{-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}});
+  CHECK(loss_of(scene).is_none());
+}
+
+TEST_CASE("what rounding leaves nothing of is counted, with its size in pixels") {
+  const RoundingLoss loss = loss_of(with_tiny_triangles(2e-6));
+  CHECK(loss.collapsed == 6);
+  CHECK(loss.collapsed_pixels > 1e-5);
+  CHECK(loss.collapsed_pixels < 1e-3);
+  CHECK(build_database(with_tiny_triangles(2e-6), {}).dropped() == 6);
+  CHECK(loss_of(with_tiny_triangles(0)).collapsed == 0);
+  CHECK(build_database(with_tiny_triangles(0), {}).dropped() == 6);
+}
