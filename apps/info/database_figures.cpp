@@ -49,7 +49,7 @@ class TreeWalk {
   void count(const core::BlockHeader& block) {
     RecordFigures& figures = blocks[static_cast<std::size_t>(block.kind)];
     ++figures.count;
-    figures.bytes += core::block_bytes(block.kind, block.count);
+    figures.bytes += core::block_bytes(block);
   }
 
   core::LocalRecords records_;

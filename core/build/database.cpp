@@ -10,6 +10,7 @@
 #include "core/base/parallel.h"
 #include "core/build/brick_builder.h"
 #include "core/build/conversion.h"
+#include "core/build/coplanar.h"
 #include "core/build/empty_space.h"
 #include "core/build/record_writer.h"
 #include "core/build/texture_records.h"
@@ -61,6 +62,7 @@ class DatabaseBuilder {
   Database build() {
     fit();
     conversion_ = convert(scene_, header().frame, parallel_);
+    settle_coplanar(conversion_, scene_.materials, parallel_);
     if (expendable_ != nullptr) {
       forget_objects(*expendable_);
     }
@@ -73,6 +75,8 @@ class DatabaseBuilder {
     give_back_freed();  // trees are many small pieces
     result_.references_ = cells.references();
     result_.dropped_ = conversion_.dropped;
+    result_.duplicates_ = conversion_.duplicates;
+    result_.shared_planes_ = conversion_.shared_planes;
     result_.primitives_ = std::move(conversion_.primitives);
     result_.sources_ = std::move(conversion_.sources);
     result_.bytes_ = std::move(writer_).finish();
@@ -195,7 +199,7 @@ class DatabaseBuilder {
     }
     writer_.make_room();
     parallel_.for_each(trees.size(),
-                       [&](std::size_t i) { trees[i].write(conversion_.primitives, conversion_.shading, writer_); });
+                       [&](std::size_t i) { trees[i].write(conversion_.primitives, conversion_.shading, conversion_.planes, writer_); });
     measure_empty_space(header().directory_size, directory);
     writer_.write(header().directory, 0, std::as_bytes(std::span(directory)));
   }
@@ -224,7 +228,7 @@ void find_places_below(const LocalRecords& records, Address from, std::vector<Da
     }
     const std::byte* const block = records.find(address);
     const auto header = read<BlockHeader>(block);
-    const std::byte* const ids = block + block_bytes(header.kind, header.count) - 2 * sizeof(std::uint32_t) * header.count;
+    const std::byte* const ids = block + sizeof(header) + sizeof(float) * value_count(header.kind) * header.count;
     for (std::uint32_t lane = 0; lane < header.count; ++lane) {
       places[read<std::uint32_t>(ids + lane * sizeof(std::uint32_t))] = {address, lane};
     }
