@@ -18,18 +18,43 @@ using Ids = std::vector<std::uint32_t>;
 /// Sets of faces whose planes are apart are taken apart so often; what is left then keeps its own distances.
 constexpr int rounds_max = 16;
 
-/// Triangles that cover each other, in sets of two or more.
-std::vector<Ids> covering_sets(const Conversion& conversion, const Parallel& parallel) {
-  const PlaneBuckets buckets = fill_plane_buckets(conversion, parallel);
+using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+/// Pairs of a top cell's triangles that cover each other, or lead from one to the other of such.
+Pairs covering_pairs(const Conversion& conversion, std::span<const std::uint32_t> ids) {
+  std::vector<Face> faces;
+  faces.reserve(ids.size());
+  for (const std::uint32_t id : ids) {
+    if (conversion.primitives[id].kind == PrimitiveKind::triangle) {
+      faces.emplace_back(conversion.primitives[id], id, conversion.sources[id].object);
+    }
+  }
+  const PlaneBuckets buckets = fill_plane_buckets(faces);
   if (buckets.buckets.empty()) {
     return {};
   }
-  MergedSets sets(conversion.primitives.size());
-  CoverFinder finder(conversion.primitives, conversion.sources, sets);
+  CoverFinder finder(faces);
   for (const PlaneBucket& bucket : buckets.buckets) {
-    finder.merge(buckets.ids_of(bucket), bucket.axis);
+    finder.look_at(buckets.faces_of(bucket), bucket.axis);
   }
-  Ids ids = buckets.ids;
+  return finder.found();
+}
+
+/// Triangles that cover each other, in sets of two or more.
+std::vector<Ids> covering_sets(const Conversion& conversion, const TopCells& cells, const Parallel& parallel) {
+  std::vector<Pairs> pairs(cells.size());
+  parallel.for_each(cells.size(), [&](std::size_t cell) { pairs[cell] = covering_pairs(conversion, cells.ids(cell)); });
+  if (std::all_of(pairs.begin(), pairs.end(), [](const Pairs& some) { return some.empty(); })) {
+    return {};
+  }
+  MergedSets sets(conversion.primitives.size());
+  Ids ids;
+  for (const Pairs& some : pairs) {
+    for (const auto& [a, b] : some) {
+      sets.merge(a, b);
+      ids.insert(ids.end(), {a, b});
+    }
+  }
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   std::vector<std::pair<std::uint32_t, std::uint32_t>> by_set;
@@ -39,12 +64,9 @@ std::vector<Ids> covering_sets(const Conversion& conversion, const Parallel& par
   std::sort(by_set.begin(), by_set.end());
   std::vector<Ids> result;
   for (std::size_t first = 0, last = 0; first < by_set.size(); first = last) {
-    Ids set;
+    result.emplace_back();
     for (last = first; last < by_set.size() && by_set[last].first == by_set[first].first; ++last) {
-      set.push_back(by_set[last].second);
-    }
-    if (set.size() > 1) {
-      result.push_back(std::move(set));
+      result.back().push_back(by_set[last].second);
     }
   }
   return result;
@@ -108,7 +130,7 @@ class Planes {
     for (int round = 0; round < rounds_max && rest.size() > 1; ++round) {
       std::vector<Face> faces;
       for (const std::uint32_t id : rest) {
-        faces.emplace_back(conversion_.primitives[id]);
+        faces.emplace_back(conversion_.primitives[id], id, conversion_.sources[id].object);
       }
       const Face& largest = largest_of(faces);
       const FacePlane fitted = fitted_plane(faces, largest.main_axis());
@@ -220,10 +242,10 @@ void rearrange(Conversion& conversion, const Ids& from) {
 
 }  // namespace
 
-void settle_coplanar(Conversion& conversion, std::span<const Material> materials, const Parallel& parallel) {
-  std::vector<Ids> sets = covering_sets(conversion, parallel);
+bool settle_coplanar(Conversion& conversion, const TopCells& cells, std::span<const Material> materials, const Parallel& parallel) {
+  std::vector<Ids> sets = covering_sets(conversion, cells, parallel);
   if (sets.empty()) {
-    return;
+    return false;
   }
   const Precedence precedence(conversion, materials);
   Planes planes(conversion);
@@ -243,6 +265,7 @@ void settle_coplanar(Conversion& conversion, std::span<const Material> materials
   conversion.shared_planes = planes.level_count() + static_cast<std::uint32_t>(conversion.planes.size());
   conversion.duplicates = static_cast<std::uint32_t>(duplicates.size());
   rearrange(conversion, from);
+  return true;
 }
 
 }  // namespace dmpc::core

@@ -6,6 +6,7 @@
 
 #include "core/base/parallel.h"
 #include "core/build/conversion.h"
+#include "core/build/top_cells.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::core {
@@ -19,6 +20,8 @@ namespace dmpc::core {
 /// What shares an edge or a corner does not cover. Without triangles that cover each other nothing changes. Not judged are
 /// triangles lower than a 2^13th of the scene, unless a coordinate is the same at all their corners: rounding turns them too far.
 /// Where very many lie in a plane, those are taken to cover each other. Takes time in proportion to the triangles.
-void settle_coplanar(Conversion& conversion, std::span<const Material> materials, const Parallel& parallel);
+///
+/// Returns whether there are any: then ids are no longer those of `cells`, which listed the triangles.
+bool settle_coplanar(Conversion& conversion, const TopCells& cells, std::span<const Material> materials, const Parallel& parallel);
 
 }  // namespace dmpc::core

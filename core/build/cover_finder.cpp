@@ -8,11 +8,13 @@
 namespace dmpc::core {
 namespace {
 
-/// Pairs that are looked at, for each triangle and however few there are: a fan of 700 triangles about one corner is within it.
-constexpr std::size_t pairs_per_triangle = 256;
+/// Pairs that are looked at, for each face and however few there are: a fan of 700 triangles about one corner is within it.
+constexpr std::size_t pairs_per_face = 256;
 constexpr std::size_t pairs_least = 0x40000;
-/// Squares that a triangle is in, on average.
-constexpr std::size_t squares_per_triangle = 8;
+/// So few are all in one square.
+constexpr std::size_t one_square_max = 16;
+/// Squares that a face is in, on average, at most.
+constexpr std::size_t squares_per_face = 8;
 constexpr std::size_t raster_side_max = 4096;
 /// Planes of one bucket, where pairs are too many to be looked at.
 constexpr std::size_t planes_max = 64;
@@ -33,106 +35,138 @@ void MergedSets::merge(std::uint32_t a, std::uint32_t b) {
   parents_[std::max(first, second)] = std::min(first, second);
 }
 
-/// Squares over all faces, seen along an axis.
-struct CoverFinder::Raster {
-  Raster(std::span<const Face> faces, std::size_t axis, std::size_t squares) : axes{(axis + 1) % 3, (axis + 2) % 3}, side(squares) {
+/// Squares over all that is seen.
+class CoverFinder::Raster {
+ public:
+  Raster(std::span<const Seen> seen, std::size_t squares) : side_(squares) {
     double extent = 0;
-    for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
       double high = -std::numeric_limits<double>::infinity();
-      for (const Face& face : faces) {
-        const auto [least, greatest] = bounds(face, i);
-        low[i] = std::min(low[i], least);
-        high = std::max(high, greatest);
+      for (const Seen& face : seen) {
+        low_[axis] = std::min(low_[axis], face.low[axis]);
+        high = std::max(high, face.high[axis]);
       }
-      extent = std::max(extent, high - low[i]);
+      extent = std::max(extent, high - low_[axis]);
     }
-    scale = static_cast<double>(side) / std::max(extent, 1e-30);
+    scale_ = static_cast<double>(side_) / std::max(extent, 1e-30);
   }
 
-  std::pair<double, double> bounds(const Face& face, std::size_t i) const {
-    return std::minmax({face.corner[0][axes[i]], face.corner[1][axes[i]], face.corner[2][axes[i]]});
+  std::size_t square(double at, std::size_t axis) const {
+    return std::min(static_cast<std::size_t>((at - low_[axis]) * scale_), side_ - 1);
   }
-  /// The first and last square of a face along one of the axes.
-  std::pair<std::size_t, std::size_t> squares(const Face& face, std::size_t i) const {
-    const auto [least, greatest] = bounds(face, i);
-    const auto square = [&](double at) { return std::min(static_cast<std::size_t>((at - low[i]) * scale), side - 1); };
-    return {square(least), square(greatest)};
-  }
+  std::size_t side() const { return side_; }
 
-  std::array<std::size_t, 2> axes;
-  std::size_t side;
-  std::array<double, 2> low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  double scale = 1;
+ private:
+  std::size_t side_;
+  std::array<double, 2> low_{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  double scale_ = 1;
 };
 
-void CoverFinder::merge(std::span<const std::uint32_t> ids, std::size_t axis) {
-  faces_.clear();
-  for (const std::uint32_t id : ids) {
-    faces_.emplace_back(primitives_[id]);
+void CoverFinder::look_at(std::span<const std::uint32_t> some, std::size_t axis) {
+  see(some, axis);
+  if (!look_at_pairs(axis)) {
+    look_at_planes(some);
   }
-  if (!merge_pairs(ids, axis)) {
-    merge_planes(ids);
+}
+
+void CoverFinder::see(std::span<const std::uint32_t> some, std::size_t axis) {
+  seen_.clear();
+  for (const std::uint32_t face : some) {
+    const auto& corner = faces_[face].corner;
+    Seen seen{.face = face, .low = {}, .high = {}};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::size_t along = (axis + 1 + i) % 3;
+      seen.low[i] = std::min({corner[0][along], corner[1][along], corner[2][along]});
+      seen.high[i] = std::max({corner[0][along], corner[1][along], corner[2][along]});
+    }
+    seen_.push_back(seen);
   }
 }
 
 /// Lists the faces of each square, of squares as small as lists of bounded length allow.
-void CoverFinder::list_squares(std::size_t axis) {
-  auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(faces_.size())));
-  side = std::clamp<std::size_t>(side, 1, raster_side_max);
-  while (!list_squares(Raster(faces_, axis, side))) {
+void CoverFinder::list_squares() {
+  const auto root = static_cast<std::size_t>(std::sqrt(static_cast<double>(seen_.size())));
+  std::size_t side = seen_.size() <= one_square_max ? 1 : std::min(root, raster_side_max);
+  while (!list_squares(Raster(seen_, side))) {
     side /= 2;
   }
-  std::sort(entries_.begin(), entries_.end(),
-            [](const Entry& a, const Entry& b) { return a.square < b.square || (a.square == b.square && a.place < b.place); });
+  sort_by_square(side * side);
 }
 
-/// False if the lists are too long; one square's never are.
+/// By counting, which leaves the entries of a square in order.
+void CoverFinder::sort_by_square(std::size_t square_count) {
+  if (square_count == 1) {
+    return;
+  }
+  next_.assign(square_count + 1, 0);
+  for (const Entry& entry : entries_) {
+    ++next_[entry.square + 1];
+  }
+  std::partial_sum(next_.begin(), next_.end(), next_.begin());
+  sorted_.resize(entries_.size());
+  for (const Entry& entry : entries_) {
+    sorted_[next_[entry.square]++] = entry;
+  }
+  std::swap(entries_, sorted_);
+}
+
+/// False if the lists are too long; one square's never is.
 bool CoverFinder::list_squares(const Raster& raster) {
-  const std::size_t most = squares_per_triangle * faces_.size();
+  const std::size_t most = squares_per_face * seen_.size();
   entries_.clear();
-  for (std::uint32_t place = 0; place < faces_.size(); ++place) {
-    const auto [left, right] = raster.squares(faces_[place], 0);
-    const auto [bottom, top] = raster.squares(faces_[place], 1);
+  for (std::uint32_t place = 0; place < seen_.size(); ++place) {
+    const Seen& face = seen_[place];
+    const std::size_t left = raster.square(face.low[0], 0), right = raster.square(face.high[0], 0);
+    const std::size_t bottom = raster.square(face.low[1], 1), top = raster.square(face.high[1], 1);
     if (entries_.size() + (right - left + 1) * (top - bottom + 1) > most) {
       return false;
     }
     for (std::size_t y = bottom; y <= top; ++y) {
       for (std::size_t x = left; x <= right; ++x) {
-        entries_.push_back({static_cast<std::uint32_t>(y * raster.side + x), place});
+        entries_.push_back({static_cast<std::uint32_t>(y * raster.side() + x), place});
       }
     }
   }
   return true;
 }
 
-/// False if there are too many pairs.
-bool CoverFinder::merge_pairs(std::span<const std::uint32_t> ids, std::size_t axis) {
-  list_squares(axis);
-  pairs_left_ = pairs_per_triangle * faces_.size() + pairs_least;
+/// False if there are too many.
+bool CoverFinder::look_at_pairs(std::size_t axis) {
+  list_squares();
+  pairs_left_ = pairs_per_face * seen_.size() + pairs_least;
   for (std::size_t first = 0, last = 0; first < entries_.size(); first = last) {
     while (last < entries_.size() && entries_[last].square == entries_[first].square) {
       ++last;
     }
-    if (!merge_pairs_in_square(ids, axis, std::span(entries_).subspan(first, last - first))) {
+    if (!look_at_square(axis, std::span(entries_).subspan(first, last - first))) {
       return false;
     }
   }
   return true;
 }
 
-bool CoverFinder::merge_pairs_in_square(std::span<const std::uint32_t> ids, std::size_t axis, std::span<const Entry> square) {
-  for (std::size_t i = 0; i < square.size(); ++i) {
-    const std::size_t pairs = square.size() - i - 1;
+/// Those of one object come one behind the other.
+bool CoverFinder::look_at_square(std::size_t axis, std::span<const Entry> square) {
+  const auto object_at = [&](std::size_t i) { return faces_[seen_[square[i].place].face].object; };
+  for (std::size_t i = 0, others = 0; i < square.size(); ++i) {
+    while (others < square.size() && (others <= i || object_at(others) == object_at(i))) {
+      ++others;
+    }
+    const std::size_t pairs = square.size() - others;
     if (pairs > pairs_left_) {
       return false;
     }
     pairs_left_ -= pairs;
-    const std::uint32_t a = square[i].place;
-    for (const Entry& other : square.subspan(i + 1)) {
-      const std::uint32_t b = other.place;
-      const bool is_open = sources_[ids[a]].object != sources_[ids[b]].object && sets_.least_with(ids[a]) != sets_.least_with(ids[b]);
-      if (is_open && are_coplanar(faces_[a], faces_[b]) && cover(faces_[a], faces_[b], axis)) {
-        sets_.merge(ids[a], ids[b]);
+    const Seen& a = seen_[square[i].place];
+    const auto meets = [&](const Seen& b) {
+      return std::min(a.high[0], b.high[0]) - std::max(a.low[0], b.low[0]) > sliver &&
+             std::min(a.high[1], b.high[1]) - std::max(a.low[1], b.low[1]) > sliver;
+    };
+    for (const Entry& other : square.subspan(others)) {
+      const Seen& b = seen_[other.place];
+      if (meets(b) && sets_.least_with(a.face) != sets_.least_with(b.face) && cover(faces_[a.face], faces_[b.face], axis) &&
+          are_coplanar(faces_[a.face], faces_[b.face])) {
+        merge(a.face, b.face);
       }
     }
   }
@@ -140,17 +174,23 @@ bool CoverFinder::merge_pairs_in_square(std::span<const std::uint32_t> ids, std:
 }
 
 /// Takes the largest, all that lie in its plane, the largest of the others, and so on.
-void CoverFinder::merge_planes(std::span<const std::uint32_t> ids) {
-  std::vector<std::uint32_t> rest(faces_.size());
-  std::iota(rest.begin(), rest.end(), 0U);
+void CoverFinder::look_at_planes(std::span<const std::uint32_t> some) {
+  std::vector<std::uint32_t> rest(some.begin(), some.end());
   for (std::size_t planes = 0; planes < planes_max && rest.size() > 1; ++planes) {
     const std::uint32_t largest = *std::max_element(
         rest.begin(), rest.end(), [&](std::uint32_t a, std::uint32_t b) { return faces_[a].altitude < faces_[b].altitude; });
-    const auto others = std::partition(rest.begin(), rest.end(), [&](std::uint32_t place) {
-      return place != largest && !are_coplanar(faces_[place], faces_[largest]);
+    const auto others = std::partition(rest.begin(), rest.end(), [&](std::uint32_t face) {
+      return face != largest && !are_coplanar(faces_[face], faces_[largest]);
     });
-    std::for_each(others, rest.end(), [&](std::uint32_t place) { sets_.merge(ids[place], ids[largest]); });
+    std::for_each(others, rest.end(), [&](std::uint32_t face) { merge(face, largest); });
     rest.erase(others, rest.end());
+  }
+}
+
+void CoverFinder::merge(std::uint32_t a, std::uint32_t b) {
+  if (sets_.least_with(a) != sets_.least_with(b)) {
+    sets_.merge(a, b);
+    found_.emplace_back(faces_[a].id, faces_[b].id);
   }
 }
 

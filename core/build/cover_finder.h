@@ -1,12 +1,13 @@
 // Which triangles of a bucket cover each other.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "core/build/database.h"
 #include "core/build/face.h"
 
 namespace dmpc::core {
@@ -23,35 +24,46 @@ class MergedSets {
   std::vector<std::uint32_t> parents_;  ///< none above its child
 };
 
-/// Merges triangles of different objects that lie in one plane and cover each other. Looks at those alone that share a square of a raster, as many as
-/// a number in proportion to the triangles allows; beyond that it merges all that lie in the plane of the largest.
+/// Finds faces of different objects that lie in one plane and cover each other. Looks at those alone that share a square of a
+/// raster, as many as a number in proportion to the faces allows; beyond that it takes all that lie in the plane of the largest
+/// for covering it.
 class CoverFinder {
  public:
-  /// All outlive the finder.
-  CoverFinder(std::span<const PrimitiveValues> primitives, std::span<const PrimitiveSource> sources, MergedSets& sets)
-      : primitives_(primitives), sources_(sources), sets_(sets) {}
+  /// The faces, of ascending ids, outlive the finder.
+  explicit CoverFinder(std::span<const Face> faces) : faces_(faces), sets_(faces.size()) {}
 
-  /// `ids`: of triangles that can be looked at along `axis`.
-  void merge(std::span<const std::uint32_t> ids, std::size_t axis);
+  /// Looks at some of the faces, ascending, which can be looked at along `axis`.
+  void look_at(std::span<const std::uint32_t> some, std::size_t axis);
+  /// Pairs of ids: what they lead from one to the other is all that covers each other.
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& found() const { return found_; }
 
  private:
-  struct Raster;
-  /// A place in `faces_` that a square holds.
+  /// A face as seen along the axis.
+  struct Seen {
+    std::uint32_t face;
+    std::array<double, 2> low, high;
+  };
+  /// A place in `seen_` that a square holds.
   struct Entry {
     std::uint32_t square, place;
   };
+  class Raster;
 
-  bool merge_pairs(std::span<const std::uint32_t> ids, std::size_t axis);
-  bool merge_pairs_in_square(std::span<const std::uint32_t> ids, std::size_t axis, std::span<const Entry> square);
-  void list_squares(std::size_t axis);
+  void see(std::span<const std::uint32_t> some, std::size_t axis);
+  void list_squares();
   bool list_squares(const Raster& raster);
-  void merge_planes(std::span<const std::uint32_t> ids);
+  void sort_by_square(std::size_t square_count);
+  bool look_at_pairs(std::size_t axis);
+  bool look_at_square(std::size_t axis, std::span<const Entry> square);
+  void look_at_planes(std::span<const std::uint32_t> some);
+  void merge(std::uint32_t a, std::uint32_t b);
 
-  std::span<const PrimitiveValues> primitives_;
-  std::span<const PrimitiveSource> sources_;
-  MergedSets& sets_;
-  std::vector<Face> faces_;
-  std::vector<Entry> entries_;
+  std::span<const Face> faces_;
+  MergedSets sets_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> found_;
+  std::vector<Seen> seen_;
+  std::vector<Entry> entries_, sorted_;
+  std::vector<std::uint32_t> next_;  ///< by square: where its next entry goes
   std::size_t pairs_left_ = 0;
 };
 

@@ -62,12 +62,14 @@ class DatabaseBuilder {
   Database build() {
     fit();
     conversion_ = convert(scene_, header().frame, parallel_);
-    settle_coplanar(conversion_, scene_.materials, parallel_);
     if (expendable_ != nullptr) {
       forget_objects(*expendable_);
     }
+    TopCells cells = sort_into_top_cells();
+    if (settle_coplanar(conversion_, cells, scene_.materials, parallel_)) {
+      cells = sort_into_top_cells();
+    }
     header().primitive_count = static_cast<std::uint32_t>(conversion_.primitives.size());
-    const TopCells cells = sort_into_top_cells();
     write_tables();
     write_textures();
     write_normals();

@@ -1,12 +1,7 @@
 #include "core/build/face.h"
 
-#include <limits>
-
 namespace dmpc::core {
 namespace {
-
-/// Triangles that lie side by side may cover each other by so much.
-constexpr double sliver = 0x1p-22;
 
 struct Flat {
   double x, y;
@@ -54,10 +49,6 @@ bool are_coplanar(const Face& a, const Face& b) {
 bool cover(const Face& a, const Face& b, std::size_t axis) {
   const std::array<Flat, 3> first = seen_along(a, axis), second = seen_along(b, axis);
   return !separates(first, second) && !separates(second, first);
-}
-
-bool are_equal(const Face& a, const Face& b) {
-  return std::is_permutation(a.corner.begin(), a.corner.end(), b.corner.begin());
 }
 
 bool lies_in(const Face& face, const FacePlane& plane) {

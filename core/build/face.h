@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/base/vec.h"
 #include "core/build/database.h"
@@ -15,8 +16,9 @@ namespace dmpc::core {
 /// Of what a coordinate is, rounding to float moves it by this at most.
 inline constexpr double corner_rounding = 0x1p-25;
 
+/// `id`: of the primitive; `object`: that it is of.
 struct Face {
-  explicit Face(const PrimitiveValues& triangle) {
+  Face(const PrimitiveValues& triangle, std::uint32_t primitive, std::uint32_t of_object) : id(primitive), object(of_object) {
     for (std::size_t i = 0; i < 3; ++i) {
       corner[i] = {double{triangle.value[3 * i]}, double{triangle.value[3 * i + 1]}, double{triangle.value[3 * i + 2]}};
     }
@@ -47,16 +49,17 @@ struct Face {
   FacePlane plane;
   double altitude = 0;  ///< the least of the three
   double moved = 0;     ///< how far rounding moves a corner across the plane at most
+  std::uint32_t id, object;
 };
+
+/// Triangles that lie side by side may cover each other by so much.
+inline constexpr double sliver = 0x1p-22;
 
 /// Whether two triangles lie in one plane but for rounding.
 bool are_coplanar(const Face& a, const Face& b);
 
 /// Whether two triangles of one plane cover each other, seen along an axis, by more than rounding does to triangles side by side.
 bool cover(const Face& a, const Face& b, std::size_t axis);
-
-/// Whether they have the same three corners, in whatever order.
-bool are_equal(const Face& a, const Face& b);
 
 /// Whether a face lies in a plane that it is to share.
 bool lies_in(const Face& face, const FacePlane& plane);
