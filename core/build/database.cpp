@@ -81,6 +81,7 @@ class DatabaseBuilder {
     result_.shared_planes_ = conversion_.shared_planes;
     result_.primitives_ = std::move(conversion_.primitives);
     result_.sources_ = std::move(conversion_.sources);
+    result_.planes_ = std::move(conversion_.planes);
     result_.bytes_ = std::move(writer_).finish();
     result_.page_count_ = (result_.bytes_.size() - overread_bytes) / result_.page_size_;
     return std::move(result_);

@@ -41,7 +41,7 @@ struct PrimitiveValues {
   /// The plane() of triangles that have a coordinate in common, by which their plane is known.
   static constexpr std::uint32_t level_plane = 0xffffffffU;
 
-  /// Of a triangle: which of Conversion::planes it shares with others that cover it, from 1 on; 0: none. It stands behind the nine
+  /// Of a triangle: which of Database::planes() it shares with others that cover it, from 1 on; 0: none. It stands behind the nine
   /// values.
   std::uint32_t plane() const {
     return kind == PrimitiveKind::triangle ? std::bit_cast<std::uint32_t>(value[value_count(kind)]) : 0;
@@ -74,6 +74,8 @@ class Database {
   /// a plane those come last that let light through (core/build/coplanar.h).
   std::span<const PrimitiveValues> primitives() const { return primitives_; }
   std::span<const PrimitiveSource> sources() const { return sources_; }
+  /// By PrimitiveValues::plane() - 1.
+  std::span<const FacePlane> planes() const { return planes_; }
   /// Where some copy of primitive `id` lies: what Hit::block and Hit::lane of a hit on it may be.
   struct Place {
     Address block = no_address;
@@ -87,10 +89,11 @@ class Database {
     forget(bytes_);
     give_back_freed();
   }
-  /// Frees primitives() and sources(): for when no oracle, no referee and no message will ask.
+  /// Frees primitives(), sources() and planes(): for when no oracle, no referee and no message will ask.
   void forget_primitives() {
     forget(primitives_);
     forget(sources_);
+    forget(planes_);
   }
 
   /// Degenerate primitives (zero area or length, radius 0, not finite) that were left out, by reason in total.
@@ -112,6 +115,7 @@ class Database {
   std::vector<std::byte> bytes_;
   std::vector<PrimitiveValues> primitives_;
   std::vector<PrimitiveSource> sources_;
+  std::vector<FacePlane> planes_;
   std::uint32_t dropped_ = 0, duplicates_ = 0, shared_planes_ = 0;
   std::uint64_t references_ = 0;
   RecordCounts records_;
