@@ -106,6 +106,7 @@ DatabaseFigures figures_of(const core::Database& database, const SceneFigures& s
                           .page_size_bytes = database.page_size(),
                           .primitives = database.header().primitive_count,
                           .dropped = database.dropped(),
+                          .duplicates = database.duplicates(),
                           .copies = database.references(),
                           .cells = database.header().frame.resolution,
                           .top_cells = core::top_cells(database.header().frame),

@@ -27,11 +27,18 @@ Subject build_subject(core::Scene scene, const PictureOptions& picture, const Da
   if (database.dropped() > 0) {
     std::cerr << "dmpc: " << dropped_text(database.dropped()) << '\n';
   }
+  if (database.duplicates() > 0) {
+    std::cerr << "dmpc: " << duplicates_text(database.duplicates()) << '\n';
+  }
   return {std::move(database), settings};
 }
 
 std::string dropped_text(std::uint64_t count) {
   return count == 0 ? "" : counted(count, "degenerate primitive") + (count == 1 ? " was" : " were") + " left out";
+}
+
+std::string duplicates_text(std::uint64_t count) {
+  return count == 0 ? "" : counted(count, "triangle") + (count == 1 ? " was" : " were") + " left out: there twice";
 }
 
 }  // namespace dmpc::apps

@@ -144,8 +144,9 @@ BrickTree BrickBuilder::build(const Corner& corner, std::span<const std::uint32_
   Cutter cutter(ids.size(), primitives_);
   const std::vector<Group> kinds = add_by_kind(cell_at(corner), ids, cutter);
   if (const std::size_t most = carefree_count(levels_max_), weight = weight_of(kinds); weight > most) {
-    throw RoomError(std::to_string(weight) + " primitives lie in one place, at most " + std::to_string(most) +
-                    " may (triangles that cover others in their plane count eightfold): spread them out, or render a smaller scene");
+    throw RoomError(
+        std::to_string(weight) + " primitives lie in one place, at most " + std::to_string(most) +
+        " may (triangles that cover others in their plane count eightfold): spread them out, or render a smaller scene");
   }
   const CutTree cuts = cut(kinds, cutter);
   BrickTree tree{.top = {}, .ids = std::vector<std::uint32_t>(ids.size())};

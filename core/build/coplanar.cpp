@@ -177,7 +177,8 @@ class Planes {
 /// Who shows where triangles cover each other.
 class Precedence {
  public:
-  Precedence(const Conversion& conversion, std::span<const Material> materials) : conversion_(conversion), materials_(materials) {}
+  Precedence(const Conversion& conversion, std::span<const Material> materials)
+      : conversion_(conversion), materials_(materials) {}
 
   /// What transmits comes after what does not.
   void sort(Ids& set) const {
@@ -242,7 +243,8 @@ void rearrange(Conversion& conversion, const Ids& from) {
 
 }  // namespace
 
-bool settle_coplanar(Conversion& conversion, const TopCells& cells, std::span<const Material> materials, const Parallel& parallel) {
+bool settle_coplanar(Conversion& conversion, const TopCells& cells, std::span<const Material> materials,
+                     const Parallel& parallel) {
   std::vector<Ids> sets = covering_sets(conversion, cells, parallel);
   if (sets.empty()) {
     return false;

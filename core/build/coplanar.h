@@ -22,6 +22,7 @@ namespace dmpc::core {
 /// Where very many lie in a plane, those are taken to cover each other. Takes time in proportion to the triangles.
 ///
 /// Returns whether there are any: then ids are no longer those of `cells`, which listed the triangles.
-bool settle_coplanar(Conversion& conversion, const TopCells& cells, std::span<const Material> materials, const Parallel& parallel);
+bool settle_coplanar(Conversion& conversion, const TopCells& cells, std::span<const Material> materials,
+                     const Parallel& parallel);
 
 }  // namespace dmpc::core

@@ -111,8 +111,10 @@ void Cutter::add(std::uint32_t id, const Bounds& bounds) {
 }
 
 Group Cutter::group(PrimitiveKind kind, std::size_t first, std::size_t last, bool needs_plane) const {
-  Group group{
-      .first = static_cast<std::uint32_t>(first), .last = static_cast<std::uint32_t>(last), .needs_plane = needs_plane, .kind = kind};
+  Group group{.first = static_cast<std::uint32_t>(first),
+              .last = static_cast<std::uint32_t>(last),
+              .needs_plane = needs_plane,
+              .kind = kind};
   group.bounds = bounds_of(group);
   return group;
 }

@@ -14,7 +14,8 @@
 
 namespace dmpc::core {
 
-/// Primitives of one kind, all of which need a plane in their records or none of which does: those between two places of a Cutter's lists.
+/// Primitives of one kind, all of which need a plane in their records or none of which does: those between two places of a
+/// Cutter's lists.
 struct Group {
   std::uint32_t first = 0, last = 0;
   /// Of a small group: where the one began that was sorted and which this is a part of.
@@ -43,7 +44,8 @@ class Cutter {
   /// PrimitiveValues::plane() of the first of a group that needs planes.
   std::uint32_t plane_of(const Group& group) const { return group.needs_plane ? plane_at(group, group.first) : 0; }
 
-  /// Two groups, none of them empty, of a group of at least two. One as small as a block is cut between planes. `balanced`: of equal numbers, whatever a ray pays for it.
+  /// Two groups, none of them empty, of a group of at least two. One as small as a block is cut between planes. `balanced`: of
+  /// equal numbers, whatever a ray pays for it.
   std::pair<Group, Group> cut(Group whole, bool balanced);
 
   /// Undoes what cuts did to the order of a sorted group, so that it can be cut anew; nothing of another one.

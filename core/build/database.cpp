@@ -201,8 +201,9 @@ class DatabaseBuilder {
       directory[entry].bits = static_cast<std::uint32_t>(trees[i].take_room(writer_));
     }
     writer_.make_room();
-    parallel_.for_each(trees.size(),
-                       [&](std::size_t i) { trees[i].write(conversion_.primitives, conversion_.shading, conversion_.planes, writer_); });
+    parallel_.for_each(trees.size(), [&](std::size_t i) {
+      trees[i].write(conversion_.primitives, conversion_.shading, conversion_.planes, writer_);
+    });
     measure_empty_space(header().directory_size, directory);
     writer_.write(header().directory, 0, std::as_bytes(std::span(directory)));
   }

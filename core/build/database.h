@@ -41,8 +41,8 @@ struct PrimitiveValues {
   /// The plane() of triangles that have a coordinate in common, by which their plane is known.
   static constexpr std::uint32_t level_plane = 0xffffffffU;
 
-  /// Of a triangle: which of Database::planes() it shares with others that cover it, from 1 on; 0: none. It stands behind the nine
-  /// values.
+  /// Of a triangle: which of Database::planes() it shares with others that cover it, from 1 on; 0: none. It stands behind the
+  /// nine values.
   std::uint32_t plane() const {
     return kind == PrimitiveKind::triangle ? std::bit_cast<std::uint32_t>(value[value_count(kind)]) : 0;
   }
@@ -70,8 +70,8 @@ class Database {
   std::span<const std::byte> bytes() const { return std::span(bytes_).first(bytes_.empty() ? 0 : page_count_ * page_size_); }
   std::span<const std::byte> page(std::size_t index) const { return bytes().subspan(index * page_size_, page_size_); }
 
-  /// All primitives, by id: grid-local, the very floats of the records. Ids follow the file's order, but that of faces which share
-  /// a plane those come last that let light through (core/build/coplanar.h).
+  /// All primitives, by id: grid-local, the very floats of the records. Ids follow the file's order, but that of faces which
+  /// share a plane those come last that let light through (core/build/coplanar.h).
   std::span<const PrimitiveValues> primitives() const { return primitives_; }
   std::span<const PrimitiveSource> sources() const { return sources_; }
   /// By PrimitiveValues::plane() - 1.

@@ -15,8 +15,8 @@ struct PlaneBucket {
   std::size_t first = 0, last = 0;
 };
 
-/// Planes as points of a space: two slopes and a height, in buckets. A face is in all buckets where its plane may be, for all that
-/// rounding did to its corners, so two that lie in one plane meet in a bucket.
+/// Planes as points of a space: two slopes and a height, in buckets. A face is in all buckets where its plane may be, for all
+/// that rounding did to its corners, so two that lie in one plane meet in a bucket.
 struct PlaneBuckets {
   std::vector<std::uint32_t> faces;  ///< ascending within a bucket
   std::vector<PlaneBucket> buckets;

@@ -178,7 +178,8 @@ class BundleWalk {
     for (; rays != 0; rays &= rays - 1) {
       const auto ray = static_cast<std::size_t>(std::countr_zero(rays));
       float times[block_lanes];
-      std::uint32_t hits = hit_shared_faces(bundle_.sheared(ray), record, bundle_.ignored_primitive[ray], bundle_.best.t[ray], times);
+      std::uint32_t hits =
+          hit_shared_faces(bundle_.sheared(ray), record, bundle_.ignored_primitive[ray], bundle_.best.t[ray], times);
       for (; hits != 0; hits &= hits - 1) {
         const auto lane = static_cast<std::uint32_t>(std::countr_zero(hits));
         const auto id = read<std::uint32_t>(ids + lane * sizeof(std::uint32_t));

@@ -238,7 +238,8 @@ std::uint32_t hit_each(std::size_t count, float t_most, float* times, const Inte
 
 }  // namespace
 
-std::uint32_t hit_shared_faces(const ShearedRay& ray, const std::byte* record, std::uint32_t ignored, float t_most, float* times) {
+std::uint32_t hit_shared_faces(const ShearedRay& ray, const std::byte* record, std::uint32_t ignored, float t_most,
+                               float* times) {
   const auto header = read<BlockHeader>(record);
   const TriangleRows triangles{reinterpret_cast<const float*>(record + sizeof(header)), header.count};
   std::uint32_t hits = 0;

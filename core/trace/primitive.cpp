@@ -170,8 +170,8 @@ float intersect_triangle(const ShearedRay& ray, const float* rows, std::size_t s
 
 double depth_of(const ShearedRay& ray, const FacePlane& plane) {
   const Vec3d origin = Vec3d(ray.origin) + Vec3d(ray.origin_rest);
-  const double approach = plane.normal[ray.axis_x] * double{ray.shear_x} + plane.normal[ray.axis_y] * double{ray.shear_y} +
-                          plane.normal[ray.axis_z];
+  const double approach =
+      plane.normal[ray.axis_x] * double{ray.shear_x} + plane.normal[ray.axis_y] * double{ray.shear_y} + plane.normal[ray.axis_z];
   return -plane.height_of(origin) / approach;
 }
 

@@ -22,7 +22,9 @@ struct BlockView {
 inline BlockView view_block(const std::byte* record) {
   const auto header = core::read<core::BlockHeader>(record);
   const auto* rows = reinterpret_cast<const float*>(record + sizeof(header));
-  return {header.kind, header.count, rows,
+  return {header.kind,
+          header.count,
+          rows,
           reinterpret_cast<const std::uint32_t*>(rows + core::value_count(header.kind) * header.count),
           header.shared_lanes,
           record};

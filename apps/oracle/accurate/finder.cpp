@@ -149,8 +149,7 @@ void AccurateFinder::Parts::intersect_callback(const RTCIntersectFunctionNArgume
   if (arguments->valid[0] == 0 || !parts.test(arguments->primID, query)) {
     return;
   }
-  RTCRayN_tfar(RTCRayHitN_RayN(arguments->rayhit, arguments->N), arguments->N, 0) =
-      parts.end_of(query.best.t + parts.reach());
+  RTCRayN_tfar(RTCRayHitN_RayN(arguments->rayhit, arguments->N), arguments->N, 0) = parts.end_of(query.best.t + parts.reach());
   RTCHitN* hit = RTCRayHitN_HitN(arguments->rayhit, arguments->N);
   RTCHitN_primID(hit, arguments->N, 0) = arguments->primID;
   RTCHitN_geomID(hit, arguments->N, 0) = arguments->geomID;
