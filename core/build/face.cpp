@@ -16,7 +16,7 @@ std::array<Flat, 3> seen_along(const Face& face, std::size_t axis) {
 }
 
 /// Whether an edge of `a` has all of `a` on one side and all of `b` on the other.
-bool separates(const std::array<Flat, 3>& a, const std::array<Flat, 3>& b) {
+bool edge_separates(const std::array<Flat, 3>& a, const std::array<Flat, 3>& b) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Flat &from = a[i], &to = a[(i + 1) % 3], &apex = a[(i + 2) % 3];
     const double along_x = to.x - from.x, along_y = to.y - from.y;
@@ -48,7 +48,7 @@ bool are_coplanar(const Face& a, const Face& b) {
 
 bool cover(const Face& a, const Face& b, std::size_t axis) {
   const std::array<Flat, 3> first = seen_along(a, axis), second = seen_along(b, axis);
-  return !separates(first, second) && !separates(second, first);
+  return !edge_separates(first, second) && !edge_separates(second, first);
 }
 
 bool lies_in(const Face& face, const FacePlane& plane) {

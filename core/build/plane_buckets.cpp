@@ -12,18 +12,18 @@
 namespace dmpc::core {
 namespace {
 
-/// A bucket's edge in slopes, and in heights as a share of the place where the faces are.
+/// A bucket's edge in slopes, and in heights as a share of the space that the faces take.
 constexpr double bucket_edge = 0x1p-9;
 
 /// A bucket that a face is in. Two buckets have one key by chance alone, and then lose nothing by it.
-struct Place {
+struct Filing {
   std::uint64_t key;  ///< the lowest bits: the axis
   std::uint32_t face;
 
-  bool operator<(const Place& other) const { return std::tie(key, face) < std::tie(other.key, other.face); }
+  bool operator<(const Filing& other) const { return std::tie(key, face) < std::tie(other.key, other.face); }
 };
 
-/// Where the faces are: heights are measured in the middle of it, as far as rounding lets them, in parts of its size.
+/// The space that the faces take: heights are measured from its middle, in parts of its size.
 struct Surroundings {
   explicit Surroundings(std::span<const Face> faces) {
     Box box;
@@ -57,9 +57,9 @@ std::uint64_t key_of(std::size_t axis, std::int32_t slope, std::int32_t other_sl
 /// Finds the buckets of faces, and sorts out what is alone in its bucket, or with others of its object: that is most of a scene.
 class BucketFiller {
  public:
-  explicit BucketFiller(std::span<const Face> faces) : faces_(faces), around_(faces) { places_.reserve(2 * faces.size()); }
+  explicit BucketFiller(std::span<const Face> faces) : faces_(faces), around_(faces) { filings_.reserve(2 * faces.size()); }
 
-  std::vector<Place> fill() {
+  std::vector<Filing> fill() {
     for (std::uint32_t i = 0; i < faces_.size(); ++i) {
       add(faces_[i], i);
     }
@@ -98,23 +98,23 @@ class BucketFiller {
     for (std::int32_t i = slopes.first; i <= slopes.last; ++i) {
       for (std::int32_t j = other_slopes.first; j <= other_slopes.last; ++j) {
         for (std::int32_t k = heights.first; k <= heights.last; ++k) {
-          places_.push_back({key_of(axis, i, j, k), index});
+          filings_.push_back({key_of(axis, i, j, k), index});
         }
       }
     }
   }
 
   /// What a table of a few slots for each bucket finds beside others, and a little more; what has one key comes together.
-  std::vector<Place> sifted() {
+  std::vector<Filing> sifted() {
     struct Slot {
       std::uint32_t object = vacant;
       std::uint32_t count = 0;  ///< of what is in the slot; then where the next of it goes
     };
-    std::vector<Slot> slots(std::bit_ceil(2 * places_.size() + 1));
-    const auto slot_of = [&](const Place& place) -> Slot& { return slots[place.key >> 2U & (slots.size() - 1)]; };
-    for (const Place& place : places_) {
-      Slot& slot = slot_of(place);
-      const std::uint32_t object = faces_[place.face].object;
+    std::vector<Slot> slots(std::bit_ceil(2 * filings_.size() + 1));
+    const auto slot_of = [&](const Filing& filing) -> Slot& { return slots[filing.key >> 2U & (slots.size() - 1)]; };
+    for (const Filing& filing : filings_) {
+      Slot& slot = slot_of(filing);
+      const std::uint32_t object = faces_[filing.face].object;
       slot.object = slot.object == vacant || slot.object == object ? object : several;
       ++slot.count;
     }
@@ -124,10 +124,10 @@ class BucketFiller {
         end += std::exchange(slot.count, end);
       }
     }
-    std::vector<Place> result(end);
-    for (const Place& place : places_) {
-      if (Slot& slot = slot_of(place); slot.object == several) {
-        result[slot.count++] = place;
+    std::vector<Filing> result(end);
+    for (const Filing& filing : filings_) {
+      if (Slot& slot = slot_of(filing); slot.object == several) {
+        result[slot.count++] = filing;
       }
     }
     std::size_t first = 0;
@@ -141,33 +141,33 @@ class BucketFiller {
   }
 
   /// A slot has several keys by chance alone.
-  static void sort_if_mixed(std::span<Place> places) {
-    if (std::any_of(places.begin(), places.end(), [&](const Place& place) { return place.key != places[0].key; })) {
-      std::sort(places.begin(), places.end());
+  static void sort_if_mixed(std::span<Filing> filings) {
+    if (std::any_of(filings.begin(), filings.end(), [&](const Filing& filing) { return filing.key != filings[0].key; })) {
+      std::sort(filings.begin(), filings.end());
     }
   }
 
   std::span<const Face> faces_;
   Surroundings around_;
-  std::vector<Place> places_;
+  std::vector<Filing> filings_;
 };
 
 }  // namespace
 
 PlaneBuckets fill_plane_buckets(std::span<const Face> faces) {
   PlaneBuckets result;
-  const std::vector<Place> places = BucketFiller(faces).fill();
-  for (std::size_t first = 0, last = 0; first < places.size(); first = last) {
+  const std::vector<Filing> filings = BucketFiller(faces).fill();
+  for (std::size_t first = 0, last = 0; first < filings.size(); first = last) {
     bool has_several = false;
-    for (last = first; last < places.size() && places[last].key == places[first].key; ++last) {
-      has_several = has_several || faces[places[last].face].object != faces[places[first].face].object;
+    for (last = first; last < filings.size() && filings[last].key == filings[first].key; ++last) {
+      has_several = has_several || faces[filings[last].face].object != faces[filings[first].face].object;
     }
     if (has_several) {
       const std::size_t begin = result.faces.size();
-      for (std::size_t place = first; place < last; ++place) {
-        result.faces.push_back(places[place].face);
+      for (std::size_t filing = first; filing < last; ++filing) {
+        result.faces.push_back(filings[filing].face);
       }
-      result.buckets.push_back({places[first].key & 3U, begin, result.faces.size()});
+      result.buckets.push_back({filings[first].key & 3U, begin, result.faces.size()});
     }
   }
   return result;

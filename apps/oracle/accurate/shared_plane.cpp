@@ -10,7 +10,7 @@ using core::Vec3d;
 
 constexpr double corner_rounding = 0x1p-24;
 /// The product's coordinates begin so far before the scene, in sizes of it.
-constexpr double margin = 0.02;
+constexpr double margin_of_grid = 0.02;
 
 struct Leaf {
   explicit Leaf(const AccurateBody& body)
@@ -31,7 +31,7 @@ struct Leaf {
 double moved(const AccurateScene& scene, const Vec3d& point, const Vec3d& normal) {
   double sum = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    sum += std::fabs(normal[axis]) * (point[axis] - scene.bounds.low[axis] + margin * scene.size);
+    sum += std::fabs(normal[axis]) * (point[axis] - scene.bounds.low[axis] + margin_of_grid * scene.size);
   }
   return corner_rounding * sum;
 }
