@@ -19,6 +19,9 @@ constexpr std::array entries = {
     GlossaryEntry{"convention",
                   "When shadow rays are shot: towards lights that the surface faces (haines), or towards all (paper, as the "
                   "article of 1994 counts)."},
+    GlossaryEntry{"coplanar faces",
+                  "Triangles that cover each other in one plane: the first in the scene's file shows, but what lets light "
+                  "through lies behind the others."},
     GlossaryEntry{"credit",
                   "The right to send one more packet or to start one more ray; it comes back when there is room again."},
     GlossaryEntry{"crossbar", "A network in which each node has a link of its own to every other."},

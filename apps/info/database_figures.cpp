@@ -49,7 +49,7 @@ class TreeWalk {
   void count(const core::BlockHeader& block) {
     RecordFigures& figures = blocks[static_cast<std::size_t>(block.kind)];
     ++figures.count;
-    figures.bytes += core::block_bytes(block.kind, block.count);
+    figures.bytes += core::block_bytes(block);
   }
 
   core::LocalRecords records_;
@@ -106,6 +106,7 @@ DatabaseFigures figures_of(const core::Database& database, const SceneFigures& s
                           .page_size_bytes = database.page_size(),
                           .primitives = database.header().primitive_count,
                           .dropped = database.dropped(),
+                          .duplicates = database.duplicates(),
                           .copies = database.references(),
                           .cells = database.header().frame.resolution,
                           .top_cells = core::top_cells(database.header().frame),

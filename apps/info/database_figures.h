@@ -21,6 +21,7 @@ struct DatabaseFigures {
   std::uint64_t bytes = 0, pages = 0, page_size_bytes = 0;
   std::uint64_t primitives = 0;  ///< what objects became, without those left out
   std::uint64_t dropped = 0;     ///< primitives left out: no area or length, radius 0, or not finite
+  std::uint64_t duplicates = 0;  ///< triangles left out that have the corners of others
   std::uint64_t copies = 0;      ///< of primitives in blocks, one at least of each
   std::array<std::int32_t, 3> cells{}, top_cells{};
   std::uint64_t occupied_top_cells = 0;

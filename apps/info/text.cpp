@@ -33,8 +33,9 @@ std::string objects_text(const SceneFigures& scene) {
 }
 
 std::string primitives_text(const DatabaseFigures& database) {
-  const std::string dropped = dropped_text(database.dropped);
-  return grouped(database.primitives) + (dropped.empty() ? "" : "; " + dropped + ": no area or length, radius 0, or not finite");
+  const std::string dropped = dropped_text(database.dropped), duplicates = duplicates_text(database.duplicates);
+  return grouped(database.primitives) + (dropped.empty() ? "" : "; " + dropped + ": no area or length, radius 0, or not finite") +
+         (duplicates.empty() ? "" : "; " + duplicates);
 }
 
 /// Only where there is something to say.

@@ -127,7 +127,13 @@ float own_distance(const core::Ray& ray, const std::byte* record, std::uint32_t 
   core::BlockHeader header;
   std::memcpy(&header, record, sizeof(header));
   const auto* rows = reinterpret_cast<const float*>(record + sizeof(header));
-  const float t = header.kind == core::PrimitiveKind::triangle
+  const auto shared_distance = [&] {
+    float times[core::block_lanes] = {};
+    core::hit_shared_faces(core::ShearedRay(ray), record, core::no_primitive, ray.t_max, times);
+    return times[lane];
+  };
+  const float t = (header.shared_lanes >> lane & 1U) != 0 ? shared_distance()
+                  : header.kind == core::PrimitiveKind::triangle
                       ? core::intersect_triangle(core::ShearedRay(ray), rows, header.count, lane)
                   : header.kind == core::PrimitiveKind::sphere ? core::intersect_sphere(ray, rows, header.count, lane)
                                                                : core::intersect_cone(ray, rows, header.count, lane);

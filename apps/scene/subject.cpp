@@ -31,6 +31,9 @@ Subject build_subject(core::Scene scene, const PictureOptions& picture, const Da
   if (!loss.is_none()) {
     std::cerr << "dmpc: " << loss_text(loss) << '\n';
   }
+  if (database.duplicates() > 0) {
+    std::cerr << "dmpc: " << duplicates_text(database.duplicates()) << '\n';
+  }
   return {std::move(database), settings, loss};
 }
 
@@ -51,6 +54,10 @@ std::string loss_text(const core::RoundingLoss& loss) {
   }
   return text.empty() ? ""
                       : text + ": bring the scene's parts nearer to each other or nearer in size, or view it from farther away";
+}
+
+std::string duplicates_text(std::uint64_t count) {
+  return count == 0 ? "" : counted(count, "triangle") + (count == 1 ? " was" : " were") + " left out: there twice";
 }
 
 }  // namespace dmpc::apps

@@ -28,6 +28,8 @@ Subject build_subject(core::Scene scene, const PictureOptions& picture, const Da
 
 /// A sentence about the primitives that a database left out; empty if it left out none.
 std::string dropped_text(std::uint64_t count);
+/// The same about triangles that have the corners of others.
+std::string duplicates_text(std::uint64_t count);
 
 /// A sentence about what rounding takes from a picture, in pixels, and what to do; empty if that is nothing.
 std::string loss_text(const core::RoundingLoss& loss);

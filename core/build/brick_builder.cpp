@@ -19,6 +19,17 @@ constexpr double pad_max = 0x1p20;
 /// them, the levels below hold them, cut evenly. That is 8 in each child of each brick.
 std::size_t carefree_count(int levels) { return std::size_t{1} << (3 * levels); }
 
+/// What a group counts: of faces that need planes each may need a block of its own.
+std::size_t weight_of(const Group& group) { return group.count() * (group.needs_plane ? block_lanes : 1); }
+
+std::size_t weight_of(std::span<const Group> groups) {
+  std::size_t weight = 0;
+  for (const Group& group : groups) {
+    weight += weight_of(group);
+  }
+  return weight;
+}
+
 /// A part of two kinds is cut evenly into 7 groups of one and 1 of the other at worst, the largest of them a quarter of all, not
 /// an eighth.
 std::size_t carefree_count(const CutTree& tree, int levels) {
@@ -27,10 +38,10 @@ std::size_t carefree_count(const CutTree& tree, int levels) {
 
 /// Cuts groups into equal numbers until there are 8 or each fits a block.
 void cut_evenly(std::vector<Group>& groups, Cutter& cutter) {
-  const auto smaller = [](const Group& a, const Group& b) { return a.count() < b.count(); };
+  const auto smaller = [](const Group& a, const Group& b) { return weight_of(a) < weight_of(b); };
   while (groups.size() < brick_children_max) {
     Group& largest = *std::max_element(groups.begin(), groups.end(), smaller);
-    if (largest.count() <= block_lanes) {
+    if (weight_of(largest) <= block_lanes) {
       return;
     }
     const auto [first, second] = cutter.cut(largest, true);
@@ -74,7 +85,7 @@ class BrickBuilder::Drafter {
   /// `levels`: so many are left.
   BrickDraft draft(const CutTree& tree, int levels) const {
     expect(levels > 0, "a tree of bricks is no deeper than a walk can go");
-    const bool too_deep = tree.levels() > levels && tree.group().count() > carefree_count(tree, levels);
+    const bool too_deep = tree.levels() > levels && weight_of(tree.kinds()) > carefree_count(tree, levels);
     return too_deep ? draft_evenly(tree, levels) : draft_over(tree.group().bounds, tree.children(), levels);
   }
 
@@ -112,7 +123,7 @@ class BrickBuilder::Drafter {
     const auto ids = ids_.subspan(group.first, group.count());
     cutter_.copy_ids(group, ids);
     std::sort(ids.begin(), ids.end());
-    return {group.first, static_cast<std::uint8_t>(group.count()), group.kind};
+    return {group.first, static_cast<std::uint8_t>(group.count()), group.kind, cutter_.plane_of(group)};
   }
 
   Cutter& cutter_;
@@ -126,18 +137,20 @@ BrickBuilder::BrickBuilder(std::span<const PrimitiveValues> primitives, double p
     : primitives_(primitives), pad_(std::min(pad, pad_max)), frame_(frame), parallel_(&parallel), levels_max_(levels_max) {}
 
 BrickTree BrickBuilder::build(const Corner& corner, std::span<const std::uint32_t> ids) const {
-  if (const std::size_t most = carefree_count(levels_max_); ids.size() > most) {
-    throw RoomError(std::to_string(ids.size()) + " primitives lie in one place, at most " + std::to_string(most) +
-                    " may: spread them out, or render a smaller scene");
+  Cutter cutter(ids.size(), primitives_);
+  const std::vector<Group> kinds = add_by_kind(cell_at(corner), ids, cutter);
+  if (const std::size_t most = carefree_count(levels_max_), weight = weight_of(kinds); weight > most) {
+    throw RoomError(
+        std::to_string(weight) + " primitives lie in one place, at most " + std::to_string(most) +
+        " may (triangles that cover others in their plane count eightfold): spread them out, or render a smaller scene");
   }
-  Cutter cutter(ids.size());
-  const CutTree cuts = cut(add_by_kind(cell_at(corner), ids, cutter), cutter);
+  const CutTree cuts = cut(kinds, cutter);
   BrickTree tree{.top = {}, .ids = std::vector<std::uint32_t>(ids.size())};
   tree.top = Drafter(cutter, tree.ids, pad_, *parallel_).draft(cuts, levels_max_);
   return tree;
 }
 
-/// Blocks are of one kind, so the first cuts are between kinds.
+/// Blocks are of one kind, with planes or without, so the first cuts are between kinds.
 CutTree BrickBuilder::cut(std::span<const Group> kinds, Cutter& cutter) const {
   auto tree = std::make_unique<CutTree>(cutter, kinds[0], *parallel_);
   for (const Group& kind : kinds.subspan(1)) {
@@ -155,23 +168,35 @@ Bounds BrickBuilder::cell_at(const Corner& corner) const {
   return Bounds::around(cell.padded({pad_, pad_, pad_}));
 }
 
-/// The groups of each kind.
+/// The groups of each kind: triangles, those that need planes, then the others.
 std::vector<Group> BrickBuilder::add_by_kind(const Bounds& cell, std::span<const std::uint32_t> ids, Cutter& cutter) const {
   std::vector<Group> groups;
   std::size_t first = 0;
-  for (std::size_t kind = 0; kind < primitive_kind_count; ++kind) {
+  bool is_any_left = false;
+  const auto add = [&](PrimitiveKind kind, bool needs_plane) {
     std::size_t last = first;
     for (const std::uint32_t id : ids) {
       const PrimitiveValues& primitive = primitives_[id];
-      if (static_cast<std::size_t>(primitive.kind) == kind) {
+      if (primitive.kind != kind) {
+        continue;
+      }
+      if (primitive.needs_plane() == needs_plane) {
         cutter.add(id, rounded_bounds_of(primitive).clamped_to(cell));
         ++last;
+      } else {
+        is_any_left = true;
       }
     }
     if (last > first) {
-      groups.push_back(cutter.group(static_cast<PrimitiveKind>(kind), first, last));
+      groups.push_back(cutter.group(kind, first, last, needs_plane));
     }
     first = last;
+  };
+  for (const PrimitiveKind kind : {PrimitiveKind::triangle, PrimitiveKind::sphere, PrimitiveKind::cone}) {
+    add(kind, false);
+    if (is_any_left && kind == PrimitiveKind::triangle) {
+      add(kind, true);
+    }
   }
   return groups;
 }

@@ -12,7 +12,7 @@ Address take_room_for(BrickDraft& draft, RecordWriter& writer) {
   for (std::size_t i = 0; i < draft.brick.child_count; ++i) {
     const BrickDraft::Block& block = draft.blocks[i];
     if (block.count > 0) {
-      draft.brick.child[i] = BrickChild::block(writer.allocate(block_bytes(block.kind, block.count)));
+      draft.brick.child[i] = BrickChild::block(writer.allocate(block.bytes()));
     }
   }
   auto next = draft.bricks.begin();
@@ -37,8 +37,8 @@ void count_below(const BrickDraft& draft, RecordCounts& records) {
 class TreeWriter {
  public:
   TreeWriter(const BrickTree& tree, std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading,
-             RecordWriter& writer)
-      : tree_(tree), primitives_(primitives), shading_(shading), writer_(writer) {}
+             std::span<const FacePlane> planes, RecordWriter& writer)
+      : tree_(tree), primitives_(primitives), shading_(shading), planes_(planes), writer_(writer) {}
 
   void write(const BrickDraft& draft, Address address) const {
     writer_.write(address, 0, draft.brick);
@@ -55,13 +55,11 @@ class TreeWriter {
  private:
   void write_block(const BrickDraft::Block& block, Address address) const {
     std::array<std::byte, record_bytes_max> record;
-    BlockHeader header;
-    header.kind = block.kind;
-    header.count = block.count;
-    std::memcpy(record.data(), &header, sizeof(header));
+    BlockHeader header{.kind = block.kind, .count = block.count, .has_plane = block.plane != 0};
     const std::size_t rows = value_count(block.kind);
     for (std::size_t lane = 0; lane < block.count; ++lane) {
       const std::uint32_t id = tree_.ids[block.first + lane];
+      header.shared_lanes |= static_cast<std::uint8_t>(primitives_[id].plane() != 0 ? 1U << lane : 0U);
       const auto put = [&](std::size_t row, const auto& value) {
         static_assert(sizeof(value) == 4);
         std::memcpy(record.data() + sizeof(header) + 4 * (row * block.count + lane), &value, sizeof(value));
@@ -72,12 +70,17 @@ class TreeWriter {
       put(rows, id);
       put(rows + 1, shading_[id]);
     }
-    writer_.write(address, 0, std::as_bytes(std::span(record)).first(block_bytes(block.kind, block.count)));
+    std::memcpy(record.data(), &header, sizeof(header));
+    if (header.has_plane) {
+      std::memcpy(record.data() + block_bytes(block.kind, block.count), &planes_[block.plane - 1], sizeof(FacePlane));
+    }
+    writer_.write(address, 0, std::as_bytes(std::span(record)).first(block.bytes()));
   }
 
   const BrickTree& tree_;
   std::span<const PrimitiveValues> primitives_;
   std::span<const ShadingReference> shading_;
+  std::span<const FacePlane> planes_;
   RecordWriter& writer_;
 };
 
@@ -88,8 +91,8 @@ void BrickTree::count(RecordCounts& records) const { count_below(top, records); 
 Address BrickTree::take_room(RecordWriter& writer) { return address = take_room_for(top, writer); }
 
 void BrickTree::write(std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading,
-                      RecordWriter& writer) const {
-  TreeWriter(*this, primitives, shading, writer).write(top, address);
+                      std::span<const FacePlane> planes, RecordWriter& writer) const {
+  TreeWriter(*this, primitives, shading, planes, writer).write(top, address);
 }
 
 }  // namespace dmpc::core

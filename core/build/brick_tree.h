@@ -14,11 +14,14 @@ namespace dmpc::core {
 
 /// A brick, the blocks and the bricks below it.
 struct BrickDraft {
-  /// Primitives of one kind: `count` of BrickTree::ids.
+  /// Primitives of one kind, and of one plane if they need theirs: `count` of BrickTree::ids.
   struct Block {
     std::uint32_t first = 0;
     std::uint8_t count = 0;  ///< 0: the child is a brick
     PrimitiveKind kind{};
+    std::uint32_t plane = 0;  ///< PrimitiveValues::plane() of all of them, if they need it
+
+    std::size_t bytes() const { return block_bytes({.kind = kind, .count = count, .has_plane = plane != 0}); }
   };
   Brick brick;  ///< without the addresses of its children
   std::array<Block, brick_children_max> blocks{};
@@ -36,7 +39,8 @@ struct BrickTree {
   /// Takes room for the records: a brick, its blocks, and then its bricks. Returns the first brick's address.
   Address take_room(RecordWriter& writer);
   /// Writes the records, for which room has been taken and made.
-  void write(std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading, RecordWriter& writer) const;
+  void write(std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading,
+             std::span<const FacePlane> planes, RecordWriter& writer) const;
 };
 
 }  // namespace dmpc::core

@@ -17,7 +17,7 @@ constexpr int careless_cuts_max = 64;
 }  // namespace
 
 CutTree::CutTree(Cutter& cutter, const Group& group, const Parallel& parallel, int cuts_above) : group_(group) {
-  if (group.count() <= block_lanes) {
+  if (cutter.fits_block(group)) {
     return;
   }
   const auto parts = cutter.cut(group, cuts_above >= careless_cuts_max);

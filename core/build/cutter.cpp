@@ -1,6 +1,7 @@
 #include "core/build/cutter.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -96,7 +97,7 @@ Cut Bins::best_cut(std::size_t axis, std::uint32_t count) const {
 
 }  // namespace
 
-Cutter::Cutter(std::size_t count) {
+Cutter::Cutter(std::size_t count, std::span<const PrimitiveValues> primitives) : primitives_(primitives) {
   ids_.reserve(count);
   bounds_.reserve(count);
   for (auto& order : orders_) {
@@ -109,8 +110,11 @@ void Cutter::add(std::uint32_t id, const Bounds& bounds) {
   bounds_.push_back(bounds);
 }
 
-Group Cutter::group(PrimitiveKind kind, std::size_t first, std::size_t last) const {
-  Group group{.first = static_cast<std::uint32_t>(first), .last = static_cast<std::uint32_t>(last), .kind = kind};
+Group Cutter::group(PrimitiveKind kind, std::size_t first, std::size_t last, bool needs_plane) const {
+  Group group{.first = static_cast<std::uint32_t>(first),
+              .last = static_cast<std::uint32_t>(last),
+              .needs_plane = needs_plane,
+              .kind = kind};
   group.bounds = bounds_of(group);
   return group;
 }
@@ -118,6 +122,9 @@ Group Cutter::group(PrimitiveKind kind, std::size_t first, std::size_t last) con
 std::pair<Group, Group> Cutter::cut(Group whole, bool balanced) {
   if (!whole.is_sorted && whole.count() <= sorted_count_max) {
     sort(whole);
+  }
+  if (whole.needs_plane && whole.count() <= block_lanes && !balanced && !lies_in_one(whole)) {
+    return halves(whole, cut_between_planes(whole));
   }
   if (whole.is_sorted) {
     return halves(whole, cut_sorted(whole, balanced));
@@ -202,21 +209,45 @@ std::uint32_t Cutter::cut_sorted(const Group& whole, bool balanced) {
       best = cost < best.cost ? Cut{cost, axis, i} : best;
     }
   }
-  divide(whole, best.axis, whole.first + best.place);
+  std::uint64_t is_first = 0;
+  for (std::uint32_t place = whole.first; place < whole.first + best.place; ++place) {
+    is_first |= std::uint64_t{1} << orders_[best.axis][place];
+  }
+  divide(whole, is_first);
   return whole.first + best.place;
 }
 
-/// Brings those before `middle` along the axis to the front of the other axes' orders too.
-void Cutter::divide(const Group& whole, std::size_t axis, std::uint32_t middle) {
+/// Those in the plane of the first, and the others.
+std::uint32_t Cutter::cut_between_planes(const Group& whole) {
   std::uint64_t is_first = 0;
-  for (std::uint32_t place = whole.first; place < middle; ++place) {
-    is_first |= std::uint64_t{1} << orders_[axis][place];
+  for (std::uint32_t place = whole.first; place < whole.last; ++place) {
+    const bool belongs = plane_at(whole, place) == plane_of(whole);
+    is_first |= std::uint64_t{belongs ? 1U : 0U} << orders_[0][place];
   }
-  for (std::size_t other = 0; other < 3; ++other) {
-    std::uint8_t* const order = orders_[other].data();
+  divide(whole, is_first);
+  return whole.first + static_cast<std::uint32_t>(std::popcount(is_first));
+}
+
+std::uint32_t Cutter::plane_at(const Group& group, std::uint32_t place) const {
+  return primitives_[ids_[item_at(group, 0, place)]].plane();
+}
+
+bool Cutter::lies_in_one(const Group& group) const {
+  for (std::uint32_t place = group.first + 1; place < group.last; ++place) {
+    if (plane_at(group, place) != plane_of(group)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Brings items, a bit each, to the front of all orders.
+void Cutter::divide(const Group& whole, std::uint64_t is_first) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::uint8_t* const order = orders_[axis].data();
     std::array<std::uint8_t, sorted_count_max> behind{};
     std::uint32_t first = whole.first, second = 0;
-    for (std::uint32_t place = whole.first; other != axis && place < whole.last; ++place) {
+    for (std::uint32_t place = whole.first; place < whole.last; ++place) {
       const std::uint8_t item = order[place];
       const auto belongs = static_cast<std::uint32_t>(is_first >> item & 1U);
       order[first] = item;

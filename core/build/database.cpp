@@ -10,6 +10,7 @@
 #include "core/base/parallel.h"
 #include "core/build/brick_builder.h"
 #include "core/build/conversion.h"
+#include "core/build/coplanar.h"
 #include "core/build/empty_space.h"
 #include "core/build/record_writer.h"
 #include "core/build/texture_records.h"
@@ -65,8 +66,11 @@ class DatabaseBuilder {
     if (expendable_ != nullptr) {
       forget_objects(*expendable_);
     }
+    TopCells cells = sort_into_top_cells();
+    if (settle_coplanar(conversion_, cells, scene_.materials, parallel_)) {
+      cells = sort_into_top_cells();
+    }
     header().primitive_count = static_cast<std::uint32_t>(conversion_.primitives.size());
-    const TopCells cells = sort_into_top_cells();
     write_tables();
     write_textures();
     write_normals();
@@ -74,9 +78,12 @@ class DatabaseBuilder {
     give_back_freed();  // trees are many small pieces
     result_.references_ = cells.references();
     result_.dropped_ = conversion_.dropped;
+    result_.duplicates_ = conversion_.duplicates;
+    result_.shared_planes_ = conversion_.shared_planes;
     result_.primitives_ = std::move(conversion_.primitives);
     result_.sources_ = std::move(conversion_.sources);
     result_.collapsed_ = std::move(conversion_.collapsed);
+    result_.planes_ = std::move(conversion_.planes);
     result_.bytes_ = std::move(writer_).finish();
     result_.page_count_ = (result_.bytes_.size() - overread_bytes) / result_.page_size_;
     return std::move(result_);
@@ -199,8 +206,9 @@ class DatabaseBuilder {
       directory[entry].bits = static_cast<std::uint32_t>(trees[i].take_room(writer_));
     }
     writer_.make_room();
-    parallel_.for_each(trees.size(),
-                       [&](std::size_t i) { trees[i].write(conversion_.primitives, conversion_.shading, writer_); });
+    parallel_.for_each(trees.size(), [&](std::size_t i) {
+      trees[i].write(conversion_.primitives, conversion_.shading, conversion_.planes, writer_);
+    });
     measure_empty_space(header().directory_size, directory);
     writer_.write(header().directory, 0, std::as_bytes(std::span(directory)));
   }
@@ -229,7 +237,7 @@ void find_places_below(const LocalRecords& records, Address from, std::vector<Da
     }
     const std::byte* const block = records.find(address);
     const auto header = read<BlockHeader>(block);
-    const std::byte* const ids = block + block_bytes(header.kind, header.count) - 2 * sizeof(std::uint32_t) * header.count;
+    const std::byte* const ids = block + sizeof(header) + sizeof(float) * value_count(header.kind) * header.count;
     for (std::uint32_t lane = 0; lane < header.count; ++lane) {
       places[read<std::uint32_t>(ids + lane * sizeof(std::uint32_t))] = {address, lane};
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -42,7 +43,20 @@ struct CollapsedPrimitive {
 struct PrimitiveValues {
   PrimitiveKind kind{};
   std::array<float, value_count_max> value{};
+
+  /// The plane() of triangles that have a coordinate in common, by which their plane is known.
+  static constexpr std::uint32_t level_plane = 0xffffffffU;
+
+  /// Of a triangle: which of Database::planes() it shares with others that cover it, from 1 on; 0: none. It stands behind the
+  /// nine values.
+  std::uint32_t plane() const {
+    return kind == PrimitiveKind::triangle ? std::bit_cast<std::uint32_t>(value[value_count(kind)]) : 0;
+  }
+  /// Whether its records have to tell its plane.
+  bool needs_plane() const { return plane() != 0 && plane() != level_plane; }
+  void lie_in(std::uint32_t number) { value[value_count(PrimitiveKind::triangle)] = std::bit_cast<float>(number); }
 };
+static_assert(value_count(PrimitiveKind::triangle) < value_count_max);
 
 /// Records of the grid and of shading, by kind.
 struct RecordCounts {
@@ -62,9 +76,12 @@ class Database {
   std::span<const std::byte> bytes() const { return std::span(bytes_).first(bytes_.empty() ? 0 : page_count_ * page_size_); }
   std::span<const std::byte> page(std::size_t index) const { return bytes().subspan(index * page_size_, page_size_); }
 
-  /// All primitives, by id: grid-local, the very floats of the records. Ids follow the file's order.
+  /// All primitives, by id: grid-local, the very floats of the records. Ids follow the file's order, but that of faces which
+  /// share a plane those come last that let light through (core/build/coplanar.h).
   std::span<const PrimitiveValues> primitives() const { return primitives_; }
   std::span<const PrimitiveSource> sources() const { return sources_; }
+  /// By PrimitiveValues::plane() - 1.
+  std::span<const FacePlane> planes() const { return planes_; }
   /// Where some copy of primitive `id` lies: what Hit::block and Hit::lane of a hit on it may be.
   struct Place {
     Address block = no_address;
@@ -81,14 +98,19 @@ class Database {
   /// Those of dropped() that have a size in the scene.
   std::span<const CollapsedPrimitive> collapsed() const { return collapsed_; }
 
-  /// Frees primitives() and sources(): for when no oracle, no referee and no message will ask.
+  /// Frees primitives(), sources() and planes(): for when no oracle, no referee and no message will ask.
   void forget_primitives() {
     forget(primitives_);
     forget(sources_);
+    forget(planes_);
   }
 
   /// Degenerate primitives (zero area or length, radius 0, not finite) that were left out, by reason in total.
   std::uint32_t dropped() const { return dropped_; }
+  /// Triangles that were left out, since others have the same corners.
+  std::uint32_t duplicates() const { return duplicates_; }
+  /// Planes in which several triangles cover each other.
+  std::uint32_t shared_planes() const { return shared_planes_; }
   /// Copies of primitives in blocks, at least one each.
   std::uint64_t references() const { return references_; }
   const RecordCounts& records() const { return records_; }
@@ -103,7 +125,8 @@ class Database {
   std::vector<PrimitiveValues> primitives_;
   std::vector<PrimitiveSource> sources_;
   std::vector<CollapsedPrimitive> collapsed_;
-  std::uint32_t dropped_ = 0;
+  std::vector<FacePlane> planes_;
+  std::uint32_t dropped_ = 0, duplicates_ = 0, shared_planes_ = 0;
   std::uint64_t references_ = 0;
   RecordCounts records_;
   double pad_ = 0;

@@ -135,18 +135,19 @@ class Extractor {
 
   Address copy_block(Address from) {
     const auto header = read<BlockHeader>(at(from));
-    const std::size_t size = block_bytes(header.kind, header.count), row = sizeof(ShadingReference) * header.count;
+    const std::size_t rows = block_bytes(header.kind, header.count), size = block_bytes(header);
+    const std::size_t row = sizeof(ShadingReference) * header.count;
     std::array<ShadingReference, block_lanes> lanes;
     const std::span shading(lanes.data(), header.count);
-    std::memcpy(lanes.data(), at(from) + size - row, row);
+    std::memcpy(lanes.data(), at(from) + rows - row, row);
     for (ShadingReference& reference : shading) {
       if (reference.is_smooth()) {
         reference = ShadingReference::smooth(copy_normals(reference.normals()));
       }
     }
     const Address to = writer_.allocate(size);
-    writer_.write(to, 0, std::span(at(from), size - row));
-    writer_.write(to, size - row, std::as_bytes(shading));
+    writer_.write(to, 0, std::span(at(from), size));
+    writer_.write(to, rows - row, std::as_bytes(shading));
     part_.primitive_copies += header.count;
     return to;
   }

@@ -72,8 +72,9 @@ Lane lane_of(const HitState& state, const std::byte* record) {
 
 /// Point, true normal and barycentric weights in double, after T. Moeller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle
 /// Intersection", 1997; weights clamped, so that the point lies on the triangle even where the float test let the ray in by
-/// rounding.
-void triangle_geometry(HitState& state, const Lane& lane) {
+/// rounding. Where faces share a plane, the point lies in it and the normal is its: all of them are one surface, off which a ray
+/// starts on one of its sides.
+void triangle_geometry(HitState& state, const Lane& lane, const FacePlane* shared) {
   const Vec3d v0 = lane.vector(0), edge1 = lane.vector(3) - v0, edge2 = lane.vector(6) - v0, normal = cross(edge1, edge2);
   const double area = length(normal), height = height_of(edge1, edge2, area);
   const Vec3d direction = state.ray.full_direction(), p = cross(direction, edge2);
@@ -87,6 +88,10 @@ void triangle_geometry(HitState& state, const Lane& lane) {
   }
   state.point = v0 + edge1 * state.u + edge2 * state.v;
   state.geometric_normal = normal * (1.0 / area);
+  if (shared != nullptr) {
+    state.point = state.point - shared->normal * shared->height_of(state.point);
+    state.geometric_normal = dot(shared->normal, state.geometric_normal) < 0.0 ? -shared->normal : shared->normal;
+  }
   state.clearance = clearance_on_triangle(state, v0, edge1, edge2, height);
 }
 
@@ -131,7 +136,12 @@ void read_geometry(HitState& state, const std::byte* record) {
   const Lane lane = lane_of(state, record);
   switch (header.kind) {
     case PrimitiveKind::triangle:
-      triangle_geometry(state, lane);
+      if (header.has_plane) {
+        const FacePlane plane = plane_of(header, record);
+        triangle_geometry(state, lane, &plane);
+      } else {
+        triangle_geometry(state, lane, nullptr);
+      }
       break;
     case PrimitiveKind::sphere:
       sphere_geometry(state, lane);

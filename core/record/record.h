@@ -111,12 +111,23 @@ inline constexpr std::size_t block_lanes = 8;
 ///   sphere rows:   centre.x .y .z radius, rests
 ///   cone rows:     base.x .y .z radius, apex.x .y .z radius, rests of the first four, of the last four
 /// Rests: what rounding left of four values, a byte each, the first lowest (core/record/curved_values.h).
+/// Behind the rows of a block that has_plane: the FacePlane of all its triangles.
 struct BlockHeader {
   PrimitiveKind kind{};
   std::uint8_t count = 0;
-  std::array<std::uint8_t, 6> padding{};
+  bool has_plane = false;         ///< all share a plane that no axis stands on
+  std::uint8_t shared_lanes = 0;  ///< a bit for each triangle that shares its plane with others (core/build/coplanar.h)
+  std::array<std::uint8_t, 4> padding{};
 };
 static_assert(sizeof(BlockHeader) == 8);
+
+/// A plane that several triangles lie in, whose distance is that of them all: points p with dot(normal, p) == offset, grid-local.
+struct FacePlane {
+  Vec3d normal;  ///< of unit length
+  double offset = 0;
+
+  double height_of(const Vec3d& point) const { return dot(normal, point) - offset; }
+};
 
 constexpr std::size_t value_count(PrimitiveKind kind) {
   return kind == PrimitiveKind::triangle ? 9 : kind == PrimitiveKind::sphere ? 5 : 10;
@@ -127,7 +138,15 @@ constexpr std::size_t rest_row(PrimitiveKind kind) { return kind == PrimitiveKin
 constexpr std::size_t block_bytes(PrimitiveKind kind, std::size_t count) {
   return sizeof(BlockHeader) + count * 4 * (value_count(kind) + 2);
 }
-static_assert(block_bytes(PrimitiveKind::triangle, block_lanes) <= record_bytes_max);
+constexpr std::size_t block_bytes(const BlockHeader& header) {
+  return block_bytes(header.kind, header.count) + (header.has_plane ? sizeof(FacePlane) : 0);
+}
+static_assert(block_bytes(PrimitiveKind::triangle, block_lanes) + sizeof(FacePlane) <= record_bytes_max);
+
+/// The plane of a block that has one.
+inline FacePlane plane_of(const BlockHeader& header, const std::byte* block) {
+  return read<FacePlane>(block + block_bytes(header.kind, header.count));
+}
 
 /// Where a primitive's shading data is: the index of its material, or the address of its PatchNormals.
 struct ShadingReference {

@@ -350,6 +350,9 @@ void hit_triangles(RayBundle& bundle, const TriangleRows& triangles, Address blo
         }
         const ShearedRays sheared = sheared_rays(bundle, axis, down == 1, first);
         for (std::size_t lane = 0; lane < triangles.count && active != 0; ++lane) {
+          if ((triangles.left_out >> lane & 1U) != 0) {
+            continue;
+          }
           hit_triangle(bundle, sheared, first, active, triangles, block, lane);
           active &= ~(bundle.any ? bundle.found >> first : 0U);
         }

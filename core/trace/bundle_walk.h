@@ -145,9 +145,12 @@ class BundleWalk {
     const auto header = read<BlockHeader>(record);
     const RayMask rays = bundle_.next_rays, found = bundle_.found;
     const auto* rows = reinterpret_cast<const float*>(record + sizeof(BlockHeader));
-    if (header.kind == PrimitiveKind::triangle && count_of(rays) > apart_max) {
+    if (header.kind == PrimitiveKind::triangle && !header.has_plane && count_of(rays) > apart_max) {
       operations_.primitive_tests[0] += std::uint64_t{count_of(rays)} * header.count;
-      intersectors_.hit_triangles(bundle_, {rows, header.count}, block, rays);
+      intersectors_.hit_triangles(bundle_, {rows, header.count, header.shared_lanes}, block, rays);
+      if (header.shared_lanes != 0) {
+        test_shared(record, block, rays);
+      }
     } else {
       test_apart(record, block, rays);
     }
@@ -164,6 +167,26 @@ class BundleWalk {
       if (best.t != bundle_.best.t[ray] || best.primitive != bundle_.best.primitive[ray]) {
         bundle_.best.set(ray, best);
         bundle_.found |= RayMask{1} << ray;
+      }
+    }
+  }
+
+  /// The triangles that share their planes.
+  void test_shared(const std::byte* record, Address block, RayMask rays) {
+    const auto header = read<BlockHeader>(record);
+    const auto* const ids = record + sizeof(header) + sizeof(float) * value_count(header.kind) * header.count;
+    for (; rays != 0; rays &= rays - 1) {
+      const auto ray = static_cast<std::size_t>(std::countr_zero(rays));
+      float times[block_lanes];
+      std::uint32_t hits =
+          hit_shared_faces(bundle_.sheared(ray), record, bundle_.ignored_primitive[ray], bundle_.best.t[ray], times);
+      for (; hits != 0; hits &= hits - 1) {
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(hits));
+        const auto id = read<std::uint32_t>(ids + lane * sizeof(std::uint32_t));
+        if (times[lane] < bundle_.t_max[ray] && nearer(times[lane], id, bundle_.best.of(ray))) {
+          bundle_.best.set(ray, {times[lane], id, block, lane});
+          bundle_.found |= RayMask{1} << ray;
+        }
       }
     }
   }

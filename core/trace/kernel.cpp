@@ -258,6 +258,21 @@ std::uint32_t hit_each(std::size_t count, float t_most, float* times, const Inte
 
 }  // namespace
 
+std::uint32_t hit_shared_faces(const ShearedRay& ray, const std::byte* record, std::uint32_t ignored, float t_most,
+                               float* times) {
+  const auto header = read<BlockHeader>(record);
+  const TriangleRows triangles{reinterpret_cast<const float*>(record + sizeof(header)), header.count};
+  std::uint32_t hits = 0;
+  for (std::uint32_t rest = header.shared_lanes; rest != 0; rest &= rest - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+    const FacePlane plane = header.has_plane ? plane_of(header, record) : level_plane_of(triangles.rows, triangles.count, lane);
+    times[lane] = intersect_shared_face(ray, depth_of(ray, plane), triangles.rows, triangles.count, lane);
+    const auto id = read<std::uint32_t>(triangles.ids() + lane * sizeof(std::uint32_t));
+    hits |= bit_if(times[lane] > 0.0F && times[lane] <= t_most && id != ignored, lane);
+  }
+  return hits;
+}
+
 std::uint32_t hit_curved(const Ray& ray, PrimitiveKind kind, const float* rows, std::size_t count, float t_most, float* times) {
   const auto sphere = [&](std::size_t lane) { return intersect_sphere(ray, rows, count, lane); };
   const auto cone = [&](std::size_t lane) { return intersect_cone(ray, rows, count, lane); };

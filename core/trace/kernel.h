@@ -41,6 +41,7 @@ BrickChild meet_children_scalar(const BoxRay& ray, const Brick& brick, float t_l
 struct TriangleRows {
   const float* rows;
   std::size_t count;
+  std::uint32_t left_out = 0;  ///< a bit for each that bundles do not test
 
   const std::byte* ids() const { return reinterpret_cast<const std::byte*>(rows + 9 * count); }
 };
@@ -54,6 +55,9 @@ extern const TriangleKernel hit_triangles;
 /// The plain loop over intersect_triangle: the twin that every SIMD kernel must equal.
 std::uint32_t hit_triangles_scalar(const ShearedRay& ray, const TriangleRows& triangles, std::uint32_t ignored, float t_most,
                                    float* times);
+
+/// The same for those triangles of a block that share their planes, in scalar code: sets their bits and times alone.
+std::uint32_t hit_shared_faces(const ShearedRay& ray, const std::byte* record, std::uint32_t ignored, float t_most, float* times);
 
 /// The same for the spheres or cones of a block, in scalar code.
 std::uint32_t hit_curved(const Ray& ray, PrimitiveKind kind, const float* rows, std::size_t count, float t_most, float* times);
@@ -74,6 +78,10 @@ inline void test_block(const Ray& ray, const ShearedRay& sheared, const std::byt
   std::uint32_t hits = header.kind == PrimitiveKind::triangle
                            ? hit_triangles(sheared, {rows, count}, ray.ignored_primitive, t_most, times)
                            : hit_curved(ray, header.kind, rows, count, t_most, times);
+  if (header.shared_lanes != 0) {
+    const std::uint32_t shared = hit_shared_faces(sheared, record, ray.ignored_primitive, t_most, times);
+    hits = (hits & ~std::uint32_t{header.shared_lanes}) | shared;
+  }
   const auto* ids = reinterpret_cast<const std::uint32_t*>(rows + value_count(header.kind) * count);
   for (; hits != 0; hits &= hits - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(hits));

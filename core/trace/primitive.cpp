@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "core/base/mutation.h"
 #include "core/record/curved_values.h"
@@ -76,6 +78,19 @@ struct SeenTriangle {
     return !((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0));
   }
 
+  /// Between which depths the ray is in the triangle's box and `box_reach` around it; in the wrong order if it never is.
+  std::pair<double, double> depths_in_box() const {
+    std::pair<double, double> depths{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto [low, high] = std::minmax({a[axis], b[axis], c[axis]});
+      const double one = (low - box_reach) / shear[axis], other = (high + box_reach) / shear[axis];
+      if (shear[axis] != 0.0) {
+        depths = {std::max(depths.first, std::min(one, other)), std::min(depths.second, std::max(one, other))};
+      }
+    }
+    return depths;
+  }
+
   Vec3d shear;
   double scale_z;
   Vec3d a, b, c;
@@ -109,18 +124,6 @@ float judged_outside(const SeenTriangle& seen) {
   return exact > 0.0 && exact < double{near_edge} && seen.is_crossed() ? rounded(exact) : missed;
 }
 
-/// Whether floats may be wrong about a triangle that the ray passes where doubles judge: see near_edge.
-bool is_doubtful(const ShearedRay& ray, const ShearedVertex& a, const ShearedVertex& b, const ShearedVertex& c, float least,
-                 float greatest) {
-  if (!(std::min(std::min(a.z, b.z), c.z) < near_edge && std::max(std::max(a.z, b.z), c.z) > -near_edge)) {
-    return false;
-  }
-  const auto across = [](const ShearedVertex& v) { return std::max(std::fabs(v.x), std::fabs(v.y)); };
-  const float widest = std::max(std::max(across(a), across(b)), across(c));
-  const float deepest = std::max(std::max(std::fabs(a.z), std::fabs(b.z)), std::fabs(c.z));
-  return std::min(-least, greatest) <= (edge_rounding * std::max(widest, deepest) + rest_weight * ray.rest()) * widest;
-}
-
 }  // namespace
 
 ShearedRay::ShearedRay(const Ray& ray) : origin(ray.origin), origin_rest(ray.origin_rest) {
@@ -135,27 +138,98 @@ ShearedRay::ShearedRay(const Ray& ray) : origin(ray.origin), origin_rest(ray.ori
   shear_y = ray.direction[axis_y] * scale_z;
 }
 
+namespace {
+
+/// A triangle in the sheared frame with its edge functions.
+struct ShearedTriangle {
+  ShearedTriangle(const ShearedRay& ray, const float* rows, std::size_t stride)
+      : a(ray, rows, stride),
+        b(ray, rows + 3 * stride, stride),
+        c(ray, rows + 6 * stride, stride),
+        u(edge(c, b)),
+        v(edge(a, c)),
+        w(edge(b, a)),
+        least(std::min(std::min(u, v), w)),
+        greatest(std::max(std::max(u, v), w)) {
+    if (u == 0.0F || v == 0.0F || w == 0.0F) {
+      u = exact_edge(c, b);
+      v = exact_edge(a, c);
+      w = exact_edge(b, a);
+    }
+    determinant = u + v + w;
+  }
+
+  /// By floats.
+  bool is_passed() const { return outside(u, v, w); }
+  /// Whether floats may be wrong about a triangle that the ray passes where doubles judge: see near_edge.
+  bool is_doubtful(const ShearedRay& ray) const {
+    if (!(std::min(std::min(a.z, b.z), c.z) < near_edge && std::max(std::max(a.z, b.z), c.z) > -near_edge)) {
+      return false;
+    }
+    const auto across = [](const ShearedVertex& vertex) { return std::max(std::fabs(vertex.x), std::fabs(vertex.y)); };
+    const float widest = std::max(std::max(across(a), across(b)), across(c));
+    const float deepest = std::max(std::max(std::fabs(a.z), std::fabs(b.z)), std::fabs(c.z));
+    return std::min(-least, greatest) <= (edge_rounding * std::max(widest, deepest) + rest_weight * ray.rest()) * widest;
+  }
+  /// Of the hit, not scaled yet. Each weight is divided before the sum: a cubic in length would overflow and underflow far too
+  /// soon.
+  float depth() const { return std::fma(u / determinant, a.z, std::fma(v / determinant, b.z, (w / determinant) * c.z)); }
+
+  ShearedVertex a, b, c;
+  float u, v, w;
+  float least, greatest;  ///< of them, before zeros are told apart
+  float determinant = 0;
+};
+
+}  // namespace
+
 float intersect_triangle(const ShearedRay& ray, const float* rows, std::size_t stride, std::size_t lane) {
-  const ShearedVertex a(ray, rows + lane, stride), b(ray, rows + 3 * stride + lane, stride),
-      c(ray, rows + 6 * stride + lane, stride);
-  float u = edge(c, b), v = edge(a, c), w = edge(b, a);
-  const float least = std::min(std::min(u, v), w), greatest = std::max(std::max(u, v), w);
-  if (u == 0.0F || v == 0.0F || w == 0.0F) {
-    u = exact_edge(c, b);
-    v = exact_edge(a, c);
-    w = exact_edge(b, a);
+  const ShearedTriangle seen(ray, rows + lane, stride);
+  if (seen.is_passed()) {
+    return seen.is_doubtful(ray) ? judged_outside(SeenTriangle(ray, rows + lane, stride)) : missed;
   }
-  if (outside(u, v, w)) {
-    return is_doubtful(ray, a, b, c, least, greatest) ? judged_outside(SeenTriangle(ray, rows + lane, stride)) : missed;
-  }
-  const float determinant = u + v + w;
-  if (determinant == 0.0F) {
+  if (seen.determinant == 0.0F) {
     return missed;
   }
-  // Each weight is divided before the sum: a cubic in length would overflow and underflow far too soon.
-  const float weighted = std::fma(u / determinant, a.z, std::fma(v / determinant, b.z, (w / determinant) * c.z));
-  const float t = weighted * ray.scale_z;
+  const float t = seen.depth() * ray.scale_z;
   return std::fabs(t) < near_start ? judged(t, SeenTriangle(ray, rows + lane, stride)) : t;
+}
+
+double depth_of(const ShearedRay& ray, const FacePlane& plane) {
+  const Vec3d origin = Vec3d(ray.origin) + Vec3d(ray.origin_rest);
+  const double approach =
+      plane.normal[ray.axis_x] * double{ray.shear_x} + plane.normal[ray.axis_y] * double{ray.shear_y} + plane.normal[ray.axis_z];
+  return -plane.height_of(origin) / approach;
+}
+
+FacePlane level_plane_of(const float* rows, std::size_t stride, std::size_t lane) {
+  FacePlane plane;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto coordinate = [&](std::size_t corner) { return rows[(3 * corner + axis) * stride + lane]; };
+    if (coordinate(0) == coordinate(1) && coordinate(0) == coordinate(2)) {
+      plane.normal[axis] = 1;
+      plane.offset = double{coordinate(0)};
+      break;
+    }
+  }
+  return plane;
+}
+
+float intersect_shared_face(const ShearedRay& ray, double plane_depth, const float* rows, std::size_t stride, std::size_t lane) {
+  const ShearedTriangle sheared(ray, rows + lane, stride);
+  const bool is_passed = sheared.is_passed();
+  if (!std::isfinite(plane_depth) || (is_passed ? !sheared.is_doubtful(ray) : sheared.determinant == 0.0F)) {
+    return missed;
+  }
+  const SeenTriangle seen(ray, rows + lane, stride);
+  const auto [least, greatest] = seen.depths_in_box();
+  if (is_passed && !(least <= greatest)) {
+    return missed;
+  }
+  const double depth = least <= greatest ? std::clamp(plane_depth, least, greatest) : double{sheared.depth()};
+  const double t = depth * double{ray.scale_z};
+  const bool is_near = t > 0.0 && t < near_edge;
+  return is_near ? (seen.is_crossed() ? rounded(t) : missed) : is_passed ? missed : rounded(t);
 }
 
 namespace {

@@ -38,6 +38,10 @@ inline constexpr float near_edge = 0x1p-12F;
 /// what the start's rest moves an edge by.
 inline constexpr float edge_rounding = 160 * 0x1p-24F, rest_weight = 8;
 
+/// Faces whose plane is shared are hit within this of the boxes of their corners: farther than rounding moves the plane, by less
+/// than insertion_pad().
+inline constexpr double box_reach = 0x1p-22;
+
 /// The t of a ray that misses: never in (0, t_max).
 inline constexpr float missed = -1.0F;
 
@@ -48,6 +52,18 @@ inline constexpr float missed = -1.0F;
 /// needles t is off by more than a secondary ray starts off its surface, and the ray must neither hit what shares its surface's
 /// plane nor pass what lies ahead.
 float intersect_triangle(const ShearedRay& ray, const float* rows, std::size_t stride, std::size_t lane);
+
+/// Where, in double, the ray crosses a plane that triangles share, along the axis on which it is sheared: t / scale_z, the same
+/// for all of them. Not finite for a ray parallel to it.
+double depth_of(const ShearedRay& ray, const FacePlane& plane);
+
+/// The plane of a triangle whose corners have a coordinate in common.
+FacePlane level_plane_of(const float* rows, std::size_t stride, std::size_t lane);
+
+/// intersect_triangle() of a face whose plane others share: it is hit where the plane is, at the same t as they, but for a ray
+/// that all but lies in the plane: it is hit no farther than `box_reach` from the triangle's box, so that its t is not less than
+/// where a ray enters the boxes around it.
+float intersect_shared_face(const ShearedRay& ray, double plane_depth, const float* rows, std::size_t stride, std::size_t lane);
 
 /// Spheres and cones: solved in double about the point of the ray nearest to the centre (base), so that distance cancels nothing;
 /// t rounded to float once. A negative radius shows the inside only. Nearest root with t > 0.

@@ -23,6 +23,17 @@ inline core::Database database_of(const core::Scene& scene) {
   return core::build_database(scene, apps::several_top_cells(scene));
 }
 
+/// A triangle by the scalar routines.
+inline float intersect(const core::Database& database, const core::PrimitiveValues& triangle, const core::ShearedRay& sheared) {
+  const float* rows = triangle.value.data();
+  if (triangle.plane() == 0) {
+    return core::intersect_triangle(sheared, rows, 1, 0);
+  }
+  const core::FacePlane plane =
+      triangle.needs_plane() ? database.planes()[triangle.plane() - 1] : core::level_plane_of(rows, 1, 0);
+  return core::intersect_shared_face(sheared, core::depth_of(sheared, plane), rows, 1, 0);
+}
+
 /// Every primitive by the scalar routines, in order.
 inline core::Hit brute_force(const core::Database& database, const core::Ray& ray) {
   core::Hit best;
@@ -33,7 +44,7 @@ inline core::Hit brute_force(const core::Database& database, const core::Ray& ra
   for (std::uint32_t id = 0; id < database.primitives().size(); ++id) {
     const core::PrimitiveValues& primitive = database.primitives()[id];
     const float* rows = primitive.value.data();
-    const float t = primitive.kind == core::PrimitiveKind::triangle ? core::intersect_triangle(sheared, rows, 1, 0)
+    const float t = primitive.kind == core::PrimitiveKind::triangle ? intersect(database, primitive, sheared)
                     : primitive.kind == core::PrimitiveKind::sphere ? core::intersect_sphere(ray, rows, 1, 0)
                                                                     : core::intersect_cone(ray, rows, 1, 0);
     if (t > 0.0F && t < ray.t_max && core::nearer(t, id, best) && id != ray.ignored_primitive) {

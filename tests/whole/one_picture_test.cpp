@@ -13,6 +13,7 @@
 #include "core/base/units.h"
 #include "dataflow/run.h"
 #include "svm/run.h"
+#include "tests/support/covering_faces.h"
 #include "tests/support/pairwise.h"
 #include "tests/support/scaled.h"
 #include "tests/support/small_scenes.h"
@@ -114,7 +115,8 @@ TEST_CASE("a teapot gives one picture in every pair of choices") {
 }
 
 TEST_CASE("svm, replicated and dataflow give one film along the world's axes, and one along the screen's") {
-  for (const core::Scene& scene : {tests::mirrors_and_glass(), tests::built_in("gears-1"), tests::built_in("balls-2")}) {
+  for (const core::Scene& scene :
+       {tests::mirrors_and_glass(), tests::built_in("gears-1"), tests::built_in("balls-2"), tests::glass_on_floor(true, true)}) {
     CAPTURE(scene.name);
     for (const Subject& subject :
          tests::along_both_axes(scene, {.width = scaled_edge(20), .height = scaled_edge(16), .samples = 2})) {

@@ -14,8 +14,11 @@ namespace dmpc::apps {
 namespace {
 
 void test_scalar(const core::Ray& ray, const core::ShearedRay& sheared, const BlockView& block, core::Hit& best) {
+  float times[core::block_lanes] = {};
+  core::hit_shared_faces(sheared, block.record, core::no_primitive, ray.t_max, times);
   for (std::size_t lane = 0; lane < block.count; ++lane) {
-    const float t = core::intersect_triangle(sheared, block.rows, block.count, lane);
+    const bool is_shared = (block.shared_lanes >> lane & 1U) != 0;
+    const float t = is_shared ? times[lane] : core::intersect_triangle(sheared, block.rows, block.count, lane);
     if (t > 0.0F && t < ray.t_max && nearer(t, block.ids[lane], best) && block.ids[lane] != ray.ignored_primitive) {
       best.t = t;
       best.primitive = block.ids[lane];

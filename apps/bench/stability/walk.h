@@ -15,13 +15,19 @@ struct BlockView {
   std::size_t count = 0;
   const float* rows = nullptr;
   const std::uint32_t* ids = nullptr;
+  std::uint32_t shared_lanes = 0;
+  const std::byte* record = nullptr;
 };
 
 inline BlockView view_block(const std::byte* record) {
   const auto header = core::read<core::BlockHeader>(record);
   const auto* rows = reinterpret_cast<const float*>(record + sizeof(header));
-  return {header.kind, header.count, rows,
-          reinterpret_cast<const std::uint32_t*>(rows + core::value_count(header.kind) * header.count)};
+  return {header.kind,
+          header.count,
+          rows,
+          reinterpret_cast<const std::uint32_t*>(rows + core::value_count(header.kind) * header.count),
+          header.shared_lanes,
+          record};
 }
 
 /// Calls test(block, best) for each block of triangles that `ray` meets, by `meet`, before the walk knows its nearest hit.

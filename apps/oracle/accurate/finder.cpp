@@ -1,11 +1,14 @@
 #include "apps/oracle/accurate/finder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
+#include "apps/oracle/accurate/shared_plane.h"
 #include "apps/oracle/embree.h"
 
 namespace dmpc::apps {
@@ -16,11 +19,16 @@ using core::Vec3d;
 /// In sizes of the scene; float moves a ray that starts one size away by less than 1e-6.
 constexpr double box_margin = 1e-5;
 
+/// In sizes of the scene, along a ray: triangles of one plane are hit no farther from each other, however it grazes them.
+constexpr double level_reach = 1e-5;
+
 /// What the callbacks know of the query under way. Embree hands back the address of `context`, the first member.
 struct Query {
   embree::Context context;
   const AccurateRay* ray = nullptr;
   AccurateHit best;
+  std::array<AccurateHit, 32> level{};  ///< hits so near to each other that they may lie in one plane
+  std::size_t level_count = 0;
 };
 static_assert(std::is_standard_layout_v<Query>);
 
@@ -39,8 +47,14 @@ struct AccurateFinder::Parts {
   RTCRay embree_ray(const AccurateRay& ray) const;
   /// `t` in Embree's units, rounded up.
   float end_of(double t) const;
-  /// Tests one body; returns whether it is the query's best so far.
+  /// Tests one body; returns whether it is the query's best so far, or level with that.
   bool test(unsigned body, Query& query) const;
+  /// Whether it lies in the plane that the ray starts on, at its start.
+  bool starts_on(unsigned body, double t, const AccurateRay& ray) const;
+  void note_level(const AccurateHit& hit, Query& query) const;
+  /// Who shows of those that are level with the best in its plane.
+  AccurateHit shown(const Query& query) const;
+  double reach() const { return level_reach * scene->size; }
 
   static const Parts& of(const void* user_data) { return *static_cast<const Parts*>(user_data); }
   static void bounds_callback(const RTCBoundsFunctionArguments* arguments);
@@ -80,11 +94,42 @@ bool AccurateFinder::Parts::test(unsigned body, Query& query) const {
   }
   const std::optional<double> t = distance_to(tested, *query.ray);
   AccurateHit& best = query.best;
-  if (!t || !(*t < best.t || (*t == best.t && body < best.body))) {
+  if (!t || *t > best.t + reach() || starts_on(body, *t, *query.ray)) {
     return false;
   }
-  best = {*t, body};
+  if (*t < best.t || (*t == best.t && body < best.body)) {
+    best = {*t, body};
+  }
+  note_level({*t, body}, query);
   return true;
+}
+
+bool AccurateFinder::Parts::starts_on(unsigned body, double t, const AccurateRay& ray) const {
+  return t < reach() && ray.ignored_body != core::no_primitive && share_plane(*scene, ray.ignored_body, body);
+}
+
+void AccurateFinder::Parts::note_level(const AccurateHit& hit, Query& query) const {
+  if (query.level_count == query.level.size()) {
+    const auto end = std::remove_if(query.level.begin(), query.level.end(),
+                                    [&](const AccurateHit& other) { return other.t > query.best.t + reach(); });
+    query.level_count = static_cast<std::size_t>(end - query.level.begin());
+  }
+  if (query.level_count < query.level.size()) {
+    query.level[query.level_count++] = hit;
+  }
+}
+
+AccurateHit AccurateFinder::Parts::shown(const Query& query) const {
+  AccurateHit shown = query.best;
+  const auto transmits = [&](std::uint32_t body) { return scene->materials[scene->bodies[body].material].transmittance > 0; };
+  for (std::size_t i = 0; i < query.level_count; ++i) {
+    const std::uint32_t body = query.level[i].body;
+    const bool comes_before = std::pair(transmits(body), body) < std::pair(transmits(shown.body), shown.body);
+    if (comes_before && query.level[i].t <= query.best.t + reach() && share_plane(*scene, query.best.body, body)) {
+      shown.body = body;
+    }
+  }
+  return shown;
 }
 
 void AccurateFinder::Parts::bounds_callback(const RTCBoundsFunctionArguments* arguments) {
@@ -104,7 +149,7 @@ void AccurateFinder::Parts::intersect_callback(const RTCIntersectFunctionNArgume
   if (arguments->valid[0] == 0 || !parts.test(arguments->primID, query)) {
     return;
   }
-  RTCRayN_tfar(RTCRayHitN_RayN(arguments->rayhit, arguments->N), arguments->N, 0) = parts.end_of(query.best.t);
+  RTCRayN_tfar(RTCRayHitN_RayN(arguments->rayhit, arguments->N), arguments->N, 0) = parts.end_of(query.best.t + parts.reach());
   RTCHitN* hit = RTCRayHitN_HitN(arguments->rayhit, arguments->N);
   RTCHitN_primID(hit, arguments->N, 0) = arguments->primID;
   RTCHitN_geomID(hit, arguments->N, 0) = arguments->geomID;
@@ -135,7 +180,7 @@ AccurateHit AccurateFinder::closest(const AccurateRay& ray) const {
   ray_hit.ray = parts_->embree_ray(ray);
   ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   embree::intersect(parts_->library, parts_->boxes.scene(), query.context, ray_hit);
-  return query.best;
+  return query.level_count > 1 ? parts_->shown(query) : query.best;
 }
 
 AccurateHit AccurateFinder::any(const AccurateRay& ray) const {

@@ -93,4 +93,14 @@ TEST_CASE("what is degenerate is told apart from primitives") {
   CHECK(found.figures.dropped == 1);
 }
 
+TEST_CASE("triangles that are there twice are counted") {
+  core::Scene scene;
+  core::SceneBuilder builder(scene);
+  builder.polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 1}});
+  builder.polygon({{1, 0, 0}, {0, 0, 0}, {0, 1, 1}});
+  const Found found(scene);
+  CHECK(found.figures.primitives == 1);
+  CHECK(found.figures.duplicates == 1);
+}
+
 }  // namespace dmpc::apps

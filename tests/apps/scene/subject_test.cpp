@@ -44,6 +44,9 @@ TEST_CASE("what was left out is told in good grammar") {
   CHECK(dropped_text(0).empty());
   CHECK(dropped_text(1) == "1 degenerate primitive was left out");
   CHECK(dropped_text(2) == "2 degenerate primitives were left out");
+  CHECK(duplicates_text(0).empty());
+  CHECK(duplicates_text(1) == "1 triangle was left out: there twice");
+  CHECK(duplicates_text(2) == "2 triangles were left out: there twice");
 }
 
 }  // namespace dmpc::apps

@@ -20,7 +20,7 @@ TEST_CASE("a brick comes before its blocks, and these before its bricks, each wh
   RecordWriter writer(512);
   const Address top = tree.take_room(writer);
   writer.make_room();
-  tree.write(primitives, shading, writer);
+  tree.write(primitives, shading, {}, writer);
   const std::vector<std::byte> bytes = std::move(writer).finish();
   const LocalRecords records(bytes);
   const auto first = read<Brick>(records.find(top));

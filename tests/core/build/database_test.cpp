@@ -202,7 +202,8 @@ TEST_CASE("bricks, blocks and normals are counted by kind") {
   CHECK(few.blocks == decltype(few.blocks){1, 1, 1});
   CHECK(few.normals == 1);
   for (int i = 0; i < 40; ++i) {
-    builder.polygon({{0.0, 0.0, 0.01 * i}, {0.1, 0.0, 0.01 * i}, {0.0, 0.1, 0.01 * i}});
+    const double z = 0.01 * (i + 1);
+    builder.polygon({{0.0, 0.0, z}, {0.1, 0.0, z}, {0.0, 0.1, z}});
   }
   const Database many = database_of(scene);
   CHECK(many.records().blocks[0] >= 6);

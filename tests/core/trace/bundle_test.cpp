@@ -13,6 +13,7 @@
 #include "apps/bench/stability/records.h"
 #include "core/build/extract.h"
 #include "core/trace/bundle_walk.h"
+#include "tests/support/covering_faces.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 #include "tests/support/small_scenes.h"
@@ -82,7 +83,8 @@ void check_hits(const RayBundle& bundle, const WalksAlone& expected) {
 const std::vector<Database>& bundle_subjects() {
   static const std::vector<Database> all = [] {
     std::vector<Database> result;
-    for (const auto& scene : {built_in("teapot-3"), everything(), built_in("tetra-4"), built_in("balls-1")}) {
+    for (const auto& scene : {built_in("teapot-3"), everything(), built_in("tetra-4"), built_in("balls-1"),
+                              rug_on_floor(true, true, 6), glass_on_floor(false, true)}) {
       result.push_back(database_of(scene));
     }
     return result;

@@ -8,6 +8,7 @@
 #include "apps/system/interrupt.h"
 #include "core/base/expect.h"
 #include "tests/support/checked_floor.h"
+#include "tests/support/covering_faces.h"
 #include "tests/support/small_scenes.h"
 
 namespace dmpc::tests {
@@ -48,6 +49,22 @@ TEST_CASE("balls, rings and lattices that mirror each other look as in double") 
     const apps::Precision precision = apps::measure_precision(built_in(name), sized(128));
     CHECK(static_cast<double>(precision.differing_pixels) < 0.005 * static_cast<double>(precision.pixels));
     CHECK(precision.errors.empty());
+  }
+}
+
+TEST_CASE("faces in one plane look as in double: a rug in the floor's, a glass box that stands on it") {
+  for (const bool is_tilted : {false, true}) {
+    for (const bool is_first : {false, true}) {
+      for (const core::Scene& scene :
+           {rug_on_floor(is_tilted, is_first), rug_on_floor(is_tilted, is_first, 9), glass_on_floor(is_tilted, is_first)}) {
+        CAPTURE(is_tilted);
+        CAPTURE(is_first);
+        CAPTURE(scene.objects.size());
+        const apps::Precision precision = apps::measure_precision(scene, sized(64));
+        CHECK(precision.differing_pixels == 0);
+        CHECK(precision.largest < 1e-5);
+      }
+    }
   }
 }
 
