@@ -169,9 +169,9 @@ std::uint64_t print_certified(std::ostream& output, const Inspection& inspection
   }
   output << "Certificates: " << counts.hits << " random hits against rational arithmetic: " << counts.failures() << " fail, "
          << counts.undecided << " undecided, " << counts.inside << " surely on their primitive\n";
-  print_spread(output, "interval of t", counts.width_ulp);
-  print_spread(output, "what the hit's t is off, at most", counts.error_ulp);
-  print_spread(output, "what the kernels' bound allows", counts.allowed_ulp);
+  print_spread(output, "interval of the exact t", counts.width_ulp);
+  print_spread(output, "if surely on it, the hit's t is off by at most", counts.error_ulp);
+  print_spread(output, "if surely on it, the kernels' bound allows", counts.allowed_ulp);
   for (const CertifiedRay& ray : inspection.certified) {
     if (ray.certified.fault != CertificateFault::none && list > 0) {
       print_failed(output, ray, width);

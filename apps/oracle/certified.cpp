@@ -44,10 +44,12 @@ void CertifiedCounts::count(const CertifiedHit& hit) {
     return;
   }
   ++faults[static_cast<std::size_t>(hit.fault)];
-  inside += hit.is_inside ? 1 : 0;
   width_ulp.add(hit.width_ulp);
-  error_ulp.add(hit.error_ulp);
-  allowed_ulp.add(hit.allowed_ulp);
+  if (hit.is_inside) {
+    ++inside;
+    error_ulp.add(hit.error_ulp);
+    allowed_ulp.add(hit.allowed_ulp);
+  }
 }
 
 std::uint64_t CertifiedCounts::failures() const {

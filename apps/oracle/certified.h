@@ -40,7 +40,8 @@ class Spread {
 struct CertifiedCounts {
   std::uint64_t hits = 0, undecided = 0, inside = 0;
   std::array<std::uint64_t, certificate_fault_count> faults{};
-  Spread width_ulp, error_ulp, allowed_ulp;  ///< of those that are decided
+  Spread width_ulp;               ///< of those that are decided
+  Spread error_ulp, allowed_ulp;  ///< of those surely on their primitive: others have their exact t anywhere on the plane
 
   void count(const CertifiedHit& hit);
   std::uint64_t failures() const;

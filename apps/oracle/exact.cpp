@@ -47,6 +47,10 @@ struct ExactTriangle {
     const auto vertex = [&](std::size_t k) {
       return Exact(core::Vec3f{values.value[3 * k], values.value[3 * k + 1], values.value[3 * k + 2]});
     };
+    const std::array<Exact, 3> seen{vertex(0) - origin_of(ray), vertex(1) - origin_of(ray), vertex(2) - origin_of(ray)};
+    for (std::size_t k = 0; k < 3; ++k) {
+      edge[k] = dot(direction_of(ray), cross(seen[(k + 1) % 3], seen[(k + 2) % 3]));
+    }
     const Exact v0 = vertex(0), edge1 = vertex(1) - v0, edge2 = vertex(2) - v0, normal = cross(edge1, edge2);
     const Exact from_v0 = origin_of(ray) - v0, direction = direction_of(ray), across = cross(from_v0, direction);
     const mpq_class approach = -dot(normal, direction);
@@ -58,8 +62,15 @@ struct ExactTriangle {
     }
   }
 
+  /// Whether each edge function is on the side of `sign`, or as little on the other one as allowed.
+  bool is_within(const std::array<double, 3>& edge_error, int sign) const {
+    const auto holds = [&](std::size_t k) { return !std::isfinite(edge_error[k]) || sign * edge[k] >= -edge_error[k]; };
+    return holds(0) && holds(1) && holds(2);
+  }
+
   bool exists = false;
   mpq_class t, u, v;
+  std::array<mpq_class, 3> edge;  ///< functions, of the edge opposite each vertex
 };
 
 Fault fault_of_triangle(const Ray& ray, const core::PrimitiveValues& values, float t, const Certificate& certificate) {
@@ -76,11 +87,8 @@ Fault fault_of_triangle(const Ray& ray, const core::PrimitiveValues& values, flo
   if (std::isfinite(certificate.t_error) && abs(exact.t - double{t}) > certificate.t_error) {
     return Fault::hit;
   }
-  const std::array<mpq_class, 3> weight{1 - exact.u - exact.v, exact.u, exact.v};
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (std::isfinite(certificate.weight_error[k]) && weight[k] < -certificate.weight_error[k]) {
-      return Fault::edge;
-    }
+  if (!exact.is_within(certificate.edge_error, 1) && !exact.is_within(certificate.edge_error, -1)) {
+    return Fault::edge;
   }
   return Fault::none;
 }

@@ -21,9 +21,9 @@
 // own
 //    two products and the difference, unfused, g(2) of their magnitudes and 4 h. With exact signs in double it is off by less.
 //    The sum over both products is F here, one for each edge: F0 opposite v0.
-// 3. The weights. A kernel sees a hit only where its three edge functions have one sign, or are 0. So the exact ones, U0, U1, U2,
-//    are no farther on the other side than F0, F1, F2, and divided by N = U0 + U1 + U2 the weights no less than -F / |N|.
-//    (Where F0 + F1 + F2 >= |N| the kernel's sign may not be that of N, and weights may be anything.)
+// 3. The edges. A kernel sees a hit only where its three edge functions have one sign, or are 0. So the exact ones, U0, U1, U2,
+// are
+//    no farther on the other side than F0, F1, F2. Their sum is N; D . (P_b x P_c) is D_z times theirs.
 // 4. The distance. With edge functions of one sign their sum is good to g(2), a weight to g(3) of itself; with the roundings of
 // p_z,
 //    three more of the fused sums, of the reciprocal of d_z and of the last product
@@ -207,10 +207,8 @@ Certificate certify_triangle(const Ray& ray, const float* rows, std::size_t stri
   const KernelTriangle kernel(ray, real);
   const std::array<Interval, 3> edge_error{kernel.edge_error(0), kernel.edge_error(1), kernel.edge_error(2)};
   const Interval area = magnitude(determinant) / kernel.direction_most();
-  if ((edge_error[0] + edge_error[1] + edge_error[2]).high < area.low) {
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      certificate.weight_error[corner] = (edge_error[corner] / area).high;
-    }
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    certificate.edge_error[corner] = (edge_error[corner] * kernel.direction_most()).high;
   }
   certificate.t_error = kernel.distance_error(certificate.t, area, edge_error).high;
   if (certificate.t.least() - certificate.t_error < double{near_start}) {

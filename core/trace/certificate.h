@@ -31,9 +31,10 @@ struct Certificate {
   Interval t = Interval::everything(), u = Interval::everything(), v = Interval::everything();
   /// A hit's t, as every kernel gives it, is no farther than this from the exact one.
   double t_error = unknown;
-  /// Where a kernel sees a hit the exact weights of v0, v1 and v2 are no less than the negatives of these: so far outside an edge
-  /// a ray may pass whose floats say that it hits.
-  std::array<double, 3> weight_error{unknown, unknown, unknown};
+  /// Where a kernel sees a hit of a triangle the exact edge functions D . ((b - O) x (c - O)), of the edges b c opposite v0, v1
+  /// and v2, have one sign, or are on the other side of 0 by no more than these: so far outside an edge a ray may pass whose
+  /// floats say that it hits.
+  std::array<double, 3> edge_error{unknown, unknown, unknown};
 
   /// Whether it says anything: not of a ray that doubles cannot tell from one parallel to the plane, tangent to the sphere or
   /// cone, or through the cone's rim.

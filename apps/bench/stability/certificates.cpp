@@ -30,7 +30,9 @@ void count_hit(const Ray& ray, const PrimitiveValues& values, float t, Stability
   const bool is_kernels = hit.fault == CertificateFault::hit || hit.fault == CertificateFault::edge;
   count.wrong_hits += is_kernels ? 1 : 0;
   count.unexplained += hit.fault != CertificateFault::none && !is_kernels ? 1 : 0;
-  count.error_milliulp = std::max(count.error_milliulp, static_cast<std::uint64_t>(std::ceil(hit.error_ulp * 1000)));
+  // Where the exact ray passes by, its t is that of the plane, anywhere.
+  const double error_ulp = hit.is_inside ? hit.error_ulp : 0;
+  count.error_milliulp = std::max(count.error_milliulp, static_cast<std::uint64_t>(std::ceil(error_ulp * 1000)));
 }
 
 double power_of_ten(Random& random, double least, double greatest) { return std::pow(10.0, random.between(least, greatest)); }

@@ -54,7 +54,7 @@ TEST_CASE("check holds certificates of random hits against rational arithmetic w
   const Said said = check(options);
   CHECK(said.status == 0);
   CHECK(said.text.find("Certificates: 300 random hits against rational arithmetic: 0 fail, ") != std::string::npos);
-  CHECK(said.text.find("interval of t: median ") != std::string::npos);
+  CHECK(said.text.find("interval of the exact t: median ") != std::string::npos);
 }
 
 TEST_CASE("check honours convention, depth and samples") {
