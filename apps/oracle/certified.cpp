@@ -19,7 +19,8 @@ CertifiedHit certified(const core::Ray& ray, const core::PrimitiveValues& values
   if (!certificate.is_decided()) {
     return {};
   }
-  const double place = last_place(t), off = std::max(double{t} - certificate.t.low, certificate.t.high - double{t});
+  const double place = last_place(std::max(t, static_cast<float>(certificate.t.high))),
+               off = std::max(double{t} - certificate.t.low, certificate.t.high - double{t});
   return {
       fault_of(ray, values, t, certificate), true,        values.kind != core::PrimitiveKind::triangle || certificate.is_inside(),
       certificate.t.width() / place,         off / place, certificate.t_error / place};

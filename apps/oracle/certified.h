@@ -11,7 +11,7 @@
 
 namespace dmpc::apps {
 
-/// One hit. Units in the last place are those of the hit's own t, a float's.
+/// One hit. Units in the last place are those of a float: of the hit's t, or of the exact one where that is greater.
 struct CertifiedHit {
   CertificateFault fault = CertificateFault::none;
   bool is_decided = false;  ///< the others mean nothing if not
