@@ -55,10 +55,10 @@ namespace {
 
 using Reals = Vec3<Interval>;
 
-constexpr double unit = 0x1p-24;
+constexpr double unit_rounding = 0x1p-24;
 constexpr double denormal_unit = 0x1p-150;
 /// g(n) for n up to 16: n e <= 2^-20, and 1 / (1 - 2^-20) < 1 + 2^-19.
-constexpr double gamma(int n) { return n * unit * (1 + 0x1p-19); }
+constexpr double gamma(int n) { return n * unit_rounding * (1 + 0x1p-19); }
 
 Reals exactly(const Vec3f& v) { return {Interval(double{v.x}), Interval(double{v.y}), Interval(double{v.z})}; }
 
@@ -124,8 +124,8 @@ class KernelTriangle {
     const std::uint32_t z = sheared_.axis_z;
     const Interval slope = direction(axis) / direction(z), full_slope = real_.direction[axis] / real_.direction[z];
     const Interval px = float_seen(corner, axis), pz = float_seen(corner, z);
-    const Interval moved = unit * magnitude(px) + gamma(3) * magnitude(slope * pz) + 2 * denormal_unit * magnitude(pz);
-    const Interval by_rounding = moved + unit * (magnitude(px - slope * pz) + moved) + denormal_unit;
+    const Interval moved = unit_rounding * magnitude(px) + gamma(3) * magnitude(slope * pz) + 2 * denormal_unit * magnitude(pz);
+    const Interval by_rounding = moved + unit_rounding * (magnitude(px - slope * pz) + moved) + denormal_unit;
     // As one quotient, since the two slopes all but cancel.
     const Interval slope_rest = (rest(axis) * direction(z) - direction(axis) * rest(z)) / (direction(z) * real_.direction[z]);
     const Interval by_rests = origin_rest(axis) + slope_rest * pz - full_slope * origin_rest(z);
@@ -170,7 +170,7 @@ class KernelTriangle {
                  greatest = std::max({at[0].z.high, at[1].z.high, at[2].z.high});
     const Interval clamped(std::clamp(depth.low, least, greatest), std::clamp(depth.high, least, greatest));
     const Interval judged = clamped * Interval(double{sheared_.scale_z});
-    return magnitude(judged - t) + unit * magnitude(judged) + denormal_unit;
+    return magnitude(judged - t) + unit_rounding * magnitude(judged) + denormal_unit;
   }
 
   double direction_most() const { return magnitude(real_.direction[sheared_.axis_z]).high; }
@@ -306,7 +306,7 @@ Certificate of_root(const Interval& t) {
   Certificate certificate;
   if (t.is_bounded()) {
     certificate.t = t;
-    certificate.t_error = (unit * magnitude(t) + t.width() + denormal_unit).high;
+    certificate.t_error = (unit_rounding * magnitude(t) + t.width() + denormal_unit).high;
   }
   return certificate;
 }

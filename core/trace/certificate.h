@@ -40,7 +40,7 @@ struct Certificate {
   /// cone, or through the cone's rim.
   bool is_decided() const { return t.is_bounded(); }
   /// Whether the exact ray meets the triangle itself, beyond doubt.
-  bool is_inside() const { return u.low >= 0.0 && v.low >= 0.0 && (Interval(1.0) - u - v).low >= 0.0; }
+  bool is_inside() const { return t.low > 0.0 && u.low >= 0.0 && v.low >= 0.0 && (Interval(1.0) - u - v).low >= 0.0; }
 };
 
 /// The certificate of `ray`, whatever of its hits, with lane `lane` of a block's values as core/trace/primitive.h takes them.

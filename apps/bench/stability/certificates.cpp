@@ -95,19 +95,19 @@ struct Meeting {
   float t;
 };
 
-Meeting meet_triangle(Random& random) {
+Meeting triangle_met(Random& random) {
   const PrimitiveValues values = any_triangle(random);
   const Ray ray = ray_onto(any_target(values, random), random);
   return {values, ray, core::intersect_triangle(core::ShearedRay(ray), values.value.data(), 1, 0)};
 }
 
-Meeting meet_sphere(Random& random) {
+Meeting sphere_met(Random& random) {
   const PrimitiveValues values = any_sphere(random);
   const Ray ray = ray_onto(surface_point(values, random), random);
   return {values, ray, core::intersect_sphere(ray, values.value.data(), 1, 0)};
 }
 
-Meeting meet_cone(Random& random) {
+Meeting cone_met(Random& random) {
   const PrimitiveValues values = any_cone(random);
   const Ray ray = ray_onto(surface_point(values, random), random);
   return {values, ray, core::intersect_cone(ray, values.value.data(), 1, 0)};
@@ -147,9 +147,9 @@ ShootRays grazing_hits() {
 StabilityCases certificate_cases(const StabilityAmount& amount) {
   constexpr std::uint64_t long_hits = 10'000'000;
   return {
-      {"R16 certified triangles", "all shapes", amount.share(long_hits, 1), [] { return hits_of(meet_triangle); }},
-      {"R16 certified spheres", "all sizes", amount.share(long_hits, 1), [] { return hits_of(meet_sphere); }},
-      {"R16 certified cones", "all sizes", amount.share(long_hits, 1), [] { return hits_of(meet_cone); }},
+      {"R16 certified triangles", "all shapes", amount.share(long_hits, 1), [] { return hits_of(triangle_met); }},
+      {"R16 certified spheres", "all sizes", amount.share(long_hits, 1), [] { return hits_of(sphere_met); }},
+      {"R16 certified cones", "all sizes", amount.share(long_hits, 1), [] { return hits_of(cone_met); }},
       {"R16 certified, grazing", "all kinds", amount.share(long_hits, 1), grazing_hits},
   };
 }
