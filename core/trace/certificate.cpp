@@ -11,30 +11,25 @@
 // bound them by the largest coordinate. Let p = A - origin be a vertex in reals, P = A - O the same of the ray in full, the axes
 // in the ray's order; r the origin's rest, S = d / d_z the slopes of the ray's floats, S* = D / D_z those of the ray in full.
 //
-// 1. A sheared vertex. Its p is off by e |p|, the slope, a quotient and a product, by g(2) |S| + h; the product with p_z and the
-// sum
-//    are fused, one rounding. So x^ = fl(p_x - S_x p_z) is off by
+// 1. A sheared vertex. Its p is off by e |p|; the slope, a quotient and a product, by g(2) |S| + h; its product with p_z and the
+//    sum are fused, one rounding. So x^ = fl(p_x - S_x p_z) is off by
 //        m + e (|x| + m) + h,   m = e |p_x| + g(3) |S_x p_z| + 2 h |p_z|,   x = p_x - S_x p_z,
 //    and x from its like of the ray in full, x* = P_x - S*_x P_z, by  r_x + (S* - S)_x p_z - S*_x r_z.
 //    The sum of the magnitudes is E(x) here, and M(x) = |x*| + E(x) bounds both x^ and x*.
-// 2. An edge function b_x c_y - b_y c_x: its vertices cost E(b_x) M(c_y) + M(b_x) E(c_y) and as much for the other product, its
-// own
-//    two products and the difference, unfused, g(2) of their magnitudes and 4 h. With exact signs in double it is off by less.
-//    The sum over both products is F here, one for each edge: F0 opposite v0.
+// 2. An edge function b_x c_y - b_y c_x. Its vertices cost E(b_x) M(c_y) + M(b_x) E(c_y) and as much for the other product, its
+//    own two products and the difference, unfused, g(2) of their magnitudes and 4 h. With exact signs in double it is off by
+//    less. The sum over both products is F here, one for each edge: F0 opposite v0.
 // 3. The edges. A kernel sees a hit only where its three edge functions have one sign, or are 0. So the exact ones, U0, U1, U2,
-// are
-//    no farther on the other side than F0, F1, F2. Their sum is N; D . (P_b x P_c) is D_z times theirs.
-// 4. The distance. With edge functions of one sign their sum is good to g(2), a weight to g(3) of itself; with the roundings of
-// p_z,
-//    three more of the fused sums, of the reciprocal of d_z and of the last product
+//    are no farther on the other side than F0, F1, F2. Their sum is N; D . (P_b x P_c) is D_z times theirs.
+// 4. The distance. With edge functions of one sign their sum is good to g(2), a weight to g(3) of itself. With the roundings of
+//    p_z, three more of the fused sums, of the reciprocal of d_z and of the last product
 //        |t^ - (w0 p0_z + w1 p1_z + w2 p2_z) / d_z| <= g(9) max |p_z| / |d_z| + 4 h (max |p_z| + 1) (1 + 1 / |d_z|),
-//    w the quotients of what the edge functions are in floats: positive, of sum 1. As sum 1, a common part of p_z comes out
-//    whole: p_z - P_z = r_z costs |r_z / D_z|, the directions' 1 / d_z - 1 / D_z that much of p_z. And with z* = t* D_z
+//    w the quotients of what the edge functions are in floats: positive, of sum 1. So a common part of p_z comes out whole:
+//    p_z - P_z = r_z costs |r_z / D_z|, the directions' 1 / d_z - 1 / D_z that much of p_z. And with z* = t* D_z
 //        w0 P0_z + w1 P1_z + w2 P2_z - z* = sum of (w - w*) (P_z - z*) <= sum of F |P_z - z*| / (|N| - F0 - F1 - F2),
 //    or, since w are positive, no more than |P_z - z*| of the vertex that is farthest from z*: the lesser counts.
-// 5. Next to the ray's start (near_start) doubles may have decided t by another formula, judged() in primitive.cpp: its
-// operations
-//    are put through intervals, and t is off by no more than these are from t*, and e |t| + h.
+// 5. Next to the ray's start (near_start) doubles may have decided t by another formula, judged() in primitive.cpp. Its
+//    operations are put through intervals, and t is off by no more than these are from t*, and e |t| + h.
 //
 // A sphere's polynomial f(t) = |P|^2 - radius^2, P = O + t D - centre, is evaluated in intervals on both sides of what
 // sphere_distance() says. Where it surely changes its sign a root lies between; the kernels' t is what lies in the middle,
@@ -363,11 +358,6 @@ Certificate certify(const Ray& ray, PrimitiveKind kind, const float* rows, std::
       break;
   }
   return certify_cone(ray, rows, stride, lane);
-}
-
-Certificate certify(const Ray& ray, const Hit& hit, const std::byte* record) {
-  const auto header = read<BlockHeader>(record);
-  return certify(ray, header.kind, reinterpret_cast<const float*>(record + sizeof(BlockHeader)), header.count, hit.lane);
 }
 
 }  // namespace dmpc::core

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "core/base/interval.h"
-#include "core/record/hit.h"
 #include "core/record/ray.h"
 #include "core/record/record.h"
 
@@ -47,7 +46,5 @@ struct Certificate {
 /// It follows from the ray and the values alone, but that doubles say near which root of a curve to look. Its bounds are derived
 /// in certificate.cpp. Costs some microseconds.
 Certificate certify(const Ray& ray, PrimitiveKind kind, const float* rows, std::size_t stride, std::size_t lane);
-/// Of `hit`, whose block is `record`.
-Certificate certify(const Ray& ray, const Hit& hit, const std::byte* record);
 
 }  // namespace dmpc::core
