@@ -11,6 +11,7 @@
 #include "apps/check/inspection.h"
 #include "apps/effort/render_effort.h"
 #include "apps/line/number_text.h"
+#include "apps/line/option_values.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "apps/system/output_file.h"
@@ -145,6 +146,41 @@ std::uint64_t print_brute_force(std::ostream& output, const Inspection& inspecti
   return bad.size();
 }
 
+void print_failed(std::ostream& output, const CertifiedRay& ray, std::uint32_t width) {
+  const TracedRay& traced = ray.traced;
+  output << "  pixel (" << traced.ray.pixel % width << ", " << traced.ray.pixel / width << ") ray " << traced.number << ", "
+         << kind_names[static_cast<std::size_t>(traced.ray.kind)] << ": #" << traced.hit.primitive << " at t "
+         << std::setprecision(9) << traced.hit.t << ": " << name_of(ray.certified.fault) << '\n';
+}
+
+void print_spread(std::ostream& output, const char* what, const Spread& spread) {
+  output << "  " << what << ": median " << std::setprecision(3) << spread.median() << " ulp, worst " << spread.worst()
+         << " ulp\n";
+}
+
+/// Returns the number of certificates that fail.
+std::uint64_t print_certified(std::ostream& output, const Inspection& inspection, std::uint32_t list, std::uint32_t width) {
+  if (inspection.certified.empty()) {
+    return 0;
+  }
+  CertifiedCounts counts;
+  for (const CertifiedRay& ray : inspection.certified) {
+    counts.count(ray.certified);
+  }
+  output << "Certificates: " << counts.hits << " random hits against rational arithmetic: " << counts.failures() << " fail, "
+         << counts.undecided << " undecided, " << counts.inside << " surely on their primitive\n";
+  print_spread(output, "interval of the exact t", counts.width_ulp);
+  print_spread(output, "if surely on it, the hit's t is off by at most", counts.error_ulp);
+  print_spread(output, "if surely on it, the kernels' bound allows", counts.allowed_ulp);
+  for (const CertifiedRay& ray : inspection.certified) {
+    if (ray.certified.fault != CertificateFault::none && list > 0) {
+      print_failed(output, ray, width);
+      --list;
+    }
+  }
+  return counts.failures();
+}
+
 /// Of the picture as Embree would make it.
 void print_pixels(std::ostream& output, std::uint64_t differing, std::uint64_t pixels) {
   output << "Pixels that Embree would change: " << differing << " of " << pixels << ", "
@@ -156,11 +192,12 @@ Inspection inspect_shown(const CheckOptions& options, const core::Database& data
   Progress progress(std::cerr, stderr_is_terminal());
   InspectionOptions inspection_options;
   inspection_options.brute_force = options.brute_force;
+  inspection_options.certify = options.certify;
   inspection_options.progress = [&](std::uint64_t done, std::uint64_t total) { progress.update(done, total); };
   return inspect(database, embree, settings, inspection_options);
 }
 
-/// Returns the number of unexplained rays.
+/// Returns the number of unexplained rays and of certificates that fail.
 std::uint64_t print_report(std::ostream& output, const CheckOptions& options, const core::Database& database,
                            const core::Camera& camera, const Inspection& inspection) {
   const auto width = static_cast<std::uint32_t>(camera.width());
@@ -172,7 +209,9 @@ std::uint64_t print_report(std::ostream& output, const CheckOptions& options, co
   print_pixels(output, inspection.differing_pixels, camera.pixel_count());
   unexplained += print_brute_force(output, inspection, referee, options.list, width);
   output << (unexplained == 0 ? "Every ray is explained.\n" : "UNEXPLAINED rays: our grid has an error.\n");
-  return unexplained;
+  const std::uint64_t failed = print_certified(output, inspection, options.list, width);
+  output << (failed == 0 ? "" : "CERTIFICATES FAIL: our bounds or our kernels have an error.\n");
+  return unexplained + failed;
 }
 
 void announce_effort(const CheckOptions& options, const Subject& subject) {
@@ -197,12 +236,21 @@ void add_options(OptionSet options, CheckOptions& check) {
   options.add_number("--list", check.list, 0, 1000000, "10", "Differences to print in full");
   options.add_number("--brute-force", check.brute_force, 0, std::int64_t{1} << 40U, "0",
                      "Rays that are tested against every primitive in double precision, too");
+  options.add_flag_with_text("--certify", "100000", check.certify_text,
+                             "Hold the certificates of so many random hits, where the exact answer lies and how far the kernels "
+                             "may be off, against rational arithmetic");
+  options.check_in_the_end([&check] {
+    if (!check.certify_text.empty()) {
+      check.certify = parse_seed(check.certify_text, "--certify");
+    }
+  });
   options.add_quiet(check.quiet);
   options.set_examples(
       "Examples:\n"
       "  dmpc check teapot-12\n"
       "  dmpc check tetra-9 --resolution=128x128 --brute-force=1000\n"
-      "Exit status 3 says that a difference stays unexplained.");
+      "  dmpc check rings-3 --certify=1000000\n"
+      "Exit status 3 says that a difference stays unexplained or a certificate does not hold.");
 }
 
 int check_command(const CheckOptions& options, Interrupt& interrupt, std::ostream& output) {

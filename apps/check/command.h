@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <string>
 
 #include "apps/line/command_line.h"
 #include "apps/scene/picture_options.h"
@@ -14,6 +15,8 @@ struct CheckOptions {
   PictureOptions picture;
   std::uint32_t list = 10;        ///< differences to print in full, at most
   std::uint64_t brute_force = 0;  ///< rays of the render that go to the referee too, whether they differ or not
+  std::uint64_t certify = 0;      ///< hits of the render whose certificates are held against rational arithmetic
+  std::string certify_text;       ///< the command line's word for that; empty: none
   bool quiet = false;             ///< no progress
 };
 
@@ -21,8 +24,8 @@ struct CheckOptions {
 void add_options(OptionSet options, CheckOptions& check);
 
 /// Prints the report to stdout, remarks and progress to stderr. A signal ends the process. Returns the exit status: 0 if no
-/// difference is unexplained, 3 otherwise. Throws core::InputError for a scene that cannot be read or a report that cannot be
-/// written, Interrupted if a signal came before.
+/// difference is unexplained and no certificate fails, 3 otherwise. Throws core::InputError for a scene that cannot be read or a
+/// report that cannot be written, Interrupted if a signal came before.
 int check_command(const CheckOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

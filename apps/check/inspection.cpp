@@ -71,8 +71,8 @@ class BothTracer {
   using Grid = core::GridTracer<core::LocalRecords>;
 
   BothTracer(Grid& grid, const EmbreeScene& scene, const core::BackgroundTiles& background, std::vector<TracedRay>& differences,
-             Draw& draw)
-      : grid_(grid), scene_(scene), background_(background), differences_(differences), draw_(draw) {}
+             Draw& draw, Draw& hits)
+      : grid_(grid), scene_(scene), background_(background), differences_(differences), draw_(draw), hits_(hits) {}
 
   core::Traced trace(const core::Ray& ray, core::Cursor& cursor, core::Operations& operations) {
     const core::Traced result = grid_.trace(ray, cursor, operations);
@@ -81,11 +81,14 @@ class BothTracer {
     const bool hit = result == core::Traced::hit;
     core::expect(!hit || ray.kind != core::RayKind::primary || !background_.has(ray.pixel),
                  "no primary ray hits anything where the background shows");
-    const TracedRay traced{ray, {hit, shadow ? core::no_primitive : best.primitive, best.t}, ask_oracle(ray), number_++};
+    const TracedRay traced{ray, {hit, shadow ? core::no_primitive : best.primitive, best.t}, ask_oracle(ray), best, number_++};
     if (!(traced.grid == traced.oracle)) {
       differences_.push_back(traced);
     }
     draw_.offer(traced);
+    if (hit) {
+      hits_.offer(traced);
+    }
     return result;
   }
   const std::byte* find(core::Address address) { return grid_.find(address); }
@@ -104,22 +107,23 @@ class BothTracer {
   const EmbreeScene& scene_;
   const core::BackgroundTiles& background_;
   std::vector<TracedRay>& differences_;
-  Draw& draw_;
+  Draw &draw_, &hits_;
   std::uint32_t number_ = 0;
 };
 
 /// What a run over some pixels yields; joined from left to right, so that differences stay in the order of the pixels.
 struct Harvest {
-  explicit Harvest(std::uint64_t draw_size) : draw(draw_size) {}
+  explicit Harvest(const InspectionOptions& options) : draw(options.brute_force), hits(options.certify) {}
 
   core::Operations operations;
   std::vector<TracedRay> differences;
-  Draw draw;
+  Draw draw, hits;
 
   void join(const Harvest& right) {
     operations += right.operations;
     differences.insert(differences.end(), right.differences.begin(), right.differences.end());
     draw.join(right.draw);
+    hits.join(right.hits);
   }
 };
 
@@ -127,7 +131,7 @@ void trace_pixels(const core::Database& database, const EmbreeScene& scene, cons
                   std::uint32_t first, std::uint32_t last, Harvest& harvest) {
   core::LocalRecords records(database.bytes());
   BothTracer::Grid grid(records, settings.header, settings.skips);
-  BothTracer tracer(grid, scene, settings.background, harvest.differences, harvest.draw);
+  BothTracer tracer(grid, scene, settings.background, harvest.differences, harvest.draw, harvest.hits);
   std::vector<core::HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
   core::PixelTask task(stack);
   const core::RenderSettings every_ray = settings.with_every_ray_traced();
@@ -174,7 +178,7 @@ std::uint64_t count_differing(const core::Database& database, const EmbreeScene&
 Harvest trace_band(const core::Database& database, const EmbreeScene& scene, const core::RenderSettings& settings,
                    const InspectionOptions& options, std::uint32_t first, std::uint32_t last) {
   return tbb::parallel_reduce(
-      tbb::blocked_range<std::uint32_t>(first, last, 64), Harvest(options.brute_force),
+      tbb::blocked_range<std::uint32_t>(first, last, 64), Harvest(options),
       [&](const tbb::blocked_range<std::uint32_t>& pixels, Harvest harvest) {
         trace_pixels(database, scene, settings, pixels.begin(), pixels.end(), harvest);
         return harvest;
@@ -194,13 +198,22 @@ std::vector<SettledRay> settle(const Referee& referee, const std::vector<TracedR
   return settled;
 }
 
+std::vector<CertifiedRay> certify(const core::Database& database, const std::vector<TracedRay>& rays) {
+  std::vector<CertifiedRay> all(rays.size());
+  tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t index) {
+    const TracedRay& traced = rays[index];
+    all[index] = {traced, certified(traced.ray, database.primitives()[traced.hit.primitive], traced.hit.t)};
+  });
+  return all;
+}
+
 }  // namespace
 
 Inspection inspect(const core::Database& database, const EmbreeScene& scene, const core::RenderSettings& settings,
                    const InspectionOptions& options) {
   const std::uint32_t pixel_count = settings.camera.pixel_count();
   const std::uint32_t band = std::max(pixel_count / 200, 1024U);
-  Harvest harvest(options.brute_force);
+  Harvest harvest(options);
   for (std::uint32_t first = 0; first < pixel_count; first += std::min(band, pixel_count - first)) {
     options.progress(first, pixel_count);
     harvest.join(trace_band(database, scene, settings, options, first, first + std::min(band, pixel_count - first)));
@@ -210,6 +223,7 @@ Inspection inspect(const core::Database& database, const EmbreeScene& scene, con
   return {.operations = harvest.operations,
           .differences = settle(referee, harvest.differences),
           .differing_pixels = count_differing(database, scene, settings, pixels_of(harvest.differences)),
+          .certified = certify(database, harvest.hits.finish()),
           .brute_forced = settle(referee, harvest.draw.finish())};
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "apps/oracle/certified.h"
 #include "apps/oracle/oracle.h"
 #include "apps/oracle/referee.h"
 #include "core/build/database.h"
@@ -18,12 +19,18 @@ namespace dmpc::apps {
 struct TracedRay {
   core::Ray ray;
   Answer grid, oracle;
+  core::Hit hit;             ///< the grid's, of shadow rays too: what they met first
   std::uint32_t number = 0;  ///< of the ray within its pixel, in the order of the shots
 };
 
 struct SettledRay {
   TracedRay traced;
   Ruling ruling;
+};
+
+struct CertifiedRay {
+  TracedRay traced;
+  CertifiedHit certified;
 };
 
 /// What came out; the same bits for every number of threads.
@@ -33,11 +40,13 @@ struct Inspection {
   /// Pixels whose sums have other bits where Embree names the primitives (EmbreeTracer): only some of those with a differing ray,
   /// as the same surface may go by two names.
   std::uint64_t differing_pixels = 0;
+  std::vector<CertifiedRay> certified;   ///< random hits and their certificates, by pixel and shot
   std::vector<SettledRay> brute_forced;  ///< the random rays, whose ruling says whether both answers can be explained
 };
 
 struct InspectionOptions {
   std::uint64_t brute_force = 0;  ///< rays that go to the referee whether they differ or not, drawn uniformly from all rays
+  std::uint64_t certify = 0;      ///< hits whose certificates are held against rational arithmetic, drawn uniformly from all hits
   /// Called on the calling thread between bands of rows: (pixels done, pixels in all).
   std::function<void(std::uint64_t, std::uint64_t)> progress = [](std::uint64_t, std::uint64_t) {};
 };

@@ -77,9 +77,10 @@ bool Referee::admissible(const Ray& ray, const Answer& answer, Renderer renderer
   return admissible(ray, encounters(ray), answer, renderer);
 }
 
-/// Whether `answer`, which lies behind the doubtful `passed`, slipped through a closed fan.
+/// Whether `answer`, which lies behind the doubtful `passed`, slipped through a closed fan. `hit` is the answer's encounter, if
+/// any. At a silhouette a fan's triangles lie one behind the other: what is hit between them has not come through all of them.
 bool Referee::leaks(const Ray& ray, const std::vector<Encounter>& met, const Encounter& passed, const Answer& answer,
-                    Renderer renderer) const {
+                    const Encounter* hit, Renderer renderer) const {
   if (!passed.possible(renderer) || passed.at_end || primitives_[passed.primitive].kind != core::PrimitiveKind::triangle) {
     return false;
   }
@@ -88,19 +89,24 @@ bool Referee::leaks(const Ray& ray, const std::vector<Encounter>& met, const Enc
   // A triangle of the fan that meets the ray's end may be rounded away rightly.
   const bool ends_here = std::any_of(met.begin(), met.end(),
                                      [&](const Encounter& encounter) { return encounter.at_end && holds(encounter.primitive); });
-  return !fan.empty() && !ends_here && !(answer.hit && holds(answer.primitive));
+  const bool goes_on_behind = hit != nullptr && std::any_of(met.begin(), met.end(), [&](const Encounter& encounter) {
+                                return !before(encounter, *hit) && encounter.possible(renderer) && holds(encounter.primitive);
+                              });
+  return !fan.empty() && !ends_here && !goes_on_behind && !(answer.hit && holds(answer.primitive));
 }
 
 bool Referee::admissible(const Ray& ray, const std::vector<Encounter>& met, const Answer& answer, Renderer renderer) const {
   // A hit is judged by the farthest of its encounters: the second root of a body that rounding let the ray enter unseen.
-  const auto may_pass = [&](const Encounter& f) { return !f.certain(renderer) && !leaks(ray, met, f, answer, renderer); };
+  const auto may_pass = [&](const Encounter& f, const Encounter* hit) {
+    return !f.certain(renderer) && !leaks(ray, met, f, answer, hit, renderer);
+  };
   if (!answer.hit) {
-    return std::all_of(met.begin(), met.end(), may_pass);
+    return std::all_of(met.begin(), met.end(), [&](const Encounter& f) { return may_pass(f, nullptr); });
   }
   return std::any_of(met.begin(), met.end(), [&](const Encounter& e) {
     const bool named = is_shadow(ray) || e.primitive == answer.primitive;
     return named && e.possible(renderer) && (is_shadow(ray) || std::all_of(met.begin(), met.end(), [&](const Encounter& f) {
-                                               return !before(f, e) || may_pass(f);
+                                               return !before(f, e) || may_pass(f, &e);
                                              }));
   });
 }

@@ -61,7 +61,7 @@ class Referee {
 
  private:
   bool leaks(const core::Ray& ray, const std::vector<Encounter>& met, const Encounter& passed, const Answer& answer,
-             Renderer renderer) const;
+             const Encounter* hit, Renderer renderer) const;
   bool admissible(const core::Ray& ray, const std::vector<Encounter>& met, const Answer& answer, Renderer renderer) const;
 
   std::span<const core::PrimitiveValues> primitives_;

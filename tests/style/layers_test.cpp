@@ -56,6 +56,7 @@ const std::vector<Foreign> foreign = {
     {"OpenImageIO/",
      {"apps/modules/pictures.cpp", "apps/foreign/picture_decoder.cpp", "tests/apps/modules/", "tests/fuzz/picture.cpp"}},
     {"OpenEXR/", {"apps/picture/exr_file.cpp"}},
+    {"gmpxx.h", {"apps/oracle/exact.cpp"}},
     {"png.h", {"apps/picture/png_file.cpp"}},
     {"dlfcn.h", {"apps/system/module.cpp", "tests/failing_allocation/"}},
     {"assimp/", {"apps/foreign/", "tests/apps/foreign/"}},

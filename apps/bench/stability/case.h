@@ -37,15 +37,16 @@ struct StabilityAmount {
 };
 
 /// The cases of each test, one function a file.
-StabilityCases mesh_cases(const StabilityAmount& amount);       ///< R1, R2, R3
-StabilityCases axis_cases(const StabilityAmount& amount);       ///< R4
-StabilityCases plane_cases(const StabilityAmount& amount);      ///< R5
-StabilityCases insertion_cases(const StabilityAmount& amount);  ///< R6
-StabilityCases scene_cases(const StabilityAmount& amount);      ///< R7, R8, R12
-StabilityCases region_cases(const StabilityAmount& amount);     ///< R9
-StabilityCases child_cases(const StabilityAmount& amount);      ///< R10
-StabilityCases hostile_cases(const StabilityAmount& amount);    ///< R11
-StabilityCases parity_cases(const StabilityAmount& amount);     ///< R14
-StabilityCases quadric_cases(const StabilityAmount& amount);    ///< quadrics
+StabilityCases mesh_cases(const StabilityAmount& amount);         ///< R1, R2, R3
+StabilityCases axis_cases(const StabilityAmount& amount);         ///< R4
+StabilityCases plane_cases(const StabilityAmount& amount);        ///< R5
+StabilityCases insertion_cases(const StabilityAmount& amount);    ///< R6
+StabilityCases scene_cases(const StabilityAmount& amount);        ///< R7, R8, R12
+StabilityCases region_cases(const StabilityAmount& amount);       ///< R9
+StabilityCases child_cases(const StabilityAmount& amount);        ///< R10
+StabilityCases hostile_cases(const StabilityAmount& amount);      ///< R11
+StabilityCases parity_cases(const StabilityAmount& amount);       ///< R14
+StabilityCases certificate_cases(const StabilityAmount& amount);  ///< R16
+StabilityCases quadric_cases(const StabilityAmount& amount);      ///< quadrics
 
 }  // namespace dmpc::apps

@@ -90,7 +90,7 @@ class KeptRun {
 /// fewer of others.
 Effort effort_of(const StabilityOptions& options) {
   constexpr double row_ray_seconds = 8.5e-4, long_seconds = 4 * 3600;
-  constexpr double test_count = 14;
+  constexpr double test_count = 15;
   const double share = options.tests.empty() ? 1 : static_cast<double>(options.tests.size()) / test_count;
   return {.seconds = share * (options.is_long ? long_seconds : row_ray_seconds * static_cast<double>(options.rays))};
 }
@@ -106,7 +106,7 @@ void add_options(OptionSet set, StabilityOptions& options) {
   set.add_text(
       "--tests", "R1,R2,... [all]",
       [&options](const std::string& text) { options.tests = words_between_commas(text, "--tests"); },
-      "Only these: R1 to R12, R14, quadrics");
+      "Only these: R1 to R12, R14, R16, quadrics");
   set.add_number("--seed", options.seed, 0, std::numeric_limits<std::int64_t>::max(), "1", "Other rays, as good as these");
   set.add_path("--resume", "FILE", options.resume, "Keep the run's state in FILE, and go on from there if it exists");
   add_options(set, options.table, TableExtras::none);

@@ -9,8 +9,8 @@ namespace dmpc::apps {
 namespace {
 
 constexpr std::array<std::string_view, stability_kernel_count> names{
-    "grid",        "grid, scalar",  "grid, no skipping", "grid, resumed", "grid, bundle", "grid, any hit",
-    "Embree fast", "Embree robust", "grid, regions",     "grid, planes",  "grid, listing"};
+    "grid",        "grid, scalar",  "grid, no skipping", "grid, resumed", "grid, bundle",  "grid, any hit",
+    "Embree fast", "Embree robust", "grid, regions",     "grid, planes",  "grid, listing", "grid, certified"};
 
 }  // namespace
 

@@ -25,8 +25,9 @@ enum class StabilityKernel : std::uint8_t {
   regions,        ///< the walk from owner to owner of a space cut into regions
   planes,         ///< the walk's planes alone, finest cell by finest cell
   listing,        ///< no walk: which primitives the boxes around a point list
+  certified,      ///< hits of the grid or of its scalar twins, each with a certificate
 };
-inline constexpr std::size_t stability_kernel_count = 11;
+inline constexpr std::size_t stability_kernel_count = 12;
 inline constexpr std::size_t compared_kernel_count = 8;
 
 constexpr std::size_t index_of(StabilityKernel kernel) { return static_cast<std::size_t>(kernel); }

@@ -104,7 +104,7 @@ std::string StabilityRun::place(const StabilityState& state) const {
 StabilityCases stability_cases(const StabilityAmount& amount, const std::vector<std::string>& tests) {
   StabilityCases all;
   for (const auto make : {mesh_cases, axis_cases, plane_cases, insertion_cases, scene_cases, region_cases, child_cases,
-                          hostile_cases, parity_cases, quadric_cases}) {
+                          hostile_cases, parity_cases, certificate_cases, quadric_cases}) {
     for (StabilityCase& one : make(amount)) {
       all.push_back(std::move(one));
     }

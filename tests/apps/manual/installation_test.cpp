@@ -99,7 +99,7 @@ TEST_CASE("the Debian package says what it needs, and what is in it works") {
   REQUIRE_MESSAGE(unpacked.status == 0, unpacked.errors);
   for (const char* const line :
        {"Package: dmpc\n", "Section: graphics\n", "Recommends: gnuplot-nox\n", "libembree3-3", "libtbb12", "libopenimageio2.4",
-        "libopenexr-3-1-30", "libpng16-16", "Description: distributed-memory parallel computer"}) {
+        "libopenexr-3-1-30", "libpng16-16", "libgmp10", "Description: distributed-memory parallel computer"}) {
     CHECK_MESSAGE(contains(unpacked.output, line), line);
   }
   check_installed(folder / "all/usr", "vendor-completions");

@@ -80,6 +80,23 @@ TEST_CASE("seeing the back wall through a shared edge is a leak") {
   CHECK(Referee(world).settle(ray({0.3F, 0.3F, -1}, {0, 0, 1}), hit(2), hit(0)).verdict == Verdict::grid_wrong);
 }
 
+TEST_CASE("what lies between the two triangles of a silhouette's edge is no leak, what lies behind both is") {
+  // Next to the edge x = 0 the ray passes the left one by less than rounding, and meets the right one, seen from its side,
+  // behind.
+  const Primitives world{triangle({0, -1, 1}, {0, 1, 1}, {-1, 0, 1}), triangle({0, 1, 1}, {0, -1, 1}, {1e-5F, 0, 2}),
+                         square_half(1.001F, false), square_half(3, false)};
+  const core::Ray by_the_edge = ray({2e-8F, -0.1F, 0}, {0, 0, 1});
+  const Referee referee(world);
+  REQUIRE(referee.examine(by_the_edge, 0).margin[0] < 0);
+  REQUIRE(referee.examine(by_the_edge, 0).possible(apps::Renderer::grid));
+  REQUIRE(referee.examine(by_the_edge, 1).t > 1.001);
+  CHECK(referee.exact(by_the_edge) == hit(2));
+  CHECK(referee.admissible(by_the_edge, hit(2), apps::Renderer::grid));
+  CHECK_FALSE(referee.admissible(by_the_edge, hit(3), apps::Renderer::grid));
+  const Primitives without{world[0], world[1], square_half(9, true), world[3]};
+  CHECK_FALSE(Referee(without).admissible(by_the_edge, hit(3), apps::Renderer::grid));
+}
+
 TEST_CASE("a shadow ray is judged by its bit alone") {
   const Primitives world{square_half(2, false), square_half(3, false)};
   const Referee referee(world);

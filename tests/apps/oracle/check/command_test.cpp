@@ -47,6 +47,16 @@ TEST_CASE("check tests random rays against every primitive when asked to") {
   CHECK(check(options).text.find("Brute force: 50 random rays") != std::string::npos);
 }
 
+TEST_CASE("check holds certificates of random hits against rational arithmetic when asked to") {
+  apps::CheckOptions options = small("balls-1");
+  CHECK(check(options).text.find("Certificates") == std::string::npos);
+  options.certify = 300;
+  const Said said = check(options);
+  CHECK(said.status == 0);
+  CHECK(said.text.find("Certificates: 300 random hits against rational arithmetic: 0 fail, ") != std::string::npos);
+  CHECK(said.text.find("interval of the exact t: median ") != std::string::npos);
+}
+
 TEST_CASE("check honours convention, depth and samples") {
   apps::CheckOptions options = small("mount-2");
   options.picture.samples = 2;

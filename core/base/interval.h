@@ -1,0 +1,105 @@
+// Intervals of real numbers whose ends are doubles, rounded outwards: what they are computed from lies in them for certain.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+
+namespace dmpc::core {
+
+namespace directed {
+
+/// The next double below or above `x`, or the one behind that, without a change of the processor's rounding. Source: S. M. Rump,
+/// P. Zimmermann, S. Boldo, G. Melquiond, "Computing predecessor and successor in rounding to nearest", BIT 49, 2009.
+inline double step(double x) { return std::fabs(x) * (0x1p-53 * (1 + 0x1p-52)) + std::numeric_limits<double>::denorm_min(); }
+inline double below(double x) { return x - step(x); }
+inline double above(double x) { return x + step(x); }
+
+/// What a rounded sum lacks, exactly, unless it overflows. Source: D. E. Knuth, The Art of Computer Programming 2, section 4.2.2.
+inline double sum_rest(double a, double b, double sum) {
+  const double b_taken = sum - a;
+  return (a - (sum - b_taken)) + (b - b_taken);
+}
+/// Nearer to 0 than this what a rounded product lacks may itself be rounded.
+inline constexpr double product_min = 0x1p-960;
+
+/// A rounded result moved to the side of the exact one on which `rest`, what it lacks, says that it must lie. NaN counts.
+inline double floor_of(double rounded, double rest) { return rest >= 0.0 ? rounded : below(rounded); }
+inline double ceiling_of(double rounded, double rest) { return rest <= 0.0 ? rounded : above(rounded); }
+
+inline double sum_floor(double a, double b) { return floor_of(a + b, sum_rest(a, b, a + b)); }
+inline double sum_ceiling(double a, double b) { return ceiling_of(a + b, sum_rest(a, b, a + b)); }
+
+inline bool has_exact_rest(double a, double b, double product) {
+  return std::fabs(product) >= product_min || a == 0.0 || b == 0.0;
+}
+inline double product_floor(double a, double b) {
+  return has_exact_rest(a, b, a * b) ? floor_of(a * b, std::fma(a, b, -(a * b))) : below(a * b);
+}
+inline double product_ceiling(double a, double b) {
+  return has_exact_rest(a, b, a * b) ? ceiling_of(a * b, std::fma(a, b, -(a * b))) : above(a * b);
+}
+
+}  // namespace directed
+
+/// All reals from `low` to `high`; infinite ends where nothing is known. The result of an operation holds the results on all
+/// reals of its operands, and so what doubles make of them by the same operations, each rounded to nearest. Sums, differences and
+/// products are the tightest there are (by error-free transformations; T. Ogita, S. M. Rump, S. Oishi, "Accurate Sum and Dot
+/// Product", 2005), so that what is exact in double has no width. Source: R. E. Moore, Interval Analysis, 1966.
+struct Interval {
+  double low = 0, high = 0;
+
+  constexpr Interval() = default;
+  constexpr Interval(double exactly) : low(exactly), high(exactly) {}
+  constexpr Interval(double from, double to) : low(from), high(to) {}
+  static constexpr Interval everything() {
+    return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  }
+
+  bool holds(double x) const { return low <= x && x <= high; }
+  bool is_bounded() const { return std::isfinite(low) && std::isfinite(high); }
+  double width() const { return directed::sum_ceiling(high, -low); }
+  /// Of all reals that it holds, the largest and the least without their signs.
+  double most() const { return std::max(-low, high); }
+  double least() const { return std::max({low, -high, 0.0}); }
+};
+
+/// From the ends of a result; of NaN nothing is known.
+inline Interval checked(double low, double high) { return low <= high ? Interval(low, high) : Interval::everything(); }
+
+inline Interval operator-(const Interval& a) { return {-a.high, -a.low}; }
+inline Interval operator+(const Interval& a, const Interval& b) {
+  return checked(directed::sum_floor(a.low, b.low), directed::sum_ceiling(a.high, b.high));
+}
+inline Interval operator-(const Interval& a, const Interval& b) { return a + -b; }
+
+inline Interval operator*(const Interval& a, const Interval& b) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const double x : {a.low, a.high}) {
+    for (const double y : {b.low, b.high}) {
+      const double least = directed::product_floor(x, y), most = directed::product_ceiling(x, y);
+      if (!(least <= most)) {
+        return Interval::everything();
+      }
+      low = std::min(low, least);
+      high = std::max(high, most);
+    }
+  }
+  return {low, high};
+}
+
+inline Interval operator/(const Interval& a, const Interval& b) {
+  if (!a.is_bounded() || !(b.low > 0.0 || b.high < 0.0)) {
+    return Interval::everything();
+  }
+  const auto [least, most] = std::minmax({a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high});
+  return checked(directed::below(least), directed::above(most));
+}
+
+/// Of |x| for all x that it holds.
+inline Interval magnitude(const Interval& a) { return {a.least(), a.most()}; }
+/// All that two intervals hold, and what lies between.
+inline Interval hull(const Interval& a, const Interval& b) { return {std::min(a.low, b.low), std::max(a.high, b.high)}; }
+
+}  // namespace dmpc::core
