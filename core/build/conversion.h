@@ -30,9 +30,8 @@ struct Conversion {
   std::vector<ShadingReference> shading;  ///< that of flat ones
   std::vector<Smooth> smooth;
   std::vector<Textured> textured;
-  std::uint32_t dropped = 0;                  ///< degenerate: zero area or length, radius 0, not finite
   std::vector<CollapsedPrimitive> collapsed;  ///< of those, what was not degenerate before it was rounded
-  std::uint32_t dropped = 0;  ///< degenerate: zero area or length, radius 0, not finite
+  std::uint32_t dropped = 0;                  ///< degenerate: zero area or length, radius 0, not finite
   // What settle_coplanar() adds:
   std::vector<FacePlane> planes;    ///< by PrimitiveValues::plane() - 1
   std::uint32_t shared_planes = 0;  ///< in all: `planes`, and those that a coordinate tells

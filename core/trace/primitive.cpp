@@ -124,22 +124,6 @@ float judged_outside(const SeenTriangle& seen) {
   return exact > 0.0 && exact < double{near_edge} && seen.is_crossed() ? rounded(exact) : missed;
 }
 
-}  // namespace
-
-ShearedRay::ShearedRay(const Ray& ray) : origin(ray.origin), origin_rest(ray.origin_rest) {
-  axis_z = largest_axis(ray.direction);
-  axis_x = (axis_z + 1) % 3;
-  axis_y = (axis_z + 2) % 3;
-  if (ray.direction[axis_z] < 0.0F) {
-    std::swap(axis_x, axis_y);  // keeps the winding
-  }
-  scale_z = 1.0F / ray.direction[axis_z];
-  shear_x = ray.direction[axis_x] * scale_z;
-  shear_y = ray.direction[axis_y] * scale_z;
-}
-
-namespace {
-
 /// A triangle in the sheared frame with its edge functions.
 struct ShearedTriangle {
   ShearedTriangle(const ShearedRay& ray, const float* rows, std::size_t stride)
@@ -182,6 +166,18 @@ struct ShearedTriangle {
 };
 
 }  // namespace
+
+ShearedRay::ShearedRay(const Ray& ray) : origin(ray.origin), origin_rest(ray.origin_rest) {
+  axis_z = largest_axis(ray.direction);
+  axis_x = (axis_z + 1) % 3;
+  axis_y = (axis_z + 2) % 3;
+  if (ray.direction[axis_z] < 0.0F) {
+    std::swap(axis_x, axis_y);  // keeps the winding
+  }
+  scale_z = 1.0F / ray.direction[axis_z];
+  shear_x = ray.direction[axis_x] * scale_z;
+  shear_y = ray.direction[axis_y] * scale_z;
+}
 
 float intersect_triangle(const ShearedRay& ray, const float* rows, std::size_t stride, std::size_t lane) {
   const ShearedTriangle seen(ray, rows + lane, stride);
@@ -228,7 +224,7 @@ float intersect_shared_face(const ShearedRay& ray, double plane_depth, const flo
   }
   const double depth = least <= greatest ? std::clamp(plane_depth, least, greatest) : double{sheared.depth()};
   const double t = depth * double{ray.scale_z};
-  const bool is_near = t > 0.0 && t < near_edge;
+  const bool is_near = t > 0.0 && t < double{near_edge};
   return is_near ? (seen.is_crossed() ? rounded(t) : missed) : is_passed ? missed : rounded(t);
 }
 
