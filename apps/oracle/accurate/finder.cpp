@@ -124,6 +124,9 @@ AccurateHit AccurateFinder::Parts::shown(const Query& query) const {
   const auto transmits = [&](std::uint32_t body) { return scene->materials[scene->bodies[body].material].transmittance > 0; };
   for (std::size_t i = 0; i < query.level_count; ++i) {
     const std::uint32_t body = query.level[i].body;
+    if (scene->bodies[body].object == scene->bodies[query.best.body].object) {
+      continue;  // a polygon's triangles lie side by side
+    }
     const bool comes_before = std::pair(transmits(body), body) < std::pair(transmits(shown.body), shown.body);
     if (comes_before && query.level[i].t <= query.best.t + reach() && share_plane(*scene, query.best.body, body)) {
       shown.body = body;

@@ -155,20 +155,21 @@ const LoggedRay* RayLog::find(std::uint64_t path) const {
 
 std::vector<std::uint32_t> bodies_of_primitives(const AccurateScene& scene, const core::Database& database) {
   std::vector<std::uint32_t> bodies(database.primitives().size(), core::no_primitive);
-  std::uint32_t body = 0;
+  std::vector<std::uint32_t> next;  // by object: its first body that no primitive is yet
+  for (std::uint32_t body = 0; body < scene.bodies.size(); ++body) {
+    const std::uint32_t object = scene.bodies[body].object;
+    next.resize(std::max<std::size_t>(next.size(), object + std::size_t{1}), body);
+  }
   for (std::size_t primitive = 0; primitive < bodies.size(); ++primitive) {
     const std::uint32_t object = database.sources()[primitive].object;
-    while (body < scene.bodies.size() && scene.bodies[body].object < object) {
-      ++body;
-    }
-    std::uint32_t candidate = body;
+    std::uint32_t candidate = object < next.size() ? next[object] : core::no_primitive;
     while (candidate < scene.bodies.size() && scene.bodies[candidate].object == object &&
            !same_values(scene.bodies[candidate], database.primitives()[primitive], database.header().frame)) {
       ++candidate;
     }
     if (candidate < scene.bodies.size() && scene.bodies[candidate].object == object) {
       bodies[primitive] = candidate;
-      body = candidate + 1;
+      next[object] = candidate + 1;
     }
   }
   return bodies;
