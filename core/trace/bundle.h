@@ -85,6 +85,7 @@ struct RayBundle {
   Corner grid_size;                                ///< in finest cells
   Region region;                                   ///< in which they walk
   bool is_whole;                                   ///< that is the whole grid: nothing leaves it
+  float rest_most;                                 ///< the largest of ShearedRay::rest() of all rays
   Vec3d grid_low;                                  ///< where the grid begins
   double finest_cells;                             ///< a unit of length, in finest cells
 

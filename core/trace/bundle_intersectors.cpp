@@ -257,33 +257,27 @@ HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) {
   return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
 }
 
-/// rest() of the ShearedRay of each ray from `first` on.
-HWY_INLINE Vector rests(const RayBundle& bundle, std::size_t first) {
-  alignas(64) std::array<float, step> rest;
-  for (std::size_t i = 0; i < step; ++i) {
-    const Vec3f& of_ray = bundle.rays[first + i < bundle.count ? first + i : 0].origin_rest;
-    rest[i] = largest_component(of_ray);
-  }
-  return hn::Load(Floats(), rest.data());
+/// Of the rays `asked`, which pass the triangle, those about which floats may be wrong, and some more: the scalar twin has the
+/// last word.
+HWY_NOINLINE RayMask within_rounding(float rest, RayMask asked, const Vertices& a, const Vertices& b, const Vertices& c,
+                                     const Vector& margin) {
+  const Floats tag;
+  const auto across = [](const Vertices& v) { return hn::Max(hn::Abs(v.x), hn::Abs(v.y)); };
+  const Vector widest = hn::Max(hn::Max(across(a), across(b)), across(c));
+  const Vector deepest = hn::Max(hn::Max(hn::Abs(a.z), hn::Abs(b.z)), hn::Abs(c.z));
+  const Vector rounding = hn::Mul(hn::Set(tag, edge_rounding), hn::Max(widest, deepest));
+  return asked & bits_of(tag, hn::Le(margin, hn::Mul(hn::Add(rounding, hn::Set(tag, rest_weight * rest)), widest)));
 }
 
-/// Of the rays `asked`, which pass the triangle from `first` on, those for which doubles judge and floats may be wrong.
-HWY_INLINE RayMask doubtful(const RayBundle& bundle, std::size_t first, RayMask asked, const Vertices& a, const Vertices& b,
-                            const Vertices& c, Vector least, Vector greatest) {
+/// The same of those for which doubles judge.
+HWY_INLINE RayMask doubtful(const RayBundle& bundle, RayMask asked, const Vertices& a, const Vertices& b, const Vertices& c,
+                            Vector least, Vector greatest) {
   const Floats tag;
   const auto limit = hn::Set(tag, near_edge);
   const auto is_near =
       hn::And(hn::Lt(hn::Min(hn::Min(a.z, b.z), c.z), limit), hn::Gt(hn::Max(hn::Max(a.z, b.z), c.z), hn::Neg(limit)));
   asked &= bits_of(tag, is_near);
-  if (HWY_LIKELY(asked == 0)) {
-    return 0;
-  }
-  const auto across = [](const Vertices& v) { return hn::Max(hn::Abs(v.x), hn::Abs(v.y)); };
-  const Vector widest = hn::Max(hn::Max(across(a), across(b)), across(c));
-  const Vector deepest = hn::Max(hn::Max(hn::Abs(a.z), hn::Abs(b.z)), hn::Abs(c.z));
-  const Vector rounding = hn::Mul(hn::Set(tag, edge_rounding), hn::Max(widest, deepest));
-  const Vector bound = hn::Mul(hn::Add(rounding, hn::Mul(hn::Set(tag, rest_weight), rests(bundle, first))), widest);
-  return asked & bits_of(tag, hn::Le(hn::Min(hn::Neg(least), greatest), bound));
+  return HWY_LIKELY(asked == 0) ? 0 : within_rounding(bundle.rest_most, asked, a, b, c, hn::Min(hn::Neg(least), greatest));
 }
 
 /// A hit in doubt, in the scalar twin.
@@ -306,7 +300,7 @@ HWY_INLINE void hit_triangle(RayBundle& bundle, const ShearedRays& rays, std::si
   const Vector least = hn::Min(hn::Min(u, v), w), greatest = hn::Max(hn::Max(u, v), w);
   const RayMask outside = bits_of(tag, hn::And(hn::Lt(least, zero), hn::Gt(greatest, zero)));
   const RayMask in_doubt = bits_of(tag, hn::Or(hn::Or(hn::Eq(u, zero), hn::Eq(v, zero)), hn::Eq(w, zero))) |
-                           doubtful(bundle, first, active & outside, a, b, c, least, greatest);
+                           doubtful(bundle, active & outside, a, b, c, least, greatest);
   if ((active & (~outside | in_doubt)) == 0) {
     return;
   }

@@ -43,6 +43,10 @@ HWY_INLINE void load(RayBundle& bundle) {
   load_rows(bundle, offsetof(Ray, direction), bundle.direction[0].data(), bundle.direction[1].data(), bundle.direction[2].data(),
             ignored.data());
   bundle.ignored_primitive = std::bit_cast<Row<std::uint32_t>>(ignored);
+  bundle.rest_most = 0;
+  for (std::size_t i = 0; i < bundle.count; ++i) {
+    bundle.rest_most = std::max(bundle.rest_most, largest_component(bundle.rays[i].origin_rest));
+  }
 }
 
 /// No ray has a candidate that has not brought one along.

@@ -171,8 +171,8 @@ class BundleWalk {
     }
   }
 
-  /// The triangles that share their planes.
-  void test_shared(const std::byte* record, Address block, RayMask rays) {
+  /// The triangles that share their planes: few scenes have any.
+  [[gnu::noinline]] void test_shared(const std::byte* record, Address block, RayMask rays) {
     const auto header = read<BlockHeader>(record);
     const auto* const ids = record + sizeof(header) + sizeof(float) * value_count(header.kind) * header.count;
     for (; rays != 0; rays &= rays - 1) {

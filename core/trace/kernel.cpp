@@ -119,7 +119,19 @@ HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) {
   return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
 }
 
-/// Those that the ray passes where doubles judge and floats may be wrong, of those `outside`.
+/// Of the triangles `asked`, which the ray passes, those about which floats may be wrong.
+HWY_NOINLINE hn::Mask<Tag> within_rounding(const ShearedRay& ray, const Vertices& a, const Vertices& b, const Vertices& c,
+                                           const Vector& margin, hn::Mask<Tag> asked) {
+  const Tag tag;
+  const auto across = [](const Vertices& v) { return hn::Max(hn::Abs(v.x), hn::Abs(v.y)); };
+  const Vector widest = hn::Max(hn::Max(across(a), across(b)), across(c));
+  const Vector deepest = hn::Max(hn::Max(hn::Abs(a.z), hn::Abs(b.z)), hn::Abs(c.z));
+  const Vector rounding = hn::Mul(hn::Set(tag, edge_rounding), hn::Max(widest, deepest));
+  const Vector bound = hn::Mul(hn::Add(rounding, hn::Set(tag, rest_weight * ray.rest())), widest);
+  return hn::And(asked, hn::Le(margin, bound));
+}
+
+/// The same of those for which doubles judge.
 HWY_INLINE hn::Mask<Tag> doubtful(const ShearedRay& ray, const Vertices& a, const Vertices& b, const Vertices& c, Vector least,
                                   Vector greatest, hn::Mask<Tag> outside) {
   const Tag tag;
@@ -127,15 +139,7 @@ HWY_INLINE hn::Mask<Tag> doubtful(const ShearedRay& ray, const Vertices& a, cons
   const auto is_near =
       hn::And(hn::Lt(hn::Min(hn::Min(a.z, b.z), c.z), limit), hn::Gt(hn::Max(hn::Max(a.z, b.z), c.z), hn::Neg(limit)));
   const auto asked = hn::And(outside, is_near);
-  if (HWY_LIKELY(hn::AllFalse(tag, asked))) {
-    return asked;
-  }
-  const auto across = [](const Vertices& v) { return hn::Max(hn::Abs(v.x), hn::Abs(v.y)); };
-  const Vector widest = hn::Max(hn::Max(across(a), across(b)), across(c));
-  const Vector deepest = hn::Max(hn::Max(hn::Abs(a.z), hn::Abs(b.z)), hn::Abs(c.z));
-  const Vector rounding = hn::Mul(hn::Set(tag, edge_rounding), hn::Max(widest, deepest));
-  const Vector bound = hn::Mul(hn::Add(rounding, hn::Set(tag, rest_weight * ray.rest())), widest);
-  return hn::And(asked, hn::Le(hn::Min(hn::Neg(least), greatest), bound));
+  return HWY_LIKELY(hn::AllFalse(tag, asked)) ? asked : within_rounding(ray, a, b, c, hn::Min(hn::Neg(least), greatest), asked);
 }
 
 std::uint32_t triangles(const ShearedRay& ray, const TriangleRows& block, std::uint32_t ignored, float t_most, float* times) {
