@@ -15,6 +15,9 @@ double last_place(float t) { return double{std::nextafter(t, std::numeric_limits
 }  // namespace
 
 CertifiedHit certified(const core::Ray& ray, const core::PrimitiveValues& values, float t) {
+  if (values.needs_plane()) {
+    return {};  // hit where the plane is that others share (core/build/coplanar.h), not where its own corners say
+  }
   const core::Certificate certificate = core::certify(ray, values.kind, values.value.data(), 1, 0);
   if (!certificate.is_decided()) {
     return {};

@@ -148,6 +148,15 @@ TEST_CASE("no certificate of a random hit fails, and with a third of its bound o
   CHECK(edge_failures > 0);
 }
 
+TEST_CASE("of a face in a tilted plane that it shares nothing is certified, of one in a level plane all") {
+  const Ray at = ray({0.25F, 0.5F, 0}, {0, 0, 1});
+  PrimitiveValues face = facing;
+  face.lie_in(PrimitiveValues::level_plane);
+  CHECK(apps::certified(at, face, 1).is_decided);
+  face.lie_in(1);
+  CHECK_FALSE(apps::certified(at, face, 1).is_decided);
+}
+
 TEST_CASE("counts of certified hits keep medians and worst") {
   apps::CertifiedCounts counts;
   counts.count({CertificateFault::none, true, true, 1, 2, 3});
