@@ -54,8 +54,9 @@ core::Scene seen_edge_on() {
   scene.lights = {{{3, -3, 5}}};
   core::SceneBuilder builder(scene);
   for (int i = 0; i < 8; ++i) {
-    builder.polygon({{-1, -1, -1}, {-1, -0.99, -1}, {-1, -1, -0.99}});
-    builder.polygon({{1, 1, 1}, {0.99, 1, 1}, {1, 0.99, 1}});
+    const double far = 1 - 0.001 * i;  // none is there twice
+    builder.polygon({{-far, -1, -1}, {-far, -0.99, -1}, {-far, -1, -0.99}});
+    builder.polygon({{1, 1, far}, {0.99, 1, far}, {1, 0.99, far}});
   }
   builder.polygon({{-0.45350812454144518, -0.94811831354713516, 0.36409975875693057},
                    {-0.426083842352877, 0.69194443190158927, 0.22418756558695008},
