@@ -120,7 +120,7 @@ HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) {
 }
 
 /// Of the triangles `asked`, which the ray passes, those about which floats may be wrong.
-HWY_NOINLINE hn::Mask<Tag> within_rounding(const ShearedRay& ray, const Vertices& a, const Vertices& b, const Vertices& c,
+HWY_INLINE hn::Mask<Tag> within_rounding(const ShearedRay& ray, const Vertices& a, const Vertices& b, const Vertices& c,
                                            const Vector& margin, hn::Mask<Tag> asked) {
   const Tag tag;
   const auto across = [](const Vertices& v) { return hn::Max(hn::Abs(v.x), hn::Abs(v.y)); };
