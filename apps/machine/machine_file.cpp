@@ -128,14 +128,18 @@ std::string name_of(const Fields& fields) {
   return name;
 }
 
-nodes::TopologyKind topology_of(const Fields& fields) {
-  const std::string name = fields.text("topology");
+/// What `parse` makes of a name.
+template <class Parse>
+auto named(const Fields& fields, std::string_view key, const Parse& parse) {
+  const std::string name = fields.text(key);
   try {
-    return nodes::parse_topology(name);
+    return parse(name);
   } catch (const core::InputError& error) {
-    fields.refuse("topology", error.what());
+    fields.refuse(key, error.what());
   }
 }
+
+nodes::TopologyKind topology_of(const Fields& fields) { return named(fields, "topology", nodes::parse_topology); }
 
 nodes::MessageCost message_of(const Fields& fields) {
   return {.send_ns = fields.number("send_ns", time_ns_max),
@@ -161,15 +165,6 @@ std::vector<std::pair<std::string, std::string>> sources_of(const Fields& fields
     }
   }
   return sources;
-}
-
-nodes::Switching switching_of(const Fields& fields) {
-  const std::string name = fields.text("switching");
-  try {
-    return nodes::parse_switching(name);
-  } catch (const core::InputError& error) {
-    fields.refuse("switching", error.what());
-  }
 }
 
 std::uint32_t uplinks_of(const Fields& fields) {
@@ -199,7 +194,7 @@ MachineDescription description_of(const Fields& fields) {
   return {.machine = {.name = name_of(fields),
                       .topology = topology_of(fields),
                       .uplinks = uplinks_of(fields),
-                      .switching = switching_of(fields),
+                      .switching = named(fields, "switching", nodes::parse_switching),
                       .short_bytes_max = fields.number("short_bytes_max", bytes_max),
                       .short_message = message_of(fields.object("short_message", message_keys)),
                       .long_message = message_of(fields.object("long_message", message_keys)),

@@ -260,7 +260,7 @@ HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) {
 /// Of the rays `asked`, which pass the triangle, those about which floats may be wrong, and some more: the scalar twin has the
 /// last word.
 HWY_INLINE RayMask within_rounding(float rest, RayMask asked, const Vertices& a, const Vertices& b, const Vertices& c,
-                                     const Vector& margin) {
+                                   const Vector& margin) {
   const Floats tag;
   const auto across = [](const Vertices& v) { return hn::Max(hn::Abs(v.x), hn::Abs(v.y)); };
   const Vector widest = hn::Max(hn::Max(across(a), across(b)), across(c));

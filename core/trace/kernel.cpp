@@ -121,7 +121,7 @@ HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) {
 
 /// Of the triangles `asked`, which the ray passes, those about which floats may be wrong.
 HWY_INLINE hn::Mask<Tag> within_rounding(const ShearedRay& ray, const Vertices& a, const Vertices& b, const Vertices& c,
-                                           const Vector& margin, hn::Mask<Tag> asked) {
+                                         const Vector& margin, hn::Mask<Tag> asked) {
   const Tag tag;
   const auto across = [](const Vertices& v) { return hn::Max(hn::Abs(v.x), hn::Abs(v.y)); };
   const Vector widest = hn::Max(hn::Max(across(a), across(b)), across(c));
