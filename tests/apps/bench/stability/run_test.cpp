@@ -87,7 +87,8 @@ TEST_CASE("what our kernels fail counts and what Embree fails does not") {
 }
 
 TEST_CASE("the long run has a billion rays from inside, and every test can be asked for alone") {
-  for (const std::string test : {"R1", "R2", "R3", "R4", "R5", "R6", "R7", "R8", "R9", "R10", "R11", "R12", "R14", "R16", "quadrics"}) {
+  for (const std::string test :
+       {"R1", "R2", "R3", "R4", "R5", "R6", "R7", "R8", "R9", "R10", "R11", "R12", "R14", "R16", "quadrics"}) {
     CAPTURE(test);
     const StabilityCases cases = apps::stability_cases({100}, {test});
     CHECK_FALSE(cases.empty());
