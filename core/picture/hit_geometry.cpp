@@ -84,7 +84,8 @@ void triangle_geometry(HitState& state, const Lane& lane, const FacePlane* share
     const double inset = edge_inset * largest_component(along(state.ray, double{state.hit.t}));
     const double least = std::min(inset / height, weight_least_max);
     state.u = std::clamp(dot(from_v0, p) / determinant, least, 1.0 - 2 * least);
-    state.v = std::clamp(dot(direction, cross(from_v0, edge1)) / determinant, least, 1.0 - least - state.u);
+    const double most = std::max(1.0 - least - state.u, least);  // but for rounding it is no less anyway
+    state.v = std::clamp(dot(direction, cross(from_v0, edge1)) / determinant, least, most);
   }
   state.point = v0 + edge1 * state.u + edge2 * state.v;
   state.geometric_normal = normal * (1.0 / area);
