@@ -64,13 +64,22 @@ struct Detail {
   double weight;
 };
 
-std::vector<Detail> details_of(const Scene& scene, const GridAxes& axes, double extent) {
+bool holds(const Box& bounds, const Vec3d& point) {
+  bool is_inside = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    is_inside = is_inside && point[axis] >= bounds.low[axis] && point[axis] <= bounds.high[axis];
+  }
+  return is_inside;
+}
+
+/// Of what is left out of the bounds, being degenerate or too far away, nothing.
+std::vector<Detail> details_of(const Scene& scene, const GridAxes& axes, const Box& bounds, double extent) {
   std::vector<Detail> details;
   const std::size_t stride = (scene.objects.size() + objects_max - 1) / objects_max;
   for (std::size_t i = 0; i < scene.objects.size(); i += stride) {
     const Box box = box_of(scene, scene.objects[i], axes);
     const double size = largest_component(box.high - box.low);
-    if (size > 0 && size <= 2 * extent) {
+    if (size > 0 && size <= 2 * extent && holds(bounds, box.center())) {
       const double share = std::max(size / extent, least_share);
       details.push_back({box.center(), 1 / (share * share)});
     }
@@ -82,7 +91,7 @@ std::vector<Detail> details_of(const Scene& scene, const GridAxes& axes, double 
 
 std::optional<Vec3d> place_of_detail(const Scene& scene, const GridAxes& axes, const Box& bounds) {
   const double extent = bounds.empty() ? 0 : largest_component(bounds.high - bounds.low);
-  const std::vector<Detail> details = extent > 0 ? details_of(scene, axes, extent) : std::vector<Detail>();
+  const std::vector<Detail> details = extent > 0 ? details_of(scene, axes, bounds, extent) : std::vector<Detail>();
   if (details.empty()) {
     return std::nullopt;
   }
