@@ -54,6 +54,9 @@ bool degenerate_triangle(const PrimitiveValues& triangle) {
   return a == b || b == c || c == a || !(dot(area, area) > 0);
 }
 
+/// Spheres that are smaller than this, beside a scene of about 1, no ray in floats can tell from points.
+constexpr float radius_least = 0x1p-40F;
+
 /// Nearer to a line than this share of their coordinates, corners lie on it as far as doubles can tell.
 constexpr double line_share = 0x1p-48;
 
@@ -185,7 +188,7 @@ class Converter {
     PrimitiveValues values{.kind = PrimitiveKind::sphere};
     put_four(values, 0, local(sphere.center), sphere.radius * frame_.scale);
     const bool finite = usable(sphere.center) && std::fabs(sphere.radius) < coordinate_max;
-    add(values, index, !finite || values.value[3] == 0.0F, object.material, sphere.center,
+    add(values, index, !finite || std::fabs(values.value[3]) < radius_least, object.material, sphere.center,
         [&] { return finite ? 2 * std::fabs(sphere.radius) : 0.0; });
   }
 
