@@ -100,14 +100,6 @@ Color reflected_light(const HitState& state, const LightRecord& light, const Vec
   return Color(Vec3d(state.ray.weight) * Vec3d(light.intensity) * surface);
 }
 
-/// Whether what lies this way, at any distance, is behind the surface, however its cosine is rounded: most lights that are there
-/// are found out without a root.
-bool is_surely_behind(const HitState& state, const Vec3d& towards) {
-  constexpr double certain_squared = 0x1p-80;  // of the cosine, whose error is some 2^-51
-  const double height = dot(towards, state.normal);
-  return height < 0.0 && height * height > certain_squared * dot(towards, towards);
-}
-
 double brightest(const Vec3d& color) { return std::max({color.x, color.y, color.z, 0.0}); }
 
 }  // namespace
@@ -240,9 +232,6 @@ bool Shader::read_light(HitState& state, const std::byte* record, Ray& child) co
     state.stage = after_lights(state);
   }
   const Vec3d towards = Vec3d(light.position) - state.point;
-  if (is_surely_behind(state, towards) && leaves_out(false, Color{})) {
-    return false;
-  }
   const double distance = length(towards);
   const Vec3d unit = distance > 0.0 ? towards * (1.0 / distance) : Vec3d{};
   const double cosine = dot(unit, state.normal);
