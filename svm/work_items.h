@@ -18,9 +18,9 @@ struct PixelRectangle {
   constexpr bool operator==(const PixelRectangle&) const = default;
 };
 
-/// The part of the image that node `index` of `node_count` starts with. The submaps of all nodes cover each pixel exactly
-/// once; they are nearly square and of nearly equal area (the longer side is cut in proportion to the nodes on each side,
-/// again and again); where there are more nodes than pixels, some are empty. Requires index < node_count.
+/// The part of the image that node `index` starts with, where the first `worker_count` nodes render; nothing for the others. The
+/// submaps of all workers cover each pixel exactly once; they are nearly square and of nearly equal area (the longer side is cut
+/// in proportion to the workers on each side, again and again); where there are more workers than pixels, some are empty.
 PixelRectangle submap_of(const PixelRectangle& image, std::uint32_t index, std::uint32_t worker_count);
 
 /// What is left of a submap, as items of side x side pixels, clipped at the submap's edge. Needs no memory beside itself.

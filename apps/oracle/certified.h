@@ -28,7 +28,6 @@ CertifiedHit certified(const core::Ray& ray, const core::PrimitiveValues& values
 class Spread {
  public:
   void add(double value) { values_.push_back(value); }
-  void join(const Spread& other) { values_.insert(values_.end(), other.values_.begin(), other.values_.end()); }
   /// 0 if there are none.
   double median() const;
   double worst() const;

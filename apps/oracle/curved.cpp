@@ -107,7 +107,7 @@ void enclose(std::array<float, 6>& box, const float* center, float radius) {
 
 std::optional<double> nearest_on_curved(const core::PrimitiveValues& values, const core::Ray& ray) {
   core::expect(values.kind != core::PrimitiveKind::triangle, "a curved primitive is a sphere or a cone");
-  const core::CurvedValues exact(values.kind, values.value.data(), 1, 0);
+  const core::CurvedValues exact = values.curved();
   return values.kind == core::PrimitiveKind::sphere ? nearest_on_sphere(exact, ray) : nearest_on_cone(exact, ray);
 }
 

@@ -227,8 +227,6 @@ struct Curved {
   }
 };
 
-core::CurvedValues curved_values(const core::PrimitiveValues& values) { return {values.kind, values.value.data(), 1, 0}; }
-
 /// What the two floats of each coordinate add up to.
 Vec3l full_origin(const Ray& ray) { return Vec3l(ray.origin) + Vec3l(ray.origin_rest); }
 Vec3l full_direction(const Ray& ray) { return Vec3l(ray.direction) + Vec3l(ray.direction_rest); }
@@ -236,9 +234,8 @@ Vec3l full_direction(const Ray& ray) { return Vec3l(ray.direction) + Vec3l(ray.d
 Curved see_sphere(const Ray& ray, const core::PrimitiveValues& values) {
   Curved curved;
   curved.direction = full_direction(ray);
-  curved.from_center = full_origin(ray) - Vec3l(curved_values(values).vector(0));
-  const Long radius = Long{curved_values(values).value(3)}, direction = length(curved.direction),
-             distance = length(curved.from_center);
+  curved.from_center = full_origin(ray) - Vec3l(values.curved().vector(0));
+  const Long radius = Long{values.curved().value(3)}, direction = length(curved.direction), distance = length(curved.from_center);
   curved.quadratic = {direction * direction, dot(curved.from_center, curved.direction), distance * distance - radius * radius,
                       direction, distance + std::fabs(radius)};
   curved.inside_only = radius < 0;
@@ -247,7 +244,7 @@ Curved see_sphere(const Ray& ray, const core::PrimitiveValues& values) {
 
 Curved see_cone(const Ray& ray, const core::PrimitiveValues& values) {
   Curved curved;
-  const core::CurvedValues cone = curved_values(values);
+  const core::CurvedValues cone = values.curved();
   const Vec3l base(cone.vector(0)), to_apex = Vec3l(cone.vector(4)) - base;
   const Long apex_radius = std::fabs(Long{cone.value(7)});
   curved.direction = full_direction(ray);

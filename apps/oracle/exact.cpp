@@ -96,7 +96,7 @@ Fault fault_of_triangle(const Ray& ray, const core::PrimitiveValues& values, flo
 /// a t^2 + 2 b t + c, which is 0 on the sphere; a > 0.
 struct ExactSphere {
   ExactSphere(const Ray& ray, const core::PrimitiveValues& values) {
-    const core::CurvedValues sphere(values.kind, values.value.data(), 1, 0);
+    const core::CurvedValues sphere = values.curved();
     const Exact from_center = origin_of(ray) - Exact(sphere.vector(0)), direction = direction_of(ray);
     const mpq_class radius = sphere.value(3);
     a = dot(direction, direction);
@@ -133,7 +133,7 @@ Fault fault_of_sphere(const Ray& ray, const core::PrimitiveValues& values, float
 /// a t^2 + 2 b t + c, which is 0 on the cone without ends: as core/trace/certificate.cpp has it.
 struct ExactCone {
   ExactCone(const Ray& ray, const core::PrimitiveValues& values) {
-    const core::CurvedValues cone(values.kind, values.value.data(), 1, 0);
+    const core::CurvedValues cone = values.curved();
     const Exact base(cone.vector(0)), axis = Exact(cone.vector(4)) - base, from_base = origin_of(ray) - base;
     const Exact direction = direction_of(ray), across = cross(from_base, axis), across_rate = cross(direction, axis);
     axis_squared = dot(axis, axis);

@@ -25,6 +25,11 @@ struct Box {
   Box padded(const Vec3d& margin) const { return {low - margin, high + margin}; }
   Vec3d center() const { return (low + high) * 0.5; }
   Vec3d half() const { return (high - low) * 0.5; }
+  /// Border included; no point that is not a number.
+  bool holds(const Vec3d& point) const {
+    return point.x >= low.x && point.x <= high.x && point.y >= low.y && point.y <= high.y && point.z >= low.z &&
+           point.z <= high.z;
+  }
 };
 
 }  // namespace dmpc::core

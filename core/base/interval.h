@@ -99,7 +99,5 @@ inline Interval operator/(const Interval& a, const Interval& b) {
 
 /// Of |x| for all x that it holds.
 inline Interval magnitude(const Interval& a) { return {a.least(), a.most()}; }
-/// All that two intervals hold, and what lies between.
-inline Interval hull(const Interval& a, const Interval& b) { return {std::min(a.low, b.low), std::max(a.high, b.high)}; }
 
 }  // namespace dmpc::core

@@ -70,6 +70,12 @@ template <class T>
 T largest_component(const Vec3<T>& a) {
   return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
 }
+/// The sum of the products of components, all without their signs: what rounding each of `b` by a share moves a point across the
+/// plane with the normal `a` by, at most, is that share of it.
+template <class T>
+T dot_of_magnitudes(const Vec3<T>& a, const Vec3<T>& b) {
+  return std::fabs(a.x * b.x) + std::fabs(a.y * b.y) + std::fabs(a.z * b.z);
+}
 /// `a` scaled to length 1; requires a length above 0.
 template <class T>
 Vec3<T> normalize(const Vec3<T>& a) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "core/base/altitude.h"
 #include "core/base/box.h"
 #include "core/base/units.h"
 #include "core/record/coordinate.h"
@@ -42,14 +43,10 @@ void put_four(PrimitiveValues& primitive, std::size_t first, const Vec3d& v, dou
   primitive.value[rest_row(primitive.kind) + first / 4] = std::bit_cast<float>(rests);
 }
 
-Vec3d get(const PrimitiveValues& primitive, std::size_t row) {
-  return {double{primitive.value[row]}, double{primitive.value[row + 1]}, double{primitive.value[row + 2]}};
-}
-
 /// Decided on the floats that are stored: equal vertices first, then area (a difference of exact products could be hidden by
 /// fusing).
 bool degenerate_triangle(const PrimitiveValues& triangle) {
-  const Vec3d a = get(triangle, 0), b = get(triangle, 3), c = get(triangle, 6);
+  const Vec3d a = triangle.vector(0), b = triangle.vector(3), c = triangle.vector(6);
   const Vec3d area = cross(b - a, c - a);
   return a == b || b == c || c == a || !(dot(area, area) > 0);
 }
@@ -63,8 +60,7 @@ constexpr double line_share = 0x1p-48;
 /// The height of a triangle that is not degenerate, 0 of one that is; `coordinate` is its largest before anything was subtracted.
 double height_of(const std::array<Vec3d, 3>& corner, double coordinate) {
   const Vec3d a = corner[1] - corner[0], b = corner[2] - corner[0];
-  const double longest = std::max({length(a), length(b), length(b - a)});
-  const double height = longest > 0 ? length(cross(a, b)) / longest : 0.0;
+  const double height = least_altitude(a, b, b - a, length(cross(a, b)));
   return height > line_share * coordinate ? height : 0.0;
 }
 
@@ -80,7 +76,7 @@ Place usable_place(Place place) {
 }
 
 bool degenerate_cone(const PrimitiveValues& cone) {
-  return get(cone, 0) == get(cone, 4) || (cone.value[3] == 0.0F && cone.value[7] == 0.0F);
+  return cone.vector(0) == cone.vector(4) || (cone.value[3] == 0.0F && cone.value[7] == 0.0F);
 }
 
 void include_cube(Box& box, const Vec3d& center, double half) {

@@ -1,9 +1,8 @@
 #include "core/build/coplanar.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/build/cover_finder.h"
@@ -174,23 +173,11 @@ class Planes {
   std::uint32_t level_count_ = 0;
 };
 
-/// Who shows where triangles cover each other.
-class Precedence {
- public:
-  Precedence(const Conversion& conversion, std::span<const Material> materials)
-      : conversion_(conversion), materials_(materials) {}
-
-  /// What transmits comes after what does not.
-  void sort(Ids& set) const {
-    std::stable_partition(set.begin(), set.end(), [this](std::uint32_t id) { return !transmits(id); });
-  }
-
- private:
-  bool transmits(std::uint32_t id) const { return materials_[conversion_.shading[id].material()].transmittance > 0; }
-
-  const Conversion& conversion_;
-  std::span<const Material> materials_;
-};
+/// By who shows where triangles cover each other: what transmits comes after what does not.
+void sort_by_precedence(Ids& set, const Conversion& conversion, std::span<const Material> materials) {
+  std::stable_partition(set.begin(), set.end(),
+                        [&](std::uint32_t id) { return !(materials[conversion.shading[id].material()].transmittance > 0); });
+}
 
 /// Takes out of a set, which comes by precedence, what has the corners of one before it.
 void take_duplicates(const Conversion& conversion, Ids& set, Ids& duplicates) {
@@ -249,13 +236,12 @@ bool settle_coplanar(Conversion& conversion, const TopCells& cells, std::span<co
   if (sets.empty()) {
     return false;
   }
-  const Precedence precedence(conversion, materials);
   Planes planes(conversion);
   Ids from(conversion.primitives.size()), duplicates;
   std::iota(from.begin(), from.end(), 0U);
   for (Ids& set : sets) {
     Ids places = set;
-    precedence.sort(set);
+    sort_by_precedence(set, conversion, materials);
     for (std::size_t i = 0; i < set.size(); ++i) {
       from[places[i]] = set[i];
     }

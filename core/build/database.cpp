@@ -237,7 +237,7 @@ void find_places_below(const LocalRecords& records, Address from, std::vector<Da
     }
     const std::byte* const block = records.find(address);
     const auto header = read<BlockHeader>(block);
-    const std::byte* const ids = block + sizeof(header) + sizeof(float) * value_count(header.kind) * header.count;
+    const std::byte* const ids = ids_of(header, block);
     for (std::uint32_t lane = 0; lane < header.count; ++lane) {
       places[read<std::uint32_t>(ids + lane * sizeof(std::uint32_t))] = {address, lane};
     }

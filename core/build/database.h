@@ -11,6 +11,7 @@
 
 #include "core/base/forget.h"
 #include "core/build/record_order.h"
+#include "core/record/curved_values.h"
 #include "core/record/record.h"
 #include "core/scene/scene.h"
 
@@ -43,6 +44,11 @@ struct CollapsedPrimitive {
 struct PrimitiveValues {
   PrimitiveKind kind{};
   std::array<float, value_count_max> value{};
+
+  /// A vertex, centre or end, by the row where it starts: what its floats say.
+  Vec3d vector(std::size_t row) const { return {double{value[row]}, double{value[row + 1]}, double{value[row + 2]}}; }
+  /// Of a sphere or cone, with rests; no longer than this.
+  CurvedValues curved() const { return {kind, value.data(), 1, 0}; }
 
   /// The plane() of triangles that have a coordinate in common, by which their plane is known.
   static constexpr std::uint32_t level_plane = 0xffffffffU;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/base/altitude.h"
 #include "core/base/vec.h"
 #include "core/build/database.h"
 #include "core/record/record.h"
@@ -20,21 +21,16 @@ inline constexpr double corner_rounding = 0x1p-25;
 struct Face {
   Face(const PrimitiveValues& triangle, std::uint32_t primitive, std::uint32_t of_object) : id(primitive), object(of_object) {
     for (std::size_t i = 0; i < 3; ++i) {
-      corner[i] = {double{triangle.value[3 * i]}, double{triangle.value[3 * i + 1]}, double{triangle.value[3 * i + 2]}};
+      corner[i] = triangle.vector(3 * i);
     }
     const Vec3d area = cross(corner[1] - corner[0], corner[2] - corner[0]);
     const double twice = length(area);
     plane.normal = area * (1.0 / twice);
     plane.offset = dot(plane.normal, corner[0]);
-    double longest = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3d edge = corner[(i + 1) % 3] - corner[i];
-      longest = std::max(longest, dot(edge, edge));
-      const Vec3d& n = plane.normal;
-      moved = std::max(moved, std::fabs(n.x * corner[i].x) + std::fabs(n.y * corner[i].y) + std::fabs(n.z * corner[i].z));
+    for (const Vec3d& at : corner) {
+      moved = std::max(moved, corner_rounding * dot_of_magnitudes(plane.normal, at));
     }
-    moved *= corner_rounding;
-    altitude = twice / std::sqrt(longest);
+    altitude = least_altitude(corner[1] - corner[0], corner[2] - corner[1], corner[0] - corner[2], twice);
   }
 
   /// The axis that the plane faces most.

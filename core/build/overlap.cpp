@@ -8,10 +8,6 @@
 namespace dmpc::core {
 namespace {
 
-Vec3d vector_at(const PrimitiveValues& primitive, std::size_t row) {
-  return {double{primitive.value[row]}, double{primitive.value[row + 1]}, double{primitive.value[row + 2]}};
-}
-
 void include_disc(Box& box, const Vec3d& center, const Vec3d& axis, double radius) {
   const double squared = dot(axis, axis);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -57,17 +53,17 @@ Box bounds_of(const PrimitiveValues& primitive) {
   switch (primitive.kind) {
     case PrimitiveKind::triangle:
       for (const std::size_t row : {std::size_t{0}, std::size_t{3}, std::size_t{6}}) {
-        box.include(vector_at(primitive, row));
+        box.include(primitive.vector(row));
       }
       break;
     case PrimitiveKind::sphere: {
       const double radius = std::fabs(double{primitive.value[3]});
-      box.include(vector_at(primitive, 0));
+      box.include(primitive.vector(0));
       box = box.padded({radius, radius, radius});
       break;
     }
     case PrimitiveKind::cone: {
-      const Vec3d base = vector_at(primitive, 0), apex = vector_at(primitive, 4);
+      const Vec3d base = primitive.vector(0), apex = primitive.vector(4);
       include_disc(box, base, apex - base, std::fabs(double{primitive.value[3]}));
       include_disc(box, apex, apex - base, std::fabs(double{primitive.value[7]}));
       break;
@@ -89,18 +85,18 @@ Bounds rounded_bounds_of(const PrimitiveValues& primitive) {
 }
 
 Overlap::Overlap(const PrimitiveValues& primitive)
-    : kind_(primitive.kind), bounds_(bounds_of(primitive)), a_(vector_at(primitive, 0)) {
+    : kind_(primitive.kind), bounds_(bounds_of(primitive)), a_(primitive.vector(0)) {
   switch (kind_) {
     case PrimitiveKind::triangle:
-      b_ = vector_at(primitive, 3);
-      c_ = vector_at(primitive, 6);
+      b_ = primitive.vector(3);
+      c_ = primitive.vector(6);
       normal_ = cross(b_ - a_, c_ - a_);
       break;
     case PrimitiveKind::sphere:
       radius_ = std::fabs(double{primitive.value[3]});
       break;
     case PrimitiveKind::cone:
-      b_ = vector_at(primitive, 4) - a_;
+      b_ = primitive.vector(4) - a_;
       radius_ = std::fabs(double{primitive.value[3]});
       apex_radius_ = std::fabs(double{primitive.value[7]});
       break;

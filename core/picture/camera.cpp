@@ -8,20 +8,11 @@
 #include "core/scene/frame.h"
 
 namespace dmpc::core {
-namespace {
-
-Vec3d high_of(const GridFrame& frame) {
-  const Corner size = grid_size(frame);
-  return {plane_at(frame, 0, size[0]), plane_at(frame, 1, size[1]), plane_at(frame, 2, size[2])};
-}
-
-}  // namespace
-
 Camera::Camera(const View& view, const GridFrame& frame, int width, int height, int samples)
     : width_(width), height_(height), samples_(samples) {
   expect(width > 0 && height > 0 && samples > 0, "a camera has pixels and samples");
   eye_ = to_local(frame, view.from);
-  const Vec3d low = frame.low, extent = high_of(frame) - low;
+  const Vec3d low = frame.low, extent = grid_high(frame) - low;
   middle_ = low + extent * 0.5;
   reach_ = length(eye_ - middle_) > far_eye_diagonals * length(extent) ? length(extent) : 0;
   const GridAxes screen = screen_axes(view);

@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <limits>
 
+#include "core/base/altitude.h"
+#include "core/base/mutation.h"
 #include "core/record/curved_values.h"
 #include "core/trace/primitive.h"
-
-#include "core/base/mutation.h"
 
 namespace dmpc::core {
 namespace {
@@ -31,19 +31,10 @@ constexpr double curved_clearance = 0x1p-40;
 /// Of the ray's t, which is rounded to float: another surface may lie so much nearer.
 constexpr double tie_clearance = 0x1p-23;
 
-double shared_by(const Vec3d& normal, const Vec3d& v) {
-  return std::fabs(normal.x * v.x) + std::fabs(normal.y * v.y) + std::fabs(normal.z * v.z);
-}
-
-/// From a corner to the edge before it, at least; `area` is twice the triangle's.
-double height_of(const Vec3d& edge1, const Vec3d& edge2, double area) {
-  const Vec3d edge3 = edge2 - edge1;
-  return area / std::sqrt(std::max({dot(edge1, edge1), dot(edge2, edge2), dot(edge3, edge3)}));
-}
-
 Clearance clearance_on_triangle(const HitState& state, const Vec3d& v0, const Vec3d& edge1, const Vec3d& edge2, double height) {
   const Vec3d& n = state.geometric_normal;
-  const double rounding = flat_clearance * std::max({shared_by(n, v0), shared_by(n, v0 + edge1), shared_by(n, v0 + edge2)});
+  const double rounding =
+      flat_clearance * std::max({dot_of_magnitudes(n, v0), dot_of_magnitudes(n, v0 + edge1), dot_of_magnitudes(n, v0 + edge2)});
   const double way_to_edge = std::max(std::min({state.u, state.v, 1.0 - state.u - state.v}) * height, 0.0);
   const double clearance = std::min(rounding + tie_clearance * double{state.hit.t}, edge_clearance * way_to_edge);
   return {clearance, clearance, std::numeric_limits<double>::max()};
@@ -76,7 +67,7 @@ Lane lane_of(const HitState& state, const std::byte* record) {
 /// starts on one of its sides.
 void triangle_geometry(HitState& state, const Lane& lane, const FacePlane* shared) {
   const Vec3d v0 = lane.vector(0), edge1 = lane.vector(3) - v0, edge2 = lane.vector(6) - v0, normal = cross(edge1, edge2);
-  const double area = length(normal), height = height_of(edge1, edge2, area);
+  const double area = length(normal), height = least_altitude(edge1, edge2, edge2 - edge1, area);
   const Vec3d direction = state.ray.full_direction(), p = cross(direction, edge2);
   const double determinant = dot(edge1, p);
   if (determinant != 0.0) {

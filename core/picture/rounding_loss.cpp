@@ -17,10 +17,6 @@ constexpr double float_rounding = 0x1p-24, rest_rounding = 0x1p-32;
 /// Triangles of one polygon among which its inner edges are looked for.
 constexpr std::size_t polygon_triangles_max = 64;
 
-Vec3d corner_of(const PrimitiveValues& primitive, std::size_t row) {
-  return {double{primitive.value[row]}, double{primitive.value[row + 1]}, double{primitive.value[row + 2]}};
-}
-
 /// How far each coordinate may have been rounded.
 Vec3d rounding_of(const Vec3d& point) {
   const auto along = [](double value) { return std::max(float_rounding * std::fabs(value), coordinate_step / 2); };
@@ -38,7 +34,7 @@ double distance_to(const Box& box, const Vec3d& point) {
 double largest_coordinate(const Box& box) { return std::max(largest_component(box.low), largest_component(box.high)); }
 
 struct Triangle {
-  explicit Triangle(const PrimitiveValues& values) : corner{corner_of(values, 0), corner_of(values, 3), corner_of(values, 6)} {}
+  explicit Triangle(const PrimitiveValues& values) : corner{values.vector(0), values.vector(3), values.vector(6)} {}
 
   std::array<Vec3d, 3> corner;
 };
@@ -68,7 +64,8 @@ class LossFinder {
 
   RoundingLoss find() {
     count_collapsed();
-    if (may_matter(grid_box())) {
+    const GridFrame& frame = database_.header().frame;
+    if (may_matter({frame.low, grid_high(frame)})) {
       for (std::size_t id = 0; id < database_.primitives().size(); ++id) {
         count(id);
       }
@@ -90,11 +87,6 @@ class LossFinder {
     }
   }
 
-  Box grid_box() const {
-    const GridFrame& frame = database_.header().frame;
-    const Corner size = grid_size(frame);
-    return {frame.low, {plane_at(frame, 0, size[0]), plane_at(frame, 1, size[1]), plane_at(frame, 2, size[2])}};
-  }
   /// Whether rounding may move something in a box by more than is allowed.
   bool may_matter(const Box& box) const {
     return pixels(2 * float_rounding * largest_coordinate(box), distance_to(box, camera_.eye())) > rounding_allowed_pixels;
@@ -141,9 +133,7 @@ class LossFinder {
     const Vec3d normal = normalize(cross(b - a, c - a));
     double moved = 0;
     for (const Vec3d& corner : triangle.corner) {
-      const Vec3d rounding = rounding_of(corner);
-      moved =
-          std::max(moved, std::fabs(normal.x) * rounding.x + std::fabs(normal.y) * rounding.y + std::fabs(normal.z) * rounding.z);
+      moved = std::max(moved, dot_of_magnitudes(normal, rounding_of(corner)));
     }
     return moved;
   }

@@ -143,6 +143,11 @@ constexpr std::size_t block_bytes(const BlockHeader& header) {
 }
 static_assert(block_bytes(PrimitiveKind::triangle, block_lanes) + sizeof(FacePlane) <= record_bytes_max);
 
+/// The row of primitive ids of a block.
+inline const std::byte* ids_of(const BlockHeader& header, const std::byte* block) {
+  return block + sizeof(header) + sizeof(float) * value_count(header.kind) * header.count;
+}
+
 /// The plane of a block that has one.
 inline FacePlane plane_of(const BlockHeader& header, const std::byte* block) {
   return read<FacePlane>(block + block_bytes(header.kind, header.count));
@@ -245,6 +250,12 @@ constexpr double plane_at(const GridFrame& frame, std::size_t axis, std::int32_t
 /// The grid's size in finest cells.
 constexpr Corner grid_size(const GridFrame& frame) {
   return {frame.resolution[0] * finest_per_cell, frame.resolution[1] * finest_per_cell, frame.resolution[2] * finest_per_cell};
+}
+
+/// Where the grid ends, grid-local.
+constexpr Vec3d grid_high(const GridFrame& frame) {
+  const Corner size = grid_size(frame);
+  return {plane_at(frame, 0, size[0]), plane_at(frame, 1, size[1]), plane_at(frame, 2, size[2])};
 }
 
 /// Top cells along x, y, z: the last of an axis may reach beyond the grid.

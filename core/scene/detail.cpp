@@ -64,14 +64,6 @@ struct Detail {
   double weight;
 };
 
-bool holds(const Box& bounds, const Vec3d& point) {
-  bool is_inside = true;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    is_inside = is_inside && point[axis] >= bounds.low[axis] && point[axis] <= bounds.high[axis];
-  }
-  return is_inside;
-}
-
 /// Of what is left out of the bounds, being degenerate or too far away, nothing.
 std::vector<Detail> details_of(const Scene& scene, const GridAxes& axes, const Box& bounds, double extent) {
   std::vector<Detail> details;
@@ -79,7 +71,7 @@ std::vector<Detail> details_of(const Scene& scene, const GridAxes& axes, const B
   for (std::size_t i = 0; i < scene.objects.size(); i += stride) {
     const Box box = box_of(scene, scene.objects[i], axes);
     const double size = largest_component(box.high - box.low);
-    if (size > 0 && size <= 2 * extent && holds(bounds, box.center())) {
+    if (size > 0 && size <= 2 * extent && bounds.holds(box.center())) {
       const double share = std::max(size / extent, least_share);
       details.push_back({box.center(), 1 / (share * share)});
     }

@@ -174,7 +174,7 @@ class BundleWalk {
   /// The triangles that share their planes: few scenes have any.
   [[gnu::noinline]] void test_shared(const std::byte* record, Address block, RayMask rays) {
     const auto header = read<BlockHeader>(record);
-    const auto* const ids = record + sizeof(header) + sizeof(float) * value_count(header.kind) * header.count;
+    const std::byte* const ids = ids_of(header, record);
     for (; rays != 0; rays &= rays - 1) {
       const auto ray = static_cast<std::size_t>(std::countr_zero(rays));
       float times[block_lanes];

@@ -82,7 +82,7 @@ inline void test_block(const Ray& ray, const ShearedRay& sheared, const std::byt
     const std::uint32_t shared = hit_shared_faces(sheared, record, ray.ignored_primitive, t_most, times);
     hits = (hits & ~std::uint32_t{header.shared_lanes}) | shared;
   }
-  const auto* ids = reinterpret_cast<const std::uint32_t*>(rows + value_count(header.kind) * count);
+  const auto* ids = reinterpret_cast<const std::uint32_t*>(ids_of(header, record));
   for (; hits != 0; hits &= hits - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(hits));
     const float t = times[lane];

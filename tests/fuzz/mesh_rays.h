@@ -105,7 +105,7 @@ class MeshRays {
     const std::size_t end = primitive.kind == core::PrimitiveKind::cone && index % 2 == 1 ? 4 : 0;
     const core::Vec3d aside(apps::axis_directions(0)[index / 2 % 26]);
     const double radius = std::fabs(double{primitive.value[end + 3]});
-    return apps::point_of(primitive, end) + aside * (radius * (index < 128 ? 1 : 0));
+    return primitive.vector(end) + aside * (radius * (index < 128 ? 1 : 0));
   }
 
   Bytes& bytes_;

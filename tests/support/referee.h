@@ -27,8 +27,7 @@ struct Verdict {
 /// -margin. A triangle seen nearly edge-on may be hit anywhere between its nearest and its farthest vertex.
 inline void merge(Verdict& verdict, const core::PrimitiveValues& triangle, const core::Ray& ray, double margin) {
   const core::Vec3d origin(ray.origin), d(ray.direction);
-  const core::Vec3d a = apps::point_of(triangle, 0) - origin, b = apps::point_of(triangle, 3) - origin,
-                    c = apps::point_of(triangle, 6) - origin;
+  const core::Vec3d a = triangle.vector(0) - origin, b = triangle.vector(3) - origin, c = triangle.vector(6) - origin;
   const core::Vec3d normal = core::cross(b - a, c - a);
   const double facing = core::dot(normal, d), size = core::length(normal);
   const double weights[3] = {core::dot(core::cross(c, b), d), core::dot(core::cross(a, c), d), core::dot(core::cross(b, a), d)};

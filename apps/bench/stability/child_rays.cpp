@@ -39,11 +39,11 @@ struct Tangent {
 
 /// Where the ray meets the sphere or cone, and its normal there, by the implicit function's gradient, not normalised.
 Vec3d curved_normal(const PrimitiveValues& body, const Vec3d& at) {
-  const Vec3d from = at - point_of(body, 0);
+  const Vec3d from = at - body.vector(0);
   if (body.kind == PrimitiveKind::sphere) {
     return from;
   }
-  const Vec3d axis = point_of(body, 4) - point_of(body, 0);
+  const Vec3d axis = body.vector(4) - body.vector(0);
   const double height = dot(from, axis) / dot(axis, axis), low = std::fabs(double{body.value[3]});
   const double widening = std::fabs(double{body.value[7]}) - low, radius = low + widening * height;
   return from - axis * height - axis * (radius * widening / dot(axis, axis));
@@ -52,8 +52,8 @@ Vec3d curved_normal(const PrimitiveValues& body, const Vec3d& at) {
 Tangent tangent_at(const PrimitiveValues& body, const Ray& parent, const Hit& hit, const Ray& child) {
   Tangent tangent;
   if (body.kind == PrimitiveKind::triangle) {
-    tangent.point = point_of(body, 0);
-    tangent.normal = cross(point_of(body, 3) - tangent.point, point_of(body, 6) - tangent.point);
+    tangent.point = body.vector(0);
+    tangent.normal = cross(body.vector(3) - tangent.point, body.vector(6) - tangent.point);
   } else {
     tangent.point = parent.full_origin() + parent.full_direction() * double{hit.t};
     tangent.normal = curved_normal(body, tangent.point);
@@ -67,19 +67,19 @@ Tangent tangent_at(const PrimitiveValues& body, const Ray& parent, const Hit& hi
 
 /// How far the body reaches in front, at most: exact for triangles and spheres, an upper bound for cones.
 double reach_of(const PrimitiveValues& body, const Tangent& tangent) {
-  const double first = tangent.height(point_of(body, 0));
+  const double first = tangent.height(body.vector(0));
   switch (body.kind) {
     case PrimitiveKind::triangle:
-      return std::max({first, tangent.height(point_of(body, 3)), tangent.height(point_of(body, 6))});
+      return std::max({first, tangent.height(body.vector(3)), tangent.height(body.vector(6))});
     case PrimitiveKind::sphere:
       return first + std::fabs(double{body.value[3]});
     case PrimitiveKind::cone:
       break;
   }
-  const Vec3d axis = normalize(point_of(body, 4) - point_of(body, 0));
+  const Vec3d axis = normalize(body.vector(4) - body.vector(0));
   const double slant = std::sqrt(std::max(0.0, 1 - dot(axis, tangent.normal) * dot(axis, tangent.normal)));
   return std::max(first + slant * std::fabs(double{body.value[3]}),
-                  tangent.height(point_of(body, 4)) + slant * std::fabs(double{body.value[7]}));
+                  tangent.height(body.vector(4)) + slant * std::fabs(double{body.value[7]}));
 }
 
 /// Counts the kernels' answers to a child ray: a hit on something behind its surface is acne.
@@ -121,7 +121,7 @@ Ray ray_onto(const core::Database& database, Random& random) {
   const PrimitiveValues& body = database.primitives()[random.below(database.primitives().size())];
   const Vec3d at = surface_point(body, random);
   const Vec3d normal = body.kind == PrimitiveKind::triangle
-                           ? cross(point_of(body, 3) - point_of(body, 0), point_of(body, 6) - point_of(body, 0))
+                           ? cross(body.vector(3) - body.vector(0), body.vector(6) - body.vector(0))
                            : curved_normal(body, at);
   const Vec3d up = normalize(normal), along = normalize(cross(up, random.direction()));
   const double rise = std::pow(10.0, random.between(-4, 0));

@@ -36,7 +36,7 @@ inline core::Ray random_ray(const core::Database& database, Random& random) {
 /// A ray that meets the plane of a random triangle of the database at 89.84 degrees and more from its normal, near the triangle.
 inline core::Ray grazing_ray(const core::Database& database, Random& random) {
   const auto& triangle = database.primitives()[random.below(database.primitives().size())];
-  const core::Vec3d a = point_of(triangle, 0), b = point_of(triangle, 3), c = point_of(triangle, 6);
+  const core::Vec3d a = triangle.vector(0), b = triangle.vector(3), c = triangle.vector(6);
   const core::Vec3d normal = normalize(cross(b - a, c - a));
   const double u = random.unit(), v = random.unit() * (1 - u);
   const core::Vec3d target = a + (b - a) * u + (c - a) * v;

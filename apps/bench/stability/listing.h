@@ -71,7 +71,7 @@ class Listing {
 
   void append(core::Address block, std::vector<std::uint32_t>& ids) const {
     const auto header = core::read<core::BlockHeader>(record(block));
-    const std::byte* first = record(block) + sizeof(header) + 4 * core::value_count(header.kind) * header.count;
+    const std::byte* first = core::ids_of(header, record(block));
     for (std::size_t lane = 0; lane < header.count; ++lane) {
       ids.push_back(core::read<std::uint32_t>(first + 4 * lane));
     }

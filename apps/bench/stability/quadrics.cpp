@@ -40,12 +40,8 @@ Roots roots_of(Long a, Long b, Long c, Long shift) {
   return {shift + std::min(one, other), shift + std::max(one, other), noise / (root * std::fabs(a)), true};
 }
 
-Vec3l row(const PrimitiveValues& values, std::size_t first) {
-  return Vec3l(core::CurvedValues(values.kind, values.value.data(), 1, 0).vector(first));
-}
-Long radius_in(const PrimitiveValues& values, std::size_t row) {
-  return Long{core::CurvedValues(values.kind, values.value.data(), 1, 0).value(row)};
-}
+Vec3l row(const PrimitiveValues& values, std::size_t first) { return Vec3l(values.curved().vector(first)); }
+Long radius_in(const PrimitiveValues& values, std::size_t row) { return Long{values.curved().value(row)}; }
 
 Roots sphere_roots(const Ray& ray, const PrimitiveValues& sphere) {
   const Vec3l d(ray.full_direction()), from = Vec3l(ray.full_origin()) - row(sphere, 0);

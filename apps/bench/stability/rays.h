@@ -41,11 +41,6 @@ inline core::Ray ray_through(const core::Vec3d& origin, const core::Vec3d& targe
   return ray_from(start, core::Vec3f(core::normalize(target - core::Vec3d(start))));
 }
 
-/// A vertex, centre or end of a primitive, by the row where it starts.
-inline core::Vec3d point_of(const core::PrimitiveValues& primitive, std::size_t row) {
-  return {double{primitive.value[row]}, double{primitive.value[row + 1]}, double{primitive.value[row + 2]}};
-}
-
 /// What tracing answers for one ray; infinity and no primitive for a miss.
 inline core::Hit shoot(const core::Database& database, const core::Ray& ray, bool skip_empty_space = true) {
   core::LocalRecords records(database.bytes());

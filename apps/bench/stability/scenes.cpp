@@ -48,9 +48,8 @@ Vec3d anywhere(const StabilitySubject& subject, Random& random) {
 Ray wild_ray(const StabilitySubject& subject, Random& random) {
   const Vec3d from = anywhere(subject, random);
   const auto primitives = subject.database.primitives();
-  return ray_through(from, random.bits() % 2 == 0 || primitives.empty()
-                               ? anywhere(subject, random)
-                               : point_of(primitives[random.below(primitives.size())], 0));
+  return ray_through(from, random.bits() % 2 == 0 || primitives.empty() ? anywhere(subject, random)
+                                                                        : primitives[random.below(primitives.size())].vector(0));
 }
 
 Ray crowd_ray(const StabilitySubject& subject, Random& random) {

@@ -18,7 +18,7 @@ inline constexpr std::size_t middle_of_triangle = targets_per_triangle - 1;
 
 /// The point of the edge from vertex `edge` on at `share` of its length, grid-local.
 inline core::Vec3d on_edge(const core::PrimitiveValues& triangle, std::size_t edge, double share) {
-  const core::Vec3d from = point_of(triangle, 3 * edge), to = point_of(triangle, 3 * ((edge + 1) % 3));
+  const core::Vec3d from = triangle.vector(3 * edge), to = triangle.vector(3 * ((edge + 1) % 3));
   return from + (to - from) * share;
 }
 
@@ -26,10 +26,10 @@ inline core::Vec3d on_edge(const core::PrimitiveValues& triangle, std::size_t ed
 inline core::Vec3d target_of(const core::PrimitiveValues& triangle, std::size_t index) {
   constexpr std::array<double, 5> shares{0.125, 0.3, 0.5, 0.7, 0.9375};
   if (index < vertices_per_triangle) {
-    return point_of(triangle, 3 * index);
+    return triangle.vector(3 * index);
   }
   if (index == middle_of_triangle) {
-    return (point_of(triangle, 0) + point_of(triangle, 3) + point_of(triangle, 6)) * (1.0 / 3.0);
+    return (triangle.vector(0) + triangle.vector(3) + triangle.vector(6)) * (1.0 / 3.0);
   }
   const std::size_t on_edges = index - vertices_per_triangle;
   return on_edge(triangle, on_edges / shares.size(), shares[on_edges % shares.size()]);
@@ -41,15 +41,15 @@ inline core::Vec3d surface_point(const core::PrimitiveValues& primitive, Random&
     case core::PrimitiveKind::triangle: {
       const double share = random.below(4) == 0 ? 0.0 : random.unit(),
                    other = random.below(4) == 0 ? 0.0 : random.unit() * (1 - share);
-      const core::Vec3d a = point_of(primitive, 0);
-      return a + (point_of(primitive, 3) - a) * share + (point_of(primitive, 6) - a) * other;
+      const core::Vec3d a = primitive.vector(0);
+      return a + (primitive.vector(3) - a) * share + (primitive.vector(6) - a) * other;
     }
     case core::PrimitiveKind::sphere:
-      return point_of(primitive, 0) + random.direction() * std::fabs(double{primitive.value[3]});
+      return primitive.vector(0) + random.direction() * std::fabs(double{primitive.value[3]});
     case core::PrimitiveKind::cone:
       break;
   }
-  const core::Vec3d base = point_of(primitive, 0), axis = point_of(primitive, 4) - base;
+  const core::Vec3d base = primitive.vector(0), axis = primitive.vector(4) - base;
   const core::Vec3d radial = normalize(cross(axis, random.direction()));
   const double height = random.below(8) == 0 ? 1.0 : random.unit();
   const double low = std::fabs(double{primitive.value[3]}), high = std::fabs(double{primitive.value[7]});

@@ -22,12 +22,8 @@ struct BlockView {
 inline BlockView view_block(const std::byte* record) {
   const auto header = core::read<core::BlockHeader>(record);
   const auto* rows = reinterpret_cast<const float*>(record + sizeof(header));
-  return {header.kind,
-          header.count,
-          rows,
-          reinterpret_cast<const std::uint32_t*>(rows + core::value_count(header.kind) * header.count),
-          header.shared_lanes,
-          record};
+  return {header.kind,         header.count, rows, reinterpret_cast<const std::uint32_t*>(core::ids_of(header, record)),
+          header.shared_lanes, record};
 }
 
 /// Calls test(block, best) for each block of triangles that `ray` meets, by `meet`, before the walk knows its nearest hit.

@@ -28,7 +28,7 @@ std::size_t differences(const Database& database, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3d from = anywhere();
     const auto& primitives = database.primitives();
-    const Vec3d target = i % 2 == 0 || primitives.empty() ? anywhere() : point_of(primitives[random.below(primitives.size())], 0);
+    const Vec3d target = i % 2 == 0 || primitives.empty() ? anywhere() : primitives[random.below(primitives.size())].vector(0);
     const Ray ray = ray_through(from, target);
     different += same_hit(shoot(database, ray), brute_force(database, ray)) ? 0 : 1;
   }

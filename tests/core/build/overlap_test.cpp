@@ -23,21 +23,17 @@ PrimitiveValues random_primitive(PrimitiveKind kind, Random& random) {
   return primitive;
 }
 
-Vec3d vector_at(const PrimitiveValues& p, std::size_t row) {
-  return {double{p.value[row]}, double{p.value[row + 1]}, double{p.value[row + 2]}};
-}
-
 /// A point of the surface.
 Vec3d sample(const PrimitiveValues& p, Random& random) {
-  const Vec3d a = vector_at(p, 0);
+  const Vec3d a = p.vector(0);
   if (p.kind == PrimitiveKind::sphere) {
     return a + random.direction() * double{p.value[3]};
   }
   if (p.kind == PrimitiveKind::triangle) {
     const double u = random.unit(), v = random.unit() * (1 - u);
-    return a + (vector_at(p, 3) - a) * u + (vector_at(p, 6) - a) * v;
+    return a + (p.vector(3) - a) * u + (p.vector(6) - a) * v;
   }
-  const Vec3d axis = vector_at(p, 4) - a, radial = normalize(cross(axis, random.direction()));
+  const Vec3d axis = p.vector(4) - a, radial = normalize(cross(axis, random.direction()));
   const double height = random.unit();
   return a + axis * height + radial * (double{p.value[3]} + (double{p.value[7]} - double{p.value[3]}) * height);
 }

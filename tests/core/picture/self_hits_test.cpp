@@ -53,9 +53,9 @@ void shoot_children(const Database& database, const Ray& ray, const Hit& hit, Co
 /// Next to an edge rounding may order two hits the wrong way, and the ray meets the far triangle from within.
 bool from_outside(const Database& database, const Ray& ray, const Hit& hit) {
   const PrimitiveValues& triangle = database.primitives()[hit.primitive];
-  const Vec3d a = point_of(triangle, 0);
+  const Vec3d a = triangle.vector(0);
   return triangle.kind != PrimitiveKind::triangle ||
-         dot(Vec3d(ray.direction), cross(point_of(triangle, 3) - a, point_of(triangle, 6) - a)) < 0;
+         dot(Vec3d(ray.direction), cross(triangle.vector(3) - a, triangle.vector(6) - a)) < 0;
 }
 
 /// From outside onto a convex body: no child may hit anything.
@@ -81,7 +81,7 @@ Count grazing_self_hits(const Scene& scene, double rise, std::size_t rays) {
   Count count;
   for (std::size_t i = 0; i < rays; ++i) {
     const auto& triangle = database.primitives()[random.below(database.primitives().size())];
-    const Vec3d a = point_of(triangle, 0), b = point_of(triangle, 3), c = point_of(triangle, 6);
+    const Vec3d a = triangle.vector(0), b = triangle.vector(3), c = triangle.vector(6);
     const Vec3d normal = normalize(cross(b - a, c - a)), along = normalize(cross(normal, random.direction()));
     const double u = i % 3 == 0 ? 1e-6 : random.unit(), v = random.unit() * (1 - u);
     const Vec3d target = a + (b - a) * u + (c - a) * v;

@@ -35,7 +35,7 @@ Database tetrahedron(double height) {
 Vec3d beside_edge(const PrimitiveValues& triangle, Random& random) {
   const double weight = std::pow(10.0, -random.between(3, 9)), along = random.between(weight, 1 - weight);
   const std::size_t first = random.below(3);
-  const std::array<Vec3d, 3> corner{point_of(triangle, 0), point_of(triangle, 3), point_of(triangle, 6)};
+  const std::array<Vec3d, 3> corner{triangle.vector(0), triangle.vector(3), triangle.vector(6)};
   return corner[first] * weight + (corner[(first + 1) % 3] * along + corner[(first + 2) % 3] * (1 - along)) * (1 - weight);
 }
 

@@ -38,7 +38,7 @@ std::unique_ptr<RayBundle> bundle_of(const BundleRays& rays) {
 BundleRays neighbours(Random& random, const Database& database, std::uint32_t count, RayKind kind) {
   const auto& primitives = database.primitives();
   const Vec3d origin = random.in_box(-0.2, 1.2),
-              target = point_of(primitives[random.below(static_cast<std::uint32_t>(primitives.size()))], 0);
+              target = primitives[random.below(static_cast<std::uint32_t>(primitives.size()))].vector(0);
   const double spread = std::array{0.0, 1e-3, 0.05, 1.0}[random.below(4)];
   BundleRays rays;
   for (std::uint32_t i = 0; i < count; ++i) {

@@ -54,7 +54,7 @@ std::size_t leaks(const Mesh& mesh, const Vec3d& center, double reach, std::size
 Ray ray_at_edge(const Database& database, Random& random) {
   const PrimitiveValues& triangle = database.primitives()[random.below(database.primitives().size())];
   const std::size_t first = random.below(3);
-  const Vec3d a = point_of(triangle, 3 * first), b = point_of(triangle, 3 * ((first + 1) % 3));
+  const Vec3d a = triangle.vector(3 * first), b = triangle.vector(3 * ((first + 1) % 3));
   const Vec3d at = a + (b - a) * random.between(0.01, 0.99), inwards = to_local(database.header().frame, {}) - at;
   Ray ray;
   ray.start_at(at + (normalize(inwards) + random.direction() * 0.3) * std::pow(2.0, -random.between(10, 24)));

@@ -21,7 +21,7 @@ namespace {
 struct Inside {
   StabilitySubject cube{closed_bodies()[0].scene};
   Ray at_face = ray_through(to_local(cube.frame(), {0, 0, 0}), to_local(cube.frame(), {1, 0.3, 0.2}));
-  Ray at_vertex = ray_through(to_local(cube.frame(), {0, 0, 0}), point_of(cube.database.primitives()[0], 0));
+  Ray at_vertex = ray_through(to_local(cube.frame(), {0, 0, 0}), cube.database.primitives()[0].vector(0));
 };
 
 KernelCounts counts_of(const StabilitySubject& subject, const Ray& ray, const StabilityAnswers& answers,
