@@ -8,6 +8,7 @@
 #include "core/base/altitude.h"
 #include "core/base/box.h"
 #include "core/base/units.h"
+#include "core/build/overlap.h"
 #include "core/record/coordinate.h"
 #include "core/record/curved_values.h"
 #include "core/scene/frame.h"
@@ -51,8 +52,13 @@ bool degenerate_triangle(const PrimitiveValues& triangle) {
   return a == b || b == c || c == a || !(dot(area, area) > 0);
 }
 
-/// Spheres that are smaller than this, beside a scene of about 1, no ray in floats can tell from points.
-constexpr float radius_least = 0x1p-40F;
+/// What is smaller than this, beside a scene of about 1, no ray in floats can tell from a point.
+constexpr double size_least = 0x1p-40;
+
+bool is_point(const PrimitiveValues& primitive) {
+  const Box box = bounds_of(primitive);
+  return largest_component(box.high - box.low) < size_least;
+}
 
 /// Nearer to a line than this share of their coordinates, corners lie on it as far as doubles can tell.
 constexpr double line_share = 0x1p-48;
@@ -146,7 +152,7 @@ class Converter {
     for (std::size_t i = 0; i < 3; ++i) {
       put(triangle, 3 * i, local(vertices[corners[i]]));
     }
-    const bool degenerate = degenerate_triangle(triangle);
+    const bool degenerate = degenerate_triangle(triangle) || is_point(triangle);
     if (object.kind == ObjectKind::patch && !degenerate) {
       add_normals(object, corners);
     }
@@ -184,7 +190,7 @@ class Converter {
     PrimitiveValues values{.kind = PrimitiveKind::sphere};
     put_four(values, 0, local(sphere.center), sphere.radius * frame_.scale);
     const bool finite = usable(sphere.center) && std::fabs(sphere.radius) < coordinate_max;
-    add(values, index, !finite || std::fabs(values.value[3]) < radius_least, object.material, sphere.center,
+    add(values, index, !finite || is_point(values), object.material, sphere.center,
         [&] { return finite ? 2 * std::fabs(sphere.radius) : 0.0; });
   }
 
@@ -195,7 +201,7 @@ class Converter {
     const bool finite = usable(cone.base) && usable(cone.apex) && std::fabs(cone.base_radius) < coordinate_max &&
                         std::fabs(cone.apex_radius) < coordinate_max;
     const bool has_radius = cone.base_radius != 0 || cone.apex_radius != 0;
-    add(values, index, !finite || degenerate_cone(values), object.material, cone.base,
+    add(values, index, !finite || degenerate_cone(values) || is_point(values), object.material, cone.base,
         [&] { return finite && has_radius ? length(cone.apex - cone.base) : 0.0; });
   }
 

@@ -84,3 +84,20 @@ TEST_CASE("what rounding leaves nothing of is counted, with its size in pixels")
   CHECK(loss_of(with_tiny_triangles(0)).collapsed == 0);
   CHECK(build_database(with_tiny_triangles(0), {}).dropped() == 6);
 }
+
+TEST_CASE(
+    "what no ray can tell from a point is left out, of every kind, though next to local zero floats can tell it from nothing") {
+  const auto scene_of = [](double size) {
+    Scene scene = long_rows(1e-6, 0);
+    SceneBuilder builder(scene);
+    builder.polygon({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
+    builder.polygon({{0, 0, 0}, {size, 0, 0}, {0, size, 0}});
+    builder.sphere({0, 0, 0}, size / 2);
+    builder.cone({0, 0, 0}, size / 2, {0, 0, size}, 0);
+    return scene;
+  };
+  CHECK(build_database(scene_of(0x1p-38), {}).dropped() == 0);
+  const Database database = build_database(scene_of(0x1p-41), {});
+  CHECK(database.dropped() == 3);
+  CHECK(database.collapsed().size() == 3);
+}
