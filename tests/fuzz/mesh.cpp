@@ -37,8 +37,9 @@ bool is_valid(const Ray& ray, const Hit& hit) {
   return !hit.found() || (is_finite(ray.origin) && is_finite(ray.direction) && hit.t > 0.0F && hit.t < ray.t_max);
 }
 
-/// Whether the grid answers for this ray to the referee: its direction is of unit length, and it starts no farther away than the
-/// pad allows for (core/scene/frame.h). Other rays only have to end, and in one way.
+/// Whether boxes lose nothing of this ray, so that the grid answers for it to the referee: its direction is of unit length, and
+/// it starts no farther away than the pad allows for (core/scene/frame.h). Other rays only have to end, and to end alike however
+/// the same boxes are walked.
 bool is_ordinary(const core::Database& database, const Ray& ray) {
   const core::GridFrame& frame = database.header().frame;
   core::Vec3d size;
@@ -52,24 +53,21 @@ bool is_ordinary(const core::Database& database, const Ray& ray) {
 }
 
 void compare(const Ray& ray, const apps::OwnAnswers& answers) {
-  constexpr std::array<const char*, apps::own_kernel_count> sentences{
-      "a hit lies within the ray",           "the scalar twin has the same bits",
-      "skipping empty space changes no bit", "stopping before each record changes no bit",
-      "other rays beside it change no bit",  "there is a nearest hit where there is any"};
-  const Hit& grid = answers.front();
-  expect(is_valid(ray, grid), sentences.front());
-  for (std::size_t k = 1; k + 1 < answers.size(); ++k) {
-    expect(apps::same_hit(answers[k], grid), sentences[k]);
-  }
-  expect(answers.back().found() == grid.found(), sentences.back());
+  const auto& [grid, scalar, plain, resumed, bundle, any_hit] = answers;
+  expect(is_valid(ray, grid), "a hit lies within the ray");
+  expect(apps::same_hit(scalar, grid), "the scalar twin has the same bits");
+  expect(apps::same_hit(resumed, grid), "stopping before each record changes no bit");
+  expect(apps::same_hit(bundle, grid), "other rays beside it change no bit");
 }
 
 void judge(const Subject& subject, const Ray& ray, const apps::OwnAnswers& answers) {
   const apps::Hearing nearest(subject.database, subject.referee, apps::of_kind(ray, RayKind::primary)),
       any(subject.database, subject.referee, apps::of_kind(ray, RayKind::shadow));
-  const Hit& grid = answers.front();
+  const auto& [grid, scalar, plain, resumed, bundle, any_hit] = answers;
+  expect(apps::same_hit(plain, grid), "skipping empty space changes no bit");
+  expect(any_hit.found() == grid.found(), "there is a nearest hit where there is any");
   expect(nearest.admissible(grid, apps::Renderer::grid), "rounding explains the nearest hit, or the miss");
-  expect(any.admissible(answers.back(), apps::Renderer::grid), "rounding explains any hit, or the miss");
+  expect(any.admissible(any_hit, apps::Renderer::grid), "rounding explains any hit, or the miss");
   expect(!grid.found() || nearest.distance_explained(grid), "rounding explains the distance");
 }
 
