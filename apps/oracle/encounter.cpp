@@ -14,8 +14,9 @@
 // Distance. Moved vertices shift the plane by 7 u R, R the largest of |a|, |b|, |c|, which is 7 u R / cos along the ray; Embree's
 // dot products cost as much. Rounded edge functions, or the rounded cross product of two edges, tilt the hit about the triangle:
 // with E the longest edge at most 6 u E^3 |D| / |N1 + N2 + N3|. Sums and quotients cost a few u R. No renderer returns a t
-// outside the triangle's own depths, so E bounds what remains. Hence
-//     |error of t| <= min(E, u (8 R / cos + 6 E^3 |D| / |N1 + N2 + N3|)) + 8 u R.
+// outside the triangle's own depths: Embree along the ray, ours along the direction's largest axis, where E takes at most sqrt(3)
+// E of the ray. The t it is held against may be E off itself (below), so 3 E bounds what remains. Hence
+//     |error of t| <= min(3 E, u (8 R / cos + 6 E^3 |D| / |N1 + N2 + N3|)) + 8 u R.
 //
 // Spheres and cones are solved in double by both renderers and rounded to float once. Their quadratic A t^2 + 2 B t + C has
 // coefficients that cost at most 16 v |D|^2, 16 v |D| S and 16 v S^2 with v = 2^-53, S the extent of ray origin and body about
@@ -138,7 +139,7 @@ double distance_error(const Ray& ray, const SeenTriangle& seen, double cosine) {
   const double tilt = 6 * seen.longest * seen.longest * seen.longest * seen.direction_length / area;
   const double moved =
       unit_rounding * (8 * seen.reach / (cosine + tiny) + tilt) + length(Vec3d(ray.origin_rest)) / (cosine + tiny);
-  return (std::min(seen.longest, moved) + 8 * unit_rounding * seen.reach) / seen.direction_length;
+  return (std::min(3 * seen.longest, moved) + 8 * unit_rounding * seen.reach) / seen.direction_length;
 }
 
 /// t of the vertices' projections onto the ray.
@@ -155,7 +156,7 @@ Encounter meet_triangle(const Ray& ray, const core::PrimitiveValues& values, con
   Encounter encounter;
   encounter.margin = {margin_of(seen, Renderer::grid), margin_of(seen, Renderer::embree)};
   // A ray in the triangle's plane has no one distance, and one that all but lies in it may cross the plane far away: no renderer
-  // says anything beyond the vertices, and E covers what lies between them.
+  // says anything beyond the vertices.
   const std::array<double, 3> depth = depths_of(ray, at);
   const auto [least, greatest] = std::minmax_element(depth.begin(), depth.end());
   encounter.t = across != 0 ? std::clamp(dot(at[0], normal) / across, *least, *greatest) : *least;

@@ -31,20 +31,6 @@ constexpr double curved_clearance = 0x1p-40;
 /// Of the ray's t, which is rounded to float: another surface may lie so much nearer.
 constexpr double tie_clearance = 0x1p-23;
 
-Clearance clearance_on_triangle(const HitState& state, const Vec3d& v0, const Vec3d& edge1, const Vec3d& edge2, double height) {
-  const Vec3d& n = state.geometric_normal;
-  const double rounding =
-      flat_clearance * std::max({dot_of_magnitudes(n, v0), dot_of_magnitudes(n, v0 + edge1), dot_of_magnitudes(n, v0 + edge2)});
-  const double way_to_edge = std::max(std::min({state.u, state.v, 1.0 - state.u - state.v}) * height, 0.0);
-  const double clearance = std::min(rounding + tie_clearance * double{state.hit.t}, edge_clearance * way_to_edge);
-  return {clearance, clearance, std::numeric_limits<double>::max()};
-}
-
-/// `size`: the largest coordinate and radius; `radius`: of the surface where it was hit.
-Clearance clearance_on_curved(const HitState& state, double size, double radius) {
-  return {flat_clearance * size + tie_clearance * double{state.hit.t}, curved_clearance * size, radius};
-}
-
 /// One lane of a block's values, in double.
 struct Lane {
   const float* rows;
@@ -54,6 +40,44 @@ struct Lane {
   Vec3d vector(std::size_t row) const { return {value(row), value(row + 1), value(row + 2)}; }
 };
 
+/// A triangle in double. Its height takes a root and a division, which few hits need.
+struct Triangle {
+  explicit Triangle(const Lane& lane)
+      : v0(lane.vector(0)),
+        edge1(lane.vector(3) - v0),
+        edge2(lane.vector(6) - v0),
+        normal(cross(edge1, edge2)),
+        area(length(normal)) {}
+
+  double height() const { return least_altitude(edge1, edge2, edge2 - edge1, area); }
+  /// Whether the height times `share` is more than `way` by as much as rounding moves either. Quick.
+  bool is_higher(double share, double way) const {
+    const double longest_squared = longest_squared_of(edge1, edge2, edge2 - edge1), scaled = share * area;
+    return scaled * scaled > 2 * way * way * longest_squared;
+  }
+
+  Vec3d v0, edge1, edge2, normal;
+  double area;  ///< twice the triangle's
+};
+
+Clearance clearance_on_triangle(const HitState& state, const Triangle& triangle) {
+  const Vec3d& n = state.geometric_normal;
+  const double rounding =
+      flat_clearance * std::max({dot_of_magnitudes(n, triangle.v0), dot_of_magnitudes(n, triangle.v0 + triangle.edge1),
+                                 dot_of_magnitudes(n, triangle.v0 + triangle.edge2)});
+  const double wanted = rounding + tie_clearance * double{state.hit.t};
+  const double share = std::max(std::min({state.u, state.v, 1.0 - state.u - state.v}), 0.0);
+  const double clearance = triangle.is_higher(edge_clearance * share, wanted)
+                               ? wanted
+                               : std::min(wanted, edge_clearance * (share * triangle.height()));
+  return {clearance, clearance, std::numeric_limits<double>::max()};
+}
+
+/// `size`: the largest coordinate and radius; `radius`: of the surface where it was hit.
+Clearance clearance_on_curved(const HitState& state, double size, double radius) {
+  return {flat_clearance * size + tie_clearance * double{state.hit.t}, curved_clearance * size, radius};
+}
+
 Vec3d along(const Ray& ray, double t) { return ray.full_origin() + ray.full_direction() * t; }
 
 Lane lane_of(const HitState& state, const std::byte* record) {
@@ -61,30 +85,39 @@ Lane lane_of(const HitState& state, const std::byte* record) {
   return {reinterpret_cast<const float*>(record + sizeof(BlockHeader)), header.count, state.hit.lane};
 }
 
+/// Clamps weights to the triangle, and a little more.
+void keep_off_edges(HitState& state, const Triangle& triangle) {
+  if (std::min({state.u, state.v, 1.0 - state.u - state.v}) > 2 * weight_least_max) {
+    return;
+  }
+  const double inset = edge_inset * largest_component(along(state.ray, double{state.hit.t}));
+  const double least = std::min(inset / triangle.height(), weight_least_max);
+  state.u = std::clamp(state.u, least, 1.0 - 2 * least);
+  const double most = std::max(1.0 - least - state.u, least);  // but for rounding it is no less anyway
+  state.v = std::clamp(state.v, least, most);
+}
+
 /// Point, true normal and barycentric weights in double, after T. Moeller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle
 /// Intersection", 1997; weights clamped, so that the point lies on the triangle even where the float test let the ray in by
 /// rounding. Where faces share a plane, the point lies in it and the normal is its: all of them are one surface, off which a ray
 /// starts on one of its sides.
 void triangle_geometry(HitState& state, const Lane& lane, const FacePlane* shared) {
-  const Vec3d v0 = lane.vector(0), edge1 = lane.vector(3) - v0, edge2 = lane.vector(6) - v0, normal = cross(edge1, edge2);
-  const double area = length(normal), height = least_altitude(edge1, edge2, edge2 - edge1, area);
-  const Vec3d direction = state.ray.full_direction(), p = cross(direction, edge2);
-  const double determinant = dot(edge1, p);
+  const Triangle triangle(lane);
+  const Vec3d direction = state.ray.full_direction(), p = cross(direction, triangle.edge2);
+  const double determinant = dot(triangle.edge1, p);
   if (determinant != 0.0) {
-    const Vec3d from_v0 = state.ray.full_origin() - v0;
-    const double inset = edge_inset * largest_component(along(state.ray, double{state.hit.t}));
-    const double least = std::min(inset / height, weight_least_max);
-    state.u = std::clamp(dot(from_v0, p) / determinant, least, 1.0 - 2 * least);
-    const double most = std::max(1.0 - least - state.u, least);  // but for rounding it is no less anyway
-    state.v = std::clamp(dot(direction, cross(from_v0, edge1)) / determinant, least, most);
+    const Vec3d from_v0 = state.ray.full_origin() - triangle.v0;
+    state.u = dot(from_v0, p) / determinant;
+    state.v = dot(direction, cross(from_v0, triangle.edge1)) / determinant;
+    keep_off_edges(state, triangle);
   }
-  state.point = v0 + edge1 * state.u + edge2 * state.v;
-  state.geometric_normal = normal * (1.0 / area);
+  state.point = triangle.v0 + triangle.edge1 * state.u + triangle.edge2 * state.v;
+  state.geometric_normal = triangle.normal * (1.0 / triangle.area);
   if (shared != nullptr) {
     state.point = state.point - shared->normal * shared->height_of(state.point);
     state.geometric_normal = dot(shared->normal, state.geometric_normal) < 0.0 ? -shared->normal : shared->normal;
   }
-  state.clearance = clearance_on_triangle(state, v0, edge1, edge2, height);
+  state.clearance = clearance_on_triangle(state, triangle);
 }
 
 void sphere_geometry(HitState& state, const Lane& lane) {
