@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/expect.h"
+#include "core/base/exponents.h"
 
 namespace dmpc::core {
 namespace {
@@ -18,8 +19,6 @@ namespace {
 constexpr double half_pi = 0x1.921fb54442d18p+0, half_pi_tail = 0x1.1a62633145c07p-54;
 constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
 constexpr double radian_per_degree = 0x1.1df46a2529d39p-6, radian_per_degree_tail = 0x1.5c1d8becdd291p-62;
-constexpr double log_2 = 0x1.62e42fefa39efp-1, log_2_tail = 0x1.abc9e3b39803fp-56;
-constexpr double one_over_log_2 = 0x1.71547652b82fep+0;
 
 constexpr double angle_max = 1e6;
 
@@ -48,18 +47,6 @@ double polynomial(double x, const std::array<double, Count>& coefficients) {
     sum = std::fma(sum, x, coefficients[i]);
   }
   return sum;
-}
-
-/// The same in two sums, of even and of odd powers, that do not wait for each other.
-template <std::size_t Count>
-double quick_polynomial(double x, const std::array<double, Count>& coefficients) {
-  const double square = x * x;
-  double sum = coefficients[0], other = coefficients[1];
-  for (std::size_t i = 2; i + 1 < Count; i += 2) {
-    sum = std::fma(sum, square, coefficients[i]);
-    other = std::fma(other, square, coefficients[i + 1]);
-  }
-  return Count % 2 == 0 ? std::fma(sum, x, other) : std::fma(other, x, std::fma(sum, square, coefficients[Count - 1]));
 }
 
 /// Taylor's series to the 17th power: the first term left out is below 1e-19 at pi/4.
@@ -102,77 +89,18 @@ Reduced radians_from_degrees(double quarters, double degrees) {
   return renormalized(quarters, product, std::fma(degrees, radian_per_degree_tail, error));
 }
 
-/// 2 ^ exponent; requires -1022 <= exponent <= 1023.
-double power_of_2(int exponent) { return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52U); }
-
-/// value * 2 ^ exponent for |exponent| <= 1100, rounded once if the result is not normal.
-double scale(double value, int exponent) {
-  const int first = exponent / 2;
-  return value * power_of_2(first) * power_of_2(exponent - first);
-}
-
-/// Taylor's series to the 14th power: the first term left out is below 1e-19 at log(2)/2.
-double exponential_reduced(double x) {
-  static constexpr std::array<double, 13> series = {
-      1 / 87178291200.0, 1 / 6227020800.0, 1 / 479001600.0, 1 / 39916800.0, 1 / 3628800.0, 1 / 362880.0, 1 / 40320.0,
-      1 / 5040.0,        1 / 720.0,        1 / 120.0,       1 / 24.0,       1 / 6.0,       1 / 2.0};
-  return 1 + std::fma(x * x, quick_polynomial(x, series), x);
-}
-
-/// value = significand * 2 ^ exponent with sqrt(1/2) <= significand < sqrt(2), about.
-struct Binary {
-  double significand = 1;
-  int exponent = 0;
-};
-
-Binary split(double value) {
-  const bool tiny = value < std::numeric_limits<double>::min();
-  const auto bits = std::bit_cast<std::uint64_t>(tiny ? value * 0x1p54 : value);
-  const int exponent = static_cast<int>(bits >> 52U) - 1023 - (tiny ? 54 : 0);
-  const double significand = std::bit_cast<double>((bits & 0xfffffffffffffU) | (std::uint64_t{1023} << 52U));
-  return significand > 0x1.6a09ep+0 ? Binary{significand / 2, exponent + 1} : Binary{significand, exponent};
-}
-
-/// log(significand) = 2 artanh(s) with s = (significand - 1) / (significand + 1), |s| < 0.1716: the series' first term left out,
-/// s^23, is below 2e-18 relative to the first.
-double log_reduced(double significand) {
-  static constexpr std::array<double, 10> series = {2 / 21.0, 2 / 19.0, 2 / 17.0, 2 / 15.0, 2 / 13.0,
-                                                    2 / 11.0, 2 / 9.0,  2 / 7.0,  2 / 5.0,  2 / 3.0};
-  const double offset = significand - 1;
-  const double s = offset / (significand + 1);
-  const double square = s * s;
-  // 2 s = offset - s offset, which keeps the leading term exact.
-  return offset - s * (offset - square * quick_polynomial(square, series));
-}
-
 double exponential_of(double x) {
-  if (!(x > -745.2)) {
+  if (!(x > least_exponent)) {
     return std::isnan(x) ? x : 0;
   }
-  if (x > 709.79) {
-    return std::numeric_limits<double>::infinity();
-  }
-  const double count = std::nearbyint(x * one_over_log_2);
-  const double rest = std::fma(-count, log_2_tail, std::fma(-count, log_2, x));
-  return scale(exponential_reduced(rest), static_cast<int>(count));
+  return x > 709.79 ? std::numeric_limits<double>::infinity() : finite_exponential(x);
 }
 
 double natural_log_of(double x) {
   if (!(x > 0)) {
     return x == 0 ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
   }
-  const Binary parts = split(x);
-  const double count = parts.exponent;
-  const double high = count * log_2;
-  const double low = std::fma(count, log_2, -high) + count * log_2_tail;
-  return high + (log_reduced(parts.significand) + low);
-}
-
-double power_of(double base, double exponent) {
-  if (exponent == 0 || base >= 1) {
-    return 1;
-  }
-  return base > 0 ? exponential_of(exponent * natural_log_of(base)) : 0;
+  return finite_log(x);
 }
 
 /// `Function` with this processor's own fused multiply-add, which gives the bits of libm's without a call for each.
@@ -267,7 +195,7 @@ double tan_degrees(double degrees) { return sin_degrees(degrees) / cos_degrees(d
 
 double exponential(double x) { return dispatched<exponential_of>(x); }
 double natural_log(double x) { return dispatched<natural_log_of>(x); }
-double pow_unit(double base, double exponent) { return dispatched<power_of>(base, exponent); }
+double pow_unit(double base, double exponent) { return dispatched<unit_power>(base, exponent); }
 
 double round_to_6_digits(double value) {
   const double magnitude = std::abs(value);

@@ -75,9 +75,9 @@ class BundleShader {
       return false;
     }
     if (hits_.phase == Phase::reflected) {
-      shoot_children(HitState::Stage::reflected, nullptr, shoot);
+      shoot_children(HitState::Stage::reflected, shoot);
     } else if (hits_.phase == Phase::refracted) {
-      shoot_children(HitState::Stage::refracted, nullptr, shoot);
+      shoot_children(HitState::Stage::refracted, shoot);
     }
     hits_.end_phase(settings_.header.light_count);
     return true;
@@ -90,7 +90,7 @@ class BundleShader {
   template <class Shoot>
   bool shoot_at_light(Address& absent, const Shoot& shoot);
   template <class Shoot>
-  void shoot_children(HitState::Stage stage, const std::byte* record, const Shoot& shoot);
+  void shoot_children(HitState::Stage stage, const Shoot& shoot);
 
   BundleHit& hits_;
   T& tracer_;
@@ -124,7 +124,7 @@ bool BundleShader<T>::read_surfaces(Address& absent) {
   return true;
 }
 
-/// The light's record is read once for all hits.
+/// The light's record is read once for all hits, on which it falls side by side.
 template <BundleTracer T>
 template <class Shoot>
 bool BundleShader<T>::shoot_at_light(Address& absent, const Shoot& shoot) {
@@ -134,17 +134,28 @@ bool BundleShader<T>::shoot_at_light(Address& absent, const Shoot& shoot) {
     return false;
   }
   operations_.skipped.bundles += hits_.count - 1;
-  shoot_children(HitState::Stage::light, record, shoot);
+  const auto light = read<LightRecord>(record);
+  LitLanes lanes;
+  for (std::uint32_t i = 0; i < hits_.count; ++i) {
+    lanes.add(hits_.hit[i]);
+  }
+  lanes.light(Vec3d(light.position));
+  for (std::uint32_t i = 0; i < hits_.count; ++i) {
+    Ray child;
+    if (shader_.shine(hits_.hit[i], light, lanes.fall(i), lanes.highlight(i), child)) {
+      shoot(child, i);
+    }
+  }
   return true;
 }
 
 /// One step of every hit that is at `stage`, in what order does not matter to the picture.
 template <BundleTracer T>
 template <class Shoot>
-void BundleShader<T>::shoot_children(HitState::Stage stage, const std::byte* record, const Shoot& shoot) {
+void BundleShader<T>::shoot_children(HitState::Stage stage, const Shoot& shoot) {
   for (std::uint32_t i = 0; i < hits_.count; ++i) {
     Ray child;
-    if (hits_.hit[i].stage == stage && shader_.step(hits_.hit[i], record, child)) {
+    if (hits_.hit[i].stage == stage && shader_.step(hits_.hit[i], nullptr, child)) {
       shoot(child, i);
     }
   }

@@ -15,8 +15,6 @@ namespace {
 
 using Stage = HitState::Stage;
 
-/// A ray that grazes its surface starts no farther along its way than so many clearances.
-constexpr double clearances_along = 8;
 /// A shadow ray ends this share of its length before the light.
 constexpr double light_gap = 1e-6;
 
@@ -40,23 +38,8 @@ float mirrored_share(const HitState& state) {
   return state.surface.material.specular + (state.has_refraction ? 0.0F : state.surface.material.transmittance);
 }
 
-/// Where a ray starts: so far along its way from the hit's point, then along the true normal.
-struct Start {
-  double along, across;
-};
-
-/// Off the surface, on the side of the unit direction `towards`: along the way as far as may be, since that leads nowhere else.
-/// Within a sphere of radius r the way is 2 r cos long.
-Start start_towards(const HitState& state, const Vec3d& towards) {
-  const auto& [clearance, least, radius] = state.clearance;
-  const double cosine = dot(towards, state.geometric_normal), steep = std::fabs(cosine);
-  const double wanted = steep * clearances_along > 1.0 ? clearance / steep : clearance * clearances_along;
-  const double along = std::min(wanted, radius * steep);
-  return {along, std::copysign(std::max(least - along * steep, 0.0), cosine)};
-}
-
 /// A child along the unit direction `towards`.
-Ray child_ray(const HitState& state, const Vec3d& towards, const Start& start, RayKind kind) {
+Ray child_ray(const HitState& state, const Vec3d& towards, const RayStart& start, RayKind kind) {
   Ray ray;
   ray.start_at(state.point + towards * start.along + state.geometric_normal * start.across);
   ray.go_along(towards);
@@ -70,15 +53,14 @@ Ray child_ray(const HitState& state, const Vec3d& towards, const Start& start, R
 
 Ray mirrored_or_bent(const HitState& state, const Vec3d& towards, RayKind kind) {
   const Vec3d unit = normalize(towards);
-  return child_ray(state, unit, start_towards(state, unit), kind);
+  return child_ray(state, unit, start_towards(unit, state.geometric_normal, state.clearance), kind);
 }
 
-/// A shadow ray to a light at `distance`, along the unit direction `towards`. One that starts off the way there is aimed anew.
-Ray shadow_ray(const HitState& state, const LightRecord& light, const Vec3d& towards, double distance) {
-  const Start start = start_towards(state, towards);
-  Ray ray = child_ray(state, towards, start, RayKind::shadow);
-  double length_left = distance - start.along;
-  if (start.across != 0.0) {
+/// A shadow ray to a light. One that starts off the way there is aimed anew.
+Ray shadow_ray(const HitState& state, const LightRecord& light, const LightFall& fall) {
+  Ray ray = child_ray(state, fall.towards, fall.start, RayKind::shadow);
+  double length_left = fall.distance - fall.start.along;
+  if (fall.start.across != 0.0) {
     const Vec3d from_start = Vec3d(light.position) - ray.full_origin();
     length_left = length(from_start);
     ray.go_along(from_start * (1.0 / length_left));
@@ -87,16 +69,13 @@ Ray shadow_ray(const HitState& state, const LightRecord& light, const Vec3d& tow
   return ray;
 }
 
-Vec3d mirrored(const Vec3d& direction, const Vec3d& normal) { return direction - normal * (2.0 * dot(direction, normal)); }
-
-/// Diffuse plus Phong's highlight (NFF) for light from the unit direction `to_light`.
-Color reflected_light(const HitState& state, const LightRecord& light, const Vec3d& to_light, double cosine) {
+/// Diffuse plus Phong's highlight (NFF) for light that falls at this cosine, of which a mirror would send so much to the eye.
+Color reflected_light(const HitState& state, const LightRecord& light, double cosine, double highlight) {
   const MaterialRecord& material = state.surface.material;
-  const double lobe = std::clamp(dot(mirrored(state.ray.full_direction(), state.normal), to_light), 0.0, 1.0);
-  const double highlight = material.specular > 0.0F ? double{material.specular} * pow_unit(lobe, double{material.shine}) : 0.0;
+  const double mirrored_light = material.specular > 0.0F ? double{material.specular} * highlight : 0.0;
   const Vec3d surface =
       Vec3d(material.color) * (double{material.diffuse} * (mutation == Mutation::dropped_cosine ? 1.0 : cosine)) +
-      Vec3d{highlight, highlight, highlight};
+      Vec3d{mirrored_light, mirrored_light, mirrored_light};
   return Color(Vec3d(state.ray.weight) * Vec3d(light.intensity) * surface);
 }
 
@@ -228,21 +207,28 @@ bool Shader::leaves_out(bool is_lit, const Color& weight) const {
 
 bool Shader::read_light(HitState& state, const std::byte* record, Ray& child) const {
   const auto light = read<LightRecord>(record);
+  const LightFall fall = fall_on(state, Vec3d(light.position));
+  const MaterialRecord& material = state.surface.material;
+  double highlight = 0.0;
+  if (fall.cosine > 0.0 && material.specular > 0.0F) {
+    highlight = pow_unit(lobe_cosine(state.ray.full_direction(), state.normal, fall.towards), double{material.shine});
+  }
+  return shine(state, light, fall, highlight, child);
+}
+
+bool Shader::shine(HitState& state, const LightRecord& light, const LightFall& fall, double highlight, Ray& child) const {
+  expect(state.stage == Stage::light, "a light shines on a hit that has come to it");
   if (++state.surface.next_light == header_.light_count) {
     state.stage = after_lights(state);
   }
-  const Vec3d towards = Vec3d(light.position) - state.point;
-  const double distance = length(towards);
-  const Vec3d unit = distance > 0.0 ? towards * (1.0 / distance) : Vec3d{};
-  const double cosine = dot(unit, state.normal);
-  const bool is_lit = cosine > 0.0;
-  const Color weight = is_lit ? reflected_light(state, light, unit, cosine) : Color{};
+  const bool is_lit = fall.cosine > 0.0;
+  const Color weight = is_lit ? reflected_light(state, light, fall.cosine, highlight) : Color{};
   if (leaves_out(is_lit, weight)) {
     return false;
   }
-  child = shadow_ray(state, light, unit, distance);
+  child = shadow_ray(state, light, fall);
   child.weight = weight;
-  return true;
+  return is_worth_it(child);
 }
 
 /// A reflected or refracted ray's cone goes on with its parent's width and angle: what a curved surface does to it is left out.
@@ -253,7 +239,7 @@ void Shader::widen(const HitState& state, Ray& child) const {
 }
 
 void Shader::reflect(HitState& state, Ray& child) const {
-  child = mirrored_or_bent(state, mirrored(state.ray.full_direction(), state.normal), RayKind::reflected);
+  child = mirrored_or_bent(state, mirrored_direction(state.ray.full_direction(), state.normal), RayKind::reflected);
   widen(state, child);
   child.weight = state.ray.weight * mirrored_share(state);
   state.stage = after_reflection(state);
@@ -293,7 +279,7 @@ bool Shader::step(HitState& state, const std::byte* record, Ray& child) const {
       read_material(state, record);
       return false;
     case Stage::light:
-      return read_light(state, record, child) && is_worth_it(child);
+      return read_light(state, record, child);
     case Stage::reflected:
       reflect(state, child);
       return is_worth_it(child);

@@ -6,6 +6,7 @@
 
 #include "core/base/vec.h"
 #include "core/picture/hit_state.h"
+#include "core/picture/light_fall.h"
 #include "core/record/ray.h"
 #include "core/record/record.h"
 #include "core/scene/scene.h"
@@ -49,6 +50,8 @@ class Shader {
   /// One step. `record` is the record of record_needed() (nullptr if that was no_address). Returns whether `child` was set to a
   /// ray to be shot; the caller shoots it, then goes on, until state.stage is finished.
   bool step(HitState& state, const std::byte* record, Ray& child) const;
+  /// The same of a hit at a light that is known to fall on it so; `highlight`: lobe_cosine() to the power of its shine.
+  bool shine(HitState& state, const LightRecord& light, const LightFall& fall, double highlight, Ray& child) const;
 
  private:
   void read_geometry(HitState& state, const std::byte* record) const;
