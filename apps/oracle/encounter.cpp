@@ -6,11 +6,12 @@
 // Grid (Woop). Subtraction of the origin costs u in each coordinate; the shear x - Sx z costs 2u |z| for Sx (a quotient and a
 // product), u |z| inherited, and u |x - Sx z|, in all at most u (2 |x| + 4 |z|), so a vertex moves by less than 7 u |a| in the
 // sheared plane. The plane is oblique by at most sqrt(3), which multiplies areas and lengths alike. Shared vertices move alike.
-// The two products of the edge function cost u |a'| |b'| sqrt(3) more. Hence
-//     |error of N| <= u |D| (7 (|a| |b'| + |b| |a'|) + 2 |a'| |b'|).
+// The two products of the edge function cost u |a'| |b'| sqrt(3) more. Of vertices that lie nearer to the ray than they are moved
+// the second order counts, too. Hence
+//     |error of N| <= u |D| (7 (|a| |b'| + |b| |a'|) + 2 |a'| |b'| + 49 u |a| |b|).
 // Embree robust (Pluecker coordinates). Vertices move by u |a|; edge e = a - b and sum s = a + b cost u each, their cross product
 // 2u, the product with D 3u, each times |e| |s| |D|, for 2 N; it then accepts down to one ulp = 2u of the sum of all three. Hence
-//     |error of N| <= u |D| (|a| |b'| + |b| |a'| + 3.5 |e| |s|) + 2 u |N1 + N2 + N3|.
+//     |error of N| <= u |D| (|a| |b'| + |b| |a'| + 3.5 |e| |s| + u |a| |b|) + 2 u |N1 + N2 + N3|.
 // Distance. Moved vertices shift the plane by 7 u R, R the largest of |a|, |b|, |c|, which is 7 u R / cos along the ray; Embree's
 // dot products cost as much. Rounded edge functions, or the rounded cross product of two edges, tilt the hit about the triangle:
 // with E the longest edge at most 6 u E^3 |D| / |N1 + N2 + N3|. Sums and quotients cost a few u R. No renderer returns a t
@@ -97,8 +98,9 @@ std::array<double, 2> area_bounds(const Sight& a, const Sight& b, double directi
   const double moved = a.distance * b.across + b.distance * a.across;
   const double rounded = length(a.position - b.position) * length(a.position + b.position);
   const double by_rest = direction_length * length(a.position - b.position) * rest;
-  return {unit_rounding * direction_length * (7 * moved + 2 * a.across * b.across) + by_rest + tiny,
-          unit_rounding * (direction_length * (moved + 3.5 * rounded) + 2 * std::fabs(area_sum)) + tiny};
+  const double second_order = unit_rounding * a.distance * b.distance;
+  return {unit_rounding * direction_length * (7 * moved + 2 * a.across * b.across + 49 * second_order) + by_rest + tiny,
+          unit_rounding * (direction_length * (moved + 3.5 * rounded + second_order) + 2 * std::fabs(area_sum)) + tiny};
 }
 
 SeenTriangle see_triangle(const Ray& ray, const core::PrimitiveValues& values, const std::array<Vec3d, 3>& at) {

@@ -30,7 +30,7 @@ constexpr std::size_t group_lanes = 8;
   }
 }
 
-[[gnu::target("arch=x86-64-v4,prefer-vector-width=512"), gnu::flatten]] void LitLanes::light_by_512(const Vec3d& position) {
+[[gnu::target("arch=x86-64-v4"), gnu::flatten]] void LitLanes::light_by_512(const Vec3d& position) {
   light_lanes(position);
 }
 
