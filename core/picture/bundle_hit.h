@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "core/picture/pixel_task.h"
+#include "core/picture/triangle_lanes.h"
 #include "core/trace/bundle.h"
 
 namespace dmpc::core {
@@ -104,6 +105,7 @@ template <BundleTracer T>
 bool BundleShader<T>::read_surfaces(Address& absent) {
   Address found = no_address;
   const std::byte* record = nullptr;
+  TriangleLanes triangles;
   for (; hits_.has_unread_surface(); hits_.next = 0) {
     for (; hits_.next < hits_.count; ++hits_.next) {
       HitState& state = hits_.hit[hits_.next];
@@ -114,12 +116,15 @@ bool BundleShader<T>::read_surfaces(Address& absent) {
       operations_.skipped.bundles += absent == found ? 1 : 0;
       record = absent == found ? record : tracer_.find(absent);
       if (record == nullptr) {
+        triangles.read_all();
         return false;
       }
       found = absent;
-      Ray none;
-      shader_.step(state, record, none);
+      if (Ray none; !shader_.reads_beside() || !triangles.take(state, record)) {
+        shader_.step(state, record, none);
+      }
     }
+    triangles.read_all();
   }
   return true;
 }

@@ -3,34 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
-#include "core/base/altitude.h"
 #include "core/base/mutation.h"
+#include "core/picture/triangle_hit.h"
 #include "core/record/curved_values.h"
 #include "core/trace/primitive.h"
 
 namespace dmpc::core {
 namespace {
 
-// How far off its surface a ray starts: more than the point may be off, and the surfaces that go on there (after M. Pharr, W.
-// Jakob, G. Humphreys, Physically Based Rendering, section 6.8: an offset follows from the bound of the error).
-
-/// Of the largest coordinates, each by its share in the normal: vertices of triangles are rounded to float, by 2^-25, and planes
-/// through others that were one plane may be off by a few times that.
-constexpr double flat_clearance = 0x1p-22;
-/// But of the way to the triangle's own edge, behind which another may stand at a sharp angle: rays that start near it must not
-/// start behind that one. Triangles that share an edge agree about it however near it is.
-constexpr double edge_clearance = 0x1p-6;
-/// Points keep so far from edges, of their coordinates, so that there is such a way, far longer than rays' starts are exact.
-constexpr double edge_inset = 0x1p-34;
-/// But no farther than this share of the triangle.
-constexpr double weight_least_max = 0x1p-8;
 /// Of the largest coordinate and radius: solved in double from rays that are exact to 2^-49.
 constexpr double curved_clearance = 0x1p-40;
-/// Of the ray's t, which is rounded to float: another surface may lie so much nearer.
-constexpr double tie_clearance = 0x1p-23;
-
 /// One lane of a block's values, in double.
 struct Lane {
   const float* rows;
@@ -39,39 +22,6 @@ struct Lane {
   double value(std::size_t row) const { return double{rows[row * stride + lane]}; }
   Vec3d vector(std::size_t row) const { return {value(row), value(row + 1), value(row + 2)}; }
 };
-
-/// A triangle in double. Its height takes a root and a division, which few hits need.
-struct Triangle {
-  explicit Triangle(const Lane& lane)
-      : v0(lane.vector(0)),
-        edge1(lane.vector(3) - v0),
-        edge2(lane.vector(6) - v0),
-        normal(cross(edge1, edge2)),
-        area(length(normal)) {}
-
-  double height() const { return least_altitude(edge1, edge2, edge2 - edge1, area); }
-  /// Whether the height times `share` is more than `way` by as much as rounding moves either. Quick.
-  bool is_higher(double share, double way) const {
-    const double longest_squared = longest_squared_of(edge1, edge2, edge2 - edge1), scaled = share * area;
-    return scaled * scaled > 2 * way * way * longest_squared;
-  }
-
-  Vec3d v0, edge1, edge2, normal;
-  double area;  ///< twice the triangle's
-};
-
-Clearance clearance_on_triangle(const HitState& state, const Triangle& triangle) {
-  const Vec3d& n = state.geometric_normal;
-  const double rounding =
-      flat_clearance * std::max({dot_of_magnitudes(n, triangle.v0), dot_of_magnitudes(n, triangle.v0 + triangle.edge1),
-                                 dot_of_magnitudes(n, triangle.v0 + triangle.edge2)});
-  const double wanted = rounding + tie_clearance * double{state.hit.t};
-  const double share = std::max(std::min({state.u, state.v, 1.0 - state.u - state.v}), 0.0);
-  const double clearance = triangle.is_higher(edge_clearance * share, wanted)
-                               ? wanted
-                               : std::min(wanted, edge_clearance * (share * triangle.height()));
-  return {clearance, clearance, std::numeric_limits<double>::max()};
-}
 
 /// `size`: the largest coordinate and radius; `radius`: of the surface where it was hit.
 Clearance clearance_on_curved(const HitState& state, double size, double radius) {
@@ -85,39 +35,23 @@ Lane lane_of(const HitState& state, const std::byte* record) {
   return {reinterpret_cast<const float*>(record + sizeof(BlockHeader)), header.count, state.hit.lane};
 }
 
-/// Clamps weights to the triangle, and a little more.
-void keep_off_edges(HitState& state, const Triangle& triangle) {
-  if (std::min({state.u, state.v, 1.0 - state.u - state.v}) > 2 * weight_least_max) {
-    return;
-  }
-  const double inset = edge_inset * largest_component(along(state.ray, double{state.hit.t}));
-  const double least = std::min(inset / triangle.height(), weight_least_max);
-  state.u = std::clamp(state.u, least, 1.0 - 2 * least);
-  const double most = std::max(1.0 - least - state.u, least);  // but for rounding it is no less anyway
-  state.v = std::clamp(state.v, least, most);
-}
-
-/// Point, true normal and barycentric weights in double, after T. Moeller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle
-/// Intersection", 1997; weights clamped, so that the point lies on the triangle even where the float test let the ray in by
-/// rounding. Where faces share a plane, the point lies in it and the normal is its: all of them are one surface, off which a ray
-/// starts on one of its sides.
+/// Where faces share a plane, the point lies in it and the normal is its: all of them are one surface, off which a ray starts on
+/// one of its sides.
 void triangle_geometry(HitState& state, const Lane& lane, const FacePlane* shared) {
-  const Triangle triangle(lane);
-  const Vec3d direction = state.ray.full_direction(), p = cross(direction, triangle.edge2);
-  const double determinant = dot(triangle.edge1, p);
-  if (determinant != 0.0) {
-    const Vec3d from_v0 = state.ray.full_origin() - triangle.v0;
-    state.u = dot(from_v0, p) / determinant;
-    state.v = dot(direction, cross(from_v0, triangle.edge1)) / determinant;
-    keep_off_edges(state, triangle);
-  }
-  state.point = triangle.v0 + triangle.edge1 * state.u + triangle.edge2 * state.v;
-  state.geometric_normal = triangle.normal * (1.0 / triangle.area);
+  const Vec3d corner = lane.vector(0), edge1 = lane.vector(3) - corner, edge2 = lane.vector(6) - corner;
+  const Vec3d origin = state.ray.full_origin(), direction = state.ray.full_direction();
+  const double t{state.hit.t};
+  find_weights(edge1, edge2, origin - corner, direction, place_of(origin, direction, t), [&](double u, double v) {
+    state.u = u;
+    state.v = v;
+  });
+  state.point = point_at(corner, edge1, edge2, state.u, state.v);
+  state.geometric_normal = unit_normal_of(edge1, edge2);
   if (shared != nullptr) {
     state.point = state.point - shared->normal * shared->height_of(state.point);
     state.geometric_normal = dot(shared->normal, state.geometric_normal) < 0.0 ? -shared->normal : shared->normal;
   }
-  state.clearance = clearance_on_triangle(state, triangle);
+  state.clearance = Clearance::of_flat(clearance_of(corner, edge1, edge2, state.geometric_normal, state.u, state.v, t));
 }
 
 void sphere_geometry(HitState& state, const Lane& lane) {
@@ -156,6 +90,16 @@ void cone_geometry(HitState& state, const Lane& lane) {
 
 }  // namespace
 
+void read_surface(HitState& state, const std::byte* record) {
+  const auto header = read<BlockHeader>(record);
+  const std::size_t references = (value_count(header.kind) + 1) * header.count;
+  state.shading = read<ShadingReference>(record + sizeof(BlockHeader) + 4 * (references + state.hit.lane));
+  state.curved = header.kind != PrimitiveKind::triangle;
+  state.leaving = dot(state.ray.full_direction(), state.geometric_normal) > 0.0;
+  state.normal = state.leaving ? -state.geometric_normal : state.geometric_normal;
+  state.stage = state.shading.is_smooth() ? HitState::Stage::normals : HitState::Stage::material;
+}
+
 void read_geometry(HitState& state, const std::byte* record) {
   const auto header = read<BlockHeader>(record);
   const Lane lane = lane_of(state, record);
@@ -175,12 +119,7 @@ void read_geometry(HitState& state, const std::byte* record) {
       cone_geometry(state, lane);
       break;
   }
-  const std::size_t references = (value_count(header.kind) + 1) * header.count;
-  state.shading = read<ShadingReference>(record + sizeof(BlockHeader) + 4 * (references + state.hit.lane));
-  state.curved = header.kind != PrimitiveKind::triangle;
-  state.leaving = dot(state.ray.full_direction(), state.geometric_normal) > 0.0;
-  state.normal = state.leaving ? -state.geometric_normal : state.geometric_normal;
-  state.stage = state.shading.is_smooth() ? HitState::Stage::normals : HitState::Stage::material;
+  read_surface(state, record);
 }
 
 CutEllipse cut_ellipse(const HitState& state, const std::byte* record) {

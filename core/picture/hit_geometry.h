@@ -11,6 +11,9 @@ namespace dmpc::core {
 /// lies on the primitive, whatever rounding let the ray in.
 void read_geometry(HitState& state, const std::byte* record);
 
+/// All of that but point, weights, true normal and clearance, which are set already.
+void read_surface(HitState& state, const std::byte* record);
+
 /// What a cone about the ray cuts out of a triangle's plane. From the same record, after read_geometry().
 CutEllipse cut_ellipse(const HitState& state, const std::byte* record);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include "core/base/vec.h"
@@ -18,6 +19,8 @@ struct Clearance {
   double along = 0;   ///< the way of a ray that leaves the surface at a right angle; others more
   double across = 0;  ///< of the surface, for rays that graze it
   double radius = 0;  ///< of what is curved, which a ray within must not pass: no limit for what is flat
+
+  static constexpr Clearance of_flat(double way) { return {way, way, std::numeric_limits<double>::max()}; }
 };
 
 /// A hit being shaded: a record on the ray stack, resumable between any two of its records. Each step reads exactly one record.

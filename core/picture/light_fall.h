@@ -1,14 +1,12 @@
 // How a point light falls on hits, of one or of many side by side.
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 
 #include "core/base/vec.h"
 #include "core/picture/hit_state.h"
+#include "core/picture/lanes.h"
 #include "core/picture/ray_start.h"
-#include "core/trace/bundle.h"
 
 namespace dmpc::core {
 
@@ -53,7 +51,7 @@ class LitLanes {
     shine_[count_++] = double{state.surface.material.shine};
   }
   /// How a light falls on all: fall() and highlight() tell, with the bits of fall_on() and of pow_unit().
-  void light(const Vec3d& position);
+  void light(const Vec3d& position, VectorWidth width = vector_width());
 
   LightFall fall(std::size_t lane) const {
     return {get(towards_, lane), distance_[lane], cosine_[lane], {start_along_[lane], start_across_[lane]}};
@@ -63,27 +61,15 @@ class LitLanes {
 
  private:
   using Doubles = Row<double>;
-  struct Vectors {
-    Doubles x, y, z;
-  };
-
-  static void put(Vectors& rows, std::size_t lane, const Vec3d& v) {
-    rows.x[lane] = v.x;
-    rows.y[lane] = v.y;
-    rows.z[lane] = v.z;
-  }
-  static Vec3d get(const Vectors& rows, std::size_t lane) { return {rows.x[lane], rows.y[lane], rows.z[lane]}; }
-
-  /// light(), for processors with vectors of 512 and of 256 bits, and for all.
   void light_by_512(const Vec3d& position);
   void light_by_256(const Vec3d& position);
   void light_plainly(const Vec3d& position);
   void light_lanes(Vec3d position);
 
   std::size_t count_ = 0;
-  Vectors point_{}, normal_{}, true_normal_{}, direction_{};
+  VectorRows point_{}, normal_{}, true_normal_{}, direction_{};
   Doubles along_{}, across_{}, radius_{}, shine_{};
-  Vectors towards_;
+  VectorRows towards_;
   Doubles distance_, cosine_, highlight_, start_along_, start_across_;
 };
 

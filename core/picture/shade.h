@@ -50,6 +50,8 @@ class Shader {
   /// One step. `record` is the record of record_needed() (nullptr if that was no_address). Returns whether `child` was set to a
   /// ray to be shot; the caller shoots it, then goes on, until state.stage is finished.
   bool step(HitState& state, const std::byte* record, Ray& child) const;
+  /// Whether step() does to a hit's geometry what read_geometry() does, and no more.
+  bool reads_beside() const { return !(options_.pixel_angle > 0); }
   /// The same of a hit at a light that is known to fall on it so; `highlight`: lobe_cosine() to the power of its shine.
   bool shine(HitState& state, const LightRecord& light, const LightFall& fall, double highlight, Ray& child) const;
 

@@ -1,0 +1,37 @@
+// Numbers of the hits of a bundle side by side, for loops that compilers vectorise. Their bodies are one straight line, each is
+// compiled for each width of vectors, and CMakeLists.txt lets compilers compute what a choice then leaves out.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/base/vec.h"
+#include "core/trace/bundle.h"
+
+namespace dmpc::core {
+
+/// Rows of vectors, by component.
+struct VectorRows {
+  Row<double> x, y, z;
+};
+
+inline void put(VectorRows& rows, std::size_t lane, const Vec3d& v) {
+  rows.x[lane] = v.x;
+  rows.y[lane] = v.y;
+  rows.z[lane] = v.z;
+}
+
+inline Vec3d get(const VectorRows& rows, std::size_t lane) { return {rows.x[lane], rows.y[lane], rows.z[lane]}; }
+
+/// So many lanes rounded up to whole vectors: those that are not taken hold zeros, and are computed for nothing.
+inline std::size_t whole_groups(std::size_t count) {
+  constexpr std::size_t group_lanes = 8;  // doubles in the widest vector
+  return (count + group_lanes - 1) / group_lanes * group_lanes;
+}
+
+/// Which instructions a loop is compiled for. All give the same bits.
+enum class VectorWidth : std::uint8_t { any, bits_256, bits_512 };
+/// The widest that this processor has.
+VectorWidth vector_width();
+
+}  // namespace dmpc::core

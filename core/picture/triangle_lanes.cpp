@@ -1,0 +1,82 @@
+#include "core/picture/triangle_lanes.h"
+
+#include "core/picture/hit_geometry.h"
+#include "core/picture/triangle_hit.h"
+#include "core/record/record.h"
+
+namespace dmpc::core {
+
+bool TriangleLanes::take(HitState& state, const std::byte* record) {
+  const auto header = read<BlockHeader>(record);
+  if (state.stage != HitState::Stage::geometry || header.kind != PrimitiveKind::triangle || header.has_plane) {
+    return false;
+  }
+  const auto* const value = reinterpret_cast<const float*>(record + sizeof(BlockHeader)) + state.hit.lane;
+  const std::size_t stride = header.count;
+  const auto corner = [&](std::size_t row) {
+    return Vec3d{double{value[row * stride]}, double{value[(row + 1) * stride]}, double{value[(row + 2) * stride]}};
+  };
+  put(corner_, count_, corner(0));
+  put(second_, count_, corner(3));
+  put(third_, count_, corner(6));
+  put(origin_, count_, state.ray.full_origin());
+  put(direction_, count_, state.ray.full_direction());
+  t_[count_] = double{state.hit.t};
+  record_[count_] = record;
+  state_[count_++] = &state;
+  return true;
+}
+
+[[gnu::always_inline]] inline void TriangleLanes::find_lanes() {
+  for (std::size_t lane = 0; lane < whole_groups(count_); ++lane) {
+    const Vec3d corner = get(corner_, lane), edge1 = get(second_, lane) - corner, edge2 = get(third_, lane) - corner;
+    const Vec3d origin = get(origin_, lane), direction = get(direction_, lane), normal = unit_normal_of(edge1, edge2);
+    const double t = t_[lane];
+    double u = 0, v = 0;
+    find_weights(edge1, edge2, origin - corner, direction, place_of(origin, direction, t), [&](double second, double third) {
+      u = second;
+      v = third;
+    });
+    put(point_, lane, point_at(corner, edge1, edge2, u, v));
+    put(normal_, lane, normal);
+    u_[lane] = u;
+    v_[lane] = v;
+    clearance_[lane] = clearance_of(corner, edge1, edge2, normal, u, v, t);
+  }
+}
+
+[[gnu::target("arch=x86-64-v4"), gnu::flatten]] void TriangleLanes::find_by_512() { find_lanes(); }
+
+[[gnu::target("arch=x86-64-v3"), gnu::flatten]] void TriangleLanes::find_by_256() { find_lanes(); }
+
+void TriangleLanes::find_plainly() { find_lanes(); }
+
+void TriangleLanes::find(VectorWidth width) {
+  switch (width) {
+    case VectorWidth::bits_512:
+      return find_by_512();
+    case VectorWidth::bits_256:
+      return find_by_256();
+    case VectorWidth::any:
+      return find_plainly();
+  }
+}
+
+void TriangleLanes::read_all(VectorWidth width) {
+  if (count_ == 0) {
+    return;
+  }
+  find(width);
+  for (std::size_t lane = 0; lane < count_; ++lane) {
+    HitState& state = *state_[lane];
+    state.u = u_[lane];
+    state.v = v_[lane];
+    state.point = get(point_, lane);
+    state.geometric_normal = get(normal_, lane);
+    state.clearance = Clearance::of_flat(clearance_[lane]);
+    read_surface(state, record_[lane]);
+  }
+  count_ = 0;
+}
+
+}  // namespace dmpc::core

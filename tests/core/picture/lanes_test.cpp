@@ -1,0 +1,188 @@
+#include "core/picture/lanes.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "core/base/elementary.h"
+#include "core/base/sampling.h"
+#include "core/picture/hit_geometry.h"
+#include "core/picture/light_fall.h"
+#include "core/picture/triangle_lanes.h"
+#include "core/record/record.h"
+
+using namespace dmpc::core;
+
+namespace {
+
+/// Numbers without an end, of all sizes that coordinates have, and zeros.
+class Numbers {
+ public:
+  explicit Numbers(std::uint64_t seed) : state_(seed) {}
+
+  std::uint64_t bits() { return state_ = mix(state_ + 1); }
+  double unit() { return static_cast<double>(bits() >> 11U) * 0x1p-53; }
+  double around_zero() { return bits() % 16 == 0 ? 0.0 : (unit() - 0.5) * (bits() % 8 == 0 ? 0x1p-40 : 1.0); }
+  Vec3d vector() { return {around_zero(), around_zero(), around_zero()}; }
+  Vec3d direction() {
+    const Vec3d v = vector();
+    return length(v) > 0 ? normalize(v) : Vec3d{0, 0, 1};
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+std::vector<VectorWidth> widths() {
+  std::vector<VectorWidth> all{VectorWidth::any};
+  for (const VectorWidth width : {VectorWidth::bits_256, VectorWidth::bits_512}) {
+    if (width <= vector_width()) {
+      all.push_back(width);
+    }
+  }
+  return all;
+}
+
+HitState lit_hit(Numbers& numbers) {
+  HitState state;
+  state.point = numbers.vector();
+  state.normal = numbers.direction();
+  state.geometric_normal = numbers.bits() % 2 == 0 ? state.normal : numbers.direction();
+  state.ray.go_along(numbers.direction());
+  const double along = numbers.unit() * 0x1p-20;
+  state.clearance = numbers.bits() % 2 == 0 ? Clearance::of_flat(along) : Clearance{along, along * 0x1p-18, numbers.unit()};
+  state.surface = {};
+  constexpr std::array<float, 6> shines{0, 1, 3.0827F, 30.5F, 1e4F, 3e38F};
+  state.surface.material.shine = shines[numbers.bits() % shines.size()];
+  return state;
+}
+
+bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+
+bool same_fall(const LightFall& a, const LightFall& b) {
+  return same_bits(a.towards.x, b.towards.x) && same_bits(a.towards.y, b.towards.y) && same_bits(a.towards.z, b.towards.z) &&
+         same_bits(a.distance, b.distance) && same_bits(a.cosine, b.cosine) && same_bits(a.start.along, b.start.along) &&
+         same_bits(a.start.across, b.start.across);
+}
+
+double highlight_of(const HitState& state, const LightFall& fall) {
+  return pow_unit(lobe_cosine(state.ray.full_direction(), state.normal, fall.towards), double{state.surface.material.shine});
+}
+
+constexpr std::size_t block_triangles = 8;
+
+/// A block of triangles, some of them needles, and rays at their insides, edges and corners, or past them.
+struct Block {
+  explicit Block(Numbers& numbers) : record(block_bytes(PrimitiveKind::triangle, block_triangles)) {
+    const BlockHeader header{.kind = PrimitiveKind::triangle, .count = block_triangles};
+    std::memcpy(record.data(), &header, sizeof(header));
+    for (std::size_t lane = 0; lane < block_triangles; ++lane) {
+      const Vec3d corner = numbers.vector(), edge = numbers.vector() + Vec3d{0.25, 0, 0};
+      const Vec3d third = edge * numbers.unit() + numbers.vector() * (lane % 2 == 0 ? 0x1p-18 : 1.0) + Vec3d{0, 0x1p-20, 0};
+      put_corners(lane, {Vec3f(corner), Vec3f(corner + edge), Vec3f(corner + third)});
+    }
+  }
+
+  void put_corners(std::size_t lane, const std::array<Vec3f, 3>& corners) {
+    for (std::size_t row = 0; row < 9; ++row) {
+      const float value = corners[row / 3][row % 3];
+      std::memcpy(record.data() + sizeof(BlockHeader) + 4 * (row * block_triangles + lane), &value, sizeof(value));
+    }
+    triangle[lane] = corners;
+  }
+
+  HitState hit(Numbers& numbers) const {
+    HitState state;
+    state.hit.lane = static_cast<std::uint32_t>(numbers.bits() % block_triangles);
+    const auto& [a, b, c] = triangle[state.hit.lane];
+    constexpr std::array<double, 5> weights{0, 1, 0.5, 0x1p-30, -0.25};
+    const double u = numbers.bits() % 2 == 0 ? numbers.unit() : weights[numbers.bits() % weights.size()];
+    const double v = numbers.bits() % 2 == 0 ? (1 - u) * numbers.unit() : weights[numbers.bits() % weights.size()];
+    const Vec3d place = Vec3d(a) * (1 - u - v) + Vec3d(b) * u + Vec3d(c) * v;
+    const Vec3d towards = numbers.bits() % 16 == 0 ? normalize(Vec3d(b) - Vec3d(a)) : numbers.direction();
+    const double t = numbers.unit();
+    state.ray.start_at(place - towards * t);
+    state.ray.go_along(towards);
+    state.hit.t = static_cast<float>(t);
+    return state;
+  }
+
+  std::vector<std::byte> record;
+  std::array<std::array<Vec3f, 3>, block_triangles> triangle;
+};
+
+}  // namespace
+
+TEST_CASE("a light falls on hits side by side as on each alone, by vectors of any width") {
+  Numbers numbers(19);
+  for (int round = 0; round < 2000; ++round) {
+    LitLanes lanes;
+    std::vector<HitState> hits(numbers.bits() % bundle_rays_max + 1);
+    for (HitState& state : hits) {
+      state = lit_hit(numbers);
+      lanes.add(state);
+    }
+    const Vec3d light = numbers.bits() % 16 == 0 ? hits.front().point : numbers.vector() * 4.0;
+    for (const VectorWidth width : widths()) {
+      lanes.light(light, width);
+      bool all_same = true;
+      for (std::size_t lane = 0; lane < hits.size(); ++lane) {
+        const LightFall alone = fall_on(hits[lane], light);
+        all_same =
+            all_same && same_fall(lanes.fall(lane), alone) && same_bits(lanes.highlight(lane), highlight_of(hits[lane], alone));
+      }
+      CAPTURE(round);
+      CAPTURE(static_cast<int>(width));
+      CHECK(all_same);
+    }
+  }
+}
+
+TEST_CASE("the geometry of hits of triangles is the same side by side as of each alone, by vectors of any width") {
+  Numbers numbers(21);
+  for (int round = 0; round < 2000; ++round) {
+    const Block block(numbers);
+    std::vector<HitState> hits(numbers.bits() % bundle_rays_max + 1);
+    for (HitState& state : hits) {
+      state = block.hit(numbers);
+    }
+    for (const VectorWidth width : widths()) {
+      std::vector<HitState> beside = hits;
+      TriangleLanes lanes;
+      for (HitState& state : beside) {
+        REQUIRE(lanes.take(state, block.record.data()));
+      }
+      lanes.read_all(width);
+      bool all_same = true;
+      for (std::size_t i = 0; i < hits.size(); ++i) {
+        HitState alone = hits[i];
+        read_geometry(alone, block.record.data());
+        all_same = all_same && std::memcmp(&alone, &beside[i], sizeof(alone)) == 0;
+      }
+      CAPTURE(round);
+      CAPTURE(static_cast<int>(width));
+      CHECK(all_same);
+    }
+  }
+}
+
+TEST_CASE("hits of what is curved, or whose plane is shared, or whose geometry is known, are not read side by side") {
+  Numbers numbers(23);
+  Block block(numbers);
+  HitState state = block.hit(numbers);
+  TriangleLanes lanes;
+  state.stage = HitState::Stage::material;
+  CHECK_FALSE(lanes.take(state, block.record.data()));
+  state.stage = HitState::Stage::geometry;
+  for (const BlockHeader& header :
+       {BlockHeader{.kind = PrimitiveKind::triangle, .count = block_triangles, .has_plane = true},
+        BlockHeader{.kind = PrimitiveKind::sphere, .count = 1}, BlockHeader{.kind = PrimitiveKind::cone, .count = 1}}) {
+    std::memcpy(block.record.data(), &header, sizeof(header));
+    CHECK_FALSE(lanes.take(state, block.record.data()));
+  }
+}
