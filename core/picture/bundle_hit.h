@@ -6,6 +6,7 @@
 #include <concepts>
 #include <cstdint>
 
+#include "core/picture/child_lanes.h"
 #include "core/picture/pixel_task.h"
 #include "core/picture/triangle_lanes.h"
 #include "core/trace/bundle.h"
@@ -158,10 +159,24 @@ bool BundleShader<T>::shoot_at_light(Address& absent, const Shoot& shoot) {
 template <BundleTracer T>
 template <class Shoot>
 void BundleShader<T>::shoot_children(HitState::Stage stage, const Shoot& shoot) {
+  const bool is_bent = stage == HitState::Stage::refracted;
+  std::array<std::uint32_t, bundle_rays_max> sender;
+  std::uint32_t count = 0;
+  ChildLanes lanes;
   for (std::uint32_t i = 0; i < hits_.count; ++i) {
+    const HitState& state = hits_.hit[i];
+    if (state.stage == stage) {
+      lanes.add(state, is_bent ? relative_index(state) : 0.0);
+      sender[count++] = i;
+    }
+  }
+  if (count > 0) {
+    is_bent ? lanes.bend() : lanes.mirror();
+  }
+  for (std::uint32_t lane = 0; lane < count; ++lane) {
     Ray child;
-    if (hits_.hit[i].stage == stage && shader_.step(hits_.hit[i], nullptr, child)) {
-      shoot(child, i);
+    if (shader_.send(hits_.hit[sender[lane]], lanes.towards(lane), lanes.start(lane), child)) {
+      shoot(child, sender[lane]);
     }
   }
 }

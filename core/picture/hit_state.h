@@ -65,6 +65,13 @@ struct HitState {
 };
 static_assert(sizeof(HitState) == 256 && std::is_trivially_copyable_v<HitState>);
 
+/// The index of refraction of what the ray comes from over that of what lies behind; needs the material.
+inline double relative_index(const HitState& state) {
+  const float index = state.surface.material.refraction_index;
+  const double inside = index > 0.0F ? double{index} : 1.0;
+  return state.leaving ? inside : 1.0 / inside;
+}
+
 /// The state of a fresh hit.
 HitState begin_shading(const Ray& ray, const Hit& hit);
 

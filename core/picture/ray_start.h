@@ -26,8 +26,22 @@ inline RayStart start_towards(const Vec3d& towards, const Vec3d& true_normal, co
   return {along, std::copysign(std::max(clearance.across - along * steep, 0.0), cosine)};
 }
 
+/// The mirrored ray's, not of unit length where rounding has it so.
 inline Vec3d mirrored_direction(const Vec3d& direction, const Vec3d& normal) {
   return direction - normal * (2.0 * dot(direction, normal));
+}
+
+/// The square of the cosine behind the surface by Snell's law; below 0 there is no refracted ray. `relative_index`: of the medium
+/// before the surface over that behind.
+inline double refracted_cosine_squared(const Vec3d& direction, const Vec3d& normal, double relative_index) {
+  const double cosine = dot(direction, normal);
+  return 1.0 - relative_index * relative_index * (1.0 - cosine * cosine);
+}
+
+/// The refracted ray's, if there is one, like mirrored_direction().
+inline Vec3d bent_direction(const Vec3d& direction, const Vec3d& normal, double relative_index) {
+  const double behind = std::sqrt(refracted_cosine_squared(direction, normal, relative_index));
+  return direction * relative_index + normal * (relative_index * -dot(direction, normal) - behind);
 }
 
 }  // namespace dmpc::core

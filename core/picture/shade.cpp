@@ -22,17 +22,6 @@ TexturePlace texture_place(const HitState& state) {
   return mutation == Mutation::exchanged_places ? TexturePlace{state.v, state.u} : TexturePlace{state.u, state.v};
 }
 
-/// The square of the cosine behind the surface by Snell's law; below 0 there is no refracted ray.
-double refracted_cosine_squared(const HitState& state, double relative_index) {
-  const double cosine = dot(state.ray.full_direction(), state.normal);
-  return 1.0 - relative_index * relative_index * (1.0 - cosine * cosine);
-}
-
-double relative_index(const HitState& state) {
-  const double inside = state.surface.material.refraction_index > 0.0F ? double{state.surface.material.refraction_index} : 1.0;
-  return state.leaving ? inside : 1.0 / inside;
-}
-
 /// What of the light found by a reflected ray counts: what cannot be transmitted is reflected, too.
 float mirrored_share(const HitState& state) {
   return state.surface.material.specular + (state.has_refraction ? 0.0F : state.surface.material.transmittance);
@@ -49,11 +38,6 @@ Ray child_ray(const HitState& state, const Vec3d& towards, const RayStart& start
   ray.depth = static_cast<std::uint8_t>(state.ray.depth + (kind == RayKind::shadow ? 0 : 1));
   ray.kind = kind;
   return ray;
-}
-
-Ray mirrored_or_bent(const HitState& state, const Vec3d& towards, RayKind kind) {
-  const Vec3d unit = normalize(towards);
-  return child_ray(state, unit, start_towards(unit, state.geometric_normal, state.clearance), kind);
 }
 
 /// A shadow ray to a light. One that starts off the way there is aimed anew.
@@ -176,7 +160,7 @@ Stage Shader::after_lights(const HitState& state) const {
 /// Which children the hit may have, and which it does not have since their share is nothing.
 void Shader::judge_children(HitState& state) const {
   const double index = relative_index(state);
-  state.has_refraction = index <= 1.0 || !(refracted_cosine_squared(state, index) < 0.0);
+  state.has_refraction = index <= 1.0 || !(refracted_cosine_squared(state.ray.full_direction(), state.normal, index) < 0.0);
   operations_.total_internal_reflections += !state.has_refraction && state.surface.material.transmittance > 0.0F ? 1 : 0;
   operations_.skipped.zero_terms += reflects(state) ? 0 : 1;
   operations_.skipped.zero_terms += !state.has_refraction || refracts(state) ? 0 : 1;
@@ -238,21 +222,22 @@ void Shader::widen(const HitState& state, Ray& child) const {
   }
 }
 
-void Shader::reflect(HitState& state, Ray& child) const {
-  child = mirrored_or_bent(state, mirrored_direction(state.ray.full_direction(), state.normal), RayKind::reflected);
+bool Shader::send(HitState& state, const Vec3d& towards, const RayStart& start, Ray& child) const {
+  const bool is_mirrored = state.stage == Stage::reflected;
+  expect(is_mirrored || state.stage == Stage::refracted, "a hit sends a ray when it has come to that");
+  child = child_ray(state, towards, start, is_mirrored ? RayKind::reflected : RayKind::refracted);
   widen(state, child);
-  child.weight = state.ray.weight * mirrored_share(state);
-  state.stage = after_reflection(state);
+  child.weight = state.ray.weight * (is_mirrored ? mirrored_share(state) : state.surface.material.transmittance);
+  state.stage = is_mirrored ? after_reflection(state) : Stage::finished;
+  return is_worth_it(child);
 }
 
-void Shader::refract(HitState& state, Ray& child) const {
-  const double index = relative_index(state), cosine = -dot(state.ray.full_direction(), state.normal);
-  const double behind = std::sqrt(refracted_cosine_squared(state, index));
-  const Vec3d towards = state.ray.full_direction() * index + state.normal * (index * cosine - behind);
-  child = mirrored_or_bent(state, towards, RayKind::refracted);
-  widen(state, child);
-  child.weight = state.ray.weight * state.surface.material.transmittance;
-  state.stage = Stage::finished;
+bool Shader::send_alone(HitState& state, Ray& child) const {
+  const Vec3d direction = state.ray.full_direction();
+  const Vec3d towards =
+      normalize(state.stage == Stage::reflected ? mirrored_direction(direction, state.normal)
+                                                : bent_direction(direction, state.normal, relative_index(state)));
+  return send(state, towards, start_towards(towards, state.geometric_normal, state.clearance), child);
 }
 
 /// What it can bring to its sample at most, in any channel, is not below the cutoff.
@@ -281,11 +266,8 @@ bool Shader::step(HitState& state, const std::byte* record, Ray& child) const {
     case Stage::light:
       return read_light(state, record, child);
     case Stage::reflected:
-      reflect(state, child);
-      return is_worth_it(child);
     case Stage::refracted:
-      refract(state, child);
-      return is_worth_it(child);
+      return send_alone(state, child);
     case Stage::finished:
       break;
   }

@@ -54,6 +54,8 @@ class Shader {
   bool reads_beside() const { return !(options_.pixel_angle > 0); }
   /// The same of a hit at a light that is known to fall on it so; `highlight`: lobe_cosine() to the power of its shine.
   bool shine(HitState& state, const LightRecord& light, const LightFall& fall, double highlight, Ray& child) const;
+  /// The same of a hit that mirrors or lets through a ray, which leaves `towards` a unit direction from `start`.
+  bool send(HitState& state, const Vec3d& towards, const RayStart& start, Ray& child) const;
 
  private:
   void read_geometry(HitState& state, const std::byte* record) const;
@@ -63,8 +65,7 @@ class Shader {
   void read_material(HitState& state, const std::byte* record) const;
   /// Whether `child` was set.
   bool read_light(HitState& state, const std::byte* record, Ray& child) const;
-  void reflect(HitState& state, Ray& child) const;
-  void refract(HitState& state, Ray& child) const;
+  bool send_alone(HitState& state, Ray& child) const;
 
   bool reflects(const HitState& state) const;
   bool refracts(const HitState& state) const;

@@ -11,6 +11,7 @@
 
 #include "core/base/elementary.h"
 #include "core/base/sampling.h"
+#include "core/picture/child_lanes.h"
 #include "core/picture/hit_geometry.h"
 #include "core/picture/light_fall.h"
 #include "core/picture/triangle_lanes.h"
@@ -64,14 +65,26 @@ HitState lit_hit(Numbers& numbers) {
 
 bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
+bool same_bits(const Vec3d& a, const Vec3d& b) { return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z); }
+
 bool same_fall(const LightFall& a, const LightFall& b) {
-  return same_bits(a.towards.x, b.towards.x) && same_bits(a.towards.y, b.towards.y) && same_bits(a.towards.z, b.towards.z) &&
-         same_bits(a.distance, b.distance) && same_bits(a.cosine, b.cosine) && same_bits(a.start.along, b.start.along) &&
-         same_bits(a.start.across, b.start.across);
+  return same_bits(a.towards, b.towards) && same_bits(a.distance, b.distance) && same_bits(a.cosine, b.cosine) &&
+         same_bits(a.start.along, b.start.along) && same_bits(a.start.across, b.start.across);
 }
 
 double highlight_of(const HitState& state, const LightFall& fall) {
   return pow_unit(lobe_cosine(state.ray.full_direction(), state.normal, fall.towards), double{state.surface.material.shine});
+}
+
+/// A hit that sends both a mirrored and a refracted ray: within glass, or on the way into it.
+HitState sending_hit(Numbers& numbers) {
+  HitState state = lit_hit(numbers);
+  state.leaving = numbers.bits() % 2 == 0;
+  state.surface.material.refraction_index = numbers.bits() % 8 == 0 ? 0.0F : 1.5F;
+  if (refracted_cosine_squared(state.ray.full_direction(), state.normal, relative_index(state)) < 0.0) {
+    state.normal = -state.ray.full_direction();
+  }
+  return state;
 }
 
 constexpr std::size_t block_triangles = 8;
@@ -139,6 +152,38 @@ TEST_CASE("a light falls on hits side by side as on each alone, by vectors of an
       CAPTURE(round);
       CAPTURE(static_cast<int>(width));
       CHECK(all_same);
+    }
+  }
+}
+
+TEST_CASE("hits side by side mirror and bend rays as each does alone, by vectors of any width") {
+  Numbers numbers(20);
+  for (int round = 0; round < 2000; ++round) {
+    ChildLanes lanes;
+    std::vector<HitState> hits(numbers.bits() % bundle_rays_max + 1);
+    for (HitState& state : hits) {
+      state = sending_hit(numbers);
+      lanes.add(state, relative_index(state));
+    }
+    const auto as_alone = [&](auto direction_of) {
+      bool all_same = true;
+      for (std::size_t lane = 0; lane < hits.size(); ++lane) {
+        const HitState& state = hits[lane];
+        const Vec3d towards = normalize(direction_of(state));
+        const RayStart start = start_towards(towards, state.geometric_normal, state.clearance);
+        all_same = all_same && same_bits(lanes.towards(lane), towards) && same_bits(lanes.start(lane).along, start.along) &&
+                   same_bits(lanes.start(lane).across, start.across);
+      }
+      return all_same;
+    };
+    for (const VectorWidth width : widths()) {
+      CAPTURE(round);
+      CAPTURE(static_cast<int>(width));
+      lanes.mirror(width);
+      CHECK(as_alone([](const HitState& state) { return mirrored_direction(state.ray.full_direction(), state.normal); }));
+      lanes.bend(width);
+      CHECK(as_alone(
+          [](const HitState& state) { return bent_direction(state.ray.full_direction(), state.normal, relative_index(state)); }));
     }
   }
 }
