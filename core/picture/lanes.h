@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 #include "core/base/vec.h"
 #include "core/trace/bundle.h"
+#include "core/trace/vector_width.h"
 
 namespace dmpc::core {
 
@@ -28,10 +28,5 @@ inline std::size_t whole_groups(std::size_t count) {
   constexpr std::size_t group_lanes = 8;  // doubles in the widest vector
   return (count + group_lanes - 1) / group_lanes * group_lanes;
 }
-
-/// Which instructions a loop is compiled for. All give the same bits.
-enum class VectorWidth : std::uint8_t { any, bits_256, bits_512 };
-/// The widest that this processor has.
-VectorWidth vector_width();
 
 }  // namespace dmpc::core

@@ -2,10 +2,12 @@
 #include "core/trace/kernel.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
 #include "core/base/mutation.h"
+#include "core/trace/vector_width.h"
 
 // clang-format off
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
@@ -242,9 +244,16 @@ const TriangleKernel hit_triangles = [] {
   return HWY_DYNAMIC_DISPATCH(triangles);
 }();
 
+VectorWidth vector_width() {
+  static const auto targets = hwy::SupportedTargets();
+  return (targets & (HWY_AVX3 | HWY_AVX3_DL)) != 0 ? VectorWidth::bits_512
+         : (targets & HWY_AVX2) != 0               ? VectorWidth::bits_256
+                                                   : VectorWidth::any;
+}
+
 const char* simd_name() {
-  const auto targets = hwy::SupportedTargets();
-  return (targets & (HWY_AVX3 | HWY_AVX3_DL)) != 0 ? "AVX3" : (targets & HWY_AVX2) != 0 ? "AVX2" : "scalar";
+  constexpr std::array<const char*, 3> names{"scalar", "AVX2", "AVX3"};
+  return names[static_cast<std::size_t>(vector_width())];
 }
 
 namespace {
