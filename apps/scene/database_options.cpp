@@ -11,6 +11,8 @@ const char* name_of(AxesChoice axes) { return axes == AxesChoice::screen ? "scre
 
 const char* name_of(core::RecordOrder order) { return order == core::RecordOrder::scattered ? "scattered" : "spatial"; }
 
+const char* name_of(core::Structure structure) { return structure == core::Structure::extents ? "extents" : "grid"; }
+
 void add_options(OptionSet options, DatabaseOptions& database) {
   options.add_text(
       "--page-size", "SIZE [1KiB]",
@@ -20,6 +22,11 @@ void add_options(OptionSet options, DatabaseOptions& database) {
   options.add_choice<RecordOrder>("--record-order", database.build.record_order,
                                   {{"spatial", RecordOrder::spatial}, {"scattered", RecordOrder::scattered}},
                                   "Which records share a page: neighbours in space, or any (another traffic, the same picture)");
+  using core::Structure;
+  options.add_choice<Structure>("--structure", database.build.structure,
+                                {{"grid", Structure::grid}, {"extents", Structure::extents}},
+                                "How records are found: by a grid whose cells have trees of boxes, or by one tree of boxes over "
+                                "all (another traffic, the same picture)");
   options.add_choice<AxesChoice>("--grid-axes", database.axes, {{"world", AxesChoice::world}, {"screen", AxesChoice::screen}},
                                  "Directions of the grid, and so of dataflow's regions");
 }

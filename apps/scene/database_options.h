@@ -17,6 +17,9 @@ const char* name_of(AxesChoice axes);
 /// As the command line calls it.
 const char* name_of(core::RecordOrder order);
 
+/// As the command line calls it.
+const char* name_of(core::Structure structure);
+
 struct DatabaseOptions {
   core::BuildOptions build;             ///< but for the axes, which follow from the scene
   AxesChoice axes = AxesChoice::world;  ///< which those are to be

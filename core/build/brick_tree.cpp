@@ -4,8 +4,34 @@
 #include <cstddef>
 #include <cstring>
 
+#include "core/base/units.h"
+
 namespace dmpc::core {
 namespace {
+
+/// What a subtree takes of a page, if it begins it.
+std::size_t subtree_bytes(const BrickDraft& draft) {
+  std::size_t bytes = round_up(sizeof(Brick), record_alignment);
+  for (const BrickDraft::Block& block : draft.blocks) {
+    bytes += block.count > 0 ? round_up(block.bytes(), record_alignment) : 0;
+  }
+  for (const BrickDraft& brick : draft.bricks) {
+    bytes += subtree_bytes(brick);
+  }
+  return bytes;
+}
+
+/// Takes room for the brick if no page holds what is below it, too, and so on down; returns whether.
+bool take_forest_room_for(BrickDraft& draft, RecordWriter& writer, std::size_t page_size) {
+  if (subtree_bytes(draft) <= page_size) {
+    return false;
+  }
+  draft.address = writer.allocate(sizeof(Brick));
+  for (BrickDraft& brick : draft.bricks) {
+    take_forest_room_for(brick, writer, page_size);
+  }
+  return true;
+}
 
 Address take_room_for(BrickDraft& draft, RecordWriter& writer) {
   const Address address = writer.allocate(sizeof(Brick));
@@ -22,6 +48,21 @@ Address take_room_for(BrickDraft& draft, RecordWriter& writer) {
     }
   }
   return address;
+}
+
+/// Of what is below bricks of the forest.
+Address take_subtree_room_for(BrickDraft& draft, RecordWriter& writer) {
+  if (draft.address == no_address) {
+    writer.keep_together(subtree_bytes(draft));
+    return take_room_for(draft, writer);
+  }
+  auto next = draft.bricks.begin();
+  for (std::size_t i = 0; i < draft.brick.child_count; ++i) {
+    const BrickDraft::Block& block = draft.blocks[i];
+    draft.brick.child[i] = block.count > 0 ? BrickChild::block(writer.allocate(block.bytes()))
+                                           : BrickChild::brick(take_subtree_room_for(*next++, writer));
+  }
+  return draft.address;
 }
 
 void count_below(const BrickDraft& draft, RecordCounts& records) {
@@ -88,7 +129,14 @@ class TreeWriter {
 
 void BrickTree::count(RecordCounts& records) const { count_below(top, records); }
 
-Address BrickTree::take_room(RecordWriter& writer) { return address = take_room_for(top, writer); }
+Address BrickTree::take_room(RecordWriter& writer) {
+  return address = lies_in_subtrees ? take_subtree_room_for(top, writer) : take_room_for(top, writer);
+}
+
+void BrickTree::take_forest_room(RecordWriter& writer, std::size_t page_size) {
+  lies_in_subtrees = true;
+  take_forest_room_for(top, writer, page_size);
+}
 
 void BrickTree::write(std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading,
                       std::span<const FacePlane> planes, RecordWriter& writer) const {

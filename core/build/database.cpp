@@ -70,11 +70,11 @@ class DatabaseBuilder {
     if (settle_coplanar(conversion_, cells, scene_.materials, parallel_)) {
       cells = sort_into_top_cells();
     }
+    if (options_.structure == Structure::extents) {
+      cells = join_top_cells();
+    }
     header().primitive_count = static_cast<std::uint32_t>(conversion_.primitives.size());
-    write_tables();
-    write_textures();
-    write_normals();
-    write_grid(cells);
+    write_records(cells);
     give_back_freed();  // trees are many small pieces
     result_.references_ = cells.references();
     result_.dropped_ = conversion_.dropped;
@@ -128,6 +128,16 @@ class DatabaseBuilder {
     }
   }
 
+  /// One top cell in place of all. Whatever depends on cells but the boxes of bricks has been settled before, and rays start
+  /// where they would without, so that the picture keeps its bits.
+  TopCells join_top_cells() {
+    header().frame.eye_extent = grid_high(header().frame) - header().frame.low;
+    while (top_cells(header().frame) != std::array<std::int32_t, 3>{1, 1, 1}) {
+      coarsen();
+    }
+    return sort_into_top_cells();
+  }
+
   void coarsen() {
     GridFrame& frame = header().frame;
     for (std::int32_t& cells : frame.resolution) {
@@ -135,6 +145,21 @@ class DatabaseBuilder {
     }
     frame.finest_cell *= 2;
     set_pad();
+  }
+
+  void write_records(const TopCells& cells) {
+    write_tables();
+    std::vector<BrickTree> trees;
+    if (options_.structure == Structure::extents) {
+      trees = draft_trees(cells);
+      write_forest(trees);
+    }
+    write_textures();
+    write_normals();
+    if (options_.structure == Structure::grid) {
+      trees = draft_trees(cells);
+    }
+    write_grid(cells, trees);
   }
 
   void write_tables() {
@@ -186,8 +211,19 @@ class DatabaseBuilder {
     forget(conversion_.textured);
   }
 
-  /// Cells are built at the same time, then take their room in order, and are written at the same time.
-  void write_grid(const TopCells& cells) {
+  /// Room for the bricks that no page holds together with all that is below them: pages of their own, with the tables.
+  void write_forest(std::vector<BrickTree>& trees) {
+    for (BrickTree& tree : trees) {
+      tree.take_forest_room(writer_, options_.page_size_bytes);
+    }
+    writer_.begin_page();
+    if (options_.record_order == RecordOrder::spatial) {
+      result_.forest_page_count_ = writer_.page_bytes() / options_.page_size_bytes;
+    }
+  }
+
+  /// Cells are built at the same time.
+  std::vector<BrickTree> draft_trees(const TopCells& cells) {
     const BrickBuilder builder(conversion_.primitives, result_.pad_, header().frame, parallel_);
     std::vector<BrickTree> trees(cells.size());
     std::uint64_t sorted = 0;
@@ -199,6 +235,11 @@ class DatabaseBuilder {
             options_.progress(sorted, cells.references());
           }
         });
+    return trees;
+  }
+
+  /// Trees take their room in order, and are written at the same time.
+  void write_grid(const TopCells& cells, std::vector<BrickTree>& trees) {
     std::vector<DirectoryEntry> directory(directory_entry_count(header().directory_size));
     for (std::size_t i = 0; i < trees.size(); ++i) {
       const std::uint64_t entry = directory_index(header().directory_size, cells.corner(i));

@@ -11,6 +11,7 @@
 
 #include "core/base/forget.h"
 #include "core/build/record_order.h"
+#include "core/build/structure.h"
 #include "core/record/curved_values.h"
 #include "core/record/record.h"
 #include "core/scene/scene.h"
@@ -21,6 +22,7 @@ struct BuildOptions {
   std::size_t page_size_bytes = 1024;  ///< a power of two, 512 B to 64 KiB
   double cells_per_primitive = 0.125;  ///< sets the size of cells, and with it that of top cells and of the finest lattice
   RecordOrder record_order = RecordOrder::spatial;
+  Structure structure = Structure::grid;  ///< other boxes around the same floats: the picture keeps its bits
   GridAxes axes = world_axes;  ///< the grid's directions: another grid, so other bits, but the same picture to rounding
   std::uint32_t threads = 0;   ///< that build; 0: one for each core. The bytes are the same
   /// Called now and then, by one thread at a time, with the references that are sorted into trees and how many there are: the
@@ -120,13 +122,16 @@ class Database {
   /// Copies of primitives in blocks, at least one each.
   std::uint64_t references() const { return references_; }
   const RecordCounts& records() const { return records_; }
+  /// Of one tree in spatial order, how many pages lie before the first subtree: tables and the bricks above. What a page behind
+  /// them holds of the tree holds all that is below it. 0 for any other database.
+  std::size_t forest_page_count() const { return forest_page_count_; }
   /// Half the width of the slab within which a primitive counts as touching a cell, grid-local.
   double pad() const { return pad_; }
 
  private:
   friend class DatabaseBuilder;
   DatabaseHeader header_;
-  std::size_t page_size_ = 0, page_count_ = 0;
+  std::size_t page_size_ = 0, page_count_ = 0, forest_page_count_ = 0;
   std::vector<std::byte> bytes_;
   std::vector<PrimitiveValues> primitives_;
   std::vector<PrimitiveSource> sources_;

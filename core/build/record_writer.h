@@ -52,6 +52,8 @@ class RecordWriter {
   }
   /// What is taken next begins a page.
   void begin_page() { end_ = round_up(end_, page_size_); }
+  /// What is taken next, up to `bytes` of records, lies in one page.
+  void keep_together(std::size_t bytes) { end_ = place_in_page(end_, bytes, page_size_); }
   /// Makes all room that has been taken writable, so that several threads may write to different records. Call it once, when no
   /// more will be taken: then finish() has nothing to move.
   void make_room() {

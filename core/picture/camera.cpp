@@ -12,7 +12,7 @@ Camera::Camera(const View& view, const GridFrame& frame, int width, int height, 
     : width_(width), height_(height), samples_(samples) {
   expect(width > 0 && height > 0 && samples > 0, "a camera has pixels and samples");
   eye_ = to_local(frame, view.from);
-  const Vec3d low = frame.low, extent = grid_high(frame) - low;
+  const Vec3d low = frame.low, extent = length(frame.eye_extent) > 0 ? frame.eye_extent : grid_high(frame) - low;
   middle_ = low + extent * 0.5;
   reach_ = length(eye_ - middle_) > far_eye_diagonals * length(extent) ? length(extent) : 0;
   const GridAxes screen = screen_axes(view);

@@ -240,6 +240,7 @@ struct GridFrame {
   std::array<std::int32_t, 3> resolution{1, 1, 1};  ///< cells along x, y, z
   float finest_cell = 1;                            ///< edge of a finest cell, grid-local
   Vec3d low;                                        ///< where the grid begins, grid-local: 0 or less
+  Vec3d eye_extent;  ///< what far eyes take for the grid's extent (core/picture/camera.h), if cells were joined; else 0
 };
 
 /// The coordinate, grid-local, of a plane of the finest lattice.

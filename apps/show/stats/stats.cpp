@@ -231,6 +231,7 @@ Json options_json(const RenderRecord& record, const Account& account, const Json
                  {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
                  {"grid_axes", name_of(options.database.axes)},
                  {"record_order", name_of(options.database.build.record_order)},
+                 {"structure", name_of(options.database.build.structure)},
                  {"strategy", name_of(options.strategy)},
                  {"nodes", account.nodes.size()},
                  {"node_memory", account.node_memory_max_bytes},
