@@ -30,11 +30,22 @@ struct WorkCounters {
 };
 WorkCounters& operator+=(WorkCounters& sum, const WorkCounters& more);
 
+/// Questions of nodes that hold a forest, and what became of them.
+struct QuestionCounters {
+  std::uint64_t rays_asked = 0;        ///< what does this ray meet below that child
+  std::uint64_t records_asked = 0;     ///< what is in this record, for shading
+  std::uint64_t rays_answered = 0;     ///< of other nodes
+  std::uint64_t records_answered = 0;  ///< of other nodes
+  std::uint64_t answers = 0;           ///< received, to either
+};
+QuestionCounters& operator+=(QuestionCounters& sum, const QuestionCounters& more);
+
 /// All that a program counted.
 struct ProgramReport {
   core::Operations operations;
   PageCounters pages;
   WorkCounters work;
+  QuestionCounters questions = {};
   std::uint64_t rays_ended = 0;  ///< hit or miss; at the end of a run as many as were shot
 };
 

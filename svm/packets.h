@@ -12,9 +12,13 @@
 //   mask_part              host -> node        bulk      bulk   the host's credit for that node
 //   mask_acknowledgement   node -> host        control   small  the part of the mask
 //   begin_pass             host -> node        control   small  once a pass, when all nodes are done with the one before
+//   questions              node -> owner       request   any    the sender's request credits for that owner
+//   answers                owner -> node       bulk      any    the questions
 //
-// The last three exist only where the picture is refined: when all nodes are done with a pass, each gets the mask of its submap,
-// which tells how many more samples each pixel has, part by part, and when all nodes have theirs the pass begins.
+// Questions and answers stand in place of the first two where the tree's forest is at every node (svm/forest.h). They are small
+// or bulk, as it comes: their credits reserve places of both. Masks and passes exist only where the picture is refined: when all
+// nodes are done with a pass, each gets the mask of its submap, which tells how many more samples each pixel has, part by part,
+// and when all nodes have theirs the pass begins.
 #pragma once
 
 #include <array>
@@ -42,13 +46,15 @@ enum class Kind : nodes::PacketKind {
   stop,
   mask_part,
   mask_acknowledgement,
-  begin_pass
+  begin_pass,
+  questions,
+  answers
 };
 constexpr nodes::PacketKind number_of(Kind kind) { return static_cast<nodes::PacketKind>(kind); }
-static_assert(number_of(Kind::begin_pass) < nodes::packet_kind_count);
-inline constexpr std::array<const char*, 11> kind_names = {"page_request", "page_reply",           "work_request", "work_reply",
-                                                           "film_sums",    "film_acknowledgement", "done",         "stop",
-                                                           "mask_part",    "mask_acknowledgement", "begin_pass"};
+static_assert(number_of(Kind::answers) < nodes::packet_kind_count);
+inline constexpr std::array<const char*, 13> kind_names = {
+    "page_request", "page_reply",           "work_request", "work_reply", "film_sums", "film_acknowledgement", "done", "stop",
+    "mask_part",    "mask_acknowledgement", "begin_pass",   "questions",  "answers"};
 /// The packet's name, for reports.
 constexpr const char* name_of(Kind kind) { return kind_names[number_of(kind)]; }
 
@@ -60,6 +66,24 @@ static_assert(control_channel < nodes::channel_count);
 
 template <class T>
 inline constexpr bool is_small_packet = std::is_trivially_copyable_v<T> && sizeof(T) <= nodes::small_payload_bytes;
+
+/// What a question asks for: what a ray meets below a child, or a record for shading.
+enum class QuestionKind : std::uint8_t { below, block, normals, tile };
+
+/// Stands before a core::Below or, of a record, its core::Address. A packet has as many questions as fill it.
+struct QuestionHeader {
+  std::uint16_t slot = 0;  ///< of the pixel that waits, for the answer
+  QuestionKind kind{};
+  std::uint8_t padding = 0;
+};
+static_assert(sizeof(QuestionHeader) == 4);
+
+/// Stands before as many bytes: a core::Hit, if there is something nearer, or the record. A packet answers a packet.
+struct AnswerHeader {
+  std::uint16_t slot = 0;
+  std::uint16_t bytes = 0;
+};
+static_assert(sizeof(AnswerHeader) == 4);
 
 struct PageRequest {
   PageId page = no_page;

@@ -7,6 +7,7 @@
 #include "core/picture/bundle_task.h"
 #include "nodes/size_text.h"
 #include "nodes/threads/held_packets.h"
+#include "svm/forest.h"
 #include "svm/local_copy.h"
 #include "svm/packets.h"
 #include "svm/pager.h"
@@ -30,9 +31,15 @@ constexpr std::size_t film_packet_max_bytes = 4096;
 constexpr std::uint32_t request_slots_wanted = 256;
 /// More requests to one home than this wait no shorter: it serves them one after another.
 constexpr std::uint32_t request_credits_max = 4;
+/// Room for packets of questions that a node keeps, about.
+constexpr std::size_t question_room_wanted_bytes = std::size_t{64} << 10U;
 constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 
 bool pages_travel(const PlanRequest& request) { return request.strategy == Strategy::svm && request.computer.node_count > 1; }
+
+bool questions_travel(const PlanRequest& request) {
+  return request.strategy == Strategy::forest && request.computer.node_count > 1;
+}
 
 /// Pages that are not at home, at the node that has the fewest at home.
 std::uint32_t foreign_pages_max(const PlanRequest& request) {
@@ -79,6 +86,12 @@ std::uint32_t request_credits_of(const PlanRequest& request, std::uint32_t fault
                    std::clamp(request_slots_wanted / (request.computer.node_count - 1), 1U, request_credits_max)});
 }
 
+/// Packets of questions: no more than tasks, each of which asks one at a time.
+std::uint32_t question_credits_of(const PlanRequest& request, std::uint32_t task_count, std::size_t packet_bytes) {
+  const auto wanted = static_cast<std::uint32_t>(question_room_wanted_bytes / (packet_bytes * (request.computer.node_count - 1)));
+  return std::min(task_count, std::clamp(wanted, 1U, request_credits_max));
+}
+
 std::uint32_t film_credits_of(const PlanRequest& request) {
   return nodes::patient_credits(request.computer.node_count, request.computer.machine.has_value());
 }
@@ -90,11 +103,13 @@ std::uint32_t film_entries_of(const PlanRequest& request) {
 
 /// What a node's mailbox must be able to hold, whoever sends when; the mailbox itself adds the slot of the packet being
 /// received.
-nodes::MailboxCapacity node_mailbox_of(const PlanRequest& request, std::uint32_t faults_max, std::uint32_t request_credits) {
+nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
+  const PlanRequest& request = plan.request;
+  const std::uint32_t request_credits = plan.request_credits, faults_max = plan.faults_max();
   const std::uint32_t others = request.computer.node_count - 1;
   const bool ring = item_side_of(request) > 0;
   nodes::MailboxCapacity capacity;
-  capacity.small_slots = others * request_credits    // page requests: each other node's credits for this home
+  capacity.small_slots = others * request_credits    // page requests or questions: each other node's credits for this home
                          + (ring ? others : 0)       // work requests: each other node has at most one on the ring
                          + (ring ? 1 : 0)            // the reply to this node's own work request
                          + film_credits_of(request)  // acknowledgements: one for each film packet of this node's
@@ -107,6 +122,12 @@ nodes::MailboxCapacity node_mailbox_of(const PlanRequest& request, std::uint32_t
   if (pages_travel(request)) {
     capacity.bulk_slots += faults_max;  // page replies: one for each fault under way
     capacity.bulk_payload_bytes = std::max(capacity.bulk_payload_bytes, sizeof(PageReplyHeader) + request.page_size_bytes);
+  }
+  if (questions_travel(request)) {
+    const std::uint32_t answers = std::min(plan.task_count(), others * request_credits);  // one for each packet of questions
+    capacity.small_slots += answers;
+    capacity.bulk_slots += answers + others * request_credits;  // questions: as page requests above, small or bulk
+    capacity.bulk_payload_bytes = std::max(capacity.bulk_payload_bytes, plan.question_bytes);
   }
   return capacity;
 }
@@ -137,9 +158,13 @@ Plan plan_with(const PlanRequest& request, std::uint32_t frames, std::uint32_t i
   plan.worker_count = worker_count_of(request);
   plan.work_item_side = item_side_of(request);
   plan.request_credits = request_credits_of(request, plan.faults_max());
+  if (questions_travel(request)) {
+    plan.question_bytes = question_packet_bytes(std::min(plan.task_count(), packet_questions_max));
+    plan.request_credits = question_credits_of(request, plan.task_count(), plan.question_bytes);
+  }
   plan.film_credits = film_credits_of(request);
   plan.film_entries = film_entries_of(request);
-  plan.node_mailbox = node_mailbox_of(request, plan.faults_max(), plan.request_credits);
+  plan.node_mailbox = node_mailbox_of(plan);
   plan.host_mailbox = host_mailbox_of(request, plan.film_entries);
   if (request.computer.chaos) {
     plan_chaos(plan, *request.computer.chaos);
@@ -184,14 +209,16 @@ void check(const PlanRequest& request) {
             "in_flight=" + std::to_string(in_flight) + ": from 1 to " + std::to_string(in_flight_max) + " pixels");
   check_use(request.strategy == Strategy::svm || !request.pages.cache_pages,
             "cache_pages=" + std::to_string(request.pages.cache_pages.value_or(0)) +
-                " goes with strategy=svm: replicated has no cache, every node holds the whole database");
+                " goes with strategy=svm: the others have no cache, their nodes need no page of another node");
   check_use(request.strategy == Strategy::svm || request.pages.replacement == Replacement::lru,
             "replacement=" + std::string(name_of(request.pages.replacement)) +
-                " goes with strategy=svm: replicated has no cache, every node holds the whole database");
+                " goes with strategy=svm: the others have no cache, their nodes need no page of another node");
   check_use(request.strategy == Strategy::svm || !request.pages.count_pages, "distinct pages are counted with strategy=svm only");
   check_use(!request.pages.count_pages || !request.refinement.is_wanted(),
             "distinct pages are counted where all pixels have the same samples, not with refinement");
   check_use(request.pages.cache_pages.value_or(1) >= 1, "cache_pages=0: a node needs at least one frame for the pages of others");
+  check_use(request.strategy != Strategy::forest || request.forest_page_count > 0,
+            "strategy=forest needs one tree of boxes whose subtrees lie in pages: structure=extents and record_order=spatial");
   check_recording(request);
   core::expect(request.page_count >= 1 && request.depth_max >= 1, "a database has a page, and a ray a depth");
   core::expect(request.width >= 1 && request.height >= 1, "a picture has a pixel");
@@ -201,7 +228,7 @@ void check(const PlanRequest& request) {
 
 /// What the user asked for, or our choice, as far as there are pixels, before the memory is looked at.
 std::uint32_t wanted_in_flight(const PlanRequest& request) {
-  const std::uint32_t tasks = request.strategy != Strategy::svm ? 1 : request.bundles ? default_bundles : default_tasks;
+  const std::uint32_t tasks = request.strategy == Strategy::replicated ? 1 : request.bundles ? default_bundles : default_tasks;
   const std::uint32_t asked = request.pages.in_flight.value_or(tasks * (request.bundles ? bundle_pixels : 1));
   const auto wanted = static_cast<std::uint32_t>(std::min<std::uint64_t>(asked, node_pixels_max(request)));
   return wanted - wanted % pixels_a_task(request, wanted);
@@ -297,7 +324,9 @@ PageCapacity Plan::pages() const {
           .cache = {frames, request.page_size_bytes, request.pages.replacement},
           .in_flight = task_count(),
           .faults_max = faults_max(),
-          .request_credits = request_credits};
+          .request_credits = request_credits,
+          .forest_pages = request.strategy == Strategy::forest ? request.forest_page_count : 0,
+          .question_bytes = question_bytes};
 }
 
 FilmCapacity Plan::film() const {
@@ -335,6 +364,8 @@ nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
   nodes::MemoryPlan plan;
   if (request.strategy == Strategy::svm) {
     Pager::add_needs(plan, pages(), index);
+  } else if (request.strategy == Strategy::forest) {
+    Forest::add_needs(plan, pages(), index);
   } else {
     LocalCopy::add_needs(plan, pages().database_bytes());
   }

@@ -1,4 +1,4 @@
-// The node program of svm and replicated: pixels under way, work items, and the packets that concern them.
+// The node program of svm, replicated and forest: pixels under way, work items, and the packets that concern them.
 //
 // A quantum runs one pixel, or some that share a task, until it has ended a ray or a bundle, finished, or needs an absent page.
 // Newest first: the pixel that ran last goes on, another one starts only when none can run. With one pixel in flight this is the
@@ -7,7 +7,8 @@
 // Why the last node always moves: requests are served in receive(), whatever the node's own state. A reply's place was
 // reserved when its request left. A page that arrives runs every pixel that waited for it before the next packet is looked
 // at, and one step reads one record, so even one frame serves any number of pixels. A full film starts no pixel and waits for
-// the host, which waits for nobody.
+// the host, which waits for nobody. Questions are answered in receive(), too, from memory that never changes: their asker goes on
+// with other pixels, or waits for nodes that wait for nobody.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +37,7 @@
 
 namespace dmpc::svm {
 
-/// `Records` is Pager, CountingPager or LocalCopy; `Tracer` reads them; `Task` is core::PixelTask, core::BundleTask,
+/// `Records` is Pager, CountingPager, LocalCopy or Forest; `Tracer` reads them; `Task` is core::PixelTask, core::BundleTask,
 /// or a test's.
 template <class Records, class Tracer, class Task = core::PixelTask>
 class ControlProgram final : public NodeProgram {
@@ -65,6 +66,10 @@ class ControlProgram final : public NodeProgram {
         return serve(packet);
       case Kind::page_reply:
         return resume(packet);
+      case Kind::questions:
+        return answer(packet);
+      case Kind::answers:
+        return take_answers(packet);
       case Kind::work_request:
         return work_.answer(packet.as<WorkRequest>());
       case Kind::work_reply:
@@ -108,6 +113,12 @@ class ControlProgram final : public NodeProgram {
     charges[nodes::Charge::home_lookup] = pages.home_hits;
     charges[nodes::Charge::cached_lookup] = pages.references - pages.home_hits;
     charges[nodes::Charge::page_install] = pages.faults - pending_faults();
+    if constexpr (questions_travel) {
+      const QuestionCounters& questions = records_.questions();
+      charges[nodes::Charge::ray_setup] += questions.rays_answered;
+      charges[nodes::Charge::ray_packing] =
+          questions.rays_asked + questions.records_asked + questions.rays_answered + questions.records_answered;
+    }
     return charges;
   }
 
@@ -115,15 +126,17 @@ class ControlProgram final : public NodeProgram {
     if constexpr (Records::pages_travel) {
       return {
           {"pages in cache", records_.cached_pages()}, {"pages awaited", records_.faults()}, {"pixels done", pixels_rendered_}};
+    } else if constexpr (questions_travel) {
+      return {{"questions pending", records_.pending()}, {"pixels done", pixels_rendered_}};
     } else {
       return {{"pixels done", pixels_rendered_}};
     }
   }
 
   std::string describe() const override {
-    return std::to_string(pixels_in_flight_) + " pixels in flight, " + std::to_string(pending_faults()) + " pages awaited, " +
-           std::to_string(film_.gathered()) + " pixels gathered, " + std::to_string(film_.under_way()) +
-           " film packets unacknowledged, " + work_.describe() +
+    return std::to_string(pixels_in_flight_) + " pixels in flight, " + std::to_string(pending()) +
+           (questions_travel ? " answers awaited, " : " pages awaited, ") + std::to_string(film_.gathered()) +
+           " pixels gathered, " + std::to_string(film_.under_way()) + " film packets unacknowledged, " + work_.describe() +
            (stopped_ ? ", stopped"
             : done_  ? ", done"
                      : "");
@@ -133,6 +146,9 @@ class ControlProgram final : public NodeProgram {
     ProgramReport report{operations_, records_.counters(), work_.counters()};
     report.work.pixels_rendered = pixels_rendered_;
     report.rays_ended = rays_ended_;
+    if constexpr (questions_travel) {
+      report.questions = records_.questions();
+    }
     return report;
   }
 
@@ -143,6 +159,7 @@ class ControlProgram final : public NodeProgram {
         nodes::kept(node.memory(), nodes::Category::constants, std::as_bytes(std::span(&settings, 1))).data());
   }
 
+  static constexpr bool questions_travel = requires(Records & records) { records.flush(); };
   static constexpr bool counts_pages = requires(Records & records) { records.forget(); };
 
   bool can_start() const {
@@ -221,6 +238,13 @@ class ControlProgram final : public NodeProgram {
   void park(std::uint32_t slot) {
     if constexpr (Records::pages_travel) {
       records_.park(slot, slots_.task(slot).absent());
+    } else if constexpr (questions_travel) {
+      const Task& task = slots_.task(slot);
+      if (task.is_tracing()) {
+        records_.ask(slot, task.below(settings_.skips));
+      } else {
+        records_.ask(slot, task.absent_kind(), task.absent());
+      }
     } else {
       core::expect(false, "a whole copy of the database lacks no record");
     }
@@ -251,8 +275,34 @@ class ControlProgram final : public NodeProgram {
     }
   }
 
-  /// Nothing can run until a packet comes: ask for work, send what is gathered, or say that all is done.
+  void answer(const nodes::Packet& packet) {
+    if constexpr (questions_travel) {
+      records_.answer(packet, operations_);
+    } else {
+      core::expect(false, "nobody is asked about what every node has, or what travels");
+    }
+  }
+
+  /// Each pixel that has waited runs until its ray ends, or it has another question.
+  void take_answers(const nodes::Packet& packet) {
+    if constexpr (questions_travel) {
+      records_.take(packet, [this](std::uint32_t slot, const core::Hit* hit) {
+        begin_metering();
+        if (hit != nullptr) {
+          slots_.task(slot).take_below(*hit, settings_.skips, operations_);
+        }
+        run(slot);
+      });
+    } else {
+      core::expect(false, "nobody is asked about what every node has, or what travels");
+    }
+  }
+
+  /// Nothing can run until a packet comes: send what is asked, ask for work, send what is gathered, or say that all is done.
   void fall_idle() {
+    if constexpr (questions_travel) {
+      records_.flush();
+    }
     if (slots_.has_free() && !work_.has_pixel()) {
       work_.ask();
     }
@@ -260,7 +310,7 @@ class ControlProgram final : public NodeProgram {
       film_.flush();
     }
     if (!done_ && slots_.active() == 0 && work_.exhausted() && film_.settled()) {
-      core::expect(pending_faults() == 0, "no page is awaited when no pixel is in flight");
+      core::expect(pending() == 0, "nothing is awaited when no pixel is in flight");
       node_->send_reserved(host_, control_channel, number_of(Kind::done), Done{pixels_rendered_ - pixels_announced_});
       pixels_announced_ = pixels_rendered_;
       done_ = true;
@@ -291,6 +341,15 @@ class ControlProgram final : public NodeProgram {
       return records_.faults();
     }
     return 0;
+  }
+
+  /// What pixels wait for: pages or answers.
+  std::uint32_t pending() const {
+    if constexpr (questions_travel) {
+      return records_.pending();
+    } else {
+      return pending_faults();
+    }
   }
 
   const core::RenderSettings& settings_;

@@ -6,6 +6,7 @@
 
 #include "core/base/expect.h"
 #include "core/picture/bundle_task.h"
+#include "svm/forest.h"
 #include "svm/host.h"
 #include "svm/pager.h"
 #include "svm/watch/counting_pager.h"
@@ -33,6 +34,7 @@ PlanRequest request_of(Strategy strategy, const core::Database& database, const 
                        const RunOptions& options) {
   return {.strategy = strategy,
           .page_count = static_cast<std::uint32_t>(database.page_count()),
+          .forest_page_count = static_cast<std::uint32_t>(database.forest_page_count()),
           .page_size_bytes = database.page_size(),
           .computer = options.computer,
           .pages = pages_of(options),
@@ -42,7 +44,7 @@ PlanRequest request_of(Strategy strategy, const core::Database& database, const 
           .first_samples = settings.first_samples().count,
           .refinement = settings.refinement,
           .start = options.continuation.start,
-          .bundles = settings.skips.bundles && walks_in_bundles(options)};
+          .bundles = settings.skips.bundles && strategy != Strategy::forest && walks_in_bundles(options)};
 }
 
 NodeReport report_of(nodes::Node& node, const nodes::Program& program) {
@@ -61,6 +63,11 @@ void check_conservation(const NodeReport& report) {
   core::expect(program.pages.faults == packets_of(counters.sent, Kind::page_request), "every fault was requested, once");
   core::expect(program.pages.faults == packets_of(counters.received, Kind::page_reply), "every page request was replied to");
   core::expect(program.pages.served == packets_of(counters.received, Kind::page_request), "every page request was served");
+  core::expect(program.questions.rays_asked + program.questions.records_asked == program.questions.answers,
+               "every question was answered, once");
+  core::expect(packets_of(counters.sent, Kind::questions) == packets_of(counters.received, Kind::answers) &&
+                   packets_of(counters.received, Kind::questions) == packets_of(counters.sent, Kind::answers),
+               "every packet of questions was answered by one");
   core::expect(program.work.items_asked == packets_of(counters.received, Kind::work_reply), "every work request was answered");
   core::expect(packets_of(counters.sent, Kind::film_sums) == packets_of(counters.received, Kind::film_acknowledgement),
                "every film packet was acknowledged");
@@ -70,6 +77,9 @@ void check_conservation(const Report& report) {
   for (const NodeReport& node : report.nodes) {
     check_conservation(node);
   }
+  const QuestionCounters questions = report.questions();
+  core::expect(questions.rays_asked == questions.rays_answered && questions.records_asked == questions.records_answered,
+               "every question was answered by somebody");
   const WorkCounters work = report.work();
   core::expect(work.items_given == work.items_taken, "every work item given was taken");
   core::expect(work.pixels_rendered == report.pixels_done, "every pixel was rendered once a pass");
@@ -137,6 +147,15 @@ WorkCounters& operator+=(WorkCounters& sum, const WorkCounters& more) {
   return sum;
 }
 
+QuestionCounters& operator+=(QuestionCounters& sum, const QuestionCounters& more) {
+  sum.rays_asked += more.rays_asked;
+  sum.records_asked += more.records_asked;
+  sum.rays_answered += more.rays_answered;
+  sum.records_answered += more.records_answered;
+  sum.answers += more.answers;
+  return sum;
+}
+
 core::Operations Report::operations() const {
   core::Operations sum;
   for (const NodeReport& node : nodes) {
@@ -157,6 +176,14 @@ WorkCounters Report::work() const {
   WorkCounters sum;
   for (const NodeReport& node : nodes) {
     sum += node.program.work;
+  }
+  return sum;
+}
+
+QuestionCounters Report::questions() const {
+  QuestionCounters sum;
+  for (const NodeReport& node : nodes) {
+    sum += node.program.questions;
   }
   return sum;
 }
@@ -249,6 +276,14 @@ Report run_replicated(const core::Database& database, const core::RenderSettings
   const core::FineDetail detail = settings.fine_detail(database);
   plan.request.detail = &detail;
   return run_programs(plan, maker<LocalCopy>(database, settings, plan, options), options, std::move(stop));
+}
+
+Report run_forest(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
+                  std::stop_token stop) {
+  Plan plan = plan_of(Strategy::forest, database, settings, options);
+  const core::FineDetail detail = settings.fine_detail(database);
+  plan.request.detail = &detail;
+  return run_programs(plan, maker<Forest>(database, settings, plan, options), options, std::move(stop));
 }
 
 }  // namespace dmpc::svm

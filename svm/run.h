@@ -65,6 +65,7 @@ struct Report {
   core::Operations operations() const;  ///< summed over the nodes
   PageCounters pages() const;
   WorkCounters work() const;
+  QuestionCounters questions() const;
   /// Packets and bytes sent by all nodes and the host, by Kind's number.
   std::array<nodes::Traffic, nodes::packet_kind_count> sent() const;
 };
@@ -107,6 +108,10 @@ Report run_replicated(const core::Database& database, const core::RenderSettings
   };
   return run_programs(plan, make_program, options, std::move(stop));
 }
+
+/// Renders with strategy forest, a database of one tree in spatial order (core::Database::forest_page_count()).
+Report run_forest(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
+                  std::stop_token stop);
 
 /// Renders with strategy replicated and our own grid.
 Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,

@@ -12,7 +12,7 @@ struct FieldName {
   std::string_view field, option;
 };
 /// Of svm::PlanRequest and dataflow::PlanRequest.
-constexpr std::array<FieldName, 12> field_names = {{{"node_count=", "--nodes="},
+constexpr std::array<FieldName, 14> field_names = {{{"node_count=", "--nodes="},
                                                     {"node_memory_bytes=", "--node-memory="},
                                                     {"page_size_bytes=", "--page-size="},
                                                     {"cache_pages=", "--cache-pages="},
@@ -23,7 +23,9 @@ constexpr std::array<FieldName, 12> field_names = {{{"node_count=", "--nodes="},
                                                     {"ray_batch=", "--ray-batch="},
                                                     {"ray_credits=", "--ray-credits="},
                                                     {"queue_packets=", "--ray-queue="},
-                                                    {"strategy=", "--strategy="}}};
+                                                    {"strategy=", "--strategy="},
+                                                    {"structure=", "--structure="},
+                                                    {"record_order=", "--record-order="}}};
 
 bool is_within_word(const std::string& text, std::size_t at) {
   return at > 0 && (text[at - 1] == '-' || text[at - 1] == '_' || (text[at - 1] >= 'a' && text[at - 1] <= 'z'));

@@ -123,7 +123,10 @@ void add_options(OptionSet options, RenderOptions& render) {
   add_topology_option(options, *render.rays.topology);
   add_study_options(options, render);
   add_options(options, render.checkpoint);
-  options.check_in_the_end([options, &render] { check(options, render); });
+  options.check_in_the_end([options, &render] {
+    settle_database(options, render.strategy, render.database);
+    check(options, render);
+  });
   options.set_examples(
       "Examples:\n"
       "  dmpc render teapot-12 --nodes=8 -o teapot.png\n"

@@ -24,10 +24,10 @@ std::uint32_t bits_of(std::initializer_list<Kind> kinds) {
   return bits;
 }
 
-WaitKinds waits_of(const svm::Report&) {
+WaitKinds waits_of(const svm::Report& report) {
   using svm::Kind;
-  return {.data = "page",
-          .data_kinds = bits_of({Kind::page_reply}),
+  return {.data = report.plan.request.strategy == svm::Strategy::forest ? "answer" : "page",
+          .data_kinds = bits_of({Kind::page_reply, Kind::questions, Kind::answers}),
           .work_kinds = bits_of({Kind::work_request, Kind::work_reply, Kind::mask_part, Kind::begin_pass}),
           .end_kinds = bits_of({Kind::stop})};
 }

@@ -15,9 +15,9 @@ namespace dmpc::apps {
 
 namespace {
 
-/// A node of a modelled machine waits for its page, as those of the 1994 paper did.
+/// A node of a modelled machine waits for its page, as those of the 1994 paper did; questions go by many.
 std::optional<std::uint32_t> in_flight(const StrategyOptions& options) {
-  const bool is_modelled = options.computer.machine.has_value();
+  const bool is_modelled = options.computer.machine.has_value() && options.strategy != Strategy::forest;
   return is_modelled && !options.pages.in_flight ? 1 : options.pages.in_flight;
 }
 
@@ -40,24 +40,42 @@ void check_room(const Plan& plan, std::uint32_t node_count) {
   check_memory_room(bytes, counted(node_count, "node") + " and the host");
 }
 
-/// svm and replicated.
+svm::Strategy page_strategy(Strategy strategy) {
+  return strategy == Strategy::svm      ? svm::Strategy::svm
+         : strategy == Strategy::forest ? svm::Strategy::forest
+                                        : svm::Strategy::replicated;
+}
+
+svm::Report run_with_pages(svm::Strategy strategy, const core::Database& database, const core::RenderSettings& settings,
+                           const svm::RunOptions& run, std::stop_token stop) {
+  switch (strategy) {
+    case svm::Strategy::svm:
+      return svm::run_svm(database, settings, run, std::move(stop));
+    case svm::Strategy::forest:
+      return svm::run_forest(database, settings, run, std::move(stop));
+    case svm::Strategy::replicated:
+      break;
+  }
+  return svm::run_replicated(database, settings, run, std::move(stop));
+}
+
+/// svm, replicated and forest.
 ReadyRun ready_with_pages(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
                           const nodes::Watching& watching, const core::Continuation& continuation) {
-  const bool paged = options.strategy == Strategy::svm, by_embree = options.tracer == TracerChoice::embree;
+  const svm::Strategy strategy = page_strategy(options.strategy);
+  const bool by_embree = options.tracer == TracerChoice::embree;
   svm::RunOptions run{.computer = options.computer, .pages = options.pages, .watching = watching, .continuation = continuation};
   run.pages.in_flight = in_flight(options);
   run.tracer_is_own = by_embree;
-  const auto start = [&database, &settings, run, paged, by_embree](const nodes::Progress& progress,
-                                                                   std::stop_token stop) -> Report {
+  const auto start = [&database, &settings, run, strategy, by_embree](const nodes::Progress& progress,
+                                                                      std::stop_token stop) -> Report {
     svm::RunOptions watched = run;
     watched.watching.progress = progress;
     if (by_embree) {
       return run_with_embree(database, settings, watched, std::move(stop));
     }
-    return paged ? svm::run_svm(database, settings, watched, std::move(stop))
-                 : svm::run_replicated(database, settings, watched, std::move(stop));
+    return run_with_pages(strategy, database, settings, watched, std::move(stop));
   };
-  const auto strategy = paged ? svm::Strategy::svm : svm::Strategy::replicated;
   const svm::Plan plan = with_options_named([&] { return svm::plan_of(strategy, database, settings, run); });
   check_room(plan, run.computer.node_count);
   return {plan.notes, start};

@@ -38,9 +38,13 @@ const std::vector<Belonging>& belongings() {
       {"--cache-pages", {Strategy::svm}, "a node of the others needs no page of another node"},
       {"--replacement", {Strategy::svm}, "a node of the others keeps no page of another node"},
       {"--count-pages", {Strategy::svm}, "the others look up no pages"},
-      {"--in-flight", {Strategy::svm, Strategy::replicated}, "a node of dataflow traces one ray at a time"},
-      {"--work-item", {Strategy::svm, Strategy::replicated}, "a node of dataflow works on what comes to its region"},
-      {"--workers", {Strategy::svm, Strategy::replicated}, "every node of dataflow works on what comes to its region"},
+      {"--in-flight", {Strategy::svm, Strategy::replicated, Strategy::forest}, "a node of dataflow traces one ray at a time"},
+      {"--work-item",
+       {Strategy::svm, Strategy::replicated, Strategy::forest},
+       "a node of dataflow works on what comes to its region"},
+      {"--workers",
+       {Strategy::svm, Strategy::replicated, Strategy::forest},
+       "every node of dataflow works on what comes to its region"},
       {"--balance", {Strategy::dataflow}, "the others share out pixels, not space"},
       {"--subsample", {Strategy::dataflow}, "the others share out pixels, not space"},
       {"--balance-grid", {Strategy::dataflow}, "the others share out pixels, not space"},
@@ -71,6 +75,8 @@ const char* name_of(Strategy strategy) {
       return "replicated";
     case Strategy::dataflow:
       return "dataflow";
+    case Strategy::forest:
+      return "forest";
   }
   core::expect(false, "a strategy has a name");
   return "";
@@ -80,9 +86,14 @@ const char* name_of(RunnerKind runner) { return runner == RunnerKind::threads ? 
 
 void add_strategy_option(OptionSet options, Strategy& strategy) {
   options.add_choice<Strategy>(
-      "--strategy", strategy, {{"svm", Strategy::svm}, {"replicated", Strategy::replicated}, {"dataflow", Strategy::dataflow}},
+      "--strategy", strategy,
+      {{"svm", Strategy::svm},
+       {"replicated", Strategy::replicated},
+       {"dataflow", Strategy::dataflow},
+       {"forest", Strategy::forest}},
       "svm: the scene is spread over the nodes and its pages travel. replicated: every node holds it all. dataflow: every node "
-      "holds a region of space and rays travel");
+      "holds a region of space and rays travel. forest: every node holds the top of the tree of boxes, and subtrees about which "
+      "others ask (--structure=extents)");
 }
 
 void add_memory_option(OptionSet options, std::optional<std::size_t>& node_memory_bytes) {
@@ -102,7 +113,7 @@ void add_machine_options(OptionSet options, RunnerOptions& runner, const std::st
 }
 
 void add_page_options(OptionSet options, svm::PageOptions& pages, const std::string& in_flight_default) {
-  options.begin_group("Strategies svm and replicated");
+  options.begin_group("Strategies svm, replicated and forest");
   options.add_number("--cache-pages", pages.cache_pages, 1, 0x7fffffff,
                      "a quarter of the database; with --node-memory what it holds",
                      "Pages of other nodes that a node can keep (svm)");
@@ -116,7 +127,7 @@ void add_page_options(OptionSet options, svm::PageOptions& pages, const std::str
   options.add_number("--work-item", pages.work_item_side, 0, 1024, "4, or 3 if rays walk alone",
                      "Side in pixels of what a node gives to an idle one; 0: nothing is given");
   options.add_number("--workers", pages.worker_count, 1, svm::node_count_max, "all nodes",
-                     "Nodes that render; the others lend their memories and serve pages");
+                     "Nodes that render; the others lend their memories, and serve pages or answer");
 }
 
 void add_ray_options(OptionSet options, dataflow::RayOptions& rays) {
@@ -136,6 +147,23 @@ void check_together(const OptionSet& options, const StrategyOptions& run) {
   check_strategy(options, run);
   if (run.runner.no_contention && run.runner.memory_port) {
     throw UsageError("--memory-port does not go with --no-contention: without contention no message waits for a port");
+  }
+}
+
+core::Structure structure_of(Strategy strategy) {
+  return strategy == Strategy::forest ? core::Structure::extents : core::Structure::grid;
+}
+
+void settle_database(const OptionSet& options, Strategy strategy, DatabaseOptions& database) {
+  core::BuildOptions& build = database.build;
+  if (!options.is_given("--structure")) {
+    build.structure = structure_of(strategy);
+  }
+  if (strategy == Strategy::forest && build.structure != core::Structure::extents) {
+    throw UsageError("--structure=grid does not go with --strategy=forest: its nodes share one tree of boxes");
+  }
+  if (strategy == Strategy::forest && build.record_order != core::RecordOrder::spatial) {
+    throw UsageError("--record-order=scattered does not go with --strategy=forest: a subtree lies in one page");
   }
 }
 

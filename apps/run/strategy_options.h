@@ -7,14 +7,16 @@
 #include <string>
 
 #include "apps/line/command_line.h"
+#include "apps/scene/database_options.h"
 #include "dataflow/ray_options.h"
 #include "nodes/computer_request.h"
 #include "svm/page_options.h"
 
 namespace dmpc::apps {
 
-/// svm: pages travel. replicated: nothing does, every node holds the whole scene. dataflow: rays travel.
-enum class Strategy : std::uint8_t { svm, replicated, dataflow };
+/// svm: pages travel. replicated: nothing does, every node holds the whole scene. dataflow: rays travel. forest: questions about
+/// rays do, and answers.
+enum class Strategy : std::uint8_t { svm, replicated, dataflow, forest };
 /// As the command line calls it.
 const char* name_of(Strategy strategy);
 
@@ -60,6 +62,11 @@ void add_ray_options(OptionSet options, dataflow::RayOptions& rays);
 /// For OptionSet::check_in_the_end(): throws core::UsageError for options, of those declared above or --topology or
 /// --count-pages, that do not go with the strategy, the machine or each other.
 void check_together(const OptionSet& options, const StrategyOptions& strategy);
+/// The structure that a strategy's database has unless one is asked for.
+core::Structure structure_of(Strategy strategy);
+/// For OptionSet::check_in_the_end(), of options that are declared by add_options(OptionSet, DatabaseOptions&), too: chooses what
+/// a strategy needs where nothing is said. Throws core::UsageError for a database that the strategy does not take.
+void settle_database(const OptionSet& options, Strategy strategy, DatabaseOptions& database);
 /// Throws core::UsageError for more nodes than the strategy takes.
 void check_node_count(Strategy strategy, std::uint32_t node_count);
 

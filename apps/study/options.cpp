@@ -36,7 +36,8 @@ void add_node_counts(OptionSet& set, std::vector<std::uint32_t>& counts, std::ui
 }
 
 /// In the end: the options go together, and the machine is read.
-void finish(const OptionSet& set, SpeedupStudy& study) {
+void finish(const OptionSet& set, SpeedupStudy& study, DatabaseOptions& database) {
+  settle_database(set, study.run.strategy, database);
   check_together(set, study.run);
   for (const std::uint32_t node_count : study.node_counts) {
     check_node_count(study.run.strategy, node_count);
@@ -48,6 +49,7 @@ void finish(const OptionSet& set, SpeedupStudy& study) {
 struct AddOwn {
   OptionSet& set;
   std::string& machine_name;
+  DatabaseOptions& database;
 
   void operator()(BalanceStudy& study) const {
     add_node_counts(set, study.node_counts);
@@ -91,9 +93,9 @@ struct AddOwn {
     add_machine_options(set, study.run.runner, "");
     add_page_options(set, study.run.pages, "1");
     add_ray_options(set, study.run.rays);
-    set.check_in_the_end([set = set, &study, &file = machine_name] {
+    set.check_in_the_end([set = set, &study, &file = machine_name, &wanted = database] {
       file = study.run.runner.machine_name;
-      finish(set, study);
+      finish(set, study, wanted);
     });
     set.set_examples(
         "Examples:\n"
@@ -112,7 +114,7 @@ void add_options(OptionSet set, StudyOptions& options) {
   add_options(set, options.database);
   add_options(set, options.table, TableExtras::plots_and_report);
   set.add_quiet(options.quiet);
-  std::visit(AddOwn{set, options.machine_name}, options.study);
+  std::visit(AddOwn{set, options.machine_name, options.database}, options.study);
 }
 
 }  // namespace dmpc::apps

@@ -1,5 +1,7 @@
 #include "core/picture/hit_state.h"
 
+#include "core/base/expect.h"
+
 namespace dmpc::core {
 
 HitState begin_shading(const Ray& ray, const Hit& hit) {
@@ -7,6 +9,21 @@ HitState begin_shading(const Ray& ray, const Hit& hit) {
   state.ray = ray;
   state.hit = hit;
   return state;
+}
+
+ShadingRecord shading_record_of(const HitState& state) {
+  switch (state.stage) {
+    case HitState::Stage::geometry:
+      return ShadingRecord::block;
+    case HitState::Stage::normals:
+      return ShadingRecord::normals;
+    case HitState::Stage::texture:
+      return ShadingRecord::tile;
+    default:
+      break;
+  }
+  expect(false, "tables, materials and lights are never absent by themselves");
+  return ShadingRecord::block;
 }
 
 Address record_needed(const HitState& state, const DatabaseHeader& header) {

@@ -11,6 +11,7 @@
 #include "core/record/hit.h"
 #include "core/record/ray.h"
 #include "core/record/record.h"
+#include "core/record/shading_record.h"
 
 namespace dmpc::core {
 
@@ -74,6 +75,9 @@ inline double relative_index(const HitState& state) {
 
 /// The state of a fresh hit.
 HitState begin_shading(const Ray& ray, const Hit& hit);
+
+/// What the next step reads, if that is neither material nor light nor a table of tiles.
+ShadingRecord shading_record_of(const HitState& state);
 
 /// The record that the next step reads, or no_address if it reads none.
 Address record_needed(const HitState& state, const DatabaseHeader& header);

@@ -5,11 +5,13 @@
 #include <optional>
 #include <span>
 
+#include "core/base/expect.h"
 #include "core/picture/background.h"
 #include "core/picture/camera.h"
 #include "core/picture/film.h"
 #include "core/picture/refinement.h"
 #include "core/picture/shade.h"
+#include "core/trace/below.h"
 #include "core/trace/bundle_walk.h"
 #include "core/trace/operations.h"
 #include "core/trace/traversal.h"
@@ -112,6 +114,17 @@ class PixelTask {
   TaskState run(T& tracer, const RenderSettings& settings, Operations& operations);
 
   Address absent() const { return absent_; }
+  /// Of a task that needs an absent record: whether its ray's walk does, so that somebody else may walk on below it, or the
+  /// shading of a hit.
+  bool is_tracing() const { return tracing_; }
+  core::Below below(const Skips& skips) const { return core::below(ray_, cursor_, skips); }
+  /// What lies below has been looked through; run() goes on behind it.
+  void take_below(const Hit& found, const Skips& skips, Operations& operations) {
+    expect(tracing_, "a walk is what waits for what lies below");
+    core::take_below(found, ray_, skips, cursor_, operations);
+  }
+  /// Which record the shading needs.
+  ShadingRecord absent_kind() const { return shading_record_of(stack_[stack_size_ - 1]); }
   /// Rays that a run() which returned `more` has ended.
   std::uint32_t rays_ended() const { return 1; }
   std::uint32_t pixel_count() const { return 1; }

@@ -1,0 +1,88 @@
+// A part of a ray's walk that somebody else does: all that lies below a child whose record is absent.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "core/base/expect.h"
+#include "core/record/hit.h"
+#include "core/record/ray.h"
+#include "core/record/record.h"
+#include "core/record/records.h"
+#include "core/trace/cursor.h"
+#include "core/trace/traversal.h"
+
+namespace dmpc::core {
+
+/// All that decides what a walk finds below `child`, and what it counts on the way: the ray and the bounds as the walk itself
+/// would use them, bit by bit.
+struct Below {
+  Vec3f origin, origin_rest, direction, direction_rest;  ///< as a Ray has them
+  float t_max = 0;
+  std::uint32_t ignored_primitive = no_primitive;
+  BrickChild child = BrickChild::none();
+  float t_low = 0, t_high = 0;                  ///< of the top cell
+  float best_t = 0;                             ///< of the nearest hit so far
+  std::uint32_t best_primitive = no_primitive;  ///< no_primitive: there is none
+  std::uint32_t any = 0;                        ///< 1: any hit will do
+};
+static_assert(sizeof(Below) == 80 && std::is_trivially_copyable_v<Below>);
+
+/// Whether any hit ends the ray's walk.
+inline bool ends_at_any_hit(const Ray& ray, const Skips& skips) { return skips.any_hit && ray.kind == RayKind::shadow; }
+
+/// What trace() has left undone that has answered Traced::absent below the directory.
+inline Below below(const Ray& ray, const Cursor& cursor, const Skips& skips) {
+  expect(cursor.stage == Cursor::Stage::child && cursor.next.found(), "a walk that waits for a child is below the directory");
+  return {.origin = ray.origin,
+          .origin_rest = ray.origin_rest,
+          .direction = ray.direction,
+          .direction_rest = ray.direction_rest,
+          .t_max = ray.t_max,
+          .ignored_primitive = ray.ignored_primitive,
+          .child = cursor.next,
+          .t_low = static_cast<float>(cursor.t_enter),
+          .t_high = static_cast<float>(cursor.exit.t),
+          .best_t = cursor.best.t,
+          .best_primitive = cursor.best.primitive,
+          .any = ends_at_any_hit(ray, skips) ? 1U : 0U};
+}
+
+/// Does it with records that are all here. Found if something is nearer than what was the nearest.
+template <Records R>
+Hit trace_below(const Below& below, R& records, Operations& operations) {
+  const Ray ray{.origin = below.origin,
+                .t_max = below.t_max,
+                .direction = below.direction,
+                .ignored_primitive = below.ignored_primitive,
+                .origin_rest = below.origin_rest,
+                .direction_rest = below.direction_rest};
+  Cursor cursor;
+  cursor.best.t = below.best_t;
+  cursor.best.primitive = below.best_primitive;
+  cursor.best.block = Address{0};  // known to whoever asks
+  cursor.t_enter = double{below.t_low};
+  cursor.exit.t = double{below.t_high};
+  cursor.next = below.child;
+  cursor.waiting.count = 0;
+  cursor.waiting.t_taken = 0;
+  const ShearedRay sheared(ray);
+  const bool visited = visit_children(
+      ray, BoxRay(ray, reciprocal_direction(ray)), below.any != 0, cursor, records, operations, meet_children,
+      [&](const std::byte* record, Address address, Hit& best) { test_block(ray, sheared, record, address, best, operations); });
+  expect(visited, "whoever has a child's record has all that is below it");
+  return cursor.best.primitive == below.best_primitive ? Hit{} : cursor.best;
+}
+
+/// Takes what trace_below() has found into the walk that asked: trace() then goes on behind the child.
+inline void take_below(const Hit& found, const Ray& ray, const Skips& skips, Cursor& cursor, Operations& operations) {
+  if (found.found()) {
+    expect(nearer(found.t, found.primitive, cursor.best), "what is found below a child is nearer than what was known");
+    cursor.best = found;
+  }
+  const bool ends = ends_at_any_hit(ray, skips) && cursor.best.found();
+  operations.skipped.any_hit += ends ? count_before(cursor.waiting, cursor.best) : 0;
+  cursor.next = ends ? BrickChild::none() : cursor.waiting.take_up_to(cursor.best.t);
+}
+
+}  // namespace dmpc::core
