@@ -21,12 +21,28 @@ std::size_t subtree_bytes(const BrickDraft& draft) {
   return bytes;
 }
 
+/// Takes room for the children of a brick that are blocks.
+void take_block_room(BrickDraft& draft, RecordWriter& writer) {
+  for (std::size_t i = 0; i < draft.brick.child_count; ++i) {
+    if (const BrickDraft::Block& block = draft.blocks[i]; block.count > 0) {
+      draft.brick.child[i] = BrickChild::block(writer.allocate(block.bytes()));
+    }
+  }
+}
+
+/// Blocks beside bricks are of what is large, which many rays meet: they belong to the forest, lest one page be asked about by
+/// all.
+bool has_blocks_in_forest(const BrickDraft& draft) { return !draft.bricks.empty(); }
+
 /// Takes room for the brick if no page holds what is below it, too, and so on down; returns whether.
 bool take_forest_room_for(BrickDraft& draft, RecordWriter& writer, std::size_t page_size) {
   if (subtree_bytes(draft) <= page_size) {
     return false;
   }
   draft.address = writer.allocate(sizeof(Brick));
+  if (has_blocks_in_forest(draft)) {
+    take_block_room(draft, writer);
+  }
   for (BrickDraft& brick : draft.bricks) {
     take_forest_room_for(brick, writer, page_size);
   }
@@ -35,12 +51,7 @@ bool take_forest_room_for(BrickDraft& draft, RecordWriter& writer, std::size_t p
 
 Address take_room_for(BrickDraft& draft, RecordWriter& writer) {
   const Address address = writer.allocate(sizeof(Brick));
-  for (std::size_t i = 0; i < draft.brick.child_count; ++i) {
-    const BrickDraft::Block& block = draft.blocks[i];
-    if (block.count > 0) {
-      draft.brick.child[i] = BrickChild::block(writer.allocate(block.bytes()));
-    }
-  }
+  take_block_room(draft, writer);
   auto next = draft.bricks.begin();
   for (std::size_t i = 0; i < draft.brick.child_count; ++i) {
     if (draft.blocks[i].count == 0) {
@@ -56,11 +67,14 @@ Address take_subtree_room_for(BrickDraft& draft, RecordWriter& writer) {
     writer.keep_together(subtree_bytes(draft));
     return take_room_for(draft, writer);
   }
+  if (!has_blocks_in_forest(draft)) {
+    take_block_room(draft, writer);
+  }
   auto next = draft.bricks.begin();
   for (std::size_t i = 0; i < draft.brick.child_count; ++i) {
-    const BrickDraft::Block& block = draft.blocks[i];
-    draft.brick.child[i] = block.count > 0 ? BrickChild::block(writer.allocate(block.bytes()))
-                                           : BrickChild::brick(take_subtree_room_for(*next++, writer));
+    if (draft.blocks[i].count == 0) {
+      draft.brick.child[i] = BrickChild::brick(take_subtree_room_for(*next++, writer));
+    }
   }
   return draft.address;
 }
