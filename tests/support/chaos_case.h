@@ -19,8 +19,9 @@ namespace dmpc::tests {
 /// All draws of a seed, in a fixed order: what all strategies have alike.
 class ChaosCase {
  public:
-  explicit ChaosCase(std::uint64_t seed)
+  explicit ChaosCase(std::uint64_t seed, core::Structure structure = core::Structure::grid)
       : seed_(seed),
+        structure_(structure),
         draws_(core::mix(seed + 1)),
         subject_(draws_.below(static_cast<std::uint32_t>(chaos_subjects().size()))),
         nodes_(one_of({1U, 2U, 2U, 3U, 3U, 5U, 5U, 8U, 8U, 13U, 17U, 33U, 64U})),
@@ -29,13 +30,13 @@ class ChaosCase {
         part_(1 + draws_.below(40)) {}
 
   std::uint64_t seed() const { return seed_; }
-  const Subject& subject() const { return chaos_subject(subject_); }
+  const Subject& subject() const { return chaos_subject(subject_, structure_); }
   /// Rendered in parts, each of which keeps something and is then stopped.
   bool is_in_parts() const { return is_in_parts_ && !is_modelled_; }
   /// How often light comes in a part until it is kept.
   std::uint32_t part() const { return part_; }
 
-  /// Of svm; replicated has no cache. `round` tells the parts of one picture apart.
+  /// Of svm; replicated and forest have no cache. `round` tells the parts of one picture apart.
   svm::RunOptions page_options(svm::Strategy strategy, std::uint32_t round = 0) {
     svm::RunOptions options{.computer = {.node_count = nodes_}};
     options.pages.in_flight = one_of<std::optional<std::uint32_t>>({1, 1, 2, 3, 5, 8, 64, 4096, std::nullopt});
@@ -101,6 +102,7 @@ class ChaosCase {
   }
 
   std::uint64_t seed_;
+  core::Structure structure_;
   nodes::ChaosStream draws_;
   std::size_t subject_;
   std::uint32_t nodes_;

@@ -56,14 +56,15 @@ inline const std::array<ChaosSubject, 16>& chaos_subjects() {
 }
 
 /// The subject with this number, made when it is first asked for. Not thread-safe.
-inline const Subject& chaos_subject(std::size_t number) {
-  static std::array<std::unique_ptr<const Subject>, 16> made;
+inline const Subject& chaos_subject(std::size_t number, core::Structure structure = core::Structure::grid) {
+  static std::array<std::array<std::unique_ptr<const Subject>, 16>, 2> made;
   const ChaosSubject& wanted = chaos_subjects().at(number);
-  if (!made.at(number)) {
-    made[number] = std::make_unique<const Subject>(wanted.scene(), wanted.size,
-                                                   core::BuildOptions{.page_size_bytes = wanted.page_size_bytes});
+  std::unique_ptr<const Subject>& subject = made.at(structure == core::Structure::grid ? 0 : 1).at(number);
+  if (!subject) {
+    subject = std::make_unique<const Subject>(
+        wanted.scene(), wanted.size, core::BuildOptions{.page_size_bytes = wanted.page_size_bytes, .structure = structure});
   }
-  return *made[number];
+  return *subject;
 }
 
 }  // namespace dmpc::tests

@@ -63,6 +63,9 @@ svm::Report run_svm(const Subject& subject, const svm::RunOptions& options, cons
 svm::Report run_replicated(const Subject& subject, const svm::RunOptions& options, const std::stop_token& stop) {
   return svm::run_replicated(subject.database(), subject.settings(), options, stop);
 }
+svm::Report run_forest(const Subject& subject, const svm::RunOptions& options, const std::stop_token& stop) {
+  return svm::run_forest(subject.database(), subject.settings(), options, stop);
+}
 dataflow::Report run_dataflow(const Subject& subject, const dataflow::RunOptions& options, const std::stop_token& stop) {
   return dataflow::run_dataflow(subject.database(), subject.settings(), options, stop);
 }
@@ -116,13 +119,14 @@ void check_parts(ChaosCase& one, Damage& damage, const MakeOptions& options_of, 
 
 /// `run` renders what a seed stands for.
 template <class MakeOptions, class Run>
-void check_seeds(const MakeOptions& options_of, const Run& run) {
+void check_seeds(const MakeOptions& options_of, const Run& run, core::Structure structure = core::Structure::grid,
+                 std::uint64_t wanted = seeds_by_default) {
   const std::uint64_t first = number_from_environment("DMPC_CHAOS_FIRST", 1);
-  const std::uint64_t count = number_from_environment("DMPC_CHAOS_SEEDS", seeds_by_default);
+  const std::uint64_t count = number_from_environment("DMPC_CHAOS_SEEDS", wanted);
   Damage damage;
   for (std::uint64_t seed = first; seed - first < count; ++seed) {
     CAPTURE(seed);
-    ChaosCase one(seed);
+    ChaosCase one(seed, structure);
     CAPTURE(one);
     INFO("again: tests/chaos --seeds=1 --first=", seed);
     if (one.is_in_parts()) {
@@ -165,6 +169,11 @@ TEST_CASE("chaos: any seed leaves svm its picture") {
 TEST_CASE("chaos: any seed leaves replicated its picture") {
   check_seeds([](ChaosCase& one, std::uint32_t round) { return one.page_options(svm::Strategy::replicated, round); },
               run_replicated);
+}
+
+TEST_CASE("chaos: any seed leaves forest its picture") {
+  check_seeds([](ChaosCase& one, std::uint32_t round) { return one.page_options(svm::Strategy::forest, round); }, run_forest,
+              core::Structure::extents, seeds_by_default * 3 / 2);
 }
 
 TEST_CASE("chaos: any seed leaves dataflow its picture") {

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "apps/bench/stability/cells.h"
 #include "core/base/units.h"
@@ -37,37 +38,49 @@ using tests::outcome_of;
 using tests::scaled_edge;
 using tests::Subject;
 
-/// A scene's databases by page size.
+/// A scene's databases by structure and page size.
 class Subjects {
  public:
   Subjects(const core::Scene& scene, const Subject::Size& size) {
     core::BuildOptions options = apps::several_top_cells(scene);
-    for (const std::size_t page_size : page_sizes) {
-      options.page_size_bytes = page_size;
-      subjects_.try_emplace(page_size, scene, size, options);
-      CHECK(subjects_.at(page_size).outcome() == subjects_.begin()->second.outcome());
+    for (const core::Structure structure : {core::Structure::grid, core::Structure::extents}) {
+      for (const std::size_t page_size : page_sizes) {
+        options.structure = structure;
+        options.page_size_bytes = page_size;
+        const auto made = subjects_.try_emplace({structure, page_size}, scene, size, options).first;
+        CHECK(made->second.outcome() == subjects_.begin()->second.outcome());
+      }
     }
   }
-  const Subject& with_pages_of(std::size_t size_bytes) const { return subjects_.at(size_bytes); }
+  const Subject& with(core::Structure structure, std::size_t page_size_bytes) const {
+    return subjects_.at({structure, page_size_bytes});
+  }
 
  private:
-  std::map<std::size_t, Subject> subjects_;
+  std::map<std::pair<core::Structure, std::size_t>, Subject> subjects_;
 };
+
+/// Strategies by number.
+svm::Report run_paged(std::size_t strategy, const Subject& subject, const svm::RunOptions& options) {
+  return strategy == 0   ? run_svm(subject, options)
+         : strategy == 1 ? run_replicated(subject, options)
+                         : run_forest(subject, options);
+}
 
 /// Every pair of choices occurs in some run.
 void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
   const Subjects subjects(scene, size);
   const auto rows = tests::pairwise({std::size(node_counts), std::size(page_sizes), std::size(cache_shares),
-                                     std::size(in_flights), std::size(item_sides), 2, std::size(nodes_a_worker)});
+                                     std::size(in_flights), std::size(item_sides), 3, std::size(nodes_a_worker), 2});
   for (const auto& row : rows) {
-    const Subject& subject = subjects.with_pages_of(page_sizes[row[1]]);
-    const bool replicated = row[5] == 1;
+    const bool is_forest = row[5] == 2, is_one_tree = is_forest || row[7] == 1;
+    const Subject& subject = subjects.with(is_one_tree ? core::Structure::extents : core::Structure::grid, page_sizes[row[1]]);
     svm::RunOptions options;
     options.computer.node_count = node_counts[row[0]];
     options.pages.in_flight = in_flights[row[3]];
     options.pages.work_item_side = item_sides[row[4]];
     options.pages.worker_count = core::ceil_divide(node_counts[row[0]], nodes_a_worker[row[6]]);
-    if (!replicated) {
+    if (row[5] == 0) {
       const double frames = cache_shares[row[2]] * static_cast<double>(subject.database().page_count());
       options.pages.cache_pages = std::max(1U, static_cast<std::uint32_t>(frames));
     }
@@ -77,8 +90,9 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
     CAPTURE(options.pages.work_item_side);
     CAPTURE(*options.pages.worker_count);
     CAPTURE(options.pages.cache_pages.value_or(0));
-    CAPTURE(replicated);
-    CHECK(outcome_of(replicated ? run_replicated(subject, options) : run_svm(subject, options)) == subject.outcome());
+    CAPTURE(row[5]);
+    CAPTURE(is_one_tree);
+    CHECK(outcome_of(run_paged(row[5], subject, options)) == subject.outcome());
   }
 }
 
@@ -125,6 +139,26 @@ TEST_CASE("svm, replicated and dataflow give one film along the world's axes, an
   }
 }
 
+TEST_CASE("one tree of extents gives the film of the grid, wherever the eye is, by every strategy") {
+  core::Scene near = tests::mirrors_and_glass(), far = near, patches = tests::built_in("teapot-4");
+  far.view.from = {3, -40, 20};
+  far.view.angle_degrees = 6;
+  for (const core::Scene& scene : {near, far, patches, tests::built_in("gears-1"), tests::built_in("shells-2")}) {
+    CAPTURE(scene.name);
+    const Subject::Size size{.width = scaled_edge(20), .height = scaled_edge(16), .samples = 2};
+    core::BuildOptions options = apps::several_top_cells(scene);
+    const Subject grid(scene, size, options);
+    options.structure = core::Structure::extents;
+    const Subject extents(scene, size, options);
+    CHECK(extents.outcome() == grid.outcome());
+    check_strategies(extents, {3, 16});
+    for (const std::uint32_t nodes : {1U, 2U, 3U, 7U, 16U}) {
+      CAPTURE(nodes);
+      CHECK(outcome_of(run_forest(extents, {.computer = {.node_count = nodes}})) == grid.outcome());
+    }
+  }
+}
+
 TEST_CASE("refined samples give one picture, whoever renders it on any number of nodes") {
   const Subject subject(tests::mirrors_and_glass(), {.width = 24, .height = 20, .samples = 2, .refinement = {.error = 0.02}});
   REQUIRE(subject.outcome().rays[0] > 3 * 24 * 20);
@@ -133,6 +167,9 @@ TEST_CASE("refined samples give one picture, whoever renders it on any number of
     CAPTURE(side);
     CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 5}, .pages = {.work_item_side = side}})) == subject.outcome());
   }
+  const Subject extents(tests::mirrors_and_glass(), {.width = 24, .height = 20, .samples = 2, .refinement = {.error = 0.02}},
+                        {.page_size_bytes = 512, .structure = core::Structure::extents});
+  CHECK(outcome_of(run_forest(extents, {.computer = {.node_count = 5}})) == subject.outcome());
 }
 
 TEST_CASE("refined samples give one picture when rays of later passes come in many packets") {

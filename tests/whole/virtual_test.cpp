@@ -96,6 +96,23 @@ TEST_CASE("virtual time: svm, replicated and dataflow give the reference's pictu
   }
 }
 
+TEST_CASE("virtual time: forest gives the reference's picture on any nodes and topology, and equal runs have equal events") {
+  const Subject subject(mirrors_and_glass(), {20, 16}, {.page_size_bytes = 512, .structure = core::Structure::extents});
+  for (const std::uint32_t nodes : virtual_node_counts) {
+    for (const nodes::TopologyKind topology : topologies) {
+      for (const std::uint32_t in_flight : {1U, 16U}) {
+        CAPTURE(nodes);
+        CAPTURE(name_of(topology));
+        const svm::RunOptions options{.computer = {.node_count = nodes, .machine = slow_network(topology)},
+                                      .pages = {.in_flight = in_flight}};
+        const svm::Report report = run_forest(subject, options);
+        check(subject, report);
+        CHECK(hashes(report) == hashes(run_forest(subject, options)));
+      }
+    }
+  }
+}
+
 TEST_CASE("virtual time: a refined picture is the same, and equal runs have equal events") {
   const Subject subject(mirrors_and_glass(), {.width = 16, .height = 16, .samples = 2, .refinement = {.error = 0.004}});
   const auto svm = [&] {

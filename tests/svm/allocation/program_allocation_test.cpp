@@ -1,5 +1,5 @@
-// The node programs of svm and replicated, and the host's, allocate nothing between start and end. This executable has the
-// replaced global operators.
+// The node programs of svm, replicated and forest, and the host's, allocate nothing between start and end. This executable has
+// the replaced global operators.
 #include <doctest/doctest.h>
 
 #include <memory>
@@ -8,6 +8,7 @@
 #include "core/families/scenes.h"
 #include "core/picture/bundle_task.h"
 #include "nodes/threads/threads_runner.h"
+#include "svm/forest.h"
 #include "svm/local_copy.h"
 #include "svm/pager.h"
 #include "svm/run.h"
@@ -23,7 +24,9 @@ namespace {
 template <class Records, class Task = core::PixelTask>
 std::uint64_t allocated_by(svm::Strategy strategy, const svm::RunOptions& options, double error = 0) {
   const core::Scene scene = core::built_in_scene(core::parse_scene_name("balls-2"));
-  const core::Database database = core::build_database(scene, {.page_size_bytes = 512});
+  const core::Database database = core::build_database(
+      scene, {.page_size_bytes = 512,
+              .structure = strategy == svm::Strategy::forest ? core::Structure::extents : core::Structure::grid});
   const core::RenderSettings settings{
       database.header(), core::Camera(scene.view, database.header().frame, 16, 16, 2), {}, {.error = error}};
   const svm::Plan plan = svm::plan_of(strategy, database, settings, options);
@@ -58,6 +61,13 @@ TEST_CASE("a node of svm allocates nothing while it renders, pages, asks for wor
 
 TEST_CASE("a node of svm allocates nothing in passes that refine samples") {
   CHECK(allocated_by<svm::Pager, core::BundleTask>(svm::Strategy::svm, {.computer = {.node_count = 5}}, 0.01) == 0);
+}
+
+TEST_CASE("a node of forest allocates nothing while it renders, asks and answers") {
+  svm::RunOptions options{.computer = {.node_count = 5}};
+  CHECK(allocated_by<svm::Forest>(svm::Strategy::forest, options) == 0);
+  options.pages.in_flight = 1;
+  CHECK(allocated_by<svm::Forest>(svm::Strategy::forest, options, 0.01) == 0);
 }
 
 TEST_CASE("a node of replicated allocates nothing while it renders") {
