@@ -36,11 +36,13 @@ ChoiceList machines() {
 }
 
 ChoiceList strategies() {
-  return {"strategies",
-          "--strategy=",
-          {{name_of(Strategy::svm), "pages travel: the scene is spread over the nodes, which fetch and cache what they need"},
-           {name_of(Strategy::dataflow), "rays travel: each node holds a region of space, and rays go to its owner"},
-           {name_of(Strategy::replicated), "nothing travels: every node holds the whole scene"}}};
+  return {
+      "strategies",
+      "--strategy=",
+      {{name_of(Strategy::svm), "pages travel: the scene is spread over the nodes, which fetch and cache what they need"},
+       {name_of(Strategy::dataflow), "rays travel: each node holds a region of space, and rays go to its owner"},
+       {name_of(Strategy::forest), "questions travel: each node holds the top of the tree and subtrees that others ask about"},
+       {name_of(Strategy::replicated), "nothing travels: every node holds the whole scene"}}};
 }
 
 ChoiceList policies() {

@@ -32,6 +32,9 @@ class Forecaster {
     computers_.push_back({.nodes = node_count,
                           .svm = with_pages(svm::Strategy::svm, node_count),
                           .replicated = with_pages(svm::Strategy::replicated, node_count)});
+    if (database_.forest_page_count() > 0) {
+      computers_.back().forest = with_pages(svm::Strategy::forest, node_count);
+    }
     if (node_count <= dataflow::region_count_max) {
       stopwatch_.lap();
       bsps_.push_back(regions(node_count));

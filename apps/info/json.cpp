@@ -108,7 +108,8 @@ Json computers_json(const Forecast& forecast) {
                       {"svm", memory_json(computer.svm, computer.nodes)},
                       {"replicated", memory_json(computer.replicated, computer.nodes)},
                       {"dataflow", rays ? memory_json(*rays, computer.nodes) : Json()},
-                      {"dataflow_copies", rays ? Json(computer.dataflow_copies) : Json()}});
+                      {"dataflow_copies", rays ? Json(computer.dataflow_copies) : Json()},
+                      {"forest", computer.forest ? memory_json(*computer.forest, computer.nodes) : Json()}});
   }
   return result;
 }

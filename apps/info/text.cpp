@@ -99,8 +99,8 @@ std::string room_text(const InfoRecord& record) {
   std::string too_large;
   for (const ComputerForecast& computer : record.forecast.computers) {
     using Choice = std::pair<const char*, std::optional<MemoryForecast>>;
-    for (const auto& [name, memory] :
-         {Choice("svm", computer.svm), Choice("dataflow", computer.dataflow), Choice("replicated", computer.replicated)}) {
+    for (const auto& [name, memory] : {Choice("svm", computer.svm), Choice("dataflow", computer.dataflow),
+                                       Choice("forest", computer.forest), Choice("replicated", computer.replicated)}) {
       if (memory && memory->all_bytes > record.room.bytes) {
         too_large +=
             (too_large.empty() ? "; too little for " : ", ") + std::string(name) + " on " + std::to_string(computer.nodes);
@@ -150,14 +150,14 @@ void add_cells(std::vector<Cell>& row, const std::optional<MemoryForecast>& memo
 }
 
 Table memory_table(const Forecast& forecast) {
-  Table table("Memory", {{"nodes"},
-                         {"svm, least", "bytes"},
-                         {"svm, all"},
-                         {"dataflow, least", "bytes"},
-                         {"dataflow, all"},
-                         {"copies"},
-                         {"replicated, least", "bytes"},
-                         {"replicated, all"}});
+  const bool has_forest = !forecast.computers.empty() && forecast.computers.front().forest.has_value();
+  std::vector<Column> columns = {
+      {"nodes"},  {"svm, least", "bytes"},        {"svm, all"},       {"dataflow, least", "bytes"}, {"dataflow, all"},
+      {"copies"}, {"replicated, least", "bytes"}, {"replicated, all"}};
+  if (has_forest) {
+    columns.insert(columns.end(), {{"forest, least", "bytes"}, {"forest, all"}});
+  }
+  Table table("Memory", columns);
   table.add_note(
       "least: a node's; with less --node-memory all nodes together are too small for the scene, and render refuses it");
   table.add_note("all: what all nodes and the host take together where nothing is said about memory");
@@ -175,6 +175,9 @@ Table memory_table(const Forecast& forecast) {
     add_cells(row, computer.dataflow);
     row.emplace_back(computer.dataflow ? fixed(computer.dataflow_copies, 2) : "");
     add_cells(row, computer.replicated);
+    if (has_forest) {
+      add_cells(row, computer.forest);
+    }
     table.add_row(row);
   }
   return table;

@@ -30,6 +30,7 @@ bool is_of_pages(HeatKind kind) { return kind == HeatKind::faults || kind == Hea
 
 const char* reason_without_pages(Strategy strategy) {
   return strategy == Strategy::dataflow ? "rays travel to where the records are, and look up no pages"
+         : strategy == Strategy::forest ? "nodes ask about records of others, and fetch no pages"
                                         : "every node holds the whole scene, and looks up no pages";
 }
 

@@ -26,8 +26,9 @@ std::uint32_t bits_of(std::initializer_list<Kind> kinds) {
 
 WaitKinds waits_of(const svm::Report& report) {
   using svm::Kind;
-  return {.data = report.plan.request.strategy == svm::Strategy::forest ? "answer" : "page",
-          .data_kinds = bits_of({Kind::page_reply, Kind::questions, Kind::answers}),
+  const bool asks = report.plan.request.strategy == svm::Strategy::forest;
+  return {.data = asks ? "answer" : "page",
+          .data_kinds = asks ? bits_of({Kind::questions, Kind::answers}) : bits_of({Kind::page_reply}),
           .work_kinds = bits_of({Kind::work_request, Kind::work_reply, Kind::mask_part, Kind::begin_pass}),
           .end_kinds = bits_of({Kind::stop})};
 }

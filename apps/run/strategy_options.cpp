@@ -150,14 +150,23 @@ void check_together(const OptionSet& options, const StrategyOptions& run) {
   }
 }
 
-core::Structure structure_of(Strategy strategy) {
-  return strategy == Strategy::forest ? core::Structure::extents : core::Structure::grid;
+DatabaseOptions usual_database(Strategy strategy) {
+  DatabaseOptions database;
+  if (strategy == Strategy::forest) {
+    database.build.structure = core::Structure::extents;
+    database.build.page_size_bytes = 4096;
+  }
+  return database;
 }
 
 void settle_database(const OptionSet& options, Strategy strategy, DatabaseOptions& database) {
+  const core::BuildOptions usual = usual_database(strategy).build;
   core::BuildOptions& build = database.build;
   if (!options.is_given("--structure")) {
-    build.structure = structure_of(strategy);
+    build.structure = usual.structure;
+  }
+  if (!options.is_given("--page-size")) {
+    build.page_size_bytes = usual.page_size_bytes;
   }
   if (strategy == Strategy::forest && build.structure != core::Structure::extents) {
     throw UsageError("--structure=grid does not go with --strategy=forest: its nodes share one tree of boxes");

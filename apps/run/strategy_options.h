@@ -62,8 +62,8 @@ void add_ray_options(OptionSet options, dataflow::RayOptions& rays);
 /// For OptionSet::check_in_the_end(): throws core::UsageError for options, of those declared above or --topology or
 /// --count-pages, that do not go with the strategy, the machine or each other.
 void check_together(const OptionSet& options, const StrategyOptions& strategy);
-/// The structure that a strategy's database has unless one is asked for.
-core::Structure structure_of(Strategy strategy);
+/// The database that a strategy has unless another one is asked for: forest's is one tree, whose subtrees take up to 4 KiB.
+DatabaseOptions usual_database(Strategy strategy);
 /// For OptionSet::check_in_the_end(), of options that are declared by add_options(OptionSet, DatabaseOptions&), too: chooses what
 /// a strategy needs where nothing is said. Throws core::UsageError for a database that the strategy does not take.
 void settle_database(const OptionSet& options, Strategy strategy, DatabaseOptions& database);

@@ -15,7 +15,7 @@ const char* name_of(core::Structure structure) { return structure == core::Struc
 
 void add_options(OptionSet options, DatabaseOptions& database) {
   options.add_text(
-      "--page-size", "SIZE [1KiB]",
+      "--page-size", "SIZE [1KiB, forest 4KiB]",
       [&database](const std::string& text) { database.build.page_size_bytes = parse_page_size(text); },
       "Size of a page, a power of two from 512B to 64KiB; no record crosses its border");
   using core::RecordOrder;

@@ -76,6 +76,14 @@ std::string pages_text(const svm::Report& report) {
   return text;
 }
 
+std::string questions_text(const svm::Report& report) {
+  const svm::QuestionCounters questions = report.questions();
+  const nodes::Traffic sent = report.sent()[number_of(svm::Kind::questions)];
+  const double fill = sent.packets == 0 ? 0 : static_cast<double>(questions.answers) / static_cast<double>(sent.packets);
+  return grouped(questions.rays_asked) + " about rays, " + grouped(questions.records_asked) + " about records, in " +
+         counted(sent.packets, "packet") + " of " + fixed(fill, 1) + "; all answered";
+}
+
 /// A whole line of what adaptive sampling did, or nothing.
 std::string sampling_line(const RenderOptions& options, const Account& account) {
   if (!options.picture.is_refined) {
@@ -92,6 +100,10 @@ std::string sampling_line(const RenderOptions& options, const Account& account) 
 StrategyLines lines_of(const RenderOptions& options, const svm::Report& report) {
   const bool paged = options.strategy == Strategy::svm;
   const std::string in_flight = counted(report.plan.in_flight, "pixel") + " in flight";
+  if (options.strategy == Strategy::forest) {
+    return {"forest of " + counted(report.plan.request.forest_page_count, "page") + ", " + in_flight,
+            "asked    " + questions_text(report) + "\n"};
+  }
   return {paged ? grouped(report.plan.frames) + " cached pages a node, " + in_flight : in_flight,
           paged ? "pages    " + pages_text(report) + "\n" : ""};
 }

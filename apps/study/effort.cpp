@@ -48,6 +48,7 @@ std::size_t bytes_of(const PlannedRun& run, const Subject& subject) {
   const ComputerForecast& computer = one.computers.front();
   return has_regions                            ? computer.dataflow->all_bytes
          : run.strategy == Strategy::replicated ? computer.replicated.all_bytes
+         : run.strategy == Strategy::forest     ? computer.forest->all_bytes
                                                 : computer.svm.all_bytes;
 }
 

@@ -71,8 +71,8 @@ std::string cache_text(const StrategyOptions& run) {
 
 std::string pages_text(const StrategyOptions& run) {
   svm::PageOptions pages = run.pages;
-  pages.in_flight = pages.in_flight.value_or(1);
-  const std::uint32_t item_side = svm::work_item_side_of(pages, true);
+  pages.in_flight = pages.in_flight.value_or(run.strategy == Strategy::forest ? 16 : 1);
+  const std::uint32_t item_side = svm::work_item_side_of(pages, run.strategy != Strategy::forest);
   const std::string side = std::to_string(item_side);
   return (run.strategy == Strategy::svm ? cache_text(run) + ", " : "") + counted(*pages.in_flight, "pixel") + " in flight, " +
          (item_side == 0 ? "no work given away" : "work items of " + side + "x" + side);

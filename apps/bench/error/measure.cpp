@@ -36,7 +36,8 @@ PictureOptions picture_of(PictureOptions picture, const Setting& setting) {
 /// The scene in all its tessellations, each built when it is first asked for.
 class Scenes {
  public:
-  Scenes(const std::string& name, const MeasureOptions& options) : picture_(options.picture), outputs_(options.outputs) {
+  Scenes(const std::string& name, const MeasureOptions& options)
+      : picture_(options.picture), database_(usual_database(options.strategy.strategy)), outputs_(options.outputs) {
     picture_.scene = name;
     add(0);
   }
@@ -57,7 +58,7 @@ class Scenes {
  private:
   const Built& add(int tessellation) {
     core::Scene scene = load(tessellation);
-    Subject subject = build_subject(scene, picture_);
+    Subject subject = build_subject(scene, picture_, database_);
     return scenes_.emplace(tessellation, Built{std::move(scene), std::move(subject)}).first->second;
   }
   core::Scene load(int tessellation) {
@@ -72,6 +73,7 @@ class Scenes {
   }
 
   PictureOptions picture_;
+  DatabaseOptions database_;
   std::vector<NamedFile> outputs_;
   OpenedFiles opened_;
   std::map<int, Built> scenes_;

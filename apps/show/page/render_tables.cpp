@@ -26,6 +26,8 @@ std::vector<Column> own_columns(const svm::Report&, Strategy strategy) {
   std::vector<Column> columns = {{"pixels", "", 0}};
   if (strategy == Strategy::svm) {
     columns.insert(columns.end(), {{"look-ups", "", 0}, {"faults", "", 0}, {"pages served", "", 0}, {"evictions", "", 0}});
+  } else if (strategy == Strategy::forest) {
+    columns.insert(columns.end(), {{"rays asked about", "", 0}, {"records asked for", "", 0}, {"questions answered", "", 0}});
   }
   return columns;
 }
@@ -39,6 +41,9 @@ void append_own(std::vector<Cell>& row, const svm::NodeReport& node, Strategy st
   if (strategy == Strategy::svm) {
     const svm::PageCounters& pages = node.program.pages;
     append(row, {pages.references, pages.faults, pages.served, pages.evictions});
+  } else if (strategy == Strategy::forest) {
+    const svm::QuestionCounters& questions = node.program.questions;
+    append(row, {questions.rays_asked, questions.records_asked, questions.rays_answered + questions.records_answered});
   }
 }
 

@@ -176,7 +176,7 @@ Json node_json(const NodeAccount& node, const Json& special, const Json& timed) 
                  {"hits", hits_json(node.operations)},
                  {"operations", operations_json(node.operations)},
                  {"packets", packets_json(node.counters)}};
-  result.update(filled({"pages", "work", "travel", "load", "region"}, special));
+  result.update(filled({"pages", "work", "questions", "travel", "load", "region"}, special));
   result["memory"] = {{"planned", memory_json(node.memory_planned)}, {"used", memory_json(node.memory_used)}};
   result["seconds"] = timed.empty() ? node_seconds_json(node.counters) : Json();
   result.update(filled({"virtual_seconds", "time_percent"}, timed));
@@ -277,6 +277,7 @@ Json database_json(const core::Database& database) {
   return {{"bytes", database.page_count() * database.page_size()},
           {"pages", database.page_count()},
           {"page_size", database.page_size()},
+          {"forest_pages", database.forest_page_count()},
           {"primitives", database.header().primitive_count},
           {"references", database.references()},
           {"dropped", database.dropped()},
@@ -322,7 +323,7 @@ std::string stats_json(const RenderRecord& record) {
   all["operations"]["deposits_saturated"] = of_whole_picture(record, account.operations.deposits_saturated);
   all.update(filled({"run_hash", "machine_digest", "virtual_seconds", "time_percent", "events", "links"}, timed.all));
   all.update({{"database", database_json(record.database)}, {"packets", all_packets_json(account, special.packets_overflowed)}});
-  all.update(filled({"pages", "work", "travel", "load", "regions", "mapping", "pairs"}, special.all));
+  all.update(filled({"pages", "work", "questions", "travel", "load", "regions", "mapping", "pairs"}, special.all));
   all["chaos"] = chaos_json(account, special.chaos);
   all["skips"] = skips_json(record, account);
   all["heat_maps"] = heat_maps_json(record);

@@ -11,8 +11,8 @@ namespace dmpc::apps {
 /// infinite. "rays" below stands for primary, reflected, refracted, shadow, total.
 ///   program        name and version
 ///   options        what was asked for and what it became: scene, width, height, samples (a number or "auto"), error,
-///                  samples_max, cutoff, depth, convention, tracer, grid_axes, record_order, strategy, nodes, node_memory (bytes
-///                  a node, the most), page_size; camera, light (a list), scale, up, smooth, missing (as the command line takes
+///                  samples_max, cutoff, depth, convention, tracer, grid_axes, record_order, structure, strategy, nodes, node_memory
+///                  (bytes a node, the most), page_size; camera, light (a list), scale, up, smooth, missing (as the command line takes
 ///                  them, null where it said nothing); of pages: cache_pages, in_flight, work_item, workers, count_pages; of
 ///                  dataflow: balance, subsample, balance_grid, ray_batch, ray_credits, ray_queue, topology
 ///   runner         threads or virtual
@@ -46,12 +46,14 @@ namespace dmpc::apps {
 ///                  rule all there are on machines of up to 32 nodes, though a crossbar has more. A wait counts for the link that
 ///                  became free last. The ends are "node 3", "host", "switch 0", "place 9" (a router without a node) and, of
 ///                  memory ports, "memory 3"
-///   database       bytes, pages, page_size, primitives, references, dropped, collapsed (of those, what rounding left nothing
+///   database       bytes, pages, page_size, forest_pages (before the first subtree of one tree), primitives, references, dropped, collapsed (of those, what rounding left nothing
 ///                  of); records by kind: bricks, triangle_blocks, sphere_blocks, cone_blocks, normals (of smooth triangles),
 ///                  textured (triangles), texture_tiles, materials, lights
 ///   packets        sent, received, bytes, overflow (by way of the host), and by_kind: packets and bytes
 ///   pages          references, hits, home_hits, cache_hits, misses, faults, evictions, served, distinct, distinct_per_pixel
 ///   work           pixels (over all passes), items_asked, items_taken, items_given
+///   questions      of forest: rays_asked (what does a ray meet below a child), records_asked (what is in a record, for
+///                  shading), rays_answered, records_answered, answers (received)
 ///   travel         of dataflow: rays_in and rays_out (rays), messages_per_ray (moves: rays sent over rays shot), packets (of
 ///                  rays), packets_flushed (sent before they were full), packets_queued (sent after a wait for credit), mean_fill
 ///                  (rays in a packet over those in a full one), bytes (headers included; in total those that the host forwards,
@@ -74,7 +76,7 @@ namespace dmpc::apps {
 ///   (another
 ///                  run gives the same bits), least, largest, sum (over pixels); null without any
 ///   nodes          for each node: rays, hits, operations, packets {sent, received, bytes: sent, bytes_received, refused: tried
-///                  without credit}, pages, work, travel, load {work_ps, predicted_ps}, region
+///                  without credit}, pages, work, questions, travel, load {work_ps, predicted_ps}, region
 ///                  {low, high: corners in finest cells, share of the grid's volume, part_bytes, primitive_copies,
 ///                  primary_rays}, memory {planned, used: bytes by category and in total}, seconds {busy: computing, idle:
 ///                  asleep for want of packets, waiting for a core, wall}, quanta, sleeps

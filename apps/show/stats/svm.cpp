@@ -25,21 +25,33 @@ Json work_json(const svm::WorkCounters& work) {
           {"items_given", work.items_given}};
 }
 
-/// What pages and pixels some nodes had to do with.
-Json pages_and_work_json(const svm::PageCounters& pages, const svm::WorkCounters& work, bool counted) {
-  return {{"pages", pages_json(pages, work.pixels_rendered, counted)}, {"work", work_json(work)}};
+Json questions_json(const svm::QuestionCounters& questions) {
+  return {{"rays_asked", questions.rays_asked},
+          {"records_asked", questions.records_asked},
+          {"rays_answered", questions.rays_answered},
+          {"records_answered", questions.records_answered},
+          {"answers", questions.answers}};
+}
+
+/// What pages, pixels and questions some nodes had to do with.
+Json shares_json(const svm::PageCounters& pages, const svm::WorkCounters& work, const svm::QuestionCounters& questions,
+                 const svm::Plan& plan) {
+  Json shares = {{"pages", pages_json(pages, work.pixels_rendered, plan.request.pages.count_pages)}, {"work", work_json(work)}};
+  if (plan.request.strategy == svm::Strategy::forest) {
+    shares["questions"] = questions_json(questions);
+  }
+  return shares;
 }
 
 }  // namespace
 
 StrategyStats strategy_stats(const RenderOptions& options, const svm::Report& report) {
   const svm::Plan& plan = report.plan;
-  const bool counted = plan.request.pages.count_pages;
   StrategyStats stats{.options = {{"in_flight", plan.in_flight},
                                   {"work_item", plan.work_item_side},
                                   {"workers", plan.worker_count},
                                   {"count_pages", plan.request.pages.count_pages}},
-                      .all = pages_and_work_json(report.pages(), report.work(), counted),
+                      .all = shares_json(report.pages(), report.work(), report.questions(), plan),
                       .chaos = {{"request_credits", plan.request_credits}, {"film_credits", plan.film_credits}},
                       .host = Json::object()};
   if (options.strategy == Strategy::svm) {
@@ -47,7 +59,7 @@ StrategyStats strategy_stats(const RenderOptions& options, const svm::Report& re
     stats.options["replacement"] = svm::name_of(plan.request.pages.replacement);
   }
   for (const svm::NodeReport& node : report.nodes) {
-    stats.nodes.push_back(pages_and_work_json(node.program.pages, node.program.work, counted));
+    stats.nodes.push_back(shares_json(node.program.pages, node.program.work, node.program.questions, plan));
   }
   return stats;
 }

@@ -79,10 +79,17 @@ TEST_CASE("the keys of a forecast are an interface") {
                                           "primitives_per_block", "cells", "top_cells", "occupied_top_cells", "levels_max",
                                           "records", "unused_bytes"});
   CHECK(keys_of(json["database"]["records"][0]) == Keys{"kind", "count", "bytes"});
-  CHECK(keys_of(json["computers"][0]) == Keys{"nodes", "svm", "replicated", "dataflow", "dataflow_copies"});
+  CHECK(keys_of(json["computers"][0]) == Keys{"nodes", "svm", "replicated", "dataflow", "dataflow_copies", "forest"});
   CHECK(keys_of(json["computers"][0]["svm"]) == Keys{"least", "least_together", "usual", "all"});
   CHECK(json["build_peak"] > 1'000'000);
   CHECK(keys_of(json["seconds"]) == Keys{"load", "build", "regions"});
+}
+
+TEST_CASE("what forest takes is told of one tree, and of nothing else") {
+  CHECK(Json::parse(info_json(find_out(info("balls-1", {"--nodes=2"}))))["computers"][0]["forest"].is_null());
+  const InfoRecord tree = find_out(info("balls-1", {"--nodes=2", "--structure=extents"}));
+  CHECK(Json::parse(info_json(tree))["computers"][0]["forest"]["least"] > 100'000);
+  CHECK(info_text(tree).find("forest, least") != std::string::npos);
 }
 
 TEST_CASE("the camera and the lights that are told give the same view and light") {

@@ -52,6 +52,7 @@ TEST_CASE("a scene and an output are all that render needs") {
   CHECK(options.picture.skips == core::Skips{});
   CHECK(options.database.build.page_size_bytes == 1024);
   CHECK(options.database.build.record_order == core::RecordOrder::spatial);
+  CHECK(options.database.build.structure == core::Structure::grid);
   CHECK(options.database.axes == AxesChoice::world);
   CHECK_FALSE(options.picture.resolution);
   CHECK(options.picture.samples == 1);
@@ -189,6 +190,18 @@ TEST_CASE("the smallest and largest values are taken") {
   }
 }
 
+TEST_CASE("forest has one tree and pages of its own choice, unless one asks for others") {
+  const core::BuildOptions build = render({"--strategy=forest"}).database.build;
+  CHECK(build.structure == core::Structure::extents);
+  CHECK(build.page_size_bytes == 4_KiB);
+  CHECK(render({"--strategy=forest", "--page-size=1KiB", "--structure=extents"}).database.build.page_size_bytes == 1024);
+  CHECK(render({"--structure=extents"}).database.build.structure == core::Structure::extents);
+  CHECK(contains(render_complaint({"--strategy=forest", "--structure=grid"}),
+                 "--structure=grid does not go with --strategy=forest"));
+  CHECK(
+      contains(render_complaint({"--strategy=forest", "--record-order=scattered"}), "--record-order=scattered does not go with"));
+}
+
 TEST_CASE("dataflow needs no option of its own") {
   const dataflow::RayOptions rays = render({"--strategy=dataflow"}).rays;
   CHECK(rays.balance.balance == dataflow::Balance::subsampled);
@@ -216,7 +229,8 @@ TEST_CASE("every option of dataflow reaches its field") {
 }
 
 TEST_CASE("an option of another strategy is refused with the strategies that it goes with and the reason") {
-  const std::string svm = "--strategy=svm", replicated = "--strategy=replicated", dataflow = "--strategy=dataflow";
+  const std::string svm = "--strategy=svm", replicated = "--strategy=replicated", dataflow = "--strategy=dataflow",
+                    forest = "--strategy=forest";
   struct Wrong {
     std::string option, with, goes_with;
   };
@@ -226,8 +240,10 @@ TEST_CASE("an option of another strategy is refused with the strategies that it 
                                      {"--cache-pages=5", dataflow, svm},
                                      {"--count-pages", replicated, svm},
                                      {"--count-pages", dataflow, svm},
-                                     {"--in-flight=16", dataflow, svm + " or " + replicated},
-                                     {"--work-item=3", dataflow, svm + " or " + replicated},
+                                     {"--cache-pages=5", forest, svm},
+                                     {"--ray-batch=5", forest, dataflow},
+                                     {"--in-flight=16", dataflow, svm + " or " + replicated + " or " + forest},
+                                     {"--work-item=3", dataflow, svm + " or " + replicated + " or " + forest},
                                      {"--balance=subsampled", svm, dataflow},
                                      {"--subsample=8", replicated, dataflow},
                                      {"--balance-grid=256", svm, dataflow},
@@ -244,7 +260,7 @@ TEST_CASE("an option of another strategy is refused with the strategies that it 
 }
 
 TEST_CASE("options that every strategy has go with each") {
-  for (const std::string strategy : {"svm", "replicated", "dataflow"}) {
+  for (const std::string strategy : {"svm", "replicated", "dataflow", "forest"}) {
     CAPTURE(strategy);
     CHECK_NOTHROW(render({"--strategy=" + strategy, "--nodes=2", "--node-memory=4MiB", "--page-size=2KiB", "--grid-axes=screen",
                           "--chaos=1", "--no-skip=empty-space", "--stats=s.json", "--quiet"}));
@@ -302,9 +318,11 @@ TEST_CASE("the help of render names every option and its default") {
                                  "SCENE",
                                  "--nodes",
                                  "--strategy",
-                                 "svm|replicated|dataflow [svm]",
+                                 "svm|replicated|dataflow|forest [svm]",
                                  "--node-memory",
                                  "--page-size",
+                                 "SIZE [1KiB, forest 4KiB]",
+                                 "grid|extents [grid]",
                                  "--cache-pages",
                                  "--replacement",
                                  "--in-flight",
@@ -346,7 +364,7 @@ TEST_CASE("the help of render names every option and its default") {
 }
 
 TEST_CASE("every strategy has the name that the command line knows") {
-  for (const Strategy strategy : {Strategy::svm, Strategy::replicated, Strategy::dataflow}) {
+  for (const Strategy strategy : {Strategy::svm, Strategy::replicated, Strategy::dataflow, Strategy::forest}) {
     CHECK(render({std::string("--strategy=") + name_of(strategy)}).strategy == strategy);
   }
 }

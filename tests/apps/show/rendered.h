@@ -50,6 +50,7 @@ inline RenderOptions small(Strategy strategy = Strategy::svm) {
   options.picture.scene = "balls-1";
   options.picture.resolution = {16, 12};
   options.strategy = strategy;
+  options.database = usual_database(strategy);
   options.computer.node_count = 3;
   return options;
 }

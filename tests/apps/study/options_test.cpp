@@ -142,7 +142,8 @@ TEST_CASE("options of a study of speedup that do not go together are refused wit
   };
   CHECK(says({"--strategy=dataflow", "--cache-pages=5"}, "--cache-pages goes with --strategy=svm: "));
   CHECK(says({"--strategy=replicated", "--replacement=lru"}, "--replacement goes with --strategy=svm: "));
-  CHECK(says({"--strategy=dataflow", "--in-flight=5"}, "--in-flight goes with --strategy=svm or --strategy=replicated: "));
+  CHECK(says({"--strategy=dataflow", "--in-flight=5"},
+             "--in-flight goes with --strategy=svm or --strategy=replicated or --strategy=forest: "));
   CHECK(says({"--ray-batch=5"}, "--ray-batch goes with --strategy=dataflow: "));
   CHECK(says({"--strategy=dataflow", "--balance=equal-size", "--subsample=5"}, "--subsample goes with --balance=subsampled: "));
   CHECK(says({"--no-contention", "--memory-port"}, "--memory-port does not go with --no-contention: "));

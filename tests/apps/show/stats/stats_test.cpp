@@ -24,10 +24,10 @@ TEST_CASE("the keys of the counters are an interface") {
   const std::string json = Rendered(small()).json();
   CHECK(keys(json, 1) ==
         std::vector<std::string>{
-            "program",    "options", "runner",   "machine",        "film_hash",       "sampling",     "rays",    "hits",
-            "operations", "seconds", "run_hash", "machine_digest", "virtual_seconds", "time_percent", "events",  "links",
-            "database",   "packets", "pages",    "work",           "travel",          "load",         "regions", "mapping",
-            "pairs",      "chaos",   "skips",    "heat_maps",      "nodes",           "host"});
+            "program",    "options", "runner",   "machine",        "film_hash",       "sampling",     "rays",   "hits",
+            "operations", "seconds", "run_hash", "machine_digest", "virtual_seconds", "time_percent", "events", "links",
+            "database",   "packets", "pages",    "work",           "questions",       "travel",       "load",   "regions",
+            "mapping",    "pairs",   "chaos",    "skips",          "heat_maps",       "nodes",        "host"});
   for (const std::string key : {"samples_per_pixel",
                                 "passes",
                                 "estimated_error",
@@ -183,6 +183,11 @@ TEST_CASE("what belongs to another strategy is null") {
   CHECK(value(copies, "cache_pages") == "null");
   CHECK(value(pages, "cache_pages") != "null");
   CHECK(value(copies, "replacement") == "null");
+  CHECK(value(pages.substr(pages.find("\"work\"")), "questions") == "null");
+  const std::string questions = Rendered(small(Strategy::forest)).json();
+  CHECK(value(questions, "rays_asked") != "null");
+  CHECK(value(questions, "structure") == "\"extents\"");
+  CHECK(value(pages, "structure") == "\"grid\"");
 }
 
 TEST_CASE("every strategy has the same keys") {
@@ -192,6 +197,7 @@ TEST_CASE("every strategy has the same keys") {
   };
   CHECK(all_keys(Strategy::dataflow) == all_keys(Strategy::svm));
   CHECK(all_keys(Strategy::dataflow) == all_keys(Strategy::replicated));
+  CHECK(all_keys(Strategy::dataflow) == all_keys(Strategy::forest));
 }
 
 TEST_CASE("the strategy and the axes of the grid are told") {

@@ -127,6 +127,18 @@ TEST_CASE("the fill of packets and the hops of rays are means") {
   CHECK(stats.all["mapping"] == Json{{"topology", "crossbar"}, {"mean_hops", 1.0}, {"mean_hops_random", 1.0}});
 }
 
+TEST_CASE("questions of forest are counted by node, and as many are answered as asked") {
+  const StrategyStats stats = stats_of(small(Strategy::forest));
+  for (const char* path : {"/questions/rays_asked", "/questions/records_asked", "/questions/answers"}) {
+    CAPTURE(std::string(path));
+    CHECK(at(stats.all, path) > 0);
+    CHECK(at(stats.all, path) == sum_over_nodes(stats, path));
+  }
+  CHECK(at(stats.all, "/questions/rays_asked") == at(stats.all, "/questions/rays_answered"));
+  CHECK(at(stats.all, "/questions/records_asked") == at(stats.all, "/questions/records_answered"));
+  CHECK_FALSE(stats_of(small()).all.contains("questions"));
+}
+
 TEST_CASE("pages and work of svm are counted by node, and a cache has svm alone") {
   const StrategyStats stats = stats_of(small());
   CHECK(at(stats.all, "/pages/faults") == sum_over_nodes(stats, "/pages/faults"));
