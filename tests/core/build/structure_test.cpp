@@ -9,6 +9,7 @@
 
 #include "apps/bench/stability/cells.h"
 #include "core/build/database.h"
+#include "core/picture/camera.h"
 #include "core/record/records.h"
 #include "tests/support/small_scenes.h"
 
@@ -62,6 +63,14 @@ class Walker {
     }
     found_.forest_bricks += is_in_forest ? 1 : 0;
     const auto brick = core::read<core::Brick>(records_.find(child.address()));
+    const auto is_block = [&](std::size_t i) { return brick.child[i].is_block(); };
+    bool has_bricks = false;
+    for (std::size_t i = 0; i < brick.child_count; ++i) {
+      has_bricks = has_bricks || !is_block(i);
+    }
+    for (std::size_t i = 0; is_in_forest && has_bricks && i < brick.child_count; ++i) {
+      CHECK((!is_block(i) || page_of(brick.child[i].address()) < database_.forest_page_count()));
+    }
     for (std::size_t i = 0; i < brick.child_count; ++i) {
       visit(brick.child[i], is_in_forest ? 0 : own);
     }
@@ -82,7 +91,7 @@ class Walker {
 
 }  // namespace
 
-TEST_CASE("what lies behind the forest lies in one page with all that is below it, and every primitive is there once") {
+TEST_CASE("behind the forest a page has all that is below what it has, and blocks beside bricks are in the forest") {
   for (const char* name : {"gears-1", "teapot-4", "balls-3"}) {
     const core::Scene scene = tests::built_in(name);
     for (const std::size_t page_size : {512U, 1024U, 4096U, 65536U}) {
@@ -115,6 +124,19 @@ TEST_CASE("one tree has one top cell, and the very primitives of the grid") {
     CHECK(tree.primitives()[id].value == grid.primitives()[id].value);
   }
   CHECK(grid.forest_page_count() == 0);
+}
+
+TEST_CASE("rays of eyes far away start at the same floats in one tree as in the grid") {
+  for (const char* name : {"gears-1", "shells-2", "mount-5"}) {
+    core::Scene scene = tests::built_in(name);
+    scene.view.from = scene.view.at + (scene.view.from - scene.view.at) * 20.0;
+    const core::Database grid = core::build_database(scene, options_of(scene, Structure::grid, 1024)),
+                         tree = core::build_database(scene, options_of(scene, Structure::extents, 1024));
+    const core::Camera one(scene.view, grid.header().frame, 8, 8, 1), other(scene.view, tree.header().frame, 8, 8, 1);
+    for (std::uint32_t pixel = 0; pixel < 64; ++pixel) {
+      CHECK(one.primary_ray(pixel, 0).origin == other.primary_ray(pixel, 0).origin);
+    }
+  }
 }
 
 TEST_CASE("a scene without objects, and one tree whose records are scattered, have no subtrees to ask about") {
