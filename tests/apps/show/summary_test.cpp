@@ -35,6 +35,15 @@ TEST_CASE("the closing lines of replicated do without pages") {
   CHECK(contains(text, "computer 3 nodes, replicated, 16 pixels in flight\n"));
 }
 
+TEST_CASE("the closing lines of forest say what was asked") {
+  const std::string text = summary(small(Strategy::forest));
+  CHECK(contains(text, "computer 3 nodes, forest, forest of 1 page, 16 pixels in flight\n"));
+  CHECK(contains(text, "asked    "));
+  CHECK(contains(text, " about rays, "));
+  CHECK(contains(text, "; all answered\n"));
+  CHECK_FALSE(contains(text, "pages    "));
+}
+
 TEST_CASE("the closing lines of dataflow say how rays travelled and how evenly the work was shared") {
   const std::string text = summary(small(Strategy::dataflow));
   for (const std::string part :
