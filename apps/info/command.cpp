@@ -47,6 +47,7 @@ void add_options(OptionSet options, InfoOptions& info) {
       [&info](const std::string& text) { info.node_counts = parse_different_numbers(text, "--nodes", svm::node_count_max); },
       "Nodes of the computers whose memory is forecast");
   add_balance_option(options, info.balance.balance);
+  add_cuts_option(options, info.balance.bsp.order);
   add_region_options(options, info.balance);
   options.add_choice<InfoFormat>("--format", info.format, {{"text", InfoFormat::text}, {"json", InfoFormat::json}},
                                  "Lines and tables to read, or an object with stable keys");

@@ -55,7 +55,10 @@ class Forecaster {
         ++next;
       }
     }
-    return {.computers = computers_, .balance = balance_.balance, .region_seconds = region_seconds_ + stopwatch_.lap()};
+    return {.computers = computers_,
+            .balance = balance_.balance,
+            .cuts = balance_.bsp.order,
+            .region_seconds = region_seconds_ + stopwatch_.lap()};
   }
 
  private:

@@ -32,6 +32,7 @@ struct ComputerForecast {
 struct Forecast {
   std::vector<ComputerForecast> computers;
   dataflow::Balance balance{};  ///< by which regions were made
+  dataflow::CutOrder cuts{};    ///< and which way
   double region_seconds = 0;    ///< that it took to make them, by the wall clock
 };
 

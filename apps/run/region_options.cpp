@@ -23,6 +23,14 @@ void add_balance_option(OptionSet options, dataflow::Balance& balance) {
                               "Regions of about equal load, by a subsampled picture, or of equal size");
 }
 
+const char* name_of(dataflow::CutOrder order) { return order == dataflow::CutOrder::longer_axis ? "longer-side" : "alternating"; }
+
+void add_cuts_option(OptionSet options, dataflow::CutOrder& order) {
+  using dataflow::CutOrder;
+  options.add_choice<CutOrder>("--cuts", order, {{"longer-side", CutOrder::longer_axis}, {"alternating", CutOrder::alternating}},
+                               "Which way space is cut next: across a box's longer side, or by turns as in 1994");
+}
+
 void add_region_options(OptionSet options, dataflow::BalanceOptions& balance) {
   options.add_number("--subsample", balance.subsample, 1, subsample_max, "8",
                      "The subsampled picture has one pixel of every NxN");

@@ -3,6 +3,7 @@
 
 #include "apps/line/command_line.h"
 #include "dataflow/regions/balance.h"
+#include "dataflow/regions/bsp.h"
 #include "nodes/topology.h"
 
 namespace dmpc::apps {
@@ -11,6 +12,10 @@ namespace dmpc::apps {
 const char* name_of(dataflow::Balance balance);
 /// Declares --balance.
 void add_balance_option(OptionSet options, dataflow::Balance& balance);
+/// As the command line calls it.
+const char* name_of(dataflow::CutOrder order);
+/// Declares --cuts.
+void add_cuts_option(OptionSet options, dataflow::CutOrder& order);
 /// Declares --subsample and --balance-grid, but not which balance there is.
 void add_region_options(OptionSet options, dataflow::BalanceOptions& balance);
 /// For OptionSet::check_in_the_end(): throws core::UsageError for the latter two with regions of equal size.

@@ -46,6 +46,7 @@ const std::vector<Belonging>& belongings() {
        {Strategy::svm, Strategy::replicated, Strategy::forest},
        "every node of dataflow works on what comes to its region"},
       {"--balance", {Strategy::dataflow}, "the others share out pixels, not space"},
+      {"--cuts", {Strategy::dataflow}, "the others share out pixels, not space"},
       {"--subsample", {Strategy::dataflow}, "the others share out pixels, not space"},
       {"--balance-grid", {Strategy::dataflow}, "the others share out pixels, not space"},
       {"--ray-batch", {Strategy::dataflow}, "rays of the others do not travel"},
@@ -133,6 +134,7 @@ void add_page_options(OptionSet options, svm::PageOptions& pages, const std::str
 void add_ray_options(OptionSet options, dataflow::RayOptions& rays) {
   options.begin_group("Strategy dataflow");
   add_balance_option(options, rays.balance.balance);
+  add_cuts_option(options, rays.balance.bsp.order);
   add_region_options(options, rays.balance);
   options.add_number("--ray-batch", rays.ray_batch, 1, dataflow::ray_batch_max,
                      "what fills 4 KiB; 2 KiB if rays walk alone, modelled machines 1 KiB", "Rays in a packet, at most");

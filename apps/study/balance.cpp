@@ -1,7 +1,7 @@
 #include "apps/study/balance.h"
 
+#include <array>
 #include <numeric>
-
 #include <span>
 #include <utility>
 #include "apps/line/number_text.h"
@@ -16,13 +16,24 @@ namespace dmpc::apps {
 namespace {
 
 using dataflow::Balance;
+using dataflow::CutOrder;
 
-const char* name_of_regions(Balance balance) { return balance == Balance::subsampled ? "subsampled" : "equal size"; }
+/// A way to cut space.
+struct Cutting {
+  const char* name;
+  Balance balance;
+  CutOrder order;
+};
+constexpr std::array<Cutting, BalanceStudy::ways> cuttings = {
+    {{"subsampled", Balance::subsampled, CutOrder::longer_axis},
+     {"subsampled, alternating", Balance::subsampled, CutOrder::alternating},
+     {"equal size", Balance::equal_size, CutOrder::longer_axis}}};
 
-dataflow::RunOptions options_for(const BalanceStudy& study, std::uint32_t node_count, Balance balance) {
+dataflow::RunOptions options_for(const BalanceStudy& study, std::uint32_t node_count, const Cutting& cutting) {
   dataflow::RunOptions options{.computer = {.node_count = node_count},
                                .rays = {.balance = study.regions, .topology = study.topology}};
-  options.rays.balance.balance = balance;
+  options.rays.balance.balance = cutting.balance;
+  options.rays.balance.bsp.order = cutting.order;
   return options;
 }
 
@@ -31,14 +42,15 @@ Cell average_load_cell(std::span<const double> loads) {
   return loads.empty() ? Cell() : Cell(100 * dataflow::average_load(loads));
 }
 
-std::vector<Cell> summary_row(const dataflow::Report& report, const BalanceStudy& study, Balance balance) {
+std::vector<Cell> summary_row(const dataflow::Report& report, const BalanceStudy& study, const Cutting& cutting) {
   const RayHops hops = ray_hops_of(report, study.topology);
   const bool has_hops = report.messages_per_ray() > 0;
   std::vector<Cell> row = {std::uint64_t{report.plan.node_count()},
-                           name_of_regions(balance),
+                           cutting.name,
                            average_load_cell(report.predicted),
                            average_load_cell(report.work()),
                            report.duplication,
+                           report.messages_per_ray(),
                            has_hops ? Cell(hops.mean) : Cell(),
                            has_hops ? Cell(hops.mean_of_random) : Cell()};
   row.resize(study.columns().size());
@@ -50,12 +62,12 @@ Cell share_cell(std::span<const double> loads, std::uint32_t node) {
   return loads.empty() ? Cell() : Cell(percent_of(loads[node], std::accumulate(loads.begin(), loads.end(), 0.0)));
 }
 
-void add_node_rows(const dataflow::Report& report, const BalanceStudy& study, Balance balance, Table& table) {
+void add_node_rows(const dataflow::Report& report, const BalanceStudy& study, const Cutting& cutting, Table& table) {
   const std::vector<double> work = report.work();
   for (std::uint32_t node = 0; node < work.size(); ++node) {
     std::vector<Cell> row(study.columns().size());
     row[0] = std::uint64_t{report.plan.node_count()};
-    row[1] = name_of_regions(balance);
+    row[1] = cutting.name;
     row[row.size() - 3] = std::uint64_t{node};
     row[row.size() - 2] = share_cell(report.predicted, node);
     row[row.size() - 1] = share_cell(work, node);
@@ -77,6 +89,7 @@ std::vector<Column> BalanceStudy::columns() const {
                                  {"average load predicted", "%", 1},
                                  {"average load achieved", "%", 1},
                                  {"duplication", "", 3},
+                                 {"moves a ray", "", 3},
                                  {"hops", "", 2},
                                  {"hops at random", "", 2}};
   if (per_node) {
@@ -87,8 +100,8 @@ std::vector<Column> BalanceStudy::columns() const {
 
 std::vector<Plot> BalanceStudy::plots() const {
   std::vector<PlotSeries> series;
-  for (const Balance balance : {Balance::subsampled, Balance::equal_size}) {
-    const std::string kind = name_of_regions(balance);
+  for (const Cutting& cutting : cuttings) {
+    const std::string kind = cutting.name;
     const std::size_t color = series.size() / 2;
     series.push_back({kind + ", predicted", "average load predicted", {{"regions", kind}}, PlotMark::points, color});
     series.push_back({kind + ", achieved", "average load achieved", {{"regions", kind}}, PlotMark::line, color});
@@ -99,12 +112,12 @@ std::vector<Plot> BalanceStudy::plots() const {
 
 void BalanceStudy::measure(StudyRuns& runs, Table& table) const {
   for (const std::uint32_t node_count : node_counts) {
-    for (const Balance balance : {Balance::subsampled, Balance::equal_size}) {
-      const std::string computer = std::to_string(node_count) + " nodes, regions " + name_of_regions(balance);
-      const dataflow::Report report = runs.run(computer, options_for(*this, node_count, balance));
-      table.add_row(summary_row(report, *this, balance));
+    for (const Cutting& cutting : cuttings) {
+      const std::string computer = std::to_string(node_count) + " nodes, regions " + cutting.name;
+      const dataflow::Report report = runs.run(computer, options_for(*this, node_count, cutting));
+      table.add_row(summary_row(report, *this, cutting));
       if (per_node) {
-        add_node_rows(report, *this, balance, table);
+        add_node_rows(report, *this, cutting, table);
       }
     }
   }
@@ -115,6 +128,10 @@ std::vector<std::string> BalanceStudy::notes(const std::string& scene) const {
   std::vector<std::string> notes = {
       "Average load: mean over maximum of the nodes' work, which is counted operations at measured prices.",
       "Predicted: by the picture of one pixel of every " + step + "x" + step + ".",
+      "Alternating: a box is cut along one axis, its halves along the other, as the article has it; the others across their "
+      "longer "
+      "sides.",
+      "Moves: how often a ray goes on to another node.",
       "Duplication: copies of primitives in all regions over those in the database's bricks.",
       "Hops: links that a ray sent from node to node passes on a machine wired as a " + std::string(nodes::name_of(topology)) +
           ", by counted rays, with the regions where they are put and as the mean of random mappings."};

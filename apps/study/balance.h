@@ -1,6 +1,7 @@
 // The study `balance`: how evenly the work of rays that travel is shared out, and what it is worth where the regions lie.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -13,14 +14,17 @@
 
 namespace dmpc::apps {
 
-/// For each node count the regions by the subsampled picture and those of equal size: the average load, predicted and achieved,
-/// copies of primitives, and hops of a ray from node to node.
+/// For each node count the regions by the subsampled picture, cut across the longer side and in alternating directions, and those
+/// of equal size: the average load, predicted and achieved, copies of primitives, and hops of a ray from node to node.
 struct BalanceStudy {
   static constexpr const char* name = "balance";
   static constexpr const char* description = "How evenly the work of rays that travel is shared out";
 
+  /// How regions are cut.
+  static constexpr std::size_t ways = 3;
+
   std::vector<std::uint32_t> node_counts = {4, 8, 16, 32, 64};
-  dataflow::BalanceOptions regions;  ///< how loads are predicted; its `balance` is without meaning
+  dataflow::BalanceOptions regions;  ///< how loads are predicted; which way they are cut is without meaning
   nodes::TopologyKind topology = nodes::TopologyKind::hypercube;
   bool per_node = false;  ///< below each row one more for each node, with its share of the work
 
@@ -28,7 +32,7 @@ struct BalanceStudy {
   /// Pictures of such a table.
   std::vector<Plot> plots() const;
   /// How many times measure() renders.
-  std::uint32_t run_count() const { return 2 * static_cast<std::uint32_t>(node_counts.size()); }
+  std::uint32_t run_count() const { return static_cast<std::uint32_t>(ways) * static_cast<std::uint32_t>(node_counts.size()); }
   /// Adds to `table`, which has columns(), row after row as the runs end. Throws as StudyRuns::run() does.
   void measure(StudyRuns& runs, Table& table) const;
   /// What the columns mean, and what the 1994 paper found if `scene`, as on the command line, is one of its scenes.

@@ -25,7 +25,7 @@ std::vector<PlannedRun> repeated(const std::vector<std::uint32_t>& node_counts, 
 
 struct Plan {
   std::vector<PlannedRun> operator()(const BalanceStudy& study) const {
-    return repeated(study.node_counts, {{Strategy::dataflow}, {Strategy::dataflow}});
+    return repeated(study.node_counts, std::vector<PlannedRun>(BalanceStudy::ways, {Strategy::dataflow}));
   }
   std::vector<PlannedRun> operator()(const TrafficStudy& study) const {
     return repeated(study.node_counts, {{Strategy::dataflow}, {Strategy::svm}, {Strategy::svm}});

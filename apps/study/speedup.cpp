@@ -80,7 +80,8 @@ std::string pages_text(const StrategyOptions& run) {
 
 std::string rays_text(const dataflow::RayOptions& rays) {
   const bool subsampled = rays.balance.balance == dataflow::Balance::subsampled;
-  return "regions " + std::string(subsampled ? "by the subsampled picture" : "of equal size") + ", mapped onto the machine";
+  return "regions " + std::string(subsampled ? "by the subsampled picture" : "of equal size") +
+         (rays.balance.bsp.order == dataflow::CutOrder::alternating ? " and alternating cuts" : "") + ", mapped onto the machine";
 }
 
 std::string machine_text(const nodes::Machine& machine) {

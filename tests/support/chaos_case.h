@@ -58,7 +58,8 @@ class ChaosCase {
     options.rays.ray_credits = one_of<std::optional<std::uint32_t>>({0, 1, 1, 2, std::nullopt});
     options.rays.queue_packets = one_of<std::optional<std::uint32_t>>({0, 1, 2, 7, std::nullopt});
     options.rays.balance = {.balance = draws_.chance(50) ? dataflow::Balance::subsampled : dataflow::Balance::equal_size,
-                            .subsample = 4};
+                            .subsample = 4,
+                            .bsp = {.order = draws_.chance(75) ? dataflow::CutOrder::longer_axis : dataflow::CutOrder::alternating}};
     options.rays.topology =
         one_of<std::optional<nodes::TopologyKind>>({std::nullopt, nodes::TopologyKind::hypercube, nodes::TopologyKind::mesh});
     disturb(options, round);

@@ -128,6 +128,7 @@ Json mapping_json(const dataflow::Report& report, nodes::TopologyKind topology) 
 Json options_json(const dataflow::RayOptions& rays, const dataflow::Plan& plan) {
   const bool subsampled = rays.balance.balance == dataflow::Balance::subsampled;
   return {{"balance", name_of(rays.balance.balance)},
+          {"cuts", name_of(rays.balance.bsp.order)},
           {"subsample", subsampled ? Json(rays.balance.subsample) : Json()},
           {"balance_grid", subsampled ? Json(rays.balance.columns_per_side) : Json()},
           {"ray_batch", plan.ray_batch},

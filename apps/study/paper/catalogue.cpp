@@ -105,6 +105,9 @@ void add_foils(Catalogue& catalogue) {
   PaperRun equal = catalogue.runs[catalogue.rings_by_rays[0][last]];
   equal.balance = dataflow::Balance::equal_size;
   catalogue.equal_regions = catalogue.add(equal);
+  PaperRun alternating = catalogue.runs[catalogue.rings_by_rays[0][last]];
+  alternating.cuts = dataflow::CutOrder::alternating;
+  catalogue.alternating_regions = catalogue.add(alternating);
   PaperRun copies = catalogue.runs[catalogue.timed[small_row][last]];
   copies.strategy = Strategy::replicated;
   copies.cache_share.reset();

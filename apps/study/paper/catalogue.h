@@ -72,6 +72,7 @@ struct Catalogue {
   std::array<std::array<std::size_t, cache_size_count>, 2> cached{};  ///< of `cache_scenes`, by size
   std::array<std::size_t, item_sides.size()> items{};                 ///< Rings4 on 64 nodes, by size
   std::size_t equal_regions = 0;                                      ///< the first of `rings` on 64 nodes, by rays
+  std::size_t alternating_regions = 0;                                ///< the same, subsampled, by the article's order of cuts
   std::size_t copies = 0;                                             ///< the small scene on 64 nodes, replicated
   std::size_t faster_machine = 0;                                     ///< Rings4 on 32 nodes of an iPSC/860
   std::size_t dearer_cache = 0;  ///< the calibration's scene on two nodes, a cached look-up at twice its price

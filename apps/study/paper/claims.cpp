@@ -161,6 +161,18 @@ void claim_balance(Claims& rows, const Catalogue& catalogue, const PaperResults&
   }
 }
 
+/// By the article's own cuts, which alternate.
+void claim_cuts(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
+  const auto& longer = results[catalogue.rings_by_rays[0].back()];
+  const auto& alternating = results[catalogue.alternating_regions];
+  if (longer && alternating) {
+    const double load = 100 * alternating->average_load;
+    rows.add("The same by cuts in alternating directions, as the article made them", load > 77.5 && load < 87.5,
+             fixed(load, 1) + " %, and the picture takes " + fixed(alternating->seconds() / longer->seconds(), 2) +
+                 " times as long as by cuts across the longer side");
+  }
+}
+
 void claim_tests(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
   const auto& one = results[catalogue.rings_by_rays[1].front()];
   const auto& many = results[catalogue.rings_by_rays[1].back()];
@@ -206,6 +218,7 @@ Table claims(const Catalogue& catalogue, const PaperResults& results) {
   claim_caches(rows, catalogue, results);
   claim_faster_machine(rows, catalogue, results);
   claim_balance(rows, catalogue, results);
+  claim_cuts(rows, catalogue, results);
   claim_tests(rows, catalogue, results);
   claim_items(rows, catalogue, results);
   claim_copies(rows, catalogue, results);

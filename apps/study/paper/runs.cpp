@@ -49,7 +49,7 @@ Report report_of(const PaperRun& run, const Subject& subject, const std::stop_to
   if (run.strategy == Strategy::dataflow) {
     const dataflow::RunOptions options{
         .computer = {.node_count = run.node_count, .node_memory_bytes = run.node_memory_bytes, .machine = run.machine},
-        .rays = {.balance = {.balance = run.balance}, .topology = run.machine.topology}};
+        .rays = {.balance = {.balance = run.balance, .bsp = {.order = run.cuts}}, .topology = run.machine.topology}};
     return dataflow::run_dataflow(subject.database, subject.settings, options, stop);
   }
   const svm::RunOptions options{

@@ -28,6 +28,7 @@ struct PaperRun {
   bool count_pages = false;                               ///< of svm: the distinct pages a pixel
   std::optional<std::uint32_t> work_item = std::nullopt;  ///< of svm: pixels along its side; 0: none is given away
   dataflow::Balance balance = dataflow::Balance::subsampled;  ///< of dataflow
+  dataflow::CutOrder cuts = dataflow::CutOrder::longer_axis;  ///< of dataflow
   std::optional<std::size_t> node_memory_bytes = std::nullopt;
   std::uint32_t resolution = 512;  ///< pixels a side
   core::RecordOrder record_order = core::RecordOrder::spatial;

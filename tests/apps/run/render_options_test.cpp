@@ -160,16 +160,15 @@ TEST_CASE("a cutoff is exact unless said otherwise") {
 TEST_CASE("a value may follow its option as a word of its own") { CHECK(render({"--nodes", "3"}).computer.node_count == 3); }
 
 TEST_CASE("a value out of range or of the wrong kind names its option") {
-  for (const std::string option : {"--nodes=0",           "--nodes=4097",      "--nodes=-1",           "--nodes=many",
-                                   "--nodes=2.5",         "--strategy=dance",  "--tracer=magic",       "--samples=0",
-                                   "--samples=32769",     "--depth=0",         "--depth=256",          "--convention=mine",
-                                   "--cache-pages=0",     "--in-flight=0",     "--in-flight=4097",     "--work-item=-1",
-                                   "--balance=even",      "--subsample=0",     "--subsample=65537",    "--balance-grid=0",
-                                   "--balance-grid=4097", "--ray-batch=0",     "--ray-batch=683",      "--ray-credits=-1",
-                                   "--ray-queue=-1",      "--ray-queue=16385", "--ray-credits=65",     "--topology=ring",
-                                   "--grid-axes=moon",    "--work-item=1025",  "--no-skip=everything", "--resolution=512",
-                                   "--page-size=1000B",   "--page-size=256B",  "--page-size=128KiB",   "--node-memory=lots",
-                                   "--unheard-of=1"}) {
+  for (const std::string option :
+       {"--nodes=0",          "--nodes=4097",         "--nodes=-1",       "--nodes=many",      "--nodes=2.5",
+        "--strategy=dance",   "--tracer=magic",       "--samples=0",      "--samples=32769",   "--depth=0",
+        "--depth=256",        "--convention=mine",    "--cache-pages=0",  "--in-flight=0",     "--in-flight=4097",
+        "--work-item=-1",     "--balance=even",       "--cuts=third",     "--subsample=0",     "--subsample=65537",
+        "--balance-grid=0",   "--balance-grid=4097",  "--ray-batch=0",    "--ray-batch=683",   "--ray-credits=-1",
+        "--ray-queue=-1",     "--ray-queue=16385",    "--ray-credits=65", "--topology=ring",   "--grid-axes=moon",
+        "--work-item=1025",   "--no-skip=everything", "--resolution=512", "--page-size=1000B", "--page-size=256B",
+        "--page-size=128KiB", "--node-memory=lots",   "--unheard-of=1"}) {
     CAPTURE(option);
     CHECK(contains(render_complaint({option}), option.substr(0, option.find('='))));
     CHECK(contains(render_complaint({option}), "Try: dmpc render --help"));
@@ -225,6 +224,8 @@ TEST_CASE("every option of dataflow reaches its field") {
   CHECK(options.rays.ray_credits == 0);
   CHECK(options.rays.queue_packets == 5);
   CHECK(options.rays.topology == nodes::TopologyKind::fat_tree);
+  CHECK(options.rays.balance.bsp.order == dataflow::CutOrder::longer_axis);
+  CHECK(render({"--strategy=dataflow", "--cuts=alternating"}).rays.balance.bsp.order == dataflow::CutOrder::alternating);
   CHECK(render({"--strategy=dataflow", "--balance=equal-size"}).rays.balance.balance == dataflow::Balance::equal_size);
 }
 
@@ -245,6 +246,7 @@ TEST_CASE("an option of another strategy is refused with the strategies that it 
                                      {"--in-flight=16", dataflow, svm + " or " + replicated + " or " + forest},
                                      {"--work-item=3", dataflow, svm + " or " + replicated + " or " + forest},
                                      {"--balance=subsampled", svm, dataflow},
+                                     {"--cuts=alternating", replicated, dataflow},
                                      {"--subsample=8", replicated, dataflow},
                                      {"--balance-grid=256", svm, dataflow},
                                      {"--ray-batch=10", replicated, dataflow},
@@ -341,6 +343,7 @@ TEST_CASE("the help of render names every option and its default") {
                                  "world|screen [world]",
                                  "--balance",
                                  "subsampled|equal-size [subsampled]",
+                                 "longer-side|alternating [longer-side]",
                                  "--subsample",
                                  "--balance-grid",
                                  "--ray-batch",

@@ -29,19 +29,34 @@ TEST_CASE("balance has a row for each node count and way to cut") {
   const BalanceStudy study{.node_counts = {2, 5}};
   StudySubject subject("rings-2-t1");
   const Table table = subject.measure(study);
-  REQUIRE(table.rows().size() == 4);
+  REQUIRE(table.rows().size() == 6);
   CHECK(subject.runs.count() == study.run_count());
   CHECK(whole(table, 1, "nodes") == 2);
-  CHECK(whole(table, 2, "nodes") == 5);
-  CHECK(std::get<std::string>(cell(table, 2, "regions")) == "subsampled");
-  CHECK(std::get<std::string>(cell(table, 3, "regions")) == "equal size");
-  CHECK(is_missing(table, 3, "average load predicted"));
+  CHECK(whole(table, 3, "nodes") == 5);
+  CHECK(std::get<std::string>(cell(table, 3, "regions")) == "subsampled");
+  CHECK(std::get<std::string>(cell(table, 4, "regions")) == "subsampled, alternating");
+  CHECK(std::get<std::string>(cell(table, 5, "regions")) == "equal size");
+  CHECK(is_missing(table, 5, "average load predicted"));
+}
+
+TEST_CASE("cuts in alternating directions make other regions than those across the longer side, which rays cross elsewhere") {
+  StudySubject subject("tetra-3");
+  const Table table = subject.measure(BalanceStudy{.node_counts = {8}});
+  const auto by = [&](dataflow::CutOrder order) {
+    const dataflow::BalanceOptions cutting{.bsp = {.order = order}};
+    return subject.runs.run("again", dataflow::RunOptions{.computer = {.node_count = 8}, .rays = {.balance = cutting}});
+  };
+  CHECK(real(table, 0, "moves a ray") == by(dataflow::CutOrder::longer_axis).messages_per_ray());
+  CHECK(real(table, 1, "moves a ray") == by(dataflow::CutOrder::alternating).messages_per_ray());
+  CHECK(real(table, 0, "moves a ray") != real(table, 1, "moves a ray"));
 }
 
 TEST_CASE("regions by the subsampled picture are more even than those of equal size") {
   const Table table = StudySubject("rings-2-t1", 64).measure(BalanceStudy{.node_counts = {8}, .regions = {.subsample = 2}});
-  CHECK(real(table, 0, "average load achieved") > 1.5 * real(table, 1, "average load achieved"));
-  CHECK(real(table, 0, "average load predicted") > real(table, 1, "average load achieved"));
+  for (const std::size_t row : {0U, 1U}) {
+    CHECK(real(table, row, "average load achieved") > 1.5 * real(table, 2, "average load achieved"));
+    CHECK(real(table, row, "average load predicted") > real(table, 2, "average load achieved"));
+  }
   CHECK(real(table, 0, "average load predicted") <= 100);
   CHECK(real(table, 0, "duplication") >= 1);
 }
@@ -69,7 +84,7 @@ TEST_CASE("one node is all the load, and no ray hops") {
 
 TEST_CASE("rows by node are asked for, follow their run, and share out the whole") {
   const Table table = StudySubject("rings-2-t1").measure(BalanceStudy{.node_counts = {3}, .per_node = true});
-  REQUIRE(table.rows().size() == 8);
+  REQUIRE(table.rows().size() == 12);
   double predicted = 0, achieved = 0;
   for (std::size_t row = 1; row <= 3; ++row) {
     CHECK(whole(table, row, "node") == row - 1);
@@ -80,7 +95,7 @@ TEST_CASE("rows by node are asked for, follow their run, and share out the whole
   CHECK(predicted == doctest::Approx(100));
   CHECK(achieved == doctest::Approx(100));
   CHECK(is_missing(table, 0, "node"));
-  CHECK(is_missing(table, 5, "share predicted"));
+  CHECK(is_missing(table, 9, "share predicted"));
   CHECK(BalanceStudy().columns().size() + 3 == table.columns().size());
 }
 
