@@ -24,8 +24,9 @@ constexpr std::uint32_t short_queue(std::uint32_t capacity_packets) { return cap
 /// in every mailbox is enough. Belongs to one program.
 class Backpressure {
  public:
-  Backpressure(std::uint32_t other_nodes, std::uint32_t queue_capacity_packets)
-      : other_nodes_(other_nodes), capacity_(queue_capacity_packets) {}
+  /// With `is_wanted` false the node announces nothing and starts primary rays whatever waits, as the article's did.
+  Backpressure(std::uint32_t other_nodes, std::uint32_t queue_capacity_packets, bool is_wanted = true)
+      : other_nodes_(other_nodes), capacity_(queue_capacity_packets), is_wanted_(is_wanted) {}
 
   /// Whether something is to be announced with `queued` packets in the queue.
   bool is_due(std::uint32_t queued) const { return missing_ == 0 && wants(queued) != is_announced_; }
@@ -48,8 +49,8 @@ class Backpressure {
     core::expect(holds || holders_ > 0, "only what was announced is taken back");
     holders_ += holds ? 1 : -1U;
   }
-  /// No other node asks this one to hold its primary rays back.
-  bool admits_primaries() const { return holders_ == 0; }
+  /// Primary rays may start with `queued` packets in the queue: with none, unless another node asks to hold them back.
+  bool admits_primaries(std::uint32_t queued) const { return !is_wanted_ || (queued == 0 && holders_ == 0); }
 
   /// Nothing is announced that has not been taken back, and every announcement is acknowledged.
   bool is_settled() const { return !is_announced_ && missing_ == 0; }
@@ -62,11 +63,12 @@ class Backpressure {
 
  private:
   bool wants(std::uint32_t queued) const {
-    return queued >= long_queue(capacity_) || (is_announced_ && queued > short_queue(capacity_));
+    return is_wanted_ && (queued >= long_queue(capacity_) || (is_announced_ && queued > short_queue(capacity_)));
   }
 
   std::uint32_t other_nodes_;
   std::uint32_t capacity_;
+  bool is_wanted_;
   std::uint32_t missing_ = 0;  ///< acknowledgements
   std::uint32_t holders_ = 0;  ///< other nodes that ask this one to hold back
   std::uint64_t count_ = 0;

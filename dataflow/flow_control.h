@@ -11,10 +11,10 @@
 // (3) Hence a node with anything to do will do it, its backlog empties, and its credits go back, batched while it is
 //     busy, all of them before it rests. So every queued packet gets its credit, and so does the host: every ray that
 //     it keeps goes on. A node may therefore rest with rays that wait for credit, as long as it keeps nobody else's.
-// (4) New primary rays start only when nothing received is left, no packet is queued here, and no other node asks to
-//     hold them back (backpressure.h). No work is taken up while a packet waits: one work() adds at most one ray to a
-//     gather, which had room. The packets that the host forwards take the credits of (host, target), with places of
-//     their own.
+// (4) New primary rays start only when nothing received is left and, unless it is done without backpressure
+//     (backpressure.h), no packet is queued here and no other node asks to hold them back. No work is taken up while a packet
+//     waits: one work() adds at most one ray to a gather, which had room. The packets that the host forwards take the credits of
+//     (host, target), with places of their own.
 #pragma once
 
 #include <algorithm>

@@ -91,7 +91,7 @@ RayProgram<RaysTask>::RayProgram(nodes::Node& node, const Plan& plan, const Node
       task_(node.memory(), node.id(), plan.request.depth_max),
       gather_(node, gather_capacity(plan)),
       film_(node, plan.node_count(), plan.film_credits),
-      backpressure_(plan.node_count() - 1, plan.queue_packets) {
+      backpressure_(plan.node_count() - 1, plan.queue_packets, !plan.request.rays.without_backpressure) {
   core::expect(RaysTask::rays_max == plan.rays_a_task, "a node's task is that of the plan");
 }
 
@@ -187,7 +187,7 @@ NodeState RayProgram<RaysTask>::state() const {
           .is_tracing = !task_.is_idle(),
           .has_backlog = !backlog_.empty(),
           .has_primaries = !primaries_.empty(),
-          .admits_primaries = gather_.queued() == 0 && backpressure_.admits_primaries(),
+          .admits_primaries = backpressure_.admits_primaries(gather_.queued()),
           .can_flush = !has_work && gather_.can_flush(),  // looks at every owner
           .has_gathered = !gather_.empty(),
           .is_unacknowledged = !backpressure_.is_settled()};
@@ -533,7 +533,7 @@ std::string RayProgram<RaysTask>::describe() const {
                                                   : "hits") +
          " under way, " + std::to_string(gather_.size()) + " rays gathered" +
          (gather_.waits() ? " (a packet waits for room), " : ", ") + std::to_string(gather_.queued()) + " packets queued, " +
-         (backpressure_.admits_primaries() ? "" : "asked to hold primary rays back, ") + std::to_string(film_.gathered()) +
+         (backpressure_.admits_primaries(0) ? "" : "asked to hold primary rays back, ") + std::to_string(film_.gathered()) +
          " film entries" + (film_.waits() ? " (waiting)" : "") + ", ray packets sent - received " +
          std::to_string(termination_.balance()) + (termination_.holds_token() ? ", holds the token" : "") +
          (termination_.is_black() ? ", black" : ", white") +

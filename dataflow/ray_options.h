@@ -22,6 +22,8 @@ struct RayOptions {
   /// Full packets that may wait at their sender for credits before rays overflow. Without it 512, half as many of bundles, whose
   /// packets are twice as long, or fewer if the memory is scarce. Of no use without credits.
   std::optional<std::uint32_t> queue_packets = std::nullopt;
+  /// Nodes start primary rays whatever waits, their own packets or those of another whose queue is long: more rays overflow.
+  bool without_backpressure = false;
   /// Neighbouring regions are put on nodes that are few hops apart in this machine. Without it region i is node i's.
   std::optional<nodes::TopologyKind> topology = std::nullopt;
 };

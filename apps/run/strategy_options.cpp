@@ -52,6 +52,7 @@ const std::vector<Belonging>& belongings() {
       {"--ray-batch", {Strategy::dataflow}, "rays of the others do not travel"},
       {"--ray-credits", {Strategy::dataflow}, "rays of the others do not travel"},
       {"--ray-queue", {Strategy::dataflow}, "rays of the others do not travel"},
+      {"--no-backpressure", {Strategy::dataflow}, "rays of the others do not travel"},
       {"--topology", {Strategy::dataflow}, "the others map no regions onto nodes"},
   };
   return all;
@@ -143,6 +144,8 @@ void add_ray_options(OptionSet options, dataflow::RayOptions& rays) {
                      "Packets of rays that each node may have under way to each other; 0: all go by way of the host");
   options.add_number("--ray-queue", rays.queue_packets, 0, dataflow::queue_packets_max, "256, or 512 if rays walk alone",
                      "Packets of rays that can wait on a node for credit before more go by way of the host");
+  options.add_flag("--no-backpressure", rays.without_backpressure,
+                   "Nodes start primary rays whatever waits, as in 1994: what a full queue leaves goes by way of the host");
 }
 
 void check_together(const OptionSet& options, const StrategyOptions& run) {

@@ -49,14 +49,22 @@ TEST_CASE("a node is settled when nothing is announced and all is acknowledged")
 
 TEST_CASE("primary rays are admitted while no other node asks to hold them back") {
   Backpressure node(2, 8);
-  CHECK(node.admits_primaries());
+  CHECK(node.admits_primaries(0));
   node.take(true);
   node.take(true);
   node.take(false);
-  CHECK_FALSE(node.admits_primaries());
+  CHECK_FALSE(node.admits_primaries(0));
   node.take(false);
-  CHECK(node.admits_primaries());
+  CHECK(node.admits_primaries(0));
   CHECK_THROWS_AS(node.take(false), core::InternalError);
+}
+
+TEST_CASE("a node with packets in its queue starts no primary ray, unless it does without backpressure") {
+  CHECK_FALSE(Backpressure(2, 8).admits_primaries(1));
+  Backpressure without(2, 8, false);
+  CHECK(without.admits_primaries(8));
+  CHECK_FALSE(without.is_due(8));
+  CHECK(without.is_settled());
 }
 
 TEST_CASE("an empty queue is never long, and a queue of one packet is long and short") {

@@ -41,11 +41,12 @@ struct ProtocolRules {
 
 struct ProtocolSettings {
   std::array<std::uint8_t, model_nodes> primaries{1, 1, 0};
-  std::uint8_t children = 3;          ///< that all rays together may have
-  std::uint8_t credits_each = 1;      ///< packets of rays, for each (sender, target)
-  std::uint8_t rays_a_packet = 1;     ///< more than 1 only with one credit
-  std::uint8_t return_batch = 1;      ///< credits that a busy node collects
-  std::uint8_t queue_packets = 0;     ///< at most 2
+  std::uint8_t children = 3;       ///< that all rays together may have
+  std::uint8_t credits_each = 1;   ///< packets of rays, for each (sender, target)
+  std::uint8_t rays_a_packet = 1;  ///< more than 1 only with one credit
+  std::uint8_t return_batch = 1;   ///< credits that a busy node collects
+  std::uint8_t queue_packets = 0;  ///< at most 2
+  bool has_backpressure = true;
   std::uint8_t owners = model_nodes;  ///< children go to the first so many nodes: fewer, and more children can be explored
 };
 
@@ -184,7 +185,7 @@ class ProtocolModel {
   Member member(std::size_t peer) const {
     const bool is_host = peer == model_host;
     Member m{.termination = is_host ? Rules::Termination::initiator() : Rules::Termination::member(),
-             .backpressure{model_nodes - 1, settings_.queue_packets}};
+             .backpressure{model_nodes - 1, settings_.queue_packets, settings_.has_backpressure}};
     m.primaries = is_host ? std::uint8_t{0} : settings_.primaries[peer];
     for (std::size_t target = 0; target < model_peers; ++target) {
       m.credits[target] = target == peer ? std::uint8_t{0} : target == model_host ? std::uint8_t{1} : settings_.credits_each;
@@ -391,7 +392,7 @@ class ProtocolModel {
             .is_tracing = m.children > 0,
             .has_backlog = any(m.backlog),
             .has_primaries = m.primaries > 0,
-            .admits_primaries = queued_in(m) == 0 && m.backpressure.admits_primaries(),
+            .admits_primaries = m.backpressure.admits_primaries(queued_in(m)),
             .can_flush = may_leave(m, 0) || may_leave(m, 1) || may_leave(m, 2),
             .has_gathered = any(m.gathered) || queued_in(m) > 0,
             .is_unacknowledged = !m.backpressure.is_settled()};

@@ -146,6 +146,12 @@ TEST_CASE("packets that wait in a queue leave in every order of events") {
   check_all_orders({.primaries = {1, 1, 0}, .children = children(4), .queue_packets = 2, .owners = 2}, 10'000);
 }
 
+TEST_CASE("primary rays that start whatever waits end in every order of events") {
+  check_all_orders({.primaries = {2, 1, 0}, .children = children(2), .queue_packets = 1, .has_backpressure = false, .owners = 2},
+                   1'000);
+  check_all_orders({.primaries = {1, 1, 0}, .children = children(3), .queue_packets = 1, .has_backpressure = false}, 10'000);
+}
+
 TEST_CASE("without the way by the host there is a deadlock") {
   check_found<WithoutOverflow>({.primaries = {1, 1, 0}, .children = 4, .owners = 2}, "deadlock");
 }

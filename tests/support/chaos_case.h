@@ -57,9 +57,11 @@ class ChaosCase {
     options.rays.ray_batch = one_of<std::optional<std::uint32_t>>({1, 1, 2, 5, 10, 40, std::nullopt});
     options.rays.ray_credits = one_of<std::optional<std::uint32_t>>({0, 1, 1, 2, std::nullopt});
     options.rays.queue_packets = one_of<std::optional<std::uint32_t>>({0, 1, 2, 7, std::nullopt});
-    options.rays.balance = {.balance = draws_.chance(50) ? dataflow::Balance::subsampled : dataflow::Balance::equal_size,
-                            .subsample = 4,
-                            .bsp = {.order = draws_.chance(75) ? dataflow::CutOrder::longer_axis : dataflow::CutOrder::alternating}};
+    options.rays.balance = {
+        .balance = draws_.chance(50) ? dataflow::Balance::subsampled : dataflow::Balance::equal_size,
+        .subsample = 4,
+        .bsp = {.order = draws_.chance(75) ? dataflow::CutOrder::longer_axis : dataflow::CutOrder::alternating}};
+    options.rays.without_backpressure = draws_.chance(20);
     options.rays.topology =
         one_of<std::optional<nodes::TopologyKind>>({std::nullopt, nodes::TopologyKind::hypercube, nodes::TopologyKind::mesh});
     disturb(options, round);

@@ -134,6 +134,7 @@ Json options_json(const dataflow::RayOptions& rays, const dataflow::Plan& plan) 
           {"ray_batch", plan.ray_batch},
           {"ray_credits", plan.ray_credits},
           {"ray_queue", plan.queue_packets},
+          {"backpressure", !rays.without_backpressure},
           {"topology", std::string(name_of(*rays.topology))}};
 }
 

@@ -238,7 +238,7 @@ Json options_json(const RenderRecord& record, const Account& account, const Json
                  {"page_size", record.database.page_size()}};
   add_staging(result, options.picture.staging);
   result.update(filled({"cache_pages", "replacement", "in_flight", "work_item", "workers", "count_pages", "balance", "cuts",
-                        "subsample", "balance_grid", "ray_batch", "ray_credits", "ray_queue", "topology"},
+                        "subsample", "balance_grid", "ray_batch", "ray_credits", "ray_queue", "backpressure", "topology"},
                        special));
   return result;
 }

@@ -37,7 +37,7 @@ void add_tables(Catalogue& catalogue, const PaperRun& like) {
     }
     PaperRun run = like;
     run.scene = paper_scenes[scene].scene;
-    run.count_pages = true;
+    run.pages.count_pages = true;
     catalogue.counted[scene] = catalogue.add(run);
   }
 }
@@ -93,21 +93,49 @@ void add_caches(Catalogue& catalogue, const PaperRun& like) {
   }
 }
 
-/// What claims of the text hang on: sizes of work items, regions of equal size, and copies of the database on every node.
+/// The options of one way for rays to travel.
+dataflow::RayOptions rays_by(RayWay way) {
+  dataflow::RayOptions rays;
+  switch (way) {
+    case RayWay::standard:
+      break;
+    case RayWay::alternating:
+      rays.balance.bsp.order = dataflow::CutOrder::alternating;
+      break;
+    case RayWay::equal_size:
+      rays.balance.balance = dataflow::Balance::equal_size;
+      break;
+    case RayWay::unchecked:
+      rays.without_backpressure = true;
+      break;
+    case RayWay::unchecked_long:
+      rays.without_backpressure = true;
+      rays.queue_packets = long_queue_packets;
+      break;
+  }
+  return rays;
+}
+
+void add_ray_ways(Catalogue& catalogue) {
+  for (std::size_t scene = 0; scene < rings.size(); ++scene) {
+    const std::size_t standard = catalogue.rings_by_rays[scene].back();
+    for (std::size_t way = 0; way < ray_way_names.size(); ++way) {
+      PaperRun run = catalogue.runs[standard];
+      run.rays = rays_by(static_cast<RayWay>(way));
+      catalogue.rings_by_way[scene][way] = way == 0 ? standard : catalogue.add(run);
+    }
+  }
+}
+
+/// What claims of the text hang on: sizes of work items, and copies of the database on every node.
 void add_foils(Catalogue& catalogue) {
   const std::size_t last = paper_node_counts.size() - 1;
   for (std::size_t size = 0; size < item_sides.size(); ++size) {
     const std::size_t timed = catalogue.timed[rings_row][last];
     PaperRun run = catalogue.runs[timed];
-    run.work_item = item_sides[size];
+    run.pages.work_item_side = item_sides[size];
     catalogue.items[size] = size == article_item ? timed : catalogue.add(run);
   }
-  PaperRun equal = catalogue.runs[catalogue.rings_by_rays[0][last]];
-  equal.balance = dataflow::Balance::equal_size;
-  catalogue.equal_regions = catalogue.add(equal);
-  PaperRun alternating = catalogue.runs[catalogue.rings_by_rays[0][last]];
-  alternating.cuts = dataflow::CutOrder::alternating;
-  catalogue.alternating_regions = catalogue.add(alternating);
   PaperRun copies = catalogue.runs[catalogue.timed[small_row][last]];
   copies.strategy = Strategy::replicated;
   copies.cache_share.reset();
@@ -124,6 +152,7 @@ Catalogue catalogue_of(std::uint32_t resolution) {
   add_rings(catalogue, like);
   add_memories(catalogue);
   add_caches(catalogue, like);
+  add_ray_ways(catalogue);
   add_foils(catalogue);
   PaperRun faster = catalogue.runs[catalogue.timed[rings_row][faster_column]];
   faster.machine = preset("ipsc860");

@@ -25,6 +25,18 @@ inline constexpr std::array<std::uint32_t, 7> item_sides = {0, 1, 2, 3, 4, 6, 8}
 inline constexpr std::size_t article_item = 3;
 /// Scenes on which rays travel beside pages.
 inline constexpr std::array<const char*, 2> rings = {"rings-3-t1", "rings-4-t1"};
+/// How they travel there on 64 nodes, beside how they do unasked.
+enum class RayWay : std::uint8_t {
+  standard,       ///< cuts across the longer side by a subsampled picture, backpressure
+  alternating,    ///< cuts in alternating directions
+  equal_size,     ///< regions of equal size
+  unchecked,      ///< without backpressure
+  unchecked_long  ///< the same, with a queue that fills the node's memory
+};
+inline constexpr std::array<const char*, 5> ray_way_names = {"longer-side cuts", "alternating cuts", "equal sizes",
+                                                             "no backpressure", "no backpressure, long queue"};
+/// With all else they fill nearly all of the article's 4 MB on each of 64 nodes.
+inline constexpr std::uint32_t long_queue_packets = 960;
 /// The column of Table 3 that the iPSC/860 is held against: 32 nodes.
 inline constexpr std::size_t faster_column = 5;
 /// Those of Table 3 with efficiencies that the size of the memories tells in, since their nodes miss pages again that they had
@@ -71,11 +83,13 @@ struct Catalogue {
   std::array<std::size_t, 2> cache_base{};                            ///< of `cache_scenes`, on one node
   std::array<std::array<std::size_t, cache_size_count>, 2> cached{};  ///< of `cache_scenes`, by size
   std::array<std::size_t, item_sides.size()> items{};                 ///< Rings4 on 64 nodes, by size
-  std::size_t equal_regions = 0;                                      ///< the first of `rings` on 64 nodes, by rays
-  std::size_t alternating_regions = 0;                                ///< the same, subsampled, by the article's order of cuts
-  std::size_t copies = 0;                                             ///< the small scene on 64 nodes, replicated
-  std::size_t faster_machine = 0;                                     ///< Rings4 on 32 nodes of an iPSC/860
+  std::array<std::array<std::size_t, ray_way_names.size()>, 2> rings_by_way{};  ///< of `rings` on 64 nodes, by RayWay
+  std::size_t copies = 0;                                                       ///< the small scene on 64 nodes, replicated
+  std::size_t faster_machine = 0;                                               ///< Rings4 on 32 nodes of an iPSC/860
   std::size_t dearer_cache = 0;  ///< the calibration's scene on two nodes, a cached look-up at twice its price
+
+  /// The run of `rings[scene]` on 64 nodes.
+  std::size_t by_way(std::size_t scene, RayWay way) const { return rings_by_way[scene][static_cast<std::size_t>(way)]; }
 
   std::size_t add(PaperRun run) {
     runs.push_back(std::move(run));

@@ -52,6 +52,7 @@ std::vector<NamedTable> tables_of(const Catalogue& catalogue, const PaperResults
           {"memories", memories(catalogue, results)},
           {"losses", losses(catalogue, results)},
           {"algorithms", algorithms(catalogue, results)},
+          {"ray_ways", ray_ways(catalogue, results)},
           {"work_items", work_items(catalogue, results)},
           {"caches", caches(catalogue, results)},
           {"claims", claims_with_note(catalogue, results)}};
@@ -70,8 +71,8 @@ PaperReport report_of(const Catalogue& catalogue, const std::vector<VariedRuns>&
 
 /// Every table's name, in their order; the last one only where the machine is varied.
 std::vector<std::string> table_names(bool has_sensitivity) {
-  std::vector<std::string> names = {"table_2", "table_3",    "calibration", "law",    "against_law", "memories",
-                                    "losses",  "algorithms", "work_items",  "caches", "claims"};
+  std::vector<std::string> names = {"table_2", "table_3",    "calibration", "law",        "against_law", "memories",
+                                    "losses",  "algorithms", "ray_ways",    "work_items", "caches",      "claims"};
   if (has_sensitivity) {
     names.emplace_back("sensitivity");
   }
@@ -116,6 +117,7 @@ void show_rows(const Catalogue& catalogue, const PaperResults& results, ShownRow
   if (shown.is_shown()) {
     shown.show(table_3(catalogue, results), key_count);
     shown.show(algorithms(catalogue, results), key_count);
+    shown.show(ray_ways(catalogue, results), key_count);
     shown.show(work_items(catalogue, results), key_count);
     shown.show(caches(catalogue, results), key_count);
   }

@@ -185,6 +185,13 @@ std::string on_caches(const Table& table) {
          share(*worst) + " of the database to " + fixed(sizes.most, 1) + " % with " + share(*sizes.of_most) + ".";
 }
 
+std::string on_ray_ways(const Table& table) {
+  const Sizes sizes = sizes_of(table, "efficiency");
+  return sizes.count == 0 ? ""
+                          : "Rays travel best, with an efficiency of " + fixed(sizes.most, 1) + " %, on " +
+                                texts_of(table, *sizes.of_most)[0] + " by " + texts_of(table, *sizes.of_most)[1] + ".";
+}
+
 std::string on_work_items(const Table& table) {
   if (table.rows().empty()) {
     return "";
@@ -220,7 +227,7 @@ struct Conclusion {
   std::string (*on)(const Table& table);
 };
 
-constexpr std::array<Conclusion, 12> conclusions = {{{"table_2", on_table_2},
+constexpr std::array<Conclusion, 13> conclusions = {{{"table_2", on_table_2},
                                                      {"table_3", on_table_3},
                                                      {"calibration", on_calibration},
                                                      {"law", on_law},
@@ -228,6 +235,7 @@ constexpr std::array<Conclusion, 12> conclusions = {{{"table_2", on_table_2},
                                                      {"memories", on_memories},
                                                      {"losses", on_losses},
                                                      {"algorithms", on_algorithms},
+                                                     {"ray_ways", on_ray_ways},
                                                      {"work_items", on_work_items},
                                                      {"caches", on_caches},
                                                      {"claims", on_claims},

@@ -47,17 +47,16 @@ std::optional<std::uint32_t> cache_pages_of(const PaperRun& run, const core::Dat
 
 Report report_of(const PaperRun& run, const Subject& subject, const std::stop_token& stop) {
   if (run.strategy == Strategy::dataflow) {
-    const dataflow::RunOptions options{
+    dataflow::RunOptions options{
         .computer = {.node_count = run.node_count, .node_memory_bytes = run.node_memory_bytes, .machine = run.machine},
-        .rays = {.balance = {.balance = run.balance, .bsp = {.order = run.cuts}}, .topology = run.machine.topology}};
+        .rays = run.rays};
+    options.rays.topology = run.machine.topology;
     return dataflow::run_dataflow(subject.database, subject.settings, options, stop);
   }
-  const svm::RunOptions options{
+  svm::RunOptions options{
       .computer = {.node_count = run.node_count, .node_memory_bytes = run.node_memory_bytes, .machine = run.machine},
-      .pages = {.cache_pages = cache_pages_of(run, subject.database),
-                .in_flight = 1,
-                .work_item_side = run.work_item,
-                .count_pages = run.count_pages}};
+      .pages = run.pages};
+  options.pages.cache_pages = cache_pages_of(run, subject.database);
   if (run.strategy == Strategy::replicated) {
     return svm::run_replicated(subject.database, subject.settings, options, stop);
   }
@@ -74,6 +73,10 @@ PaperResult result_of(const Report& report) {
                      .film_hash = account.film.hash()};
   if (const auto* rays = std::get_if<dataflow::Report>(&report)) {
     result.average_load = dataflow::average_load(rays->work());
+    const dataflow::Gather::Counters gathers = rays->gathers();
+    result.overflowed =
+        gathers.packets == 0 ? 0 : static_cast<double>(gathers.packets_overflowed) / static_cast<double>(gathers.packets);
+    result.ray_bytes = dataflow::ray_traffic(account.sent).bytes;
   }
   if (const auto* pages = std::get_if<svm::Report>(&report)) {
     result.references = pages->pages().references;

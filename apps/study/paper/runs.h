@@ -13,8 +13,9 @@
 #include "apps/scene/subject.h"
 #include "apps/system/interrupt.h"
 #include "core/build/record_order.h"
-#include "dataflow/regions/balance.h"
+#include "dataflow/ray_options.h"
 #include "nodes/machine.h"
+#include "svm/page_options.h"
 
 namespace dmpc::apps {
 
@@ -24,11 +25,9 @@ struct PaperRun {
   std::uint32_t node_count = 1;
   Strategy strategy = Strategy::svm;
   nodes::Machine machine;
-  std::optional<double> cache_share = std::nullopt;       ///< of svm: what a node's cache holds, of the database; at least a page
-  bool count_pages = false;                               ///< of svm: the distinct pages a pixel
-  std::optional<std::uint32_t> work_item = std::nullopt;  ///< of svm: pixels along its side; 0: none is given away
-  dataflow::Balance balance = dataflow::Balance::subsampled;  ///< of dataflow
-  dataflow::CutOrder cuts = dataflow::CutOrder::longer_axis;  ///< of dataflow
+  std::optional<double> cache_share = std::nullopt;  ///< of svm: what a node's cache holds, of the database; at least a page
+  svm::PageOptions pages = {.in_flight = 1};         ///< of svm and replicated, but for the cache
+  dataflow::RayOptions rays = {};                    ///< of dataflow; regions are mapped onto the machine
   std::optional<std::size_t> node_memory_bytes = std::nullopt;
   std::uint32_t resolution = 512;  ///< pixels a side
   core::RecordOrder record_order = core::RecordOrder::spatial;
@@ -41,6 +40,8 @@ struct PaperResult {
   std::uint64_t rays = 0, references = 0, faults = 0, page_bytes = 0;
   std::uint64_t tests = 0;        ///< of rays against primitives
   double average_load = 0;        ///< mean over maximum of the nodes' work, if rays travelled
+  double overflowed = 0;          ///< packets of rays by way of the host over all, in [0, 1]
+  std::uint64_t ray_bytes = 0;    ///< of the packets with rays, by whatever way
   std::uint32_t cache_pages = 0;  ///< of a node, if pages travelled
   double pages_a_pixel = 0;       ///< if they were counted
   std::uint64_t film_hash = 0;

@@ -189,6 +189,36 @@ Table algorithms(const Catalogue& catalogue, const PaperResults& results) {
   return table;
 }
 
+Table ray_ways(const Catalogue& catalogue, const PaperResults& results) {
+  const std::uint32_t node_count = paper_node_counts.back();
+  Table table("Ways for rays to travel, on " + std::to_string(node_count) + " nodes", {{"scene"},
+                                                                                       {"way"},
+                                                                                       {"seconds", "s", 0},
+                                                                                       {"efficiency", "%", 1},
+                                                                                       {"average load", "%", 1},
+                                                                                       {"by way of the host", "%", 2},
+                                                                                       {"traffic", "bytes"},
+                                                                                       {"tests"}});
+  for (std::size_t scene = 0; scene < rings.size(); ++scene) {
+    const auto& first = results[catalogue.rings_by_pages[scene][0]];
+    for (std::size_t way = 0; way < ray_way_names.size(); ++way) {
+      const auto& result = results[catalogue.rings_by_way[scene][way]];
+      if (first && result) {
+        table.add_row({rings[scene], ray_way_names[way], result->seconds(),
+                       efficiency(first->seconds(), 1, result->seconds(), node_count), 100 * result->average_load,
+                       100 * result->overflowed, result->ray_bytes, result->tests});
+      }
+    }
+  }
+  table.add_note("All but the one that is named as in the first row of a scene, which is that of Figures 5 and 7.");
+  table.add_note(
+      "Without backpressure nodes start primary rays whatever waits, as the article's did: what finds no room in the queue goes "
+      "by way of the host. A long queue is one of " +
+      std::to_string(long_queue_packets) + " packets, which fill the node's 4 MiB; else there are 512 of them at most.");
+  note_missing_rows(table, rings.size() * ray_way_names.size());
+  return table;
+}
+
 std::string item_text(std::uint32_t side) { return side == 0 ? "static" : std::to_string(side) + "x" + std::to_string(side); }
 
 Table work_items(const Catalogue& catalogue, const PaperResults& results) {

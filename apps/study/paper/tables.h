@@ -72,6 +72,8 @@ Table table_3(const Catalogue& catalogue, const PaperResults& results);
 Table losses(const Catalogue& catalogue, const PaperResults& results);
 /// Figures 5 and 7: rays that travel beside pages that travel.
 Table algorithms(const Catalogue& catalogue, const PaperResults& results);
+/// What the ways for rays to travel are worth on 64 nodes.
+Table ray_ways(const Catalogue& catalogue, const PaperResults& results);
 /// "3x3", or "static" of 0.
 std::string item_text(std::uint32_t side);
 /// What the size of a work item is worth.

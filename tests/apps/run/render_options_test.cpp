@@ -224,6 +224,8 @@ TEST_CASE("every option of dataflow reaches its field") {
   CHECK(options.rays.ray_credits == 0);
   CHECK(options.rays.queue_packets == 5);
   CHECK(options.rays.topology == nodes::TopologyKind::fat_tree);
+  CHECK_FALSE(options.rays.without_backpressure);
+  CHECK(render({"--strategy=dataflow", "--no-backpressure"}).rays.without_backpressure);
   CHECK(options.rays.balance.bsp.order == dataflow::CutOrder::longer_axis);
   CHECK(render({"--strategy=dataflow", "--cuts=alternating"}).rays.balance.bsp.order == dataflow::CutOrder::alternating);
   CHECK(render({"--strategy=dataflow", "--balance=equal-size"}).rays.balance.balance == dataflow::Balance::equal_size);
@@ -252,6 +254,7 @@ TEST_CASE("an option of another strategy is refused with the strategies that it 
                                      {"--ray-batch=10", replicated, dataflow},
                                      {"--ray-credits=4", svm, dataflow},
                                      {"--ray-queue=512", replicated, dataflow},
+                                     {"--no-backpressure", svm, dataflow},
                                      {"--topology=hypercube", replicated, dataflow}};
   for (const auto& [option, with, goes_with] : wrongs) {
     CAPTURE(option);
@@ -352,6 +355,7 @@ TEST_CASE("the help of render names every option and its default") {
                                  "0..64 [4; up to 64 of few nodes whose rays walk together]",
                                  "--ray-queue",
                                  "0..16384 [256, or 512 if rays walk alone]",
+                                 "--no-backpressure",
                                  "--topology",
                                  "--runner",
                                  "threads|virtual [threads]",

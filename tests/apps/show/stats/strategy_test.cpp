@@ -91,6 +91,7 @@ TEST_CASE("loads are predicted where there was a subsampled picture") {
   CHECK(equal.nodes[0]["load"]["predicted_ps"].is_null());
   CHECK(equal.options["balance"] == "equal-size");
   CHECK(equal.options["cuts"] == "longer-side");
+  CHECK(equal.options["backpressure"] == true);
   CHECK(equal.options["subsample"].is_null());
 }
 

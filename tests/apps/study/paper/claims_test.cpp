@@ -15,7 +15,7 @@ using namespace apps;
 
 namespace {
 
-constexpr std::size_t claim_count = 12;
+constexpr std::size_t claim_count = 13;
 
 using ByNodeCount = std::array<double, paper_node_counts.size()>;
 
@@ -45,15 +45,20 @@ struct Claimed {
     set_caches(results, catalogue, 1, tetra_caches);
     results[catalogue.faster_machine] = time_of_rings(1.0 / 7);
     results[catalogue.rings_by_rays[0].back()]->average_load = 0.825;
-    results[catalogue.equal_regions] = PaperResult{.average_load = 0.15};
-    results[catalogue.alternating_regions] =
+    results[catalogue.by_way(0, RayWay::equal_size)] = PaperResult{.average_load = 0.15};
+    results[catalogue.by_way(0, RayWay::alternating)] =
         PaperResult{.total_ns = results[catalogue.rings_by_rays[0].back()]->total_ns * 2, .average_load = 0.825};
+    set_overflow(0, 0.005);
     results[catalogue.rings_by_rays[1].front()]->tests = 100;
     results[catalogue.rings_by_rays[1].back()]->tests = 130;
     set_items({1.16, 1.08, 1.01, 1, 1.003, 1.04, 1.09});
     results[catalogue.copies] = result_of_seconds(198);
   }
 
+  void set_overflow(double of_rings_3, double of_rings_4) {
+    results[catalogue.by_way(0, RayWay::unchecked_long)] = PaperResult{.overflowed = of_rings_3};
+    results[catalogue.by_way(1, RayWay::unchecked_long)] = PaperResult{.overflowed = of_rings_4};
+  }
   /// By size, times what the article's takes.
   void set_items(const std::array<double, item_sides.size()>& factors) {
     const auto of_article = static_cast<double>(results[catalogue.items[article_item]]->total_ns);
@@ -201,7 +206,7 @@ TEST_CASE("loads of regions hold the claim near 82.5 % beside less than 20") {
   Claimed claimed;
   const auto verdict_of = [&](double subsampled, double equal) {
     claimed.results[claimed.catalogue.rings_by_rays[0].back()]->average_load = subsampled;
-    claimed.results[claimed.catalogue.equal_regions]->average_load = equal;
+    claimed.results[claimed.catalogue.by_way(0, RayWay::equal_size)]->average_load = equal;
     return claimed.verdict("Subsampled regions");
   };
   CHECK(verdict_of(0.809, 0.103) == "held");
@@ -214,9 +219,20 @@ TEST_CASE("loads of regions hold the claim near 82.5 % beside less than 20") {
 TEST_CASE("cuts in alternating directions are judged by their own load") {
   Claimed claimed;
   CHECK(claimed.found("alternating") == "82.5 %, and the picture takes 2.00 times as long as by cuts across the longer side");
-  claimed.results[claimed.catalogue.alternating_regions]->average_load = 0.7;
+  claimed.results[claimed.catalogue.by_way(0, RayWay::alternating)]->average_load = 0.7;
   CHECK(claimed.verdict("alternating") == "not held");
   CHECK(claimed.verdict("Subsampled regions") == "held");
+}
+
+TEST_CASE("one picture of which about 0.5 % goes by way of the host holds the claim") {
+  Claimed claimed;
+  CHECK(claimed.found("of the host").starts_with("rings-3-t1 0.00 %, rings-4-t1 0.50 %, "));
+  claimed.set_overflow(0.009, 0.2);
+  CHECK(claimed.verdict("of the host") == "held");
+  claimed.set_overflow(0.011, 0.002);
+  CHECK(claimed.verdict("of the host") == "not held");
+  claimed.results[claimed.catalogue.by_way(1, RayWay::unchecked_long)].reset();
+  CHECK(claimed.verdict("of the host") == "missing");
 }
 
 TEST_CASE("objects that no region tests again do not hold the claim") {

@@ -14,7 +14,7 @@ const std::string nothing;
 
 TEST_CASE("a table of the article without rows, or an unknown one, has no conclusion") {
   for (const char* const name : {"table_2", "table_3", "calibration", "law", "against_law", "memories", "losses", "algorithms",
-                                 "work_items", "caches", "claims", "sensitivity", "no table"}) {
+                                 "ray_ways", "work_items", "caches", "claims", "sensitivity", "no table"}) {
     CHECK(paper_conclusion(name, Table("", {{"scene"}, {"nodes"}})) == nothing);
   }
 }
@@ -56,6 +56,10 @@ TEST_CASE("other tables of the article are concluded from their columns") {
   Table travel("", {{"scene"}, {"nodes"}, {"rays travel", "s"}, {"pages travel", "s"}});
   travel.add_row({"a", std::uint64_t{64}, 4.0, 1.0});
   CHECK(paper_conclusion("algorithms", travel) == "On 64 nodes pages that travel take 0.25 times as long as rays (a).");
+  Table ways("", {{"scene"}, {"way"}, {"efficiency", "%"}});
+  ways.add_row({"a", "slow", 20.0});
+  ways.add_row({"a", "fast", 40.0});
+  CHECK(paper_conclusion("ray_ways", ways) == "Rays travel best, with an efficiency of 40.0 %, on a by fast.");
   Table items("", {{"item"}, {"nodes"}, {"seconds", "s", 0}});
   items.add_row({"static", std::uint64_t{64}, 700.0});
   items.add_row({"3x3", std::uint64_t{64}, 604.0});

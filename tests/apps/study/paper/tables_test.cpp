@@ -120,6 +120,22 @@ TEST_CASE("caches have their efficiency, faults and traffic beside what they hol
   CHECK(table.notes().back() == "Unfinished: 10 of 20 rows are missing.");
 }
 
+TEST_CASE("ways for rays to travel have their efficiency against one node, and what went by way of the host") {
+  const Catalogue catalogue = catalogue_of(16);
+  PaperResults results(catalogue.runs.size());
+  results[catalogue.rings_by_pages[1][0]] = result_of_seconds(6400);
+  PaperResult unchecked = result_of_seconds(200);
+  unchecked.average_load = 0.7;
+  unchecked.overflowed = 0.03;
+  unchecked.ray_bytes = 5;
+  unchecked.tests = 9;
+  results[catalogue.by_way(1, RayWay::unchecked)] = unchecked;
+  const Table table = ray_ways(catalogue, results);
+  REQUIRE(table.rows().size() == 1);
+  CHECK(table.rows()[0] ==
+        std::vector<Cell>{"rings-4-t1", "no backpressure", 200.0, 50.0, 70.0, 3.0, std::uint64_t{5}, std::uint64_t{9}});
+}
+
 TEST_CASE("work items have their seconds and where they go, static first") {
   const Catalogue catalogue = catalogue_of(16);
   PaperResults results(catalogue.runs.size());
