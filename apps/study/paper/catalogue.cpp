@@ -127,7 +127,7 @@ void add_ray_ways(Catalogue& catalogue) {
   }
 }
 
-/// What claims of the text hang on: sizes of work items, and copies of the database on every node.
+/// What claims of the text hang on: sizes of work items, a light inside the scene, and copies of the database on every node.
 void add_foils(Catalogue& catalogue) {
   const std::size_t last = paper_node_counts.size() - 1;
   for (std::size_t size = 0; size < item_sides.size(); ++size) {
@@ -136,6 +136,11 @@ void add_foils(Catalogue& catalogue) {
     run.pages.work_item_side = item_sides[size];
     catalogue.items[size] = size == article_item ? timed : catalogue.add(run);
   }
+  PaperRun by_rays = catalogue.runs[catalogue.rings_by_rays[1][last]],
+           by_pages = catalogue.runs[catalogue.timed[rings_row][last]];
+  by_rays.has_inner_light = by_pages.has_inner_light = true;
+  catalogue.lit_by_rays = catalogue.add(by_rays);
+  catalogue.lit_by_pages = catalogue.add(by_pages);
   PaperRun copies = catalogue.runs[catalogue.timed[small_row][last]];
   copies.strategy = Strategy::replicated;
   copies.cache_share.reset();

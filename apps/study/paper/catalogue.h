@@ -84,6 +84,7 @@ struct Catalogue {
   std::array<std::array<std::size_t, cache_size_count>, 2> cached{};  ///< of `cache_scenes`, by size
   std::array<std::size_t, item_sides.size()> items{};                 ///< Rings4 on 64 nodes, by size
   std::array<std::array<std::size_t, ray_way_names.size()>, 2> rings_by_way{};  ///< of `rings` on 64 nodes, by RayWay
+  std::size_t lit_by_rays = 0, lit_by_pages = 0;                                ///< Rings4 on 64 nodes, a light in its middle
   std::size_t copies = 0;                                                       ///< the small scene on 64 nodes, replicated
   std::size_t faster_machine = 0;                                               ///< Rings4 on 32 nodes of an iPSC/860
   std::size_t dearer_cache = 0;  ///< the calibration's scene on two nodes, a cached look-up at twice its price

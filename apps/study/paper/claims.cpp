@@ -189,6 +189,18 @@ void claim_overflow(Claims& rows, const Catalogue& catalogue, const PaperResults
            found + "on 64 nodes without backpressure, whose queues fill their memories");
 }
 
+/// Twice the mean is a flood, a quarter above it is none.
+void claim_lights(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
+  const auto& rays = results[catalogue.lit_by_rays];
+  const auto& pages = results[catalogue.lit_by_pages];
+  if (rays && pages) {
+    rows.add("A light inside floods its region with shadow rays; where pages travel it is cached (Rings4)",
+             rays->flood > 2 && pages->flood < 1.25,
+             "its region gets " + fixed(rays->flood, 1) + " times the mean of shadow rays; no node sends over " +
+                 fixed(pages->flood, 2) + " times the mean of pages; 64 nodes");
+  }
+}
+
 void claim_tests(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
   const auto& one = results[catalogue.rings_by_rays[1].front()];
   const auto& many = results[catalogue.rings_by_rays[1].back()];
@@ -236,6 +248,7 @@ Table claims(const Catalogue& catalogue, const PaperResults& results) {
   claim_balance(rows, catalogue, results);
   claim_cuts(rows, catalogue, results);
   claim_overflow(rows, catalogue, results);
+  claim_lights(rows, catalogue, results);
   claim_tests(rows, catalogue, results);
   claim_items(rows, catalogue, results);
   claim_copies(rows, catalogue, results);

@@ -5,10 +5,12 @@
 #include <iostream>
 #include <map>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "apps/run/report.h"
 #include "apps/scene/load_scene.h"
+#include "apps/study/paper/hot_spots.h"
 #include "apps/system/progress.h"
 #include "apps/system/side_by_side.h"
 #include "core/base/expect.h"
@@ -20,11 +22,18 @@
 namespace dmpc::apps {
 namespace {
 
+/// In the middle of Rings4.
+constexpr core::PointLight inner_light{.position = {-1, 7.36, 0.5}};
+
 /// The article's program counts rays as this convention does, and traced all of them.
-PictureOptions picture_of(const std::string& scene, std::uint32_t resolution) {
-  const auto side = static_cast<int>(resolution);
-  PictureOptions picture{.scene = scene, .resolution = Resolution{side, side}, .convention = core::Convention::paper};
+PictureOptions picture_of(const PaperRun& run) {
+  const auto side = static_cast<int>(run.resolution);
+  PictureOptions picture{.scene = run.scene, .resolution = Resolution{side, side}, .convention = core::Convention::paper};
   picture.skips.background = false;
+  if (run.has_inner_light) {
+    picture.skips.empty_regions = false;
+    picture.staging.lights = {inner_light};
+  }
   return picture;
 }
 
@@ -63,7 +72,7 @@ Report report_of(const PaperRun& run, const Subject& subject, const std::stop_to
   return svm::run_svm(subject.database, subject.settings, options, stop);
 }
 
-PaperResult result_of(const Report& report) {
+PaperResult result_of(const Report& report, const core::Database& database) {
   const Account account = account_of(report);
   PaperResult result{.total_ns = account.virtual_time->total_ns,
                      .parts = parts_of(sum_of_nodes(*account.virtual_time), account.waits),
@@ -72,6 +81,7 @@ PaperResult result_of(const Report& report) {
                                               account.operations.primitive_tests.end(), std::uint64_t{0}),
                      .film_hash = account.film.hash()};
   if (const auto* rays = std::get_if<dataflow::Report>(&report)) {
+    result.flood = shadow_flood(database, *rays);
     result.average_load = dataflow::average_load(rays->work());
     const dataflow::Gather::Counters gathers = rays->gathers();
     result.overflowed =
@@ -79,6 +89,7 @@ PaperResult result_of(const Report& report) {
     result.ray_bytes = dataflow::ray_traffic(account.sent).bytes;
   }
   if (const auto* pages = std::get_if<svm::Report>(&report)) {
+    result.flood = page_flood(*pages);
     result.references = pages->pages().references;
     result.faults = pages->pages().faults;
     result.cache_pages = pages->plan.pages().cache.frame_count;
@@ -94,8 +105,8 @@ std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs) {
   std::vector<PaperSubject> subjects;
   for (const PaperRun& run : runs) {
     if (std::none_of(subjects.begin(), subjects.end(), [&](const PaperSubject& subject) { return subject.is_of(run); })) {
-      const PictureOptions picture = picture_of(run.scene, run.resolution);
-      subjects.push_back({run.scene, run.resolution, run.record_order,
+      const PictureOptions picture = picture_of(run);
+      subjects.push_back({run.scene, run.resolution, run.record_order, run.has_inner_light,
                           build_subject(load_scene(picture), picture, {.build = {.record_order = run.record_order}})});
     }
   }
@@ -105,7 +116,7 @@ std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs) {
 void carry_out(std::span<const PaperRun> runs, std::span<const PaperSubject> subjects, const Interrupt& interrupt,
                PaperResults& results, const std::function<void()>& told) {
   core::expect(results.size() == runs.size(), "every run has a place for its result");
-  std::map<std::pair<std::string, std::uint32_t>, std::uint64_t> films;  // by scene and size
+  std::map<std::tuple<std::string, std::uint32_t, bool>, std::uint64_t> films;  // by scene, size and light
   Progress progress(std::cerr, stderr_is_terminal(), std::to_string(runs.size()) + " runs: ");
   std::uint64_t done_pixels = 0;
   const std::uint64_t all_pixels = std::accumulate(runs.begin(), runs.end(), std::uint64_t{0},
@@ -119,8 +130,9 @@ void carry_out(std::span<const PaperRun> runs, std::span<const PaperSubject> sub
     if (account_of(report).end != nodes::RunEnd::finished) {
       return [] {};
     }
-    return [&, index, result = result_of(report)] {
-      const auto [film, is_first] = films.try_emplace({runs[index].scene, runs[index].resolution}, result.film_hash);
+    return [&, index, result = result_of(report, subject.database)] {
+      const auto [film, is_first] =
+          films.try_emplace({runs[index].scene, runs[index].resolution, runs[index].has_inner_light}, result.film_hash);
       core::expect(film->second == result.film_hash, "every run of a scene gives the same film");
       results[index] = result;
       told();

@@ -31,6 +31,9 @@ struct PaperRun {
   std::optional<std::size_t> node_memory_bytes = std::nullopt;
   std::uint32_t resolution = 512;  ///< pixels a side
   core::RecordOrder record_order = core::RecordOrder::spatial;
+  /// One light in the middle of the scene, which is Rings4, in place of its own, which stand outside. Rays then visit the regions
+  /// on their way where they meet nothing, too.
+  bool has_inner_light = false;
 };
 
 /// What it came to.
@@ -42,6 +45,7 @@ struct PaperResult {
   double average_load = 0;        ///< mean over maximum of the nodes' work, if rays travelled
   double overflowed = 0;          ///< packets of rays by way of the host over all, in [0, 1]
   std::uint64_t ray_bytes = 0;    ///< of the packets with rays, by whatever way
+  double flood = 0;               ///< what comes to a light's region or from a page's home, over the mean (hot_spots.h)
   std::uint32_t cache_pages = 0;  ///< of a node, if pages travelled
   double pages_a_pixel = 0;       ///< if they were counted
   std::uint64_t film_hash = 0;
@@ -60,11 +64,13 @@ struct PaperSubject {
   std::string scene;
   std::uint32_t resolution = 0;
   core::RecordOrder record_order = core::RecordOrder::spatial;
+  bool has_inner_light = false;
   Subject subject;
 
   /// Whether it is the run's.
   bool is_of(const PaperRun& run) const {
-    return scene == run.scene && resolution == run.resolution && record_order == run.record_order;
+    return scene == run.scene && resolution == run.resolution && record_order == run.record_order &&
+           has_inner_light == run.has_inner_light;
   }
 };
 /// Those that the runs need. Takes a second or so for the largest.

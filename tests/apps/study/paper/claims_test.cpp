@@ -15,7 +15,7 @@ using namespace apps;
 
 namespace {
 
-constexpr std::size_t claim_count = 13;
+constexpr std::size_t claim_count = 14;
 
 using ByNodeCount = std::array<double, paper_node_counts.size()>;
 
@@ -49,6 +49,8 @@ struct Claimed {
     results[catalogue.by_way(0, RayWay::alternating)] =
         PaperResult{.total_ns = results[catalogue.rings_by_rays[0].back()]->total_ns * 2, .average_load = 0.825};
     set_overflow(0, 0.005);
+    results[catalogue.lit_by_rays] = PaperResult{.flood = 6.8};
+    results[catalogue.lit_by_pages] = PaperResult{.flood = 1.15};
     results[catalogue.rings_by_rays[1].front()]->tests = 100;
     results[catalogue.rings_by_rays[1].back()]->tests = 130;
     set_items({1.16, 1.08, 1.01, 1, 1.003, 1.04, 1.09});
@@ -233,6 +235,19 @@ TEST_CASE("one picture of which about 0.5 % goes by way of the host holds the cl
   CHECK(claimed.verdict("of the host") == "not held");
   claimed.results[claimed.catalogue.by_way(1, RayWay::unchecked_long)].reset();
   CHECK(claimed.verdict("of the host") == "missing");
+}
+
+TEST_CASE("a light whose region receives little more than others, or whose pages come from one node, does not hold the claim") {
+  Claimed claimed;
+  CHECK(
+      claimed.found("A light inside") ==
+      "with one light in the middle of the scene its region receives 6.8 times the mean of shadow rays; the node that sends most "
+      "pages sends 1.15 times the mean");
+  claimed.results[claimed.catalogue.lit_by_rays]->flood = 1.9;
+  CHECK(claimed.verdict("A light inside") == "not held");
+  claimed.results[claimed.catalogue.lit_by_rays]->flood = 6.8;
+  claimed.results[claimed.catalogue.lit_by_pages]->flood = 1.3;
+  CHECK(claimed.verdict("A light inside") == "not held");
 }
 
 TEST_CASE("objects that no region tests again do not hold the claim") {
