@@ -35,6 +35,10 @@ void add_tables(Catalogue& catalogue, const PaperRun& like) {
     for (std::size_t column = paper_scenes[scene].base(); column < paper_node_counts.size(); ++column) {
       catalogue.timed[scene][column] = catalogue.add(run_of_table_3(like, scene, column));
     }
+    const std::size_t base = paper_scenes[scene].base();
+    PaperRun alone = catalogue.runs[catalogue.timed[scene][base]];
+    alone.pages.worker_count = 1;
+    catalogue.one_worker[scene] = base == 0 ? catalogue.timed[scene][0] : catalogue.add(alone);
     PaperRun run = like;
     run.scene = paper_scenes[scene].scene;
     run.pages.count_pages = true;

@@ -76,6 +76,9 @@ struct Catalogue {
   std::size_t run_count_without_variations = 0;            ///< of the first runs, which all tables but the sensitivity rest on
   std::array<std::size_t, paper_scenes.size()> counted{};  ///< Table 2
   std::array<ByNodeCount, paper_scenes.size()> timed{};    ///< Table 3
+  /// By scene: one worker on the smallest machine that is printed, whose other nodes lend their memories; one node where that is
+  /// it.
+  std::array<std::size_t, paper_scenes.size()> one_worker{};
   std::array<ByNodeCount, 2> rings_by_rays{}, rings_by_pages{};       ///< of `rings`
   std::array<ByNodeCount, missing_rows.size()> scattered{};           ///< of `missing_rows`, records without an order in space
   std::array<ByNodeCount, missing_rows.size()> whole_memory{};        ///< of `missing_rows`, memories of the article's 4 MB

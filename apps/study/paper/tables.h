@@ -35,12 +35,17 @@ struct CellOfTable3 {
   const char* title = "";
   std::uint32_t nodes = 0;
   double printed_seconds = 0, seconds = 0, printed_efficiency = 0, efficiency = 0;
-  bool is_calibrated = false;  ///< the machine's prices were fitted to it
+  std::optional<double> one_worker_seconds;  ///< on the scene's smallest machine
+  bool is_calibrated = false;                ///< the machine's prices were fitted to it
   bool is_base = false;
   TimeParts parts;
 
   /// Neither calibrated nor 100 % by definition.
   bool is_predicted() const { return !is_calibrated && !is_base; }
+  /// In percent, against one worker.
+  std::optional<double> efficiency_by_worker() const {
+    return one_worker_seconds ? std::optional(apps::efficiency(*one_worker_seconds, 1, seconds, nodes)) : std::nullopt;
+  }
 };
 /// How many are printed.
 std::size_t printed_cell_count();

@@ -38,6 +38,21 @@ TEST_CASE("Table 3 has 24 cells, and results as printed differ by nothing") {
   CHECK(table.notes().back().find("0.00 points on average and 0.00 at worst, 18 cells") != std::string::npos);
 }
 
+TEST_CASE("Table 3 has what one worker takes, on one node or beside nodes that lend their memories") {
+  const Catalogue catalogue = catalogue_of(16);
+  CHECK(catalogue.one_worker[0] == catalogue.timed[0][0]);
+  const PaperRun& lone = catalogue.runs[catalogue.one_worker[3]];
+  CHECK(lone.node_count == 16);
+  CHECK(lone.pages.worker_count == 1U);
+  CHECK(lone.cache_share == catalogue.runs[catalogue.timed[3][4]].cache_share);
+  PaperResults results = as_printed(catalogue);
+  results[catalogue.one_worker[3]] = result_of_seconds(64 * 78);
+  const Table table = table_3(catalogue, results);
+  CHECK(number(table.rows()[1][9]) == 11'522);
+  CHECK(number(table.rows()[22][10]) == doctest::Approx(100));
+  CHECK(table.rows()[23][9] == Cell());
+}
+
 TEST_CASE("a cell that is two points off is found") {
   const Catalogue catalogue = catalogue_of(16);
   PaperResults results = as_printed(catalogue);
