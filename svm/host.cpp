@@ -26,7 +26,10 @@ HostProgram::HostProgram(nodes::Node& node, const HostShape& shape, core::Film& 
       node_count_(shape.node_count),
       worker_count_(shape.worker_count),
       width_(shape.width),
-      height_(shape.height) {
+      height_(shape.height),
+      dealt_side_(shape.dealt_side),
+      is_masked_(shape.is_masked),
+      items_({}, 0) {
   for (std::uint32_t i = 0; i < node_count_; ++i) {
     node.grant(nodes::NodeId{i}, control_channel, 1);  // for Stop; an acknowledgement's place is reserved by its film packet
   }
@@ -36,6 +39,7 @@ HostProgram::HostProgram(nodes::Node& node, const HostShape& shape, core::Film& 
     std::copy(done.begin(), done.end(), arrived_.begin());
     pixels_done_ = pixels_found_done_ = start->done.count();
   }
+  start_dealing();
 }
 
 void HostProgram::add_needs(nodes::MemoryPlan& plan, const HostShape& shape) {
@@ -46,12 +50,14 @@ void HostProgram::receive(const nodes::Packet& packet) {
   switch (Kind{packet.kind}) {
     case Kind::film_sums:
       return take_film(packet);
+    case Kind::work_request:
+      return deal(packet.as<WorkRequest>());
     case Kind::done:
       return take_done(packet.as<Done>());
     case Kind::mask_acknowledgement:
       return send_mask(nodes::index_of(packet.source));
     default:
-      core::expect(false, "the host receives film and word that nodes are done");
+      core::expect(false, "the host receives film, requests for work and word that nodes are done");
   }
 }
 
@@ -108,6 +114,49 @@ void HostProgram::take_done(const Done& done) {
   }
 }
 
+void HostProgram::start_dealing() {
+  if (dealt_side_ > 0) {
+    items_ = WorkItems(image(), dealt_side_);
+  }
+}
+
+/// Which samples an item's pixels have: an item that is dealt has none that has arrived, but those that another run had rendered.
+ItemSteps HostProgram::steps_of(const PixelRectangle& item) const {
+  ItemSteps steps;
+  for (std::uint32_t i = 0; i < item.pixel_count() && is_masked_; ++i) {
+    const std::uint32_t pixel = (item.y + i / item.width) * width_ + item.x + i % item.width;
+    steps[i] = has_arrived(pixel) ? core::SampleStep() : refinement_.pass().steps()[pixel];
+  }
+  return steps;
+}
+
+/// The next that has a pixel.
+std::optional<PixelRectangle> HostProgram::next_item() {
+  const auto is_none = [](const core::SampleStep& step) { return step.is_none(); };
+  while (auto item = items_.take()) {
+    const ItemSteps steps = steps_of(*item);
+    if (!is_masked_ || !std::all_of(steps.begin(), steps.end(), is_none)) {
+      return item;
+    }
+  }
+  return std::nullopt;
+}
+
+/// An empty item says that all are dealt.
+void HostProgram::deal(const WorkRequest& request) {
+  core::expect(dealt_side_ > 0, "the host is asked for work where it deals it");
+  const std::optional<PixelRectangle> item = next_item();
+  items_given_ += item ? 1 : 0;
+  const nodes::NodeId asker{request.asker};
+  const WorkReply reply{item.value_or(PixelRectangle{}), node_count_};
+  node_->grant(asker, control_channel);  // the place that the request has reserved
+  if (is_masked_) {
+    node_->send_reserved(asker, control_channel, number_of(Kind::work_reply), MaskedWorkReply{reply, steps_of(reply.item)});
+  } else {
+    node_->send_reserved(asker, control_channel, number_of(Kind::work_reply), reply);
+  }
+}
+
 /// The film is complete: begins with the next pass, or stops all.
 void HostProgram::end_pass() {
   if (!refinement_.next_pass(*film_)) {
@@ -117,6 +166,7 @@ void HostProgram::end_pass() {
   std::fill(pixels_sent_.begin(), pixels_sent_.end(), 0);
   pixels_of_old_passes_ += std::exchange(pixels_done_, 0) - std::exchange(pixels_found_done_, 0);
   pixels_announced_ = nodes_done_ = nodes_masked_ = 0;
+  start_dealing();
   for (std::uint32_t i = 0; i < node_count_; ++i) {
     send_mask(i);
   }
@@ -124,7 +174,7 @@ void HostProgram::end_pass() {
 
 /// The next part of a node's mask; when all nodes have theirs, the word to begin.
 void HostProgram::send_mask(std::uint32_t index) {
-  const PixelRectangle submap = submap_of({0, 0, width_, height_}, index, worker_count_);
+  const PixelRectangle submap = submap_of(image(), index, submap_count());
   MaskPart part{pixels_sent_[index]};
   if (part.first_pixel >= submap.pixel_count()) {
     nodes_masked_ += 1;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ struct HostShape {
   std::uint32_t worker_count = 1;  ///< as WorkShape has it
   std::uint32_t width = 1, height = 1;
   std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
+  std::uint32_t dealt_side = 0;     ///< of the work items that nodes ask the host for, in pixels; 0: they ask each other
+  bool is_masked = false;           ///< as WorkShape has it
   core::RefinementOptions refinement;
   const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; read by the constructor alone
   const core::FineDetail* detail = nullptr;     ///< the picture's, if it is refined; outlives the host
@@ -31,7 +34,8 @@ struct HostShape {
 
 /// Every pixel of a pass arrives exactly once, which it checks, and whole: what has arrived can be kept at any time. When every
 /// node is done and the film complete, it ends the pass; if another follows, it sends each node its submap's part of the mask,
-/// and begins it when all have theirs; else it sends each node a Stop.
+/// and begins it when all have theirs; else it sends each node a Stop. Where it deals the work, in items of the whole picture, no
+/// node has a submap, and it tells each asker which samples an item's pixels have.
 class HostProgram final : public nodes::Program {
  public:
   /// `film` outlives the program and is written by it alone until the run's end; it is as shape.start has it.
@@ -51,6 +55,8 @@ class HostProgram final : public nodes::Program {
   std::uint64_t deposits_saturated() const { return deposits_saturated_; }
   /// Keeps what has arrived, if that is wanted: for when the run has been interrupted.
   void keep() const;
+  /// Work items dealt, over all passes.
+  std::uint64_t items_given() const { return items_given_; }
   /// By this run, over all passes.
   std::uint64_t pixels_done() const { return pixels_of_old_passes_ + pixels_done_ - pixels_found_done_; }
   const core::Refinement& refinement() const { return refinement_; }
@@ -59,6 +65,13 @@ class HostProgram final : public nodes::Program {
   void take_film(const nodes::Packet& packet);
   void take_pixel(const FilmEntry& entry);
   void take_done(const Done& done);
+  PixelRectangle image() const { return {0, 0, width_, height_}; }
+  std::uint32_t submap_count() const { return dealt_side_ > 0 ? 0 : worker_count_; }
+  bool has_arrived(std::uint32_t pixel) const { return (arrived_[pixel / 64] >> (pixel % 64) & 1U) != 0; }
+  void start_dealing();
+  void deal(const WorkRequest& request);
+  std::optional<PixelRectangle> next_item();
+  ItemSteps steps_of(const PixelRectangle& item) const;
   void end_pass();
   void send_mask(std::uint32_t index);
   void begin_pass();
@@ -71,7 +84,10 @@ class HostProgram final : public nodes::Program {
   core::Refinement refinement_;
   std::span<std::uint64_t> arrived_;        ///< a bit a pixel
   std::vector<std::uint32_t> pixels_sent_;  ///< of the mask, to each node; empty unless the picture is refined
-  std::uint32_t node_count_, worker_count_, width_, height_;
+  std::uint32_t node_count_, worker_count_, width_, height_, dealt_side_;
+  bool is_masked_;
+  WorkItems items_;  ///< not dealt yet
+  std::uint64_t items_given_ = 0;
   std::uint32_t nodes_masked_ = 0;  ///< how many have their whole mask
   std::uint32_t pixels_done_ = 0;
   std::uint32_t pixels_found_done_ = 0;  ///< of them, before the start

@@ -15,10 +15,10 @@
 //   questions              node -> owner       request   any    the sender's request credits for that owner
 //   answers                owner -> node       bulk      any    the questions
 //
-// Questions and answers stand in place of the first two where the tree's forest is at every node (svm/forest.h). They are small
-// or bulk, as it comes: their credits reserve places of both. Masks and passes exist only where the picture is refined: when all
-// nodes are done with a pass, each gets the mask of its submap, which tells how many more samples each pixel has, part by part,
-// and when all nodes have theirs the pass begins.
+// Work requests go to the host where that deals the items. Questions and answers stand in place of the first two where the tree's
+// forest is at every node (svm/forest.h). They are small or bulk, as it comes: their credits reserve places of both. Masks and
+// passes exist only where the picture is refined: when all nodes are done with a pass, each gets the mask of its submap, which
+// tells how many more samples each pixel has, part by part, and when all nodes have theirs the pass begins.
 #pragma once
 
 #include <array>

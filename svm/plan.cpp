@@ -57,6 +57,8 @@ std::uint32_t item_side_of(const PlanRequest& request) {
   return request.is_masked() ? std::min(side, masked_side_max) : side;
 }
 
+bool is_dealt(const PlanRequest& request) { return request.pages.work_giver == WorkGiver::host; }
+
 std::uint32_t worker_count_of(const PlanRequest& request) {
   return request.pages.worker_count.value_or(request.computer.node_count);
 }
@@ -109,8 +111,10 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   const std::uint32_t others = request.computer.node_count - 1;
   const bool ring = item_side_of(request) > 0;
   nodes::MailboxCapacity capacity;
+  // Work requests: each other node has at most one on the ring, unless they go to the host.
+  const std::uint32_t passed_on = ring && !is_dealt(request) ? others : 0;
   capacity.small_slots = others * request_credits    // page requests or questions: each other node's credits for this home
-                         + (ring ? others : 0)       // work requests: each other node has at most one on the ring
+                         + passed_on                 // work requests
                          + (ring ? 1 : 0)            // the reply to this node's own work request
                          + film_credits_of(request)  // acknowledgements: one for each film packet of this node's
                          + 1;                        // Stop
@@ -135,7 +139,8 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
 nodes::MailboxCapacity host_mailbox_of(const PlanRequest& request, std::uint32_t film_entries) {
   return {.small_slots = request.computer.node_count  // Done: one from each node
                          + (request.refinement.is_wanted() ? request.computer.node_count
-                                                           : 0),  // acknowledgements: one for each node's part of the mask
+                                                           : 0)  // acknowledgements: one for each node's part of the mask
+                         + (is_dealt(request) ? worker_count_of(request) : 0),   // work requests: one from each worker
           .bulk_slots = request.computer.node_count * film_credits_of(request),  // film packets: each node's credits
           .bulk_payload_bytes = sizeof(FilmHeader) + film_entries * sizeof(FilmEntry)};
 }
@@ -204,6 +209,8 @@ void check(const PlanRequest& request) {
             "worker_count=" + std::to_string(workers) +
                 ": expected at least one worker, and at most as many as there are nodes, " +
                 std::to_string(request.computer.node_count));
+  check_use(!is_dealt(request) || request.pages.work_item_side != 0U,
+            "work_giver=host does not go with work_item_side=0: the host deals items of a pixel or more");
   const std::uint32_t in_flight = request.pages.in_flight.value_or(1);
   check_use(in_flight >= 1 && in_flight <= in_flight_max,
             "in_flight=" + std::to_string(in_flight) + ": from 1 to " + std::to_string(in_flight_max) + " pixels");
@@ -343,6 +350,7 @@ WorkShape Plan::work() const {
           .first_samples = request.first_samples,
           .tile = request.is_masked() ? tile_of(pixels_a_task) : tile_for(request.first_samples, pixels_a_task),
           .item_side = work_item_side,
+          .dealer = is_dealt(request) ? std::optional(request.computer.node_count) : std::nullopt,
           .is_masked = request.is_masked(),
           .start = request.start};
 }
@@ -353,6 +361,8 @@ HostShape Plan::host() const {
           .width = request.width,
           .height = request.height,
           .first_samples = request.first_samples,
+          .dealt_side = is_dealt(request) ? work_item_side : 0,
+          .is_masked = request.is_masked(),
           .refinement = request.refinement,
           .start = request.start,
           .detail = request.detail};

@@ -81,7 +81,7 @@ void check_conservation(const Report& report) {
   core::expect(questions.rays_asked == questions.rays_answered && questions.records_asked == questions.records_answered,
                "every question was answered by somebody");
   const WorkCounters work = report.work();
-  core::expect(work.items_given == work.items_taken, "every work item given was taken");
+  core::expect(work.items_given + report.items_dealt == work.items_taken, "every work item given was taken");
   core::expect(work.pixels_rendered == report.pixels_done, "every pixel was rendered once a pass");
   core::expect(packets_of(report.sent(), Kind::film_sums) == packets_of(report.host.received, Kind::film_sums),
                "every film packet sent was received");
@@ -245,6 +245,7 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
   const auto& host = dynamic_cast<const HostProgram&>(runner->program(plan.request.computer.node_count));
   report.host_deposits_saturated = host.deposits_saturated();
   report.pixels_done = host.pixels_done();
+  report.items_dealt = host.items_given();
   report.refinement = host.refinement().result();
   if (report.end == nodes::RunEnd::finished) {
     check_conservation(report);

@@ -9,7 +9,7 @@ namespace dmpc::svm {
 namespace {
 
 PixelRectangle own_submap(const WorkShape& shape, std::uint32_t index) {
-  return submap_of({0, 0, shape.width, shape.height}, index, shape.worker_count);
+  return submap_of({0, 0, shape.width, shape.height}, index, shape.dealer ? 0 : shape.worker_count);
 }
 
 /// At least one, so that a node without pixels has a mask, too.
@@ -30,6 +30,10 @@ std::uint32_t item_side_of(const WorkShape& shape) {
   return shape.is_masked && shape.item_side == 0 ? masked_side_max : shape.item_side;
 }
 
+bool is_alone(const WorkShape& shape, std::uint32_t index) {
+  return index >= shape.worker_count || (!shape.dealer && (shape.item_side == 0 || shape.worker_count == 1));
+}
+
 }  // namespace
 
 WorkSource::WorkSource(nodes::Node& node, const WorkShape& shape)
@@ -43,8 +47,9 @@ WorkSource::WorkSource(nodes::Node& node, const WorkShape& shape)
       submap_(own_submap(shape, self_)),
       mask_(node.memory().allocate<core::SampleStep>(nodes::Category::queues, mask_pixels(shape, self_))),
       items_(submap_, item_side_),
-      last_giver_((self_ + 1) % worker_count_),
-      is_alone_(shape.item_side == 0 || worker_count_ == 1 || self_ >= worker_count_),
+      first_giver_(shape.dealer.value_or((self_ + 1) % worker_count_)),
+      last_giver_(first_giver_),
+      is_alone_(is_alone(shape, self_)),
       no_more_(is_alone_) {
   std::fill(mask_.begin(), mask_.end(), core::SampleStep::first());
   if (shape.start != nullptr) {
@@ -75,7 +80,7 @@ void WorkSource::take_mask(const MaskPart& part) {
 void WorkSource::begin_pass() {
   core::expect(exhausted() && !asking_, "a pass begins when the one before has ended");
   items_ = WorkItems(submap_, item_side_);
-  last_giver_ = (self_ + 1) % worker_count_;
+  last_giver_ = first_giver_;
   no_more_ = is_alone_;
   skip_unwanted();
 }

@@ -18,9 +18,11 @@ namespace dmpc::svm {
 struct WorkShape {
   std::uint32_t worker_count = 1;  ///< the nodes that have pixels, the first ones
   std::uint32_t width = 1, height = 1;
-  std::uint32_t first_samples = 1;              ///< of each pixel in the first pass
-  PixelTile tile;                               ///< pixels that a task takes at most
-  std::uint32_t item_side = 3;                  ///< pixels along the side of a work item; 0: no node gives work to another
+  std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
+  PixelTile tile;                   ///< pixels that a task takes at most
+  std::uint32_t item_side = 3;      ///< pixels along the side of a work item; 0: no node gives work to another
+  /// The host's number, if all items are asked of it: then no node has a submap.
+  std::optional<std::uint32_t> dealer = std::nullopt;
   bool is_masked = false;                       ///< some pass may leave pixels out
   const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; read by the constructor alone
 };
@@ -29,7 +31,8 @@ struct WorkShape {
 /// that has items left answers the asker directly; the last of all others to be asked tells it that there is no more work,
 /// and since submaps only shrink this stays true (but for a node that the word to begin a later pass has not reached yet:
 /// an asker that is so told rests for that pass). The first request enters the ring at the next node, a later one at the node
-/// that gave last, because all before it had nothing. Thread safety: none.
+/// that gave last, because all before it had nothing. Where the host deals all items, every request goes to it. Thread safety:
+/// none.
 ///
 /// Where the picture is refined, a pass after the first has those samples of the submap's pixels that the host's mask names;
 /// where it was begun by another run, so has the first one, of the pixels that are missing.
@@ -89,7 +92,7 @@ class WorkSource {
   PixelScan scan_;
   ItemSteps steps_;  ///< of the item under way, if is_masked()
   WorkCounters counters_;
-  std::uint32_t last_giver_;
+  std::uint32_t first_giver_, last_giver_;
   bool asking_ = false;
   bool is_alone_;  ///< no other node ever gives it work
   bool no_more_;

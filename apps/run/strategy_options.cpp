@@ -42,6 +42,9 @@ const std::vector<Belonging>& belongings() {
       {"--work-item",
        {Strategy::svm, Strategy::replicated, Strategy::forest},
        "a node of dataflow works on what comes to its region"},
+      {"--work-giver",
+       {Strategy::svm, Strategy::replicated, Strategy::forest},
+       "a node of dataflow works on what comes to its region"},
       {"--workers",
        {Strategy::svm, Strategy::replicated, Strategy::forest},
        "every node of dataflow works on what comes to its region"},
@@ -128,6 +131,10 @@ void add_page_options(OptionSet options, svm::PageOptions& pages, const std::str
                      "Pixels that a node works on at once; on threads the rays of 16 walk together, of fewer alone");
   options.add_number("--work-item", pages.work_item_side, 0, 1024, "4, or 3 if rays walk alone",
                      "Side in pixels of what a node gives to an idle one; 0: nothing is given");
+  using svm::WorkGiver;
+  options.add_choice<WorkGiver>("--work-giver", pages.work_giver, {{"ring", WorkGiver::ring}, {"host", WorkGiver::host}},
+                                "ring: nodes start with their parts of the picture and ask each other; host: for each item they "
+                                "ask the host");
   options.add_number("--workers", pages.worker_count, 1, svm::node_count_max, "all nodes",
                      "Nodes that render; the others lend their memories, and serve pages or answer");
 }

@@ -42,6 +42,8 @@ class ChaosCase {
     options.pages.in_flight = one_of<std::optional<std::uint32_t>>({1, 1, 2, 3, 5, 8, 64, 4096, std::nullopt});
     options.pages.work_item_side = one_of({0U, 1U, 2U, 3U, 3U, 7U, 100U});
     options.pages.worker_count = draws_.chance(30) ? 1 + draws_.below(nodes_) : nodes_;
+    options.pages.work_giver =
+        options.pages.work_item_side != 0U && draws_.chance(25) ? svm::WorkGiver::host : svm::WorkGiver::ring;
     if (strategy == svm::Strategy::svm) {
       options.pages.cache_pages = one_of<std::optional<std::uint32_t>>({1, 1, 2, 3, 16, std::nullopt});
       options.pages.replacement = one_of({svm::Replacement::lru, svm::Replacement::lru, svm::Replacement::clock,

@@ -50,6 +50,32 @@ struct SmallHost {
 
 }  // namespace
 
+TEST_CASE("a host that deals the work gives each item once, in order, to whoever asks, and then nothing") {
+  const svm::Plan plan = svm::make_plan({.page_count = 4,
+                                         .computer = {.node_count = 2},
+                                         .pages = {.work_item_side = 2, .work_giver = svm::WorkGiver::host},
+                                         .width = 3,
+                                         .height = 3});
+  LoneNode lone(plan, 2);
+  core::Film film(3, 3);
+  svm::HostProgram host(lone.node, plan.host(), film, {});
+  const svm::PixelRectangle items[] = {{0, 0, 2, 2}, {2, 0, 1, 2}, {0, 2, 2, 1}, {2, 2, 1, 1}, {}};
+  std::uint32_t asker = 0;
+  for (const svm::PixelRectangle& item : items) {
+    asker = 1 - asker;
+    host.receive(parcel_of(asker, Kind::work_request, svm::WorkRequest{asker, 1}).packet());
+    const Parcel& parcel = lone.post.parcels.back();
+    CHECK(parcel.target == nodes::NodeId{asker});
+    CHECK(parcel.packet().as<svm::WorkReply>().item == item);
+  }
+  CHECK(host.items_given() == 4);
+}
+
+TEST_CASE("a host that does not deal the work is asked for none") {
+  SmallHost small;
+  CHECK_THROWS_AS(small.host.receive(parcel_of(0, Kind::work_request, svm::WorkRequest{0, 1}).packet()), core::InternalError);
+}
+
 TEST_CASE("where the error is too large each node gets its mask part by part, and the pass begins when all have theirs") {
   const svm::Plan plan = svm::make_plan({.page_count = 4,
                                          .computer = {.node_count = 2},

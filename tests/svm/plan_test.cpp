@@ -354,6 +354,17 @@ TEST_CASE("page references are recorded only where they depend on neither cache 
   }
 }
 
+TEST_CASE("a host that deals the work has a place for each worker's request, and nodes have none for each other's") {
+  svm::PlanRequest request{.page_count = 4, .computer = {.node_count = 4}, .pages = {.worker_count = 3}, .width = 8, .height = 8};
+  const svm::Plan ring = make_plan(request);
+  request.pages.work_giver = svm::WorkGiver::host;
+  const svm::Plan dealt = make_plan(request);
+  CHECK(dealt.host_mailbox.small_slots == ring.host_mailbox.small_slots + 3);
+  CHECK(dealt.node_mailbox.small_slots == ring.node_mailbox.small_slots - 3);
+  request.pages.work_item_side = 0;
+  CHECK_THROWS_AS(make_plan(request), core::UsageError);
+}
+
 TEST_CASE("at least one node renders, and no more than there are") {
   svm::PlanRequest request{.page_count = 4, .computer = {.node_count = 4}, .width = 8, .height = 8};
   CHECK(make_plan(request).worker_count == 4);

@@ -51,6 +51,22 @@ svm::Report recorded_run(const SmallScene& small, std::uint32_t node_count) {
 
 }  // namespace
 
+TEST_CASE("a host that deals the work gives every item, and no node another, on threads and on a modelled machine") {
+  const SmallScene small("teapot-4", 1024, 30);
+  const std::uint64_t film = svm::run_svm(small.database, small.settings, {}, {}).film.hash();
+  for (const bool is_modelled : {false, true}) {
+    svm::RunOptions options{.computer = {.node_count = 4},
+                            .pages = {.in_flight = 1, .work_item_side = 3, .work_giver = svm::WorkGiver::host}};
+    options.computer.machine = is_modelled ? std::optional(nodes::Machine{}) : std::nullopt;
+    const svm::Report report = svm::run_svm(small.database, small.settings, options, {});
+    CHECK(report.film.hash() == film);
+    CHECK(report.items_dealt == 100);
+    CHECK(report.work().items_given == 0);
+    CHECK(report.work().items_taken == 100);
+    CHECK(report.work().items_asked == 104);
+  }
+}
+
 TEST_CASE("one worker renders all of a picture from the memories of all nodes, which serve its pages") {
   const SmallScene small("rings-2", 512, 24);
   core::Operations reference;

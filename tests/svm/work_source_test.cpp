@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <optional>
 #include <set>
 
 #include "core/base/expect.h"
@@ -17,10 +18,11 @@ namespace {
 
 /// Node `index` of `nodes`, each with 3x3 pixels: one item, or with side 1 nine.
 struct SmallSource {
-  SmallSource(std::uint32_t index, std::uint32_t nodes, std::uint32_t side)
+  SmallSource(std::uint32_t index, std::uint32_t nodes, std::uint32_t side, svm::WorkGiver giver = svm::WorkGiver::ring,
+              std::optional<std::uint32_t> workers = std::nullopt)
       : plan(svm::make_plan({.page_count = 4,
                              .computer = {.node_count = nodes},
-                             .pages = {.work_item_side = side},
+                             .pages = {.work_item_side = side, .work_giver = giver, .worker_count = workers},
                              .width = 3 * nodes,
                              .height = 3})),
         lone(plan, index),
@@ -106,6 +108,23 @@ TEST_CASE("an item that was given becomes the asker's pixels, and the giver is a
   CHECK_FALSE(small.work.exhausted());
   small.work.ask();
   CHECK(small.sent().target == nodes::NodeId{3});
+}
+
+TEST_CASE("where the host deals the work a node starts with nothing and asks the host for every item") {
+  SmallSource small(1, 4, 3, svm::WorkGiver::host);
+  for (int item = 0; item < 2; ++item) {
+    CHECK_FALSE(small.work.has_pixel());
+    CHECK_FALSE(small.work.exhausted());
+    small.work.ask();
+    CHECK(small.sent().target == nodes::NodeId{4});
+    small.take_reply({{9, 1, 1, 1}, 4});
+    CHECK(small.work.next_pixel() == 12 + 9);
+  }
+}
+
+TEST_CASE("a lone node asks the host where that deals the work, one that only lends its memory does not") {
+  CHECK_FALSE(SmallSource(0, 1, 3, svm::WorkGiver::host).work.exhausted());
+  CHECK(SmallSource(1, 2, 3, svm::WorkGiver::host, 1).work.exhausted());
 }
 
 TEST_CASE("an empty item ends the asking") {

@@ -11,11 +11,11 @@ namespace dmpc::apps {
 /// infinite. "rays" below stands for primary, reflected, refracted, shadow, total.
 ///   program        name and version
 ///   options        what was asked for and what it became: scene, width, height, samples (a number or "auto"), error,
-///                  samples_max, cutoff, depth, convention, tracer, grid_axes, record_order, structure, strategy, nodes, node_memory
-///                  (bytes a node, the most), page_size; camera, light (a list), scale, up, smooth, missing (as the command line takes
-///                  them, null where it said nothing); of pages: cache_pages, in_flight, work_item, workers, count_pages; of
-///                  dataflow: balance, cuts, subsample, balance_grid, ray_batch, ray_credits, ray_queue,
-///                  backpressure, topology
+///                  samples_max, cutoff, depth, convention, tracer, grid_axes, record_order, structure, strategy, nodes,
+///                  node_memory (bytes a node, the most), page_size; camera, light (a list), scale, up, smooth, missing (as the
+///                  command line takes them, null where it said nothing); of pages: cache_pages, in_flight, work_item,
+///                  work_giver, workers, count_pages; of dataflow: balance, cuts, subsample, balance_grid, ray_batch,
+///                  ray_credits, ray_queue, backpressure, topology
 ///   runner         threads or virtual
 ///   machine        that was modelled, as machine_file.h says; null with threads, as is all that follows from virtual time
 ///   film_hash      of the film's integers, 16 hexadecimal digits: equal pictures, equal hashes
@@ -47,7 +47,8 @@ namespace dmpc::apps {
 ///                  rule all there are on machines of up to 32 nodes, though a crossbar has more. A wait counts for the link that
 ///                  became free last. The ends are "node 3", "host", "switch 0", "place 9" (a router without a node) and, of
 ///                  memory ports, "memory 3"
-///   database       bytes, pages, page_size, forest_pages (before the first subtree of one tree), primitives, references, dropped, collapsed (of those, what rounding left nothing
+///   database       bytes, pages, page_size, forest_pages (before the first subtree of one tree), primitives, references,
+///   dropped, collapsed (of those, what rounding left nothing
 ///                  of); records by kind: bricks, triangle_blocks, sphere_blocks, cone_blocks, normals (of smooth triangles),
 ///                  textured (triangles), texture_tiles, materials, lights
 ///   packets        sent, received, bytes, overflow (by way of the host), and by_kind: packets and bytes

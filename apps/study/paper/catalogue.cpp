@@ -139,6 +139,10 @@ void add_foils(Catalogue& catalogue) {
     PaperRun run = catalogue.runs[timed];
     run.pages.work_item_side = item_sides[size];
     catalogue.items[size] = size == article_item ? timed : catalogue.add(run);
+    if (item_sides[size] > 0) {
+      run.pages.work_giver = svm::WorkGiver::host;
+      catalogue.items_dealt[size] = catalogue.add(run);
+    }
   }
   PaperRun by_rays = catalogue.runs[catalogue.rings_by_rays[1][last]],
            by_pages = catalogue.runs[catalogue.timed[rings_row][last]];

@@ -19,7 +19,7 @@ inline constexpr std::size_t cache_size_count = 10;
 inline constexpr std::size_t rings_row = 2, tetra_row = 3;
 /// Of Tables 2 and 3: the scene that is small beside a node's memory.
 inline constexpr std::size_t small_row = 0;
-/// Sides of work items that are tried on Rings4 and 64 nodes; 0: every node keeps its submap.
+/// Sides of work items that are tried on Rings4 and 64 nodes; the first, 0: every node keeps its submap.
 inline constexpr std::array<std::uint32_t, 7> item_sides = {0, 1, 2, 3, 4, 6, 8};
 /// The article's compromise, of these.
 inline constexpr std::size_t article_item = 3;
@@ -86,6 +86,8 @@ struct Catalogue {
   std::array<std::size_t, 2> cache_base{};                            ///< of `cache_scenes`, on one node
   std::array<std::array<std::size_t, cache_size_count>, 2> cached{};  ///< of `cache_scenes`, by size
   std::array<std::size_t, item_sides.size()> items{};                 ///< Rings4 on 64 nodes, by size
+  /// The same, asked of the host; nothing of size 0.
+  std::array<std::size_t, item_sides.size()> items_dealt{};
   std::array<std::array<std::size_t, ray_way_names.size()>, 2> rings_by_way{};  ///< of `rings` on 64 nodes, by RayWay
   std::size_t lit_by_rays = 0, lit_by_pages = 0;                                ///< Rings4 on 64 nodes, a light in its middle
   std::size_t copies = 0;                                                       ///< the small scene on 64 nodes, replicated

@@ -199,7 +199,9 @@ std::string on_work_items(const Table& table) {
   const auto seconds = [&](const Row& row) { return number_in(table, row, "seconds").value_or(0); };
   const auto [least, most] = std::minmax_element(table.rows().begin(), table.rows().end(),
                                                  [&](const Row& a, const Row& b) { return seconds(a) < seconds(b); });
-  const auto of = [&](const Row& row) { return fixed(seconds(row), 0) + " s with " + texts_of(table, row)[0]; };
+  const auto of = [&](const Row& row) {
+    return fixed(seconds(row), 0) + " s with " + texts_of(table, row)[0] + " asked of " + texts_of(table, row)[1];
+  };
   return "The picture takes from " + of(*least) + " to " + of(*most) + ".";
 }
 

@@ -234,23 +234,33 @@ std::string item_text(std::uint32_t side) { return side == 0 ? "static" : std::t
 Table work_items(const Catalogue& catalogue, const PaperResults& results) {
   const std::uint32_t node_count = paper_node_counts.back();
   Table table("Work items of Rings4 on " + std::to_string(node_count) + " nodes", {{"item"},
-                                                                                   {"nodes"},
+                                                                                   {"asked of"},
                                                                                    {"seconds", "s", 0},
                                                                                    {"computing", "%", 1},
+                                                                                   {"data wait", "%", 2},
                                                                                    {"work wait", "%", 2},
                                                                                    {"messages", "%", 2},
-                                                                                   {"idle at the end", "%", 2}});
-  for (std::size_t size = 0; size < item_sides.size(); ++size) {
-    if (const auto& result = results[catalogue.items[size]]) {
+                                                                                   {"idle at the end", "%", 2},
+                                                                                   {"faults"}});
+  const auto add_row = [&](std::uint32_t side, const char* giver, std::size_t run) {
+    if (const auto& result = results[run]) {
       const auto percent = result->parts.percent();
       const auto part = [&](TimePart which) { return Cell(percent[static_cast<std::size_t>(which)]); };
-      table.add_row({item_text(item_sides[size]), std::uint64_t{node_count}, result->seconds(), part(TimePart::computing),
-                     part(TimePart::work_wait), part(TimePart::messages), part(TimePart::idle_at_end)});
+      table.add_row({item_text(side), giver, result->seconds(), part(TimePart::computing), part(TimePart::data_wait),
+                     part(TimePart::work_wait), part(TimePart::messages), part(TimePart::idle_at_end), result->faults});
     }
+  };
+  for (std::size_t size = 0; size < item_sides.size(); ++size) {
+    add_row(item_sides[size], item_sides[size] == 0 ? "nobody" : "ring", catalogue.items[size]);
+  }
+  for (std::size_t size = 1; size < item_sides.size(); ++size) {
+    add_row(item_sides[size], "host", catalogue.items_dealt[size]);
   }
   table.add_note(
-      "Static: every node renders its own submap, whatever the others have left. Items go to whoever asks on the ring.");
-  note_missing_rows(table, item_sides.size());
+      "Static: every node renders its own submap, whatever the others have left. By the ring a node asks for items when its "
+      "submap "
+      "is done; by the host it asks for every item, and has no submap.");
+  note_missing_rows(table, 2 * item_sides.size() - 1);
   return table;
 }
 

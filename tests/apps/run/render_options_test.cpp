@@ -224,6 +224,8 @@ TEST_CASE("every option of dataflow reaches its field") {
   CHECK(options.rays.ray_credits == 0);
   CHECK(options.rays.queue_packets == 5);
   CHECK(options.rays.topology == nodes::TopologyKind::fat_tree);
+  CHECK(options.pages.work_giver == svm::WorkGiver::ring);
+  CHECK(render({"--work-giver=host"}).pages.work_giver == svm::WorkGiver::host);
   CHECK_FALSE(options.rays.without_backpressure);
   CHECK(render({"--strategy=dataflow", "--no-backpressure"}).rays.without_backpressure);
   CHECK(options.rays.balance.bsp.order == dataflow::CutOrder::longer_axis);
@@ -254,6 +256,7 @@ TEST_CASE("an option of another strategy is refused with the strategies that it 
                                      {"--ray-batch=10", replicated, dataflow},
                                      {"--ray-credits=4", svm, dataflow},
                                      {"--ray-queue=512", replicated, dataflow},
+                                     {"--work-giver=host", dataflow, svm + " or " + replicated},
                                      {"--no-backpressure", svm, dataflow},
                                      {"--topology=hypercube", replicated, dataflow}};
   for (const auto& [option, with, goes_with] : wrongs) {
@@ -332,6 +335,8 @@ TEST_CASE("the help of render names every option and its default") {
                                  "--replacement",
                                  "--in-flight",
                                  "--work-item",
+                                 "--work-giver",
+                                 "ring|host [ring]",
                                  "--workers",
                                  "--resolution",
                                  "--samples",

@@ -15,7 +15,7 @@ using namespace apps;
 
 namespace {
 
-constexpr std::size_t claim_count = 14;
+constexpr std::size_t claim_count = 15;
 
 using ByNodeCount = std::array<double, paper_node_counts.size()>;
 
@@ -54,9 +54,14 @@ struct Claimed {
     results[catalogue.rings_by_rays[1].front()]->tests = 100;
     results[catalogue.rings_by_rays[1].back()]->tests = 130;
     set_items({1.16, 1.08, 1.01, 1, 1.003, 1.04, 1.09});
+    set_dealt(110'000, 120'000);
     results[catalogue.copies] = result_of_seconds(198);
   }
 
+  void set_dealt(std::uint64_t seconds, std::uint64_t seconds_of_pixels) {
+    results[catalogue.items_dealt[article_item]] = result_of_seconds(seconds);
+    results[catalogue.items_dealt[1]] = result_of_seconds(seconds_of_pixels);
+  }
   void set_overflow(double of_rings_3, double of_rings_4) {
     results[catalogue.by_way(0, RayWay::unchecked_long)] = PaperResult{.overflowed = of_rings_3};
     results[catalogue.by_way(1, RayWay::unchecked_long)] = PaperResult{.overflowed = of_rings_4};
@@ -273,6 +278,19 @@ TEST_CASE("items of 3x3 pixels hold the claim while none is more than 1 % better
   CHECK(claimed.verdict("3x3") == "not held");
   claimed.results[claimed.catalogue.items.back()].reset();
   CHECK(claimed.verdict("3x3") == "missing");
+}
+
+TEST_CASE("submaps with items on request hold the claim while neither alone is better") {
+  Claimed claimed;
+  claimed.results[claimed.catalogue.items[article_item]] = result_of_seconds(604);
+  claimed.results[claimed.catalogue.items[0]] = result_of_seconds(700);
+  claimed.set_dealt(700, 800);
+  CHECK(claimed.verdict("either alone") == "held");
+  CHECK(claimed.found("either alone") == "seconds: both 604, submaps 700, items asked of the host 700, pixels 800");
+  claimed.set_dealt(600, 800);
+  CHECK(claimed.verdict("either alone") == "not held");
+  claimed.set_dealt(700, 600);
+  CHECK(claimed.verdict("either alone") == "not held");
 }
 
 TEST_CASE("pages of a small scene that cost a twentieth of the time are not negligible") {

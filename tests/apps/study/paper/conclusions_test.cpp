@@ -60,10 +60,11 @@ TEST_CASE("other tables of the article are concluded from their columns") {
   ways.add_row({"a", "slow", 20.0});
   ways.add_row({"a", "fast", 40.0});
   CHECK(paper_conclusion("ray_ways", ways) == "Rays travel best, with an efficiency of 40.0 %, on a by fast.");
-  Table items("", {{"item"}, {"nodes"}, {"seconds", "s", 0}});
-  items.add_row({"static", std::uint64_t{64}, 700.0});
-  items.add_row({"3x3", std::uint64_t{64}, 604.0});
-  CHECK(paper_conclusion("work_items", items) == "The picture takes from 604 s with 3x3 to 700 s with static.");
+  Table items("", {{"item"}, {"asked of"}, {"seconds", "s", 0}});
+  items.add_row({"static", "nobody", 700.0});
+  items.add_row({"3x3", "ring", 604.0});
+  CHECK(paper_conclusion("work_items", items) ==
+        "The picture takes from 604 s with 3x3 asked of ring to 700 s with static asked of nobody.");
   Table caches("", {{"scene"}, {"of the database", "%"}, {"efficiency", "%"}});
   caches.add_row({"a", 0.5, 3.0});
   caches.add_row({"a", 10.0, 90.0});

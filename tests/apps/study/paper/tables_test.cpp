@@ -157,11 +157,13 @@ TEST_CASE("work items have their seconds and where they go, static first") {
   results[catalogue.items[0]] = result_of_seconds(700);
   results[catalogue.items[0]]->parts.ns = {60, 0, 10, 0, 0, 0, 5, 25};
   results[catalogue.items[3]] = result_of_seconds(604);
+  results[catalogue.items_dealt[3]] = result_of_seconds(650);
   const Table table = work_items(catalogue, results);
-  REQUIRE(table.rows().size() == 2);
-  CHECK(table.rows()[0] == std::vector<Cell>{"static", whole(64), 700.0, 60.0, 10.0, 5.0, 25.0});
+  REQUIRE(table.rows().size() == 3);
+  CHECK(table.rows()[0] == std::vector<Cell>{"static", "nobody", 700.0, 60.0, 0.0, 10.0, 5.0, 25.0, whole(0)});
   CHECK(table.rows()[1][0] == Cell("3x3"));
-  CHECK(table.notes().back() == "Unfinished: 5 of 7 rows are missing.");
+  CHECK(table.rows()[2][1] == Cell("host"));
+  CHECK(table.notes().back() == "Unfinished: 10 of 13 rows are missing.");
 }
 
 TEST_CASE("a table says how many rows are missing, if any, and cannot have more than all") {
