@@ -28,6 +28,7 @@ constexpr std::uint32_t page_bound_of(std::span<const PageId> pages) {
 
 inline constexpr std::size_t page_size_min_bytes = 512;
 inline constexpr std::size_t page_size_max_bytes = 65536;
+static_assert(page_size_min_bytes == std::bit_ceil(core::record_bytes_max), "the smallest page holds the largest record");
 
 /// Whether pages may have this size: a power of two from 512 B to 64 KiB.
 constexpr bool is_page_size(std::size_t bytes) {

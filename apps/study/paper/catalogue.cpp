@@ -131,6 +131,25 @@ void add_ray_ways(Catalogue& catalogue) {
   }
 }
 
+/// A machine whose hardware finds cached pages, as fast as those at home, and puts them into frames.
+nodes::Machine with_shared_memory(nodes::Machine machine) {
+  const auto price = [&](nodes::Charge charge) -> auto& { return machine.cost_ps[static_cast<std::size_t>(charge)]; };
+  price(nodes::Charge::cached_lookup) = price(nodes::Charge::home_lookup);
+  price(nodes::Charge::page_install) = 0;
+  return machine;
+}
+
+void add_page_sizes(Catalogue& catalogue) {
+  const std::size_t timed = catalogue.timed[rings_row].back();
+  for (std::size_t size = 0; size < page_sizes_bytes.size(); ++size) {
+    PaperRun run = catalogue.runs[timed];
+    run.page_size_bytes = page_sizes_bytes[size];
+    catalogue.paged[size] = size == article_page ? timed : catalogue.add(run);
+    run.machine = with_shared_memory(run.machine);
+    catalogue.paged_by_hardware[size] = catalogue.add(run);
+  }
+}
+
 /// What claims of the text hang on: sizes of work items, a light inside the scene, and copies of the database on every node.
 void add_foils(Catalogue& catalogue) {
   const std::size_t last = paper_node_counts.size() - 1;
@@ -167,6 +186,7 @@ Catalogue catalogue_of(std::uint32_t resolution) {
   add_caches(catalogue, like);
   add_ray_ways(catalogue);
   add_foils(catalogue);
+  add_page_sizes(catalogue);
   PaperRun faster = catalogue.runs[catalogue.timed[rings_row][faster_column]];
   faster.machine = preset("ipsc860");
   catalogue.faster_machine = catalogue.add(faster);

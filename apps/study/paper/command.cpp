@@ -54,6 +54,7 @@ std::vector<NamedTable> tables_of(const Catalogue& catalogue, const PaperResults
           {"algorithms", algorithms(catalogue, results)},
           {"ray_ways", ray_ways(catalogue, results)},
           {"work_items", work_items(catalogue, results)},
+          {"page_sizes", page_sizes(catalogue, results)},
           {"caches", caches(catalogue, results)},
           {"claims", claims_with_note(catalogue, results)}};
 }
@@ -71,8 +72,8 @@ PaperReport report_of(const Catalogue& catalogue, const std::vector<VariedRuns>&
 
 /// Every table's name, in their order; the last one only where the machine is varied.
 std::vector<std::string> table_names(bool has_sensitivity) {
-  std::vector<std::string> names = {"table_2", "table_3",    "calibration", "law",        "against_law", "memories",
-                                    "losses",  "algorithms", "ray_ways",    "work_items", "caches",      "claims"};
+  std::vector<std::string> names = {"table_2",    "table_3",  "calibration", "law",        "against_law", "memories", "losses",
+                                    "algorithms", "ray_ways", "work_items",  "page_sizes", "caches",      "claims"};
   if (has_sensitivity) {
     names.emplace_back("sensitivity");
   }

@@ -205,6 +205,17 @@ std::string on_work_items(const Table& table) {
   return "The picture takes from " + of(*least) + " to " + of(*most) + ".";
 }
 
+std::string on_page_sizes(const Table& table) {
+  if (table.rows().empty()) {
+    return "";
+  }
+  const auto seconds = [&](const Row& row) { return number_in(table, row, "seconds").value_or(0); };
+  const auto best = std::min_element(table.rows().begin(), table.rows().end(),
+                                     [&](const Row& a, const Row& b) { return seconds(a) < seconds(b); });
+  return "The picture comes soonest, in " + fixed(seconds(*best), 0) + " s, with pages of " +
+         fixed(number_in(table, *best, "page").value_or(0), 0) + " bytes in " + texts_of(table, *best)[0] + ".";
+}
+
 std::string on_claims(const Table& table) {
   std::map<std::string, std::size_t> verdicts;
   for (const Row& row : table.rows()) {
@@ -229,7 +240,7 @@ struct Conclusion {
   std::string (*on)(const Table& table);
 };
 
-constexpr std::array<Conclusion, 13> conclusions = {{{"table_2", on_table_2},
+constexpr std::array<Conclusion, 14> conclusions = {{{"table_2", on_table_2},
                                                      {"table_3", on_table_3},
                                                      {"calibration", on_calibration},
                                                      {"law", on_law},
@@ -239,6 +250,7 @@ constexpr std::array<Conclusion, 13> conclusions = {{{"table_2", on_table_2},
                                                      {"algorithms", on_algorithms},
                                                      {"ray_ways", on_ray_ways},
                                                      {"work_items", on_work_items},
+                                                     {"page_sizes", on_page_sizes},
                                                      {"caches", on_caches},
                                                      {"claims", on_claims},
                                                      {"sensitivity", on_sensitivity}}};

@@ -31,6 +31,7 @@ struct PaperRun {
   std::optional<std::size_t> node_memory_bytes = std::nullopt;
   std::uint32_t resolution = 512;  ///< pixels a side
   core::RecordOrder record_order = core::RecordOrder::spatial;
+  std::size_t page_size_bytes = 1024;
   /// One light in the middle of the scene, which is Rings4, in place of its own, which stand outside. Rays then visit the regions
   /// on their way where they meet nothing, too.
   bool has_inner_light = false;
@@ -64,13 +65,14 @@ struct PaperSubject {
   std::string scene;
   std::uint32_t resolution = 0;
   core::RecordOrder record_order = core::RecordOrder::spatial;
+  std::size_t page_size_bytes = 1024;
   bool has_inner_light = false;
   Subject subject;
 
   /// Whether it is the run's.
   bool is_of(const PaperRun& run) const {
     return scene == run.scene && resolution == run.resolution && record_order == run.record_order &&
-           has_inner_light == run.has_inner_light;
+           page_size_bytes == run.page_size_bytes && has_inner_light == run.has_inner_light;
   }
 };
 /// Those that the runs need. Takes a second or so for the largest.

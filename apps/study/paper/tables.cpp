@@ -8,6 +8,7 @@
 
 #include "apps/line/number_text.h"
 #include "core/base/expect.h"
+#include "core/record/record.h"
 
 namespace dmpc::apps {
 namespace {
@@ -261,6 +262,41 @@ Table work_items(const Catalogue& catalogue, const PaperResults& results) {
       "submap "
       "is done; by the host it asks for every item, and has no submap.");
   note_missing_rows(table, 2 * item_sides.size() - 1);
+  return table;
+}
+
+Table page_sizes(const Catalogue& catalogue, const PaperResults& results) {
+  const std::uint32_t node_count = paper_node_counts.back();
+  Table table("A shared memory in software and in hardware, Rings4 on " + std::to_string(node_count) + " nodes",
+              {{"shared memory in"},
+               {"page", "bytes"},
+               {"seconds", "s", 0},
+               {"data wait", "%", 2},
+               {"messages", "%", 2},
+               {"faults"},
+               {"traffic", "bytes"}});
+  const auto add_rows = [&](const char* kind, const auto& runs) {
+    for (std::size_t size = 0; size < runs.size(); ++size) {
+      if (const auto& result = results[runs[size]]) {
+        const auto percent = result->parts.percent();
+        table.add_row({kind, std::uint64_t{page_sizes_bytes[size]}, result->seconds(),
+                       percent[static_cast<std::size_t>(TimePart::data_wait)],
+                       percent[static_cast<std::size_t>(TimePart::messages)], result->faults, result->page_bytes});
+      }
+    }
+  };
+  add_rows("software", catalogue.paged);
+  add_rows("hardware", catalogue.paged_by_hardware);
+  table.add_note(
+      "Hardware: the look-up of a cached page costs no more than that of one at home, and no processor puts a page into its "
+      "frame; "
+      "messages are the iPSC/2's.");
+  table.add_note(
+      "Smaller pages, such as the lines of 64 to 128 bytes of machines that did so (KSR-1, Exemplar, SCI), cannot be had: no "
+      "record "
+      "crosses a page, and one takes up to " +
+      std::to_string(core::record_bytes_max) + " bytes.");
+  note_missing_rows(table, 2 * page_sizes_bytes.size());
   return table;
 }
 

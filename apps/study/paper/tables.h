@@ -83,6 +83,8 @@ Table ray_ways(const Catalogue& catalogue, const PaperResults& results);
 std::string item_text(std::uint32_t side);
 /// What the size of a work item is worth.
 Table work_items(const Catalogue& catalogue, const PaperResults& results);
+/// What the size of a page is worth where software looks pages up, and where hardware does.
+Table page_sizes(const Catalogue& catalogue, const PaperResults& results);
 /// Figures 8 to 10: what the size of the cache is worth.
 Table caches(const Catalogue& catalogue, const PaperResults& results);
 

@@ -14,7 +14,7 @@ const std::string nothing;
 
 TEST_CASE("a table of the article without rows, or an unknown one, has no conclusion") {
   for (const char* const name : {"table_2", "table_3", "calibration", "law", "against_law", "memories", "losses", "algorithms",
-                                 "ray_ways", "work_items", "caches", "claims", "sensitivity", "no table"}) {
+                                 "ray_ways", "work_items", "page_sizes", "caches", "claims", "sensitivity", "no table"}) {
     CHECK(paper_conclusion(name, Table("", {{"scene"}, {"nodes"}})) == nothing);
   }
 }
@@ -65,6 +65,10 @@ TEST_CASE("other tables of the article are concluded from their columns") {
   items.add_row({"3x3", "ring", 604.0});
   CHECK(paper_conclusion("work_items", items) ==
         "The picture takes from 604 s with 3x3 asked of ring to 700 s with static asked of nobody.");
+  Table sizes("", {{"shared memory in"}, {"page", "bytes"}, {"seconds", "s"}});
+  sizes.add_row({"software", std::uint64_t{512}, 30.0});
+  sizes.add_row({"hardware", std::uint64_t{1024}, 20.0});
+  CHECK(paper_conclusion("page_sizes", sizes) == "The picture comes soonest, in 20 s, with pages of 1024 bytes in hardware.");
   Table caches("", {{"scene"}, {"of the database", "%"}, {"efficiency", "%"}});
   caches.add_row({"a", 0.5, 3.0});
   caches.add_row({"a", 10.0, 90.0});

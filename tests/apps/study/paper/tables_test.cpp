@@ -166,6 +166,22 @@ TEST_CASE("work items have their seconds and where they go, static first") {
   CHECK(table.notes().back() == "Unfinished: 10 of 13 rows are missing.");
 }
 
+TEST_CASE("pages of every size have their seconds and traffic, by software and by hardware") {
+  const Catalogue catalogue = catalogue_of(16);
+  PaperResults results(catalogue.runs.size());
+  const PaperRun& run = catalogue.runs[catalogue.paged_by_hardware[0]];
+  CHECK(run.page_size_bytes == 512);
+  CHECK(run.machine.cost_ps[static_cast<std::size_t>(nodes::Charge::cached_lookup)] ==
+        run.machine.cost_ps[static_cast<std::size_t>(nodes::Charge::home_lookup)]);
+  results[catalogue.paged_by_hardware[0]] = result_of_seconds(300);
+  results[catalogue.paged_by_hardware[0]]->faults = 5;
+  results[catalogue.paged_by_hardware[0]]->page_bytes = 2600;
+  const Table table = page_sizes(catalogue, results);
+  REQUIRE(table.rows().size() == 1);
+  CHECK(table.rows()[0] == std::vector<Cell>{"hardware", whole(512), 300.0, 0.0, 0.0, whole(5), whole(2600)});
+  CHECK(table.notes().back() == "Unfinished: 7 of 8 rows are missing.");
+}
+
 TEST_CASE("a table says how many rows are missing, if any, and cannot have more than all") {
   Table table("", {{"a"}});
   table.add_row({std::uint64_t{1}});
