@@ -256,7 +256,7 @@ TEST_CASE("an option of another strategy is refused with the strategies that it 
                                      {"--ray-batch=10", replicated, dataflow},
                                      {"--ray-credits=4", svm, dataflow},
                                      {"--ray-queue=512", replicated, dataflow},
-                                     {"--work-giver=host", dataflow, svm + " or " + replicated},
+                                     {"--work-giver=host", dataflow, svm + " or " + replicated + " or " + forest},
                                      {"--no-backpressure", svm, dataflow},
                                      {"--topology=hypercube", replicated, dataflow}};
   for (const auto& [option, with, goes_with] : wrongs) {
