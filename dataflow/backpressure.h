@@ -15,9 +15,10 @@
 namespace dmpc::dataflow {
 
 /// From how many queued packets a node announces that its queue is long.
-constexpr std::uint32_t long_queue(std::uint32_t capacity_packets) { return std::max(1U, capacity_packets / 8); }
+constexpr std::uint32_t long_queue(std::uint32_t capacity_packets) { return std::max(1U, capacity_packets / 4); }
 /// Down to how many it takes that back: neither at once, or announcements would never end, nor too late, or nodes would idle.
-constexpr std::uint32_t short_queue(std::uint32_t capacity_packets) { return capacity_packets / 32; }
+/// With no more of its own a node starts primary rays: what waits for others' credits need not keep it idle.
+constexpr std::uint32_t short_queue(std::uint32_t capacity_packets) { return capacity_packets / 8; }
 
 /// One node's part. It decides nothing about packets: it is told the length of the queue, of announcements and of
 /// acknowledgements. A node announces again only when all others have acknowledged its last announcement, so one place for each
@@ -49,8 +50,8 @@ class Backpressure {
     core::expect(holds || holders_ > 0, "only what was announced is taken back");
     holders_ += holds ? 1 : -1U;
   }
-  /// Primary rays may start with `queued` packets in the queue: with none, unless another node asks to hold them back.
-  bool admits_primaries(std::uint32_t queued) const { return !is_wanted_ || (queued == 0 && holders_ == 0); }
+  /// Primary rays may start with `queued` packets in the queue: with few, unless another node asks to hold them back.
+  bool admits_primaries(std::uint32_t queued) const { return !is_wanted_ || (queued <= short_queue(capacity_) && holders_ == 0); }
 
   /// Nothing is announced that has not been taken back, and every announcement is acknowledged.
   bool is_settled() const { return !is_announced_ && missing_ == 0; }

@@ -12,7 +12,7 @@
 //     busy, all of them before it rests. So every queued packet gets its credit, and so does the host: every ray that
 //     it keeps goes on. A node may therefore rest with rays that wait for credit, as long as it keeps nobody else's.
 // (4) New primary rays start only when nothing received is left and, unless it is done without backpressure
-//     (backpressure.h), no packet is queued here and no other node asks to hold them back. No work is taken up while a packet
+//     (backpressure.h), few packets are queued here and no other node asks to hold them back. No work is taken up while a packet
 //     waits: one work() adds at most one ray to a gather, which had room. The packets that the host forwards take the credits of
 //     (host, target), with places of their own.
 #pragma once
@@ -29,7 +29,7 @@ struct NodeState {
   bool is_tracing = false;         ///< a ray is being traced, or a hit has children to be made
   bool has_backlog = false;        ///< received rays
   bool has_primaries = false;      ///< own primary rays that have not started
-  bool admits_primaries = false;   ///< no packet is queued, and no other node asks to hold primary rays back
+  bool admits_primaries = false;   ///< few packets are queued, and no other node asks to hold primary rays back
   bool can_flush = false;          ///< an open packet has rays and may leave
   bool has_gathered = false;       ///< rays in open or queued packets
   bool is_unacknowledged = false;  ///< an announcement is to be taken back or acknowledged

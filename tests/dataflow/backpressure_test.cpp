@@ -10,21 +10,21 @@ using dataflow::Backpressure;
 
 TEST_CASE("a node announces a long queue once, and takes it back when the queue is short") {
   Backpressure node(0, 64);
-  CHECK_FALSE(node.is_due(7));
-  CHECK(node.is_due(8));
-  CHECK(node.announce(8));
-  for (const std::uint32_t queued : {64U, 8U, 7U, 3U}) {
+  CHECK_FALSE(node.is_due(15));
+  CHECK(node.is_due(16));
+  CHECK(node.announce(16));
+  for (const std::uint32_t queued : {64U, 16U, 15U, 9U}) {
     CHECK_FALSE(node.is_due(queued));
   }
-  CHECK(node.is_due(2));
-  CHECK_FALSE(node.announce(2));
+  CHECK(node.is_due(8));
+  CHECK_FALSE(node.announce(8));
   CHECK(node.is_settled());
   CHECK(node.count() == 1);
 }
 
 TEST_CASE("a node announces nothing more before all others have acknowledged") {
   Backpressure node(2, 8);
-  CHECK(node.announce(1));
+  CHECK(node.announce(2));
   CHECK_FALSE(node.is_due(0));
   node.acknowledged();
   CHECK_FALSE(node.is_due(0));
@@ -59,8 +59,10 @@ TEST_CASE("primary rays are admitted while no other node asks to hold them back"
   CHECK_THROWS_AS(node.take(false), core::InternalError);
 }
 
-TEST_CASE("a node with packets in its queue starts no primary ray, unless it does without backpressure") {
-  CHECK_FALSE(Backpressure(2, 8).admits_primaries(1));
+TEST_CASE("a node with more than a few packets in its queue starts no primary ray, unless it does without backpressure") {
+  CHECK(Backpressure(2, 8).admits_primaries(1));
+  CHECK_FALSE(Backpressure(2, 8).admits_primaries(2));
+  CHECK_FALSE(Backpressure(2, 7).admits_primaries(1));
   Backpressure without(2, 8, false);
   CHECK(without.admits_primaries(8));
   CHECK_FALSE(without.is_due(8));

@@ -33,8 +33,9 @@ StateReport explore(const ProtocolSettings& settings) {
 }
 
 /// No failure in any order of events; the way to it, step by step, otherwise.
+template <class Rules = ProtocolRules>
 void check_all_orders(const ProtocolSettings& settings, std::uint64_t states_min) {
-  const StateReport report = explore(settings);
+  const StateReport report = explore<Rules>(settings);
   std::string way;
   for (const std::string& step : report.way) {
     way += step + "\n";
@@ -92,6 +93,14 @@ struct HoldingForEver : ProtocolRules {
   };
 };
 
+/// As in queues that hold more than the model's: with a packet of its own in the queue a node starts primary rays.
+struct FewQueued : ProtocolRules {
+  struct Backpressure : dataflow::Backpressure {
+    using dataflow::Backpressure::Backpressure;
+    bool admits_primaries(std::uint32_t queued) const { return queued <= 1 && holders() == 0; }
+  };
+};
+
 struct Colorless : ProtocolRules {
   struct Termination : dataflow::Termination {
     static Termination initiator() { return {dataflow::Termination::initiator()}; }
@@ -144,6 +153,11 @@ TEST_CASE("packets that wait in a queue leave in every order of events") {
   check_all_orders({.primaries = {2, 0, 0}, .children = children(3), .queue_packets = 1, .owners = 2}, 10'000);
   check_all_orders({.primaries = {1, 1, 0}, .children = children(3), .queue_packets = 1}, 10'000);
   check_all_orders({.primaries = {1, 1, 0}, .children = children(4), .queue_packets = 2, .owners = 2}, 10'000);
+}
+
+TEST_CASE("primary rays that start beside few packets in the queue end in every order of events") {
+  check_all_orders<FewQueued>({.primaries = {2, 1, 0}, .children = children(2), .queue_packets = 1, .owners = 2}, 1'000);
+  check_all_orders<FewQueued>({.primaries = {2, 1, 0}, .children = children(2), .queue_packets = 2, .owners = 2}, 1'000);
 }
 
 TEST_CASE("primary rays that start whatever waits end in every order of events") {
