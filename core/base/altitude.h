@@ -8,15 +8,10 @@
 
 namespace dmpc::core {
 
-/// The square of the longest of three edges.
-inline double longest_squared_of(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-  return std::max({dot(a, a), dot(b, b), dot(c, c)});
-}
-
 /// The least altitude of a triangle with these edges, in any order and direction; `twice_area` is that of it. Not a number if all
 /// is 0.
 inline double least_altitude(const Vec3d& a, const Vec3d& b, const Vec3d& c, double twice_area) {
-  return twice_area / std::sqrt(longest_squared_of(a, b, c));
+  return twice_area / std::sqrt(std::max({dot(a, a), dot(b, b), dot(c, c)}));
 }
 
 }  // namespace dmpc::core

@@ -2,6 +2,7 @@
 // them into vector instructions; the bits are those of one number at a time. core/base/elementary.h states their errors.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -97,10 +98,10 @@ inline double finite_log(double x) {
 
 /// base ^ exponent for 0 <= base <= 1 and exponent >= 0. A base outside counts as its nearer end.
 inline double unit_power(double base, double exponent) {
-  const double wanted = exponent * finite_log(base);
-  const double raised = finite_exponential(wanted > least_exponent ? wanted : least_exponent);
-  const double power = wanted > least_exponent ? raised : 0.0;
-  return exponent == 0 || base >= 1 ? 1.0 : base > 0 ? power : 0.0;
+  constexpr double surely_0 = -746;  // of which the exponential rounds to 0
+  const double power = finite_exponential(std::max(surely_0, exponent * finite_log(base)));
+  const double inside = base > 0 ? power : 0.0, capped = base >= 1 ? 1.0 : inside;
+  return exponent == 0 ? 1.0 : capped;
 }
 
 }  // namespace dmpc::core

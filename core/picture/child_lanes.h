@@ -7,6 +7,7 @@
 #include "core/picture/hit_state.h"
 #include "core/picture/lanes.h"
 #include "core/picture/ray_start.h"
+#include "core/picture/start_rows.h"
 
 namespace dmpc::core {
 
@@ -17,10 +18,7 @@ class ChildLanes {
   void add(const HitState& state, double index) {
     put(direction_, count_, state.ray.full_direction());
     put(normal_, count_, state.normal);
-    put(true_normal_, count_, state.geometric_normal);
-    along_[count_] = state.clearance.along;
-    across_[count_] = state.clearance.across;
-    radius_[count_] = state.clearance.radius;
+    starts_.put_hit(count_, state);
     index_[count_++] = index;
   }
   /// How each mirrors, or lets through, its ray: towards() and start() tell, with the bits of normalize() of
@@ -29,23 +27,17 @@ class ChildLanes {
   void bend(VectorWidth width = vector_width());
 
   Vec3d towards(std::size_t lane) const { return get(towards_, lane); }
-  RayStart start(std::size_t lane) const { return {start_along_[lane], start_across_[lane]}; }
+  RayStart start(std::size_t lane) const { return starts_.start(lane); }
 
  private:
   template <bool is_bent>
-  void send_by_512();
-  template <bool is_bent>
-  void send_by_256();
-  template <bool is_bent>
   void send_lanes();
-  template <bool is_bent>
-  void send(VectorWidth width);
 
   std::size_t count_ = 0;
-  VectorRows direction_{}, normal_{}, true_normal_{};
-  Row<double> along_{}, across_{}, radius_{}, index_{};
+  VectorRows direction_{}, normal_{};
+  Row<double> index_{};
   VectorRows towards_;
-  Row<double> start_along_, start_across_;
+  StartRows starts_;
 };
 
 }  // namespace dmpc::core

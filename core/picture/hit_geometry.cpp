@@ -14,14 +14,6 @@ namespace {
 
 /// Of the largest coordinate and radius: solved in double from rays that are exact to 2^-49.
 constexpr double curved_clearance = 0x1p-40;
-/// One lane of a block's values, in double.
-struct Lane {
-  const float* rows;
-  std::size_t stride, lane;
-
-  double value(std::size_t row) const { return double{rows[row * stride + lane]}; }
-  Vec3d vector(std::size_t row) const { return {value(row), value(row + 1), value(row + 2)}; }
-};
 
 /// `size`: the largest coordinate and radius; `radius`: of the surface where it was hit.
 Clearance clearance_on_curved(const HitState& state, double size, double radius) {
@@ -30,14 +22,9 @@ Clearance clearance_on_curved(const HitState& state, double size, double radius)
 
 Vec3d along(const Ray& ray, double t) { return ray.full_origin() + ray.full_direction() * t; }
 
-Lane lane_of(const HitState& state, const std::byte* record) {
-  const auto header = read<BlockHeader>(record);
-  return {reinterpret_cast<const float*>(record + sizeof(BlockHeader)), header.count, state.hit.lane};
-}
-
 /// Where faces share a plane, the point lies in it and the normal is its: all of them are one surface, off which a ray starts on
 /// one of its sides.
-void triangle_geometry(HitState& state, const Lane& lane, const FacePlane* shared) {
+void triangle_geometry(HitState& state, const BlockLane& lane, const FacePlane* shared) {
   const Vec3d corner = lane.vector(0), edge1 = lane.vector(3) - corner, edge2 = lane.vector(6) - corner;
   const Vec3d origin = state.ray.full_origin(), direction = state.ray.full_direction();
   const double t{state.hit.t};
@@ -54,7 +41,7 @@ void triangle_geometry(HitState& state, const Lane& lane, const FacePlane* share
   state.clearance = Clearance::of_flat(clearance_of(corner, edge1, edge2, state.geometric_normal, state.u, state.v, t));
 }
 
-void sphere_geometry(HitState& state, const Lane& lane) {
+void sphere_geometry(HitState& state, const BlockLane& lane) {
   const CurvedValues sphere(PrimitiveKind::sphere, lane.rows, lane.stride, lane.lane);
   const Vec3d center = sphere.vector(0);
   const double radius = std::fabs(sphere.value(3));
@@ -71,7 +58,7 @@ constexpr double change_max = 1e30;
 
 float bounded(double change) { return static_cast<float>(std::clamp(change, -change_max, change_max)); }
 
-void cone_geometry(HitState& state, const Lane& lane) {
+void cone_geometry(HitState& state, const BlockLane& lane) {
   const CurvedValues cone(PrimitiveKind::cone, lane.rows, lane.stride, lane.lane);
   const Vec3d base = cone.vector(0), apex = cone.vector(4), axis = apex - base;
   const double t = cone_distance(state.ray, lane.rows, lane.stride, lane.lane);
@@ -90,6 +77,11 @@ void cone_geometry(HitState& state, const Lane& lane) {
 
 }  // namespace
 
+BlockLane lane_of(const HitState& state, const std::byte* record) {
+  const auto header = read<BlockHeader>(record);
+  return {reinterpret_cast<const float*>(record + sizeof(BlockHeader)), header.count, state.hit.lane};
+}
+
 void read_surface(HitState& state, const std::byte* record) {
   const auto header = read<BlockHeader>(record);
   const std::size_t references = (value_count(header.kind) + 1) * header.count;
@@ -102,7 +94,7 @@ void read_surface(HitState& state, const std::byte* record) {
 
 void read_geometry(HitState& state, const std::byte* record) {
   const auto header = read<BlockHeader>(record);
-  const Lane lane = lane_of(state, record);
+  const BlockLane lane = lane_of(state, record);
   switch (header.kind) {
     case PrimitiveKind::triangle:
       if (header.has_plane) {
@@ -123,7 +115,7 @@ void read_geometry(HitState& state, const std::byte* record) {
 }
 
 CutEllipse cut_ellipse(const HitState& state, const std::byte* record) {
-  const Lane lane = lane_of(state, record);
+  const BlockLane lane = lane_of(state, record);
   const Vec3d v0 = lane.vector(0), edge1 = lane.vector(3) - v0, edge2 = lane.vector(6) - v0, normal = cross(edge1, edge2);
   const double square = dot(normal, normal);
   if (!(square > 0.0)) {

@@ -4,8 +4,12 @@
 #include <cstddef>
 
 #include "core/picture/hit_state.h"
+#include "core/record/block_lane.h"
 
 namespace dmpc::core {
+
+/// The primitive that was hit, in its block.
+BlockLane lane_of(const HitState& state, const std::byte* record);
 
 /// From the block of the primitive that was hit: sets all that `state` says of the surface, and the stage that follows. The point
 /// lies on the primitive, whatever rounding let the ray in.

@@ -29,4 +29,25 @@ inline std::size_t whole_groups(std::size_t count) {
   return (count + group_lanes - 1) / group_lanes * group_lanes;
 }
 
+template <class Loop>
+[[gnu::target("arch=x86-64-v4"), gnu::flatten]] void run_by_512(const Loop& loop) {
+  loop();
+}
+template <class Loop>
+[[gnu::target("arch=x86-64-v3"), gnu::flatten]] void run_by_256(const Loop& loop) {
+  loop();
+}
+/// Calls loop(), which is compiled for each width. Requires a processor that has it.
+template <class Loop>
+void run_by(VectorWidth width, const Loop& loop) {
+  switch (width) {
+    case VectorWidth::bits_512:
+      return run_by_512(loop);
+    case VectorWidth::bits_256:
+      return run_by_256(loop);
+    case VectorWidth::any:
+      return loop();
+  }
+}
+
 }  // namespace dmpc::core

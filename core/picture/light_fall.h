@@ -7,6 +7,7 @@
 #include "core/picture/hit_state.h"
 #include "core/picture/lanes.h"
 #include "core/picture/ray_start.h"
+#include "core/picture/start_rows.h"
 
 namespace dmpc::core {
 
@@ -43,34 +44,26 @@ class LitLanes {
   void add(const HitState& state) {
     put(point_, count_, state.point);
     put(normal_, count_, state.normal);
-    put(true_normal_, count_, state.geometric_normal);
     put(direction_, count_, state.ray.full_direction());
-    along_[count_] = state.clearance.along;
-    across_[count_] = state.clearance.across;
-    radius_[count_] = state.clearance.radius;
+    starts_.put_hit(count_, state);
     shine_[count_++] = double{state.surface.material.shine};
   }
   /// How a light falls on all: fall() and highlight() tell, with the bits of fall_on() and of pow_unit().
   void light(const Vec3d& position, VectorWidth width = vector_width());
 
-  LightFall fall(std::size_t lane) const {
-    return {get(towards_, lane), distance_[lane], cosine_[lane], {start_along_[lane], start_across_[lane]}};
-  }
+  LightFall fall(std::size_t lane) const { return {get(towards_, lane), distance_[lane], cosine_[lane], starts_.start(lane)}; }
   /// lobe_cosine() to the power of the material's shine.
   double highlight(std::size_t lane) const { return highlight_[lane]; }
 
  private:
-  using Doubles = Row<double>;
-  void light_by_512(const Vec3d& position);
-  void light_by_256(const Vec3d& position);
-  void light_plainly(const Vec3d& position);
   void light_lanes(Vec3d position);
 
   std::size_t count_ = 0;
-  VectorRows point_{}, normal_{}, true_normal_{}, direction_{};
-  Doubles along_{}, across_{}, radius_{}, shine_{};
+  VectorRows point_{}, normal_{}, direction_{};
+  Row<double> shine_{};
   VectorRows towards_;
-  Doubles distance_, cosine_, highlight_, start_along_, start_across_;
+  StartRows starts_;
+  Row<double> distance_, cosine_, highlight_;
 };
 
 }  // namespace dmpc::core

@@ -11,14 +11,10 @@ bool TriangleLanes::take(HitState& state, const std::byte* record) {
   if (state.stage != HitState::Stage::geometry || header.kind != PrimitiveKind::triangle || header.has_plane) {
     return false;
   }
-  const auto* const value = reinterpret_cast<const float*>(record + sizeof(BlockHeader)) + state.hit.lane;
-  const std::size_t stride = header.count;
-  const auto corner = [&](std::size_t row) {
-    return Vec3d{double{value[row * stride]}, double{value[(row + 1) * stride]}, double{value[(row + 2) * stride]}};
-  };
-  put(corner_, count_, corner(0));
-  put(second_, count_, corner(3));
-  put(third_, count_, corner(6));
+  const BlockLane triangle = lane_of(state, record);
+  put(corner_, count_, triangle.vector(0));
+  put(second_, count_, triangle.vector(3));
+  put(third_, count_, triangle.vector(6));
   put(origin_, count_, state.ray.full_origin());
   put(direction_, count_, state.ray.full_direction());
   t_[count_] = double{state.hit.t};
@@ -45,28 +41,11 @@ bool TriangleLanes::take(HitState& state, const std::byte* record) {
   }
 }
 
-[[gnu::target("arch=x86-64-v4"), gnu::flatten]] void TriangleLanes::find_by_512() { find_lanes(); }
-
-[[gnu::target("arch=x86-64-v3"), gnu::flatten]] void TriangleLanes::find_by_256() { find_lanes(); }
-
-void TriangleLanes::find_plainly() { find_lanes(); }
-
-void TriangleLanes::find(VectorWidth width) {
-  switch (width) {
-    case VectorWidth::bits_512:
-      return find_by_512();
-    case VectorWidth::bits_256:
-      return find_by_256();
-    case VectorWidth::any:
-      return find_plainly();
-  }
-}
-
 void TriangleLanes::read_all(VectorWidth width) {
   if (count_ == 0) {
     return;
   }
-  find(width);
+  run_by(width, [&] { find_lanes(); });
   for (std::size_t lane = 0; lane < count_; ++lane) {
     HitState& state = *state_[lane];
     state.u = u_[lane];

@@ -21,21 +21,15 @@ class TriangleLanes {
   void read_all(VectorWidth width = vector_width());
 
  private:
-  using Doubles = Row<double>;
-
-  void find(VectorWidth width);
-  void find_by_512();
-  void find_by_256();
-  void find_plainly();
   void find_lanes();
 
   std::size_t count_ = 0;
   std::array<HitState*, bundle_rays_max> state_;
   std::array<const std::byte*, bundle_rays_max> record_;
   VectorRows corner_{}, second_{}, third_{}, origin_{}, direction_{};
-  Doubles t_{};
+  Row<double> t_{};
   VectorRows point_, normal_;
-  Doubles u_, v_, clearance_;
+  Row<double> u_, v_, clearance_;
 };
 
 }  // namespace dmpc::core

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/mutation.h"
+#include "core/record/block_lane.h"
 #include "core/record/curved_values.h"
 
 namespace dmpc::core {
@@ -234,13 +235,9 @@ namespace {
 /// coordinates, of which all their rests are a share but for those next to zero.
 double reach_of_rests(double size) { return 0x1p-20 * size + 2 * coordinate_step; }
 
-Vec3d row_vector(const float* rows, std::size_t stride, std::size_t lane, std::size_t row) {
-  return {double{rows[row * stride + lane]}, double{rows[(row + 1) * stride + lane]}, double{rows[(row + 2) * stride + lane]}};
-}
-
 /// For certain: the ray's line passes the sphere.
 bool passes_sphere(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
-  const Vec3d center = row_vector(rows, stride, lane, 0), d(ray.direction), to_origin = Vec3d(ray.origin) - center;
+  const Vec3d center = BlockLane{rows, stride, lane}.vector(0), d(ray.direction), to_origin = Vec3d(ray.origin) - center;
   const Vec3d away = cross(to_origin, d);
   const double radius = std::fabs(double{rows[3 * stride + lane]});
   const double reach = radius + reach_of_rests(radius + largest_component(center) + largest_component(to_origin));
@@ -249,7 +246,8 @@ bool passes_sphere(const Ray& ray, const float* rows, std::size_t stride, std::s
 
 /// For certain: the ray's line passes the cone's axis at more than its largest radius.
 bool passes_cone(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
-  const Vec3d base = row_vector(rows, stride, lane, 0), axis = row_vector(rows, stride, lane, 4) - base;
+  const BlockLane cone{rows, stride, lane};
+  const Vec3d base = cone.vector(0), axis = cone.vector(4) - base;
   const Vec3d d(ray.direction), to_origin = Vec3d(ray.origin) - base, across = cross(d, axis);
   const double radius = std::max(std::fabs(double{rows[3 * stride + lane]}), std::fabs(double{rows[7 * stride + lane]}));
   const double reach =
