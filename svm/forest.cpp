@@ -31,10 +31,6 @@ std::size_t answer_bytes_max(QuestionKind kind) {
   return sizeof(AnswerHeader) + (kind == QuestionKind::below ? sizeof(core::Hit) : core::bytes_max(record_kind(kind)));
 }
 
-std::size_t forest_home_bytes(std::uint32_t page_count, std::size_t page_size_bytes) {
-  return page_count * page_size_bytes + core::overread_bytes;
-}
-
 /// Appends to what a packet has; `end` is where that ends.
 class PacketWriter {
  public:
@@ -67,9 +63,8 @@ std::size_t question_packet_bytes(std::uint32_t questions) {
 }
 
 void Forest::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index) {
-  memory[Category::home_pages] +=
-      LocalMemory::bytes_for<std::byte>(capacity.forest_bytes() + core::overread_bytes) +
-      LocalMemory::bytes_for<std::byte>(forest_home_bytes(capacity.pages_at(index), capacity.page_size_bytes()));
+  memory[Category::home_pages] += LocalMemory::bytes_for<std::byte>(capacity.forest_bytes() + core::overread_bytes);
+  HomePages::add_needs(memory, capacity, index);
   memory[Category::queues] +=
       LocalMemory::bytes_for<Question>(capacity.in_flight) + LocalMemory::bytes_for<Queue>(capacity.node_count) +
       LocalMemory::bytes_for<std::byte>(capacity.question_bytes) + LocalMemory::bytes_for<std::byte>(lent_bytes);
@@ -78,40 +73,20 @@ void Forest::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, 
 Forest::Forest(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database)
     : geometry_(capacity.page_size_bytes()),
       forest_(nodes::kept(node.memory(), Category::home_pages, database.first(capacity.forest_bytes()), core::overread_bytes)),
-      forest_pages_(capacity.forest_pages),
-      homes_(capacity.node_count),
+      homes_(node, capacity, database),
       self_(nodes::index_of(node.id())),
-      home_pages_(node.memory(), Category::home_pages,
-                  forest_home_bytes(capacity.pages_at(nodes::index_of(node.id())), capacity.page_size_bytes()),
-                  capacity.page_size_bytes()),
       node_(&node),
       asked_(node.memory().allocate<Question>(Category::queues, capacity.in_flight)),
       queues_(node.memory().allocate<Queue>(Category::queues, capacity.node_count)),
       packet_(node.memory().allocate<std::byte>(Category::queues, capacity.question_bytes)),
-      lent_(node.memory().allocate<std::byte>(Category::queues, lent_bytes)),
-      home_page_count_(capacity.pages_at(nodes::index_of(node.id()))) {
-  core::expect(database.size() == capacity.database_bytes(), "the plan is the database's");
-  put_home_pages(database);
-  for (std::uint32_t owner = 0; owner < capacity.node_count; ++owner) {
-    if (owner != self_) {
-      node.grant(nodes::NodeId{owner}, request_channel, capacity.request_credits);
-    }
-  }
-}
-
-void Forest::put_home_pages(std::span<const std::byte> database) {
-  const std::size_t size = geometry_.size_bytes();
-  for (std::uint32_t slot = 0; slot < home_page_count_; ++slot) {
-    const std::size_t page = index_of(homes_.page_at({self_, slot})) + forest_pages_;
-    home_pages_.put(slot, database.subspan(page * size, size));
-  }
+      lent_(node.memory().allocate<std::byte>(Category::queues, lent_bytes)) {
+  grant_requests(node, capacity);
 }
 
 const std::byte* Forest::find_below(core::Address address) {
-  const Homes::Place place = homes_.place_of(below_forest(address));
-  if (place.node == self_) {
+  if (const std::byte* const page = homes_.find(geometry_.page_of(address))) {
     ++counters_.home_hits;
-    return home_pages_.at(place.slot) + geometry_.offset_of(address);
+    return page + geometry_.offset_of(address);
   }
   if (address == lent_address_) {
     return lent_.data();  // was counted as a miss when it was asked for
@@ -135,7 +110,7 @@ void Forest::ask(std::uint32_t slot, core::ShadingRecord kind, core::Address add
 }
 
 void Forest::add(std::uint32_t slot, core::Address address) {
-  const std::uint32_t owner = homes_.place_of(below_forest(address)).node;
+  const std::uint32_t owner = homes_.home_of(geometry_.page_of(address));
   core::expect(owner != self_, "what is at home is never asked for");
   Queue& queue = queues_[owner];
   asked_[slot].next = no_slot;

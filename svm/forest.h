@@ -19,7 +19,7 @@
 #include "nodes/lasting_pieces.h"
 #include "nodes/node.h"
 #include "svm/faults.h"
-#include "svm/home.h"
+#include "svm/home_pages.h"
 #include "svm/node_program.h"
 #include "svm/packets.h"
 #include "svm/page.h"
@@ -105,9 +105,7 @@ class Forest {
     std::uint32_t count = 0;
   };
 
-  PageId below_forest(core::Address address) const { return PageId{index_of(geometry_.page_of(address)) - forest_pages_}; }
   const std::byte* find_below(core::Address address);
-  void put_home_pages(std::span<const std::byte> database);
   void add(std::uint32_t slot, core::Address address);
   bool send(std::uint32_t owner);
   std::span<const std::byte> begin_taking(const nodes::Packet& answers);
@@ -115,10 +113,8 @@ class Forest {
 
   PageGeometry geometry_;
   std::span<const std::byte> forest_;
-  std::uint32_t forest_pages_;
-  Homes homes_;
+  HomePages homes_;
   std::uint32_t self_;
-  nodes::LastingPieces home_pages_;
   PageCounters counters_;
   QuestionCounters questions_counted_;
   nodes::Node* node_;
@@ -128,7 +124,6 @@ class Forest {
   std::span<std::byte> lent_;
   core::Address lent_address_ = core::no_address;
   std::uint32_t waiting_ = 0, under_way_ = 0;
-  std::uint32_t home_page_count_;
 };
 static_assert(core::Records<Forest>);
 

@@ -92,10 +92,8 @@ void HostProgram::keep() const {
 
 void HostProgram::take_pixel(const FilmEntry& entry) {
   core::expect(entry.pixel < film_->pixels().size() && refinement_.pass().has(entry.pixel), "a finished pixel is of the pass");
-  std::uint64_t& word = arrived_[entry.pixel / 64];
-  const std::uint64_t bit = std::uint64_t{1} << (entry.pixel % 64);
-  core::expect((word & bit) == 0, "each pixel arrives once");
-  word |= bit;
+  core::expect(!has_arrived(entry.pixel), "each pixel arrives once");
+  arrived_[entry.pixel / 64] |= std::uint64_t{1} << (entry.pixel % 64);
   ++pixels_done_;
   deposits_saturated_ += film_->deposit(entry.pixel, entry.sums) ? 1 : 0;
   if (continuation_.watch) {

@@ -11,15 +11,11 @@ namespace {
 using nodes::Category;
 using nodes::LocalMemory;
 
-std::size_t home_bytes(std::uint32_t page_count, std::size_t page_size_bytes) {
-  return page_count * page_size_bytes + core::overread_bytes;
-}
-
 }  // namespace
 
 void Pager::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index) {
   const std::size_t page_size_bytes = capacity.page_size_bytes();
-  memory[Category::home_pages] += LocalMemory::bytes_for<std::byte>(home_bytes(capacity.pages_at(index), page_size_bytes));
+  HomePages::add_needs(memory, capacity, index);
   memory[Category::queues] += LocalMemory::bytes_for<std::byte>(sizeof(PageReplyHeader) + page_size_bytes);
   memory[Category::page_table] += LocalMemory::bytes_for<Translation>(translation_count);
   Cache::add_needs(memory, capacity.cache);
@@ -29,30 +25,12 @@ void Pager::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, s
 Pager::Pager(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database)
     : geometry_(capacity.page_size_bytes()),
       translations_(node.memory().allocate<Translation>(Category::page_table, translation_count)),
-      homes_(capacity.node_count),
-      self_(nodes::index_of(node.id())),
-      home_pages_(node.memory(), Category::home_pages,
-                  home_bytes(capacity.pages_at(nodes::index_of(node.id())), capacity.page_size_bytes()),
-                  capacity.page_size_bytes()),
-      cache_(node.memory(), capacity.cache, self_),
+      homes_(node, capacity, database),
+      cache_(node.memory(), capacity.cache, nodes::index_of(node.id())),
       faults_(node.memory(), capacity.in_flight, capacity.faults_max),
       node_(&node),
-      reply_(node.memory().allocate<std::byte>(Category::queues, sizeof(PageReplyHeader) + capacity.page_size_bytes())),
-      home_page_count_(capacity.pages_at(nodes::index_of(node.id()))) {
-  core::expect(database.size() == capacity.database_bytes(), "the plan is the database's");
-  put_home_pages(database);
-  for (std::uint32_t home = 0; home < capacity.node_count; ++home) {
-    if (home != self_) {
-      node.grant(nodes::NodeId{home}, request_channel, capacity.request_credits);
-    }
-  }
-}
-
-void Pager::put_home_pages(std::span<const std::byte> database) {
-  const std::size_t size = geometry_.size_bytes();
-  for (std::uint32_t slot = 0; slot < home_page_count_; ++slot) {
-    home_pages_.put(slot, database.subspan(index_of(homes_.page_at({self_, slot})) * size, size));
-  }
+      reply_(node.memory().allocate<std::byte>(Category::queues, sizeof(PageReplyHeader) + capacity.page_size_bytes())) {
+  grant_requests(node, capacity);
 }
 
 const std::byte* Pager::find_other(PageId page, std::size_t offset) {
@@ -74,9 +52,8 @@ const std::byte* Pager::find_other(PageId page, std::size_t offset) {
 
 /// Returns whether the page is here; if not, `translation` stays as it was.
 bool Pager::translate(PageId page, Translation& translation) const {
-  const Homes::Place place = homes_.place_of(page);
-  if (place.node == self_) {
-    translation = {page, Cache::no_frame, home_pages_.at(place.slot)};
+  if (const std::byte* const at_home = homes_.find(page)) {
+    translation = {page, Cache::no_frame, at_home};
     return true;
   }
   const std::uint32_t frame = cache_.frame_of(page);
@@ -89,7 +66,7 @@ bool Pager::translate(PageId page, Translation& translation) const {
 
 void Pager::park(std::uint32_t slot, core::Address address) {
   const PageId page = geometry_.page_of(address);
-  if (Faults::Fault* fault = faults_.park(slot, page, homes_.place_of(page).node)) {
+  if (Faults::Fault* fault = faults_.park(slot, page, homes_.home_of(page))) {
     ++counters_.faults;
     request(*fault);
   }
@@ -105,7 +82,7 @@ std::uint32_t Pager::install(const nodes::Packet& reply) {
   core::expect(reply.payload_bytes() == sizeof(PageReplyHeader) + geometry_.size_bytes(), "a page reply carries one page");
   PageReplyHeader header;
   std::memcpy(&header, reply.payload.data(), sizeof(header));
-  core::expect(homes_.place_of(header.page).node == nodes::index_of(reply.source), "a page comes from its home");
+  core::expect(homes_.home_of(header.page) == nodes::index_of(reply.source), "a page comes from its home");
   node_->grant(reply.source, request_channel);
   const std::uint32_t first = faults_.arrived(header.page);
   if (Faults::Fault* refused = faults_.oldest_refused(nodes::index_of(reply.source))) {
@@ -128,12 +105,12 @@ void Pager::forget(PageId evicted) {
 
 void Pager::serve(const nodes::Packet& request) {
   const auto page = request.as<PageRequest>().page;
-  const Homes::Place place = homes_.place_of(page);
-  core::expect(place.node == self_ && place.slot < home_page_count_, "a request reaches its page's home");
+  const std::byte* const bytes = homes_.find(page);
+  core::expect(bytes != nullptr, "a request reaches its page's home");
   const PageReplyHeader header{page};
   node_->grant(request.source, bulk_channel);
   core::expect(node_->try_send(request.source, bulk_channel, number_of(Kind::page_reply), std::as_bytes(std::span(&header, 1)),
-                               home_page(place.slot), reply_),
+                               {bytes, geometry_.size_bytes()}, reply_),
                "a reply always has room");
   ++counters_.served;
 }

@@ -6,11 +6,10 @@
 #include <span>
 
 #include "core/record/records.h"
-#include "nodes/lasting_pieces.h"
 #include "nodes/node.h"
 #include "svm/cache.h"
 #include "svm/faults.h"
-#include "svm/home.h"
+#include "svm/home_pages.h"
 #include "svm/node_program.h"
 #include "svm/page.h"
 #include "svm/page_capacity.h"
@@ -74,8 +73,6 @@ class Pager {
   Translation& translation_of(PageId page) { return translations_[index_of(page) % translation_count]; }
   bool translate(PageId page, Translation& translation) const;
   const std::byte* find_other(PageId page, std::size_t offset);
-  std::span<const std::byte> home_page(std::uint32_t slot) const { return {home_pages_.at(slot), geometry_.size_bytes()}; }
-  void put_home_pages(std::span<const std::byte> database);
   void request(Faults::Fault& fault);
   void forget(PageId evicted);
 
@@ -85,16 +82,13 @@ class Pager {
   const std::byte* last_bytes_ = nullptr;
   std::uint64_t* last_hits_ = nullptr;
   std::span<Translation> translations_;
-  Homes homes_;
-  std::uint32_t self_;
-  nodes::LastingPieces home_pages_;
+  HomePages homes_;
   PageCounters counters_;
   std::uint64_t retries_ = 0;
   Cache cache_;
   Faults faults_;
   nodes::Node* node_;
   std::span<std::byte> reply_;  ///< where a reply is put together, if it is
-  std::uint32_t home_page_count_;
 };
 static_assert(core::Records<Pager>);
 

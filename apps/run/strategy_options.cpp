@@ -34,20 +34,16 @@ struct Belonging {
 };
 
 const std::vector<Belonging>& belongings() {
+  static const std::vector<Strategy> of_pixels = {Strategy::svm, Strategy::replicated,
+                                                  Strategy::forest};  // whose nodes have them
   static const std::vector<Belonging> all = {
       {"--cache-pages", {Strategy::svm}, "a node of the others needs no page of another node"},
       {"--replacement", {Strategy::svm}, "a node of the others keeps no page of another node"},
       {"--count-pages", {Strategy::svm}, "the others look up no pages"},
-      {"--in-flight", {Strategy::svm, Strategy::replicated, Strategy::forest}, "a node of dataflow traces one ray at a time"},
-      {"--work-item",
-       {Strategy::svm, Strategy::replicated, Strategy::forest},
-       "a node of dataflow works on what comes to its region"},
-      {"--work-giver",
-       {Strategy::svm, Strategy::replicated, Strategy::forest},
-       "a node of dataflow works on what comes to its region"},
-      {"--workers",
-       {Strategy::svm, Strategy::replicated, Strategy::forest},
-       "every node of dataflow works on what comes to its region"},
+      {"--in-flight", of_pixels, "a node of dataflow traces one ray at a time"},
+      {"--work-item", of_pixels, "a node of dataflow works on what comes to its region"},
+      {"--work-giver", of_pixels, "a node of dataflow works on what comes to its region"},
+      {"--workers", of_pixels, "every node of dataflow works on what comes to its region"},
       {"--balance", {Strategy::dataflow}, "the others share out pixels, not space"},
       {"--cuts", {Strategy::dataflow}, "the others share out pixels, not space"},
       {"--subsample", {Strategy::dataflow}, "the others share out pixels, not space"},

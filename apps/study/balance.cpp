@@ -129,8 +129,7 @@ std::vector<std::string> BalanceStudy::notes(const std::string& scene) const {
       "Average load: mean over maximum of the nodes' work, which is counted operations at measured prices.",
       "Predicted: by the picture of one pixel of every " + step + "x" + step + ".",
       "Alternating: a box is cut along one axis, its halves along the other, as the article has it; the others across their "
-      "longer "
-      "sides.",
+      "longer sides.",
       "Moves: how often a ray goes on to another node.",
       "Duplication: copies of primitives in all regions over those in the database's bricks.",
       "Hops: links that a ray sent from node to node passes on a machine wired as a " + std::string(nodes::name_of(topology)) +

@@ -48,9 +48,9 @@ namespace dmpc::apps {
 ///                  became free last. The ends are "node 3", "host", "switch 0", "place 9" (a router without a node) and, of
 ///                  memory ports, "memory 3"
 ///   database       bytes, pages, page_size, forest_pages (before the first subtree of one tree), primitives, references,
-///   dropped, collapsed (of those, what rounding left nothing
-///                  of); records by kind: bricks, triangle_blocks, sphere_blocks, cone_blocks, normals (of smooth triangles),
-///                  textured (triangles), texture_tiles, materials, lights
+///                  dropped, collapsed (of those, what rounding left nothing of); records by kind: bricks, triangle_blocks,
+///                  sphere_blocks, cone_blocks, normals (of smooth triangles), textured (triangles), texture_tiles, materials,
+///                  lights
 ///   packets        sent, received, bytes, overflow (by way of the host), and by_kind: packets and bytes
 ///   pages          references, hits, home_hits, cache_hits, misses, faults, evictions, served, distinct, distinct_per_pixel
 ///   work           pixels (over all passes), items_asked, items_taken, items_given
@@ -75,8 +75,7 @@ namespace dmpc::apps {
 ///                  exact: true (it changes no bit of the picture), avoided, unit (of the work avoided)}; cutoff {on, exact:
 ///                  false, cutoff, rays_cut, mean_error_bound: light that a sample lacks at most, on average}
 ///   heat_maps      for each file: kind, file, unit, clock ("processor time" or "virtual time", of time only), repeatable
-///   (another
-///                  run gives the same bits), least, largest, sum (over pixels); null without any
+///                  (another run gives the same bits), least, largest, sum (over pixels); null without any
 ///   nodes          for each node: rays, hits, operations, packets {sent, received, bytes: sent, bytes_received, refused: tried
 ///                  without credit}, pages, work, questions, travel, load {work_ps, predicted_ps}, region
 ///                  {low, high: corners in finest cells, share of the grid's volume, part_bytes, primitive_copies,

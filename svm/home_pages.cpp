@@ -1,0 +1,42 @@
+#include "svm/home_pages.h"
+
+#include "core/base/expect.h"
+#include "core/record/records.h"
+#include "svm/packets.h"
+
+namespace dmpc::svm {
+namespace {
+
+std::size_t room_bytes(const PageCapacity& capacity, std::uint32_t index) {
+  return capacity.pages_at(index) * capacity.page_size_bytes() + core::overread_bytes;
+}
+
+}  // namespace
+
+HomePages::HomePages(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database)
+    : homes_(capacity.node_count),
+      self_(nodes::index_of(node.id())),
+      first_page_(capacity.forest_pages),
+      count_(capacity.pages_at(self_)),
+      pages_(node.memory(), nodes::Category::home_pages, room_bytes(capacity, self_), capacity.page_size_bytes()) {
+  core::expect(database.size() == capacity.database_bytes(), "the plan is the database's");
+  const std::size_t size = capacity.page_size_bytes();
+  for (std::uint32_t slot = 0; slot < count_; ++slot) {
+    const std::size_t page = index_of(homes_.page_at({self_, slot})) + first_page_;
+    pages_.put(slot, database.subspan(page * size, size));
+  }
+}
+
+void HomePages::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index) {
+  memory[nodes::Category::home_pages] += nodes::LocalMemory::bytes_for<std::byte>(room_bytes(capacity, index));
+}
+
+void grant_requests(nodes::Node& node, const PageCapacity& capacity) {
+  for (std::uint32_t other = 0; other < capacity.node_count; ++other) {
+    if (other != nodes::index_of(node.id())) {
+      node.grant(nodes::NodeId{other}, request_channel, capacity.request_credits);
+    }
+  }
+}
+
+}  // namespace dmpc::svm

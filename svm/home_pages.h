@@ -1,0 +1,46 @@
+// The pages that a node keeps for good.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "nodes/lasting_pieces.h"
+#include "nodes/node.h"
+#include "svm/home.h"
+#include "svm/page.h"
+#include "svm/page_capacity.h"
+
+namespace dmpc::svm {
+
+/// Which of the pages, behind those that every node holds, are at home where, and the bytes of those at home here. Thread safety:
+/// none.
+class HomePages {
+ public:
+  /// Puts the node's pages, from `database`, into its local memory (nodes/lasting_pieces.h).
+  HomePages(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database);
+  /// Adds to `memory` exactly what the constructor takes at node `index`.
+  static void add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index);
+
+  /// The node that keeps a page.
+  std::uint32_t home_of(PageId page) const { return place_of(page).node; }
+  /// A page's first byte, or nullptr if it is at home elsewhere, or nowhere.
+  const std::byte* find(PageId page) const {
+    const Homes::Place place = place_of(page);
+    return place.node == self_ && place.slot < count_ ? pages_.at(place.slot) : nullptr;
+  }
+
+ private:
+  Homes::Place place_of(PageId page) const { return homes_.place_of(PageId{index_of(page) - first_page_}); }
+
+  Homes homes_;
+  std::uint32_t self_;
+  std::uint32_t first_page_;
+  std::uint32_t count_;
+  nodes::LastingPieces pages_;
+};
+
+/// Takes the credits for what a node may ask of each other one.
+void grant_requests(nodes::Node& node, const PageCapacity& capacity);
+
+}  // namespace dmpc::svm
