@@ -28,6 +28,7 @@ HostProgram::HostProgram(nodes::Node& node, const HostShape& shape, core::Film& 
       width_(shape.width),
       height_(shape.height),
       dealt_side_(shape.dealt_side),
+      shares_(shape.shares),
       is_masked_(shape.is_masked),
       items_({}, 0) {
   for (std::uint32_t i = 0; i < node_count_; ++i) {
@@ -112,6 +113,10 @@ void HostProgram::take_done(const Done& done) {
   }
 }
 
+PixelRectangle HostProgram::share_of(std::uint32_t index) const {
+  return svm::share_of(image(), index, dealt_side_ > 0 ? 0 : worker_count_, shares_);
+}
+
 void HostProgram::start_dealing() {
   if (dealt_side_ > 0) {
     items_ = WorkItems(image(), dealt_side_);
@@ -122,7 +127,7 @@ void HostProgram::start_dealing() {
 ItemSteps HostProgram::steps_of(const PixelRectangle& item) const {
   ItemSteps steps;
   for (std::uint32_t i = 0; i < item.pixel_count() && is_masked_; ++i) {
-    const std::uint32_t pixel = (item.y + i / item.width) * width_ + item.x + i % item.width;
+    const std::uint32_t pixel = item.pixel_at(i, width_);
     steps[i] = has_arrived(pixel) ? core::SampleStep() : refinement_.pass().steps()[pixel];
   }
   return steps;
@@ -146,10 +151,11 @@ void HostProgram::deal(const WorkRequest& request) {
   const std::optional<PixelRectangle> item = next_item();
   items_given_ += item ? 1 : 0;
   const nodes::NodeId asker{request.asker};
-  const WorkReply reply{item.value_or(PixelRectangle{}), node_count_};
+  const WorkReply reply{SentItem(item.value_or(PixelRectangle{})), node_count_};
   node_->grant(asker, control_channel);  // the place that the request has reserved
   if (is_masked_) {
-    node_->send_reserved(asker, control_channel, number_of(Kind::work_reply), MaskedWorkReply{reply, steps_of(reply.item)});
+    node_->send_reserved(asker, control_channel, number_of(Kind::work_reply),
+                         MaskedWorkReply{reply, steps_of(reply.item.rectangle())});
   } else {
     node_->send_reserved(asker, control_channel, number_of(Kind::work_reply), reply);
   }
@@ -172,17 +178,15 @@ void HostProgram::end_pass() {
 
 /// The next part of a node's mask; when all nodes have theirs, the word to begin.
 void HostProgram::send_mask(std::uint32_t index) {
-  const PixelRectangle submap = submap_of(image(), index, submap_count());
+  const PixelRectangle share = share_of(index);
   MaskPart part{pixels_sent_[index]};
-  if (part.first_pixel >= submap.pixel_count()) {
+  if (part.first_pixel >= share.pixel_count()) {
     nodes_masked_ += 1;
     return nodes_masked_ == node_count_ ? begin_pass() : void();
   }
-  const std::uint64_t count = std::min<std::uint64_t>(part.steps.size(), submap.pixel_count() - part.first_pixel);
+  const std::uint64_t count = std::min<std::uint64_t>(part.steps.size(), share.pixel_count() - part.first_pixel);
   for (std::uint64_t i = 0; i < count; ++i) {
-    const std::uint64_t place = part.first_pixel + i;
-    const std::uint64_t x = submap.x + place % submap.width, y = submap.y + place / submap.width;
-    part.steps[i] = refinement_.pass().steps()[y * width_ + x];
+    part.steps[i] = refinement_.pass().steps()[share.pixel_at(part.first_pixel + i, width_)];
   }
   pixels_sent_[index] += static_cast<std::uint32_t>(part.steps.size());
   node_->grant(nodes::NodeId{index}, bulk_channel);  // one part is under way to each node

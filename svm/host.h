@@ -24,7 +24,8 @@ struct HostShape {
   std::uint32_t width = 1, height = 1;
   std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
   std::uint32_t dealt_side = 0;     ///< of the work items that nodes ask the host for, in pixels; 0: they ask each other
-  bool is_masked = false;           ///< as WorkShape has it
+  PixelShares shares = PixelShares::submaps;  ///< as WorkShape has it
+  bool is_masked = false;                     ///< as WorkShape has it
   core::RefinementOptions refinement;
   const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; read by the constructor alone
   const core::FineDetail* detail = nullptr;     ///< the picture's, if it is refined; outlives the host
@@ -33,9 +34,9 @@ struct HostShape {
 };
 
 /// Every pixel of a pass arrives exactly once, which it checks, and whole: what has arrived can be kept at any time. When every
-/// node is done and the film complete, it ends the pass; if another follows, it sends each node its submap's part of the mask,
+/// node is done and the film complete, it ends the pass; if another follows, it sends each node its share's part of the mask,
 /// and begins it when all have theirs; else it sends each node a Stop. Where it deals the work, in items of the whole picture, no
-/// node has a submap, and it tells each asker which samples an item's pixels have.
+/// node has a share, and it tells each asker which samples an item's pixels have.
 class HostProgram final : public nodes::Program {
  public:
   /// `film` outlives the program and is written by it alone until the run's end; it is as shape.start has it.
@@ -66,7 +67,7 @@ class HostProgram final : public nodes::Program {
   void take_pixel(const FilmEntry& entry);
   void take_done(const Done& done);
   PixelRectangle image() const { return {0, 0, width_, height_}; }
-  std::uint32_t submap_count() const { return dealt_side_ > 0 ? 0 : worker_count_; }
+  PixelRectangle share_of(std::uint32_t index) const;
   bool has_arrived(std::uint32_t pixel) const { return (arrived_[pixel / 64] >> (pixel % 64) & 1U) != 0; }
   void start_dealing();
   void deal(const WorkRequest& request);
@@ -85,6 +86,7 @@ class HostProgram final : public nodes::Program {
   std::span<std::uint64_t> arrived_;        ///< a bit a pixel
   std::vector<std::uint32_t> pixels_sent_;  ///< of the mask, to each node; empty unless the picture is refined
   std::uint32_t node_count_, worker_count_, width_, height_, dealt_side_;
+  PixelShares shares_;
   bool is_masked_;
   WorkItems items_;  ///< not dealt yet
   std::uint64_t items_given_ = 0;

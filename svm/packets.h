@@ -17,7 +17,7 @@
 //
 // Work requests go to the host where that deals the items. Questions and answers stand in place of the first two where the tree's
 // forest is at every node (svm/forest.h). They are small or bulk, as it comes: their credits reserve places of both. Masks and
-// passes exist only where the picture is refined: when all nodes are done with a pass, each gets the mask of its submap, which
+// passes exist only where the picture is refined: when all nodes are done with a pass, each gets the mask of its share, which
 // tells how many more samples each pixel has, part by part, and when all nodes have theirs the pass begins.
 #pragma once
 
@@ -26,6 +26,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "core/base/expect.h"
 #include "core/picture/film.h"
 #include "core/picture/sample_pass.h"
 #include "nodes/node.h"
@@ -106,9 +107,31 @@ struct WorkRequest {
 };
 static_assert(is_small_packet<WorkRequest>);
 
-/// An item of `giver`'s submap; an empty one says that the request has been all round the ring: there is no more work.
+/// A work item on its way, in 16 bytes: neither items nor steps are as large as a picture may be.
+struct SentItem {
+  std::uint32_t x = 0, y = 0;
+  std::uint16_t width = 0, height = 0, step_x = 1, step_y = 1;
+
+  SentItem() = default;
+  explicit SentItem(const PixelRectangle& item)
+      : x(item.x),
+        y(item.y),
+        width(narrowed(item.width)),
+        height(narrowed(item.height)),
+        step_x(narrowed(item.step_x)),
+        step_y(narrowed(item.step_y)) {}
+  constexpr PixelRectangle rectangle() const { return {x, y, width, height, step_x, step_y}; }
+
+ private:
+  static std::uint16_t narrowed(std::uint32_t value) {
+    core::expect(value < 65536, "an item's sides and steps are below 65536 pixels");
+    return static_cast<std::uint16_t>(value);
+  }
+};
+
+/// An item of `giver`'s share; an empty one says that the request has been all round the ring: there is no more work.
 struct WorkReply {
-  PixelRectangle item;
+  SentItem item;
   std::uint32_t giver = 0;
 };
 static_assert(is_small_packet<WorkReply>);
@@ -149,11 +172,11 @@ struct Done {
 };
 static_assert(is_small_packet<Done>);
 
-/// Which samples pixels of the target's submap, row by row, have in the next pass.
+/// Which samples pixels of the target's share, row by row, have in the next pass.
 struct MaskPart {
   std::uint32_t first_pixel = 0;
   std::uint32_t padding = 0;
-  std::array<core::SampleStep, 480> steps{};  ///< those beyond the submap bring none
+  std::array<core::SampleStep, 480> steps{};  ///< those beyond the share bring none
 };
 static_assert(std::is_trivially_copyable_v<MaskPart> && sizeof(MaskPart) > nodes::small_payload_bytes, "every part is bulk");
 

@@ -7,6 +7,7 @@
 
 #include "core/trace/bundle.h"
 #include "svm/replacement.h"
+#include "svm/work_items.h"
 
 namespace dmpc::svm {
 
@@ -17,7 +18,7 @@ inline constexpr std::uint32_t bundle_pixels = core::bundle_rays_max;
 
 /// Whom a node without pixels asks for a work item.
 enum class WorkGiver : std::uint8_t {
-  ring,  ///< the nodes round the ring: each starts with a submap, and gives of what is left of it
+  ring,  ///< the nodes round the ring: each starts with a share of the pixels, and gives of what is left of it
   host   ///< the host, which has the whole picture: nodes start with nothing, and every item is dealt on demand
 };
 /// As the command line calls it.
@@ -34,7 +35,8 @@ struct PageOptions {
   std::optional<std::uint32_t> in_flight = std::nullopt;
   /// Pixels along the side of a work item; 0: no node gives work to another. Without it 4, a bundle, or 3 where rays walk alone.
   std::optional<std::uint32_t> work_item_side = std::nullopt;
-  WorkGiver work_giver = WorkGiver::ring;  ///< host: not with work_item_side = 0
+  WorkGiver work_giver = WorkGiver::ring;           ///< host: not with work_item_side = 0
+  PixelShares pixel_shares = PixelShares::submaps;  ///< interleaved: not with work_giver = host, where nodes start with none
   /// Nodes that render, the first ones; the others lend their memories and serve pages, as the article had for scenes that one
   /// memory does not hold. Without it all do.
   std::optional<std::uint32_t> worker_count = std::nullopt;

@@ -63,7 +63,7 @@ std::uint32_t worker_count_of(const PlanRequest& request) {
   return request.pages.worker_count.value_or(request.computer.node_count);
 }
 
-/// The most pixels that are ever under way on a node: all of the picture where work moves, else the largest submap's. A node may
+/// The most pixels that are ever under way on a node: all of the picture where work moves, else the largest share's. A node may
 /// have none, but has a place for one.
 std::uint64_t node_pixels_max(const PlanRequest& request) {
   const PixelRectangle image{0, 0, request.width, request.height};
@@ -73,7 +73,7 @@ std::uint64_t node_pixels_max(const PlanRequest& request) {
   std::uint64_t most = 1;
   const std::uint32_t workers = worker_count_of(request);
   for (std::uint32_t index = 0; index < workers; ++index) {
-    most = std::max(most, submap_of(image, index, workers).pixel_count());
+    most = std::max(most, share_of(image, index, workers, request.pages.pixel_shares).pixel_count());
   }
   return most;
 }
@@ -211,6 +211,8 @@ void check(const PlanRequest& request) {
                 std::to_string(request.computer.node_count));
   check_use(!is_dealt(request) || request.pages.work_item_side != 0U,
             "work_giver=host does not go with work_item_side=0: the host deals items of a pixel or more");
+  check_use(!is_dealt(request) || request.pages.pixel_shares == PixelShares::submaps,
+            "pixel_shares=interleaved does not go with work_giver=host: where the host deals items, no pixel is a node's own");
   const std::uint32_t in_flight = request.pages.in_flight.value_or(1);
   check_use(in_flight >= 1 && in_flight <= in_flight_max,
             "in_flight=" + std::to_string(in_flight) + ": from 1 to " + std::to_string(in_flight_max) + " pixels");
@@ -350,6 +352,7 @@ WorkShape Plan::work() const {
           .first_samples = request.first_samples,
           .tile = request.is_masked() ? tile_of(pixels_a_task) : tile_for(request.first_samples, pixels_a_task),
           .item_side = work_item_side,
+          .shares = request.pages.pixel_shares,
           .dealer = is_dealt(request) ? std::optional(request.computer.node_count) : std::nullopt,
           .is_masked = request.is_masked(),
           .start = request.start};
@@ -362,6 +365,7 @@ HostShape Plan::host() const {
           .height = request.height,
           .first_samples = request.first_samples,
           .dealt_side = is_dealt(request) ? work_item_side : 0,
+          .shares = request.pages.pixel_shares,
           .is_masked = request.is_masked(),
           .refinement = request.refinement,
           .start = request.start,

@@ -9,8 +9,8 @@
 namespace dmpc::svm {
 namespace {
 
-/// The share of `length` that `part` of `whole` nodes get, rounded to the nearest.
-std::uint32_t share(std::uint32_t length, std::uint32_t part, std::uint32_t whole) {
+/// What of `length` `part` of `whole` nodes get, rounded to the nearest.
+std::uint32_t portion(std::uint32_t length, std::uint32_t part, std::uint32_t whole) {
   return static_cast<std::uint32_t>((std::uint64_t{length} * part + whole / 2) / whole);
 }
 
@@ -19,7 +19,7 @@ PixelRectangle half(PixelRectangle rectangle, std::uint32_t part, std::uint32_t 
   const bool wide = rectangle.width >= rectangle.height;
   std::uint32_t& length = wide ? rectangle.width : rectangle.height;
   std::uint32_t& start = wide ? rectangle.x : rectangle.y;
-  const std::uint32_t cut = share(length, part, whole);
+  const std::uint32_t cut = portion(length, part, whole);
   start += second ? cut : 0;
   length = second ? length - cut : cut;
   return rectangle;
@@ -42,13 +42,37 @@ PixelRectangle submap_of(const PixelRectangle& image, std::uint32_t index, std::
   return submap;
 }
 
-WorkItems::WorkItems(const PixelRectangle& submap, std::uint32_t side)
-    : submap_(submap),
-      side_x_(side == 0 ? std::max(submap.width, 1U) : side),
-      side_y_(side == 0 ? std::max(submap.height, 1U) : side) {
-  if (submap.pixel_count() > 0) {
-    columns_ = core::ceil_divide<std::uint64_t>(submap.width, side_x_);
-    end_ = columns_ * core::ceil_divide<std::uint64_t>(submap.height, side_y_);
+PixelRectangle interleaved_of(const PixelRectangle& image, std::uint32_t index, std::uint32_t worker_count) {
+  if (index >= worker_count) {
+    return {};
+  }
+  std::uint32_t rows = 1;
+  for (std::uint32_t n = 2; n * n <= worker_count; ++n) {
+    rows = worker_count % n == 0 ? n : rows;
+  }
+  const std::uint32_t columns = worker_count / rows, column = index % columns, row = index / columns;
+  if (column >= image.width || row >= image.height) {
+    return {};
+  }
+  return {image.x + column * image.step_x,
+          image.y + row * image.step_y,
+          core::ceil_divide(image.width - column, columns),
+          core::ceil_divide(image.height - row, rows),
+          image.step_x * columns,
+          image.step_y * rows};
+}
+
+PixelRectangle share_of(const PixelRectangle& image, std::uint32_t index, std::uint32_t worker_count, PixelShares shares) {
+  return shares == PixelShares::submaps ? submap_of(image, index, worker_count) : interleaved_of(image, index, worker_count);
+}
+
+WorkItems::WorkItems(const PixelRectangle& share, std::uint32_t side)
+    : share_(share),
+      side_x_(side == 0 ? std::max(share.width, 1U) : side),
+      side_y_(side == 0 ? std::max(share.height, 1U) : side) {
+  if (share.pixel_count() > 0) {
+    columns_ = core::ceil_divide<std::uint64_t>(share.width, side_x_);
+    end_ = columns_ * core::ceil_divide<std::uint64_t>(share.height, side_y_);
   }
 }
 
@@ -75,7 +99,12 @@ std::optional<PixelRectangle> WorkItems::give() {
 PixelRectangle WorkItems::item(std::uint64_t index) const {
   const auto left = static_cast<std::uint32_t>(index % columns_ * side_x_);
   const auto top = static_cast<std::uint32_t>(index / columns_ * side_y_);
-  return {submap_.x + left, submap_.y + top, std::min(side_x_, submap_.width - left), std::min(side_y_, submap_.height - top)};
+  return {share_.x + left * share_.step_x,
+          share_.y + top * share_.step_y,
+          std::min(side_x_, share_.width - left),
+          std::min(side_y_, share_.height - top),
+          share_.step_x,
+          share_.step_y};
 }
 
 PixelScan::PixelScan(const PixelRectangle& item, const PixelTile& tile, std::uint64_t wanted)
@@ -105,7 +134,7 @@ void PixelScan::step() {
 
 std::uint32_t PixelScan::next(std::uint32_t image_width) {
   core::expect(!empty(), "a scan gives each pixel of its item once");
-  const std::uint32_t pixel = (item_.y + y_) * image_width + item_.x + x_;
+  const std::uint32_t pixel = item_.pixel(x_, y_, image_width);
   in_tile_ = true;
   for (--left_, step(); left_ > 0 && !is_wanted();) {
     step();

@@ -1,4 +1,4 @@
-// The image cut into submaps, one a node, and a submap as work items: taken in scan order, given away from the far end.
+// The image shared out, a part a node, and a part as work items: taken in scan order, given away from the far end.
 #pragma once
 
 #include <array>
@@ -10,11 +10,21 @@
 
 namespace dmpc::svm {
 
-/// A rectangle of pixels: [x, x + width) x [y, y + height).
+/// Pixels in columns and rows: from (x, y) on `width` of them side by side, every step_x-th of the image, in `height` rows, every
+/// step_y-th. With steps of 1 a rectangle of the image, [x, x + width) x [y, y + height).
 struct PixelRectangle {
   std::uint32_t x = 0, y = 0, width = 0, height = 0;
+  std::uint32_t step_x = 1, step_y = 1;
 
   constexpr std::uint64_t pixel_count() const { return std::uint64_t{width} * height; }
+  /// The index, in an image of this width, of the pixel in this column and row.
+  constexpr std::uint32_t pixel(std::uint32_t column, std::uint32_t row, std::uint32_t image_width) const {
+    return (y + row * step_y) * image_width + x + column * step_x;
+  }
+  /// Of the pixel at this place, row by row. Requires a place below pixel_count().
+  constexpr std::uint32_t pixel_at(std::uint64_t place, std::uint32_t image_width) const {
+    return pixel(static_cast<std::uint32_t>(place % width), static_cast<std::uint32_t>(place / width), image_width);
+  }
   constexpr bool operator==(const PixelRectangle&) const = default;
 };
 
@@ -23,11 +33,29 @@ struct PixelRectangle {
 /// in proportion to the workers on each side, again and again); where there are more workers than pixels, some are empty.
 PixelRectangle submap_of(const PixelRectangle& image, std::uint32_t index, std::uint32_t worker_count);
 
-/// What is left of a submap, as items of side x side pixels, clipped at the submap's edge. Needs no memory beside itself.
+/// The pixels that node `index` of the first `worker_count` starts with where they are interleaved, as in the frame buffer of the
+/// Pixel Machine (M. Potmesil, E. Hoffert, "The Pixel Machine: A Parallel Image Computer", 1989): of every n-th line every m-th
+/// pixel, from a corner of its own; nothing for the other nodes. m x n nodes are all workers, m >= n, as nearly square as their
+/// number can be had as a product: a prime number of them is one row, and what an image has no columns for is empty.
+PixelRectangle interleaved_of(const PixelRectangle& image, std::uint32_t index, std::uint32_t worker_count);
+
+/// Which pixels a node starts with.
+enum class PixelShares : std::uint8_t {
+  submaps,     ///< a rectangle
+  interleaved  ///< every m-th pixel of every n-th line
+};
+/// As the command line calls it.
+constexpr const char* name_of(PixelShares shares) { return shares == PixelShares::submaps ? "submaps" : "interleaved"; }
+
+/// submap_of() or interleaved_of().
+PixelRectangle share_of(const PixelRectangle& image, std::uint32_t index, std::uint32_t worker_count, PixelShares shares);
+
+/// What is left of a node's share of the image, as items of side x side of its pixels, clipped at the share's edge: where pixels
+/// are interleaved, those of an item are as far apart as the share's. Needs no memory beside itself.
 class WorkItems {
  public:
-  /// `side` 0 makes the whole submap one item.
-  WorkItems(const PixelRectangle& submap, std::uint32_t side);
+  /// `side` 0 makes the whole share one item.
+  WorkItems(const PixelRectangle& share, std::uint32_t side);
 
   bool empty() const { return next_ == end_; }
   std::uint64_t count() const { return end_ - next_; }
@@ -41,7 +69,7 @@ class WorkItems {
  private:
   PixelRectangle item(std::uint64_t index) const;
 
-  PixelRectangle submap_;
+  PixelRectangle share_;
   std::uint32_t side_x_, side_y_;  ///< of an item that is not clipped
   std::uint64_t columns_ = 0;      ///< items side by side
   std::uint64_t next_ = 0, end_ = 0;

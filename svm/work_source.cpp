@@ -8,13 +8,13 @@
 namespace dmpc::svm {
 namespace {
 
-PixelRectangle own_submap(const WorkShape& shape, std::uint32_t index) {
-  return submap_of({0, 0, shape.width, shape.height}, index, shape.dealer ? 0 : shape.worker_count);
+PixelRectangle own_share(const WorkShape& shape, std::uint32_t index) {
+  return share_of({0, 0, shape.width, shape.height}, index, shape.dealer ? 0 : shape.worker_count, shape.shares);
 }
 
 /// At least one, so that a node without pixels has a mask, too.
 std::size_t mask_pixels(const WorkShape& shape, std::uint32_t index) {
-  return shape.is_masked ? std::max<std::size_t>(own_submap(shape, index).pixel_count(), 1) : 0;
+  return shape.is_masked ? std::max<std::size_t>(own_share(shape, index).pixel_count(), 1) : 0;
 }
 
 std::uint64_t bits_of(const ItemSteps& steps) {
@@ -25,7 +25,7 @@ std::uint64_t bits_of(const ItemSteps& steps) {
   return bits;
 }
 
-/// A node that gives no work away has its submap as one item, or in masked ones.
+/// A node that gives no work away has its share as one item, or in masked ones.
 std::uint32_t item_side_of(const WorkShape& shape) {
   return shape.is_masked && shape.item_side == 0 ? masked_side_max : shape.item_side;
 }
@@ -44,9 +44,9 @@ WorkSource::WorkSource(nodes::Node& node, const WorkShape& shape)
       first_samples_(shape.first_samples),
       item_side_(item_side_of(shape)),
       tile_(shape.tile),
-      submap_(own_submap(shape, self_)),
+      share_(own_share(shape, self_)),
       mask_(node.memory().allocate<core::SampleStep>(nodes::Category::queues, mask_pixels(shape, self_))),
-      items_(submap_, item_side_),
+      items_(share_, item_side_),
       first_giver_(shape.dealer.value_or((self_ + 1) % worker_count_)),
       last_giver_(first_giver_),
       is_alone_(is_alone(shape, self_)),
@@ -59,9 +59,8 @@ WorkSource::WorkSource(nodes::Node& node, const WorkShape& shape)
 
 /// What the host has said before the start.
 void WorkSource::want_missing(const core::PartialPicture& start) {
-  for (std::uint64_t i = 0; i < submap_.pixel_count(); ++i) {
-    const std::uint64_t x = submap_.x + i % submap_.width, y = submap_.y + i / submap_.width;
-    const auto pixel = static_cast<std::uint32_t>(y * image_width_ + x);
+  for (std::uint64_t i = 0; i < share_.pixel_count(); ++i) {
+    const std::uint32_t pixel = share_.pixel_at(i, image_width_);
     mask_[i] = start.done.has(pixel) ? core::SampleStep() : start.pass.steps()[pixel];
   }
   skip_unwanted();
@@ -72,25 +71,26 @@ void WorkSource::add_needs(nodes::MemoryPlan& memory, const WorkShape& shape, st
 }
 
 void WorkSource::take_mask(const MaskPart& part) {
-  core::expect(exhausted() && part.first_pixel < mask_.size(), "a mask is the next pass's, and the submap's");
+  core::expect(exhausted() && part.first_pixel < mask_.size(), "a mask is the next pass's, and the share's");
   const std::size_t count = std::min(part.steps.size(), mask_.size() - part.first_pixel);
   std::copy_n(part.steps.begin(), count, mask_.begin() + part.first_pixel);
 }
 
 void WorkSource::begin_pass() {
   core::expect(exhausted() && !asking_, "a pass begins when the one before has ended");
-  items_ = WorkItems(submap_, item_side_);
+  items_ = WorkItems(share_, item_side_);
   last_giver_ = first_giver_;
   no_more_ = is_alone_;
   skip_unwanted();
 }
 
-/// Of an item of the submap.
+/// Of an item of the share.
 ItemSteps WorkSource::steps_of(const PixelRectangle& item) const {
   ItemSteps steps;
   auto step = steps.begin();
+  const std::uint64_t column = (item.x - share_.x) / share_.step_x, row = (item.y - share_.y) / share_.step_y;
   for (std::uint32_t y = 0; y < item.height && is_masked(); ++y) {
-    const std::uint64_t index = std::uint64_t{item.y - submap_.y + y} * submap_.width + (item.x - submap_.x);
+    const std::uint64_t index = (row + y) * share_.width + column;
     step = std::copy_n(mask_.begin() + static_cast<std::ptrdiff_t>(index), item.width, step);
   }
   return steps;
@@ -173,7 +173,7 @@ void WorkSource::answer(const WorkRequest& request) {
 
 void WorkSource::reply(std::uint32_t asker, const PixelRectangle& item) {
   node_->grant(nodes::NodeId{asker}, control_channel);  // the place that the request has reserved
-  const WorkReply work{item, self_};
+  const WorkReply work{SentItem(item), self_};
   if (is_masked()) {
     node_->send_reserved(nodes::NodeId{asker}, control_channel, number_of(Kind::work_reply),
                          MaskedWorkReply{work, steps_of(item)});
@@ -187,13 +187,14 @@ void WorkSource::take_reply(const nodes::Packet& packet) {
   const auto masked = is_masked() ? packet.as<MaskedWorkReply>() : MaskedWorkReply{packet.as<WorkReply>(), {}};
   const WorkReply& reply = masked.reply;
   asking_ = false;
-  if (reply.item.pixel_count() == 0) {
+  const PixelRectangle item = reply.item.rectangle();
+  if (item.pixel_count() == 0) {
     no_more_ = true;
     return;
   }
   ++counters_.items_taken;
   last_giver_ = reply.giver;
-  open(reply.item, masked.steps);
+  open(item, masked.steps);
 }
 
 std::string WorkSource::describe() const {

@@ -1,4 +1,4 @@
-// Where a node's next pixel comes from: its own submap, then items that other nodes give away, then nowhere.
+// Where a node's next pixel comes from: its own share, then items that other nodes give away, then nowhere.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,11 @@ namespace dmpc::svm {
 struct WorkShape {
   std::uint32_t worker_count = 1;  ///< the nodes that have pixels, the first ones
   std::uint32_t width = 1, height = 1;
-  std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
-  PixelTile tile;                   ///< pixels that a task takes at most
-  std::uint32_t item_side = 3;      ///< pixels along the side of a work item; 0: no node gives work to another
-  /// The host's number, if all items are asked of it: then no node has a submap.
+  std::uint32_t first_samples = 1;            ///< of each pixel in the first pass
+  PixelTile tile;                             ///< pixels that a task takes at most
+  std::uint32_t item_side = 3;                ///< pixels along the side of a work item; 0: no node gives work to another
+  PixelShares shares = PixelShares::submaps;  ///< which pixels a node starts with
+  /// The host's number, if all items are asked of it: then no node has a share.
   std::optional<std::uint32_t> dealer = std::nullopt;
   bool is_masked = false;                       ///< some pass may leave pixels out
   const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; read by the constructor alone
@@ -29,12 +30,12 @@ struct WorkShape {
 
 /// A node without pixels sends one work request at a time. It hops along the ring of workers, from i to i + 1 mod N; the first
 /// that has items left answers the asker directly; the last of all others to be asked tells it that there is no more work,
-/// and since submaps only shrink this stays true (but for a node that the word to begin a later pass has not reached yet:
+/// and since shares only shrink this stays true (but for a node that the word to begin a later pass has not reached yet:
 /// an asker that is so told rests for that pass). The first request enters the ring at the next node, a later one at the node
 /// that gave last, because all before it had nothing. Where the host deals all items, every request goes to it. Thread safety:
 /// none.
 ///
-/// Where the picture is refined, a pass after the first has those samples of the submap's pixels that the host's mask names;
+/// Where the picture is refined, a pass after the first has those samples of its share's pixels that the host's mask names;
 /// where it was begun by another run, so has the first one, of the pixels that are missing.
 class WorkSource {
  public:
@@ -43,7 +44,7 @@ class WorkSource {
   /// Adds to `memory` exactly what the constructor takes at node `index`.
   static void add_needs(nodes::MemoryPlan& memory, const WorkShape& shape, std::uint32_t index);
 
-  /// A pixel of the current item, of the submap, or of an item received is left.
+  /// A pixel of the current item, of the share, or of an item received is left.
   bool has_pixel() const { return !scan_.empty() || !items_.empty(); }
   /// Requires has_pixel().
   std::uint32_t next_pixel();
@@ -59,7 +60,7 @@ class WorkSource {
   void take_reply(const nodes::Packet& packet);
   /// Takes a part of the next pass's mask. Requires exhausted(), as begin_pass() does.
   void take_mask(const MaskPart& part);
-  /// Starts with the whole submap again, as far as the mask wants it.
+  /// Starts with the whole share again, as far as the mask wants it.
   void begin_pass();
 
   /// No pixel is left here, and none anywhere else.
@@ -86,8 +87,8 @@ class WorkSource {
   std::uint32_t first_samples_;
   std::uint32_t item_side_;
   PixelTile tile_;
-  PixelRectangle submap_;
-  std::span<core::SampleStep> mask_;  ///< of the submap, row by row; empty unless is_masked()
+  PixelRectangle share_;
+  std::span<core::SampleStep> mask_;  ///< of the share, row by row; empty unless is_masked()
   WorkItems items_;
   PixelScan scan_;
   ItemSteps steps_;  ///< of the item under way, if is_masked()

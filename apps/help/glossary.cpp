@@ -72,7 +72,9 @@ constexpr std::array entries = {
     GlossaryEntry{"stack distance",
                   "How many other pages were used since a page's last use: a cache of more places has kept it."},
     GlossaryEntry{"stolen", "Time for which serving others' requests keeps a node from work of its own."},
-    GlossaryEntry{"submap", "The part of the picture that a node is given at the start."},
+    GlossaryEntry{
+        "submap",
+        "The part of the picture that a node is given at the start; or every m-th pixel of every n-th line (--pixels)."},
     GlossaryEntry{"svm", "Shared virtual memory, the strategy by which pages travel: a node asks the home for a page it lacks."},
     GlossaryEntry{"top cell", "A cell of the grid's coarsest level, which holds a tree of bricks: boxes of primitives."},
     GlossaryEntry{"topology", "Which nodes are neighbours: mesh, hypercube, ring and so on."},

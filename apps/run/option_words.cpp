@@ -12,7 +12,7 @@ struct FieldName {
   std::string_view field, option;
 };
 /// Of svm::PlanRequest and dataflow::PlanRequest.
-constexpr std::array<FieldName, 15> field_names = {{{"node_count=", "--nodes="},
+constexpr std::array<FieldName, 16> field_names = {{{"node_count=", "--nodes="},
                                                     {"node_memory_bytes=", "--node-memory="},
                                                     {"page_size_bytes=", "--page-size="},
                                                     {"cache_pages=", "--cache-pages="},
@@ -20,6 +20,7 @@ constexpr std::array<FieldName, 15> field_names = {{{"node_count=", "--nodes="},
                                                     {"in_flight=", "--in-flight="},
                                                     {"work_item_side=", "--work-item="},
                                                     {"work_giver=", "--work-giver="},
+                                                    {"pixel_shares=", "--pixels="},
                                                     {"worker_count=", "--workers="},
                                                     {"ray_batch=", "--ray-batch="},
                                                     {"ray_credits=", "--ray-credits="},

@@ -43,6 +43,7 @@ const std::vector<Belonging>& belongings() {
       {"--in-flight", of_pixels, "a node of dataflow traces one ray at a time"},
       {"--work-item", of_pixels, "a node of dataflow works on what comes to its region"},
       {"--work-giver", of_pixels, "a node of dataflow works on what comes to its region"},
+      {"--pixels", of_pixels, "a node of dataflow works on what comes to its region"},
       {"--workers", of_pixels, "every node of dataflow works on what comes to its region"},
       {"--balance", {Strategy::dataflow}, "the others share out pixels, not space"},
       {"--cuts", {Strategy::dataflow}, "the others share out pixels, not space"},
@@ -131,6 +132,10 @@ void add_page_options(OptionSet options, svm::PageOptions& pages, const std::str
   options.add_choice<WorkGiver>("--work-giver", pages.work_giver, {{"ring", WorkGiver::ring}, {"host", WorkGiver::host}},
                                 "ring: nodes start with their parts of the picture and ask each other; host: for each item they "
                                 "ask the host");
+  using svm::PixelShares;
+  options.add_choice<PixelShares>(
+      "--pixels", pages.pixel_shares, {{"submaps", PixelShares::submaps}, {"interleaved", PixelShares::interleaved}},
+      "submaps: a node starts with a part of the picture. interleaved: with every m-th pixel of every n-th line, on m x n nodes");
   options.add_number("--workers", pages.worker_count, 1, svm::node_count_max, "all nodes",
                      "Nodes that render; the others lend their memories, and serve pages or answer");
 }

@@ -44,6 +44,9 @@ class ChaosCase {
     options.pages.worker_count = draws_.chance(30) ? 1 + draws_.below(nodes_) : nodes_;
     options.pages.work_giver =
         options.pages.work_item_side != 0U && draws_.chance(25) ? svm::WorkGiver::host : svm::WorkGiver::ring;
+    if (options.pages.work_giver == svm::WorkGiver::ring && draws_.chance(30)) {
+      options.pages.pixel_shares = svm::PixelShares::interleaved;
+    }
     if (strategy == svm::Strategy::svm) {
       options.pages.cache_pages = one_of<std::optional<std::uint32_t>>({1, 1, 2, 3, 16, std::nullopt});
       options.pages.replacement = one_of({svm::Replacement::lru, svm::Replacement::lru, svm::Replacement::clock,

@@ -66,7 +66,7 @@ TEST_CASE("a host that deals the work gives each item once, in order, to whoever
     host.receive(parcel_of(asker, Kind::work_request, svm::WorkRequest{asker, 1}).packet());
     const Parcel& parcel = lone.post.parcels.back();
     CHECK(parcel.target == nodes::NodeId{asker});
-    CHECK(parcel.packet().as<svm::WorkReply>().item == item);
+    CHECK(parcel.packet().as<svm::WorkReply>().item.rectangle() == item);
   }
   CHECK(host.items_given() == 4);
 }

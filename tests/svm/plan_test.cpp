@@ -365,6 +365,22 @@ TEST_CASE("a host that deals the work has a place for each worker's request, and
   CHECK_THROWS_AS(make_plan(request), core::UsageError);
 }
 
+TEST_CASE("pixels are interleaved where they are the nodes' own, not where the host deals them") {
+  svm::PlanRequest request{.page_count = 4,
+                           .computer = {.node_count = 4},
+                           .pages = {.in_flight = 4096, .work_item_side = 0, .pixel_shares = svm::PixelShares::interleaved},
+                           .width = 9,
+                           .height = 9};
+  CHECK(make_plan(request).in_flight == 25);  // of five columns in five rows, the largest share
+  request.pages.work_item_side = 3;
+  CHECK(make_plan(request).in_flight == 81);
+  request.pages.work_giver = svm::WorkGiver::host;
+  CHECK_THROWS_WITH_AS(make_plan(request),
+                       "pixel_shares=interleaved does not go with work_giver=host: where the host deals items, no pixel is a "
+                       "node's own",
+                       core::UsageError);
+}
+
 TEST_CASE("at least one node renders, and no more than there are") {
   svm::PlanRequest request{.page_count = 4, .computer = {.node_count = 4}, .width = 8, .height = 8};
   CHECK(make_plan(request).worker_count == 4);

@@ -19,12 +19,13 @@ void count_pixels(const PixelRectangle& item, std::uint32_t image_width, std::ve
   }
 }
 
-/// Takes and gives at random until every submap is empty; returns how often each pixel came up.
-std::vector<int> visits_of_all(std::uint32_t width, std::uint32_t height, std::uint32_t nodes, std::uint32_t side) {
+/// Takes and gives at random until every share is empty; returns how often each pixel came up.
+std::vector<int> visits_of_all(std::uint32_t width, std::uint32_t height, std::uint32_t nodes, std::uint32_t side,
+                               svm::PixelShares shares) {
   std::mt19937 generator(width * 7 + height * 11 + nodes * 13 + side);
   std::vector<int> visits(std::size_t{width} * height);
   for (std::uint32_t node = 0; node < nodes; ++node) {
-    svm::WorkItems items(svm::submap_of({0, 0, width, height}, node, nodes), side);
+    svm::WorkItems items(svm::share_of({0, 0, width, height}, node, nodes, shares), side);
     while (const auto item = generator() % 2 == 0 ? items.take() : items.give()) {
       count_pixels(*item, width, visits);
     }
@@ -35,13 +36,15 @@ std::vector<int> visits_of_all(std::uint32_t width, std::uint32_t height, std::u
 
 }  // namespace
 
-TEST_CASE("submaps and items, taken and given mixed, cover each pixel exactly once") {
+TEST_CASE("submaps or interleaved pixels, and items, taken and given mixed, cover each pixel exactly once") {
   for (const auto& [width, height] : {std::pair{1U, 1U}, {1U, 17U}, {16U, 16U}, {13U, 5U}, {31U, 64U}}) {
     for (const std::uint32_t nodes : {1U, 2U, 3U, 7U, 8U, 64U, 101U}) {
       for (const std::uint32_t side : {0U, 1U, 3U, 16U, 100U}) {
-        const std::vector<int> visits = visits_of_all(width, height, nodes, side);
-        INFO("width ", width, ", height ", height, ", nodes ", nodes, ", side ", side);
-        CHECK(std::count(visits.begin(), visits.end(), 1) == std::ptrdiff_t{width} * height);
+        for (const svm::PixelShares shares : {svm::PixelShares::submaps, svm::PixelShares::interleaved}) {
+          const std::vector<int> visits = visits_of_all(width, height, nodes, side, shares);
+          INFO("width ", width, ", height ", height, ", nodes ", nodes, ", side ", side, ", ", name_of(shares));
+          CHECK(std::count(visits.begin(), visits.end(), 1) == std::ptrdiff_t{width} * height);
+        }
       }
     }
   }
@@ -74,6 +77,36 @@ TEST_CASE("where there are more nodes than pixels, some submaps are empty") {
   }
   CHECK(pixels == 6);
   CHECK(svm::submap_of({0, 0, 3, 2}, 50, 50).pixel_count() == 0);  // behind those that render
+}
+
+TEST_CASE("interleaved, a node has every m-th pixel of every n-th line, from a corner of its own") {
+  // 12 nodes are 4 x 3.
+  CHECK(svm::interleaved_of({0, 0, 10, 7}, 0, 12) == PixelRectangle{0, 0, 3, 3, 4, 3});
+  CHECK(svm::interleaved_of({0, 0, 10, 7}, 6, 12) == PixelRectangle{2, 1, 2, 2, 4, 3});
+  CHECK(svm::interleaved_of({0, 0, 10, 7}, 11, 12) == PixelRectangle{3, 2, 2, 2, 4, 3});
+  CHECK(svm::interleaved_of({0, 0, 10, 7}, 12, 12) == PixelRectangle{});  // behind those that render
+  CHECK(svm::interleaved_of({0, 0, 10, 7}, 0, 1) == PixelRectangle{0, 0, 10, 7});
+}
+
+TEST_CASE("interleaved, sixty-four nodes are eight by eight, and a prime number of them is one row") {
+  CHECK(svm::interleaved_of({0, 0, 512, 512}, 63, 64) == PixelRectangle{7, 7, 64, 64, 8, 8});
+  CHECK(svm::interleaved_of({0, 0, 20, 3}, 4, 7) == PixelRectangle{4, 0, 3, 3, 7, 1});
+  CHECK(svm::interleaved_of({0, 0, 4, 3}, 4, 7).pixel_count() == 0);  // no column is left for it
+}
+
+TEST_CASE("items of interleaved pixels are as far apart as those are, and clipped where those end") {
+  svm::WorkItems items({2, 1, 4, 3, 4, 3}, 3);
+  CHECK(items.count() == 2);
+  CHECK(items.give() == PixelRectangle{14, 1, 1, 3, 4, 3});
+  const auto item = items.take();
+  REQUIRE(item == PixelRectangle{2, 1, 3, 3, 4, 3});
+  svm::PixelScan scan(*item, {.width = 2, .height = 2});
+  std::vector<std::uint32_t> pixels;
+  for (std::uint64_t place = 0; place < 9; ++place) {
+    CHECK(item->pixel_at(place, 100) == 100 * (1 + place / 3 * 3) + 2 + place % 3 * 4);
+    pixels.push_back(scan.next(100));
+  }
+  CHECK(pixels == std::vector<std::uint32_t>{102, 106, 402, 406, 110, 410, 702, 706, 710});
 }
 
 TEST_CASE("an empty submap has no items") {

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <set>
+#include <vector>
 
 #include "core/base/expect.h"
 #include "svm/packets.h"
@@ -69,7 +70,7 @@ TEST_CASE("a node with items left answers the asker directly with its last one")
   const Parcel parcel = small.sent();
   CHECK(parcel.target == nodes::NodeId{0});
   CHECK(parcel.kind == svm::number_of(Kind::work_reply));
-  CHECK(parcel.packet().as<svm::WorkReply>().item == PixelRectangle{8, 2, 1, 1});
+  CHECK(parcel.packet().as<svm::WorkReply>().item.rectangle() == PixelRectangle{8, 2, 1, 1});
   CHECK(parcel.packet().as<svm::WorkReply>().giver == 2);
   CHECK(small.work.counters().items_given == 1);
 }
@@ -92,7 +93,7 @@ TEST_CASE("the last node to be asked tells the asker that there is no more work"
   small.work.answer({1, 1});
   const Parcel parcel = small.sent();
   CHECK(parcel.target == nodes::NodeId{1});
-  CHECK(parcel.packet().as<svm::WorkReply>().item.pixel_count() == 0);
+  CHECK(parcel.packet().as<svm::WorkReply>().item.rectangle().pixel_count() == 0);
 }
 
 TEST_CASE("an item that was given becomes the asker's pixels, and the giver is asked first the next time") {
@@ -100,7 +101,7 @@ TEST_CASE("an item that was given becomes the asker's pixels, and the giver is a
   small.use_up();
   small.work.ask();
   small.sent();
-  small.take_reply({{9, 1, 2, 1}, 3});
+  small.take_reply({svm::SentItem(PixelRectangle{9, 1, 2, 1}), 3});
   REQUIRE(small.work.has_pixel());
   CHECK(small.work.next_pixel() == 12 + 9);
   CHECK(small.work.next_pixel() == 12 + 10);
@@ -117,7 +118,7 @@ TEST_CASE("where the host deals the work a node starts with nothing and asks the
     CHECK_FALSE(small.work.exhausted());
     small.work.ask();
     CHECK(small.sent().target == nodes::NodeId{4});
-    small.take_reply({{9, 1, 1, 1}, 4});
+    small.take_reply({svm::SentItem(PixelRectangle{9, 1, 1, 1}), 4});
     CHECK(small.work.next_pixel() == 12 + 9);
   }
 }
@@ -209,6 +210,40 @@ TEST_CASE("an item that is given away takes its part of the mask along, and item
   CHECK(taker.next_samples() == core::SampleRange{2, 6});
   CHECK(taker.next_pixel() == 8 + 1);
   CHECK_FALSE(taker.has_pixel());
+}
+
+TEST_CASE("interleaved, a later pass has the pixels of the mask, and an item that is given away takes its part along") {
+  const svm::Plan plan = svm::make_plan({.page_count = 4,
+                                         .computer = {.node_count = 4},
+                                         .pages = {.work_item_side = 2, .pixel_shares = svm::PixelShares::interleaved},
+                                         .width = 8,
+                                         .height = 4,
+                                         .first_samples = 2,
+                                         .refinement = {.error = 1}});
+  LoneNode lone(plan, 3);
+  svm::WorkSource work(lone.node, plan.work());
+  std::vector<std::uint32_t> first;
+  while (work.has_pixel()) {
+    first.push_back(work.next_pixel());
+  }
+  CHECK(first == std::vector<std::uint32_t>{9, 11, 25, 27, 13, 15, 29, 31});
+  work.ask();
+  work.take_reply(parcel_of(0, Kind::work_reply, svm::MaskedWorkReply{}).packet());
+  svm::MaskPart mask;
+  mask.steps[1] = {1, 2};  // of a share of 4x2: the second column of the first item, and the last of the other
+  mask.steps[7] = {1, 3};
+  work.take_mask(mask);
+  work.begin_pass();
+  lone.post.parcels.clear();
+  work.answer({1, 1});
+  REQUIRE(lone.post.parcels.size() == 1);
+  const auto given = lone.post.parcels.front().packet().as<svm::MaskedWorkReply>();
+  CHECK(given.reply.item.rectangle() == PixelRectangle{5, 1, 2, 2, 2, 2});
+  CHECK(given.steps[3].samples(2) == core::SampleRange{2, 6});
+  CHECK(given.steps[0].is_none());
+  CHECK(work.next_samples() == core::SampleRange{2, 2});
+  CHECK(work.next_pixel() == 11);
+  CHECK_FALSE(work.has_pixel());
 }
 
 TEST_CASE("a static run and a node alone never ask") {

@@ -71,7 +71,7 @@ svm::Report run_paged(std::size_t strategy, const Subject& subject, const svm::R
 void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
   const Subjects subjects(scene, size);
   const auto rows = tests::pairwise({std::size(node_counts), std::size(page_sizes), std::size(cache_shares),
-                                     std::size(in_flights), std::size(item_sides), 3, std::size(nodes_a_worker), 2, 2});
+                                     std::size(in_flights), std::size(item_sides), 3, std::size(nodes_a_worker), 2, 3});
   for (const auto& row : rows) {
     const bool is_forest = row[5] == 2, is_one_tree = is_forest || row[7] == 1;
     const Subject& subject = subjects.with(is_one_tree ? core::Structure::extents : core::Structure::grid, page_sizes[row[1]]);
@@ -80,6 +80,7 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
     options.pages.in_flight = in_flights[row[3]];
     options.pages.work_item_side = item_sides[row[4]];
     options.pages.work_giver = row[8] == 1 && item_sides[row[4]] > 0 ? svm::WorkGiver::host : svm::WorkGiver::ring;
+    options.pages.pixel_shares = row[8] == 2 ? svm::PixelShares::interleaved : svm::PixelShares::submaps;
     options.pages.worker_count = core::ceil_divide(node_counts[row[0]], nodes_a_worker[row[6]]);
     if (row[5] == 0) {
       const double frames = cache_shares[row[2]] * static_cast<double>(subject.database().page_count());
@@ -91,6 +92,7 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
     CAPTURE(options.pages.work_item_side);
     CAPTURE(*options.pages.worker_count);
     CAPTURE(name_of(options.pages.work_giver));
+    CAPTURE(name_of(options.pages.pixel_shares));
     CAPTURE(options.pages.cache_pages.value_or(0));
     CAPTURE(row[5]);
     CAPTURE(is_one_tree);
@@ -175,6 +177,8 @@ TEST_CASE("refined samples give one picture, whoever renders it on any number of
     CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 5}, .pages = {.work_item_side = side}})) == subject.outcome());
     const svm::PageOptions dealt{.work_item_side = std::max(side, 1U), .work_giver = svm::WorkGiver::host};
     CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 5}, .pages = dealt})) == subject.outcome());
+    const svm::PageOptions interleaved{.work_item_side = side, .pixel_shares = svm::PixelShares::interleaved};
+    CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 8}, .pages = interleaved})) == subject.outcome());
   }
   const Subject extents(tests::mirrors_and_glass(), {.width = 24, .height = 20, .samples = 2, .refinement = {.error = 0.02}},
                         {.page_size_bytes = 512, .structure = core::Structure::extents});

@@ -50,6 +50,7 @@ StrategyStats strategy_stats(const RenderOptions& options, const svm::Report& re
   StrategyStats stats{.options = {{"in_flight", plan.in_flight},
                                   {"work_item", plan.work_item_side},
                                   {"work_giver", svm::name_of(report.plan.request.pages.work_giver)},
+                                  {"pixels", svm::name_of(report.plan.request.pages.pixel_shares)},
                                   {"workers", plan.worker_count},
                                   {"count_pages", plan.request.pages.count_pages}},
                       .all = shares_json(report.pages(), report.work(), report.questions(), plan),

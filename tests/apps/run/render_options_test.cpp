@@ -226,6 +226,8 @@ TEST_CASE("every option of dataflow reaches its field") {
   CHECK(options.rays.topology == nodes::TopologyKind::fat_tree);
   CHECK(options.pages.work_giver == svm::WorkGiver::ring);
   CHECK(render({"--work-giver=host"}).pages.work_giver == svm::WorkGiver::host);
+  CHECK(options.pages.pixel_shares == svm::PixelShares::submaps);
+  CHECK(render({"--pixels=interleaved"}).pages.pixel_shares == svm::PixelShares::interleaved);
   CHECK_FALSE(options.rays.without_backpressure);
   CHECK(render({"--strategy=dataflow", "--no-backpressure"}).rays.without_backpressure);
   CHECK(options.rays.balance.bsp.order == dataflow::CutOrder::longer_axis);
@@ -257,6 +259,7 @@ TEST_CASE("an option of another strategy is refused with the strategies that it 
                                      {"--ray-credits=4", svm, dataflow},
                                      {"--ray-queue=512", replicated, dataflow},
                                      {"--work-giver=host", dataflow, svm + " or " + replicated + " or " + forest},
+                                     {"--pixels=interleaved", dataflow, svm + " or " + replicated + " or " + forest},
                                      {"--no-backpressure", svm, dataflow},
                                      {"--topology=hypercube", replicated, dataflow}};
   for (const auto& [option, with, goes_with] : wrongs) {
@@ -337,6 +340,8 @@ TEST_CASE("the help of render names every option and its default") {
                                  "--work-item",
                                  "--work-giver",
                                  "ring|host [ring]",
+                                 "--pixels",
+                                 "submaps|interleaved [submaps]",
                                  "--workers",
                                  "--resolution",
                                  "--samples",
