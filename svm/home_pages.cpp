@@ -14,7 +14,7 @@ std::size_t room_bytes(const PageCapacity& capacity, std::uint32_t index) {
 }  // namespace
 
 HomePages::HomePages(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database)
-    : homes_(capacity.node_count),
+    : homes_(capacity.homes()),
       self_(nodes::index_of(node.id())),
       first_page_(capacity.forest_pages),
       count_(capacity.pages_at(self_)),
@@ -32,7 +32,8 @@ void HomePages::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacit
 }
 
 void grant_requests(nodes::Node& node, const PageCapacity& capacity) {
-  for (std::uint32_t other = 0; other < capacity.node_count; ++other) {
+  const Homes homes = capacity.homes();
+  for (std::uint32_t other = homes.first(); other < homes.end(); ++other) {
     if (other != nodes::index_of(node.id())) {
       node.grant(nodes::NodeId{other}, request_channel, capacity.request_credits);
     }

@@ -1,4 +1,4 @@
-// The pages that a node keeps for good.
+// The pages that a node, or the host, keeps for good.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ class HomePages {
   /// Adds to `memory` exactly what the constructor takes at node `index`.
   static void add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index);
 
-  /// The node that keeps a page.
+  /// The node that keeps a page, or the host.
   std::uint32_t home_of(PageId page) const { return place_of(page).node; }
   /// A page's first byte, or nullptr if it is at home elsewhere, or nowhere.
   const std::byte* find(PageId page) const {
@@ -40,7 +40,7 @@ class HomePages {
   nodes::LastingPieces pages_;
 };
 
-/// Takes the credits for what a node may ask of each other one.
+/// Takes the credits for what a node may ask of each other one, or of the host if that is home to all.
 void grant_requests(nodes::Node& node, const PageCapacity& capacity);
 
 }  // namespace dmpc::svm

@@ -40,17 +40,26 @@ HostProgram::HostProgram(nodes::Node& node, const HostShape& shape, core::Film& 
     std::copy(done.begin(), done.end(), arrived_.begin());
     pixels_done_ = pixels_found_done_ = start->done.count();
   }
+  if (shape.pages) {
+    home_.emplace(HomePages(node, *shape.pages, shape.database), PageServer(node, *shape.pages));
+  }
   start_dealing();
 }
 
 void HostProgram::add_needs(nodes::MemoryPlan& plan, const HostShape& shape) {
   plan[nodes::Category::film_tiles] += nodes::LocalMemory::bytes_for<std::uint64_t>(words_for(shape.pixel_count()));
+  if (shape.pages) {
+    HomePages::add_needs(plan, *shape.pages, shape.node_count);
+    PageServer::add_needs(plan, *shape.pages, shape.node_count);
+  }
 }
 
 void HostProgram::receive(const nodes::Packet& packet) {
   switch (Kind{packet.kind}) {
     case Kind::film_sums:
       return take_film(packet);
+    case Kind::page_request:
+      return serve(packet);
     case Kind::work_request:
       return deal(packet.as<WorkRequest>());
     case Kind::done:
@@ -58,8 +67,13 @@ void HostProgram::receive(const nodes::Packet& packet) {
     case Kind::mask_acknowledgement:
       return send_mask(nodes::index_of(packet.source));
     default:
-      core::expect(false, "the host receives film, requests for work and word that nodes are done");
+      core::expect(false, "the host receives film, requests for pages or work, and word that nodes are done");
   }
+}
+
+void HostProgram::serve(const nodes::Packet& packet) {
+  core::expect(home_.has_value(), "the host is asked for pages where they are at home there");
+  home_->server.serve(packet, home_->pages);
 }
 
 void HostProgram::take_film(const nodes::Packet& packet) {

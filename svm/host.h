@@ -1,4 +1,4 @@
-// The host's program: takes the finished pixels, counts who is done, begins passes, and stops the run.
+// The host's program: takes the finished pixels, counts who is done, begins passes, stops the run; and serves pages if asked to.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,10 @@
 #include "nodes/node.h"
 #include "nodes/program.h"
 #include "nodes/watch/watching.h"
+#include "svm/home_pages.h"
 #include "svm/packets.h"
+#include "svm/page_capacity.h"
+#include "svm/page_server.h"
 
 namespace dmpc::svm {
 
@@ -27,8 +30,10 @@ struct HostShape {
   PixelShares shares = PixelShares::submaps;  ///< as WorkShape has it
   bool is_masked = false;                     ///< as WorkShape has it
   core::RefinementOptions refinement;
-  const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; read by the constructor alone
-  const core::FineDetail* detail = nullptr;     ///< the picture's, if it is refined; outlives the host
+  const core::PartialPicture* start = nullptr;       ///< what is done already, if anything; read by the constructor alone
+  const core::FineDetail* detail = nullptr;          ///< the picture's, if it is refined; outlives the host
+  std::optional<PageCapacity> pages = std::nullopt;  ///< if the host is home to all of them
+  std::span<const std::byte> database = {};          ///< in this case; read by the constructor, on modelled machines throughout
 
   std::uint32_t pixel_count() const { return width * height; }
 };
@@ -36,7 +41,8 @@ struct HostShape {
 /// Every pixel of a pass arrives exactly once, which it checks, and whole: what has arrived can be kept at any time. When every
 /// node is done and the film complete, it ends the pass; if another follows, it sends each node its share's part of the mask,
 /// and begins it when all have theirs; else it sends each node a Stop. Where it deals the work, in items of the whole picture, no
-/// node has a share, and it tells each asker which samples an item's pixels have.
+/// node has a share, and it tells each asker which samples an item's pixels have. Where it is home to all pages, it
+/// replies to requests for them from its own memory, as a node would.
 class HostProgram final : public nodes::Program {
  public:
   /// `film` outlives the program and is written by it alone until the run's end; it is as shape.start has it.
@@ -56,6 +62,8 @@ class HostProgram final : public nodes::Program {
   std::uint64_t deposits_saturated() const { return deposits_saturated_; }
   /// Keeps what has arrived, if that is wanted: for when the run has been interrupted.
   void keep() const;
+  /// Replies to requests for pages.
+  std::uint64_t pages_served() const { return home_ ? home_->server.served() : 0; }
   /// Work items dealt, over all passes.
   std::uint64_t items_given() const { return items_given_; }
   /// By this run, over all passes.
@@ -63,6 +71,13 @@ class HostProgram final : public nodes::Program {
   const core::Refinement& refinement() const { return refinement_; }
 
  private:
+  /// All pages.
+  struct Home {
+    HomePages pages;
+    PageServer server;
+  };
+
+  void serve(const nodes::Packet& packet);
   void take_film(const nodes::Packet& packet);
   void take_pixel(const FilmEntry& entry);
   void take_done(const Done& done);
@@ -89,6 +104,7 @@ class HostProgram final : public nodes::Program {
   PixelShares shares_;
   bool is_masked_;
   WorkItems items_;  ///< not dealt yet
+  std::optional<Home> home_;
   std::uint64_t items_given_ = 0;
   std::uint32_t nodes_masked_ = 0;  ///< how many have their whole mask
   std::uint32_t pixels_done_ = 0;

@@ -1,7 +1,7 @@
 // What the nodes of svm and replicated tell each other and the host: values, without pointers.
 //
 //   kind                   from -> to          channel   size   its place in the target's mailbox is reserved by
-//   page_request           node -> home        request   small  the sender's request credits for that home
+//   page_request           node -> home        request   small  the sender's request credits for that home, a node or the host
 //   page_reply             home -> node        bulk      bulk   the request
 //   work_request           node -> next node   ring      small  its asker: one under way for each node
 //   work_reply             giver -> asker      control   small  the work request

@@ -13,18 +13,20 @@ namespace dmpc::svm {
 struct PageCapacity {
   std::uint32_t page_count = 0;  ///< of the database
   std::uint32_t node_count = 1;
-  CacheShape cache;                   ///< whose pages are as large as all
-  std::uint32_t in_flight = 1;        ///< pixels under way
-  std::uint32_t faults_max = 0;       ///< under way at a time
-  std::uint32_t request_credits = 0;  ///< page requests, or packets of questions, that may be under way to one home
-  std::uint32_t forest_pages = 0;     ///< the first ones, if every node holds them and asks the owners of the others
-  std::size_t question_bytes = 0;     ///< of a full packet of questions, or of answers
+  PageHomes where = PageHomes::spread;  ///< they are at home
+  CacheShape cache;                     ///< whose pages are as large as all
+  std::uint32_t in_flight = 1;          ///< pixels under way
+  std::uint32_t faults_max = 0;         ///< under way at a time
+  std::uint32_t request_credits = 0;    ///< page requests, or packets of questions, that may be under way to one home
+  std::uint32_t forest_pages = 0;       ///< the first ones, if every node holds them and asks the owners of the others
+  std::size_t question_bytes = 0;       ///< of a full packet of questions, or of answers
 
   std::size_t page_size_bytes() const { return cache.page_size_bytes; }
   std::size_t database_bytes() const { return page_count * page_size_bytes(); }
   std::size_t forest_bytes() const { return forest_pages * page_size_bytes(); }
-  /// Pages at home at node `index`, beside those that all hold.
-  std::uint32_t pages_at(std::uint32_t index) const { return Homes(node_count).count_at(index, page_count - forest_pages); }
+  Homes homes() const { return homes_of(where, node_count); }
+  /// Pages at home at node `index`, or the host, beside those that all nodes hold.
+  std::uint32_t pages_at(std::uint32_t index) const { return homes().count_at(index, page_count - forest_pages); }
 };
 
 }  // namespace dmpc::svm

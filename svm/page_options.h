@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/trace/bundle.h"
+#include "svm/home.h"
 #include "svm/replacement.h"
 #include "svm/work_items.h"
 
@@ -28,6 +29,8 @@ constexpr const char* name_of(WorkGiver giver) { return giver == WorkGiver::ring
 struct PageOptions {
   /// Frames of each node's cache; svm only. With a memory bound and without this, the cache takes all that is left.
   std::optional<std::uint32_t> cache_pages = std::nullopt;
+  /// Where pages are at home; svm only. At the host: all that a node keeps of the scene is its cache.
+  PageHomes homes = PageHomes::spread;
   Replacement replacement = Replacement::lru;  ///< which page of the cache makes room; svm only
   /// Pixels under way on a node, rounded down to whole bundles where rays walk in bundles of 16. Without it 64 for svm: a node
   /// whose bundle waits for a page has others to go on with, while their stacks take about 3 % of a 4 MiB node; and 16 for

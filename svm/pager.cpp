@@ -14,9 +14,8 @@ using nodes::LocalMemory;
 }  // namespace
 
 void Pager::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index) {
-  const std::size_t page_size_bytes = capacity.page_size_bytes();
   HomePages::add_needs(memory, capacity, index);
-  memory[Category::queues] += LocalMemory::bytes_for<std::byte>(sizeof(PageReplyHeader) + page_size_bytes);
+  PageServer::add_needs(memory, capacity, index);
   memory[Category::page_table] += LocalMemory::bytes_for<Translation>(translation_count);
   Cache::add_needs(memory, capacity.cache);
   Faults::add_needs(memory, capacity.in_flight, capacity.faults_max);
@@ -28,8 +27,8 @@ Pager::Pager(nodes::Node& node, const PageCapacity& capacity, std::span<const st
       homes_(node, capacity, database),
       cache_(node.memory(), capacity.cache, nodes::index_of(node.id())),
       faults_(node.memory(), capacity.in_flight, capacity.faults_max),
-      node_(&node),
-      reply_(node.memory().allocate<std::byte>(Category::queues, sizeof(PageReplyHeader) + capacity.page_size_bytes())) {
+      server_(node, capacity),
+      node_(&node) {
   grant_requests(node, capacity);
 }
 
@@ -103,20 +102,9 @@ void Pager::forget(PageId evicted) {
   }
 }
 
-void Pager::serve(const nodes::Packet& request) {
-  const auto page = request.as<PageRequest>().page;
-  const std::byte* const bytes = homes_.find(page);
-  core::expect(bytes != nullptr, "a request reaches its page's home");
-  const PageReplyHeader header{page};
-  node_->grant(request.source, bulk_channel);
-  core::expect(node_->try_send(request.source, bulk_channel, number_of(Kind::page_reply), std::as_bytes(std::span(&header, 1)),
-                               {bytes, geometry_.size_bytes()}, reply_),
-               "a reply always has room");
-  ++counters_.served;
-}
-
 PageCounters Pager::counters() const {
   PageCounters counters = counters_;
+  counters.served = server_.served();
   counters.cache_hits -= retries_;
   counters.references = counters.home_hits + counters.cache_hits + counters.misses;
   return counters;

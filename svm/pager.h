@@ -13,6 +13,7 @@
 #include "svm/node_program.h"
 #include "svm/page.h"
 #include "svm/page_capacity.h"
+#include "svm/page_server.h"
 
 namespace dmpc::svm {
 
@@ -51,8 +52,8 @@ class Pager {
   std::uint32_t next_waiting(std::uint32_t slot) const { return faults_.next(slot); }
   /// The next reference is the repetition of one that was counted as a page miss.
   void retried() { ++retries_; }
-  /// Takes a page request and replies at once: the request has reserved the reply's place.
-  void serve(const nodes::Packet& request);
+  /// Takes a page request and replies at once.
+  void serve(const nodes::Packet& request) { server_.serve(request, homes_); }
 
   /// Faults that have not ended.
   std::uint32_t faults() const { return faults_.count(); }
@@ -87,8 +88,8 @@ class Pager {
   std::uint64_t retries_ = 0;
   Cache cache_;
   Faults faults_;
+  PageServer server_;
   nodes::Node* node_;
-  std::span<std::byte> reply_;  ///< where a reply is put together, if it is
 };
 static_assert(core::Records<Pager>);
 

@@ -35,7 +35,11 @@ constexpr std::uint32_t request_credits_max = 4;
 constexpr std::size_t question_room_wanted_bytes = std::size_t{64} << 10U;
 constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 
-bool pages_travel(const PlanRequest& request) { return request.strategy == Strategy::svm && request.computer.node_count > 1; }
+bool is_host_home(const PlanRequest& request) { return request.pages.homes == PageHomes::host; }
+
+bool pages_travel(const PlanRequest& request) {
+  return request.strategy == Strategy::svm && (request.computer.node_count > 1 || is_host_home(request));
+}
 
 bool questions_travel(const PlanRequest& request) {
   return request.strategy == Strategy::forest && request.computer.node_count > 1;
@@ -43,7 +47,10 @@ bool questions_travel(const PlanRequest& request) {
 
 /// Pages that are not at home, at the node that has the fewest at home.
 std::uint32_t foreign_pages_max(const PlanRequest& request) {
-  return pages_travel(request) ? request.page_count - request.page_count / request.computer.node_count : 0;
+  if (!pages_travel(request)) {
+    return 0;
+  }
+  return request.page_count - (is_host_home(request) ? 0 : request.page_count / request.computer.node_count);
 }
 
 /// Bundles are whole ones: with fewer pixels in flight rays walk alone.
@@ -84,6 +91,9 @@ std::uint32_t request_credits_of(const PlanRequest& request, std::uint32_t fault
   if (!pages_travel(request)) {
     return 0;
   }
+  if (is_host_home(request)) {  // whose memory is large, and which is the only home
+    return std::min(faults_max, request_credits_max);
+  }
   return std::min({faults_max, core::ceil_divide(request.page_count, request.computer.node_count),
                    std::clamp(request_slots_wanted / (request.computer.node_count - 1), 1U, request_credits_max)});
 }
@@ -111,9 +121,11 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   const std::uint32_t others = request.computer.node_count - 1;
   const bool ring = item_side_of(request) > 0;
   nodes::MailboxCapacity capacity;
+  // Page requests or questions: each other node's credits for this home.
+  const std::uint32_t asked = is_host_home(request) ? 0 : others * request_credits;
   // Work requests: each other node has at most one on the ring, unless they go to the host.
   const std::uint32_t passed_on = ring && !is_dealt(request) ? others : 0;
-  capacity.small_slots = others * request_credits    // page requests or questions: each other node's credits for this home
+  capacity.small_slots = asked                       // page requests or questions
                          + passed_on                 // work requests
                          + (ring ? 1 : 0)            // the reply to this node's own work request
                          + film_credits_of(request)  // acknowledgements: one for each film packet of this node's
@@ -136,13 +148,16 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   return capacity;
 }
 
-nodes::MailboxCapacity host_mailbox_of(const PlanRequest& request, std::uint32_t film_entries) {
+nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
+  const PlanRequest& request = plan.request;
   return {.small_slots = request.computer.node_count  // Done: one from each node
                          + (request.refinement.is_wanted() ? request.computer.node_count
                                                            : 0)  // acknowledgements: one for each node's part of the mask
-                         + (is_dealt(request) ? worker_count_of(request) : 0),   // work requests: one from each worker
+                         + (is_dealt(request) ? worker_count_of(request) : 0)  // work requests: one from each worker
+                         + (is_host_home(request) ? request.computer.node_count * plan.request_credits
+                                                  : 0),                          // page requests: each node's credits
           .bulk_slots = request.computer.node_count * film_credits_of(request),  // film packets: each node's credits
-          .bulk_payload_bytes = sizeof(FilmHeader) + film_entries * sizeof(FilmEntry)};
+          .bulk_payload_bytes = sizeof(FilmHeader) + plan.film_entries * sizeof(FilmEntry)};
 }
 
 /// Fewer credits than the mailboxes have room for, and a place for packets held back.
@@ -170,7 +185,7 @@ Plan plan_with(const PlanRequest& request, std::uint32_t frames, std::uint32_t i
   plan.film_credits = film_credits_of(request);
   plan.film_entries = film_entries_of(request);
   plan.node_mailbox = node_mailbox_of(plan);
-  plan.host_mailbox = host_mailbox_of(request, plan.film_entries);
+  plan.host_mailbox = host_mailbox_of(plan);
   if (request.computer.chaos) {
     plan_chaos(plan, *request.computer.chaos);
   }
@@ -222,6 +237,8 @@ void check(const PlanRequest& request) {
   check_use(request.strategy == Strategy::svm || request.pages.replacement == Replacement::lru,
             "replacement=" + std::string(name_of(request.pages.replacement)) +
                 " goes with strategy=svm: the others have no cache, their nodes need no page of another node");
+  check_use(request.strategy == Strategy::svm || !is_host_home(request),
+            "homes=host goes with strategy=svm: the others' nodes hold what they need or ask about, and fetch no page");
   check_use(request.strategy == Strategy::svm || !request.pages.count_pages, "distinct pages are counted with strategy=svm only");
   check_use(!request.pages.count_pages || !request.refinement.is_wanted(),
             "distinct pages are counted where all pixels have the same samples, not with refinement");
@@ -330,6 +347,7 @@ std::uint32_t Plan::faults_max() const { return std::min(task_count(), foreign_p
 PageCapacity Plan::pages() const {
   return {.page_count = request.page_count,
           .node_count = request.computer.node_count,
+          .where = request.pages.homes,
           .cache = {frames, request.page_size_bytes, request.pages.replacement},
           .in_flight = task_count(),
           .faults_max = faults_max(),
@@ -369,7 +387,9 @@ HostShape Plan::host() const {
           .is_masked = request.is_masked(),
           .refinement = request.refinement,
           .start = request.start,
-          .detail = request.detail};
+          .detail = request.detail,
+          .pages = is_host_home(request) ? std::optional(pages()) : std::nullopt,
+          .database = request.database};
 }
 
 nodes::Patience Plan::patience() const { return nodes::patience_of(number_of(Kind::film_sums), film_credits); }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,8 +41,9 @@ struct PlanRequest {
   std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
   core::RefinementOptions refinement;
   const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; outlives plan and run
-  const core::FineDetail* detail = nullptr;     ///< the picture's, if it is refined; the host's alone; outlives plan and run
-  bool bundles = false;                         ///< rays of neighbouring pixels walk together, where enough are in flight
+  std::span<const std::byte> database = {};  ///< its bytes, where the host is home to all pages; outlive the making of programs
+  const core::FineDetail* detail = nullptr;  ///< the picture's, if it is refined; the host's alone; outlives plan and run
+  bool bundles = false;                      ///< rays of neighbouring pixels walk together, where enough are in flight
 
   /// Some pass may leave pixels out, so that each node keeps a byte for each pixel of its share.
   bool is_masked() const { return refinement.is_wanted() || start != nullptr; }

@@ -80,6 +80,12 @@ void check_conservation(const Report& report) {
   const QuestionCounters questions = report.questions();
   core::expect(questions.rays_asked == questions.rays_answered && questions.records_asked == questions.records_answered,
                "every question was answered by somebody");
+  const PageCounters pages = report.pages();
+  core::expect(pages.references == pages.home_hits + pages.cache_hits + pages.misses && pages.misses >= pages.faults,
+               "every reference was a page hit or a page miss");
+  core::expect(report.host_pages_served == packets_of(report.host.received, Kind::page_request),
+               "every page request to the host was served");
+  core::expect(pages.faults == pages.served + report.host_pages_served, "every fault was served, by a node or the host");
   const WorkCounters work = report.work();
   core::expect(work.items_given + report.items_dealt == work.items_taken, "every work item given was taken");
   core::expect(work.pixels_rendered == report.pixels_done, "every pixel was rendered once a pass");
@@ -206,6 +212,7 @@ Plan plan_of(Strategy strategy, const core::Database& database, const core::Rend
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const MakeProgram& make_program, core::Film& film,
                                                         const nodes::Progress& progress, const core::Continuation& continuation) {
   std::vector<nodes::NodeSpecification> specifications;
+  const bool is_host_home = plan.request.pages.homes == PageHomes::host;  // whose service then costs what a node's would
   for (std::uint32_t i = 0; i < plan.request.computer.node_count; ++i) {
     specifications.push_back({plan.node_memory(i), plan.node_mailbox,
                               [&make_program, i](nodes::Node& node) { return make_program(i, node); }, plan.held_bytes,
@@ -215,7 +222,7 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
                             [&plan, &film, &progress, continuation](nodes::Node& node) {
                               return std::make_unique<HostProgram>(node, plan.host(), film, progress, continuation);
                             },
-                            plan.held_bytes});
+                            plan.held_bytes, is_host_home ? interrupt_kinds : 0});
   return specifications;
 }
 
@@ -228,7 +235,8 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
                 .plan = plan,
                 .nodes = {},
                 .host = {}};
-  report.plan.request.detail = nullptr;  // it is the run's
+  report.plan.request.detail = nullptr;  // it is the run's, and so is the database
+  report.plan.request.database = {};
   core::expect(options.watching.heat == nullptr || options.watching.heat->pixel_count() == report.film.pixels().size(),
                "a heat map is of the picture's size");
   const auto runner =
@@ -246,6 +254,7 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
   report.host_deposits_saturated = host.deposits_saturated();
   report.pixels_done = host.pixels_done();
   report.items_dealt = host.items_given();
+  report.host_pages_served = host.pages_served();
   report.refinement = host.refinement().result();
   if (report.end == nodes::RunEnd::finished) {
     check_conservation(report);
@@ -261,6 +270,7 @@ Report run_svm(const core::Database& database, const core::RenderSettings& setti
   Plan plan = plan_of(Strategy::svm, database, settings, options);
   const core::FineDetail detail = settings.fine_detail(database);
   plan.request.detail = &detail;
+  plan.request.database = database.bytes();
   if (options.pages.record_references) {
     return run_recording(database, settings, plan, options, std::move(stop));
   }

@@ -61,6 +61,7 @@ struct Report {
   std::uint64_t host_deposits_saturated = 0;         ///< pixels whose sums saturated on the host's film
   std::uint64_t pixels_done = 0;                     ///< by this run, over all passes
   std::uint64_t items_dealt = 0;                     ///< work items that the host gave
+  std::uint64_t host_pages_served = 0;               ///< replies of the host to requests for pages
   core::RefinementResult refinement;
 
   core::Operations operations() const;  ///< summed over the nodes

@@ -11,6 +11,7 @@
 #include "apps/info/text.h"
 #include "apps/line/option_values.h"
 #include "apps/run/region_options.h"
+#include "apps/run/strategy_options.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "apps/system/output_file.h"
@@ -32,8 +33,9 @@ std::uint64_t peak_bytes() {
 /// A forecast of what needs the subject alone, with progress on a terminal.
 Forecast forecast_for(const InfoOptions& options, const Subject& subject) {
   Progress progress(std::cerr, !options.quiet && stderr_is_terminal(), "Cutting space:", "computers");
-  return forecast(subject.database, subject.settings, options.node_counts, options.balance,
-                  [&](std::uint64_t done, std::uint64_t total) { progress.update(done, total); });
+  return forecast(
+      subject.database, subject.settings, options.node_counts, options.balance,
+      [&](std::uint64_t done, std::uint64_t total) { progress.update(done, total); }, options.homes);
 }
 
 }  // namespace
@@ -46,6 +48,7 @@ void add_options(OptionSet options, InfoOptions& info) {
       "--nodes", "N,N,... [1,2,4,...,256]",
       [&info](const std::string& text) { info.node_counts = parse_different_numbers(text, "--nodes", svm::node_count_max); },
       "Nodes of the computers whose memory is forecast");
+  add_homes_option(options, info.homes);
   add_balance_option(options, info.balance.balance);
   add_cuts_option(options, info.balance.bsp.order);
   add_region_options(options, info.balance);

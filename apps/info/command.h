@@ -10,6 +10,7 @@
 #include "apps/scene/picture_options.h"
 #include "apps/system/interrupt.h"
 #include "dataflow/regions/balance.h"
+#include "svm/home.h"
 
 namespace dmpc::apps {
 
@@ -22,6 +23,7 @@ struct InfoOptions {
   DatabaseOptions database;
   std::vector<std::uint32_t> node_counts = {1, 2, 4, 8, 16, 32, 64, 128, 256};    ///< ascending
   dataflow::BalanceOptions balance = {.balance = dataflow::Balance::equal_size};  ///< that nothing be rendered unasked
+  svm::PageHomes homes = svm::PageHomes::spread;                                  ///< of svm
   InfoFormat format = InfoFormat::text;
   bool quiet = false;  ///< no progress and no remarks of the scene's reader
 };

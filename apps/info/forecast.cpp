@@ -21,10 +21,12 @@ MemoryForecast forecast_of(const Plan& plan, std::uint32_t node_count) {
 
 class Forecaster {
  public:
-  Forecaster(const core::Database& database, const core::RenderSettings& settings, const dataflow::BalanceOptions& balance)
+  Forecaster(const core::Database& database, const core::RenderSettings& settings, const dataflow::BalanceOptions& balance,
+             svm::PageHomes homes)
       : database_(database),
         settings_(settings),
         balance_(balance),
+        homes_(homes),
         loads_(dataflow::column_loads(database, settings, balance)),
         region_seconds_(stopwatch_.lap()) {}
 
@@ -58,12 +60,15 @@ class Forecaster {
     return {.computers = computers_,
             .balance = balance_.balance,
             .cuts = balance_.bsp.order,
+            .homes = homes_,
             .region_seconds = region_seconds_ + stopwatch_.lap()};
   }
 
  private:
   MemoryForecast with_pages(svm::Strategy strategy, std::uint32_t node_count) const {
-    return forecast_of(svm::plan_of(strategy, database_, settings_, {.computer = {.node_count = node_count}}), node_count);
+    svm::RunOptions options{.computer = {.node_count = node_count}};
+    options.pages.homes = strategy == svm::Strategy::svm ? homes_ : svm::PageHomes::spread;
+    return forecast_of(svm::plan_of(strategy, database_, settings_, options), node_count);
   }
   MemoryForecast with_rays(const std::vector<dataflow::Share>& shares) const {
     return forecast_of(dataflow::make_plan(dataflow::plan_request(shares, settings_, {})),
@@ -80,6 +85,7 @@ class Forecaster {
   const core::Database& database_;
   const core::RenderSettings& settings_;
   const dataflow::BalanceOptions& balance_;
+  svm::PageHomes homes_;
   Stopwatch stopwatch_;
   dataflow::ColumnLoads loads_;
   double region_seconds_;
@@ -92,8 +98,8 @@ class Forecaster {
 
 Forecast forecast(const core::Database& database, const core::RenderSettings& settings,
                   const std::vector<std::uint32_t>& node_counts, const dataflow::BalanceOptions& balance,
-                  const ForecastProgress& progress) {
-  Forecaster forecaster(database, settings, balance);
+                  const ForecastProgress& progress, svm::PageHomes homes) {
+  Forecaster forecaster(database, settings, balance, homes);
   std::uint64_t done = 0;
   for (const std::uint32_t node_count : node_counts) {
     forecaster.add(node_count);

@@ -37,7 +37,7 @@ Onlookers::Onlookers(const RenderOptions& options, std::uint32_t page_count, std
     members.push_back(profile_.get());
   }
   if (options.report && options.strategy == Strategy::svm) {
-    fetches_ = std::make_unique<svm::FetchWatch>(node_count, page_count);
+    fetches_ = std::make_unique<svm::FetchWatch>(node_count, page_count, svm::fetch_sample_max, options.pages.homes);
     members.push_back(fetches_.get());
     if (!counts_pages(options)) {
       reference_logs_.assign(node_count, svm::ReferenceLog(std::max(references_least, references_max / node_count)));

@@ -38,6 +38,7 @@ const std::vector<Belonging>& belongings() {
                                                   Strategy::forest};  // whose nodes have them
   static const std::vector<Belonging> all = {
       {"--cache-pages", {Strategy::svm}, "a node of the others needs no page of another node"},
+      {"--homes", {Strategy::svm}, "a node of the others fetches no page"},
       {"--replacement", {Strategy::svm}, "a node of the others keeps no page of another node"},
       {"--count-pages", {Strategy::svm}, "the others look up no pages"},
       {"--in-flight", of_pixels, "a node of dataflow traces one ray at a time"},
@@ -114,11 +115,18 @@ void add_machine_options(OptionSet options, RunnerOptions& runner, const std::st
                    "A node sends one message at a time and receives one at a time, over whatever links" + when);
 }
 
+void add_homes_option(OptionSet options, svm::PageHomes& homes) {
+  using svm::PageHomes;
+  options.add_choice<PageHomes>("--homes", homes, {{"spread", PageHomes::spread}, {"host", PageHomes::host}},
+                                "Who keeps the pages for good: all nodes, each its part, or the host (svm)");
+}
+
 void add_page_options(OptionSet options, svm::PageOptions& pages, const std::string& in_flight_default) {
   options.begin_group("Strategies svm, replicated and forest");
   options.add_number("--cache-pages", pages.cache_pages, 1, 0x7fffffff,
                      "a quarter of the database; with --node-memory what it holds",
                      "Pages of other nodes that a node can keep (svm)");
+  add_homes_option(options, pages.homes);
   using svm::Replacement;
   options.add_choice<Replacement>(
       "--replacement", pages.replacement,

@@ -10,7 +10,6 @@
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
 #include "nodes/atomics.h"
-#include "svm/home.h"
 #include "svm/packets.h"
 #include "svm/share.h"
 
@@ -119,15 +118,18 @@ struct alignas(nodes::cache_line_bytes) FetchWatch::Log {
 
 std::uint64_t Fetch::total_ns() const { return std::accumulate(part_ns.begin(), part_ns.end(), std::uint64_t{0}); }
 
-FetchWatch::FetchWatch(std::uint32_t node_count, std::uint32_t page_count, std::size_t sample_max)
-    : node_count_(node_count), page_count_(page_count), log_max_(std::max(log_max_least, sample_max / node_count)) {
-  const Homes homes(node_count);
-  for (std::uint32_t i = 0; i < node_count; ++i) {
+FetchWatch::FetchWatch(std::uint32_t node_count, std::uint32_t page_count, std::size_t sample_max, PageHomes where)
+    : where_(where),
+      homes_(homes_of(where, node_count)),
+      peer_count_(std::max(node_count, homes_.end())),
+      page_count_(page_count),
+      log_max_(std::max(log_max_least, sample_max / (where == PageHomes::host ? 1 : node_count))) {
+  for (std::uint32_t i = 0; i < peer_count_; ++i) {
     Log& log = *logs_.emplace_back(std::make_unique<Log>());
     for (auto* const counts : {&log.asked, &log.taken, &log.request_count, &log.replied}) {
-      counts->resize(node_count);
+      counts->resize(peer_count_);
     }
-    log.by_slot.resize(homes.count_at(i, page_count));
+    log.by_slot.resize(homes_.count_at(i, page_count));
   }
 }
 
@@ -155,7 +157,7 @@ void FetchWatch::received(const nodes::Passing& packet) {
   const nodes::MessageTimes& times = packet.times;
   if (is_kind(packet, Kind::page_request)) {
     Log& log = *logs_[self];
-    ++log.by_slot[page_in(packet) / node_count_];
+    ++log.by_slot[homes_.place_of(PageId{page_in(packet)}).slot];
     log.as_home.open({.name = {peer, self, log.request_count[peer]++},
                       .page = page_in(packet),
                       .time_ns = {arrival_ns(times), times.received_ns},
@@ -174,19 +176,20 @@ void FetchWatch::received(const nodes::Passing& packet) {
 }
 
 Fetches FetchWatch::take() {
-  Fetches all{.node_count = node_count_, .by_pair = std::vector<std::uint64_t>(std::size_t{node_count_} * node_count_)};
+  Fetches all{.peer_count = peer_count_, .by_pair = std::vector<std::uint64_t>(std::size_t{peer_count_} * peer_count_)};
+  all.where = where_;
   all.by_page.resize(page_count_);
   for (const auto& log : logs_) {
     all.every = std::max({all.every, log->as_asker.every(), log->as_home.every()});
   }
   std::map<Name, End> homes;
-  for (std::uint32_t node = 0; node < node_count_; ++node) {
+  for (std::uint32_t node = 0; node < peer_count_; ++node) {
     const Log& log = *logs_[node];
-    for (std::uint32_t asker = 0; asker < node_count_; ++asker) {
-      all.by_pair[std::size_t{asker} * node_count_ + node] = log.request_count[asker];
+    for (std::uint32_t asker = 0; asker < peer_count_; ++asker) {
+      all.by_pair[std::size_t{asker} * peer_count_ + node] = log.request_count[asker];
     }
     for (std::size_t slot = 0; slot < log.by_slot.size(); ++slot) {
-      all.by_page[slot * node_count_ + node] = log.by_slot[slot];
+      all.by_page[index_of(homes_.page_at({node, static_cast<std::uint32_t>(slot)}))] = log.by_slot[slot];
     }
     for (const End& end : logs_[node]->as_home.take(all.every)) {
       homes.emplace(end.name, end);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "nodes/observer.h"
+#include "svm/home.h"
 
 namespace dmpc::svm {
 
@@ -35,21 +36,33 @@ struct Fetch {
   std::uint64_t total_ns() const;
 };
 
+/// About so many fetches are kept in all.
+inline constexpr std::size_t fetch_sample_max = 100'000;
+
 /// What a watch has seen.
 struct Fetches {
-  std::uint32_t node_count = 0;
-  std::vector<std::uint64_t> by_pair;  ///< counted: those of asker a from home h at a * node_count + h
+  std::uint32_t peer_count = 0;        ///< nodes, and the host if it is home to all pages, the last
+  std::vector<std::uint64_t> by_pair;  ///< counted: those of asker a from home h at a * peer_count + h
   std::vector<std::uint64_t> by_page;  ///< counted, by number
   /// One of `every`, a power of two, chosen by a hash of who asks whom for the how many-th time, sorted by asker, home and time.
   std::vector<Fetch> sample;
   std::uint32_t every = 1;
+  PageHomes where = PageHomes::spread;  ///< pages are at home
+
+  /// Of a page.
+  std::uint32_t home_of(std::uint32_t page) const {
+    return where == PageHomes::host ? peer_count - 1 : Homes(peer_count).place_of(PageId{page}).node;
+  }
+  /// How many fetch a page that is at home elsewhere.
+  std::uint32_t asker_count() const { return peer_count - 1; }
 };
 
 /// Watches the requests and replies of a run of svm. Thread safety: as an Observer; take() when the run is over.
 class FetchWatch final : public nodes::Observer {
  public:
   /// `sample_max`: about so many fetches are kept in all; of more, every second is forgotten, again and again.
-  FetchWatch(std::uint32_t node_count, std::uint32_t page_count, std::size_t sample_max = 100'000);
+  FetchWatch(std::uint32_t node_count, std::uint32_t page_count, std::size_t sample_max = fetch_sample_max,
+             PageHomes where = PageHomes::spread);
   ~FetchWatch() override;
 
   void ended(const nodes::Span&, const nodes::Program&) override {}
@@ -63,7 +76,9 @@ class FetchWatch final : public nodes::Observer {
  private:
   struct Log;
 
-  std::uint32_t node_count_;
+  PageHomes where_;
+  Homes homes_;
+  std::uint32_t peer_count_;
   std::uint32_t page_count_;
   std::size_t log_max_;
   std::vector<std::unique_ptr<Log>> logs_;

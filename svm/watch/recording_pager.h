@@ -18,7 +18,7 @@ class RecordingPager : public Pager {
   RecordingPager(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database)
       : Pager(node, capacity, database),
         geometry_(capacity.page_size_bytes()),
-        homes_(capacity.node_count),
+        homes_(capacity.homes()),
         self_(nodes::index_of(node.id())) {}
 
   /// To be called once, before the first reference. `log` outlives this.

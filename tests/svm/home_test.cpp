@@ -47,6 +47,18 @@ TEST_CASE("all nodes together are home to every page once, as evenly as can be")
   }
 }
 
+TEST_CASE("where the host is home, it has every page, and no node has one") {
+  const Homes homes = svm::homes_of(svm::PageHomes::host, 7);
+  for (const std::uint32_t page : {0U, 1U, 6U, 7U, 8U, 65536U, 0xffffffffU}) {
+    CHECK(homes.place_of(PageId{page}) == Homes::Place{7, page});
+    CHECK(homes.page_at({7, page}) == PageId{page});
+  }
+  for (std::uint32_t node = 0; node < 9; ++node) {
+    CHECK(homes.count_at(node, 100) == (node == 7 ? 100 : 0));
+  }
+  CHECK(svm::homes_of(svm::PageHomes::spread, 7).place_of(PageId{9}) == Homes::Place{2, 1});
+}
+
 TEST_CASE("a machine without nodes, or with too many, is refused") {
   CHECK_THROWS_AS(Homes(0), core::InternalError);
   CHECK_THROWS_AS(Homes(65536), core::InternalError);

@@ -71,6 +71,35 @@ TEST_CASE("a host that deals the work gives each item once, in order, to whoever
   CHECK(host.items_given() == 4);
 }
 
+TEST_CASE("a host that is home to all pages replies with the one that is asked for, another one is asked for none") {
+  const FakePages pages(6, 512);
+  svm::PlanRequest request{.page_count = 6,
+                           .page_size_bytes = 512,
+                           .computer = {.node_count = 2},
+                           .pages = {.homes = svm::PageHomes::host},
+                           .width = 3,
+                           .height = 1};
+  request.database = pages.bytes();
+  const svm::Plan plan = svm::make_plan(request);
+  LoneNode lone(plan, 2);
+  core::Film film(3, 1);
+  svm::HostProgram host(lone.node, plan.host(), film, {});
+  CHECK(lone.memory.used()[nodes::Category::home_pages] == lone.memory.plan()[nodes::Category::home_pages]);
+  for (const std::uint32_t page : {5U, 0U, 5U}) {
+    host.receive(parcel_of(1, Kind::page_request, svm::PageRequest{svm::PageId{page}}).packet());
+    const Parcel& parcel = lone.post.parcels.back();
+    CHECK(parcel.target == nodes::NodeId{1});
+    CHECK(parcel.kind == svm::number_of(Kind::page_reply));
+    const auto payload = parcel.packet().behind(sizeof(svm::PageReplyHeader));
+    CHECK(std::equal(payload.begin(), payload.end(), pages.page(page).begin()));
+  }
+  CHECK(host.pages_served() == 3);
+  CHECK_THROWS_AS(host.receive(parcel_of(1, Kind::page_request, svm::PageRequest{svm::PageId{6}}).packet()), core::InternalError);
+  SmallHost other;
+  CHECK_THROWS_AS(other.host.receive(parcel_of(1, Kind::page_request, svm::PageRequest{svm::PageId{0}}).packet()),
+                  core::InternalError);
+}
+
 TEST_CASE("a host that does not deal the work is asked for none") {
   SmallHost small;
   CHECK_THROWS_AS(small.host.receive(parcel_of(0, Kind::work_request, svm::WorkRequest{0, 1}).packet()), core::InternalError);

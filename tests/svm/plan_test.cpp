@@ -381,6 +381,52 @@ TEST_CASE("pixels are interleaved where they are the nodes' own, not where the h
                        core::UsageError);
 }
 
+TEST_CASE("where the host is home, a node has nothing of the scene but its cache, and the host has all") {
+  PlanRequest request = request_with(4, 400);
+  request.pages.cache_pages = 7;
+  const svm::Plan spread = make_plan(request);
+  request.pages.homes = svm::PageHomes::host;
+  const svm::Plan host = make_plan(request);
+  CHECK(host.faults_max() == spread.faults_max());
+  const std::size_t page_bytes = request.page_size_bytes;
+  CHECK(host.node_memory(0)[nodes::Category::home_pages] + 100 * page_bytes ==
+        spread.node_memory(0)[nodes::Category::home_pages]);
+  CHECK(host.node_memory(0)[nodes::Category::cache_frames] == spread.node_memory(0)[nodes::Category::cache_frames]);
+  CHECK(host.host_memory()[nodes::Category::home_pages] == spread.node_memory(0)[nodes::Category::home_pages] + 300 * page_bytes);
+  CHECK(host.node_mailbox.small_slots == spread.node_mailbox.small_slots - 3 * spread.request_credits);
+  CHECK(host.host_mailbox.small_slots == spread.host_mailbox.small_slots + 4 * host.request_credits);
+}
+
+TEST_CASE("where the host is home, the least memory does not grow with the scene, and more nodes do not make it less") {
+  PlanRequest request = request_with(4, 400);
+  request.pages.homes = svm::PageHomes::host;
+  const std::size_t least = smallest_node_memory_bytes(request);
+  request.page_count = 400'000;
+  CHECK(smallest_node_memory_bytes(request) < least + least / 10);
+  request.computer.node_memory_bytes = smallest_node_memory_bytes(request);
+  CHECK(make_plan(request).frames >= 1);
+  request.computer.node_memory_bytes = *request.computer.node_memory_bytes - 1;
+  CHECK_THROWS_AS(make_plan(request), core::RoomError);
+}
+
+TEST_CASE("where the host is home, one node fetches pages, too, and a cache may hold all of them") {
+  PlanRequest request = request_with(1, 40);
+  request.pages.homes = svm::PageHomes::host;
+  request.pages.cache_pages = 1000;
+  const svm::Plan plan = make_plan(request);
+  CHECK(plan.frames == 40);
+  CHECK(plan.request_credits >= 1);
+}
+
+TEST_CASE("pages are at home at the host where they travel alone") {
+  PlanRequest request = request_with(4, 40);
+  request.pages.homes = svm::PageHomes::host;
+  request.strategy = svm::Strategy::replicated;
+  CHECK_THROWS_AS(make_plan(request), core::UsageError);
+  request.strategy = svm::Strategy::forest;
+  CHECK_THROWS_AS(make_plan(request), core::UsageError);
+}
+
 TEST_CASE("at least one node renders, and no more than there are") {
   svm::PlanRequest request{.page_count = 4, .computer = {.node_count = 4}, .width = 8, .height = 8};
   CHECK(make_plan(request).worker_count == 4);

@@ -67,6 +67,41 @@ TEST_CASE("a host that deals the work gives every item, and no node another, on 
   }
 }
 
+TEST_CASE("where the host is home it serves every fault, and nodes find nothing at home") {
+  const SmallScene small("teapot-4", 512, 30);
+  const std::uint64_t film = svm::run_svm(small.database, small.settings, {}, {}).film.hash();
+  for (const std::uint32_t nodes : {1U, 2U, 5U, 8U}) {
+    for (const svm::Replacement replacement : {svm::Replacement::lru, svm::Replacement::fifo}) {
+      const svm::RunOptions options{.computer = {.node_count = nodes},
+                                    .pages = {.cache_pages = 5, .homes = svm::PageHomes::host, .replacement = replacement}};
+      const svm::Report report = svm::run_svm(small.database, small.settings, options, {});
+      CHECK(report.film.hash() == film);
+      CHECK(report.pages().home_hits == 0);
+      CHECK(report.pages().served == 0);
+      CHECK(report.pages().faults > 50);
+      CHECK(report.host_pages_served == report.pages().faults);
+      for (const svm::NodeReport& node : report.nodes) {
+        CHECK(node.memory_used.bytes == node.memory_planned.bytes);
+      }
+    }
+  }
+}
+
+TEST_CASE("with the same frames, references in a fixed order fault at the host as often as stack distances say") {
+  const SmallScene small("teapot-4", 512, 24);
+  svm::RunOptions options = fixed_order(3);
+  options.pages.homes = svm::PageHomes::host;
+  options.pages.record_references = true;
+  const svm::Report recorded = svm::run_svm(small.database, small.settings, options, {});
+  options.pages.record_references = false;
+  options.pages.cache_pages = 6;
+  const svm::Report report = svm::run_svm(small.database, small.settings, options, {});
+  for (std::size_t node = 0; node < 3; ++node) {
+    const svm::MissCurve curve(recorded.nodes[node].references.pages());
+    CHECK(report.nodes[node].program.pages.faults == curve.misses(6));
+  }
+}
+
 TEST_CASE("one worker renders all of a picture from the memories of all nodes, which serve its pages") {
   const SmallScene small("rings-2", 512, 24);
   core::Operations reference;
@@ -251,6 +286,10 @@ TEST_CASE("the host may forget the database once it is distributed, and the film
     CHECK(report.film.hash() == hash);
     CHECK(times == 1);
   }
+  SmallScene small("rings-2", 512, 24);
+  svm::RunOptions options{.pages = {.homes = svm::PageHomes::host}};
+  options.watching.distributed = [&] { small.database.forget_records(); };
+  CHECK(svm::run_svm(small.database, small.settings, options, {}).film.hash() == hash);
 }
 
 TEST_CASE("nobody is told to forget the database where modelled nodes refer to it") {

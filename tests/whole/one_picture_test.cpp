@@ -71,7 +71,7 @@ svm::Report run_paged(std::size_t strategy, const Subject& subject, const svm::R
 void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
   const Subjects subjects(scene, size);
   const auto rows = tests::pairwise({std::size(node_counts), std::size(page_sizes), std::size(cache_shares),
-                                     std::size(in_flights), std::size(item_sides), 3, std::size(nodes_a_worker), 2, 3});
+                                     std::size(in_flights), std::size(item_sides), 3, std::size(nodes_a_worker), 2, 3, 2});
   for (const auto& row : rows) {
     const bool is_forest = row[5] == 2, is_one_tree = is_forest || row[7] == 1;
     const Subject& subject = subjects.with(is_one_tree ? core::Structure::extents : core::Structure::grid, page_sizes[row[1]]);
@@ -85,6 +85,7 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
     if (row[5] == 0) {
       const double frames = cache_shares[row[2]] * static_cast<double>(subject.database().page_count());
       options.pages.cache_pages = std::max(1U, static_cast<std::uint32_t>(frames));
+      options.pages.homes = row[9] == 1 ? svm::PageHomes::host : svm::PageHomes::spread;
     }
     CAPTURE(options.computer.node_count);
     CAPTURE(subject.database().page_size());
@@ -93,6 +94,7 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
     CAPTURE(*options.pages.worker_count);
     CAPTURE(name_of(options.pages.work_giver));
     CAPTURE(name_of(options.pages.pixel_shares));
+    CAPTURE(name_of(options.pages.homes));
     CAPTURE(options.pages.cache_pages.value_or(0));
     CAPTURE(row[5]);
     CAPTURE(is_one_tree);
@@ -133,6 +135,33 @@ TEST_CASE("a thousand lights give one picture in every pair of choices") {
 
 TEST_CASE("concave and transparent gears give one picture in every pair of choices") {
   check_pairwise(tests::built_in("gears-1"), {scaled_edge(16), scaled_edge(16)});
+}
+
+TEST_CASE("interleaved pixels, with pages at home at the host or with the nodes, give one picture by every strategy of pixels") {
+  for (const char* const name : {"teapot-4", "rings-2"}) {
+    const Subject grid(tests::built_in(name), {.width = scaled_edge(23), .height = scaled_edge(17), .samples = 2},
+                       {.page_size_bytes = 512});
+    const Subject extents(tests::built_in(name), {.width = scaled_edge(23), .height = scaled_edge(17), .samples = 2},
+                          {.page_size_bytes = 512, .structure = core::Structure::extents});
+    for (const std::uint32_t nodes : {1U, 2U, 5U, 8U}) {
+      for (const std::uint32_t side : {0U, 3U}) {
+        CAPTURE(name);
+        CAPTURE(nodes);
+        CAPTURE(side);
+        svm::RunOptions options{.computer = {.node_count = nodes},
+                                .pages = {.work_item_side = side, .pixel_shares = svm::PixelShares::interleaved}};
+        CHECK(outcome_of(run_replicated(grid, options)) == grid.outcome());
+        CHECK(outcome_of(run_forest(extents, options)) == grid.outcome());
+        for (const svm::PageHomes homes : {svm::PageHomes::spread, svm::PageHomes::host}) {
+          CAPTURE(name_of(homes));
+          options.pages.homes = homes;
+          options.pages.cache_pages = 2;
+          CHECK(outcome_of(run_svm(grid, options)) == grid.outcome());
+          CHECK(outcome_of(run_svm(extents, options)) == grid.outcome());
+        }
+      }
+    }
+  }
 }
 
 TEST_CASE("a teapot gives one picture in every pair of choices") {

@@ -244,6 +244,25 @@ TEST_CASE("virtual time: only homes are interrupted, by as many requests as ther
   CHECK(report.virtual_time->nodes.back().stolen_ns + report.virtual_time->nodes.back().lent_ns == 0);
 }
 
+TEST_CASE("virtual time: where the host is home it alone is interrupted, and a page costs it what it would cost a node") {
+  const Subject subject(built_in("teapot-4"), {24, 24}, {.page_size_bytes = 512});
+  const nodes::Machine machine = slow_network();
+  for (const std::uint32_t node_count : {1U, 8U}) {
+    const svm::Report report = run_svm(subject, {.computer = {.node_count = node_count, .machine = machine},
+                                                 .pages = {.cache_pages = 4, .homes = svm::PageHomes::host}});
+    CHECK(outcome_of(report) == subject.outcome());
+    const std::uint64_t service_ns = machine.short_message.receive_ns + machine.service_ns + machine.long_message.send_ns;
+    std::uint64_t interrupted_ns = 0;
+    for (const nodes::VirtualTimes& times : report.virtual_time->nodes) {
+      interrupted_ns += times.stolen_ns + times.lent_ns;
+    }
+    const nodes::VirtualTimes& host = report.virtual_time->nodes.back();
+    CHECK(report.pages().faults > 100);
+    CHECK(interrupted_ns == report.pages().faults * service_ns);
+    CHECK(host.stolen_ns + host.lent_ns == interrupted_ns);
+  }
+}
+
 TEST_CASE("virtual time: one node alone computes what its operations cost") {
   const Subject subject(mirrors_and_glass(), {16, 16});
   const nodes::Machine machine = slow_network();

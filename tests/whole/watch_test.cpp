@@ -31,14 +31,15 @@ std::uint64_t sum_over(const std::vector<std::uint64_t>& counts) {
 }
 
 /// Runs with all onlookers, and holds what they saw against what was counted.
-void check_watched(const Subject& subject, svm::RunOptions options) {
+void check_watched(const Subject& subject, svm::RunOptions options, svm::PageHomes homes) {
   const auto page_count = static_cast<std::uint32_t>(subject.database().page_count());
   nodes::ActivityProfile profile(watchers_nodes + 1);
-  svm::FetchWatch watch(watchers_nodes, page_count);
+  svm::FetchWatch watch(watchers_nodes, page_count, svm::fetch_sample_max, homes);
   nodes::ObserverGroup group({&profile, &watch});
   std::vector<svm::ReferenceLog> logs(watchers_nodes, svm::ReferenceLog(1000));
   options.computer.node_count = watchers_nodes;
   options.pages.cache_pages = 2;
+  options.pages.homes = homes;
   options.watching.observer = &group;
   options.pages.reference_logs = &logs;
   const svm::Report report = run_svm(subject, options);
@@ -56,10 +57,12 @@ void check_watched(const Subject& subject, svm::RunOptions options) {
 
 TEST_CASE("onlookers see every fetch, by threads, in virtual time and under chaos") {
   const Subject small = subject_to_watch();
-  check_watched(small, {});
-  check_watched(small, {.computer = {.machine = priced_machine()}});
-  for (const std::uint64_t seed : {1, 2, 3}) {
-    check_watched(small, {.computer = {.chaos = nodes::chaos_of(seed)}});
+  for (const svm::PageHomes homes : {svm::PageHomes::spread, svm::PageHomes::host}) {
+    check_watched(small, {}, homes);
+    check_watched(small, {.computer = {.machine = priced_machine()}}, homes);
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      check_watched(small, {.computer = {.chaos = nodes::chaos_of(seed)}}, homes);
+    }
   }
 }
 

@@ -158,12 +158,13 @@ std::string page_conclusion(const svm::PageCounters& pages, const svm::Fetches& 
     return "No page was fetched: each node found all that it looked up at home.";
   }
   const double asked = share_of(static_cast<double>(pages.faults), static_cast<double>(pages.references));
-  std::vector<double> served(fetches.node_count);
+  std::vector<double> served(fetches.peer_count);
   for (std::size_t pair = 0; pair < fetches.by_pair.size(); ++pair) {
-    served[pair % fetches.node_count] += static_cast<double>(fetches.by_pair[pair]);
+    served[pair % fetches.peer_count] += static_cast<double>(fetches.by_pair[pair]);
   }
   const std::vector<double> by_page(fetches.by_page.begin(), fetches.by_page.end());
-  const std::string even = evenness(served, "served");
+  const std::string even =
+      fetches.where == svm::PageHomes::host ? "The host, home to all pages, served all" : evenness(served, "served");
   return counted(pages.faults, "page fault") + " in " + counted(pages.references, "look-up") + " (" + share_text(asked) +
          "); the tenth of the pages that was fetched most had " + share_text(top_tenth_share(by_page)) + " of the fetches. " +
          even + (even.empty() ? "" : ".");

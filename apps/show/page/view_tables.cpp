@@ -222,10 +222,13 @@ Table page_table(const Fetches& fetches) {
   for (std::size_t i = 0; i < std::min(pages_listed, pages.size()); ++i) {
     const std::uint64_t count = fetches.by_page[pages[i]];
     if (count > 0) {
-      table.add_row({std::uint64_t{pages[i]}, std::uint64_t{pages[i] % fetches.node_count}, count,
+      table.add_row({std::uint64_t{pages[i]}, std::uint64_t{fetches.home_of(pages[i])}, count,
                      percent_of(static_cast<double>(count), whole),
-                     static_cast<double>(count) / std::max(1.0, static_cast<double>(fetches.node_count) - 1)});
+                     static_cast<double>(count) / std::max(1.0, static_cast<double>(fetches.asker_count()))});
     }
+  }
+  if (fetches.where == svm::PageHomes::host) {
+    table.add_note("Home " + std::to_string(fetches.asker_count()) + " is the host.");
   }
   table.add_note("Nodes' mean: how often each of the other nodes fetched the page, on average.");
   return table;

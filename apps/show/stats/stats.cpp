@@ -199,7 +199,7 @@ Json host_json(const RenderRecord& record, const Account& account, const Json& s
                  {"seconds", timed.empty() ? node_seconds_json(account.host) : Json()},
                  {"sleeps", account.host.sleeps}};
   result.update(filled({"virtual_seconds"}, timed));
-  result.update(filled({"rays_kept_max", "kept_bytes_max", "token_rounds"}, special));
+  result.update(filled({"pages_served", "rays_kept_max", "kept_bytes_max", "token_rounds"}, special));
   return result;
 }
 
@@ -237,10 +237,10 @@ Json options_json(const RenderRecord& record, const Account& account, const Json
                  {"node_memory", account.node_memory_max_bytes},
                  {"page_size", record.database.page_size()}};
   add_staging(result, options.picture.staging);
-  result.update(
-      filled({"cache_pages", "replacement", "in_flight", "work_item", "work_giver", "pixels", "workers", "count_pages", "balance",
-              "cuts", "subsample", "balance_grid", "ray_batch", "ray_credits", "ray_queue", "backpressure", "topology"},
-             special));
+  result.update(filled(
+      {"cache_pages", "replacement", "homes", "in_flight", "work_item", "work_giver", "pixels", "workers", "count_pages",
+       "balance", "cuts", "subsample", "balance_grid", "ray_batch", "ray_credits", "ray_queue", "backpressure", "topology"},
+      special));
   return result;
 }
 

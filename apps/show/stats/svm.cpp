@@ -58,6 +58,8 @@ StrategyStats strategy_stats(const RenderOptions& options, const svm::Report& re
                       .host = Json::object()};
   if (options.strategy == Strategy::svm) {
     stats.options["cache_pages"] = plan.frames;
+    stats.options["homes"] = svm::name_of(plan.request.pages.homes);
+    stats.host["pages_served"] = report.host_pages_served;
     stats.options["replacement"] = svm::name_of(plan.request.pages.replacement);
   }
   for (const svm::NodeReport& node : report.nodes) {

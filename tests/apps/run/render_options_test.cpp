@@ -226,6 +226,8 @@ TEST_CASE("every option of dataflow reaches its field") {
   CHECK(options.rays.topology == nodes::TopologyKind::fat_tree);
   CHECK(options.pages.work_giver == svm::WorkGiver::ring);
   CHECK(render({"--work-giver=host"}).pages.work_giver == svm::WorkGiver::host);
+  CHECK(options.pages.homes == svm::PageHomes::spread);
+  CHECK(render({"--homes=host"}).pages.homes == svm::PageHomes::host);
   CHECK(options.pages.pixel_shares == svm::PixelShares::submaps);
   CHECK(render({"--pixels=interleaved"}).pages.pixel_shares == svm::PixelShares::interleaved);
   CHECK_FALSE(options.rays.without_backpressure);
@@ -259,6 +261,9 @@ TEST_CASE("an option of another strategy is refused with the strategies that it 
                                      {"--ray-credits=4", svm, dataflow},
                                      {"--ray-queue=512", replicated, dataflow},
                                      {"--work-giver=host", dataflow, svm + " or " + replicated + " or " + forest},
+                                     {"--homes=host", replicated, svm},
+                                     {"--homes=host", forest, svm},
+                                     {"--homes=spread", dataflow, svm},
                                      {"--pixels=interleaved", dataflow, svm + " or " + replicated + " or " + forest},
                                      {"--no-backpressure", svm, dataflow},
                                      {"--topology=hypercube", replicated, dataflow}};
@@ -340,6 +345,8 @@ TEST_CASE("the help of render names every option and its default") {
                                  "--work-item",
                                  "--work-giver",
                                  "ring|host [ring]",
+                                 "--homes",
+                                 "spread|host [spread]",
                                  "--pixels",
                                  "submaps|interleaved [submaps]",
                                  "--workers",

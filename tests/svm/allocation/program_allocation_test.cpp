@@ -29,7 +29,8 @@ std::uint64_t allocated_by(svm::Strategy strategy, const svm::RunOptions& option
               .structure = strategy == svm::Strategy::forest ? core::Structure::extents : core::Structure::grid});
   const core::RenderSettings settings{
       database.header(), core::Camera(scene.view, database.header().frame, 16, 16, 2), {}, {.error = error}};
-  const svm::Plan plan = svm::plan_of(strategy, database, settings, options);
+  svm::Plan plan = svm::plan_of(strategy, database, settings, options);
+  plan.request.database = database.bytes();
   const svm::MakeProgram make_program = [&](std::uint32_t, nodes::Node& node) {
     const auto make_tracer = [&](Records& records) { return core::GridTracer<Records>(records, settings.header, {}); };
     return std::make_unique<svm::ControlProgram<Records, core::GridTracer<Records>, Task>>(node, plan, settings, database.bytes(),
@@ -54,6 +55,8 @@ TEST_CASE("a node of svm allocates nothing while it renders, pages, asks for wor
   options.pages.cache_pages = 1;
   CHECK(allocated_by<svm::Pager, core::BundleTask>(svm::Strategy::svm, options) == 0);
   options.pages.in_flight = 15;
+  CHECK(allocated_by<svm::Pager>(svm::Strategy::svm, options) == 0);
+  options.pages.homes = svm::PageHomes::host;
   CHECK(allocated_by<svm::Pager>(svm::Strategy::svm, options) == 0);
   options.pages.count_pages = true;
   CHECK(allocated_by<svm::CountingPager>(svm::Strategy::svm, options) == 0);

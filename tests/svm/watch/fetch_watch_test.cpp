@@ -117,6 +117,29 @@ TEST_CASE("fetches are counted by who asks whom, and by page") {
   CHECK(fetches.by_page == std::vector<std::uint64_t>{0, 2, 0, 0, 1, 0, 0, 0, 0, 2});
 }
 
+TEST_CASE("where the host is home, it is the last of those who are asked") {
+  FetchWatch watch(2, 5, svm::fetch_sample_max, svm::PageHomes::host);
+  const std::uint32_t page = 3;
+  const auto passing = [&](std::uint32_t node, std::uint32_t peer, Kind kind) {
+    return nodes::Passing{.node = nodes::NodeId{node},
+                          .peer = nodes::NodeId{peer},
+                          .kind = number_of(kind),
+                          .payload = std::as_bytes(std::span(&page, 1)),
+                          .times = {}};
+  };
+  watch.sent(passing(1, 2, Kind::page_request));
+  watch.received(passing(2, 1, Kind::page_request));
+  watch.sent(passing(2, 1, Kind::page_reply));
+  watch.received(passing(1, 2, Kind::page_reply));
+  const Fetches fetches = watch.take();
+  CHECK(fetches.peer_count == 3);
+  CHECK(fetches.by_pair == std::vector<std::uint64_t>{0, 0, 0, 0, 0, 1, 0, 0, 0});
+  CHECK(fetches.by_page == std::vector<std::uint64_t>{0, 0, 0, 1, 0});
+  REQUIRE(fetches.sample.size() == 1);
+  CHECK(fetches.sample[0].home == 2);
+  CHECK(fetches.home_of(3) == 2);
+}
+
 TEST_CASE("other packets are not looked at") {
   WatchedNodes told;
   told.watch.sent(told.passing(0, 1, Kind::film_sums, 7, {}));

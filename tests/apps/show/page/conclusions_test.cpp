@@ -12,7 +12,7 @@ namespace {
 
 /// Three pages, six fetches of 10 us each, 8 of them on the way.
 svm::Fetches six_fetches() {
-  svm::Fetches fetches{.node_count = 2, .by_pair = {0, 4, 2, 0}, .by_page = {1, 5, 0}};
+  svm::Fetches fetches{.peer_count = 2, .by_pair = {0, 4, 2, 0}, .by_page = {1, 5, 0}};
   fetches.sample.assign(6, {.part_ns = {0, 0, 0, 2000, 8000, 0}});
   return fetches;
 }
@@ -51,7 +51,7 @@ TEST_CASE("pages are concluded with faults, the hottest pages and the home that 
         "6 page faults in 100 look-ups (6.0 %); the tenth of the pages that was fetched most had 83 % of the fetches. Node 1 "
         "served "
         "1.33 times the mean.");
-  CHECK(page_conclusion({.references = 100}, {.node_count = 1}) ==
+  CHECK(page_conclusion({.references = 100}, {.peer_count = 1}) ==
         "No page was fetched: each node found all that it looked up at home.");
 }
 

@@ -23,7 +23,7 @@ double sum_before_last(const std::vector<Cell>& row) {
 
 /// So many fetches, each as long as its number says, half of it service.
 svm::Fetches fetches_up_to(std::uint64_t count) {
-  svm::Fetches fetches{.node_count = 2, .by_pair = {0, 3, 1, 0}, .by_page = {1, 0, 2, 1}};
+  svm::Fetches fetches{.peer_count = 2, .by_pair = {0, 3, 1, 0}, .by_page = {1, 0, 2, 1}};
   for (std::uint64_t i = 1; i <= count; ++i) {
     fetches.sample.push_back({.part_ns = {0, 500 * i, 0, 500 * i}});
   }

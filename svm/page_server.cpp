@@ -1,0 +1,38 @@
+#include "svm/page_server.h"
+
+#include "core/base/expect.h"
+#include "svm/packets.h"
+
+namespace dmpc::svm {
+namespace {
+
+using nodes::Category;
+
+std::size_t reply_bytes(const PageCapacity& capacity, std::uint32_t index) {
+  return capacity.pages_at(index) > 0 ? sizeof(PageReplyHeader) + capacity.page_size_bytes() : 0;
+}
+
+}  // namespace
+
+PageServer::PageServer(nodes::Node& node, const PageCapacity& capacity)
+    : node_(&node),
+      page_size_bytes_(capacity.page_size_bytes()),
+      reply_(node.memory().allocate<std::byte>(Category::queues, reply_bytes(capacity, nodes::index_of(node.id())))) {}
+
+void PageServer::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index) {
+  memory[Category::queues] += nodes::LocalMemory::bytes_for<std::byte>(reply_bytes(capacity, index));
+}
+
+void PageServer::serve(const nodes::Packet& request, const HomePages& homes) {
+  const auto page = request.as<PageRequest>().page;
+  const std::byte* const bytes = homes.find(page);
+  core::expect(bytes != nullptr, "a request reaches its page's home");
+  const PageReplyHeader header{page};
+  node_->grant(request.source, bulk_channel);
+  core::expect(node_->try_send(request.source, bulk_channel, number_of(Kind::page_reply), std::as_bytes(std::span(&header, 1)),
+                               {bytes, page_size_bytes_}, reply_),
+               "a reply always has room");
+  ++served_;
+}
+
+}  // namespace dmpc::svm
