@@ -7,6 +7,7 @@
 #include "apps/line/words.h"
 #include "apps/machine/machines.h"
 #include "apps/run/strategy_options.h"
+#include "apps/run/systems.h"
 #include "core/families/scenes.h"
 #include "core/trace/skips.h"
 #include "nodes/topology.h"
@@ -43,6 +44,14 @@ ChoiceList strategies() {
        {name_of(Strategy::dataflow), "rays travel: each node holds a region of space, and rays go to its owner"},
        {name_of(Strategy::forest), "questions travel: each node holds the top of the tree and subtrees that others ask about"},
        {name_of(Strategy::replicated), "nothing travels: every node holds the whole scene"}}};
+}
+
+ChoiceList named_systems() {
+  ChoiceList all{"systems", "--system=", {}};
+  for (const SystemDescription& description : systems()) {
+    all.entries.push_back({description.name, std::string(description.meaning) + ": " + options_of(description.system)});
+  }
+  return all;
 }
 
 ChoiceList policies() {
@@ -102,7 +111,7 @@ ChoiceList formats() {
 }  // namespace
 
 std::vector<ChoiceList> all_choices() {
-  return {scenes(), machines(), strategies(), policies(), topologies(), heat_maps(), skips(), formats()};
+  return {scenes(), machines(), strategies(), named_systems(), policies(), topologies(), heat_maps(), skips(), formats()};
 }
 
 }  // namespace dmpc::apps

@@ -19,7 +19,7 @@ struct ChoiceList {
   std::vector<Choice> entries;
 };
 
-/// scenes, machines, strategies, policies, topologies, heatmaps, skips, formats.
+/// scenes, machines, strategies, systems, policies, topologies, heatmaps, skips, formats.
 std::vector<ChoiceList> all_choices();
 
 }  // namespace dmpc::apps

@@ -39,7 +39,7 @@ constexpr std::array entries = {
                   "The upper bricks of one tree over the whole scene, which every node has; and the strategy by which nodes ask "
                   "the owners of its subtrees what rays meet there."},
     GlossaryEntry{"heat map", "A picture of what each pixel took: rays, time, faults and so on."},
-    GlossaryEntry{"home", "The node that keeps a page for good and sends it to those who ask."},
+    GlossaryEntry{"home", "The node, or with --homes=host the host, that keeps a page for good and sends it to those who ask."},
     GlossaryEntry{"hop", "A step of a message over one link, or of a ray to another node."},
     GlossaryEntry{"host", "The one node with a large memory: it deals out the picture, collects it and ends the run."},
     GlossaryEntry{"idle at the end", "A node has nothing to do any more, and others have."},

@@ -30,6 +30,17 @@ std::uint64_t peak_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
+/// What of a system a forecast knows.
+void settle(const OptionSet& options, InfoOptions& info) {
+  StrategyOptions run;
+  run.pages.homes = info.homes;
+  run.rays.balance.balance = info.balance.balance;
+  settle_system(options, *info.system, run, info.database);
+  settle_database(options, run.strategy, info.database);
+  info.homes = run.pages.homes;
+  info.balance.balance = run.strategy == Strategy::dataflow ? run.rays.balance.balance : info.balance.balance;
+}
+
 /// A forecast of what needs the subject alone, with progress on a terminal.
 Forecast forecast_for(const InfoOptions& options, const Subject& subject) {
   Progress progress(std::cerr, !options.quiet && stderr_is_terminal(), "Cutting space:", "computers");
@@ -48,6 +59,7 @@ void add_options(OptionSet options, InfoOptions& info) {
       "--nodes", "N,N,... [1,2,4,...,256]",
       [&info](const std::string& text) { info.node_counts = parse_different_numbers(text, "--nodes", svm::node_count_max); },
       "Nodes of the computers whose memory is forecast");
+  add_system_option(options, info.system);
   add_homes_option(options, info.homes);
   add_balance_option(options, info.balance.balance);
   add_cuts_option(options, info.balance.bsp.order);
@@ -55,10 +67,16 @@ void add_options(OptionSet options, InfoOptions& info) {
   options.add_choice<InfoFormat>("--format", info.format, {{"text", InfoFormat::text}, {"json", InfoFormat::json}},
                                  "Lines and tables to read, or an object with stable keys");
   options.add_quiet(info.quiet);
-  options.check_in_the_end([options, &info] { check_regions(options, info.balance); });
+  options.check_in_the_end([options, &info] {
+    if (info.system) {
+      settle(options, info);
+    }
+    check_regions(options, info.balance);
+  });
   options.set_examples(
       "Examples:\n"
       "  dmpc info rings-4-t1\n"
+      "  dmpc info tetra-9 --system=pixel-machine\n"
       "  dmpc info model.glb --nodes=8,64 --page-size=4KiB\n"
       "  dmpc info tetra-9 --nodes=16 --balance=subsampled --format=json > tetra.json\n"
       "Nothing is rendered, unless --balance=subsampled asks for the regions that render would make: that takes as long as\n"
@@ -67,6 +85,7 @@ void add_options(OptionSet options, InfoOptions& info) {
 
 InfoRecord find_out(const InfoOptions& options) {
   InfoRecord record;
+  record.system = options.system;
   Stopwatch stopwatch;
   core::Scene scene = load_scene(options.picture, options.quiet ? LoadNotes::silent : LoadNotes::said);
   record.load_seconds = stopwatch.lap();

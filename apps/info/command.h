@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <vector>
 
 #include "apps/line/command_line.h"
+#include "apps/run/systems.h"
 #include "apps/scene/database_options.h"
 #include "apps/scene/picture_options.h"
 #include "apps/system/interrupt.h"
@@ -23,6 +25,7 @@ struct InfoOptions {
   DatabaseOptions database;
   std::vector<std::uint32_t> node_counts = {1, 2, 4, 8, 16, 32, 64, 128, 256};    ///< ascending
   dataflow::BalanceOptions balance = {.balance = dataflow::Balance::equal_size};  ///< that nothing be rendered unasked
+  std::optional<System> system;                                                   ///< whose database and pages are looked at
   svm::PageHomes homes = svm::PageHomes::spread;                                  ///< of svm
   InfoFormat format = InfoFormat::text;
   bool quiet = false;  ///< no progress and no remarks of the scene's reader

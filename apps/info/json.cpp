@@ -137,6 +137,7 @@ std::string info_json(const InfoRecord& record) {
       {"database", database_json(database)},
       {"build_peak", record.build_peak_bytes},
       {"regions", {{"balance", name_of(record.forecast.balance)}, {"cuts", name_of(record.forecast.cuts)}}},
+      {"system", record.system ? Json(name_of(*record.system)) : Json()},
       {"homes", svm::name_of(record.forecast.homes)},
       {"computers", computers_json(record.forecast)},
       {"seconds", {{"load", record.load_seconds}, {"build", record.build_seconds}, {"regions", record.forecast.region_seconds}}}};

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "apps/info/database_figures.h"
 #include "apps/info/forecast.h"
 #include "apps/info/scene_figures.h"
+#include "apps/run/systems.h"
 #include "apps/system/memory_room.h"
 #include "core/picture/rounding_loss.h"
 
@@ -16,6 +18,7 @@ struct InfoRecord {
   DatabaseFigures database;
   core::RoundingLoss loss;
   Forecast forecast;
+  std::optional<System> system;                ///< that was asked about
   std::uint64_t build_peak_bytes = 0;          ///< the most that this process held until the database was built
   MemoryRoom room;                             ///< for a render here
   int width = 1, height = 1;                   ///< of the picture, in pixels

@@ -115,6 +115,14 @@ std::string time_text(const InfoRecord& record) {
          seconds_text(record.forecast.region_seconds);
 }
 
+/// Only where one was asked about.
+std::string system_line(const InfoRecord& record) {
+  if (!record.system) {
+    return "";
+  }
+  return "\nsystem     " + std::string(name_of(*record.system)) + ": " + options_of(*record.system);
+}
+
 Table records_table(const DatabaseFigures& database) {
   Table table("Records", {{"kind"}, {"count"}, {"bytes"}, {"share", "%", 1}});
   const auto add = [&](const std::string& kind, const Cell& count, std::uint64_t bytes) {
@@ -201,6 +209,7 @@ std::string info_text(const InfoRecord& record) {
                             "\ntextures   " + std::to_string(scene.textures.size()) +  //
                             "\ndatabase   " + database_text(record.database) +         //
                             "\ngrid       " + grid_text(record.database) +             //
+                            system_line(record) +                                      //
                             "\nprocess    " + process_text(record) +                   //
                             "\nroom       " + room_text(record) +                      //
                             "\ntime       " + time_text(record) + "\n\n" +             //

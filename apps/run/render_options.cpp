@@ -23,6 +23,7 @@ void add_computer_options(OptionSet& options, RenderOptions& render) {
   options.add_number("--nodes", computer.node_count, 1, svm::node_count_max, "8",
                      "Nodes, each with a memory of its own; dataflow takes up to " + std::to_string(dataflow::region_count_max));
   add_strategy_option(options, render.strategy);
+  add_system_option(options, render.system);
   add_memory_option(options, computer.node_memory_bytes);
   add_options(options, render.database);
 }
@@ -124,6 +125,9 @@ void add_options(OptionSet options, RenderOptions& render) {
   add_study_options(options, render);
   add_options(options, render.checkpoint);
   options.check_in_the_end([options, &render] {
+    if (render.system) {
+      settle_system(options, *render.system, render, render.database);
+    }
     settle_database(options, render.strategy, render.database);
     check(options, render);
   });

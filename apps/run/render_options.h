@@ -11,6 +11,7 @@
 #include "apps/run/checkpoint_options.h"
 #include "apps/run/heat_options.h"
 #include "apps/run/strategy_options.h"
+#include "apps/run/systems.h"
 #include "apps/run/trace_options.h"
 #include "apps/scene/database_options.h"
 #include "apps/scene/picture_options.h"
@@ -18,6 +19,7 @@
 namespace dmpc::apps {
 
 struct RenderOptions : StrategyOptions {
+  std::optional<System> system;  ///< whose options the strategy has, if one was named
   PictureOptions picture;
   DatabaseOptions database;
   std::filesystem::path image;                  ///< where the picture goes

@@ -183,7 +183,7 @@ DatabaseOptions usual_database(Strategy strategy) {
 void settle_database(const OptionSet& options, Strategy strategy, DatabaseOptions& database) {
   const core::BuildOptions usual = usual_database(strategy).build;
   core::BuildOptions& build = database.build;
-  if (!options.is_given("--structure")) {
+  if (!options.is_given("--structure") && !options.is_given("--system")) {  // a system has one
     build.structure = usual.structure;
   }
   if (!options.is_given("--page-size")) {

@@ -232,6 +232,7 @@ Json options_json(const RenderRecord& record, const Account& account, const Json
                  {"grid_axes", name_of(options.database.axes)},
                  {"record_order", name_of(options.database.build.record_order)},
                  {"structure", name_of(options.database.build.structure)},
+                 {"system", options.system ? Json(name_of(*options.system)) : Json()},
                  {"strategy", name_of(options.strategy)},
                  {"nodes", account.nodes.size()},
                  {"node_memory", account.node_memory_max_bytes},

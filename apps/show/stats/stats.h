@@ -11,7 +11,7 @@ namespace dmpc::apps {
 /// infinite. "rays" below stands for primary, reflected, refracted, shadow, total.
 ///   program        name and version
 ///   options        what was asked for and what it became: scene, width, height, samples (a number or "auto"), error,
-///                  samples_max, cutoff, depth, convention, tracer, grid_axes, record_order, structure, strategy, nodes,
+///                  samples_max, cutoff, depth, convention, tracer, grid_axes, record_order, structure, system, strategy, nodes,
 ///                  node_memory (bytes a node, the most), page_size; camera, light (a list), scale, up, smooth, missing (as the
 ///                  command line takes them, null where it said nothing); of pages: cache_pages, in_flight, work_item,
 ///                  work_giver, pixels, workers, count_pages; of dataflow: balance, cuts, subsample, balance_grid, ray_batch,

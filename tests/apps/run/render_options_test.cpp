@@ -275,6 +275,59 @@ TEST_CASE("an option of another strategy is refused with the strategies that it 
   }
 }
 
+TEST_CASE("a system by name stands for its options") {
+  const RenderOptions machine = render({"--system=pixel-machine"});
+  CHECK(machine.strategy == Strategy::svm);
+  CHECK(machine.database.build.structure == core::Structure::extents);
+  CHECK(machine.database.build.page_size_bytes == 1024);
+  CHECK(machine.pages.pixel_shares == svm::PixelShares::interleaved);
+  CHECK(machine.pages.homes == svm::PageHomes::host);
+  CHECK(machine.pages.work_item_side == 0U);
+  CHECK(options_of(System::pixel_machine) ==
+        "--strategy=svm --structure=extents --work-item=0 --pixels=interleaved --homes=host");
+  const RenderOptions forest = render({"--system=forest"});
+  CHECK(forest.strategy == Strategy::forest);
+  CHECK(forest.database.build.structure == core::Structure::extents);
+  CHECK(forest.database.build.page_size_bytes == 4096);
+  CHECK(render({"--system=replicated-extents"}).database.build.structure == core::Structure::extents);
+  CHECK(render({"--system=replicated"}).database.build.structure == core::Structure::grid);
+  CHECK(render({"--system=equal-size"}).rays.balance.balance == dataflow::Balance::equal_size);
+  CHECK(render({"--system=subsampled"}).strategy == Strategy::dataflow);
+  CHECK(render({"--system=svm"}).pages.homes == svm::PageHomes::spread);
+  CHECK_FALSE(render().system);
+}
+
+TEST_CASE("the options of every system, given one by one, are those that its name stands for") {
+  for (const SystemDescription& description : systems()) {
+    CAPTURE(description.name);
+    std::vector<std::string> words{"--system=" + std::string(description.name)};
+    const std::string all = options_of(description.system);
+    for (std::size_t at = 0; at < all.size();) {
+      const std::size_t end = std::min(all.find(' ', at), all.size());
+      words.push_back(all.substr(at, end - at));
+      at = end + 1;
+    }
+    CHECK(words.size() > 2);
+    CHECK(render(words).system == description.system);
+    words.erase(words.begin());
+    CHECK(render(words).strategy == render({"--system=" + std::string(description.name)}).strategy);
+  }
+}
+
+TEST_CASE("an option that contradicts the system is refused with what the system is") {
+  const std::string machine = "--system=pixel-machine";
+  for (const std::string option :
+       {"--strategy=replicated", "--structure=grid", "--pixels=submaps", "--work-item=3", "--homes=spread"}) {
+    CAPTURE(option);
+    CHECK(contains(render_complaint({machine, option}),
+                   option + " does not go with " + machine + ", which is --strategy=svm --structure=extents"));
+  }
+  CHECK(contains(render_complaint({"--system=subsampled", "--balance=equal-size"}), "--balance=equal-size does not go with"));
+  CHECK(contains(render_complaint({"--system=forest", "--homes=host"}), "--homes goes with --strategy=svm"));
+  CHECK(contains(render_complaint({machine, "--work-giver=ring", "--ray-batch=5"}), "--ray-batch goes with"));
+  CHECK(contains(render_complaint({"--system=cray"}), "--system"));
+}
+
 TEST_CASE("options that every strategy has go with each") {
   for (const std::string strategy : {"svm", "replicated", "dataflow", "forest"}) {
     CAPTURE(strategy);
@@ -345,6 +398,7 @@ TEST_CASE("the help of render names every option and its default") {
                                  "--work-item",
                                  "--work-giver",
                                  "ring|host [ring]",
+                                 "--system",
                                  "--homes",
                                  "spread|host [spread]",
                                  "--pixels",

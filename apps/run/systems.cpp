@@ -1,0 +1,106 @@
+#include "apps/run/systems.h"
+
+#include <algorithm>
+#include <array>
+
+#include "apps/run/region_options.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr std::array<SystemDescription, 7> descriptions = {{
+    {System::replicated, "replicated", "every node has the whole scene and renders its part of the picture"},
+    {System::replicated_extents, "replicated-extents", "the same with one tree of boxes for the scene"},
+    {System::svm, "svm", "a shared virtual memory (Badouel, Bouatouch, Priol 1994): pages travel from node to node"},
+    {System::pixel_machine, "pixel-machine",
+     "after the Pixel Machine (Potmesil, Hoffert 1989): each node has every m-th pixel of every n-th line for good, and pages "
+     "come "
+     "from the host's virtual memory"},
+    {System::forest, "forest", "Goldsmith and Salmon (1988): the top of one tree is everywhere, owners of subtrees are asked"},
+    {System::equal_size, "equal-size", "after Cleary and others (1986): rays travel between regions of equal size"},
+    {System::subsampled, "subsampled",
+     "Badouel, Bouatouch, Priol (1994): rays travel between regions of equal work, by a small picture"},
+}};
+
+std::string text_of_value(const std::optional<std::uint32_t>& value) { return std::to_string(*value); }
+template <class T>
+std::string text_of_value(const T& value) {
+  return std::string(name_of(value));
+}
+
+/// Calls visit(option, field, value) for all that the system is made of.
+template <class Visit>
+void for_each_setting(System system, StrategyOptions& run, DatabaseOptions& database, const Visit& visit) {
+  const auto is = [&](Strategy strategy, core::Structure structure) {
+    visit("--strategy", run.strategy, strategy);
+    visit("--structure", database.build.structure, structure);
+  };
+  const auto pages_are = [&](svm::PixelShares shares, svm::PageHomes homes) {
+    visit("--pixels", run.pages.pixel_shares, shares);
+    visit("--homes", run.pages.homes, homes);
+  };
+  switch (system) {
+    case System::replicated:
+      return is(Strategy::replicated, core::Structure::grid);
+    case System::replicated_extents:
+      return is(Strategy::replicated, core::Structure::extents);
+    case System::svm:
+      is(Strategy::svm, core::Structure::grid);
+      return pages_are(svm::PixelShares::submaps, svm::PageHomes::spread);
+    case System::pixel_machine:
+      is(Strategy::svm, core::Structure::extents);
+      visit("--work-item", run.pages.work_item_side, std::optional<std::uint32_t>(0));
+      return pages_are(svm::PixelShares::interleaved, svm::PageHomes::host);
+    case System::forest:
+      return is(Strategy::forest, core::Structure::extents);
+    case System::equal_size:
+      is(Strategy::dataflow, core::Structure::grid);
+      return visit("--balance", run.rays.balance.balance, dataflow::Balance::equal_size);
+    case System::subsampled:
+      is(Strategy::dataflow, core::Structure::grid);
+      return visit("--balance", run.rays.balance.balance, dataflow::Balance::subsampled);
+  }
+}
+
+}  // namespace
+
+std::span<const SystemDescription> systems() { return descriptions; }
+
+const char* name_of(System system) {
+  const auto found = std::find_if(descriptions.begin(), descriptions.end(),
+                                  [&](const SystemDescription& description) { return description.system == system; });
+  core::expect(found != descriptions.end(), "a system has a description");
+  return found->name;
+}
+
+std::string options_of(System system) {
+  StrategyOptions run;
+  DatabaseOptions database;
+  std::string text;
+  for_each_setting(system, run, database, [&](const char* option, const auto&, const auto& value) {
+    text += std::string(text.empty() ? "" : " ") + option + "=" + text_of_value(value);
+  });
+  return text;
+}
+
+void add_system_option(OptionSet options, std::optional<System>& system) {
+  OptionSet::Choices<System> choices;
+  for (const SystemDescription& description : descriptions) {
+    choices.push_back({description.name, description.system});
+  }
+  options.add_choice<System>("--system", system, choices, "none",
+                             "A system by name, in place of the options that make it: dmpc list systems tells which");
+}
+
+void settle_system(const OptionSet& options, System system, StrategyOptions& run, DatabaseOptions& database) {
+  for_each_setting(system, run, database, [&](const char* option, auto& field, const auto& value) {
+    if (options.is_given(option) && field != value) {
+      throw core::UsageError(std::string(option) + "=" + text_of_value(field) + " does not go with --system=" + name_of(system) +
+                             ", which is " + options_of(system));
+    }
+    field = value;
+  });
+}
+
+}  // namespace dmpc::apps

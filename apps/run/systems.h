@@ -1,0 +1,35 @@
+// Systems that were built or described, by name: each a strategy and the options that make it what it was.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "apps/line/command_line.h"
+#include "apps/run/strategy_options.h"
+#include "apps/scene/database_options.h"
+
+namespace dmpc::apps {
+
+enum class System : std::uint8_t { replicated, replicated_extents, svm, pixel_machine, forest, equal_size, subsampled };
+
+struct SystemDescription {
+  System system;
+  const char* name;     ///< as the command line calls it
+  const char* meaning;  ///< who described it, and how it works
+};
+/// All of them.
+std::span<const SystemDescription> systems();
+/// As the command line calls it.
+const char* name_of(System system);
+/// The options that it stands for: "--strategy=svm --structure=extents".
+std::string options_of(System system);
+
+/// Declares --system.
+void add_system_option(OptionSet options, std::optional<System>& system);
+/// For OptionSet::check_in_the_end(), before settle_database() and check_together(): puts what the system is made of into `run`
+/// and `database`. Throws core::UsageError where an option is given that says otherwise.
+void settle_system(const OptionSet& options, System system, StrategyOptions& run, DatabaseOptions& database);
+
+}  // namespace dmpc::apps
