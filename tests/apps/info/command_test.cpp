@@ -60,6 +60,25 @@ TEST_CASE("wrong options of info are refused") {
   CHECK(info("balls-1", {"--balance=subsampled", "--subsample=4"}).balance.subsample == 4);
 }
 
+TEST_CASE("a system by name is asked about with its database and its pages' homes, and what contradicts it is refused") {
+  const InfoOptions machine = info("balls-1", {"--system=pixel-machine"});
+  CHECK(machine.database.build.structure == core::Structure::extents);
+  CHECK(machine.homes == svm::PageHomes::host);
+  CHECK(info("balls-1", {"--system=forest"}).database.build.page_size_bytes == 4096);
+  CHECK(info("balls-1", {"--system=subsampled"}).balance.balance == dataflow::Balance::subsampled);
+  for (const std::string option : {"--structure=grid", "--homes=spread"}) {
+    CAPTURE(option);
+    CHECK_THROWS_AS(info("balls-1", {"--system=pixel-machine", option}), core::UsageError);
+  }
+}
+
+TEST_CASE("with pages at home at the host a node needs less, the more of them there are") {
+  const auto least = [](const std::string& homes) {
+    return find_out(info("teapot-8", {"--nodes=2", "--quiet", homes})).forecast.computers.at(0).svm.least_bytes;
+  };
+  CHECK(least("--homes=host") < least("--homes=spread"));
+}
+
 TEST_CASE("the keys of a forecast are an interface") {
   const tests::TemporaryFolder folder;
   const InfoRecord record = find_out(info(tests::write_painted_square(folder, 8), {"--nodes=2", "--resolution=8x4", "--quiet"}));

@@ -51,6 +51,10 @@ TEST_CASE("pages are concluded with faults, the hottest pages and the home that 
         "6 page faults in 100 look-ups (6.0 %); the tenth of the pages that was fetched most had 83 % of the fetches. Node 1 "
         "served "
         "1.33 times the mean.");
+  svm::Fetches at_host{.peer_count = 2, .by_pair = {0, 6, 0, 0}, .by_page = {1, 5, 0}};
+  at_host.where = svm::PageHomes::host;
+  CHECK(page_conclusion({.references = 100, .faults = 6}, at_host).find("The host, home to all pages, served all.") !=
+        std::string::npos);
   CHECK(page_conclusion({.references = 100}, {.peer_count = 1}) ==
         "No page was fetched: each node found all that it looked up at home.");
 }
