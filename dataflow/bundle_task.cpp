@@ -1,6 +1,9 @@
 #include "dataflow/bundle_task.h"
 
+#include <utility>
+
 #include "core/base/expect.h"
+#include "core/trace/traversal.h"
 
 namespace dmpc::dataflow {
 
@@ -34,8 +37,48 @@ void BundleTask::resume_hit(const RayMessage& message) {
   push(message.ray, message.best);
 }
 
-void BundleTask::trace(PartTracer& tracer, const core::DatabaseHeader&, core::Operations& operations) {
+/// Those that waited come behind those that have been taken up since, each to its own place or one before it.
+void BundleTask::gather_waiting() {
+  for (; waiting_ > 0; --waiting_, ++count_, ++traced_) {
+    flights_->bundle.rays[count_] = flights_->bundle.rays[traced_];
+    flights_->entry[count_] = flights_->entry[traced_];
+    entered_ |= core::RayMask{1} << count_;
+  }
+}
+
+/// That of the first ray; the one before if it starts where the node has none.
+void BundleTask::choose_region(PartTracer& tracer, const core::GridFrame& frame) {
+  if ((entered_ & 1U) != 0) {
+    const bool is_here = tracer.enter(flights_->entry[0].passage.cell);
+    core::expect(is_here, "a ray enters a region of the node's");
+  } else if (const auto passage = core::first_passage(flights_->bundle.rays[0], frame)) {
+    tracer.enter(passage->cell);
+  }
+}
+
+/// Puts the rays that enter another region behind the others, where they wait.
+void BundleTask::part_others(const core::Region& region) {
+  for (std::uint32_t i = 0; i < count_;) {
+    if ((entered_ >> i & 1U) == 0 || region.contains(flights_->entry[i].passage.cell)) {
+      ++i;
+      continue;
+    }
+    --count_;
+    ++waiting_;
+    std::swap(flights_->bundle.rays[i], flights_->bundle.rays[count_]);
+    std::swap(flights_->entry[i], flights_->entry[count_]);
+    const core::RayMask last = entered_ >> count_ & 1U, bit = core::RayMask{1} << i;
+    entered_ = static_cast<core::RayMask>((entered_ & ~bit) | (last != 0 ? bit : 0));
+  }
+}
+
+void BundleTask::trace(PartTracer& tracer, const core::DatabaseHeader& header, core::Operations& operations) {
   core::expect(!has_ended(), "rays that have ended are seen to before others are traced");
+  gather_waiting();
+  if (tracer.has_several_regions()) {
+    choose_region(tracer, header.frame);
+    part_others(tracer.region());
+  }
   core::RayBundle& bundle = flights_->bundle;
   bundle.count = count_;
   bundle.start();

@@ -28,7 +28,7 @@ class BundleTask {
   static void add_needs(nodes::MemoryPlan& plan, std::uint32_t depth_max);
 
   /// Rays are to be traced, once those that have ended are seen to.
-  bool has_rays() const { return count_ > 0; }
+  bool has_rays() const { return count_ + waiting_ > 0; }
   /// Rays have been traced, and the caller has not seen to them.
   bool has_ended() const { return ended_ < traced_; }
   /// No ray, and no hit that has children to be made.
@@ -39,7 +39,8 @@ class BundleTask {
   void enter(const RayMessage& message);
   void resume_hit(const RayMessage& message);
 
-  /// Traces all rays until each ends here or leaves the region, or does not start in it. Requires that none has ended before.
+  /// Traces rays until each ends here or leaves its region, or does not start in that: those that enter other regions of the
+  /// node's than the first of them wait for the next call. Requires that none has ended before.
   void trace(PartTracer& tracer, const core::DatabaseHeader& header, core::Operations& operations);
 
   // Of the first of those that have ended:
@@ -72,6 +73,9 @@ class BundleTask {
   nodes::NodeId finder_of_candidate() const;
   void push(const core::Ray& ray, const core::Hit& hit);
   void close_hits();
+  void gather_waiting();
+  void choose_region(PartTracer& tracer, const core::GridFrame& frame);
+  void part_others(const core::Region& region);
 
   nodes::NodeId self_;
   Flights* flights_;
@@ -80,6 +84,7 @@ class BundleTask {
   std::uint32_t fresh_hits_ = 0;  ///< in the next one
   std::uint32_t count_ = 0;       ///< rays to be traced: the first
   core::RayMask entered_ = 0;     ///< of them, those that have not started here
+  std::uint32_t waiting_ = 0;     ///< rays behind those that were traced, to be traced in another region
   std::uint32_t ended_ = 0;       ///< rays that were traced and seen to
   std::uint32_t traced_ = 0;      ///< rays that were traced
 };

@@ -8,13 +8,24 @@ constexpr std::uint32_t node_count_tried_max = 256;
 
 bool fits(PlanRequest& request, std::uint32_t node_count, const MakeShares& make_shares) {
   request.shares = make_shares(node_count);
-  return smallest_node_memory_bytes(request) <= *request.computer.node_memory_bytes;
+  return !request.shares.empty() && smallest_node_memory_bytes(request) <= *request.computer.node_memory_bytes;
 }
 
-/// Rays need not go to the owner of a region that holds nothing.
-void mark_if_empty(Bsp& bsp, std::uint32_t node, const core::DatabasePart& part, const core::RenderSettings& settings) {
-  if (settings.skips.empty_regions && part.primitive_copies == 0) {
-    bsp.mark_empty(bsp.region_index_of(nodes::NodeId{node}));
+std::vector<core::Region> boxes_of(const Regions& regions, const std::vector<std::uint32_t>& indices) {
+  std::vector<core::Region> boxes;
+  for (const std::uint32_t index : indices) {
+    boxes.push_back(regions.region_at(index));
+  }
+  return boxes;
+}
+
+/// Rays need not go to the owner of a region that holds nothing. `part` is that of the regions with these numbers.
+void mark_empty(Regions& regions, const std::vector<std::uint32_t>& indices, const core::DatabasePart& part,
+                const core::RenderSettings& settings) {
+  for (std::size_t i = 0; settings.skips.empty_regions && i < indices.size(); ++i) {
+    if (!part.holds[i]) {
+      regions.mark_empty(indices[i]);
+    }
   }
 }
 
@@ -44,24 +55,24 @@ double Distribution::duplication(const core::Database& database) const {
   return duplication_of(copies, database);
 }
 
-Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Bsp& bsp,
+Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Regions& regions,
                         const std::stop_token& stop, bool deals_primaries) {
-  Distribution distribution{bsp, {}, {}, outline_for(database, settings)};
-  for (std::uint32_t node = 0; node < bsp.region_count(); ++node) {
-    distribution.parts.push_back(core::extract(database, bsp.region_of(nodes::NodeId{node})));
-    mark_if_empty(distribution.bsp, node, distribution.parts.back(), settings);
+  Distribution distribution{regions, {}, {}, outline_for(database, settings)};
+  for (const std::vector<std::uint32_t>& indices : regions.by_node()) {
+    distribution.parts.push_back(core::extract(database, boxes_of(regions, indices)));
+    mark_empty(distribution.regions, indices, distribution.parts.back(), settings);
   }
-  distribution.primaries = deal_primaries(settings, distribution.bsp, settings.first_pass(),
+  distribution.primaries = deal_primaries(settings, distribution.regions, settings.first_pass(),
                                           core::PixelMask(settings.camera.pixel_count(), !deals_primaries), stop);
   return distribution;
 }
 
-MeasuredParts measure_parts(const core::Database& database, const core::RenderSettings& settings, Bsp& bsp) {
+MeasuredParts measure_parts(const core::Database& database, const core::RenderSettings& settings, Regions& regions) {
   MeasuredParts parts;
   std::uint64_t copies = 0;
-  for (std::uint32_t node = 0; node < bsp.region_count(); ++node) {
-    const core::DatabasePart part = core::measure_part(database, bsp.region_of(nodes::NodeId{node}));
-    mark_if_empty(bsp, node, part, settings);
+  for (const std::vector<std::uint32_t>& indices : regions.by_node()) {
+    const core::DatabasePart part = core::measure_part(database, boxes_of(regions, indices));
+    mark_empty(regions, indices, part, settings);
     parts.record_bytes.push_back(part.record_bytes);
     copies += part.primitive_copies;
   }
@@ -70,14 +81,14 @@ MeasuredParts measure_parts(const core::Database& database, const core::RenderSe
   return parts;
 }
 
-std::vector<std::vector<Share>> measure_shares(const core::RenderSettings& settings, std::span<const Bsp> bsps,
+std::vector<std::vector<Share>> measure_shares(const core::RenderSettings& settings, std::span<const Regions> partitions,
                                                std::span<const MeasuredParts> parts, const std::stop_token& stop,
                                                bool deals_primaries) {
-  const auto runs = count_primary_runs(settings, bsps, settings.first_pass(),
+  const auto runs = count_primary_runs(settings, partitions, settings.first_pass(),
                                        core::PixelMask(settings.camera.pixel_count(), !deals_primaries), stop);
-  std::vector<std::vector<Share>> shares(bsps.size());
-  for (std::size_t i = 0; i < bsps.size(); ++i) {
-    for (std::uint32_t node = 0; node < bsps[i].region_count(); ++node) {
+  std::vector<std::vector<Share>> shares(partitions.size());
+  for (std::size_t i = 0; i < partitions.size(); ++i) {
+    for (std::uint32_t node = 0; node < partitions[i].node_count(); ++node) {
       shares[i].push_back({parts[i].record_bytes[node], runs[i][node], parts[i].outline_bytes});
     }
   }

@@ -16,18 +16,18 @@
 #include "core/trace/traversal.h"
 #include "dataflow/plan.h"
 #include "dataflow/primaries.h"
-#include "dataflow/regions/bsp.h"
+#include "dataflow/regions/regions.h"
 
 namespace dmpc::dataflow {
 
 /// Regions for a number of nodes, whichever way they are balanced.
-using MakeBsp = std::function<Bsp(std::uint32_t node_count)>;
-/// What so many nodes would be dealt.
+using MakeRegions = std::function<Regions(std::uint32_t node_count)>;
+/// What so many nodes would be dealt; nothing if space cannot be shared out to them.
 using MakeShares = std::function<std::vector<Share>(std::uint32_t node_count)>;
 
 /// By node.
 struct Distribution {
-  Bsp bsp;
+  Regions regions;
   std::vector<core::DatabasePart> parts;
   std::vector<std::vector<PrimaryRun>> primaries;
   core::DatabasePart outline;  ///< for every node; none (core/build/outline.h) if rays are to ask every region
@@ -46,7 +46,7 @@ struct Distribution {
 
 /// Cuts the database up; values keep their bits. Marks the regions that hold nothing, if they are to be skipped. After a stop is
 /// requested some primary rays are dealt to nobody; without primary rays all of them wait.
-Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Bsp& bsp,
+Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Regions& regions,
                         const std::stop_token& stop = {}, bool deals_primaries = true);
 
 /// What distribute() would deal as parts, by node.
@@ -56,11 +56,11 @@ struct MeasuredParts {
   double duplication = 1;  ///< as that of Distribution
 };
 
-/// Measures the parts and keeps none. Marks regions in `bsp` as distribute() does.
-MeasuredParts measure_parts(const core::Database& database, const core::RenderSettings& settings, Bsp& bsp);
+/// Measures the parts and keeps none. Marks regions in `regions` as distribute() does.
+MeasuredParts measure_parts(const core::Database& database, const core::RenderSettings& settings, Regions& regions);
 
-/// What distribute() would deal to computers whose regions are `bsps`, of which `parts` have been measured.
-std::vector<std::vector<Share>> measure_shares(const core::RenderSettings& settings, std::span<const Bsp> bsps,
+/// What distribute() would deal to computers whose regions are `partitions`, of which `parts` have been measured.
+std::vector<std::vector<Share>> measure_shares(const core::RenderSettings& settings, std::span<const Regions> partitions,
                                                std::span<const MeasuredParts> parts, const std::stop_token& stop = {},
                                                bool deals_primaries = true);
 

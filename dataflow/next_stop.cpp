@@ -21,10 +21,10 @@ float first_meeting(const core::Ray& ray, const core::Walk& walk, const core::Pa
 }  // namespace
 
 NextStop next_stop(const core::Ray& ray, const core::Passage& passage, const Surroundings& surroundings,
-                   std::optional<std::uint32_t> here, core::Operations& operations) {
-  const Bsp& bsp = surroundings.bsp;
-  NextStop stop{.passage = passage, .region = bsp.region_index_of(passage.cell)};
-  if (stop.region == here || (!surroundings.has_outline() && !bsp.is_empty(stop.region))) {
+                   std::optional<nodes::NodeId> here, core::Operations& operations) {
+  const Regions& regions = surroundings.regions;
+  NextStop stop{.passage = passage, .region = regions.region_index_of(passage.cell)};
+  if (regions.owner_at(stop.region) == here || (!surroundings.has_outline() && !regions.is_empty(stop.region))) {
     return stop;
   }
   core::Walk walk(ray, surroundings.outline.frame, surroundings.outline.region);
@@ -33,18 +33,18 @@ NextStop next_stop(const core::Ray& ray, const core::Passage& passage, const Sur
     stop.traced = passage.best.found() ? core::Traced::hit : core::Traced::miss;
     return stop;
   }
-  while (stop.traced == core::Traced::left && stop.region != here) {
-    walk.move_to(bsp.region_at(stop.region));
-    if (!bsp.is_empty(stop.region) && static_cast<float>(walk.region_exit().t) >= first) {
+  while (stop.traced == core::Traced::left && regions.owner_at(stop.region) != here) {
+    walk.move_to(regions.region_at(stop.region));
+    if (!regions.is_empty(stop.region) && static_cast<float>(walk.region_exit().t) >= first) {
       ++operations.cell_steps;
       break;
     }
     core::Passage next = stop.passage;
     const core::Traced traced = core::pass(ray, walk, next, operations);
-    if (!bsp.is_empty(stop.region) && traced != core::Traced::left) {
+    if (!regions.is_empty(stop.region) && traced != core::Traced::left) {
       break;
     }
-    stop = {.traced = traced, .passage = next, .region = bsp.region_index_of(next.cell)};
+    stop = {.traced = traced, .passage = next, .region = regions.region_index_of(next.cell)};
     ++operations.skipped.empty_regions;
   }
   return stop;

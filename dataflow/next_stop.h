@@ -8,7 +8,7 @@
 #include "core/trace/operations.h"
 #include "core/trace/skips.h"
 #include "core/trace/traversal.h"
-#include "dataflow/regions/bsp.h"
+#include "dataflow/regions/regions.h"
 
 namespace dmpc::dataflow {
 
@@ -22,7 +22,7 @@ struct NextStop {
 
 /// What is known of all of space.
 struct Surroundings {
-  const Bsp& bsp;
+  const Regions& regions;
   const core::DatabaseHeader& outline;  ///< of the database's outline (core/build/outline.h); without a directory: none is known
   core::LocalRecords records;           ///< the outline's
   core::Skips skips;
@@ -30,10 +30,10 @@ struct Surroundings {
   bool has_outline() const { return outline.directory != core::no_address; }
 };
 
-/// The way of a ray that enters the grid, or leaves a region, by `passage`; in region `here` it stops in any case, since nobody
-/// need be asked. Same bits as if every region were asked. Thread safety: pure but for the steps, bricks and skipped regions that
-/// it adds to `operations`.
+/// The way of a ray that enters the grid, or leaves a region, by `passage`; in a region of node `here`'s it stops in any case,
+/// since nobody need be asked. Same bits as if every region were asked. Thread safety: pure but for the steps, bricks and skipped
+/// regions that it adds to `operations`.
 NextStop next_stop(const core::Ray& ray, const core::Passage& passage, const Surroundings& surroundings,
-                   std::optional<std::uint32_t> here, core::Operations& operations);
+                   std::optional<nodes::NodeId> here, core::Operations& operations);
 
 }  // namespace dmpc::dataflow

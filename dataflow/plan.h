@@ -10,7 +10,7 @@
 
 #include "core/picture/refinement.h"
 #include "dataflow/ray_options.h"
-#include "dataflow/regions/bsp.h"
+#include "dataflow/regions/regions.h"
 #include "nodes/computer_request.h"
 #include "nodes/local_memory.h"
 #include "nodes/runner.h"

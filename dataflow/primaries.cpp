@@ -12,16 +12,16 @@ namespace {
 
 constexpr std::uint32_t nobody = ~std::uint32_t{0};
 
-/// Goes through the rays of a pass. Calls begin(bsp, node, number) where a Bsp's run of consecutive rays of one node begins, with
-/// `nobody` for rays that are not dealt and, in the end, behind the last.
+/// Goes through the rays of a pass. Calls begin(partition, node, number) where a partition's run of consecutive rays of one node
+/// begins, with `nobody` for rays that are not dealt and, in the end, behind the last.
 template <class Begin>
-void deal(const core::RenderSettings& settings, std::span<const Bsp> bsps, const core::Pass& pass, const core::PixelMask& done,
-          const std::stop_token& stop, const Begin& begin) {
-  PrimaryOwners owners(settings, bsps);
+void deal(const core::RenderSettings& settings, std::span<const Regions> partitions, const core::Pass& pass,
+          const core::PixelMask& done, const std::stop_token& stop, const Begin& begin) {
+  PrimaryOwners owners(settings, partitions);
   const auto begin_each = [&](std::uint64_t those, std::uint64_t number, bool is_dealt) {
     for (; those != 0; those &= those - 1) {
-      const auto bsp = static_cast<std::size_t>(std::countr_zero(those));
-      begin(bsp, is_dealt ? owners.owners()[bsp] : nobody, number);
+      const auto partition = static_cast<std::size_t>(std::countr_zero(those));
+      begin(partition, is_dealt ? owners.owners()[partition] : nobody, number);
     }
   };
   const core::SampleRange numbered = numbered_samples(pass);
@@ -34,25 +34,25 @@ void deal(const core::RenderSettings& settings, std::span<const Bsp> bsps, const
     const core::SampleRange samples = pass.samples(pixel);
     std::uint64_t number = std::uint64_t{pixel} * numbered.count + samples.first;
     if (follows_on && number != end) {
-      begin_each(owners.all_bsps(), end, false);
+      begin_each(owners.all_partitions(), end, false);
       follows_on = false;
     }
     for (std::uint32_t i = 0; i < samples.count; ++i, ++number) {
       const std::uint64_t changed = owners.find(pixel, samples.first + i);
-      begin_each(follows_on ? changed : owners.all_bsps(), number, true);
+      begin_each(follows_on ? changed : owners.all_partitions(), number, true);
       follows_on = true;
     }
     end = number;
   }
-  begin_each(follows_on ? owners.all_bsps() : 0, end, false);
+  begin_each(follows_on ? owners.all_partitions() : 0, end, false);
 }
 
-/// As many of the first of `bsps` as one lattice may be of. Cuts that do not go on in each other's make many cells.
-std::size_t joint_count(std::span<const Bsp> bsps) {
+/// As many of the first of `partitions` as one lattice may be of. Cuts that do not go on in each other's make many cells.
+std::size_t joint_count(std::span<const Regions> partitions) {
   constexpr std::size_t owners_max = std::size_t{1} << 21U;
   std::size_t count = 1;
-  while (count < std::min(bsps.size(), JointLattice::bsps_max) &&
-         JointLattice::owner_count(bsps.first(count + 1)) <= owners_max) {
+  while (count < std::min(partitions.size(), JointLattice::partitions_max) &&
+         JointLattice::owner_count(partitions.first(count + 1)) <= owners_max) {
     ++count;
   }
   return count;
@@ -60,11 +60,12 @@ std::size_t joint_count(std::span<const Bsp> bsps) {
 
 }  // namespace
 
-std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& settings, const Bsp& bsp, const core::Pass& pass,
-                                                    const core::PixelMask& done, const std::stop_token& stop) {
-  std::vector<std::vector<PrimaryRun>> runs(bsp.region_count());
+std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& settings, const Regions& partition,
+                                                    const core::Pass& pass, const core::PixelMask& done,
+                                                    const std::stop_token& stop) {
+  std::vector<std::vector<PrimaryRun>> runs(partition.node_count());
   PrimaryRun* before = nullptr;
-  deal(settings, std::span(&bsp, 1), pass, done, stop, [&](std::size_t, std::uint32_t node, std::uint64_t number) {
+  deal(settings, std::span(&partition, 1), pass, done, stop, [&](std::size_t, std::uint32_t node, std::uint64_t number) {
     if (before != nullptr) {
       before->count = number - before->first;
     }
@@ -73,19 +74,19 @@ std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& 
   return runs;
 }
 
-std::vector<std::vector<std::size_t>> count_primary_runs(const core::RenderSettings& settings, std::span<const Bsp> bsps,
-                                                         const core::Pass& pass, const core::PixelMask& done,
-                                                         const std::stop_token& stop) {
+std::vector<std::vector<std::size_t>> count_primary_runs(const core::RenderSettings& settings,
+                                                         std::span<const Regions> partitions, const core::Pass& pass,
+                                                         const core::PixelMask& done, const std::stop_token& stop) {
   std::vector<std::vector<std::size_t>> counts;
-  while (counts.size() < bsps.size()) {
+  while (counts.size() < partitions.size()) {
     const std::size_t first = counts.size();
-    const std::span<const Bsp> left = bsps.subspan(first), joint = left.first(joint_count(left));
-    for (const Bsp& bsp : joint) {
-      counts.emplace_back(bsp.region_count());
+    const std::span<const Regions> left = partitions.subspan(first), joint = left.first(joint_count(left));
+    for (const Regions& partition : joint) {
+      counts.emplace_back(partition.node_count());
     }
-    deal(settings, joint, pass, done, stop, [&](std::size_t bsp, std::uint32_t node, std::uint64_t) {
+    deal(settings, joint, pass, done, stop, [&](std::size_t partition, std::uint32_t node, std::uint64_t) {
       if (node != nobody) {
-        ++counts[first + bsp][node];
+        ++counts[first + partition][node];
       }
     });
   }

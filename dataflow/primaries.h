@@ -10,23 +10,24 @@
 #include "core/picture/pixel_task.h"
 #include "core/picture/sample_pass.h"
 #include "dataflow/packets.h"
-#include "dataflow/regions/bsp.h"
+#include "dataflow/regions/regions.h"
 #include "nodes/local_memory.h"
 
 namespace dmpc::dataflow {
 
-/// For each node, the rays of a pass, but for those of pixels that are done, that enter the grid in its region, or reach it
-/// before any other that holds something, ascending. A ray that meets no such region, or whose pixel shows the background, only
-/// leaves that on the film: these are spread by pixel number, an equal share of the picture a node, so that no node has all of
-/// the sky. Nodes whose region holds nothing get no ray at all. After a stop is requested it ends early, with what it has.
-std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& settings, const Bsp& bsp, const core::Pass& pass,
-                                                    const core::PixelMask& done, const std::stop_token& stop = {});
+/// For each node, the rays of a pass, but for those of pixels that are done, that enter the grid in a region of its own, or reach
+/// one before any other that holds something, ascending. A ray that meets no such region, or whose pixel shows the background,
+/// only leaves that on the film: these are spread by pixel number, an equal share of the picture a node, so that no node has all
+/// of the sky. Nodes whose regions hold nothing get no ray at all. After a stop is requested it ends early, with what it has.
+std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& settings, const Regions& partition,
+                                                    const core::Pass& pass, const core::PixelMask& done,
+                                                    const std::stop_token& stop = {});
 
-/// How many runs deal_primaries() would deal to each node, for each of `bsps`, which share out one grid. Takes hardly longer for
-/// many Bsps than for one.
-std::vector<std::vector<std::size_t>> count_primary_runs(const core::RenderSettings& settings, std::span<const Bsp> bsps,
-                                                         const core::Pass& pass, const core::PixelMask& done,
-                                                         const std::stop_token& stop = {});
+/// How many runs deal_primaries() would deal to each node, for each of `partitions`, which share out one grid. Takes hardly
+/// longer for many partitions than for one.
+std::vector<std::vector<std::size_t>> count_primary_runs(const core::RenderSettings& settings,
+                                                         std::span<const Regions> partitions, const core::Pass& pass,
+                                                         const core::PixelMask& done, const std::stop_token& stop = {});
 
 /// A node's own primary rays, in its local memory: those dealt before the start, then packets of those that the host deals on the
 /// way. Thread safety: belongs to one node.

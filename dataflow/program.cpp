@@ -78,14 +78,13 @@ RayProgram<RaysTask>::RayProgram(nodes::Node& node, const Plan& plan, const Node
       host_(plan.host()),
       return_batch_(return_batch(plan.ray_credits)),
       return_batch_host_(return_batch(plan.host_credits)),
-      constants_(
-          keep(node.memory(), Constants{settings_for(deal), deal.bsp, deal.outline.header, deal.bsp.region_index_of(node.id())})),
+      constants_(keep(node.memory(), Constants{settings_for(deal), deal.regions, deal.outline.header})),
       part_(keep_records(node.memory(), Category::home_pages, deal.part.bytes)),
       records_(part_),
-      surroundings_{constants_->bsp, constants_->outline,
+      surroundings_{constants_->regions, constants_->outline,
                     core::LocalRecords(keep_records(node.memory(), Category::constants, deal.outline.bytes)),
                     deal.settings.skips},
-      tracer_(records_, deal.part.header, deal.settings.skips),
+      tracer_(records_, deal.part.header, deal.settings.skips, constants_->regions, node.id()),
       primaries_(node.memory(), deal.primaries, deal.settings.first_samples(), plan.request.is_dealt()),
       backlog_(node.memory(), backlog_capacity(plan)),
       task_(node.memory(), node.id(), plan.request.depth_max),
@@ -353,14 +352,14 @@ void RayProgram<RaysTask>::shoot(const core::Ray& ray) {
 /// Past regions where it meets nothing, to the owner of the next where it may meet something: this node or another.
 template <class RaysTask>
 void RayProgram<RaysTask>::go_to_next(const RayMessage& message) {
-  const NextStop stop = next_stop(message.ray, message.passage(), surroundings_, constants_->region, operations_);
+  const NextStop stop = next_stop(message.ray, message.passage(), surroundings_, node_->id(), operations_);
   if (stop.traced == core::Traced::miss) {
     return end_miss(message.ray);
   }
   if (stop.traced == core::Traced::hit) {
     return end_confirmed(message);
   }
-  const nodes::NodeId owner = constants_->bsp.owner_of(stop.passage.cell);
+  const nodes::NodeId owner = constants_->regions.owner_at(stop.region);
   const RayMessage next = message_of(message.ray, stop.passage, nodes::NodeId{message.finder});
   if (owner == node_->id()) {
     task_.enter(next);

@@ -35,7 +35,7 @@
 #include "dataflow/primaries.h"
 #include "dataflow/ray_queue.h"
 #include "dataflow/ray_task.h"
-#include "dataflow/regions/bsp.h"
+#include "dataflow/regions/regions.h"
 #include "dataflow/termination.h"
 #include "nodes/node.h"
 #include "nodes/program.h"
@@ -68,7 +68,7 @@ struct NodeDeal {
   const core::DatabasePart& part;
   std::span<const PrimaryRun> primaries;
   const core::RenderSettings& settings;  ///< the whole picture's
-  const Bsp& bsp;
+  const Regions& regions;
   const core::DatabasePart& outline;  ///< of the whole database
 };
 
@@ -84,9 +84,8 @@ class NodeProgram : public nodes::Program {
   /// What never changes, in local memory.
   struct Constants {
     core::RenderSettings settings;  ///< header: the part's
-    Bsp bsp;
+    Regions regions;
     core::DatabaseHeader outline;
-    std::uint32_t region;  ///< the node's, by number
   };
 };
 

@@ -32,6 +32,7 @@ void RayTask::enter(const RayMessage& message) {
   if (flight_->finder != self_) {
     flight_->cursor.best.block = core::no_address;
   }
+  entered_cell_ = message.cell;
   stage_ = Stage::entered;
 }
 
@@ -42,7 +43,8 @@ void RayTask::resume_hit(const RayMessage& message) {
 }
 
 void RayTask::trace(PartTracer& tracer, const core::DatabaseHeader& header, core::Operations& operations) {
-  const bool is_here = stage_ == Stage::entered || begin(header);
+  const bool is_here = stage_ == Stage::entered ? tracer.enter(entered_cell_) : begin(tracer, header);
+  core::expect(is_here || stage_ != Stage::entered, "a ray enters a region of the node's");
   if (is_here) {
     traced_ = tracer.trace(flight_->ray, flight_->cursor, operations);
   }
@@ -50,12 +52,12 @@ void RayTask::trace(PartTracer& tracer, const core::DatabaseHeader& header, core
   stage_ = Stage::ended;
 }
 
-/// Whether the ray starts in the region of `header`. If not, it has left that, or misses the grid.
-bool RayTask::begin(const core::DatabaseHeader& header) {
+/// Whether the ray starts in a region of the node's. If not, it has left that, or misses the grid.
+bool RayTask::begin(PartTracer& tracer, const core::DatabaseHeader& header) {
   const auto passage = core::first_passage(flight_->ray, header.frame);
   flight_->finder = self_;
   flight_->cursor = core::arrive(passage.value_or(core::Passage{}));
-  const bool is_here = passage && header.region.contains(passage->cell);
+  const bool is_here = passage && tracer.enter(passage->cell);
   if (passage && !is_here) {
     flight_->cursor.arrival = passage->cell;
   }

@@ -5,15 +5,12 @@
 #include <span>
 
 #include "core/picture/pixel_task.h"
-#include "core/record/records.h"
 #include "dataflow/packets.h"
+#include "dataflow/part_tracer.h"
 #include "nodes/local_memory.h"
 #include "nodes/node_id.h"
 
 namespace dmpc::dataflow {
-
-/// How a node finds what a ray hits: our grid over its part of the database.
-using PartTracer = core::GridTracer<core::LocalRecords>;
 
 /// Depth first: a hit is shaded one child at a time. A child that stays in the region is traced to its end, its own hit shaded
 /// and so on, before the next is made; so the stack holds at most one hit a depth, whatever the number of lights. A child that
@@ -37,13 +34,13 @@ class RayTask {
   // Requires that no ray is under way:
   /// Takes up a ray that starts, wherever that is.
   void shoot(const core::Ray& ray);
-  /// Takes up a ray that enters the region. Where its candidate was found on another node the block's address is forgotten here,
-  /// and kept for that node.
+  /// Takes up a ray that enters a region of the node's. Where its candidate was found on another node the block's address is
+  /// forgotten here, and kept for that node.
   void enter(const RayMessage& message);
   /// Takes up a hit of this node's that another has confirmed.
   void resume_hit(const RayMessage& message);
 
-  /// Traces the ray until it ends here or leaves the region, or does not start in it. Never absent.
+  /// Traces the ray until it ends here or leaves its region, or does not start in one of the node's. Never absent.
   void trace(PartTracer& tracer, const core::DatabaseHeader& header, core::Operations& operations);
 
   // After trace():
@@ -90,12 +87,13 @@ class RayTask {
   nodes::NodeId finder_of_candidate() const { return found_here() ? self_ : flight_->finder; }
   void push(const core::Ray& ray, const core::Hit& hit);
   bool next_child(PartTracer& tracer, const core::RenderSettings& settings, core::Ray& child, core::Operations& operations);
-  bool begin(const core::DatabaseHeader& header);
+  bool begin(PartTracer& tracer, const core::DatabaseHeader& header);
 
   nodes::NodeId self_;
   Flight* flight_;
   std::span<core::HitState> stack_;
-  std::uint32_t depth_ = 0;  ///< hits on the stack
+  std::uint32_t depth_ = 0;      ///< hits on the stack
+  core::Corner entered_cell_{};  ///< with Stage::entered: the finest cell
   Stage stage_ = Stage::none;
   core::Traced traced_ = core::Traced::miss;
 };

@@ -1,5 +1,6 @@
 #include "dataflow/run.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -20,43 +21,66 @@ bool walks_in_bundles(const RunOptions& options) { return !options.computer.mach
 /// What was dealt before the start would have to be done before anything can be kept.
 bool is_dealt_on_the_way(const RunOptions& options) { return options.continuation.start != nullptr || options.continuation.keep; }
 
-/// Regions on their nodes, and the predicted load of each node if there is one.
-struct Regions {
-  Bsp bsp;
-  std::vector<double> predicted;
-};
-
-std::vector<double> by_node(const Bsp& bsp, const std::vector<double>& by_region) {
-  std::vector<double> loads(by_region.size());
-  for (std::uint32_t node = 0; node < loads.size(); ++node) {
-    loads[node] = by_region[bsp.region_index_of(nodes::NodeId{node})];
+/// What regions have, by number, summed up for each node.
+std::vector<double> by_node(const Regions& regions, const std::vector<double>& by_region) {
+  std::vector<double> loads(regions.node_count());
+  for (std::uint32_t index = 0; index < by_region.size(); ++index) {
+    loads[nodes::index_of(regions.owner_at(index))] += by_region[index];
   }
   return loads;
 }
 
-/// `loads` are those of a subsampled picture, if regions are made from one.
-Regions regions_for(std::uint32_t node_count, const ColumnLoads& loads, const core::RenderSettings& settings,
-                    const RunOptions& options) {
-  if (options.make_bsp) {
-    return {options.make_bsp(node_count), {}};
+/// Regions on their nodes, and the predicted load of each node if there is one. `loads` are those of a subsampled picture, if
+/// regions are made from one.
+Balanced regions_for(std::uint32_t node_count, const ColumnLoads& loads, const core::RenderSettings& settings,
+                     const RunOptions& options) {
+  if (options.make_regions) {
+    return {options.make_regions(node_count), {}};
   }
   Balanced balanced = share_out(loads, node_count, options.rays.balance);
-  if (options.rays.topology) {
-    map_onto(balanced.bsp, *options.rays.topology, axes_facing(settings.camera));
+  if (Bsp* const bsp = balanced.regions.bsp(); bsp != nullptr && options.rays.topology) {
+    map_onto(*bsp, *options.rays.topology, axes_facing(settings.camera));
   }
   const bool is_predicted = options.rays.balance.balance == Balance::subsampled;
-  return {balanced.bsp, is_predicted ? by_node(balanced.bsp, balanced.predicted) : std::vector<double>()};
+  balanced.predicted = is_predicted ? by_node(balanced.regions, balanced.predicted) : std::vector<double>();
+  return balanced;
 }
 
 Plan plan_for(const Distribution& distribution, const core::Database& database, const ColumnLoads& loads,
               const core::RenderSettings& settings, const RunOptions& options, const std::stop_token& stop) {
   const PlanRequest request = plan_request(distribution.shares(), settings, options);
   const MakeShares make_shares = [&](std::uint32_t node_count) {
-    Bsp bsp = regions_for(node_count, loads, settings, options).bsp;
-    const MeasuredParts parts = measure_parts(database, settings, bsp);
-    return measure_shares(settings, std::span(&bsp, 1), std::span(&parts, 1), stop, !is_dealt_on_the_way(options)).front();
+    if (!options.make_regions && !can_share_out(loads.lattice, node_count, options.rays.balance)) {
+      return std::vector<Share>();
+    }
+    Regions regions = regions_for(node_count, loads, settings, options).regions;
+    const MeasuredParts parts = measure_parts(database, settings, regions);
+    return measure_shares(settings, std::span(&regions, 1), std::span(&parts, 1), stop, !is_dealt_on_the_way(options)).front();
   };
   return make_plan(request, [&] { return smallest_node_count(request, make_shares); });
+}
+
+/// Where a node's regions lie.
+void report_regions(NodeReport& report, const Regions& regions, const std::vector<std::uint32_t>& indices) {
+  const auto volume = [](const core::Region& box) {
+    double product = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      product *= box.high[axis] - box.low[axis];
+    }
+    return product;
+  };
+  double cells = 0;
+  report.region = regions.region_at(indices.front());
+  report.region_count = static_cast<std::uint32_t>(indices.size());
+  for (const std::uint32_t index : indices) {
+    const core::Region box = regions.region_at(index);
+    cells += volume(box);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      report.region.low[axis] = std::min(report.region.low[axis], box.low[axis]);
+      report.region.high[axis] = std::max(report.region.high[axis], box.high[axis]);
+    }
+  }
+  report.region_share = cells / volume({.high = regions.grid_size()});
 }
 
 NodeReport report_of(nodes::Node& node, const nodes::Program& program, const Distribution& distribution, std::size_t part_bytes) {
@@ -66,7 +90,6 @@ NodeReport report_of(nodes::Node& node, const nodes::Program& program, const Dis
                     .counters = node.counters(),
                     .memory_planned = node.memory().plan(),
                     .memory_used = node.memory().used(),
-                    .region = part.header.region,
                     .part_bytes = part_bytes,
                     .primitive_copies = part.primitive_copies};
   for (const PrimaryRun& run : distribution.primaries[index]) {
@@ -128,8 +151,10 @@ void check_credits(nodes::Runner& runner, const Plan& plan) {
 
 void fill(Report& report, nodes::Runner& runner, const Distribution& distribution) {
   const std::uint32_t node_count = report.plan.node_count();
+  const std::vector<std::vector<std::uint32_t>> regions = distribution.regions.by_node();
   for (std::uint32_t i = 0; i < node_count; ++i) {
     report.nodes.push_back(report_of(runner.node(i), runner.program(i), distribution, report.plan.request.shares[i].part_bytes));
+    report_regions(report.nodes.back(), distribution.regions, regions[i]);
   }
   report.host = runner.node(node_count).counters();
   const auto& host = dynamic_cast<const HostProgram&>(runner.program(node_count));
@@ -235,9 +260,9 @@ PlanRequest plan_request(std::vector<Share> shares, const core::RenderSettings& 
 Prepared prepare(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                  const std::stop_token& stop) {
   const ColumnLoads loads = column_loads(database, settings, options.rays.balance, stop);
-  Regions regions = regions_for(options.computer.node_count, loads, settings, options);
-  Prepared prepared{.distribution = distribute(database, settings, regions.bsp, stop, !is_dealt_on_the_way(options)),
-                    .predicted = std::move(regions.predicted),
+  Balanced balanced = regions_for(options.computer.node_count, loads, settings, options);
+  Prepared prepared{.distribution = distribute(database, settings, balanced.regions, stop, !is_dealt_on_the_way(options)),
+                    .predicted = std::move(balanced.predicted),
                     .detail = settings.fine_detail(database)};
   prepared.duplication = prepared.distribution.duplication(database);
   prepared.plan = plan_for(prepared.distribution, database, loads, settings, options, stop);
@@ -252,7 +277,7 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
   Report report{.film = start != nullptr ? start->film : core::Film(settings.camera.width(), settings.camera.height()),
                 .samples_found_done = start != nullptr ? start->samples_done() : 0,
                 .plan = prepared.plan,
-                .bsp = prepared.distribution.bsp,
+                .regions = prepared.distribution.regions,
                 .predicted = prepared.predicted,
                 .duplication = prepared.duplication};
   core::expect(options.watching.heat == nullptr || options.watching.heat->pixel_count() == report.film.pixels().size(),
@@ -277,14 +302,14 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
     const auto make_program = [&, i](nodes::Node& node) {
       return make_node_program(
           node, plan,
-          NodeDeal{distribution.parts[i], distribution.primaries[i], settings, distribution.bsp, distribution.outline},
+          NodeDeal{distribution.parts[i], distribution.primaries[i], settings, distribution.regions, distribution.outline},
           nodes::meter_for(options.watching, options.computer, node.id()));
     };
     specifications.push_back({plan.node_memory(i), plan.node_mailbox, make_program, plan.held_bytes, 0,
                               nodes::patience_of(number_of(Kind::film), plan.film_credits)});
   }
   const auto deal = [&settings, &distribution, stop](const core::Pass& pass, const core::PixelMask& done) {
-    std::optional runs = deal_primaries(settings, distribution.bsp, pass, done, stop);
+    std::optional runs = deal_primaries(settings, distribution.regions, pass, done, stop);
     return stop.stop_requested() ? std::nullopt : std::move(runs);
   };
   const auto make_host = [&, deal, detail](nodes::Node& node) {

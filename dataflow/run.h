@@ -18,7 +18,7 @@
 #include "dataflow/plan.h"
 #include "dataflow/program.h"
 #include "dataflow/ray_options.h"
-#include "dataflow/regions/bsp.h"
+#include "dataflow/regions/regions.h"
 #include "nodes/computer_request.h"
 #include "nodes/counters.h"
 #include "nodes/runner.h"
@@ -30,7 +30,7 @@ namespace dmpc::dataflow {
 struct RunOptions {
   nodes::ComputerRequest computer = {};
   RayOptions rays = {};
-  MakeBsp make_bsp = {};          ///< regions of one's own, in place of those that `rays` asks for
+  MakeRegions make_regions = {};  ///< regions of one's own, in place of those that `rays` asks for
   nodes::Watching watching = {};  ///< rays look up no pages: those kinds of a heat map stay zero
   /// Where the picture is begun, and what of it is kept on the way: at points to which the host brings the run by dealing no more
   /// primary rays until none is left. So with any of it the host deals all of them after the start.
@@ -41,8 +41,10 @@ struct NodeReport {
   ProgramReport program;
   nodes::NodeCounters counters;
   nodes::MemoryPlan memory_planned, memory_used;
-  core::Region region;                 ///< finest cells
-  std::size_t part_bytes = 0;          ///< the records of the region
+  core::Region region;  ///< the box around its regions, in finest cells
+  std::uint32_t region_count = 1;
+  double region_share = 0;             ///< of the grid's volume that is in them
+  std::size_t part_bytes = 0;          ///< the records of its regions
   std::uint64_t primitive_copies = 0;  ///< in them
   std::uint64_t primary_rays = 0;      ///< dealt before the start
 };
@@ -52,7 +54,7 @@ struct Report {
   std::uint64_t samples_found_done = 0;         ///< of all pixels, before the start
   nodes::RunEnd end = nodes::RunEnd::finished;  ///< interrupted: the film is not complete
   Plan plan;
-  Bsp bsp;
+  Regions regions;
   std::vector<double> predicted;  ///< load by node, in picoseconds of the subsampled picture; empty unless that was made
   double duplication = 1;         ///< copies of primitives over those in the database
   std::vector<NodeReport> nodes;

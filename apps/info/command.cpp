@@ -63,6 +63,7 @@ void add_options(OptionSet options, InfoOptions& info) {
   add_homes_option(options, info.homes);
   add_balance_option(options, info.balance.balance);
   add_cuts_option(options, info.balance.bsp.order);
+  add_scattered_option(options, info.balance);
   add_region_options(options, info.balance);
   options.add_choice<InfoFormat>("--format", info.format, {{"text", InfoFormat::text}, {"json", InfoFormat::json}},
                                  "Lines and tables to read, or an object with stable keys");

@@ -39,8 +39,8 @@ class Forecaster {
     }
     if (node_count <= dataflow::region_count_max) {
       stopwatch_.lap();
-      bsps_.push_back(regions(node_count));
-      parts_.push_back(dataflow::measure_parts(database_, settings_, bsps_.back()));
+      partitions_.push_back(regions(node_count));
+      parts_.push_back(dataflow::measure_parts(database_, settings_, partitions_.back()));
       region_seconds_ += stopwatch_.lap();
     }
   }
@@ -48,7 +48,7 @@ class Forecaster {
   /// All computers added. The primary rays are dealt to all at one go.
   Forecast result() {
     stopwatch_.lap();
-    const auto shares = dataflow::measure_shares(settings_, bsps_, parts_);
+    const auto shares = dataflow::measure_shares(settings_, partitions_, parts_);
     std::size_t next = 0;
     for (ComputerForecast& computer : computers_) {
       if (computer.nodes <= dataflow::region_count_max) {
@@ -60,6 +60,7 @@ class Forecaster {
     return {.computers = computers_,
             .balance = balance_.balance,
             .cuts = balance_.bsp.order,
+            .regions_a_node = balance_.balance == dataflow::Balance::scattered ? balance_.regions_a_node : 1,
             .homes = homes_,
             .region_seconds = region_seconds_ + stopwatch_.lap()};
   }
@@ -76,10 +77,12 @@ class Forecaster {
   }
 
   /// From the loads known already; on their nodes, since some primary rays are dealt to nodes by number.
-  dataflow::Bsp regions(std::uint32_t node_count) const {
-    dataflow::Bsp bsp = dataflow::share_out(loads_, node_count, balance_).bsp;
-    dataflow::map_onto(bsp, nodes::TopologyKind::hypercube, dataflow::axes_facing(settings_.camera));
-    return bsp;
+  dataflow::Regions regions(std::uint32_t node_count) const {
+    dataflow::Regions regions = dataflow::share_out(loads_, node_count, balance_).regions;
+    if (dataflow::Bsp* const bsp = regions.bsp()) {
+      dataflow::map_onto(*bsp, nodes::TopologyKind::hypercube, dataflow::axes_facing(settings_.camera));
+    }
+    return regions;
   }
 
   const core::Database& database_;
@@ -90,7 +93,7 @@ class Forecaster {
   dataflow::ColumnLoads loads_;
   double region_seconds_;
   std::vector<ComputerForecast> computers_;
-  std::vector<dataflow::Bsp> bsps_;             ///< of those computers that dataflow goes on
+  std::vector<dataflow::Regions> partitions_;   ///< of those computers that dataflow goes on
   std::vector<dataflow::MeasuredParts> parts_;  ///< of the same
 };
 

@@ -34,8 +34,9 @@ struct Forecast {
   std::vector<ComputerForecast> computers;
   dataflow::Balance balance{};  ///< by which regions were made
   dataflow::CutOrder cuts{};    ///< and which way
-  svm::PageHomes homes{};       ///< of svm's pages
-  double region_seconds = 0;    ///< that it took to make them, by the wall clock
+  std::uint32_t regions_a_node = 1;
+  svm::PageHomes homes{};     ///< of svm's pages
+  double region_seconds = 0;  ///< that it took to make them, by the wall clock
 };
 
 /// Told (computers done, computers in all).

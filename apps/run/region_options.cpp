@@ -15,12 +15,18 @@ constexpr std::int64_t subsample_max = 65536;
 
 }  // namespace
 
-const char* name_of(dataflow::Balance balance) { return balance == dataflow::Balance::subsampled ? "subsampled" : "equal-size"; }
+const char* name_of(dataflow::Balance balance) {
+  using dataflow::Balance;
+  return balance == Balance::subsampled ? "subsampled" : balance == Balance::equal_size ? "equal-size" : "scattered";
+}
 
 void add_balance_option(OptionSet options, dataflow::Balance& balance) {
   using dataflow::Balance;
-  options.add_choice<Balance>("--balance", balance, {{"subsampled", Balance::subsampled}, {"equal-size", Balance::equal_size}},
-                              "Regions of about equal load, by a subsampled picture, or of equal size");
+  options.add_choice<Balance>(
+      "--balance", balance,
+      {{"subsampled", Balance::subsampled}, {"equal-size", Balance::equal_size}, {"scattered", Balance::scattered}},
+      "Regions of about equal load, by a subsampled picture, or of equal size, or scattered: a lattice of many regions a node, "
+      "neighbours on different nodes");
 }
 
 const char* name_of(dataflow::CutOrder order) { return order == dataflow::CutOrder::longer_axis ? "longer-side" : "alternating"; }
@@ -31,6 +37,11 @@ void add_cuts_option(OptionSet options, dataflow::CutOrder& order) {
                                "Which way space is cut next: across a box's longer side, or by turns as in 1994");
 }
 
+void add_scattered_option(OptionSet options, dataflow::BalanceOptions& balance) {
+  options.add_number("--regions", balance.regions_a_node, 1, dataflow::Scattered::regions_max, "1",
+                     "Regions a node (--balance=scattered)");
+}
+
 void add_region_options(OptionSet options, dataflow::BalanceOptions& balance) {
   options.add_number("--subsample", balance.subsample, 1, subsample_max, "8",
                      "The subsampled picture has one pixel of every NxN");
@@ -39,10 +50,17 @@ void add_region_options(OptionSet options, dataflow::BalanceOptions& balance) {
 }
 
 void check_regions(const OptionSet& options, const dataflow::BalanceOptions& balance) {
+  using dataflow::Balance;
   for (const char* const option : {"--subsample", "--balance-grid"}) {
-    if (options.is_given(option) && balance.balance == dataflow::Balance::equal_size) {
+    if (options.is_given(option) && balance.balance != Balance::subsampled) {
       throw core::UsageError(std::string(option) + " goes with --balance=subsampled: regions of equal size ask for no load");
     }
+  }
+  if (options.is_given("--regions") && balance.balance != Balance::scattered) {
+    throw core::UsageError("--regions goes with --balance=scattered: else a node has one region");
+  }
+  if (options.is_given("--cuts") && balance.balance == Balance::scattered) {
+    throw core::UsageError("--cuts does not go with --balance=scattered: a lattice is not cut box by box");
   }
 }
 

@@ -152,6 +152,7 @@ void add_ray_options(OptionSet options, dataflow::RayOptions& rays) {
   options.begin_group("Strategy dataflow");
   add_balance_option(options, rays.balance.balance);
   add_cuts_option(options, rays.balance.bsp.order);
+  add_scattered_option(options, rays.balance);
   add_region_options(options, rays.balance);
   options.add_number("--ray-batch", rays.ray_batch, 1, dataflow::ray_batch_max,
                      "what fills 4 KiB; 2 KiB if rays walk alone, modelled machines 1 KiB", "Rays in a packet, at most");

@@ -1,11 +1,13 @@
 #include "core/build/extract.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
 #include <map>
 #include <utility>
 
+#include "core/base/expect.h"
 #include "core/base/units.h"
 #include "core/build/address_map.h"
 #include "core/build/record_writer.h"
@@ -21,21 +23,25 @@ constexpr std::size_t part_page_bytes = 512;
 
 class Extractor {
  public:
-  Extractor(const Database& database, const Region& region, Keeps keeps)
-      : whole_(database.header()), bytes_(database.bytes().data()), region_(region), writer_(part_page_bytes, keeps) {}
+  Extractor(const Database& database, std::span<const Region> regions, Keeps keeps)
+      : whole_(database.header()), bytes_(database.bytes().data()), regions_(regions), writer_(part_page_bytes, keeps) {
+    expect(!regions.empty(), "a part is of one region or more");
+    part_.holds.resize(regions.size());
+  }
 
   DatabasePart extract() {
     DatabaseHeader& header = part_.header;
     header = whole_;
-    header.region = region_;
+    header.region = regions_.front();
+    const Region around = box_around_regions();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      header.directory_low[axis] = region_.low[axis] / finest_per_top * finest_per_top;
-      header.directory_size[axis] = ceil_divide(region_.high[axis] - header.directory_low[axis], finest_per_top);
+      header.directory_low[axis] = around.low[axis] / finest_per_top * finest_per_top;
+      header.directory_size[axis] = ceil_divide(around.high[axis] - header.directory_low[axis], finest_per_top);
     }
     header.directory = writer_.allocate_array<DirectoryEntry>(directory_entry_count(header.directory_size));
     header.lights = copy_array<LightRecord>(whole_.lights, whole_.light_count);
     header.materials = copy_array<MaterialRecord>(whole_.materials, whole_.material_count);
-    copy_directory();
+    copy_directory(around);
     copy_textures();
     part_.record_bytes = writer_.page_bytes();
     part_.bytes = std::move(writer_).finish();
@@ -43,6 +49,22 @@ class Extractor {
   }
 
  private:
+  /// Those of the regions, by number, that are still in question: a part of among_, which grows and shrinks like a stack.
+  struct Those {
+    std::size_t first, count;
+  };
+
+  Region box_around_regions() const {
+    Region box = regions_.front();
+    for (const Region& region : regions_) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.low[axis] = std::min(box.low[axis], region.low[axis]);
+        box.high[axis] = std::max(box.high[axis], region.high[axis]);
+      }
+    }
+    return box;
+  }
+
   const std::byte* at(Address address) const { return bytes_ + byte_offset(address); }
 
   template <class T>
@@ -54,12 +76,12 @@ class Extractor {
     return to;
   }
 
-  void copy_directory() {
+  void copy_directory(const Region& around) {
     const DatabaseHeader& header = part_.header;
     Corner cell;
-    for (cell[2] = header.directory_low[2]; cell[2] < region_.high[2]; cell[2] += finest_per_top) {
-      for (cell[1] = header.directory_low[1]; cell[1] < region_.high[1]; cell[1] += finest_per_top) {
-        for (cell[0] = header.directory_low[0]; cell[0] < region_.high[0]; cell[0] += finest_per_top) {
+    for (cell[2] = header.directory_low[2]; cell[2] < around.high[2]; cell[2] += finest_per_top) {
+      for (cell[1] = header.directory_low[1]; cell[1] < around.high[1]; cell[1] += finest_per_top) {
+        for (cell[0] = header.directory_low[0]; cell[0] < around.high[0]; cell[0] += finest_per_top) {
           copy_top_cell(cell);
         }
       }
@@ -70,50 +92,77 @@ class Extractor {
     const std::uint64_t from = directory_index(whole_, cell), to = directory_index(part_.header, cell);
     auto entry = read<DirectoryEntry>(at(directory_address(whole_, from)) + directory_offset(from));
     if (!entry.empty()) {
-      const Address copy = region_.overlaps(cell, finest_per_top) ? copy_brick(brick_at(entry.brick())) : no_address;
+      const Those those = regions_over(cell);
+      const Address copy = those.count > 0 ? copy_brick(brick_at(entry.brick()), those) : no_address;
+      among_.clear();
       entry.bits = copy != no_address ? static_cast<std::uint32_t>(copy) : DirectoryEntry::empty_flag;
     }
     writer_.write(directory_address(part_.header, to), directory_offset(to), entry);
   }
 
-  /// Whether a child's box, borders included, touches the region.
-  bool touches(const Brick& brick, std::size_t child) const {
+  Those regions_over(const Corner& cell) {
+    for (std::uint32_t i = 0; i < regions_.size(); ++i) {
+      if (regions_[i].overlaps(cell, finest_per_top)) {
+        among_.push_back(i);
+      }
+    }
+    return {0, among_.size()};
+  }
+
+  /// Whether a child's box, borders included, touches a region.
+  bool touches(const Brick& brick, std::size_t child, const Region& region) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (place_of(brick, axis, child) > plane_at(whole_.frame, axis, region_.high[axis]) ||
-          place_of(brick, axis + 3, child) < plane_at(whole_.frame, axis, region_.low[axis])) {
+      if (place_of(brick, axis, child) > plane_at(whole_.frame, axis, region.high[axis]) ||
+          place_of(brick, axis + 3, child) < plane_at(whole_.frame, axis, region.low[axis])) {
         return false;
       }
     }
     return true;
   }
 
-  /// Whether the region needs a brick's child: a block whose box touches it, or a brick that has such below.
-  bool needs(const Brick& brick, std::size_t child) const {
-    const BrickChild& link = brick.child[child];
-    return touches(brick, child) && (link.is_block() || needs_any_child(brick_at(link.address())));
+  /// Those that a child's box touches; let_go() of them before those from which they were chosen.
+  Those touched(const Brick& brick, std::size_t child, const Those& those) {
+    const std::size_t first = among_.size();
+    for (std::size_t i = 0; i < those.count; ++i) {
+      const std::uint32_t region = among_[those.first + i];
+      if (touches(brick, child, regions_[region])) {
+        among_.push_back(region);
+      }
+    }
+    return {first, among_.size() - first};
   }
-  bool needs_any_child(const Brick& brick) const {
+  void let_go(const Those& those) { among_.resize(those.first); }
+
+  /// Whether one of the regions needs a brick's child: a block whose box touches it, or a brick that has such below.
+  bool needs(const Brick& brick, std::size_t child, const Those& those) {
+    const BrickChild& link = brick.child[child];
+    const Those left = touched(brick, child, those);
+    const bool is_needed = left.count > 0 && (link.is_block() || needs_any_child(brick_at(link.address()), left));
+    let_go(left);
+    return is_needed;
+  }
+  bool needs_any_child(const Brick& brick, const Those& those) {
     for (std::size_t child = 0; child < brick.child_count; ++child) {
-      if (needs(brick, child)) {
+      if (needs(brick, child, those)) {
         return true;
       }
     }
     return false;
   }
   /// A bit for each.
-  std::uint32_t needed_children(const Brick& brick) const {
+  std::uint32_t needed_children(const Brick& brick, const Those& those) {
     std::uint32_t needed = 0;
     for (std::size_t child = 0; child < brick.child_count; ++child) {
-      needed |= (needs(brick, child) ? 1U : 0U) << child;
+      needed |= (needs(brick, child, those) ? 1U : 0U) << child;
     }
     return needed;
   }
 
   const Brick& brick_at(Address address) const { return *reinterpret_cast<const Brick*>(at(address)); }
 
-  /// Copies what a brick has for the region; no_address if that is nothing.
-  Address copy_brick(const Brick& from) {
-    std::uint32_t needed = needed_children(from);
+  /// Copies what a brick has for the regions; no_address if that is nothing.
+  Address copy_brick(const Brick& from, const Those& those) {
+    std::uint32_t needed = needed_children(from, those);
     if (needed == 0) {
       return no_address;
     }
@@ -121,10 +170,8 @@ class Extractor {
     Brick brick{.origin = from.origin, .unit = from.unit};
     for (; needed != 0; needed &= needed - 1) {
       const auto child = static_cast<std::size_t>(std::countr_zero(needed));
-      const Address old = from.child[child].address();
       const std::size_t place = brick.child_count++;
-      brick.child[place] =
-          from.child[child].is_block() ? BrickChild::block(copy_block(old)) : BrickChild::brick(copy_brick(brick_at(old)));
+      brick.child[place] = copy_child(from, child, those);
       for (std::size_t row = 0; row < 6; ++row) {
         brick.bounds[row][place] = from.bounds[row][child];
       }
@@ -133,7 +180,19 @@ class Extractor {
     return to;
   }
 
-  Address copy_block(Address from) {
+  BrickChild copy_child(const Brick& from, std::size_t child, const Those& those) {
+    const Address old = from.child[child].address();
+    const Those left = touched(from, child, those);
+    const BrickChild copy = from.child[child].is_block() ? BrickChild::block(copy_block(old, left))
+                                                         : BrickChild::brick(copy_brick(brick_at(old), left));
+    let_go(left);
+    return copy;
+  }
+
+  Address copy_block(Address from, const Those& those) {
+    for (std::size_t i = 0; i < those.count; ++i) {
+      part_.holds[among_[those.first + i]] = true;
+    }
     const auto header = read<BlockHeader>(at(from));
     const std::size_t rows = block_bytes(header.kind, header.count), size = block_bytes(header);
     const std::size_t row = sizeof(ShadingReference) * header.count;
@@ -197,7 +256,7 @@ class Extractor {
     }
   }
 
-  /// A texture that the region's triangles show.
+  /// A texture that the regions' triangles show.
   struct UsedTexture {
     TextureReference from, to;
     std::vector<bool> needed;  ///< tiles
@@ -205,7 +264,8 @@ class Extractor {
 
   const DatabaseHeader& whole_;
   const std::byte* bytes_;
-  Region region_;
+  std::span<const Region> regions_;
+  std::vector<std::uint32_t> among_;
   RecordWriter writer_;
   DatabasePart part_;
   AddressMap normals_;
@@ -214,12 +274,12 @@ class Extractor {
 
 }  // namespace
 
-DatabasePart extract(const Database& database, const Region& region) {
-  return Extractor(database, region, Keeps::records).extract();
+DatabasePart extract(const Database& database, std::span<const Region> regions) {
+  return Extractor(database, regions, Keeps::records).extract();
 }
 
-DatabasePart measure_part(const Database& database, const Region& region) {
-  return Extractor(database, region, Keeps::nothing).extract();
+DatabasePart measure_part(const Database& database, std::span<const Region> regions) {
+  return Extractor(database, regions, Keeps::nothing).extract();
 }
 
 }  // namespace dmpc::core

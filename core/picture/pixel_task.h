@@ -36,6 +36,10 @@ class GridTracer {
   /// The same for rays that walk together.
   bool trace(RayBundle& bundle, Operations& operations) { return core::trace(bundle, *records_, header_, skips_, operations); }
   const std::byte* find(Address address) { return records_->find(address); }
+  /// In which rays walk: the header's, or that of the last move_to().
+  const Region& region() const { return header_.region; }
+  /// The records are those of this region, too.
+  void move_to(const Region& region) { header_.region = region; }
 
  private:
   R* records_;

@@ -15,6 +15,9 @@ void check(const BalanceOptions& options) {
   if (options.columns_per_side < 1) {
     throw core::UsageError("loads are counted on a grid of 1x1 columns or more");
   }
+  if (options.regions_a_node < 1) {
+    throw core::UsageError("a node has a region or more");
+  }
 }
 
 /// Middles of the full intervals of length `step` in [0, size), or the middle of [0, size) if it is shorter.
@@ -65,20 +68,31 @@ ColumnLoads column_loads(const core::Database& database, const core::RenderSetti
   check(options);
   const core::Camera& camera = settings.camera;
   const ColumnLattice lattice(core::grid_size(settings.header.frame), axes_facing(camera), options.columns_per_side);
-  return options.balance == Balance::equal_size
+  return options.balance != Balance::subsampled
              ? ColumnLoads(lattice)
              : measure_loads(database, settings, lattice, subsampled_pixels(camera.width(), camera.height(), options.subsample),
                              stop);
 }
 
-Balanced share_out(const ColumnLoads& loads, std::uint32_t region_count, const BalanceOptions& options) {
-  if (options.balance == Balance::equal_size) {
-    const ColumnLattice& lattice = loads.lattice;
-    return {equal_size_bsp(lattice.grid_size(), lattice.axes(), region_count, options.bsp),
-            std::vector<double>(region_count, 0.0)};
+Balanced share_out(const ColumnLoads& loads, std::uint32_t node_count, const BalanceOptions& options) {
+  const ColumnLattice& lattice = loads.lattice;
+  if (options.balance == Balance::scattered) {
+    const Scattered regions = scatter(lattice.grid_size(), lattice.axes(), node_count, options.regions_a_node);
+    return {regions, std::vector<double>(regions.region_count(), 0.0)};
   }
-  const Bsp bsp = build_bsp(loads, region_count, options.bsp);
+  if (options.balance == Balance::equal_size) {
+    return {equal_size_bsp(lattice.grid_size(), lattice.axes(), node_count, options.bsp), std::vector<double>(node_count, 0.0)};
+  }
+  const Bsp bsp = build_bsp(loads, node_count, options.bsp);
   return {bsp, loads_of_regions(bsp, loads)};
+}
+
+bool can_share_out(const ColumnLattice& lattice, std::uint32_t node_count, const BalanceOptions& options) {
+  const std::uint64_t region_count = std::uint64_t{node_count} * options.regions_a_node;
+  return node_count <= region_count_max &&
+         (options.balance != Balance::scattered ||
+          (region_count <= Scattered::regions_max &&
+           scattered_shape({lattice.size(0), lattice.size(1)}, node_count, options.regions_a_node)));
 }
 
 }  // namespace dmpc::dataflow

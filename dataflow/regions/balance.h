@@ -13,24 +13,27 @@
 #include "core/picture/pixel_task.h"
 #include "dataflow/regions/bsp.h"
 #include "dataflow/regions/columns.h"
+#include "dataflow/regions/regions.h"
 
 namespace dmpc::dataflow {
 
 enum class Balance : std::uint8_t {
   subsampled,  ///< regions of about equal predicted load
-  equal_size   ///< the naive split
+  equal_size,  ///< the naive split
+  scattered    ///< a regular lattice, many regions a node, neighbours on different nodes
 };
 
 struct BalanceOptions {
   Balance balance = Balance::subsampled;
   int subsample = 8;                    ///< one pixel of every subsample x subsample is traced; at least 1
   std::int32_t columns_per_side = 256;  ///< of the lattice that the loads are counted on; at least 1
-  BspOptions bsp = {};
+  BspOptions bsp = {};                  ///< unless scattered
+  std::uint32_t regions_a_node = 1;     ///< scattered: from 1 on; else one is all that there is
 };
 
 /// Regions, and what was known when they were made.
 struct Balanced {
-  Bsp bsp;
+  Regions regions;
   std::vector<double> predicted;  ///< load of each region, by region number, in the unit of the columns'
 };
 
@@ -45,14 +48,16 @@ std::vector<std::uint32_t> subsampled_pixels(int width, int height, int subsampl
 ColumnLoads measure_loads(const core::Database& database, const core::RenderSettings& settings, const ColumnLattice& lattice,
                           const std::vector<std::uint32_t>& pixels, const std::stop_token& stop = {});
 
-/// What a subsampled picture tells: the load of each column in picoseconds, or none anywhere for Balance::equal_size.
+/// What a subsampled picture tells: the load of each column in picoseconds, or none anywhere unless that is what balances.
 /// Deterministic, unless a stop is requested: then it makes haste, and what is made of it is good for nothing but a run that ends
 /// at once. Throws core::UsageError if an option is out of range.
 ColumnLoads column_loads(const core::Database& database, const core::RenderSettings& settings, const BalanceOptions& options,
                          const std::stop_token& stop = {});
 
-/// Shares the grid out to `region_count` regions, by the loads of column_loads() with the same options. Throws core::UsageError
-/// if the count is out of range.
-Balanced share_out(const ColumnLoads& loads, std::uint32_t region_count, const BalanceOptions& options);
+/// Shares the grid out to `node_count` nodes, by the loads of column_loads() with the same options. Throws core::UsageError if
+/// there are more nodes, or regions, than can_share_out() allows.
+Balanced share_out(const ColumnLoads& loads, std::uint32_t node_count, const BalanceOptions& options);
+/// Whether share_out() can.
+bool can_share_out(const ColumnLattice& lattice, std::uint32_t node_count, const BalanceOptions& options);
 
 }  // namespace dmpc::dataflow

@@ -48,6 +48,8 @@ class Bsp {
   explicit Bsp(const core::Corner& grid_size) : grid_size_(grid_size) {}
 
   std::uint32_t region_count() const { return region_count_; }
+  /// Each has one region.
+  std::uint32_t node_count() const { return region_count_; }
   /// In finest cells.
   const core::Corner& grid_size() const { return grid_size_; }
   /// Which region holds a finest cell of the grid: at most ceil(log2(region_count())) comparisons.
@@ -69,8 +71,10 @@ class Bsp {
     return cuts_[index];
   }
 
+  /// The node that answers for region `index`.
+  nodes::NodeId owner_at(std::uint32_t index) const { return nodes::NodeId{owner_[index]}; }
   /// The node that answers for a finest cell of the grid.
-  nodes::NodeId owner_of(const core::Corner& cell) const { return nodes::NodeId{owner_[region_index_of(cell)]}; }
+  nodes::NodeId owner_of(const core::Corner& cell) const { return owner_at(region_index_of(cell)); }
   /// What `node` answers for. Requires a node that owns a region.
   core::Region region_of(nodes::NodeId node) const { return region_at(region_index_of(node)); }
   /// The number of the region that `node` owns.

@@ -1,4 +1,4 @@
-// Several Bsps of one grid laid over each other: the cells between all their cuts, and who owns each in every Bsp.
+// Several partitions of one grid laid over each other: the cells between all their cuts, and who owns each in every partition.
 #pragma once
 
 #include <array>
@@ -8,23 +8,23 @@
 #include <vector>
 
 #include "core/base/region.h"
-#include "dataflow/regions/bsp.h"
+#include "dataflow/regions/regions.h"
 
 namespace dmpc::dataflow {
 
-/// A lattice on which a ray's way through the regions of all Bsps can be found at one go (LatticeWalk). Immutable.
+/// A lattice on which a ray's way through the regions of all partitions can be found at one go (LatticeWalk). Immutable.
 class JointLattice {
  public:
-  static constexpr std::size_t bsps_max = 64;
+  static constexpr std::size_t partitions_max = 64;
 
-  /// Requires 1 to bsps_max Bsps of one grid.
-  explicit JointLattice(std::span<const Bsp> bsps);
-  /// What it would hold: an owner for each Bsp in each cell.
-  static std::size_t owner_count(std::span<const Bsp> bsps);
+  /// Requires 1 to partitions_max partitions of one grid.
+  explicit JointLattice(std::span<const Regions> partitions);
+  /// What it would hold: an owner for each partition in each cell.
+  static std::size_t owner_count(std::span<const Regions> partitions);
 
-  std::size_t bsp_count() const { return bsp_count_; }
-  /// A bit for each Bsp.
-  std::uint64_t all_bsps() const { return ~std::uint64_t{0} >> (bsps_max - bsp_count_); }
+  std::size_t partition_count() const { return partition_count_; }
+  /// A bit for each partition.
+  std::uint64_t all_partitions() const { return ~std::uint64_t{0} >> (partitions_max - partition_count_); }
   /// The planes between cells along an axis, in finest cells, ascending: the cuts, between the grid's two ends.
   std::span<const std::int32_t> planes(std::size_t axis) const { return planes_[axis]; }
 
@@ -33,17 +33,17 @@ class JointLattice {
   std::size_t cell_at(const Place& place) const { return place[0] * stride_[0] + place[1] * stride_[1] + place[2] * stride_[2]; }
   /// From a cell to the next along an axis.
   std::size_t stride(std::size_t axis) const { return stride_[axis]; }
-  /// The node that owns the cell, by Bsp.
+  /// The node that owns the cell, by partition.
   std::span<const std::uint16_t> owners(std::size_t cell) const {
-    return std::span(owners_).subspan(cell * bsp_count_, bsp_count_);
+    return std::span(owners_).subspan(cell * partition_count_, partition_count_);
   }
-  /// The Bsps whose region there is not known to hold nothing, a bit each.
+  /// The partitions whose region there is not known to hold nothing, a bit each.
   std::uint64_t occupied(std::size_t cell) const { return occupied_[cell]; }
 
  private:
-  void add_cell(std::span<const Bsp> bsps, const Place& place);
+  void add_cell(std::span<const Regions> partitions, const Place& place);
 
-  std::size_t bsp_count_;
+  std::size_t partition_count_;
   std::array<std::vector<std::int32_t>, 3> planes_;
   Place stride_{};
   std::vector<std::uint16_t> owners_;

@@ -10,7 +10,8 @@
 namespace dmpc::dataflow {
 
 /// The cells of a lattice that one ray after the other comes to, in the order in which core::Walk crosses the planes between
-/// them: so a ray comes to a Bsp's regions in the order in which next_stop() leads it from one to the next. Not thread-safe.
+/// them: so a ray comes to a partition's regions in the order in which next_stop() leads it from one to the next. Not
+/// thread-safe.
 class LatticeWalk {
  public:
   /// `lattice` outlives it; its grid is that of `frame`.

@@ -80,7 +80,7 @@ TEST_CASE("shares say what each node's part and list of primary rays take") {
 TEST_CASE("parts may be measured without being kept") {
   const Subject subject(tests::built_in("teapot-4"), {8, 8});
   const Distribution kept = dealt(subject, 3);
-  Bsp bsp = equal_regions(subject, 3);
+  dataflow::Regions bsp = equal_regions(subject, 3);
   const dataflow::MeasuredParts parts = dataflow::measure_parts(subject.database(), subject.settings(), bsp);
   const auto shares = dataflow::measure_shares(subject.settings(), std::span(&bsp, 1), std::span(&parts, 1));
   REQUIRE(shares.size() == 1);
@@ -89,7 +89,7 @@ TEST_CASE("parts may be measured without being kept") {
   for (std::size_t node = 0; node < 3; ++node) {
     CHECK(shares[0][node].part_bytes == kept.shares()[node].part_bytes);
     CHECK(shares[0][node].primary_runs == kept.shares()[node].primary_runs);
-    CHECK(bsp.is_empty(static_cast<std::uint32_t>(node)) == kept.bsp.is_empty(static_cast<std::uint32_t>(node)));
+    CHECK(bsp.is_empty(static_cast<std::uint32_t>(node)) == kept.regions.is_empty(static_cast<std::uint32_t>(node)));
   }
 }
 

@@ -28,7 +28,7 @@ struct Hat {
         distribution(dataflow::distribute(database, settings,
                                           dataflow::equal_size_bsp(core::grid_size(settings.header.frame),
                                                                    dataflow::axes_facing(settings.camera), region_count))) {}
-  const dataflow::Bsp& bsp() const { return distribution.bsp; }
+  const dataflow::Regions& bsp() const { return distribution.regions; }
   dataflow::Surroundings known() const { return tests::surroundings(bsp(), distribution.outline); }
   /// Which regions are empty, and no more.
   dataflow::Surroundings marks() const { return tests::surroundings(bsp(), unknown); }
@@ -92,7 +92,8 @@ TEST_CASE("a ray that passes empty regions ends with the bits that it has when e
   const Hat hat(24);
   const core::GridFrame& frame = hat.settings.header.frame;
   const core::Corner size = core::grid_size(frame);
-  const dataflow::Bsp unmarked = dataflow::equal_size_bsp(core::grid_size(frame), dataflow::axes_facing(hat.settings.camera), 24);
+  const dataflow::Regions unmarked =
+      dataflow::equal_size_bsp(core::grid_size(frame), dataflow::axes_facing(hat.settings.camera), 24);
   const dataflow::Surroundings nothing_known = tests::surroundings(unmarked, hat.unknown);
   apps::Random random(20'261);
   std::uint32_t asked = 0, asked_of_all = 0, hits = 0;
@@ -156,7 +157,7 @@ TEST_CASE("a ray stops in the region of who asks, whatever the outline says") {
     if (const auto first = core::first_passage(ray, hat.settings.header.frame)) {
       core::Operations operations;
       const std::uint32_t here = hat.bsp().region_index_of(first->cell);
-      const dataflow::NextStop stop = next_stop(ray, *first, hat.known(), here, operations);
+      const dataflow::NextStop stop = next_stop(ray, *first, hat.known(), nodes::NodeId{here}, operations);
       CHECK(stop.traced == Traced::left);
       CHECK(stop.region == here);
       CHECK(operations.brick_reads == 0);
@@ -181,13 +182,13 @@ TEST_CASE("a ray that enters a region with records stops there, and nothing is c
 
 TEST_CASE("where empty regions are not skipped none is marked") {
   const Hat hat(1);
-  const dataflow::Bsp unmarked =
+  const dataflow::Regions unmarked =
       dataflow::equal_size_bsp(core::grid_size(hat.settings.header.frame), dataflow::axes_facing(hat.settings.camera), 24);
   core::RenderSettings settings = hat.settings;
   settings.skips.empty_regions = false;
   const dataflow::Distribution plain = dataflow::distribute(hat.database, settings, unmarked);
   for (std::uint32_t region = 0; region < 24; ++region) {
-    CHECK_FALSE(plain.bsp.is_empty(region));
+    CHECK_FALSE(plain.regions.is_empty(region));
   }
 }
 

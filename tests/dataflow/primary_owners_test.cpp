@@ -29,7 +29,8 @@ struct SharedHat {
                  .camera = core::Camera(view, database.header().frame, side_pixels, side_pixels - 4, samples)} {
     settings.background = core::find_background(database, settings.camera);
     for (const std::uint32_t count : region_counts) {
-      Bsp bsp = dataflow::equal_size_bsp(core::grid_size(settings.header.frame), dataflow::axes_facing(settings.camera), count);
+      dataflow::Regions bsp =
+          dataflow::equal_size_bsp(core::grid_size(settings.header.frame), dataflow::axes_facing(settings.camera), count);
       dataflow::measure_parts(database, settings, bsp);
       bsps.push_back(bsp);
     }
@@ -38,11 +39,11 @@ struct SharedHat {
   core::Scene scene;
   core::Database database;
   core::RenderSettings settings;
-  std::vector<Bsp> bsps;
+  std::vector<dataflow::Regions> bsps;
 };
 
 /// From region to region, as rays travel.
-std::uint32_t owner_by_next_stop(const SharedHat& hat, const Bsp& bsp, std::uint32_t pixel, std::uint32_t sample) {
+std::uint32_t owner_by_next_stop(const SharedHat& hat, const dataflow::Regions& bsp, std::uint32_t pixel, std::uint32_t sample) {
   const core::GridFrame& frame = hat.settings.header.frame;
   const core::Ray ray = hat.settings.camera.primary_ray(pixel, sample);
   if (const auto passage = core::first_passage(ray, frame); passage && !hat.settings.shows_background(pixel)) {
@@ -54,7 +55,7 @@ std::uint32_t owner_by_next_stop(const SharedHat& hat, const Bsp& bsp, std::uint
   }
   std::vector<std::uint32_t> occupied;
   for (std::uint32_t node = 0; node < bsp.region_count(); ++node) {
-    if (!bsp.is_empty(bsp.region_index_of(nodes::NodeId{node}))) {
+    if (!bsp.is_empty(bsp.bsp()->region_index_of(nodes::NodeId{node}))) {
       occupied.push_back(node);
     }
   }
@@ -100,7 +101,7 @@ TEST_CASE("so is one whose eye is within the grid, or that runs along planes and
 
 TEST_CASE("runs of primary rays are counted for many computers as they are dealt to each") {
   std::vector<std::uint32_t> region_counts;
-  for (std::uint32_t i = 0; i < dataflow::JointLattice::bsps_max + 5; ++i) {
+  for (std::uint32_t i = 0; i < dataflow::JointLattice::partitions_max + 5; ++i) {
     region_counts.push_back(1 + i % 9);
   }
   const SharedHat hat(tests::built_in("sombrero-1").view, 24, 3, region_counts);

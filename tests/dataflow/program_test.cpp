@@ -57,9 +57,9 @@ template <class RaysTask>
 struct LoneProgramOf {
   LoneProgramOf(const Stage& stage, std::uint32_t index, std::span<const dataflow::PrimaryRun> primaries = {})
       : single(stage.plan.node_memory(index), index, stage.plan.node_count() + 1),
-        program(
-            single.node, stage.plan,
-            {stage.distribution.parts[index], primaries, stage.settings, stage.distribution.bsp, stage.distribution.outline}) {}
+        program(single.node, stage.plan,
+                {stage.distribution.parts[index], primaries, stage.settings, stage.distribution.regions,
+                 stage.distribution.outline}) {}
 
   void receive(std::uint32_t sender, const RayMessage& message) {
     const dataflow::RayPacketHeader header{1, static_cast<std::uint16_t>(nodes::index_of(single.node.id()))};
@@ -101,7 +101,7 @@ LocalHit find_local_hit(const Stage& stage) {
   for (std::uint32_t pixel = 0; pixel < stage.settings.camera.pixel_count(); ++pixel) {
     const core::Ray ray = stage.settings.camera.primary_ray(pixel, 0);
     const auto passage = core::first_passage(ray, stage.settings.header.frame);
-    const std::uint32_t owner = passage ? nodes::index_of(stage.distribution.bsp.owner_of(passage->cell)) : 0;
+    const std::uint32_t owner = passage ? nodes::index_of(stage.distribution.regions.owner_of(passage->cell)) : 0;
     const core::DatabasePart& part = stage.distribution.parts[owner];
     core::LocalRecords records(part.bytes);
     core::Operations operations;

@@ -45,10 +45,10 @@ Subject lone_ray() {
 /// Regions of equal size, the first cut across x, the second across y.
 RunOptions cut_across_x(const Subject& subject, std::uint32_t node_count) {
   const core::Corner size = core::grid_size(subject.settings().header.frame);
-  const dataflow::MakeBsp make_bsp = [=](std::uint32_t count) {
+  const dataflow::MakeRegions make_regions = [=](std::uint32_t count) {
     return dataflow::equal_size_bsp(size, {0, 1}, count, {.order = dataflow::CutOrder::alternating});
   };
-  return {.computer = {.node_count = node_count}, .make_bsp = make_bsp};
+  return {.computer = {.node_count = node_count}, .make_regions = make_regions};
 }
 
 }  // namespace
@@ -135,12 +135,12 @@ TEST_CASE("a node whose region is empty holds next to nothing and takes part in 
   const Subject subject(tests::mirrors_and_glass(), {12, 12});
   // A cut one finest cell from the grid's border: behind it lies only the grid's margin.
   const core::Corner size = core::grid_size(subject.settings().header.frame);
-  const dataflow::MakeBsp make_bsp = [&](std::uint32_t count) {
+  const dataflow::MakeRegions make_regions = [&](std::uint32_t count) {
     dataflow::ColumnLoads loads(dataflow::ColumnLattice(size, {0, 1}, size[0]));
     loads.load.back() = 1;  // all of the load lies in one corner
     return dataflow::build_bsp(loads, count);
   };
-  const Report report = run(subject, {.computer = {.node_count = 3}, .make_bsp = make_bsp});
+  const Report report = run(subject, {.computer = {.node_count = 3}, .make_regions = make_regions});
   CHECK(tests::outcome_of(report) == subject.outcome());
   int empty = 0;
   for (const NodeReport& node : report.nodes) {
@@ -186,7 +186,7 @@ TEST_CASE("a report's sums are those of its nodes") {
     CHECK(row == node.program.gather.rays);
     CHECK(matrix[6 * i] == 0);
     CHECK(work[i] == static_cast<double>(dataflow::work_of(node.program.operations)));
-    CHECK(node.region == report.bsp.region_of(nodes::NodeId{static_cast<std::uint32_t>(i)}));
+    CHECK(node.region == report.regions.bsp()->region_of(nodes::NodeId{static_cast<std::uint32_t>(i)}));
     copies += node.primitive_copies;
   }
   CHECK(report.duplication == static_cast<double>(copies) / static_cast<double>(subject.database().references()));

@@ -67,6 +67,7 @@ class ChaosCase {
         .balance = draws_.chance(50) ? dataflow::Balance::subsampled : dataflow::Balance::equal_size,
         .subsample = 4,
         .bsp = {.order = draws_.chance(75) ? dataflow::CutOrder::longer_axis : dataflow::CutOrder::alternating}};
+    scatter(options.rays.balance);
     options.rays.without_backpressure = draws_.chance(20);
     options.rays.topology =
         one_of<std::optional<nodes::TopologyKind>>({std::nullopt, nodes::TopologyKind::hypercube, nodes::TopologyKind::mesh});
@@ -80,6 +81,15 @@ class ChaosCase {
   }
 
  private:
+  /// Some cases have several regions a node, by draws of their own.
+  void scatter(dataflow::BalanceOptions& balance) const {
+    nodes::ChaosStream draws(core::mix(seed_ ^ 0x5ca77e2ed));
+    if (draws.chance(30)) {
+      balance.balance = dataflow::Balance::scattered;
+      balance.regions_a_node = 1 + draws.below(16);
+    }
+  }
+
   template <class T>
   T one_of(std::initializer_list<T> values) {
     return values.begin()[draws_.below(static_cast<std::uint32_t>(values.size()))];

@@ -7,16 +7,16 @@
 namespace dmpc::tests {
 
 /// All outlive it.
-inline dataflow::Surroundings surroundings(const dataflow::Bsp& bsp, const core::DatabasePart& outline) {
-  return {bsp, outline.header, core::LocalRecords(outline.bytes), {}};
+inline dataflow::Surroundings surroundings(const dataflow::Regions& regions, const core::DatabasePart& outline) {
+  return {regions, outline.header, core::LocalRecords(outline.bytes), {}};
 }
 
 /// Of a database of which only the regions that hold nothing are known.
 inline dataflow::NextStop next_stop_without_outline(const core::Ray& ray, const core::Passage& passage,
-                                                    const core::GridFrame& frame, const dataflow::Bsp& bsp,
+                                                    const core::GridFrame& frame, const dataflow::Regions& regions,
                                                     core::Operations& operations) {
   const core::DatabaseHeader header{.frame = frame, .region = {.high = core::grid_size(frame)}};
-  return dataflow::next_stop(ray, passage, {bsp, header, core::LocalRecords({}), {}}, std::nullopt, operations);
+  return dataflow::next_stop(ray, passage, {regions, header, core::LocalRecords({}), {}}, std::nullopt, operations);
 }
 
 }  // namespace dmpc::tests

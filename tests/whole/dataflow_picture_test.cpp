@@ -100,6 +100,66 @@ TEST_CASE("dataflow: any nodes, batches, credits, queues, balances, skips and ax
   check_pairwise(built_in("gears-2"), {scaled_edge(16), scaled_edge(16)});
 }
 
+TEST_CASE("dataflow: several regions a node, on any nodes, alone or in bundles, give the picture of mirrors and glass") {
+  const std::array<Subject, 2> subjects = along_both_axes(mirrors_and_glass(), {scaled_edge(20), scaled_edge(20)});
+  for (const std::uint32_t nodes : {1U, 2U, 5U, 8U}) {
+    for (const std::uint32_t regions : {1U, 2U, 4U, 16U}) {
+      for (const bool bundles : {true, false}) {
+        CAPTURE(regions);
+        CAPTURE(bundles);
+        RunOptions options{.computer = {.node_count = nodes}};
+        options.rays.balance = {.balance = Balance::scattered, .regions_a_node = regions};
+        const dataflow::Report report = check(subjects[regions == 4 ? 1 : 0], options, {.bundles = bundles});
+        CHECK(report.regions.region_count() == nodes * regions);
+        CHECK(report.nodes.back().region_count == regions);
+      }
+    }
+  }
+}
+
+TEST_CASE("dataflow: several regions a node give the picture on a modelled machine, twice with one run hash") {
+  const Subject subject(built_in("gears-2"), {scaled_edge(16), scaled_edge(16)});
+  for (const std::uint32_t nodes : {1U, 2U, 5U, 8U}) {
+    for (const std::uint32_t regions : {1U, 2U, 4U, 16U}) {
+      CAPTURE(regions);
+      RunOptions options{.computer = {.node_count = nodes, .machine = nodes::Machine{}}};
+      options.rays.balance = {.balance = Balance::scattered, .regions_a_node = regions};
+      const dataflow::Report first = check(subject, options), second = check(subject, options);
+      REQUIRE(first.virtual_time);
+      CHECK(first.virtual_time->run_hash(first.film.hash()) == second.virtual_time->run_hash(second.film.hash()));
+    }
+  }
+}
+
+TEST_CASE("dataflow: with the least memory that is named several regions a node give the picture, and with less none do") {
+  const Subject subject(mirrors_and_glass(), {scaled_edge(16), scaled_edge(16)});
+  RunOptions options{.computer = {.node_count = 5}};
+  options.rays.balance = {.balance = Balance::scattered, .regions_a_node = 6};
+  const dataflow::Prepared prepared = dataflow::prepare(subject.database(), subject.settings(), options);
+  const std::size_t least = dataflow::smallest_node_memory_bytes(prepared.plan.request);
+  options.computer.node_memory_bytes = least;
+  const dataflow::Report report = check(subject, options);
+  for (const dataflow::NodeReport& node : report.nodes) {
+    CHECK(node.memory_used.total() <= least);
+  }
+  options.computer.node_memory_bytes = least - 1;
+  CHECK_THROWS_AS(run(subject, options), core::RoomError);
+}
+
+TEST_CASE("dataflow: the parts of many regions a node take less than those of as many nodes with one each") {
+  const Subject subject(built_in("teapot-4"), {8, 8});
+  const auto part_bytes = [&](std::uint32_t nodes, std::uint32_t regions) {
+    RunOptions options{.computer = {.node_count = nodes}};
+    options.rays.balance = {.balance = Balance::scattered, .regions_a_node = regions};
+    std::size_t sum = 0;
+    for (const dataflow::NodeReport& node : check(subject, options).nodes) {
+      sum += node.part_bytes;
+    }
+    return sum;
+  };
+  CHECK(part_bytes(4, 8) < part_bytes(32, 1));
+}
+
 TEST_CASE("dataflow: nodes whose regions are empty stay idle unless that skip is off, and the picture is the same") {
   const core::Scene hat = built_in("sombrero-1");
   const Subject subject(hat, {24, 24}, apps::several_top_cells(hat));
@@ -152,7 +212,7 @@ TEST_CASE("dataflow: triangles in border planes and rays along border edges are 
   for (const std::uint32_t nodes : {2U, 4U, 13U, 16U, 64U}) {
     for (const dataflow::CutAxes& axes : {dataflow::CutAxes{0, 1}, dataflow::CutAxes{0, 2}, dataflow::CutAxes{1, 2}}) {
       check(subject, {.computer = {.node_count = nodes},
-                      .make_bsp = [&](std::uint32_t n) { return dataflow::equal_size_bsp(size, axes, n); }});
+                      .make_regions = [&](std::uint32_t n) { return dataflow::equal_size_bsp(size, axes, n); }});
     }
   }
 }
@@ -162,9 +222,9 @@ TEST_CASE("dataflow: a hit beside the region of its triangle, which its owner ca
   const core::Corner size = core::grid_size(subject.settings().header.frame);
   REQUIRE(subject.outcome().primary_hits == 1);
   for (const std::uint32_t nodes : {6U, 9U, 64U}) {
-    const dataflow::MakeBsp make_bsp = [&](std::uint32_t n) { return dataflow::equal_size_bsp(size, {1, 2}, n); };
+    const dataflow::MakeRegions make_regions = [&](std::uint32_t n) { return dataflow::equal_size_bsp(size, {1, 2}, n); };
     for (const Wish& credits : ray_credits) {
-      const RunOptions options{.computer = {.node_count = nodes}, .rays = {.ray_credits = credits}, .make_bsp = make_bsp};
+      const RunOptions options{.computer = {.node_count = nodes}, .rays = {.ray_credits = credits}, .make_regions = make_regions};
       CHECK(check(subject, options, {.empty_space = false, .empty_regions = false}).rays().hits_sent_back == 1);
       CHECK(check(subject, options, {.empty_regions = false}).rays().hits_sent_back == 1);
       CHECK(check(subject, options).rays().hits_sent_back == 0);  // the finder knows that nothing else is in the way

@@ -72,20 +72,9 @@ Json loads_json(const std::vector<double>& work, const std::vector<double>& pred
           {"average_predicted", is_predicted ? Json(dataflow::average_load(predicted)) : Json()}};
 }
 
-double volume(const core::Corner& low, const core::Corner& high) {
-  double product = 1;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    product *= high[axis] - low[axis];
-  }
-  return product;
-}
-
-Json region_json(const dataflow::NodeReport& node, const core::Corner& grid_size) {
-  return {{"low", node.region.low},
-          {"high", node.region.high},
-          {"share", volume(node.region.low, node.region.high) / volume({}, grid_size)},
-          {"part_bytes", node.part_bytes},
-          {"primitive_copies", node.primitive_copies},
+Json region_json(const dataflow::NodeReport& node) {
+  return {{"low", node.region.low},           {"high", node.region.high},      {"regions", node.region_count},
+          {"share", node.region_share},       {"part_bytes", node.part_bytes}, {"primitive_copies", node.primitive_copies},
           {"primary_rays", node.primary_rays}};
 }
 
@@ -96,7 +85,7 @@ Json regions_json(const dataflow::Report& report) {
     copies += node.primitive_copies;
     rays += node.primary_rays;
   }
-  return {{"grid", report.bsp.grid_size()},
+  return {{"grid", report.regions.grid_size()},
           {"duplication", report.duplication},
           {"part_bytes", bytes},
           {"primitive_copies", copies},
@@ -127,8 +116,10 @@ Json mapping_json(const dataflow::Report& report, nodes::TopologyKind topology) 
 
 Json options_json(const dataflow::RayOptions& rays, const dataflow::Plan& plan) {
   const bool subsampled = rays.balance.balance == dataflow::Balance::subsampled;
+  const bool scattered = rays.balance.balance == dataflow::Balance::scattered;
   return {{"balance", name_of(rays.balance.balance)},
-          {"cuts", name_of(rays.balance.bsp.order)},
+          {"cuts", scattered ? Json() : Json(name_of(rays.balance.bsp.order))},
+          {"regions_a_node", scattered ? rays.balance.regions_a_node : 1},
           {"subsample", subsampled ? Json(rays.balance.subsample) : Json()},
           {"balance_grid", subsampled ? Json(rays.balance.columns_per_side) : Json()},
           {"ray_batch", plan.ray_batch},
@@ -162,7 +153,7 @@ StrategyStats strategy_stats(const RenderOptions& options, const dataflow::Repor
     stats.nodes.push_back(
         {{"travel", travel_json(travel_of(node), plan.ray_batch)},
          {"load", {{"work_ps", work[i]}, {"predicted_ps", report.predicted.empty() ? Json() : Json(report.predicted[i])}}},
-         {"region", region_json(node, report.bsp.grid_size())}});
+         {"region", region_json(node)}});
   }
   return stats;
 }

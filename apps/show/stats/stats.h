@@ -14,8 +14,8 @@ namespace dmpc::apps {
 ///                  samples_max, cutoff, depth, convention, tracer, grid_axes, record_order, structure, system, strategy, nodes,
 ///                  node_memory (bytes a node, the most), page_size; camera, light (a list), scale, up, smooth, missing (as the
 ///                  command line takes them, null where it said nothing); of pages: cache_pages, in_flight, work_item,
-///                  work_giver, pixels, workers, count_pages; of dataflow: balance, cuts, subsample, balance_grid, ray_batch,
-///                  ray_credits, ray_queue, backpressure, topology
+///                  work_giver, pixels, workers, count_pages; of dataflow: balance, cuts, regions_a_node, subsample,
+///                  balance_grid, ray_batch, ray_credits, ray_queue, backpressure, topology
 ///   runner         threads or virtual
 ///   machine        that was modelled, as machine_file.h says; null with threads, as is all that follows from virtual time
 ///   film_hash      of the film's integers, 16 hexadecimal digits: equal pictures, equal hashes
@@ -78,9 +78,9 @@ namespace dmpc::apps {
 ///                  (another run gives the same bits), least, largest, sum (over pixels); null without any
 ///   nodes          for each node: rays, hits, operations, packets {sent, received, bytes: sent, bytes_received, refused: tried
 ///                  without credit}, pages, work, questions, travel, load {work_ps, predicted_ps}, region
-///                  {low, high: corners in finest cells, share of the grid's volume, part_bytes, primitive_copies,
-///                  primary_rays}, memory {planned, used: bytes by category and in total}, seconds {busy: computing, idle:
-///                  asleep for want of packets, waiting for a core, wall}, quanta, sleeps
+///                  {low, high: corners in finest cells of the box around them, regions: their number, share of the grid's
+///                  volume, part_bytes, primitive_copies, primary_rays}, memory {planned, used: bytes by category and in total},
+///                  seconds {busy: computing, idle: asleep for want of packets, waiting for a core, wall}, quanta, sleeps
 ///   host           packets as of a node, deposits_saturated (on its film, over those of the nodes), seconds, sleeps; of
 ///                  dataflow: rays_kept_max (at once), kept_bytes_max (of its heap, beyond its plan), token_rounds
 std::string stats_json(const RenderRecord& record);

@@ -41,7 +41,7 @@ double shadow_flood(const core::Database& database, const dataflow::Report& repo
   double most = 0;
   for (std::uint32_t i = 0; i < header.light_count; ++i) {
     const auto light = core::read<core::LightRecord>(records.find(core::advance(header.lights, i * sizeof(core::LightRecord))));
-    const nodes::NodeId owner = report.bsp.owner_of(cell_of_light(header, light));
+    const nodes::NodeId owner = report.regions.owner_of(cell_of_light(header, light));
     most = std::max(most, over_mean(received[nodes::index_of(owner)], received));
   }
   return most;

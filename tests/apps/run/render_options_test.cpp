@@ -235,6 +235,12 @@ TEST_CASE("every option of dataflow reaches its field") {
   CHECK(options.rays.balance.bsp.order == dataflow::CutOrder::longer_axis);
   CHECK(render({"--strategy=dataflow", "--cuts=alternating"}).rays.balance.bsp.order == dataflow::CutOrder::alternating);
   CHECK(render({"--strategy=dataflow", "--balance=equal-size"}).rays.balance.balance == dataflow::Balance::equal_size);
+  const dataflow::BalanceOptions scattered = render({"--strategy=dataflow", "--balance=scattered", "--regions=4"}).rays.balance;
+  CHECK(scattered.balance == dataflow::Balance::scattered);
+  CHECK(scattered.regions_a_node == 4);
+  CHECK_THROWS_AS(render({"--strategy=dataflow", "--regions=4"}), core::UsageError);
+  CHECK_THROWS_AS(render({"--strategy=dataflow", "--balance=scattered", "--cuts=alternating"}), core::UsageError);
+  CHECK_THROWS_AS(render({"--strategy=dataflow", "--balance=scattered", "--subsample=4"}), core::UsageError);
 }
 
 TEST_CASE("an option of another strategy is refused with the strategies that it goes with and the reason") {
@@ -416,7 +422,7 @@ TEST_CASE("the help of render names every option and its default") {
                                  "--grid-axes",
                                  "world|screen [world]",
                                  "--balance",
-                                 "subsampled|equal-size [subsampled]",
+                                 "subsampled|equal-size|scattered [subsampled]",
                                  "longer-side|alternating [longer-side]",
                                  "--subsample",
                                  "--balance-grid",

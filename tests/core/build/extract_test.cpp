@@ -194,7 +194,7 @@ TEST_CASE("a part is measured as it is extracted, and nothing is copied") {
     std::mt19937 random(3);
     const core::Database database = core::build_database(scene, apps::several_top_cells(scene));
     for (const Region& region : random_regions(core::grid_size(database.header().frame), 12, random)) {
-      const DatabasePart part = core::extract(database, region), measured = core::measure_part(database, region);
+      const DatabasePart part = core::extract(database, region), measured = core::measure_part(database, std::span(&region, 1));
       CHECK(measured.record_bytes == part.record_bytes);
       CHECK(part.bytes.size() == part.record_bytes + core::overread_bytes);
       CHECK(measured.primitive_copies == part.primitive_copies);
@@ -202,4 +202,34 @@ TEST_CASE("a part is measured as it is extracted, and nothing is copied") {
       CHECK(measured.bytes.capacity() == 0);
     }
   }
+}
+
+TEST_CASE("a part of several regions answers in each of them as that region's own part does, and holds what they share once") {
+  std::mt19937 random(5);
+  const core::Scene scene = tests::everything();
+  const core::Database database = core::build_database(scene, apps::several_top_cells(scene));
+  const std::vector<Region> all = random_regions(core::grid_size(database.header().frame), 24, random);
+  std::vector<Region> some;
+  for (std::size_t i = 0; i < all.size(); i += 3) {
+    some.push_back(all[i]);
+  }
+  const DatabasePart joint = core::extract(database, some);
+  REQUIRE(joint.holds.size() == some.size());
+  std::uint64_t copies = 0;
+  std::size_t bytes = 0, holding = 0;
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    const DatabasePart own = core::extract(database, some[i]);
+    CHECK(joint.holds[i] == (own.primitive_copies > 0));
+    CHECK(own.holds[0] == joint.holds[i]);
+    copies += own.primitive_copies;
+    bytes += own.record_bytes;
+    holding += joint.holds[i] ? 1 : 0;
+  }
+  CHECK(holding > 0);
+  CHECK(joint.primitive_copies <= copies);
+  CHECK(joint.primitive_copies <= database.references());
+  CHECK(joint.record_bytes < bytes);
+  CHECK(joint.header.region == some[0]);
+  CHECK(core::measure_part(database, some).record_bytes == joint.record_bytes);
+  CHECK(core::measure_part(database, some).holds == joint.holds);
 }

@@ -21,7 +21,7 @@ std::uint64_t allocated_by(const dataflow::PlanRequest& bounds, std::uint32_t no
   const core::RenderSettings settings{
       database.header(), core::Camera(scene.view, database.header().frame, 16, 16, 2), {}, bounds.refinement};
   const dataflow::Distribution distribution = dataflow::distribute(
-      database, settings, dataflow::share_out(dataflow::column_loads(database, settings, {}), node_count, {}).bsp);
+      database, settings, dataflow::share_out(dataflow::column_loads(database, settings, {}), node_count, {}).regions);
   dataflow::PlanRequest request = bounds;
   request.shares = distribution.shares();
   request.width = request.height = 16;

@@ -162,7 +162,7 @@ TEST_CASE("a view past the scene has no load and is still shared out") {
   scene.view.at = {scene.view.from.x, scene.view.from.y - 1, scene.view.from.z};
   const Stage stage(scene);
   CHECK(sum(stage.all_loads()) == 0);
-  CHECK(balance(stage.database, stage.settings, 8, {}).bsp.region_count() == 8);
+  CHECK(balance(stage.database, stage.settings, 8, {}).regions.region_count() == 8);
 }
 
 TEST_CASE("a subsampled picture predicts the whole one's load far better than equal sizes do") {
@@ -171,9 +171,9 @@ TEST_CASE("a subsampled picture predicts the whole one's load far better than eq
   for (const std::uint32_t count : {4U, 16U}) {
     const Balanced subsampled = balance(stage.database, stage.settings, count, {.subsample = 4});
     const Balanced equal = balance(stage.database, stage.settings, count, {.balance = Balance::equal_size});
-    const double achieved = dataflow::average_load(loads_of_regions(subsampled.bsp, whole));
+    const double achieved = dataflow::average_load(loads_of_regions(*subsampled.regions.bsp(), whole));
     CHECK(achieved > 0.75);
-    CHECK(achieved > 1.2 * dataflow::average_load(loads_of_regions(equal.bsp, whole)));
+    CHECK(achieved > 1.2 * dataflow::average_load(loads_of_regions(*equal.regions.bsp(), whole)));
     CHECK(subsampled.predicted.size() == count);
   }
 }
@@ -181,7 +181,7 @@ TEST_CASE("a subsampled picture predicts the whole one's load far better than eq
 TEST_CASE("a balance of one region is the whole grid") {
   const Stage stage(built_in("tetra-3"));
   const Balanced balanced = balance(stage.database, stage.settings, 1, {});
-  CHECK(balanced.bsp.region_at(0) == core::Region{{}, core::grid_size(stage.settings.header.frame)});
+  CHECK(balanced.regions.region_at(0) == core::Region{{}, core::grid_size(stage.settings.header.frame)});
   CHECK(balanced.predicted.size() == 1);
 }
 
@@ -190,7 +190,7 @@ TEST_CASE("a stop ends the subsampled picture, and the regions are there neverth
   std::stop_source source;
   source.request_stop();
   const dataflow::ColumnLoads loads = dataflow::column_loads(stage.database, stage.settings, {}, source.get_token());
-  CHECK(dataflow::share_out(loads, 5, {}).bsp.region_count() == 5);
+  CHECK(dataflow::share_out(loads, 5, {}).regions.region_count() == 5);
   CHECK(std::accumulate(loads.load.begin(), loads.load.end(), std::uint64_t{0}) == 0);
 }
 

@@ -10,19 +10,23 @@
 using namespace dmpc;
 using dataflow::Bsp;
 using dataflow::JointLattice;
+using dataflow::Regions;
 
 namespace {
 
 constexpr core::Corner lattice_size{640, 512, 900};
 
-std::vector<Bsp> several() {
+std::vector<Regions> several() {
   std::vector<Bsp> bsps;
   for (const std::uint32_t count : {1U, 4U, 7U, 32U}) {
     bsps.push_back(dataflow::equal_size_bsp(lattice_size, {0, 2}, count));
   }
   bsps[1].assign(std::vector<std::uint32_t>{2, 0, 3, 1});
   bsps[2].mark_empty(5);
-  return bsps;
+  std::vector<Regions> partitions(bsps.begin(), bsps.end());
+  partitions.emplace_back(dataflow::scatter(lattice_size, {0, 2}, 5, 12));
+  partitions.back().mark_empty(7);
+  return partitions;
 }
 
 std::size_t place_of(const JointLattice& lattice, std::size_t axis, std::int32_t finest) {
@@ -32,10 +36,10 @@ std::size_t place_of(const JointLattice& lattice, std::size_t axis, std::int32_t
 
 }  // namespace
 
-TEST_CASE("a lattice of several Bsps has the owner and the emptiness of every cell in each") {
-  const std::vector<Bsp> bsps = several();
+TEST_CASE("a lattice of several partitions has the owner and the emptiness of every cell in each") {
+  const std::vector<Regions> bsps = several();
   const JointLattice lattice(bsps);
-  CHECK(lattice.all_bsps() == 0b1111);
+  CHECK(lattice.all_partitions() == 0b11111);
   CHECK(lattice.planes(1).size() == 2);
   for (std::int32_t x = 0; x < lattice_size[0]; x += 13) {
     for (std::int32_t z = 0; z < lattice_size[2]; z += 17) {
@@ -50,7 +54,8 @@ TEST_CASE("a lattice of several Bsps has the owner and the emptiness of every ce
 }
 
 TEST_CASE("a lattice has a plane for each cut between the grid's ends, once, and knows its size beforehand") {
-  const std::vector<Bsp> bsps = {dataflow::equal_size_bsp({8, 4, 8}, {0, 1}, 8), dataflow::equal_size_bsp({8, 4, 8}, {0, 1}, 8)};
+  const std::vector<Regions> bsps = {dataflow::equal_size_bsp({8, 4, 8}, {0, 1}, 8),
+                                     dataflow::equal_size_bsp({8, 4, 8}, {0, 1}, 8)};
   const JointLattice lattice(bsps);
   CHECK(std::vector(lattice.planes(0).begin(), lattice.planes(0).end()) == std::vector<std::int32_t>{0, 2, 4, 6, 8});
   CHECK(std::vector(lattice.planes(1).begin(), lattice.planes(1).end()) == std::vector<std::int32_t>{0, 2, 4});
@@ -58,7 +63,7 @@ TEST_CASE("a lattice has a plane for each cut between the grid's ends, once, and
 }
 
 TEST_CASE("more regions than finest columns leave a lattice of what there is") {
-  const std::vector<Bsp> bsps = {dataflow::equal_size_bsp({2, 2, 2}, {0, 1}, 9)};
+  const std::vector<Regions> bsps = {dataflow::equal_size_bsp({2, 2, 2}, {0, 1}, 9)};
   const JointLattice lattice(bsps);
   CHECK(lattice.planes(0).size() == 3);
   CHECK(lattice.planes(1).size() == 3);
@@ -66,9 +71,9 @@ TEST_CASE("more regions than finest columns leave a lattice of what there is") {
 
 TEST_CASE("a lattice of nothing, of too many Bsps or of different grids is refused") {
   CHECK_THROWS_AS(JointLattice({}), core::InternalError);
-  const std::vector<Bsp> many(JointLattice::bsps_max + 1, Bsp({4, 4, 4}));
+  const std::vector<Regions> many(JointLattice::partitions_max + 1, Bsp({4, 4, 4}));
   CHECK_THROWS_AS(JointLattice{many}, core::InternalError);
-  CHECK(JointLattice(std::span(many).first(JointLattice::bsps_max)).all_bsps() == ~std::uint64_t{0});
-  const std::vector<Bsp> different = {Bsp({4, 4, 4}), Bsp({4, 4, 8})};
+  CHECK(JointLattice(std::span(many).first(JointLattice::partitions_max)).all_partitions() == ~std::uint64_t{0});
+  const std::vector<Regions> different = {Bsp({4, 4, 4}), Bsp({4, 4, 8})};
   CHECK_THROWS_AS(JointLattice{different}, core::InternalError);
 }

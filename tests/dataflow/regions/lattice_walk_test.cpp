@@ -42,7 +42,7 @@ core::Ray ray_along_planes(apps::Random& random) {
   return ray;
 }
 
-std::optional<std::uint32_t> owner_on_planes(const core::Ray& ray, const Bsp& bsp) {
+std::optional<std::uint32_t> owner_on_planes(const core::Ray& ray, const dataflow::Regions& bsp) {
   if (const auto passage = core::first_passage(ray, walked_frame)) {
     core::Operations operations;
     const dataflow::NextStop stop = tests::next_stop_without_outline(ray, *passage, walked_frame, bsp, operations);
@@ -66,8 +66,8 @@ std::optional<std::uint32_t> owner_by_lattice(const core::Ray& ray, const datafl
 }  // namespace
 
 TEST_CASE("a ray that crosses several planes at once comes to the regions to which the walk takes it") {
-  const std::vector<Bsp> bsps = {with_empty_regions({0, 1}, 16, 1), with_empty_regions({1, 2}, 64, 2),
-                                 with_empty_regions({0, 1}, 12, 3)};
+  const std::vector<dataflow::Regions> bsps = {with_empty_regions({0, 1}, 16, 1), with_empty_regions({1, 2}, 64, 2),
+                                               with_empty_regions({0, 1}, 12, 3)};
   const dataflow::JointLattice lattice(bsps);
   dataflow::LatticeWalk walk(lattice, walked_frame);
   apps::Random random(20'261);

@@ -95,6 +95,21 @@ TEST_CASE("loads are predicted where there was a subsampled picture") {
   CHECK(equal.options["subsample"].is_null());
 }
 
+TEST_CASE("regions that are scattered have a count and no order of cuts, and together all of the grid") {
+  RenderOptions options = small(Strategy::dataflow);
+  options.rays.balance = {.balance = dataflow::Balance::scattered, .regions_a_node = 3};
+  const StrategyStats stats = stats_of(options);
+  CHECK(stats.options["balance"] == "scattered");
+  CHECK(stats.options["regions_a_node"] == 3);
+  CHECK(stats.options["cuts"].is_null());
+  double share = 0;
+  for (const Json& node : stats.nodes) {
+    CHECK(node["region"]["regions"] == 3);
+    share += node["region"]["share"].get<double>();
+  }
+  CHECK(share == doctest::Approx(1));
+}
+
 TEST_CASE("without credits all rays go by way of the host, which keeps them") {
   RenderOptions options = small(Strategy::dataflow);
   options.rays.ray_credits = 0;

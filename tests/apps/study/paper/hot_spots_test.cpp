@@ -32,7 +32,7 @@ TEST_CASE("the flood at a light is what comes to its region over the mean, and n
   dataflow::Report report = dataflow::run_dataflow(subject.database, subject.settings, {.computer = {.node_count = 4}}, {});
   const core::DatabaseHeader& header = subject.database.header();
   const auto light = core::read<core::LightRecord>(core::LocalRecords(subject.database.bytes()).find(header.lights));
-  const std::uint32_t owner = nodes::index_of(report.bsp.owner_of(cell_of_light(header, light)));
+  const std::uint32_t owner = nodes::index_of(report.regions.owner_of(cell_of_light(header, light)));
   for (std::uint32_t node = 0; node < 4; ++node) {
     report.nodes[node].program.rays.in[static_cast<std::size_t>(core::RayKind::shadow)] = node == owner ? 300 : 100;
   }
