@@ -30,9 +30,9 @@ struct ScatteredShape {
 /// no lattice of `regions_a_node` times `node_count` regions has a finest cell for each row and column.
 ///
 /// Every node has exactly regions_a_node regions, since a window of p q = node_count cells has each node once, wherever it lies.
-/// With one node or more than two, neighbours along either axis belong to different nodes; among the steps that do so the first
-/// is chosen that keeps one node's regions farthest apart, and then puts the fewest neighbours on nodes that are adjacent on a
-/// torus (nodes/topology.h).
+/// With more than one, neighbours along either axis belong to different nodes; among the steps that do so the first is chosen
+/// that keeps one node's regions farthest apart, and then puts the fewest neighbours on nodes that are adjacent on a torus
+/// (nodes/topology.h): none on 64, 100 or 128 nodes, some on 16 or 36.
 std::optional<ScatteredShape> scattered_shape(const std::array<std::int32_t, 2>& size, std::uint32_t node_count,
                                               std::uint32_t regions_a_node);
 
