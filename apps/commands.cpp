@@ -102,6 +102,7 @@ class Commands {
     add(TrafficStudy::name, TrafficStudy::description, StudyOptions{.study = TrafficStudy()}, study_command);
     add(CacheStudy::name, CacheStudy::description, StudyOptions{.study = CacheStudy()}, study_command);
     add(SpeedupStudy::name, SpeedupStudy::description, StudyOptions{.study = SpeedupStudy()}, study_command);
+    add(SystemsStudy::name, SystemsStudy::description, StudyOptions{.study = SystemsStudy()}, study_command);
     add("paper", "Regenerate the tables and claims of the 1994 article", PaperStudyOptions(), study_paper_command);
     add("scale", "What larger scenes and more nodes take, and how fast that grows", ScaleOptions(), study_scale_command);
     begin("bench", "Put our own arithmetic to the test and print a table");

@@ -9,7 +9,7 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::array<SystemDescription, 7> descriptions = {{
+constexpr std::array<SystemDescription, 8> descriptions = {{
     {System::replicated, "replicated", "every node has the whole scene and renders its part of the picture"},
     {System::replicated_extents, "replicated-extents", "the same with one tree of boxes for the scene"},
     {System::svm, "svm", "a shared virtual memory (Badouel, Bouatouch, Priol 1994): pages travel from node to node"},
@@ -19,10 +19,13 @@ constexpr std::array<SystemDescription, 7> descriptions = {{
      "from the host's virtual memory"},
     {System::forest, "forest", "Goldsmith and Salmon (1988): the top of one tree is everywhere, owners of subtrees are asked"},
     {System::equal_size, "equal-size", "after Cleary and others (1986): rays travel between regions of equal size"},
+    {System::scattered, "scattered",
+     "after Kobayashi and others (1988): rays travel between regions of equal size, 16 a node, neighbours on different nodes"},
     {System::subsampled, "subsampled",
      "Badouel, Bouatouch, Priol (1994): rays travel between regions of equal work, by a small picture"},
 }};
 
+std::string text_of_value(std::uint32_t value) { return std::to_string(value); }
 std::string text_of_value(const std::optional<std::uint32_t>& value) { return std::to_string(*value); }
 template <class T>
 std::string text_of_value(const T& value) {
@@ -57,6 +60,10 @@ void for_each_setting(System system, StrategyOptions& run, DatabaseOptions& data
     case System::equal_size:
       is(Strategy::dataflow, core::Structure::grid);
       return visit("--balance", run.rays.balance.balance, dataflow::Balance::equal_size);
+    case System::scattered:
+      is(Strategy::dataflow, core::Structure::grid);
+      visit("--balance", run.rays.balance.balance, dataflow::Balance::scattered);
+      return visit("--regions", run.rays.balance.regions_a_node, std::uint32_t{16});
     case System::subsampled:
       is(Strategy::dataflow, core::Structure::grid);
       return visit("--balance", run.rays.balance.balance, dataflow::Balance::subsampled);
@@ -82,6 +89,37 @@ std::string options_of(System system) {
     text += std::string(text.empty() ? "" : " ") + option + "=" + text_of_value(value);
   });
   return text;
+}
+
+System find_system(const std::string& name) {
+  const auto* const found = std::find_if(descriptions.begin(), descriptions.end(),
+                                         [&](const SystemDescription& description) { return description.name == name; });
+  if (found == descriptions.end()) {
+    throw core::UsageError("there is no system \"" + name + "\": one of " + system_names());
+  }
+  return found->system;
+}
+
+std::string system_names() {
+  std::string names;
+  for (const SystemDescription& description : descriptions) {
+    names += (names.empty() ? "" : &description == &descriptions.back() ? " and " : ", ") + std::string(description.name);
+  }
+  return names;
+}
+
+StrategyOptions strategy_of(System system) {
+  StrategyOptions run;
+  DatabaseOptions database;
+  for_each_setting(system, run, database, [](const char*, auto& field, const auto& value) { field = value; });
+  return run;
+}
+
+DatabaseOptions database_of(System system) {
+  DatabaseOptions database = usual_database(strategy_of(system).strategy);
+  StrategyOptions run;
+  for_each_setting(system, run, database, [](const char*, auto& field, const auto& value) { field = value; });
+  return database;
 }
 
 void add_system_option(OptionSet options, std::optional<System>& system) {

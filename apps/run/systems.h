@@ -12,7 +12,16 @@
 
 namespace dmpc::apps {
 
-enum class System : std::uint8_t { replicated, replicated_extents, svm, pixel_machine, forest, equal_size, subsampled };
+enum class System : std::uint8_t {
+  replicated,
+  replicated_extents,
+  svm,
+  pixel_machine,
+  forest,
+  equal_size,
+  scattered,
+  subsampled
+};
 
 struct SystemDescription {
   System system;
@@ -25,6 +34,14 @@ std::span<const SystemDescription> systems();
 const char* name_of(System system);
 /// The options that it stands for: "--strategy=svm --structure=extents".
 std::string options_of(System system);
+
+/// The system of that name. Throws core::UsageError, which lists the names, if there is none.
+System find_system(const std::string& name);
+/// "replicated, replicated-extents, ... and subsampled".
+std::string system_names();
+/// What stands for a system: its strategy, and the database that it asks for.
+StrategyOptions strategy_of(System system);
+DatabaseOptions database_of(System system);
 
 /// Declares --system.
 void add_system_option(OptionSet options, std::optional<System>& system);

@@ -11,30 +11,33 @@ namespace dmpc::apps {
 
 namespace {
 
-core::Database build(core::Scene&& scene, core::BuildOptions options, const core::GridAxes& axes, bool shows_progress) {
+/// Frees the objects of `scene` on the way.
+Subject build(core::Scene& scene, const PictureOptions& picture, const DatabaseOptions& options, bool shows_progress) {
   Progress progress(std::cerr, shows_progress && stderr_is_terminal(), "Building:", "primitives");
-  options.axes = axes;
-  options.progress = [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); };
-  return core::build_database(std::move(scene), options);
+  core::BuildOptions build = options.build;
+  build.axes = options.axes == AxesChoice::screen ? core::screen_axes(scene.view) : core::world_axes;
+  build.progress = [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); };
+  core::Database database = core::build_database(std::move(scene), build);
+  const core::RenderSettings settings = render_settings(picture, scene, database);
+  const core::RoundingLoss loss = core::find_rounding_loss(database, settings.camera);
+  return {std::move(database), settings, loss};
 }
 
 }  // namespace
 
 Subject build_subject(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options, bool shows_progress) {
-  const core::GridAxes axes = options.axes == AxesChoice::screen ? core::screen_axes(scene.view) : core::world_axes;
-  core::Database database = build(std::move(scene), options.build, axes, shows_progress);
-  const core::RenderSettings settings = render_settings(picture, scene, database);
-  if (database.dropped() > 0) {
-    std::cerr << "dmpc: " << dropped_text(database.dropped()) << '\n';
+  Subject subject = build(scene, picture, options, shows_progress);
+  for (const std::string& text :
+       {dropped_text(subject.database.dropped()), loss_text(subject.loss), duplicates_text(subject.database.duplicates())}) {
+    if (!text.empty()) {
+      std::cerr << "dmpc: " << text << '\n';
+    }
   }
-  const core::RoundingLoss loss = core::find_rounding_loss(database, settings.camera);
-  if (!loss.is_none()) {
-    std::cerr << "dmpc: " << loss_text(loss) << '\n';
-  }
-  if (database.duplicates() > 0) {
-    std::cerr << "dmpc: " << duplicates_text(database.duplicates()) << '\n';
-  }
-  return {std::move(database), settings, loss};
+  return subject;
+}
+
+Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options) {
+  return build(scene, picture, options, false);
 }
 
 std::string dropped_text(std::uint64_t count) {

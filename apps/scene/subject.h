@@ -26,6 +26,9 @@ struct Subject {
 Subject build_subject(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options = {},
                       bool shows_progress = false);
 
+/// The same without a word.
+Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options);
+
 /// A sentence about the primitives that a database left out; empty if it left out none.
 std::string dropped_text(std::uint64_t count);
 /// The same about triangles that have the corners of others.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -47,6 +48,7 @@ TableFiles files_of(const StudyOptions& options) {
 struct Loaded {
   Subject subject;
   std::optional<std::uint64_t> scene_digest;
+  std::optional<core::Scene> scene;  ///< for a study that builds other databases of it
 };
 
 /// A signal ends the process here and now.
@@ -56,7 +58,8 @@ Loaded load(const StudyOptions& options, const TableFiles& files, Interrupt& int
   core::Scene scene = load_scene(options.picture, LoadNotes::said, &opened);
   check_not_read(opened, files.names());
   const auto digest = options.table.report ? std::optional(scene_digest(scene)) : std::nullopt;
-  return {build_subject(std::move(scene), options.picture, options.database, true), digest};
+  auto kept = std::holds_alternative<SystemsStudy>(options.study) ? std::optional(scene) : std::nullopt;
+  return {build_subject(std::move(scene), options.picture, options.database, true), digest, std::move(kept)};
 }
 
 std::string samples_text(const PictureOptions& picture) {
@@ -144,11 +147,23 @@ void announce_effort(const StudyOptions& options, const Subject& subject, Interr
   }
 }
 
+/// A study that compares structures is given the scene to build them from.
+void give_scene(SystemsStudy& study, const core::Scene& scene, const StudyOptions& options) {
+  study.build = [&scene, &options](core::Structure structure, std::size_t page_size_bytes) {
+    DatabaseOptions other = options.database;
+    other.build.structure = structure;
+    other.build.page_size_bytes = page_size_bytes;
+    return build_subject_quietly(scene, options.picture, other);
+  };
+}
+
 /// Returns the exit status.
 template <class OneStudy>
-int carry_out(const OneStudy& study, const StudyOptions& options, const TableFiles& files, Interrupt& interrupt,
-              std::ostream& output) {
-  const auto [subject, digest] = load(options, files, interrupt);
+int carry_out(OneStudy study, const StudyOptions& options, const TableFiles& files, Interrupt& interrupt, std::ostream& output) {
+  const auto [subject, digest, scene] = load(options, files, interrupt);
+  if constexpr (std::is_same_v<OneStudy, SystemsStudy>) {
+    give_scene(study, *scene, options);
+  }
   announce_effort(options, subject, interrupt);
   Table table = empty_table(study, options, subject);
   ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);

@@ -117,4 +117,21 @@ std::string conclusion_of(const CacheStudy&, const Table& table) {
   return "";
 }
 
+std::string conclusion_of(const SystemsStudy&, const Table& table) {
+  const Row* fastest = nullptr;
+  double seconds = 0;
+  for (const Row& row : table.rows()) {
+    const auto time = number_in(table, row, "virtual time");
+    const bool is_copy = std::get<std::string>(row[0]).starts_with("replicated");
+    if (time && !is_copy && (fastest == nullptr || *time < seconds)) {
+      fastest = &row;
+      seconds = *time;
+    }
+  }
+  return fastest == nullptr ? ""
+                            : "Of the systems whose nodes do not hold the whole scene " + std::get<std::string>((*fastest)[0]) +
+                                  " is the fastest: " + amount_text(seconds, "s") + " on " + nodes_text(table, *fastest) +
+                                  ", memory " + std::get<std::string>((*fastest)[1]) + ".";
+}
+
 }  // namespace dmpc::apps

@@ -15,5 +15,6 @@ std::string conclusion_of(const BalanceStudy& study, const Table& table);
 std::string conclusion_of(const TrafficStudy& study, const Table& table);
 std::string conclusion_of(const SpeedupStudy& study, const Table& table);
 std::string conclusion_of(const CacheStudy& study, const Table& table);
+std::string conclusion_of(const SystemsStudy& study, const Table& table);
 
 }  // namespace dmpc::apps

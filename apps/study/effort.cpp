@@ -40,6 +40,18 @@ struct Plan {
   std::vector<PlannedRun> operator()(const SpeedupStudy& study) const {
     return repeated(study.node_counts, {{study.run.strategy, 1, true}});
   }
+  std::vector<PlannedRun> operator()(const SystemsStudy& study) const {
+    std::vector<PlannedRun> each;
+    for (const System system : study.chosen) {
+      const auto times = std::count_if(study.memories.begin(), study.memories.end(),
+                                       [&](const MemoryRule& memory) { return memory.changes(system); });
+      const bool has_one = static_cast<std::size_t>(times) < study.memories.size();
+      each.insert(each.end(), static_cast<std::size_t>(times) + (has_one ? 1 : 0), {strategy_of(system).strategy, 1, true});
+    }
+    std::vector<PlannedRun> runs = repeated(study.node_counts, each);
+    runs.push_back({Strategy::replicated, 1, true});
+    return runs;
+  }
 };
 
 std::size_t bytes_of(const PlannedRun& run, const Subject& subject) {

@@ -1,5 +1,6 @@
 #include "apps/study/options.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -43,6 +44,31 @@ void finish(const OptionSet& set, SpeedupStudy& study, DatabaseOptions& database
     check_node_count(study.run.strategy, node_count);
   }
   choose_machine(study.run);
+}
+
+/// "svm,forest", in that order, each once.
+std::vector<System> parse_systems(const std::string& text) {
+  std::vector<System> chosen;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const System system = find_system(text.substr(begin, end - begin));
+    if (std::find(chosen.begin(), chosen.end(), system) == chosen.end()) {
+      chosen.push_back(system);
+    }
+    begin = end + 1;
+  }
+  return chosen;
+}
+
+/// In the end: the machine is read, and the database is that of the systems in a grid.
+void finish(const OptionSet& set, SystemsStudy& study) {
+  if (set.is_given("--structure")) {
+    throw core::UsageError("--structure does not go with study systems: each system has its own");
+  }
+  if (set.is_given("--record-order")) {
+    throw core::UsageError("--record-order does not go with study systems: a subtree of forest lies in one page");
+  }
+  choose_machine(study.machine);
 }
 
 /// One overload a study: its own options, and examples.
@@ -104,6 +130,28 @@ struct AddOwn {
         "  dmpc study speedup teapot-12 --strategy=dataflow --machine=hdr --nodes=1,16,256,1024\n"
         "A number of nodes whose memory cannot hold the scene has a row without figures, and a note that says what would do.\n"
         "If none can, the exit status is 4.");
+  }
+  void operator()(SystemsStudy& study) const {
+    add_node_counts(set, study.node_counts);
+    set.add_text(
+        "--systems", "NAME,NAME,... [all]", [&study](const std::string& text) { study.chosen = parse_systems(text); },
+        "Which are compared: " + system_names());
+    set.add_text(
+        "--node-memory", "RULE,RULE,... [auto,25%,5%,1%]",
+        [&study](const std::string& text) { study.memories = parse_memory_rules(text); },
+        "What a node may hold: auto, as much as its system needs; S%, its part and so much of the database more; or a size such "
+        "as 4MiB, of all that its memory holds");
+    add_machine_options(set, study.machine.runner, "");
+    set.check_in_the_end([set = set, &study, &file = machine_name] {
+      file = study.machine.runner.machine_name;
+      finish(set, study);
+    });
+    set.set_examples(
+        "Examples:\n"
+        "  dmpc study systems rings-4-t1\n"
+        "  dmpc study systems balls-4 --machine=hdr --resolution=256x256 --plots=plots -o systems.md\n"
+        "  dmpc study systems mount-6-t6 --nodes=8,64 --systems=svm,forest --node-memory=auto,2% --format=csv -o systems.csv\n"
+        "A system that does not fit has a row without figures.");
   }
 };
 

@@ -10,6 +10,7 @@
 #include "apps/study/balance.h"
 #include "apps/study/cache.h"
 #include "apps/study/speedup.h"
+#include "apps/study/systems.h"
 #include "apps/study/traffic.h"
 #include "apps/table/table_options.h"
 
@@ -17,7 +18,7 @@ namespace dmpc::apps {
 
 /// One study. Each has a `name` (the word on the command line) and a `description`, and says what its table's columns() and its
 /// plots() are, how many runs it takes, what to note below for a scene, and how to measure() row after row.
-using Study = std::variant<BalanceStudy, TrafficStudy, CacheStudy, SpeedupStudy>;
+using Study = std::variant<BalanceStudy, TrafficStudy, CacheStudy, SpeedupStudy, SystemsStudy>;
 
 struct StudyOptions {
   Study study;

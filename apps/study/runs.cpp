@@ -79,13 +79,13 @@ svm::Report StudyRuns::run(const std::string& computer, svm::RunOptions options)
 
 /// Nothing if a signal kept it from its end. Throws what the run throws. Only a plan that cannot be made is a misfit: what goes
 /// wrong later is an error.
-std::optional<StudyOutcome> StudyRuns::outcome_of(const StrategyOptions& run,
+std::optional<StudyOutcome> StudyRuns::outcome_of(const StudyRun& run,
                                                   const std::function<void(std::uint32_t, std::uint32_t)>& progress) const {
-  core::expect(run.computer.machine.has_value(), "runs side by side have no threads");
+  core::expect(run.options.computer.machine.has_value(), "runs side by side have no threads");
   StudyOutcome outcome;
   ReadyRun ready;
   try {
-    ready = make_ready(run, database_, settings_, interrupt_.token());
+    ready = make_ready(run.options, *run.database, *run.settings, interrupt_.token());
   } catch (const ComputerRoomError&) {
     throw;
   } catch (const core::InputError& error) {
@@ -100,6 +100,14 @@ std::optional<StudyOutcome> StudyRuns::outcome_of(const StrategyOptions& run,
 }
 
 void StudyRuns::run_side_by_side(std::span<const StrategyOptions> runs, const Take& take) {
+  std::vector<StudyRun> over_this;
+  for (const StrategyOptions& run : runs) {
+    over_this.push_back({run, &database_, &settings_});
+  }
+  run_side_by_side(over_this, take);
+}
+
+void StudyRuns::run_side_by_side(std::span<const StudyRun> runs, const Take& take) {
   Progress line(progress_.output, progress_.is_shown, "runs " + numbers(runs.size()) + ", side by side: ");
   CommonProgress progress(line, runs.size(), settings_.camera.pixel_count());
   std::vector<std::string> misfits;

@@ -36,6 +36,13 @@ struct StudyOutcome {
   std::vector<std::string> notes;  ///< what had to be reduced to fit: sentences
 };
 
+/// A run on a modelled machine, and what it renders: the study's scene, maybe in another structure. That outlives the run.
+struct StudyRun {
+  StrategyOptions options;
+  const core::Database* database;
+  const core::RenderSettings* settings;
+};
+
 /// The scene fits none of the computers that were to render it: the message is the first one's misfit.
 struct NothingFits : core::RoomError {
   using core::RoomError::RoomError;
@@ -61,7 +68,13 @@ class StudyRuns {
   /// `take` has been told of a misfit for every run, if there are any; before that core::UsageError for options that their
   /// strategy does not take, core::InternalError if a film is not the first run's, and whatever else a run throws: `take` has
   /// then been told of all runs before that one, and of none after it.
+  void run_side_by_side(std::span<const StudyRun> runs, const Take& take);
+  /// The same over the study's database.
   void run_side_by_side(std::span<const StrategyOptions> runs, const Take& take);
+
+  /// What the study renders.
+  const core::Database& database() const { return database_; }
+  const core::RenderSettings& settings() const { return settings_; }
 
   /// Throws Interrupted if a signal has come. From any thread.
   void check() const { interrupt_.check(); }
@@ -78,7 +91,7 @@ class StudyRuns {
   std::string numbers(std::size_t run_count) const;
   template <class Options, class Render>
   auto run_shown(const std::string& computer, const core::RenderSettings& settings, Options options, const Render& render);
-  std::optional<StudyOutcome> outcome_of(const StrategyOptions& run,
+  std::optional<StudyOutcome> outcome_of(const StudyRun& run,
                                          const std::function<void(std::uint32_t, std::uint32_t)>& progress) const;
 
   const core::Database& database_;

@@ -29,6 +29,7 @@ TEST_CASE("a table without rows has no conclusion") {
   CHECK(conclusion_of(TrafficStudy{}, table_with(TrafficStudy{}, {})).empty());
   CHECK(conclusion_of(SpeedupStudy{}, table_with(SpeedupStudy{}, {})).empty());
   CHECK(conclusion_of(CacheStudy{}, table_with(CacheStudy{}, {})).empty());
+  CHECK(conclusion_of(SystemsStudy{}, table_with(SystemsStudy{}, {})).empty());
 }
 
 TEST_CASE("traffic is concluded with what is cheaper on the most nodes") {
@@ -72,6 +73,16 @@ TEST_CASE("caches are concluded with the size from which lru is good") {
   CHECK(conclusion_of(CacheStudy{}, table_with(CacheStudy{}, {row(1, 1000, 1000), row(4, 500, 300), row(16, 105, 100)})) ==
         "From caches of 16 pages on (16.0 % of the database) lru is within 10 % of the best that any policy could do; it faults "
         "10.5 % as often as with 1 page.");
+}
+
+TEST_CASE("systems are concluded with the fastest that does not hold the whole scene at every node") {
+  const auto row = [](const char* system, const char* memory, double seconds) {
+    return std::vector<std::pair<std::string, Cell>>{
+        {"system", system}, {"memory", memory}, {"nodes", std::uint64_t{8}}, {"virtual time", seconds}};
+  };
+  const Table table = table_with(SystemsStudy{}, {row("replicated", "auto", 1), row("svm", "auto", 3), row("forest", "5%", 2)});
+  CHECK(conclusion_of(SystemsStudy{}, table) ==
+        "Of the systems whose nodes do not hold the whole scene forest is the fastest: 2.00 s on 8 nodes, memory 5%.");
 }
 
 }  // namespace dmpc::apps

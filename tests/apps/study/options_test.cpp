@@ -170,4 +170,24 @@ TEST_CASE("a study has its own options alone") {
   CHECK(usage_complaint({"study", "balance"}).find("SCENE") != std::string::npos);
 }
 
+TEST_CASE("systems and rules of memory are chosen by name, and each system has its own structure") {
+  const auto chosen = [](std::initializer_list<std::string> more) {
+    return std::get<SystemsStudy>(study("systems", more).study);
+  };
+  const SystemsStudy standard = chosen({});
+  CHECK(standard.chosen.size() == systems().size());
+  CHECK(standard.memories.size() == 4);
+  CHECK(standard.machine.computer.machine->name == "ipsc2");
+  const SystemsStudy taken =
+      chosen({"--systems=forest,svm,forest", "--node-memory=auto,2%,1MiB", "--nodes=8,64", "--machine=hdr"});
+  REQUIRE(taken.chosen.size() == 2);
+  CHECK(taken.chosen[0] == System::forest);
+  CHECK(taken.memories.size() == 3);
+  CHECK(taken.node_counts.size() == 2);
+  CHECK(taken.machine.computer.machine->name == "hdr");
+  CHECK_THROWS_WITH_AS(chosen({"--systems=svm,"}), doctest::Contains("there is no system \"\""), core::UsageError);
+  CHECK_THROWS_WITH_AS(chosen({"--node-memory=200%"}), doctest::Contains("at most 100%"), core::UsageError);
+  CHECK_THROWS_WITH_AS(chosen({"--structure=extents"}), doctest::Contains("each system has its own"), core::UsageError);
+}
+
 }  // namespace dmpc::apps

@@ -163,7 +163,7 @@ TEST_CASE("runs with threads are not run side by side, and no runs are none") {
   const std::vector<apps::StrategyOptions> on_threads(1);
   const auto take = [](std::size_t, const apps::StudyOutcome&) { throw core::InputError("taken"); };
   CHECK_THROWS_AS(subject.runs.run_side_by_side(on_threads, take), core::InternalError);
-  subject.runs.run_side_by_side({}, take);
+  subject.runs.run_side_by_side(std::span<const apps::StrategyOptions>(), take);
   CHECK(subject.runs.count() == 0);
 }
 
