@@ -236,7 +236,7 @@ std::vector<Column> SystemsStudy::columns() const {
                                  {"nodes"},
                                  {"fits"},
                                  {"database held", "%", 1},
-                                 {"virtual time", "s", 4},
+                                 {"virtual time", "s", 6},
                                  {"efficiency", "%", 1},
                                  {"average load", "%", 1},
                                  {"work", "", 2}};

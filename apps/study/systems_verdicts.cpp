@@ -76,7 +76,9 @@ constexpr std::array<Expectation, 5> expectations = {
      {"whatever the memory, the host is the slowest home", is_any, is_other_than_host_home, has_host_home},
      {"regions by a subsampled picture are faster than regions of equal size", is_ample, is_subsampled, is_equal_size}}};
 
-std::string time_text(const Round::Entry& entry) { return std::string(name_of(entry.system)) + " " + rounded(entry.seconds) + " s"; }
+std::string time_text(const Round::Entry& entry) {
+  return std::string(name_of(entry.system)) + " " + rounded(entry.seconds) + " s";
+}
 
 }  // namespace
 
