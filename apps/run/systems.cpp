@@ -15,8 +15,7 @@ constexpr std::array<SystemDescription, 8> descriptions = {{
     {System::svm, "svm", "a shared virtual memory (Badouel, Bouatouch, Priol 1994): pages travel from node to node"},
     {System::pixel_machine, "pixel-machine",
      "after the Pixel Machine (Potmesil, Hoffert 1989): each node has every m-th pixel of every n-th line for good, and pages "
-     "come "
-     "from the host's virtual memory"},
+     "come from the host, where the article of 1994 says that virtual memory was"},
     {System::forest, "forest", "Goldsmith and Salmon (1988): the top of one tree is everywhere, owners of subtrees are asked"},
     {System::equal_size, "equal-size", "after Cleary and others (1986): rays travel between regions of equal size"},
     {System::scattered, "scattered",
