@@ -99,7 +99,7 @@ inline double finite_log(double x) {
 /// base ^ exponent for 0 <= base <= 1 and exponent >= 0. A base outside counts as its nearer end.
 inline double unit_power(double base, double exponent) {
   constexpr double surely_0 = -746;  // of which the exponential rounds to 0
-  const double power = finite_exponential(std::max(surely_0, exponent * finite_log(base)));
+  const double power = finite_exponential(std::min(0.0, std::max(surely_0, exponent * finite_log(base))));
   const double inside = base > 0 ? power : 0.0, capped = base >= 1 ? 1.0 : inside;
   return exponent == 0 ? 1.0 : capped;
 }

@@ -102,7 +102,8 @@ CornerTree::Query CornerTree::query_for(const CornerTriangle& triangle) const {
   return query;
 }
 
-std::optional<std::uint32_t> CornerTree::hindrance_in(const Node& node, const Query& query) const {
+std::optional<std::uint32_t> CornerTree::hindrance_in(const Node& node, const Query& query) {
+  ++nodes_visited_;
   if (node.left == 0 || (nodes_.size() > 1 && query.misses(node.box))) {
     return std::nullopt;
   }
@@ -121,7 +122,7 @@ std::optional<std::uint32_t> CornerTree::hindrance_in(const Node& node, const Qu
   return std::nullopt;
 }
 
-std::optional<std::uint32_t> CornerTree::hindrance(const CornerTriangle& triangle) const {
+std::optional<std::uint32_t> CornerTree::hindrance(const CornerTriangle& triangle) {
   return hindrance_in(nodes_[0], query_for(triangle));
 }
 

@@ -19,7 +19,9 @@ class CornerTree {
 
   void remove(std::uint32_t corner);
   /// A corner that hinders the triangle from being cut off, if there is one.
-  std::optional<std::uint32_t> hindrance(const CornerTriangle& triangle) const;
+  std::optional<std::uint32_t> hindrance(const CornerTriangle& triangle);
+  /// Of the tree, by all questions so far.
+  std::uint64_t nodes_visited() const { return nodes_visited_; }
 
  private:
   static constexpr std::uint32_t none = 0xffffffffU;
@@ -53,13 +55,14 @@ class CornerTree {
   Query query_for(const CornerTriangle& triangle) const;
   Box box_of(std::uint32_t first, std::uint32_t end) const;
   void split(std::uint32_t node);
-  std::optional<std::uint32_t> hindrance_in(const Node& node, const Query& query) const;
+  std::optional<std::uint32_t> hindrance_in(const Node& node, const Query& query);
 
   const FlatPolygon& polygon_;
   std::vector<std::uint32_t> order_;  ///< corners, each node's next to each other
   std::vector<std::uint8_t> is_left_;
   std::vector<std::uint32_t> leaf_;  ///< of each corner
   std::vector<Node> nodes_;
+  std::uint64_t nodes_visited_ = 0;
 };
 
 }  // namespace dmpc::core

@@ -42,11 +42,13 @@ void EarClipper::look_at(std::uint32_t corner) {
   if (!(corners_[corner].turn > 0)) {
     return;
   }
-  if (const auto hindrance = tree_.hindrance(triangle_at(corner))) {
-    corners_[*hindrance].hindered.push_back(corner);
-  } else {
+  const std::uint32_t hindrance = tree_.hindrance(triangle_at(corner)).value_or(none);
+  if (hindrance == none) {
     ears_.insert(corner);
+  } else if (hindrance != corners_[corner].hindrance) {
+    corners_[hindrance].hindered.push_back(corner);
   }
+  corners_[corner].hindrance = hindrance;
 }
 
 std::uint32_t EarClipper::next() {
@@ -81,7 +83,7 @@ void EarClipper::cut(std::uint32_t corner) {
     look_at(neighbour);
   }
   for (const std::uint32_t hindered : std::exchange(gone.hindered, {})) {
-    if (corners_[hindered].is_left && !ears_.contains(hindered)) {
+    if (corners_[hindered].is_left && corners_[hindered].hindrance == corner) {
       look_at(hindered);
     }
   }

@@ -21,13 +21,18 @@ class EarClipper {
   explicit EarClipper(const FlatPolygon& polygon);
 
   std::vector<CornerTriangle> triangles();
+  /// What it took: nodes of a tree of the corners, n log n or so.
+  std::uint64_t nodes_visited() const { return tree_.nodes_visited(); }
 
  private:
+  static constexpr std::uint32_t none = 0xffffffffU;
+
   struct Corner {
     std::uint32_t before = 0, after = 0;
     bool is_left = true;
     double turn = 0;                      ///< with its neighbours
-    std::vector<std::uint32_t> hindered;  ///< corners that this one hindered when they were looked at last
+    std::uint32_t hindrance = none;       ///< found when it was looked at last
+    std::vector<std::uint32_t> hindered;  ///< every corner whose hindrance this is, and some whose hindrance this was
   };
   /// The corner that turns left most comes last, of several the first one.
   struct TurnsLess {

@@ -130,6 +130,7 @@ TEST_CASE("a power at the ends of its range is 0 or 1") {
   CHECK(pow_unit(0.5, 1) == 0.5);
   CHECK(pow_unit(0.9, 100000) == 0);
   CHECK(pow_unit(1.0000000001, 100000) == 1);
+  CHECK(pow_unit(1 + 0x1p-52, 1e33) == 1);
   CHECK(pow_unit(-0.1, 3) == 0);
 }
 
