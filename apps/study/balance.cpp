@@ -4,8 +4,8 @@
 #include <numeric>
 #include <span>
 #include <utility>
-#include "apps/line/number_text.h"
 
+#include "apps/line/number_text.h"
 #include "apps/run/ray_hops.h"
 #include "core/families/scenes.h"
 #include "dataflow/regions/balance.h"
@@ -22,18 +22,21 @@ using dataflow::CutOrder;
 struct Cutting {
   const char* name;
   Balance balance;
-  CutOrder order;
+  CutOrder order = CutOrder::longer_axis;
+  std::uint32_t regions_a_node = 1;
 };
 constexpr std::array<Cutting, BalanceStudy::ways> cuttings = {
-    {{"subsampled", Balance::subsampled, CutOrder::longer_axis},
+    {{"subsampled", Balance::subsampled},
      {"subsampled, alternating", Balance::subsampled, CutOrder::alternating},
-     {"equal size", Balance::equal_size, CutOrder::longer_axis}}};
+     {"equal size", Balance::equal_size},
+     {"scattered, 16 a node", Balance::scattered, CutOrder::longer_axis, 16}}};
 
 dataflow::RunOptions options_for(const BalanceStudy& study, std::uint32_t node_count, const Cutting& cutting) {
   dataflow::RunOptions options{.computer = {.node_count = node_count},
                                .rays = {.balance = study.regions, .topology = study.topology}};
   options.rays.balance.balance = cutting.balance;
   options.rays.balance.bsp.order = cutting.order;
+  options.rays.balance.regions_a_node = cutting.regions_a_node;
   return options;
 }
 
@@ -130,6 +133,7 @@ std::vector<std::string> BalanceStudy::notes(const std::string& scene) const {
       "Predicted: by the picture of one pixel of every " + step + "x" + step + ".",
       "Alternating: a box is cut along one axis, its halves along the other, as the article has it; the others across their "
       "longer sides.",
+      "Scattered: a lattice of regions of equal size, neighbours on different nodes.",
       "Moves: how often a ray goes on to another node.",
       "Duplication: copies of primitives in all regions over those in the database's bricks.",
       "Hops: links that a ray sent from node to node passes on a machine wired as a " + std::string(nodes::name_of(topology)) +

@@ -14,14 +14,15 @@
 
 namespace dmpc::apps {
 
-/// For each node count the regions by the subsampled picture, cut across the longer side and in alternating directions, and those
-/// of equal size: the average load, predicted and achieved, copies of primitives, and hops of a ray from node to node.
+/// For each node count the regions by the subsampled picture, cut across the longer side and in alternating directions, those of
+/// equal size, one a node and scattered: the average load, predicted and achieved, copies of primitives, and hops of a ray from
+/// node to node.
 struct BalanceStudy {
   static constexpr const char* name = "balance";
   static constexpr const char* description = "How evenly the work of rays that travel is shared out";
 
   /// How regions are cut.
-  static constexpr std::size_t ways = 3;
+  static constexpr std::size_t ways = 4;
 
   std::vector<std::uint32_t> node_counts = {4, 8, 16, 32, 64};
   dataflow::BalanceOptions regions;  ///< how loads are predicted; which way they are cut is without meaning

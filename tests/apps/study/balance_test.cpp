@@ -29,14 +29,17 @@ TEST_CASE("balance has a row for each node count and way to cut") {
   const BalanceStudy study{.node_counts = {2, 5}};
   StudySubject subject("rings-2-t1");
   const Table table = subject.measure(study);
-  REQUIRE(table.rows().size() == 6);
+  REQUIRE(table.rows().size() == 8);
   CHECK(subject.runs.count() == study.run_count());
   CHECK(whole(table, 1, "nodes") == 2);
-  CHECK(whole(table, 3, "nodes") == 5);
-  CHECK(std::get<std::string>(cell(table, 3, "regions")) == "subsampled");
-  CHECK(std::get<std::string>(cell(table, 4, "regions")) == "subsampled, alternating");
-  CHECK(std::get<std::string>(cell(table, 5, "regions")) == "equal size");
-  CHECK(is_missing(table, 5, "average load predicted"));
+  CHECK(whole(table, 4, "nodes") == 5);
+  CHECK(std::get<std::string>(cell(table, 4, "regions")) == "subsampled");
+  CHECK(std::get<std::string>(cell(table, 5, "regions")) == "subsampled, alternating");
+  CHECK(std::get<std::string>(cell(table, 6, "regions")) == "equal size");
+  CHECK(std::get<std::string>(cell(table, 7, "regions")) == "scattered, 16 a node");
+  for (const std::size_t row : {6U, 7U}) {
+    CHECK(is_missing(table, row, "average load predicted"));
+  }
 }
 
 TEST_CASE("cuts in alternating directions make other regions than those across the longer side, which rays cross elsewhere") {
@@ -49,6 +52,16 @@ TEST_CASE("cuts in alternating directions make other regions than those across t
   CHECK(real(table, 0, "moves a ray") == by(dataflow::CutOrder::longer_axis).messages_per_ray());
   CHECK(real(table, 1, "moves a ray") == by(dataflow::CutOrder::alternating).messages_per_ray());
   CHECK(real(table, 0, "moves a ray") != real(table, 1, "moves a ray"));
+}
+
+TEST_CASE("scattered regions are 16 a node, and their load is more even than that of one region of equal size") {
+  StudySubject subject("rings-2-t1", 64);
+  const Table table = subject.measure(BalanceStudy{.node_counts = {8}});
+  const dataflow::Report scattered = subject.runs.run(
+      "again", dataflow::RunOptions{.computer = {.node_count = 8},
+                                    .rays = {.balance = {.balance = dataflow::Balance::scattered, .regions_a_node = 16}}});
+  CHECK(real(table, 3, "moves a ray") == scattered.messages_per_ray());
+  CHECK(real(table, 3, "average load achieved") > real(table, 2, "average load achieved"));
 }
 
 TEST_CASE("regions by the subsampled picture are more even than those of equal size") {
@@ -84,7 +97,7 @@ TEST_CASE("one node is all the load, and no ray hops") {
 
 TEST_CASE("rows by node are asked for, follow their run, and share out the whole") {
   const Table table = StudySubject("rings-2-t1").measure(BalanceStudy{.node_counts = {3}, .per_node = true});
-  REQUIRE(table.rows().size() == 12);
+  REQUIRE(table.rows().size() == 16);
   double predicted = 0, achieved = 0;
   for (std::size_t row = 1; row <= 3; ++row) {
     CHECK(whole(table, row, "node") == row - 1);
