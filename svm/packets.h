@@ -100,10 +100,11 @@ static_assert(sizeof(PageReplyHeader) == 8 && std::is_trivially_copyable_v<PageR
 static_assert(sizeof(PageReplyHeader) + page_size_min_bytes > nodes::small_payload_bytes, "every page reply is bulk");
 
 /// The node `asker` has no pixels left. Hops from node to node along the ring until one answers or `visits_left` have been
-/// asked.
+/// asked or passed over.
 struct WorkRequest {
   std::uint32_t asker = 0;
   std::uint32_t visits_left = 0;
+  std::uint32_t pass = 0;  ///< the asker's, from 0 on
 };
 static_assert(is_small_packet<WorkRequest>);
 

@@ -53,7 +53,7 @@ class ControlProgram final : public NodeProgram {
         records_(node, plan.pages(), database),
         tracer_(make_tracer(records_)),
         slots_(node.memory(), plan.task_count(), static_cast<std::uint32_t>(plan.request.depth_max)),
-        work_(node, plan.work()),
+        work_(node, plan.work(), settings.skips.idle_nodes),
         film_(node, plan.film()),
         meter_(meter) {
     core::expect(Task::pixels_max == plan.pixels_a_task, "a node's tasks are those of the plan");
@@ -146,6 +146,7 @@ class ControlProgram final : public NodeProgram {
     ProgramReport report{operations_, records_.counters(), work_.counters()};
     report.work.pixels_rendered = pixels_rendered_;
     report.rays_ended = rays_ended_;
+    report.operations.skipped.idle_nodes = report.work.nodes_passed_over;
     if constexpr (questions_travel) {
       report.questions = records_.questions();
     }

@@ -1,8 +1,10 @@
 #include "svm/work_source.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/expect.h"
+#include "core/base/sampling.h"
 #include "core/base/units.h"
 
 namespace dmpc::svm {
@@ -25,6 +27,12 @@ std::uint64_t bits_of(const ItemSteps& steps) {
   return bits;
 }
 
+/// More go on along the ring.
+constexpr std::size_t kept_max = 16;
+
+/// Another for each node, since mixing can be undone.
+std::uint64_t rank_of(std::uint32_t node) { return core::mix(node); }
+
 /// A node that gives no work away has its share as one item, or in masked ones.
 std::uint32_t item_side_of(const WorkShape& shape) {
   return shape.is_masked && shape.item_side == 0 ? masked_side_max : shape.item_side;
@@ -36,19 +44,21 @@ bool is_alone(const WorkShape& shape, std::uint32_t index) {
 
 }  // namespace
 
-WorkSource::WorkSource(nodes::Node& node, const WorkShape& shape)
+WorkSource::WorkSource(nodes::Node& node, const WorkShape& shape, bool passes_over_idle)
     : node_(&node),
       worker_count_(shape.worker_count),
       self_(nodes::index_of(node.id())),
       image_width_(shape.width),
       first_samples_(shape.first_samples),
       item_side_(item_side_of(shape)),
+      passes_over_idle_(passes_over_idle),
       tile_(shape.tile),
       share_(own_share(shape, self_)),
       mask_(node.memory().allocate<core::SampleStep>(nodes::Category::queues, mask_pixels(shape, self_))),
       items_(share_, item_side_),
       first_giver_(shape.dealer.value_or((self_ + 1) % worker_count_)),
       last_giver_(first_giver_),
+      kept_(node.memory().allocate<WorkRequest>(nodes::Category::queues, kept_max)),
       is_alone_(is_alone(shape, self_)),
       no_more_(is_alone_) {
   std::fill(mask_.begin(), mask_.end(), core::SampleStep::first());
@@ -67,7 +77,8 @@ void WorkSource::want_missing(const core::PartialPicture& start) {
 }
 
 void WorkSource::add_needs(nodes::MemoryPlan& memory, const WorkShape& shape, std::uint32_t index) {
-  memory[nodes::Category::queues] += nodes::LocalMemory::bytes_for<core::SampleStep>(mask_pixels(shape, index));
+  memory[nodes::Category::queues] += nodes::LocalMemory::bytes_for<core::SampleStep>(mask_pixels(shape, index)) +
+                                     nodes::LocalMemory::bytes_for<WorkRequest>(kept_max);
 }
 
 void WorkSource::take_mask(const MaskPart& part) {
@@ -81,6 +92,7 @@ void WorkSource::begin_pass() {
   items_ = WorkItems(share_, item_side_);
   last_giver_ = first_giver_;
   no_more_ = is_alone_;
+  ++pass_;
   skip_unwanted();
 }
 
@@ -139,12 +151,6 @@ core::SampleRange WorkSource::next_samples() {
   return is_masked() ? steps_[scan_.place()].samples(first_samples_) : core::SampleRange{0, first_samples_};
 }
 
-/// The ring passes over the asker, who is known to have nothing.
-std::uint32_t WorkSource::after(std::uint32_t node, std::uint32_t asker) const {
-  const std::uint32_t next = (node + 1) % worker_count_;
-  return next == asker ? (next + 1) % worker_count_ : next;
-}
-
 void WorkSource::ask() {
   core::expect(!has_pixel(), "only a node without pixels asks for some");
   if (asking_ || no_more_) {
@@ -154,7 +160,7 @@ void WorkSource::ask() {
   ++counters_.items_asked;
   node_->grant(nodes::NodeId{last_giver_}, ring_channel);  // its own place on the ring: one request a node
   node_->send_reserved(nodes::NodeId{last_giver_}, ring_channel, number_of(Kind::work_request),
-                       WorkRequest{self_, worker_count_ - 1});
+                       WorkRequest{self_, worker_count_ - 1, pass_});
 }
 
 void WorkSource::answer(const WorkRequest& request) {
@@ -162,13 +168,42 @@ void WorkSource::answer(const WorkRequest& request) {
   if (const auto item = give()) {
     ++counters_.items_given;
     reply(request.asker, *item);
-  } else if (request.visits_left == 1) {
-    reply(request.asker, {});
+  } else if (keeps(request)) {
+    kept_[kept_count_++] = request;
   } else {
-    const nodes::NodeId next{after(self_, request.asker)};
-    node_->grant(next, ring_channel);  // the asker's place on the ring
-    node_->send_reserved(next, ring_channel, number_of(Kind::work_request), WorkRequest{request.asker, request.visits_left - 1});
+    pass_on(request);
   }
+}
+
+bool WorkSource::keeps(const WorkRequest& request) const {
+  return passes_over_idle_ && asking_ && request.pass == pass_ && kept_count_ < kept_.size() &&
+         rank_of(request.asker) < rank_of(self_);
+}
+
+/// This node has its answer.
+void WorkSource::pass_on_kept() {
+  for (const WorkRequest& request : kept_.first(std::exchange(kept_count_, 0))) {
+    pass_on(request);
+  }
+}
+
+/// To the first node on the ring that may have an item, or back if there is none. The asker is known to have nothing.
+void WorkSource::pass_on(const WorkRequest& request) {
+  const bool knows = passes_over_idle_ && request.pass == pass_;
+  const auto steps_to = [&](std::uint32_t node) { return (node + worker_count_ - self_) % worker_count_; };
+  std::uint32_t steps = knows && no_more_ ? worker_count_ : knows ? steps_to(last_giver_) : 1;
+  const std::uint32_t to_asker = steps_to(request.asker);
+  steps += steps == to_asker ? 1 : 0;
+  const std::uint32_t visits = steps - (to_asker < steps ? 1 : 0);  // of those ahead, the last of which is to be asked
+  if (visits >= request.visits_left) {
+    counters_.nodes_passed_over += request.visits_left - 1;
+    return reply(request.asker, {});
+  }
+  counters_.nodes_passed_over += visits - 1;
+  const nodes::NodeId next{(self_ + steps) % worker_count_};
+  node_->grant(next, ring_channel);  // the asker's place on the ring
+  node_->send_reserved(next, ring_channel, number_of(Kind::work_request),
+                       WorkRequest{request.asker, request.visits_left - visits, request.pass});
 }
 
 void WorkSource::reply(std::uint32_t asker, const PixelRectangle& item) {
@@ -188,13 +223,13 @@ void WorkSource::take_reply(const nodes::Packet& packet) {
   const WorkReply& reply = masked.reply;
   asking_ = false;
   const PixelRectangle item = reply.item.rectangle();
-  if (item.pixel_count() == 0) {
-    no_more_ = true;
-    return;
+  no_more_ = item.pixel_count() == 0;
+  if (!no_more_) {
+    ++counters_.items_taken;
+    last_giver_ = reply.giver;
+    open(item, masked.steps);
   }
-  ++counters_.items_taken;
-  last_giver_ = reply.giver;
-  open(item, masked.steps);
+  pass_on_kept();
 }
 
 std::string WorkSource::describe() const {

@@ -32,15 +32,22 @@ struct WorkShape {
 /// that has items left answers the asker directly; the last of all others to be asked tells it that there is no more work,
 /// and since shares only shrink this stays true (but for a node that the word to begin a later pass has not reached yet:
 /// an asker that is so told rests for that pass). The first request enters the ring at the next node, a later one at the node
-/// that gave last, because all before it had nothing. Where the host deals all items, every request goes to it. Thread safety:
-/// none.
+/// that gave last, because all before it had nothing. Where the host deals all items, every request goes to it.
+///
+/// For the same reason a node without items need not pass a request on to the next node (the skip idle-nodes): from itself up to
+/// the node that gave it an item last, nobody has any, so requests go from giver to giver; and a node that knows of no more work
+/// answers for all. This is the find of disjoint sets (R. Tarjan, "Efficiency of a Good But Not Linear Set Union Algorithm",
+/// 1975), a node's set being those that it knows to be idle. Where many run out at one time nobody knows anything yet: so a node
+/// that waits for an answer keeps a few of the others' requests until it has it. It keeps those of nodes of lower rank, an order
+/// by hash, so no two wait for each other, and whoever ranks highest of those that ask is kept by none. What a node knows is of
+/// its own pass: a request of a later one goes to the next node. Thread safety: none.
 ///
 /// Where the picture is refined, a pass after the first has those samples of its share's pixels that the host's mask names;
 /// where it was begun by another run, so has the first one, of the pixels that are missing.
 class WorkSource {
  public:
   /// In the first pass all samples are wanted that shape.start lacks.
-  WorkSource(nodes::Node& node, const WorkShape& shape);
+  WorkSource(nodes::Node& node, const WorkShape& shape, bool passes_over_idle = true);
   /// Adds to `memory` exactly what the constructor takes at node `index`.
   static void add_needs(nodes::MemoryPlan& memory, const WorkShape& shape, std::uint32_t index);
 
@@ -54,7 +61,7 @@ class WorkSource {
   bool stays_in_tile() const { return scan_.stays_in_tile(); }
   /// Sends a work request, unless one is under way or would be in vain. Requires !has_pixel().
   void ask();
-  /// Gives an item to the asker or passes the request on.
+  /// Gives an item to the asker, or passes the request on or keeps it for a while, or says that there is none.
   void answer(const WorkRequest& request);
   /// Takes the answer to this node's own request.
   void take_reply(const nodes::Packet& packet);
@@ -69,7 +76,9 @@ class WorkSource {
   std::string describe() const;
 
  private:
-  std::uint32_t after(std::uint32_t node, std::uint32_t asker) const;
+  bool keeps(const WorkRequest& request) const;
+  void pass_on(const WorkRequest& request);
+  void pass_on_kept();
   bool is_masked() const { return !mask_.empty(); }
   void want_missing(const core::PartialPicture& start);
   ItemSteps steps_of(const PixelRectangle& item) const;
@@ -86,6 +95,7 @@ class WorkSource {
   std::uint32_t image_width_;
   std::uint32_t first_samples_;
   std::uint32_t item_side_;
+  bool passes_over_idle_;
   PixelTile tile_;
   PixelRectangle share_;
   std::span<core::SampleStep> mask_;  ///< of the share, row by row; empty unless is_masked()
@@ -93,7 +103,11 @@ class WorkSource {
   PixelScan scan_;
   ItemSteps steps_;  ///< of the item under way, if is_masked()
   WorkCounters counters_;
-  std::uint32_t first_giver_, last_giver_;
+  std::uint32_t first_giver_;
+  std::uint32_t last_giver_;  ///< between this node and it nobody has an item in this pass
+  std::uint32_t pass_ = 0;
+  std::span<WorkRequest> kept_;  ///< the first kept_count_
+  std::uint32_t kept_count_ = 0;
   bool asking_ = false;
   bool is_alone_;  ///< no other node ever gives it work
   bool no_more_;

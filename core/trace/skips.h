@@ -16,6 +16,7 @@ struct Skips {
   bool empty_regions = true;
   bool background = true;
   bool bundles = true;
+  bool idle_nodes = true;
 
   bool operator==(const Skips&) const = default;
 };
@@ -29,6 +30,7 @@ struct SkippedWork {
   std::uint64_t empty_regions = 0;
   std::uint64_t background = 0;
   std::uint64_t bundles = 0;
+  std::uint64_t idle_nodes = 0;
 };
 
 struct Skip {
@@ -62,6 +64,9 @@ inline constexpr std::array all_skips{
     // References and these are what the rays would look up one by one.
     Skip{"bundles", "rays of neighbouring pixels walk together, and look up what they all read once", "look-ups", &Skips::bundles,
          &SkippedWork::bundles},
+    Skip{"idle-nodes",
+         "who asks other nodes for pixels passes over those that are known to have none left (svm, replicated, forest)",
+         "nodes passed over", &Skips::idle_nodes, &SkippedWork::idle_nodes},
 };
 
 /// All on but this one.

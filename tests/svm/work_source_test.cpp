@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <optional>
 #include <set>
 #include <vector>
@@ -20,14 +21,14 @@ namespace {
 /// Node `index` of `nodes`, each with 3x3 pixels: one item, or with side 1 nine.
 struct SmallSource {
   SmallSource(std::uint32_t index, std::uint32_t nodes, std::uint32_t side, svm::WorkGiver giver = svm::WorkGiver::ring,
-              std::optional<std::uint32_t> workers = std::nullopt)
+              std::optional<std::uint32_t> workers = std::nullopt, bool passes_over_idle = true)
       : plan(svm::make_plan({.page_count = 4,
                              .computer = {.node_count = nodes},
                              .pages = {.work_item_side = side, .work_giver = giver, .worker_count = workers},
                              .width = 3 * nodes,
                              .height = 3})),
         lone(plan, index),
-        work(lone.node, plan.work()) {}
+        work(lone.node, plan.work(), passes_over_idle) {}
   void use_up() {
     while (work.has_pixel()) {
       work.next_pixel();
@@ -38,6 +39,13 @@ struct SmallSource {
     work.take_reply(parcel_of(0, svm::Kind::work_reply, reply).packet());
   }
   void take_reply(const svm::WorkReply& reply) { take_reply<svm::WorkReply>(reply); }
+  /// Has asked, and been given one pixel by node `giver`, which it has rendered.
+  void take_from(std::uint32_t giver) {
+    work.ask();
+    CHECK(sent().kind == svm::number_of(Kind::work_request));
+    take_reply({svm::SentItem(PixelRectangle{9, 1, 1, 1}), giver});
+    use_up();
+  }
   Parcel sent() {
     REQUIRE(lone.post.parcels.size() == 1);
     const Parcel parcel = lone.post.parcels.front();
@@ -85,6 +93,106 @@ TEST_CASE("a node without items passes a request on along the ring, over the ask
   small.work.answer({0, 3});
   parcel = small.sent();
   CHECK(parcel.target == nodes::NodeId{1});
+}
+
+TEST_CASE("a node without items passes a request on to the node that gave it one last, over those between") {
+  SmallSource small(1, 8, 3);
+  small.use_up();
+  small.take_from(5);
+  small.work.answer({7, 6});
+  Parcel parcel = small.sent();
+  CHECK(parcel.target == nodes::NodeId{5});
+  CHECK(parcel.packet().as<svm::WorkRequest>().visits_left == 2);
+  CHECK(small.work.counters().nodes_passed_over == 3);
+  small.work.answer({3, 6});  // the asker is one of those between, and no visit
+  parcel = small.sent();
+  CHECK(parcel.target == nodes::NodeId{5});
+  CHECK(parcel.packet().as<svm::WorkRequest>().visits_left == 3);
+  small.work.answer({5, 6});  // the giver has run out and asks itself
+  parcel = small.sent();
+  CHECK(parcel.target == nodes::NodeId{6});
+  CHECK(parcel.packet().as<svm::WorkRequest>().visits_left == 2);
+  CHECK(small.work.counters().nodes_passed_over == 3 + 2 + 3);
+}
+
+TEST_CASE("where all that are left to be asked are passed over, the asker is told that there is no more work") {
+  SmallSource small(1, 8, 3);
+  small.use_up();
+  small.take_from(5);
+  small.work.answer({7, 4});
+  const Parcel parcel = small.sent();
+  CHECK(parcel.target == nodes::NodeId{7});
+  CHECK(parcel.packet().as<svm::WorkReply>().item.rectangle().pixel_count() == 0);
+  CHECK(small.work.counters().nodes_passed_over == 3);
+}
+
+TEST_CASE("a node that knows of no more work says so to all") {
+  SmallSource small(1, 8, 3);
+  small.use_up();
+  small.work.ask();
+  small.sent();
+  small.take_reply({{}, 0});
+  small.work.answer({7, 6});
+  const Parcel parcel = small.sent();
+  CHECK(parcel.target == nodes::NodeId{7});
+  CHECK(parcel.packet().as<svm::WorkReply>().item.rectangle().pixel_count() == 0);
+}
+
+TEST_CASE("with the skip off, and in a later pass than it knows of, a node passes requests to the next one") {
+  for (const bool is_later : {false, true}) {
+    SmallSource small(1, 8, 3, svm::WorkGiver::ring, std::nullopt, is_later);
+    small.use_up();
+    small.take_from(5);
+    small.work.answer({7, 6, is_later ? 1U : 0U});
+    CHECK(small.sent().target == nodes::NodeId{2});
+    small.work.ask();
+    small.sent();
+    small.take_reply({{}, 0});
+    small.work.answer({7, 6, is_later ? 1U : 0U});
+    CHECK(small.sent().target == nodes::NodeId{2});
+    CHECK(small.work.counters().nodes_passed_over == 0);
+  }
+}
+
+TEST_CASE("of two nodes that wait for answers one keeps the other's request until it has its own, and not more than its room") {
+  const auto keeps = [](std::uint32_t self, std::uint32_t asker) {
+    SmallSource small(self, 40, 3);
+    small.use_up();
+    small.work.ask();
+    small.sent();
+    small.work.answer({asker, 39});
+    return small.lone.post.parcels.empty();
+  };
+  std::uint32_t most = 0, first = 0;
+  for (std::uint32_t self = 0; self < 40; ++self) {
+    std::uint32_t kept = 0;
+    for (std::uint32_t asker = 0; asker < 40; ++asker) {
+      if (asker != self) {
+        CHECK(keeps(self, asker) != keeps(asker, self));
+        kept += keeps(self, asker) ? 1 : 0;
+      }
+    }
+    first = kept == 39 ? self : first;
+    most = std::max(most, kept);
+  }
+  REQUIRE(most == 39);  // somebody ranks highest
+  for (const bool has_more : {false, true}) {
+    SmallSource small(first, 40, 3);
+    small.use_up();
+    small.work.ask();
+    small.sent();
+    for (std::uint32_t asker = 0; asker < 17; ++asker) {
+      small.work.answer({(first + 20 + asker) % 40, 39});
+    }
+    CHECK(small.lone.post.parcels.size() == 1);
+    small.lone.post.parcels.clear();
+    small.take_reply({has_more ? svm::SentItem(PixelRectangle{9, 1, 1, 1}) : svm::SentItem(), (first + 10) % 40});
+    REQUIRE(small.lone.post.parcels.size() == 16);
+    for (const Parcel& parcel : small.lone.post.parcels) {
+      CHECK(parcel.kind == svm::number_of(has_more ? Kind::work_request : Kind::work_reply));
+      CHECK((parcel.target == nodes::NodeId{(first + 10) % 40}) == has_more);
+    }
+  }
 }
 
 TEST_CASE("the last node to be asked tells the asker that there is no more work") {

@@ -85,7 +85,8 @@ Features features_of(const svm::Report& report) {
 Features lonely_features_of(const svm::Report& report) {
   return {{"page faults", report.pages().faults},
           {"cached pages", report.pages().cache_hits},
-          {"work asked for", report.work().items_asked}};
+          {"work asked for", report.work().items_asked},
+          {"nodes passed over", report.operations().skipped.idle_nodes}};
 }
 
 Features features_of(const dataflow::Report& report) {

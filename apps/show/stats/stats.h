@@ -70,10 +70,9 @@ namespace dmpc::apps {
 ///                  nodes of which one has sent the other a ray
 ///   chaos          seed, packets_held, quanta_sat_out, and credits that were left: request_credits, ray_credits, host_credits,
 ///                  film_credits; null when calm
-///   skips          work that was left out: empty_space, any_hit, unlit, zero_terms, empty_regions, background, bundles, each
-///   {on,
-///                  exact: true (it changes no bit of the picture), avoided, unit (of the work avoided)}; cutoff {on, exact:
-///                  false, cutoff, rays_cut, mean_error_bound: light that a sample lacks at most, on average}
+///   skips          work that was left out: empty_space, any_hit, unlit, zero_terms, empty_regions, background, bundles,
+///                  idle_nodes, each {on, exact: true (it changes no bit of the picture), avoided, unit (of the work avoided)};
+///                  cutoff {on, exact: false, cutoff, rays_cut, mean_error_bound: light that a sample lacks at most, on average}
 ///   heat_maps      for each file: kind, file, unit, clock ("processor time" or "virtual time", of time only), repeatable
 ///                  (another run gives the same bits), least, largest, sum (over pixels); null without any
 ///   nodes          for each node: rays, hits, operations, packets {sent, received, bytes: sent, bytes_received, refused: tried

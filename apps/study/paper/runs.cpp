@@ -25,11 +25,13 @@ namespace {
 /// In the middle of Rings4.
 constexpr core::PointLight inner_light{.position = {-1, 7.36, 0.5}};
 
-/// The article's program counts rays as this convention does, and traced all of them.
+/// The article's program counts rays as this convention does, and traced all of them. Its nodes asked each other for work in
+/// turn.
 PictureOptions picture_of(const PaperRun& run) {
   const auto side = static_cast<int>(run.resolution);
   PictureOptions picture{.scene = run.scene, .resolution = Resolution{side, side}, .convention = core::Convention::paper};
   picture.skips.background = false;
+  picture.skips.idle_nodes = false;
   if (run.has_inner_light) {
     picture.skips.empty_regions = false;
     picture.staging.lights = {inner_light};

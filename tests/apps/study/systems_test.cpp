@@ -56,8 +56,9 @@ TEST_CASE("every system has a row for each rule of memory, and one run for all r
   SystemsStudy study = study_of("tetra-4", {}, 4, {{}, {.share = 0.25}, {.share = 0.01}});
   study.chosen = SystemsStudy::all_systems();
   const std::size_t count = study.chosen.size();
-  const auto with_cache = static_cast<std::uint32_t>(std::count_if(
-      study.chosen.begin(), study.chosen.end(), [](System system) { return strategy_of(system).strategy == apps::Strategy::svm; }));
+  const auto with_cache = static_cast<std::uint32_t>(std::count_if(study.chosen.begin(), study.chosen.end(), [](System system) {
+    return strategy_of(system).strategy == apps::Strategy::svm;
+  }));
   const Table table = subject.measure(study);
   REQUIRE(table.rows().size() == 3 * count);
   CHECK(study.run_count() == 1 + count + 2 * with_cache);
