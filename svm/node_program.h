@@ -27,8 +27,6 @@ struct WorkCounters {
   std::uint64_t items_asked = 0;  ///< work requests sent
   std::uint64_t items_taken = 0;  ///< items received from other nodes
   std::uint64_t items_given = 0;  ///< items given to other nodes
-  /// Nodes that a request need not have gone to, since they had none: core::SkippedWork has their sum.
-  std::uint64_t nodes_passed_over = 0;
 };
 WorkCounters& operator+=(WorkCounters& sum, const WorkCounters& more);
 

@@ -146,7 +146,7 @@ class ControlProgram final : public NodeProgram {
     ProgramReport report{operations_, records_.counters(), work_.counters()};
     report.work.pixels_rendered = pixels_rendered_;
     report.rays_ended = rays_ended_;
-    report.operations.skipped.idle_nodes = report.work.nodes_passed_over;
+    report.operations.skipped.idle_nodes = work_.nodes_passed_over();
     if constexpr (questions_travel) {
       report.questions = records_.questions();
     }

@@ -150,7 +150,6 @@ WorkCounters& operator+=(WorkCounters& sum, const WorkCounters& more) {
   sum.items_asked += more.items_asked;
   sum.items_taken += more.items_taken;
   sum.items_given += more.items_given;
-  sum.nodes_passed_over += more.nodes_passed_over;
   return sum;
 }
 

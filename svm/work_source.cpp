@@ -158,9 +158,12 @@ void WorkSource::ask() {
   }
   asking_ = true;
   ++counters_.items_asked;
-  node_->grant(nodes::NodeId{last_giver_}, ring_channel);  // its own place on the ring: one request a node
-  node_->send_reserved(nodes::NodeId{last_giver_}, ring_channel, number_of(Kind::work_request),
-                       WorkRequest{self_, worker_count_ - 1, pass_});
+  send(last_giver_, {self_, worker_count_ - 1, pass_});
+}
+
+void WorkSource::send(std::uint32_t node, const WorkRequest& request) {
+  node_->grant(nodes::NodeId{node}, ring_channel);  // the asker's place on the ring: one request a node
+  node_->send_reserved(nodes::NodeId{node}, ring_channel, number_of(Kind::work_request), request);
 }
 
 void WorkSource::answer(const WorkRequest& request) {
@@ -175,9 +178,11 @@ void WorkSource::answer(const WorkRequest& request) {
   }
 }
 
+/// What this node knows of others is of the request's pass.
+bool WorkSource::knows_of(const WorkRequest& request) const { return passes_over_idle_ && request.pass == pass_; }
+
 bool WorkSource::keeps(const WorkRequest& request) const {
-  return passes_over_idle_ && asking_ && request.pass == pass_ && kept_count_ < kept_.size() &&
-         rank_of(request.asker) < rank_of(self_);
+  return asking_ && knows_of(request) && kept_count_ < kept_.size() && rank_of(request.asker) < rank_of(self_);
 }
 
 /// This node has its answer.
@@ -187,23 +192,29 @@ void WorkSource::pass_on_kept() {
   }
 }
 
+/// Along the ring.
+std::uint32_t WorkSource::steps_to(std::uint32_t node) const { return (node + worker_count_ - self_) % worker_count_; }
+
+/// As far as this node knows, to the first that may have an item, be it the asker; once round the ring if none does.
+std::uint32_t WorkSource::steps_for(const WorkRequest& request) const {
+  if (!knows_of(request)) {
+    return 1;
+  }
+  return no_more_ ? worker_count_ : steps_to(last_giver_);
+}
+
 /// To the first node on the ring that may have an item, or back if there is none. The asker is known to have nothing.
 void WorkSource::pass_on(const WorkRequest& request) {
-  const bool knows = passes_over_idle_ && request.pass == pass_;
-  const auto steps_to = [&](std::uint32_t node) { return (node + worker_count_ - self_) % worker_count_; };
-  std::uint32_t steps = knows && no_more_ ? worker_count_ : knows ? steps_to(last_giver_) : 1;
   const std::uint32_t to_asker = steps_to(request.asker);
+  std::uint32_t steps = steps_for(request);
   steps += steps == to_asker ? 1 : 0;
   const std::uint32_t visits = steps - (to_asker < steps ? 1 : 0);  // of those ahead, the last of which is to be asked
-  if (visits >= request.visits_left) {
-    counters_.nodes_passed_over += request.visits_left - 1;
-    return reply(request.asker, {});
+  nodes_passed_over_ += std::min(visits, request.visits_left) - 1;
+  if (visits < request.visits_left) {
+    send((self_ + steps) % worker_count_, {request.asker, request.visits_left - visits, request.pass});
+  } else {
+    reply(request.asker, {});
   }
-  counters_.nodes_passed_over += visits - 1;
-  const nodes::NodeId next{(self_ + steps) % worker_count_};
-  node_->grant(next, ring_channel);  // the asker's place on the ring
-  node_->send_reserved(next, ring_channel, number_of(Kind::work_request),
-                       WorkRequest{request.asker, request.visits_left - visits, request.pass});
 }
 
 void WorkSource::reply(std::uint32_t asker, const PixelRectangle& item) {

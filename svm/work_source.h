@@ -73,10 +73,16 @@ class WorkSource {
   /// No pixel is left here, and none anywhere else.
   bool exhausted() const { return !has_pixel() && no_more_; }
   WorkCounters counters() const { return counters_; }
+  /// By requests that came here, since they were known to have no pixels.
+  std::uint64_t nodes_passed_over() const { return nodes_passed_over_; }
   std::string describe() const;
 
  private:
+  bool knows_of(const WorkRequest& request) const;
   bool keeps(const WorkRequest& request) const;
+  std::uint32_t steps_to(std::uint32_t node) const;
+  std::uint32_t steps_for(const WorkRequest& request) const;
+  void send(std::uint32_t node, const WorkRequest& request);
   void pass_on(const WorkRequest& request);
   void pass_on_kept();
   bool is_masked() const { return !mask_.empty(); }
@@ -103,6 +109,7 @@ class WorkSource {
   PixelScan scan_;
   ItemSteps steps_;  ///< of the item under way, if is_masked()
   WorkCounters counters_;
+  std::uint64_t nodes_passed_over_ = 0;
   std::uint32_t first_giver_;
   std::uint32_t last_giver_;  ///< between this node and it nobody has an item in this pass
   std::uint32_t pass_ = 0;

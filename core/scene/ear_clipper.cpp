@@ -42,11 +42,11 @@ void EarClipper::look_at(std::uint32_t corner) {
   if (!(corners_[corner].turn > 0)) {
     return;
   }
-  const std::uint32_t hindrance = tree_.hindrance(triangle_at(corner)).value_or(none);
-  if (hindrance == none) {
+  const auto hindrance = tree_.hindrance(triangle_at(corner));
+  if (!hindrance) {
     ears_.insert(corner);
   } else if (hindrance != corners_[corner].hindrance) {
-    corners_[hindrance].hindered.push_back(corner);
+    corners_[*hindrance].hindered.push_back(corner);
   }
   corners_[corner].hindrance = hindrance;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <queue>
 #include <set>
 #include <utility>
@@ -25,14 +26,12 @@ class EarClipper {
   std::uint64_t nodes_visited() const { return tree_.nodes_visited(); }
 
  private:
-  static constexpr std::uint32_t none = 0xffffffffU;
-
   struct Corner {
     std::uint32_t before = 0, after = 0;
     bool is_left = true;
-    double turn = 0;                      ///< with its neighbours
-    std::uint32_t hindrance = none;       ///< found when it was looked at last
-    std::vector<std::uint32_t> hindered;  ///< every corner whose hindrance this is, and some whose hindrance this was
+    double turn = 0;                         ///< with its neighbours
+    std::optional<std::uint32_t> hindrance;  ///< found when it was looked at last
+    std::vector<std::uint32_t> hindered;     ///< every corner whose hindrance this is, and some whose hindrance this was
   };
   /// The corner that turns left most comes last, of several the first one.
   struct TurnsLess {

@@ -46,6 +46,12 @@ struct SmallSource {
     take_reply({svm::SentItem(PixelRectangle{9, 1, 1, 1}), giver});
     use_up();
   }
+  /// Has asked, and been told that there is no more work.
+  void take_nothing() {
+    work.ask();
+    sent();
+    take_reply({{}, 0});
+  }
   Parcel sent() {
     REQUIRE(lone.post.parcels.size() == 1);
     const Parcel parcel = lone.post.parcels.front();
@@ -103,7 +109,7 @@ TEST_CASE("a node without items passes a request on to the node that gave it one
   Parcel parcel = small.sent();
   CHECK(parcel.target == nodes::NodeId{5});
   CHECK(parcel.packet().as<svm::WorkRequest>().visits_left == 2);
-  CHECK(small.work.counters().nodes_passed_over == 3);
+  CHECK(small.work.nodes_passed_over() == 3);
   small.work.answer({3, 6});  // the asker is one of those between, and no visit
   parcel = small.sent();
   CHECK(parcel.target == nodes::NodeId{5});
@@ -112,7 +118,7 @@ TEST_CASE("a node without items passes a request on to the node that gave it one
   parcel = small.sent();
   CHECK(parcel.target == nodes::NodeId{6});
   CHECK(parcel.packet().as<svm::WorkRequest>().visits_left == 2);
-  CHECK(small.work.counters().nodes_passed_over == 3 + 2 + 3);
+  CHECK(small.work.nodes_passed_over() == 3 + 2 + 3);
 }
 
 TEST_CASE("where all that are left to be asked are passed over, the asker is told that there is no more work") {
@@ -123,15 +129,13 @@ TEST_CASE("where all that are left to be asked are passed over, the asker is tol
   const Parcel parcel = small.sent();
   CHECK(parcel.target == nodes::NodeId{7});
   CHECK(parcel.packet().as<svm::WorkReply>().item.rectangle().pixel_count() == 0);
-  CHECK(small.work.counters().nodes_passed_over == 3);
+  CHECK(small.work.nodes_passed_over() == 3);
 }
 
 TEST_CASE("a node that knows of no more work says so to all") {
   SmallSource small(1, 8, 3);
   small.use_up();
-  small.work.ask();
-  small.sent();
-  small.take_reply({{}, 0});
+  small.take_nothing();
   small.work.answer({7, 6});
   const Parcel parcel = small.sent();
   CHECK(parcel.target == nodes::NodeId{7});
@@ -145,12 +149,10 @@ TEST_CASE("with the skip off, and in a later pass than it knows of, a node passe
     small.take_from(5);
     small.work.answer({7, 6, is_later ? 1U : 0U});
     CHECK(small.sent().target == nodes::NodeId{2});
-    small.work.ask();
-    small.sent();
-    small.take_reply({{}, 0});
+    small.take_nothing();
     small.work.answer({7, 6, is_later ? 1U : 0U});
     CHECK(small.sent().target == nodes::NodeId{2});
-    CHECK(small.work.counters().nodes_passed_over == 0);
+    CHECK(small.work.nodes_passed_over() == 0);
   }
 }
 
@@ -239,9 +241,7 @@ TEST_CASE("a lone node asks the host where that deals the work, one that only le
 TEST_CASE("an empty item ends the asking") {
   SmallSource small(1, 4, 3);
   small.use_up();
-  small.work.ask();
-  small.sent();
-  small.take_reply({{}, 0});
+  small.take_nothing();
   CHECK(small.work.exhausted());
   small.work.ask();
   CHECK(small.lone.post.parcels.empty());
