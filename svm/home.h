@@ -11,10 +11,15 @@ namespace dmpc::svm {
 /// Where pages are at home.
 enum class PageHomes : std::uint8_t {
   spread,  ///< dealt over the nodes
-  host     ///< all at the host, as virtual memory was in the Pixel Machine's, and with Green and Paddon (1989)
+  host,    ///< all at the host, which every node asks, as virtual memory was in the Pixel Machine's
+  tree     ///< all at the host, which is the root of a tree of nodes that ask their parents (svm/request_tree.h)
 };
 /// As the command line calls it.
-constexpr const char* name_of(PageHomes homes) { return homes == PageHomes::spread ? "spread" : "host"; }
+constexpr const char* name_of(PageHomes homes) {
+  return homes == PageHomes::spread ? "spread" : homes == PageHomes::host ? "host" : "tree";
+}
+/// The host has all pages, and no node has any for good.
+constexpr bool are_at_host(PageHomes homes) { return homes != PageHomes::spread; }
 
 /// Page p lives at node p mod N, as the (p div N)-th of its home pages: spread evenly, without any strategy, as in the 1994
 /// paper. Or all of them live at the host, which is one behind the nodes. The division is a multiplication by ceil(2^63 / N),
@@ -63,7 +68,7 @@ class Homes {
 
 /// Of a computer with so many nodes.
 inline Homes homes_of(PageHomes where, std::uint32_t node_count) {
-  return where == PageHomes::spread ? Homes(node_count) : Homes(1, node_count);
+  return are_at_host(where) ? Homes(1, node_count) : Homes(node_count);
 }
 
 }  // namespace dmpc::svm

@@ -32,6 +32,9 @@ void HomePages::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacit
 }
 
 void grant_requests(nodes::Node& node, const PageCapacity& capacity) {
+  if (const auto tree = capacity.tree()) {
+    return node.grant(nodes::NodeId{tree->parent_of(nodes::index_of(node.id()))}, request_channel, capacity.request_credits);
+  }
   const Homes homes = capacity.homes();
   for (std::uint32_t other = homes.first(); other < homes.end(); ++other) {
     if (other != nodes::index_of(node.id())) {

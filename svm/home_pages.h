@@ -40,7 +40,7 @@ class HomePages {
   nodes::LastingPieces pages_;
 };
 
-/// Takes the credits for what a node may ask of each other one, or of the host if that is home to all.
+/// Takes the credits for what a node may ask of each other one, or of its parent if the host is home to all.
 void grant_requests(nodes::Node& node, const PageCapacity& capacity);
 
 }  // namespace dmpc::svm

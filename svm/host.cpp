@@ -59,6 +59,7 @@ void HostProgram::receive(const nodes::Packet& packet) {
     case Kind::film_sums:
       return take_film(packet);
     case Kind::page_request:
+    case Kind::passed_request:
       return serve(packet);
     case Kind::work_request:
       return deal(packet.as<WorkRequest>());
@@ -73,7 +74,10 @@ void HostProgram::receive(const nodes::Packet& packet) {
 
 void HostProgram::serve(const nodes::Packet& packet) {
   core::expect(home_.has_value(), "the host is asked for pages where they are at home there");
-  home_->server.serve(packet, home_->pages);
+  const PassedRequest request = request_in(packet);
+  const std::byte* const bytes = home_->pages.find(request.page);
+  core::expect(bytes != nullptr, "the host is asked for pages that there are");
+  home_->server.reply(request, bytes);
 }
 
 void HostProgram::take_film(const nodes::Packet& packet) {

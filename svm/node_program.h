@@ -12,7 +12,7 @@ namespace dmpc::svm {
 /// arrived is not a second reference.
 struct PageCounters {
   std::uint64_t references = 0;      ///< home_hits + cache_hits + misses
-  std::uint64_t home_hits = 0;       ///< the page is at home
+  std::uint64_t home_hits = 0;       ///< the page is here for good: at home, or resident at every node
   std::uint64_t cache_hits = 0;      ///< page hits in the cache
   std::uint64_t misses = 0;          ///< page misses: ten rays missing one page make ten
   std::uint64_t faults = 0;          ///< page misses that started a request: ten rays missing one page make one

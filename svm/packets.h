@@ -2,6 +2,7 @@
 //
 //   kind                   from -> to          channel   size   its place in the target's mailbox is reserved by
 //   page_request           node -> home        request   small  the sender's request credits for that home, a node or the host
+//   passed_request         node -> parent      request   small  the asker's request, which has places all the way up
 //   page_reply             home -> node        bulk      bulk   the request
 //   work_request           node -> next node   ring      small  its asker: one under way for each node
 //   work_reply             giver -> asker      control   small  the work request
@@ -15,10 +16,11 @@
 //   questions              node -> owner       request   any    the sender's request credits for that owner
 //   answers                owner -> node       bulk      any    the questions
 //
-// Work requests go to the host where that deals the items. Questions and answers stand in place of the first two where the tree's
-// forest is at every node (svm/forest.h). They are small or bulk, as it comes: their credits reserve places of both. Masks and
-// passes exist only where the picture is refined: when all nodes are done with a pass, each gets the mask of its share, which
-// tells how many more samples each pixel has, part by part, and when all nodes have theirs the pass begins.
+// Where nodes ask the host by way of a tree (svm/request_tree.h) page requests go to the parent, and the reply comes from whoever
+// above has the page. Work requests go to the host where that deals the items. Questions and answers stand in place of the first
+// two where the tree's forest is at every node (svm/forest.h). They are small or bulk, as it comes: their credits reserve places
+// of both. Masks and passes exist only where the picture is refined: when all nodes are done with a pass, each gets the mask of
+// its share, which tells how many more samples each pixel has, part by part, and when all nodes have theirs the pass begins.
 #pragma once
 
 #include <array>
@@ -49,13 +51,14 @@ enum class Kind : nodes::PacketKind {
   mask_acknowledgement,
   begin_pass,
   questions,
-  answers
+  answers,
+  passed_request
 };
 constexpr nodes::PacketKind number_of(Kind kind) { return static_cast<nodes::PacketKind>(kind); }
-static_assert(number_of(Kind::answers) < nodes::packet_kind_count);
-inline constexpr std::array<const char*, 13> kind_names = {
+static_assert(number_of(Kind::passed_request) < nodes::packet_kind_count);
+inline constexpr std::array<const char*, 14> kind_names = {
     "page_request", "page_reply",           "work_request", "work_reply", "film_sums", "film_acknowledgement", "done", "stop",
-    "mask_part",    "mask_acknowledgement", "begin_pass",   "questions",  "answers"};
+    "mask_part",    "mask_acknowledgement", "begin_pass",   "questions",  "answers",   "passed_request"};
 /// The packet's name, for reports.
 constexpr const char* name_of(Kind kind) { return kind_names[number_of(kind)]; }
 
@@ -90,6 +93,19 @@ struct PageRequest {
   PageId page = no_page;
 };
 static_assert(is_small_packet<PageRequest>);
+
+/// A page request that its receiver does not have the page for, on its way up the tree.
+struct PassedRequest {
+  PageId page = no_page;
+  std::uint32_t asker = 0;
+};
+static_assert(is_small_packet<PassedRequest>);
+
+/// What a page request, passed on or not, asks for, and for whom.
+inline PassedRequest request_in(const nodes::Packet& packet) {
+  return Kind{packet.kind} == Kind::passed_request ? packet.as<PassedRequest>()
+                                                   : PassedRequest{packet.as<PageRequest>().page, nodes::index_of(packet.source)};
+}
 
 /// Stands before the page's bytes.
 struct PageReplyHeader {

@@ -14,6 +14,9 @@ namespace dmpc::svm {
 
 class ReferenceLog;
 
+/// A transputer has four links: one up, three down.
+inline constexpr std::uint32_t default_tree_arity = 3;
+
 /// Pixels whose rays walk in bundles.
 inline constexpr std::uint32_t bundle_pixels = core::bundle_rays_max;
 
@@ -31,6 +34,10 @@ struct PageOptions {
   std::optional<std::uint32_t> cache_pages = std::nullopt;
   /// Where pages are at home; svm only. At the host: all that a node keeps of the scene is its cache.
   PageHomes homes = PageHomes::spread;
+  std::uint32_t tree_arity = default_tree_arity;  ///< children of the host, and of each node, with homes = tree
+  /// Of the frames, in percent, those with pages that every node keeps for good, those that a small picture uses most
+  /// (svm/resident.h); svm only. At least one frame is left for others.
+  std::uint32_t resident_percent = 0;
   Replacement replacement = Replacement::lru;  ///< which page of the cache makes room; svm only
   /// Pixels under way on a node, rounded down to whole bundles where rays walk in bundles of 16. Without it 64 for svm: a node
   /// whose bundle waits for a page has others to go on with, while their stacks take about 3 % of a 4 MiB node; and 16 for

@@ -1,7 +1,6 @@
 #include "svm/page_server.h"
 
 #include "core/base/expect.h"
-#include "svm/packets.h"
 
 namespace dmpc::svm {
 namespace {
@@ -9,7 +8,7 @@ namespace {
 using nodes::Category;
 
 std::size_t reply_bytes(const PageCapacity& capacity, std::uint32_t index) {
-  return capacity.pages_at(index) > 0 ? sizeof(PageReplyHeader) + capacity.page_size_bytes() : 0;
+  return capacity.is_asked(index) ? sizeof(PageReplyHeader) + capacity.page_size_bytes() : 0;
 }
 
 }  // namespace
@@ -23,13 +22,11 @@ void PageServer::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capaci
   memory[Category::queues] += nodes::LocalMemory::bytes_for<std::byte>(reply_bytes(capacity, index));
 }
 
-void PageServer::serve(const nodes::Packet& request, const HomePages& homes) {
-  const auto page = request.as<PageRequest>().page;
-  const std::byte* const bytes = homes.find(page);
-  core::expect(bytes != nullptr, "a request reaches its page's home");
-  const PageReplyHeader header{page};
-  node_->grant(request.source, bulk_channel);
-  core::expect(node_->try_send(request.source, bulk_channel, number_of(Kind::page_reply), std::as_bytes(std::span(&header, 1)),
+void PageServer::reply(const PassedRequest& request, const std::byte* bytes) {
+  const PageReplyHeader header{request.page};
+  const nodes::NodeId asker{request.asker};
+  node_->grant(asker, bulk_channel);
+  core::expect(node_->try_send(asker, bulk_channel, number_of(Kind::page_reply), std::as_bytes(std::span(&header, 1)),
                                {bytes, page_size_bytes_}, reply_),
                "a reply always has room");
   ++served_;

@@ -1,4 +1,4 @@
-// Replies to requests for pages that are at home here: at a node or, if all are at home there, at the host.
+// Replies to requests for pages that are here: at a node or, if all are at home there, at the host.
 #pragma once
 
 #include <cstddef>
@@ -6,20 +6,20 @@
 #include <span>
 
 #include "nodes/node.h"
-#include "svm/home_pages.h"
+#include "svm/packets.h"
 #include "svm/page_capacity.h"
 
 namespace dmpc::svm {
 
-/// Reads nothing but pages that never change, so it may serve at any time. Thread safety: belongs to one node, or the host.
+/// Copies a page, so it may serve at any time. Thread safety: belongs to one node, or the host.
 class PageServer {
  public:
   PageServer(nodes::Node& node, const PageCapacity& capacity);
   /// Adds to `memory` exactly what the constructor takes at node `index`, or at the host.
   static void add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index);
 
-  /// Takes a page request and replies at once: the request has reserved the reply's place. `homes` are this node's.
-  void serve(const nodes::Packet& request, const HomePages& homes);
+  /// Replies at once, with the page's bytes: the request has reserved the reply's place.
+  void reply(const PassedRequest& request, const std::byte* bytes);
 
   /// Replies so far.
   std::uint64_t served() const { return served_; }
@@ -27,7 +27,7 @@ class PageServer {
  private:
   nodes::Node* node_;
   std::size_t page_size_bytes_;
-  std::span<std::byte> reply_;  ///< where a reply is put together, if it is; empty where no page is at home
+  std::span<std::byte> reply_;  ///< where a reply is put together, if it is; empty where nobody asks
   std::uint64_t served_ = 0;
 };
 

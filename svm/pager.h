@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "core/record/records.h"
@@ -14,12 +15,13 @@
 #include "svm/page.h"
 #include "svm/page_capacity.h"
 #include "svm/page_server.h"
+#include "svm/request_tree.h"
 
 namespace dmpc::svm {
 
-/// A node's part of the shared virtual memory: its home pages, its cache, its faults. A core::Records whose find() answers
-/// nullptr for a page that is neither at home nor cached. The victim of a page is chosen when the page arrives. Thread
-/// safety: none.
+/// A node's part of the shared virtual memory: its home pages, those resident at every node, its cache, its faults. A
+/// core::Records whose find() answers nullptr for a page that is none of these. The victim of a page is chosen when the page
+/// arrives. Thread safety: none.
 class Pager {
  public:
   /// Programs with this kind of records exchange page requests and replies.
@@ -52,8 +54,11 @@ class Pager {
   std::uint32_t next_waiting(std::uint32_t slot) const { return faults_.next(slot); }
   /// The next reference is the repetition of one that was counted as a page miss.
   void retried() { ++retries_; }
-  /// Takes a page request and replies at once.
-  void serve(const nodes::Packet& request) { server_.serve(request, homes_); }
+  /// Takes a page request and replies at once; in a tree, if the page is not here, asks the parent for whoever asks. Installs
+  /// nothing, so a computing node may be interrupted for it.
+  void serve(const nodes::Packet& request);
+  /// The page is here for good, at home or resident.
+  bool keeps(PageId page) const { return homes_.find(page) != nullptr || resident_.frame_of(page) != Cache::no_frame; }
 
   /// Faults that have not ended.
   std::uint32_t faults() const { return faults_.count(); }
@@ -66,7 +71,7 @@ class Pager {
   /// own cache.
   struct Translation {
     PageId page = no_page;
-    std::uint32_t frame = Cache::no_frame;  ///< no_frame: the page is at home
+    std::uint32_t frame = Cache::no_frame;  ///< no_frame: the page is here for good
     const std::byte* bytes = nullptr;
   };
   static constexpr std::size_t translation_count = 256;
@@ -74,6 +79,8 @@ class Pager {
   Translation& translation_of(PageId page) { return translations_[index_of(page) % translation_count]; }
   bool translate(PageId page, Translation& translation) const;
   const std::byte* find_other(PageId page, std::size_t offset);
+  std::uint32_t asked_for(PageId page) const;
+  const std::byte* served_bytes(PageId page);
   void request(Faults::Fault& fault);
   void forget(PageId evicted);
 
@@ -84,11 +91,13 @@ class Pager {
   std::uint64_t* last_hits_ = nullptr;
   std::span<Translation> translations_;
   HomePages homes_;
+  Cache resident_;  ///< of pages that never leave it
   PageCounters counters_;
   std::uint64_t retries_ = 0;
   Cache cache_;
   Faults faults_;
   PageServer server_;
+  std::optional<RequestTree> tree_;
   nodes::Node* node_;
 };
 static_assert(core::Records<Pager>);

@@ -35,7 +35,7 @@ constexpr std::uint32_t request_credits_max = 4;
 constexpr std::size_t question_room_wanted_bytes = std::size_t{64} << 10U;
 constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 
-bool is_host_home(const PlanRequest& request) { return request.pages.homes == PageHomes::host; }
+bool is_host_home(const PlanRequest& request) { return are_at_host(request.pages.homes); }
 
 bool pages_travel(const PlanRequest& request) {
   return request.strategy == Strategy::svm && (request.computer.node_count > 1 || is_host_home(request));
@@ -62,6 +62,14 @@ std::uint32_t pixels_a_task(const PlanRequest& request, std::uint32_t in_flight)
 std::uint32_t item_side_of(const PlanRequest& request) {
   const std::uint32_t side = work_item_side_of(request.pages, request.bundles);
   return request.is_masked() ? std::min(side, masked_side_max) : side;
+}
+
+/// Nodes from which page requests come to one node, at most: to the first of a tree.
+std::uint32_t askers_of(const PlanRequest& request) {
+  if (request.pages.homes == PageHomes::tree) {
+    return RequestTree(request.computer.node_count, request.pages.tree_arity).count_below(0);
+  }
+  return is_host_home(request) ? 0 : request.computer.node_count - 1;
 }
 
 bool is_dealt(const PlanRequest& request) { return request.pages.work_giver == WorkGiver::host; }
@@ -91,11 +99,11 @@ std::uint32_t request_credits_of(const PlanRequest& request, std::uint32_t fault
   if (!pages_travel(request)) {
     return 0;
   }
-  if (is_host_home(request)) {  // whose memory is large, and which is the only home
-    return std::min(faults_max, request_credits_max);
-  }
-  return std::min({faults_max, core::ceil_divide(request.page_count, request.computer.node_count),
-                   std::clamp(request_slots_wanted / (request.computer.node_count - 1), 1U, request_credits_max)});
+  const std::uint32_t askers = askers_of(request);  // the host's memory is large
+  const std::uint32_t each =
+      askers == 0 ? request_credits_max : std::clamp(request_slots_wanted / askers, 1U, request_credits_max);
+  const std::uint32_t homes = is_host_home(request) ? 1 : request.computer.node_count;
+  return std::min({faults_max, core::ceil_divide(request.page_count, homes), each});
 }
 
 /// Packets of questions: no more than tasks, each of which asks one at a time.
@@ -121,8 +129,8 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   const std::uint32_t others = request.computer.node_count - 1;
   const bool ring = item_side_of(request) > 0;
   nodes::MailboxCapacity capacity;
-  // Page requests or questions: each other node's credits for this home.
-  const std::uint32_t asked = is_host_home(request) ? 0 : others * request_credits;
+  // Page requests or questions: each other node's credits for this home, or, in a tree, those of all nodes below.
+  const std::uint32_t asked = askers_of(request) * request_credits;
   // Work requests: each other node has at most one on the ring, unless they go to the host.
   const std::uint32_t passed_on = ring && !is_dealt(request) ? others : 0;
   capacity.small_slots = asked                       // page requests or questions
@@ -172,7 +180,10 @@ void plan_chaos(Plan& plan, const nodes::Chaos& chaos) {
 Plan plan_with(const PlanRequest& request, std::uint32_t frames, std::uint32_t in_flight) {
   Plan plan;
   plan.request = request;
-  plan.frames = frames;
+  // At least one frame is left for other pages.
+  plan.resident_count = static_cast<std::uint32_t>(
+      std::min<std::uint64_t>(std::uint64_t{frames} * request.pages.resident_percent / 100, frames - std::min(frames, 1U)));
+  plan.frames = frames - plan.resident_count;
   plan.in_flight = in_flight;
   plan.pixels_a_task = pixels_a_task(request, in_flight);
   plan.worker_count = worker_count_of(request);
@@ -238,7 +249,14 @@ void check(const PlanRequest& request) {
             "replacement=" + std::string(name_of(request.pages.replacement)) +
                 " goes with strategy=svm: the others have no cache, their nodes need no page of another node");
   check_use(request.strategy == Strategy::svm || !is_host_home(request),
-            "homes=host goes with strategy=svm: the others' nodes hold what they need or ask about, and fetch no page");
+            "homes=" + std::string(name_of(request.pages.homes)) +
+                " goes with strategy=svm: the others' nodes hold what they need or ask about, and fetch no page");
+  check_use(request.pages.tree_arity >= 1, "tree_arity=0: a parent has a child or more");
+  check_use(request.pages.resident_percent <= 100,
+            "resident_percent=" + std::to_string(request.pages.resident_percent) + ": from 0 to 100");
+  check_use(request.strategy == Strategy::svm || request.pages.resident_percent == 0,
+            "resident_percent=" + std::to_string(request.pages.resident_percent) +
+                " goes with strategy=svm: the others have no frames to keep pages in");
   check_use(request.strategy == Strategy::svm || !request.pages.count_pages, "distinct pages are counted with strategy=svm only");
   check_use(!request.pages.count_pages || !request.refinement.is_wanted(),
             "distinct pages are counted where all pixels have the same samples, not with refinement");
@@ -330,9 +348,10 @@ void note_reductions(Plan& plan) {
     plan.notes.push_back(reduced + (wanted == 1 ? " pixel" : " pixels") +
                          (is_rounded ? ": whole bundles of " + std::to_string(bundle_pixels) : ": no node ever has more"));
   }
-  if (request.pages.cache_pages && plan.frames < *request.pages.cache_pages) {
+  const std::uint32_t all_frames = plan.frames + plan.resident_count;
+  if (request.pages.cache_pages && all_frames < *request.pages.cache_pages) {
     plan.notes.push_back("cache reduced from " + std::to_string(*request.pages.cache_pages) + " to " +
-                         std::to_string(plan.frames) + " pages: no more are not at home");
+                         std::to_string(all_frames) + " pages: no more are not at home");
   }
   if (request.pages.work_item_side.value_or(0) > plan.work_item_side) {
     plan.notes.push_back("work items reduced from " + std::to_string(*request.pages.work_item_side) + " to " +
@@ -348,6 +367,9 @@ PageCapacity Plan::pages() const {
   return {.page_count = request.page_count,
           .node_count = request.computer.node_count,
           .where = request.pages.homes,
+          .tree_arity = request.pages.tree_arity,
+          .resident_count = resident_count,
+          .resident = resident,
           .cache = {frames, request.page_size_bytes, request.pages.replacement},
           .in_flight = task_count(),
           .faults_max = faults_max(),

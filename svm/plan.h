@@ -56,6 +56,8 @@ inline constexpr std::uint32_t in_flight_max = 4096;
 struct Plan {
   PlanRequest request;
   std::uint32_t frames = 0;           ///< of each node's cache
+  std::uint32_t resident_count = 0;   ///< pages that every node keeps for good beside those at home, in frames of their own
+  std::vector<PageId> resident = {};  ///< which: as many, once the run has looked for them
   std::uint32_t in_flight = 1;        ///< pixels under way, after reduction; no more than a node ever has
   std::uint32_t pixels_a_task = 1;    ///< of them, at most: more than one where their rays walk in bundles
   std::uint32_t worker_count = 1;     ///< nodes that render

@@ -63,6 +63,7 @@ class ControlProgram final : public NodeProgram {
   void receive(const nodes::Packet& packet) override {
     switch (Kind{packet.kind}) {
       case Kind::page_request:
+      case Kind::passed_request:
         return serve(packet);
       case Kind::page_reply:
         return resume(packet);

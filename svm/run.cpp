@@ -9,6 +9,7 @@
 #include "svm/forest.h"
 #include "svm/host.h"
 #include "svm/pager.h"
+#include "svm/resident.h"
 #include "svm/watch/counting_pager.h"
 #include "svm/watch/recording_pager.h"
 
@@ -62,7 +63,9 @@ void check_conservation(const NodeReport& report) {
   core::expect(program.operations.ray_count() == program.rays_ended, "every ray shot has ended");
   core::expect(program.pages.faults == packets_of(counters.sent, Kind::page_request), "every fault was requested, once");
   core::expect(program.pages.faults == packets_of(counters.received, Kind::page_reply), "every page request was replied to");
-  core::expect(program.pages.served == packets_of(counters.received, Kind::page_request), "every page request was served");
+  core::expect(program.pages.served + packets_of(counters.sent, Kind::passed_request) ==
+                   packets_of(counters.received, Kind::page_request) + packets_of(counters.received, Kind::passed_request),
+               "every page request was served, or passed on");
   core::expect(program.questions.rays_asked + program.questions.records_asked == program.questions.answers,
                "every question was answered, once");
   core::expect(packets_of(counters.sent, Kind::questions) == packets_of(counters.received, Kind::answers) &&
@@ -83,7 +86,8 @@ void check_conservation(const Report& report) {
   const PageCounters pages = report.pages();
   core::expect(pages.references == pages.home_hits + pages.cache_hits + pages.misses && pages.misses >= pages.faults,
                "every reference was a page hit or a page miss");
-  core::expect(report.host_pages_served == packets_of(report.host.received, Kind::page_request),
+  core::expect(report.host_pages_served ==
+                   packets_of(report.host.received, Kind::page_request) + packets_of(report.host.received, Kind::passed_request),
                "every page request to the host was served");
   core::expect(pages.faults == pages.served + report.host_pages_served, "every fault was served, by a node or the host");
   const WorkCounters work = report.work();
@@ -93,8 +97,9 @@ void check_conservation(const Report& report) {
                "every film packet sent was received");
 }
 
-/// Serving a page reads pages that never change: a home may be interrupted for it at any time.
-constexpr std::uint32_t interrupt_kinds = 1U << number_of(Kind::page_request);
+/// Serving a page, or passing the request for it on, installs none and runs no pixel: a node may be interrupted for it at any
+/// time. What its cache has changes between quanta alone.
+constexpr std::uint32_t interrupt_kinds = 1U << number_of(Kind::page_request) | 1U << number_of(Kind::passed_request);
 
 template <class Records>
 MakeProgram maker(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
@@ -212,7 +217,7 @@ Plan plan_of(Strategy strategy, const core::Database& database, const core::Rend
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const MakeProgram& make_program, core::Film& film,
                                                         const nodes::Progress& progress, const core::Continuation& continuation) {
   std::vector<nodes::NodeSpecification> specifications;
-  const bool is_host_home = plan.request.pages.homes == PageHomes::host;  // whose service then costs what a node's would
+  const bool is_host_home = are_at_host(plan.request.pages.homes);  // whose service then costs what a node's would
   for (std::uint32_t i = 0; i < plan.request.computer.node_count; ++i) {
     specifications.push_back({plan.node_memory(i), plan.node_mailbox,
                               [&make_program, i](nodes::Node& node) { return make_program(i, node); }, plan.held_bytes,
@@ -271,6 +276,7 @@ Report run_svm(const core::Database& database, const core::RenderSettings& setti
   const core::FineDetail detail = settings.fine_detail(database);
   plan.request.detail = &detail;
   plan.request.database = database.bytes();
+  plan.resident = most_used_pages(database, settings, plan.resident_count, stop);
   if (options.pages.record_references) {
     return run_recording(database, settings, plan, options, std::move(stop));
   }

@@ -33,11 +33,11 @@ std::uint64_t peak_bytes() {
 /// What of a system a forecast knows.
 void settle(const OptionSet& options, InfoOptions& info) {
   StrategyOptions run;
-  run.pages.homes = info.homes;
+  run.pages = info.pages;
   run.rays.balance.balance = info.balance.balance;
   settle_system(options, *info.system, run, info.database);
   settle_database(options, run.strategy, info.database);
-  info.homes = run.pages.homes;
+  info.pages = run.pages;
   info.balance.balance = run.strategy == Strategy::dataflow ? run.rays.balance.balance : info.balance.balance;
 }
 
@@ -46,7 +46,7 @@ Forecast forecast_for(const InfoOptions& options, const Subject& subject) {
   Progress progress(std::cerr, !options.quiet && stderr_is_terminal(), "Cutting space:", "computers");
   return forecast(
       subject.database, subject.settings, options.node_counts, options.balance,
-      [&](std::uint64_t done, std::uint64_t total) { progress.update(done, total); }, options.homes);
+      [&](std::uint64_t done, std::uint64_t total) { progress.update(done, total); }, options.pages);
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ void add_options(OptionSet options, InfoOptions& info) {
       [&info](const std::string& text) { info.node_counts = parse_different_numbers(text, "--nodes", svm::node_count_max); },
       "Nodes of the computers whose memory is forecast");
   add_system_option(options, info.system);
-  add_homes_option(options, info.homes);
+  add_homes_options(options, info.pages.homes, info.pages.tree_arity);
   add_balance_option(options, info.balance.balance);
   add_cuts_option(options, info.balance.bsp.order);
   add_scattered_option(options, info.balance);

@@ -12,7 +12,7 @@
 #include "apps/scene/picture_options.h"
 #include "apps/system/interrupt.h"
 #include "dataflow/regions/balance.h"
-#include "svm/home.h"
+#include "svm/page_options.h"
 
 namespace dmpc::apps {
 
@@ -26,7 +26,7 @@ struct InfoOptions {
   std::vector<std::uint32_t> node_counts = {1, 2, 4, 8, 16, 32, 64, 128, 256};    ///< ascending
   dataflow::BalanceOptions balance = {.balance = dataflow::Balance::equal_size};  ///< that nothing be rendered unasked
   std::optional<System> system;                                                   ///< whose database and pages are looked at
-  svm::PageHomes homes = svm::PageHomes::spread;                                  ///< of svm
+  svm::PageOptions pages;                                                         ///< of svm
   InfoFormat format = InfoFormat::text;
   bool quiet = false;  ///< no progress and no remarks of the scene's reader
 };

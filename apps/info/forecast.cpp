@@ -22,11 +22,11 @@ MemoryForecast forecast_of(const Plan& plan, std::uint32_t node_count) {
 class Forecaster {
  public:
   Forecaster(const core::Database& database, const core::RenderSettings& settings, const dataflow::BalanceOptions& balance,
-             svm::PageHomes homes)
+             const svm::PageOptions& pages)
       : database_(database),
         settings_(settings),
         balance_(balance),
-        homes_(homes),
+        pages_(pages),
         loads_(dataflow::column_loads(database, settings, balance)),
         region_seconds_(stopwatch_.lap()) {}
 
@@ -61,14 +61,16 @@ class Forecaster {
             .balance = balance_.balance,
             .cuts = balance_.bsp.order,
             .regions_a_node = balance_.balance == dataflow::Balance::scattered ? balance_.regions_a_node : 1,
-            .homes = homes_,
+            .homes = pages_.homes,
             .region_seconds = region_seconds_ + stopwatch_.lap()};
   }
 
  private:
   MemoryForecast with_pages(svm::Strategy strategy, std::uint32_t node_count) const {
     svm::RunOptions options{.computer = {.node_count = node_count}};
-    options.pages.homes = strategy == svm::Strategy::svm ? homes_ : svm::PageHomes::spread;
+    if (strategy == svm::Strategy::svm) {
+      options.pages = pages_;
+    }
     return forecast_of(svm::plan_of(strategy, database_, settings_, options), node_count);
   }
   MemoryForecast with_rays(const std::vector<dataflow::Share>& shares) const {
@@ -88,7 +90,7 @@ class Forecaster {
   const core::Database& database_;
   const core::RenderSettings& settings_;
   const dataflow::BalanceOptions& balance_;
-  svm::PageHomes homes_;
+  const svm::PageOptions& pages_;
   Stopwatch stopwatch_;
   dataflow::ColumnLoads loads_;
   double region_seconds_;
@@ -101,8 +103,8 @@ class Forecaster {
 
 Forecast forecast(const core::Database& database, const core::RenderSettings& settings,
                   const std::vector<std::uint32_t>& node_counts, const dataflow::BalanceOptions& balance,
-                  const ForecastProgress& progress, svm::PageHomes homes) {
-  Forecaster forecaster(database, settings, balance, homes);
+                  const ForecastProgress& progress, const svm::PageOptions& pages) {
+  Forecaster forecaster(database, settings, balance, pages);
   std::uint64_t done = 0;
   for (const std::uint32_t node_count : node_counts) {
     forecaster.add(node_count);

@@ -10,7 +10,7 @@
 #include "core/build/database.h"
 #include "core/picture/pixel_task.h"
 #include "dataflow/regions/balance.h"
-#include "svm/home.h"
+#include "svm/page_options.h"
 
 namespace dmpc::apps {
 
@@ -42,12 +42,12 @@ struct Forecast {
 /// Told (computers done, computers in all).
 using ForecastProgress = std::function<void(std::uint64_t, std::uint64_t)>;
 
-/// What `render` with these settings, svm with `homes`, and otherwise default options would plan. Space is cut up for every
+/// What `render` with these settings, svm with `pages`, and otherwise default options would plan. Space is cut up for every
 /// number of nodes, by `balance`: unless that says equal_size the subsampled picture is rendered once, as dataflow does. Each
 /// node count is from 1 to svm::node_count_max. `database` has its records still. Throws core::UsageError as
 /// dataflow::column_loads() does.
 Forecast forecast(const core::Database& database, const core::RenderSettings& settings,
                   const std::vector<std::uint32_t>& node_counts, const dataflow::BalanceOptions& balance,
-                  const ForecastProgress& progress = {}, svm::PageHomes homes = svm::PageHomes::spread);
+                  const ForecastProgress& progress = {}, const svm::PageOptions& pages = {});
 
 }  // namespace dmpc::apps

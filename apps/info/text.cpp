@@ -179,8 +179,9 @@ Table memory_table(const Forecast& forecast) {
       (forecast.balance == dataflow::Balance::equal_size
            ? "; those of render's own choice may need several times as much: --balance=subsampled tells"
            : ""));
-  if (forecast.homes == svm::PageHomes::host) {
-    table.add_note("svm: with --homes=host, whose memory \"all\" counts, too");
+  if (are_at_host(forecast.homes)) {
+    table.add_note("svm: with --homes=" + std::string(name_of(forecast.homes)) +
+                   ": the host has the pages, and its memory \"all\" counts, too");
   }
   for (const ComputerForecast& computer : forecast.computers) {
     std::vector<Cell> row = {std::uint64_t{computer.nodes}};

@@ -12,12 +12,14 @@ struct FieldName {
   std::string_view field, option;
 };
 /// Of svm::PlanRequest and dataflow::PlanRequest.
-constexpr std::array<FieldName, 17> field_names = {{{"node_count=", "--nodes="},
+constexpr std::array<FieldName, 19> field_names = {{{"node_count=", "--nodes="},
                                                     {"node_memory_bytes=", "--node-memory="},
                                                     {"page_size_bytes=", "--page-size="},
                                                     {"cache_pages=", "--cache-pages="},
                                                     {"replacement=", "--replacement="},
                                                     {"homes=", "--homes="},
+                                                    {"tree_arity=", "--tree-arity="},
+                                                    {"resident_percent=", "--resident="},
                                                     {"in_flight=", "--in-flight="},
                                                     {"work_item_side=", "--work-item="},
                                                     {"work_giver=", "--work-giver="},

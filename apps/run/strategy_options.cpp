@@ -39,6 +39,8 @@ const std::vector<Belonging>& belongings() {
   static const std::vector<Belonging> all = {
       {"--cache-pages", {Strategy::svm}, "a node of the others needs no page of another node"},
       {"--homes", {Strategy::svm}, "a node of the others fetches no page"},
+      {"--tree-arity", {Strategy::svm}, "a node of the others fetches no page"},
+      {"--resident", {Strategy::svm}, "a node of the others has no frames for pages"},
       {"--replacement", {Strategy::svm}, "a node of the others keeps no page of another node"},
       {"--count-pages", {Strategy::svm}, "the others look up no pages"},
       {"--in-flight", of_pixels, "a node of dataflow traces one ray at a time"},
@@ -65,6 +67,7 @@ void check_strategy(const OptionSet& options, const StrategyOptions& run) {
       throw UsageError(std::string(belonging.option) + " goes with " + belonging.names() + ": " + belonging.reason);
     }
   }
+  check_homes(options, run.pages.homes);
   check_regions(options, run.rays.balance);
 }
 
@@ -115,10 +118,21 @@ void add_machine_options(OptionSet options, RunnerOptions& runner, const std::st
                    "A node sends one message at a time and receives one at a time, over whatever links" + when);
 }
 
-void add_homes_option(OptionSet options, svm::PageHomes& homes) {
+void add_homes_options(OptionSet options, svm::PageHomes& homes, std::uint32_t& tree_arity) {
   using svm::PageHomes;
-  options.add_choice<PageHomes>("--homes", homes, {{"spread", PageHomes::spread}, {"host", PageHomes::host}},
-                                "Who keeps the pages for good: all nodes, each its part, or the host (svm)");
+  options.add_choice<PageHomes>("--homes", homes,
+                                {{"spread", PageHomes::spread}, {"host", PageHomes::host}, {"tree", PageHomes::tree}},
+                                "Who keeps the pages for good: all nodes, each its part, or the host; tree: the host, and nodes "
+                                "ask their parents in a tree "
+                                "below it, of which the first that has the page replies (svm)");
+  options.add_number("--tree-arity", tree_arity, 1, svm::node_count_max, std::to_string(svm::default_tree_arity),
+                     "Children of the host, and of each node, with --homes=tree");
+}
+
+void check_homes(const OptionSet& options, svm::PageHomes homes) {
+  if (options.is_given("--tree-arity") && homes != svm::PageHomes::tree) {
+    throw UsageError("--tree-arity goes with --homes=tree: other homes are asked directly");
+  }
 }
 
 void add_page_options(OptionSet options, svm::PageOptions& pages, const std::string& in_flight_default) {
@@ -126,7 +140,9 @@ void add_page_options(OptionSet options, svm::PageOptions& pages, const std::str
   options.add_number("--cache-pages", pages.cache_pages, 1, 0x7fffffff,
                      "a quarter of the database; with --node-memory what it holds",
                      "Pages of other nodes that a node can keep (svm)");
-  add_homes_option(options, pages.homes);
+  add_homes_options(options, pages.homes, pages.tree_arity);
+  options.add_number("--resident", pages.resident_percent, 0, 100, "0",
+                     "Percent of those that every node keeps for good: what a small picture uses most (svm)");
   using svm::Replacement;
   options.add_choice<Replacement>(
       "--replacement", pages.replacement,

@@ -9,13 +9,16 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::array<SystemDescription, 8> descriptions = {{
+constexpr std::array<SystemDescription, 9> descriptions = {{
     {System::replicated, "replicated", "every node has the whole scene and renders its part of the picture"},
     {System::replicated_extents, "replicated-extents", "the same with one tree of boxes for the scene"},
     {System::svm, "svm", "a shared virtual memory (Badouel, Bouatouch, Priol 1994): pages travel from node to node"},
     {System::pixel_machine, "pixel-machine",
      "after the Pixel Machine (Potmesil, Hoffert 1989): each node has every m-th pixel of every n-th line for good, and pages "
      "come from the host, where the article of 1994 says that virtual memory was"},
+    {System::green_paddon, "green-paddon",
+     "after Green and Paddon (1989): the host has all pages and deals all work, nodes ask their parents in a tree for pages, and "
+     "half of what a node keeps is what a small picture uses most"},
     {System::forest, "forest", "Goldsmith and Salmon (1988): the top of one tree is everywhere, owners of subtrees are asked"},
     {System::equal_size, "equal-size", "after Cleary and others (1986): rays travel between regions of equal size"},
     {System::scattered, "scattered",
@@ -54,6 +57,11 @@ void for_each_setting(System system, StrategyOptions& run, DatabaseOptions& data
       is(Strategy::svm, core::Structure::extents);
       visit("--work-item", run.pages.work_item_side, std::optional<std::uint32_t>(0));
       return pages_are(svm::PixelShares::interleaved, svm::PageHomes::host);
+    case System::green_paddon:
+      is(Strategy::svm, core::Structure::grid);
+      visit("--work-giver", run.pages.work_giver, svm::WorkGiver::host);
+      visit("--resident", run.pages.resident_percent, std::uint32_t{50});
+      return visit("--homes", run.pages.homes, svm::PageHomes::tree);
     case System::forest:
       return is(Strategy::forest, core::Structure::extents);
     case System::equal_size:

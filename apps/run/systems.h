@@ -17,6 +17,7 @@ enum class System : std::uint8_t {
   replicated_extents,
   svm,
   pixel_machine,
+  green_paddon,
   forest,
   equal_size,
   scattered,

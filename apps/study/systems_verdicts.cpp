@@ -63,7 +63,7 @@ bool is_replicated(System system) { return system == System::replicated || syste
 bool is_distributed(System system) { return !is_replicated(system); }
 bool is_svm(System system) { return system == System::svm; }
 bool is_other_than_svm(System system) { return is_distributed(system) && !is_svm(system); }
-bool has_host_home(System system) { return system == System::pixel_machine; }
+bool has_host_home(System system) { return system == System::pixel_machine || system == System::green_paddon; }
 bool is_other_than_host_home(System system) { return is_distributed(system) && !has_host_home(system); }
 bool asks(System system) { return system == System::forest; }
 bool is_subsampled(System system) { return system == System::subsampled; }

@@ -1,8 +1,8 @@
 #include "dataflow/regions/balance.h"
 
-#include <algorithm>
 #include <cmath>
 
+#include "core/picture/subsample.h"
 #include "dataflow/regions/charged_picture.h"
 
 namespace dmpc::dataflow {
@@ -20,15 +20,6 @@ void check(const BalanceOptions& options) {
   }
 }
 
-/// Middles of the full intervals of length `step` in [0, size), or the middle of [0, size) if it is shorter.
-std::vector<std::uint32_t> middles(int size, int step) {
-  std::vector<std::uint32_t> found;
-  for (int at = std::min(step, size) / 2; at < size && (found.empty() || at - step / 2 + step <= size); at += step) {
-    found.push_back(static_cast<std::uint32_t>(at));
-  }
-  return found;
-}
-
 }  // namespace
 
 CutAxes axes_facing(const core::Camera& camera) {
@@ -40,16 +31,6 @@ CutAxes axes_facing(const core::Camera& camera) {
     along = std::fabs(forward[axis]) > std::fabs(forward[along]) ? axis : along;
   }
   return along == 0 ? CutAxes{1, 2} : along == 1 ? CutAxes{0, 2} : CutAxes{0, 1};
-}
-
-std::vector<std::uint32_t> subsampled_pixels(int width, int height, int subsample) {
-  std::vector<std::uint32_t> pixels;
-  for (const std::uint32_t y : middles(height, subsample)) {
-    for (const std::uint32_t x : middles(width, subsample)) {
-      pixels.push_back(y * static_cast<std::uint32_t>(width) + x);
-    }
-  }
-  return pixels;
 }
 
 ColumnLoads measure_loads(const core::Database& database, const core::RenderSettings& settings, const ColumnLattice& lattice,
@@ -70,8 +51,8 @@ ColumnLoads column_loads(const core::Database& database, const core::RenderSetti
   const ColumnLattice lattice(core::grid_size(settings.header.frame), axes_facing(camera), options.columns_per_side);
   return options.balance != Balance::subsampled
              ? ColumnLoads(lattice)
-             : measure_loads(database, settings, lattice, subsampled_pixels(camera.width(), camera.height(), options.subsample),
-                             stop);
+             : measure_loads(database, settings, lattice,
+                             core::subsampled_pixels(camera.width(), camera.height(), options.subsample), stop);
 }
 
 Balanced share_out(const ColumnLoads& loads, std::uint32_t node_count, const BalanceOptions& options) {

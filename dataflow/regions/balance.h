@@ -40,9 +40,6 @@ struct Balanced {
 /// The two grid axes most parallel to the screen, ascending: all but the one along which the camera looks most.
 CutAxes axes_facing(const core::Camera& camera);
 
-/// The pixels of the subsampled picture, in scan order: the middle one of every full subsample x subsample square, at least one.
-std::vector<std::uint32_t> subsampled_pixels(int width, int height, int subsample);
-
 /// The work that the rays of these pixels, of every kind, do in each column. Takes about as long as rendering them. After a stop
 /// is requested it leaves out the rest of the pixels.
 ColumnLoads measure_loads(const core::Database& database, const core::RenderSettings& settings, const ColumnLattice& lattice,

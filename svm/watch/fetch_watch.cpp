@@ -20,7 +20,8 @@ namespace {
 /// A node keeps at least so many.
 constexpr std::size_t log_max_least = 64;
 
-/// The how many-th fetch of an asker from a home: both ends count, and both see the same order.
+/// The how many-th fetch of an asker from a home: both ends count, and both see the same order. In a tree, where nobody knows
+/// beforehand who will serve, `home` is the page: an asker fetches it once at a time, and all of these are numbered in the end.
 struct Name {
   std::uint32_t asker = 0, home = 0, ordinal = 0;
 
@@ -32,6 +33,7 @@ struct Name {
 struct End {
   Name name;
   std::uint32_t page = 0;
+  std::uint32_t home = 0;  ///< who serves; known at that end alone
   /// At the asker: begins to send the request, is done with it; the page arrives, is taken. At the home: the request arrives, is
   /// received; the reply has left.
   std::array<std::uint64_t, 4> time_ns{};
@@ -51,6 +53,8 @@ class Ends {
     const auto found = open_.find(name);
     return found == open_.end() ? nullptr : &found->second;
   }
+  /// Somebody else will serve it.
+  void drop(const Name& name) { open_.erase(name); }
   /// The fetch is over, here.
   void close(const Name& name, std::size_t count_max) {
     closed_.push_back(open_.at(name));
@@ -60,10 +64,9 @@ class Ends {
     }
   }
   std::uint32_t every() const { return share_.every(); }
-  /// Those of one of `every`, sorted.
+  /// Those of one of `every`.
   std::vector<End> take(std::uint32_t every) {
     thin_out(every);
-    std::sort(closed_.begin(), closed_.end(), [](const End& a, const End& b) { return a.name < b.name; });
     return std::move(closed_);
   }
 
@@ -78,10 +81,21 @@ class Ends {
   std::vector<End> closed_;
 };
 
-std::uint32_t page_in(const nodes::Passing& packet) {
-  std::uint32_t page = 0;
-  std::memcpy(&page, packet.payload.data(), sizeof(page));  // of a request, and of a reply's header, the first
-  return page;
+std::uint32_t word_in(const nodes::Passing& packet, std::size_t index) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, packet.payload.data() + index * sizeof(word), sizeof(word));
+  return word;
+}
+
+/// Of a request, and of a reply's header.
+std::uint32_t page_in(const nodes::Passing& packet) { return word_in(packet, 0); }
+
+/// Of a request that is passed on.
+std::uint32_t asker_in(const nodes::Passing& packet) { return word_in(packet, 1); }
+
+/// `count`: of those that have this asker and home so far, at the end that asks.
+Name name_of_next(PageHomes where, std::uint32_t asker, std::uint32_t home, std::uint32_t page, std::uint32_t& count) {
+  return where == PageHomes::tree ? Name{asker, page, 0} : Name{asker, home, count++};
 }
 
 bool is_kind(const nodes::Passing& packet, Kind kind) { return packet.kind == number_of(kind); }
@@ -89,6 +103,20 @@ bool is_kind(const nodes::Passing& packet, Kind kind) { return packet.kind == nu
 /// When a message was at its target; without a clock on the way, when it was received.
 std::uint64_t arrival_ns(const nodes::MessageTimes& times) {
   return times.arrived_ns == 0 ? times.received_ns : times.arrived_ns;
+}
+
+/// Sorted; those of one name, if there are several, are told apart by when they began.
+std::vector<End> numbered(std::vector<End> ends) {
+  std::sort(ends.begin(), ends.end(),
+            [](const End& a, const End& b) { return std::tie(a.name, a.time_ns) < std::tie(b.name, b.time_ns); });
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    const Name& before = ends[i - 1].name;
+    Name& name = ends[i].name;
+    if (name.asker == before.asker && name.home == before.home && name.ordinal <= before.ordinal) {
+      name.ordinal = before.ordinal + 1;
+    }
+  }
+  return ends;
 }
 
 /// Both ends of one fetch.
@@ -99,7 +127,7 @@ Fetch joined(const End& asker, const End& home) {
   const auto between = [](std::uint64_t from, std::uint64_t to) { return to - std::min(from, to); };
   return {
       .asker = asker.name.asker,
-      .home = asker.name.home,
+      .home = home.home,
       .page = asker.page,
       .part_ns = {between(asking, asked), between(asked, request_arrives), between(request_arrives, request_received),
                   between(request_received, reply_left), between(reply_left, page_arrives), between(page_arrives, page_taken)},
@@ -110,41 +138,46 @@ Fetch joined(const End& asker, const End& home) {
 
 /// What one node has seen, on cache lines of its own.
 struct alignas(nodes::cache_line_bytes) FetchWatch::Log {
-  std::vector<std::uint32_t> asked, taken;            ///< by home
-  std::vector<std::uint32_t> request_count, replied;  ///< by asker
-  std::vector<std::uint32_t> by_slot;                 ///< of its home pages
+  std::vector<std::uint32_t> asked, taken;                   ///< by who is asked, and by who replies
+  std::vector<std::uint32_t> requested, replied;             ///< by asker
+  std::map<std::uint32_t, std::uint64_t> by_page, by_asker;  ///< requests that are not passed on
   Ends as_asker, as_home;
+
+  void count(std::uint32_t asker, std::uint32_t page, int change) {
+    by_page[page] += static_cast<std::uint64_t>(change);
+    by_asker[asker] += static_cast<std::uint64_t>(change);
+  }
 };
 
 std::uint64_t Fetch::total_ns() const { return std::accumulate(part_ns.begin(), part_ns.end(), std::uint64_t{0}); }
 
 FetchWatch::FetchWatch(std::uint32_t node_count, std::uint32_t page_count, std::size_t sample_max, PageHomes where)
     : where_(where),
-      homes_(homes_of(where, node_count)),
-      peer_count_(std::max(node_count, homes_.end())),
+      peer_count_(homes_of(where, node_count).end()),
       page_count_(page_count),
-      log_max_(std::max(log_max_least, sample_max / (where == PageHomes::host ? 1 : node_count))) {
+      log_max_(std::max(log_max_least, sample_max / (are_at_host(where) ? 1 : node_count))) {
   for (std::uint32_t i = 0; i < peer_count_; ++i) {
     Log& log = *logs_.emplace_back(std::make_unique<Log>());
-    for (auto* const counts : {&log.asked, &log.taken, &log.request_count, &log.replied}) {
+    for (auto* const counts : {&log.asked, &log.taken, &log.requested, &log.replied}) {
       counts->resize(peer_count_);
     }
-    log.by_slot.resize(homes_.count_at(i, page_count));
   }
 }
 
 FetchWatch::~FetchWatch() = default;
 
 void FetchWatch::sent(const nodes::Passing& packet) {
-  const std::uint32_t self = index_of(packet.node), peer = index_of(packet.peer);
+  const std::uint32_t self = index_of(packet.node), peer = index_of(packet.peer), page = page_in(packet);
+  Log& log = *logs_[self];
   if (is_kind(packet, Kind::page_request)) {
-    Log& log = *logs_[self];
-    log.as_asker.open({.name = {self, peer, log.asked[peer]++},
-                       .page = page_in(packet),
+    log.as_asker.open({.name = name_of_next(where_, self, peer, page, log.asked[peer]),
+                       .page = page,
                        .time_ns = {packet.times.sending_ns, packet.times.left_ns}});
+  } else if (is_kind(packet, Kind::passed_request)) {
+    log.count(asker_in(packet), page, -1);
+    log.as_home.drop({asker_in(packet), page, 0});
   } else if (is_kind(packet, Kind::page_reply)) {
-    Log& log = *logs_[self];
-    const Name name{peer, self, log.replied[peer]++};
+    const Name name = name_of_next(where_, peer, self, page, log.replied[peer]);
     if (End* const end = log.as_home.find(name)) {
       end->time_ns[2] = packet.times.left_ns;
       log.as_home.close(name, log_max_);
@@ -155,16 +188,18 @@ void FetchWatch::sent(const nodes::Passing& packet) {
 void FetchWatch::received(const nodes::Passing& packet) {
   const std::uint32_t self = index_of(packet.node), peer = index_of(packet.peer);
   const nodes::MessageTimes& times = packet.times;
-  if (is_kind(packet, Kind::page_request)) {
-    Log& log = *logs_[self];
-    ++log.by_slot[homes_.place_of(PageId{page_in(packet)}).slot];
-    log.as_home.open({.name = {peer, self, log.request_count[peer]++},
-                      .page = page_in(packet),
+  Log& log = *logs_[self];
+  const bool is_passed = is_kind(packet, Kind::passed_request);
+  if (is_passed || is_kind(packet, Kind::page_request)) {
+    const std::uint32_t asker = is_passed ? asker_in(packet) : peer, page = page_in(packet);
+    log.count(asker, page, 1);
+    log.as_home.open({.name = name_of_next(where_, asker, self, page, log.requested[asker]),
+                      .page = page,
+                      .home = self,
                       .time_ns = {arrival_ns(times), times.received_ns},
                       .links_ns = times.links_ns});
   } else if (is_kind(packet, Kind::page_reply)) {
-    Log& log = *logs_[self];
-    const Name name{self, peer, log.taken[peer]++};
+    const Name name = name_of_next(where_, self, peer, page_in(packet), log.taken[peer]);
     if (End* const end = log.as_asker.find(name)) {
       core::expect(end->page == page_in(packet), "pages come in the order in which one home was asked for them");
       end->time_ns[2] = arrival_ns(times);
@@ -182,21 +217,24 @@ Fetches FetchWatch::take() {
   for (const auto& log : logs_) {
     all.every = std::max({all.every, log->as_asker.every(), log->as_home.every()});
   }
-  std::map<Name, End> homes;
+  std::vector<End> ends;
   for (std::uint32_t node = 0; node < peer_count_; ++node) {
-    const Log& log = *logs_[node];
-    for (std::uint32_t asker = 0; asker < peer_count_; ++asker) {
-      all.by_pair[std::size_t{asker} * peer_count_ + node] = log.request_count[asker];
+    Log& log = *logs_[node];
+    for (const auto& [asker, count] : log.by_asker) {
+      all.by_pair[std::size_t{asker} * peer_count_ + node] = count;
     }
-    for (std::size_t slot = 0; slot < log.by_slot.size(); ++slot) {
-      all.by_page[index_of(homes_.page_at({node, static_cast<std::uint32_t>(slot)}))] = log.by_slot[slot];
+    for (const auto& [page, count] : log.by_page) {
+      all.by_page[page] += count;
     }
-    for (const End& end : logs_[node]->as_home.take(all.every)) {
-      homes.emplace(end.name, end);
-    }
+    const std::vector<End> more = log.as_home.take(all.every);
+    ends.insert(ends.end(), more.begin(), more.end());
+  }
+  std::map<Name, End> homes;
+  for (const End& end : numbered(std::move(ends))) {
+    homes.emplace(end.name, end);
   }
   for (const auto& log : logs_) {
-    for (const End& end : log->as_asker.take(all.every)) {
+    for (const End& end : numbered(log->as_asker.take(all.every))) {
       if (const auto home = homes.find(end.name); home != homes.end()) {
         all.sample.push_back(joined(end, home->second));
       }

@@ -27,7 +27,8 @@ enum class FetchPart : std::uint8_t {
 inline constexpr std::array<std::string_view, 6> fetch_part_names = {"asking",  "request on its way", "waiting for the home",
                                                                      "service", "page on its way",    "waiting for the asker"};
 
-/// One fetch, in nanoseconds.
+/// One fetch, in nanoseconds. `home` is who served it, which in a tree is not always the page's home; what others do to pass its
+/// request on is part of its way.
 struct Fetch {
   std::uint32_t asker = 0, home = 0, page = 0;
   std::array<std::uint64_t, fetch_part_names.size()> part_ns{};
@@ -41,17 +42,19 @@ inline constexpr std::size_t fetch_sample_max = 100'000;
 
 /// What a watch has seen.
 struct Fetches {
-  std::uint32_t peer_count = 0;        ///< nodes, and the host if it is home to all pages, the last
-  std::vector<std::uint64_t> by_pair;  ///< counted: those of asker a from home h at a * peer_count + h
+  std::uint32_t peer_count = 0;  ///< nodes, and the host if it is home to all pages, the last
+  std::vector<std::uint64_t>
+      by_pair;  ///< counted: those of asker a from h, its home or who else served it, at a * peer_count + h
   std::vector<std::uint64_t> by_page;  ///< counted, by number
-  /// One of `every`, a power of two, chosen by a hash of who asks whom for the how many-th time, sorted by asker, home and time.
+  /// One of `every`, a power of two, chosen by a hash of who asks whom for the how many-th time, sorted by asker, home and time;
+  /// in a tree, where who is asked need not have the page, by one of asker and page.
   std::vector<Fetch> sample;
   std::uint32_t every = 1;
   PageHomes where = PageHomes::spread;  ///< pages are at home
 
   /// Of a page.
   std::uint32_t home_of(std::uint32_t page) const {
-    return where == PageHomes::host ? peer_count - 1 : Homes(peer_count).place_of(PageId{page}).node;
+    return are_at_host(where) ? peer_count - 1 : Homes(peer_count).place_of(PageId{page}).node;
   }
   /// How many fetch a page that is at home elsewhere.
   std::uint32_t asker_count() const { return peer_count - 1; }
@@ -77,7 +80,6 @@ class FetchWatch final : public nodes::Observer {
   struct Log;
 
   PageHomes where_;
-  Homes homes_;
   std::uint32_t peer_count_;
   std::uint32_t page_count_;
   std::size_t log_max_;

@@ -5,21 +5,17 @@
 #include <span>
 
 #include "core/base/expect.h"
-#include "svm/home.h"
 #include "svm/pager.h"
 #include "svm/watch/reference_log.h"
 
 namespace dmpc::svm {
 
-/// Notes a reference when it is answered, so a step that is retried after its page arrived is noted once. Pages that are at home
-/// are left out: they need no frame. Takes as much local memory as a Pager; the log lies outside. Thread safety: none.
+/// Notes a reference when it is answered, so a step that is retried after its page arrived is noted once. Pages that are here for
+/// good are left out: they need no frame. Takes as much local memory as a Pager; the log lies outside. Thread safety: none.
 class RecordingPager : public Pager {
  public:
   RecordingPager(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database)
-      : Pager(node, capacity, database),
-        geometry_(capacity.page_size_bytes()),
-        homes_(capacity.homes()),
-        self_(nodes::index_of(node.id())) {}
+      : Pager(node, capacity, database), geometry_(capacity.page_size_bytes()) {}
 
   /// To be called once, before the first reference. `log` outlives this.
   void record_into(ReferenceLog& log) { log_ = &log; }
@@ -28,7 +24,7 @@ class RecordingPager : public Pager {
   const std::byte* find(core::Address address) {
     const std::byte* const record = Pager::find(address);
     const PageId page = geometry_.page_of(address);
-    if (record != nullptr && homes_.place_of(page).node != self_) {
+    if (record != nullptr && !keeps(page)) {
       log_->note(page);
     }
     return record;
@@ -36,8 +32,6 @@ class RecordingPager : public Pager {
 
  private:
   PageGeometry geometry_;
-  Homes homes_;
-  std::uint32_t self_;
   ReferenceLog* log_ = nullptr;
 };
 static_assert(core::Records<RecordingPager>);

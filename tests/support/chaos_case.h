@@ -51,7 +51,9 @@ class ChaosCase {
       options.pages.cache_pages = one_of<std::optional<std::uint32_t>>({1, 1, 2, 3, 16, std::nullopt});
       options.pages.replacement = one_of({svm::Replacement::lru, svm::Replacement::lru, svm::Replacement::clock,
                                           svm::Replacement::fifo, svm::Replacement::random});
-      options.pages.homes = draws_.chance(25) ? svm::PageHomes::host : svm::PageHomes::spread;
+      options.pages.homes = one_of({svm::PageHomes::spread, svm::PageHomes::spread, svm::PageHomes::host, svm::PageHomes::tree});
+      options.pages.tree_arity = 1 + draws_.below(4);
+      options.pages.resident_percent = one_of({0U, 0U, 50U, 100U});
       options.pages.count_pages = draws_.chance(10) && !subject().settings().refinement.is_wanted();
     }
     disturb(options, round);

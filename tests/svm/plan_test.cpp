@@ -418,6 +418,47 @@ TEST_CASE("where the host is home, one node fetches pages, too, and a cache may 
   CHECK(plan.request_credits >= 1);
 }
 
+TEST_CASE("in a tree a node has room for the requests of all nodes below the first, beside what one of a star has") {
+  PlanRequest request = request_with(64, 400);
+  request.pages.cache_pages = 20;
+  request.pages.homes = svm::PageHomes::host;
+  const svm::Plan star = make_plan(request);
+  request.pages.homes = svm::PageHomes::tree;
+  for (const auto& [arity, below] : {std::pair{3U, 37U}, {1U, 63U}, {8U, 8U}, {63U, 1U}, {64U, 0U}, {4096U, 0U}}) {
+    request.pages.tree_arity = arity;
+    const svm::Plan tree = make_plan(request);
+    CHECK(tree.request_credits >= 1);
+    CHECK(tree.node_mailbox.small_slots == star.node_mailbox.small_slots + below * tree.request_credits);
+    CHECK(tree.host_mailbox.small_slots + 64 * (star.request_credits - tree.request_credits) == star.host_mailbox.small_slots);
+  }
+  request.computer.node_memory_bytes = smallest_node_memory_bytes(request);
+  CHECK(make_plan(request).frames == 20);
+  request.pages.tree_arity = 0;
+  CHECK_THROWS_AS(make_plan(request), core::UsageError);
+}
+
+TEST_CASE("resident pages are a share of the frames, and one frame at least is left for others") {
+  PlanRequest request = request_with(4, 400);
+  request.pages.cache_pages = 40;
+  for (const auto& [percent, resident] : {std::pair{0U, 0U}, {1U, 0U}, {50U, 20U}, {99U, 39U}, {100U, 39U}}) {
+    request.pages.resident_percent = percent;
+    const svm::Plan plan = make_plan(request);
+    CHECK(plan.resident_count == resident);
+    CHECK(plan.frames == 40 - resident);
+  }
+  request.pages.cache_pages = 1;
+  CHECK(make_plan(request).resident_count == 0);
+  request.computer.node_count = 1;
+  CHECK(make_plan(request).resident_count == 0);
+  CHECK(make_plan(request).frames == 0);
+  request.pages.resident_percent = 101;
+  CHECK_THROWS_AS(make_plan(request), core::UsageError);
+  request.pages.resident_percent = 50;
+  request.pages.cache_pages.reset();
+  request.strategy = svm::Strategy::replicated;
+  CHECK_THROWS_AS(make_plan(request), core::UsageError);
+}
+
 TEST_CASE("pages are at home at the host where they travel alone") {
   PlanRequest request = request_with(4, 40);
   request.pages.homes = svm::PageHomes::host;

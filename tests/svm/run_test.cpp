@@ -87,6 +87,69 @@ TEST_CASE("where the host is home it serves every fault, and nodes find nothing 
   }
 }
 
+TEST_CASE("in a tree somebody above serves every fault, and as a star it is the host for all") {
+  const SmallScene small("teapot-4", 512, 30);
+  const std::uint64_t film = svm::run_svm(small.database, small.settings, {}, {}).film.hash();
+  for (const std::uint32_t nodes : {1U, 2U, 5U, 16U}) {
+    for (const std::uint32_t arity : {1U, 2U, 3U, nodes}) {
+      const svm::RunOptions options{.computer = {.node_count = nodes},
+                                    .pages = {.cache_pages = 5, .homes = svm::PageHomes::tree, .tree_arity = arity}};
+      const svm::Report report = svm::run_svm(small.database, small.settings, options, {});
+      CAPTURE(nodes);
+      CAPTURE(arity);
+      CHECK(report.film.hash() == film);
+      CHECK(report.pages().home_hits == 0);
+      CHECK(report.pages().faults > 50);
+      CHECK(report.pages().served + report.host_pages_served == report.pages().faults);
+      CHECK((report.pages().served == 0) == (arity >= nodes));
+      for (const svm::NodeReport& node : report.nodes) {
+        CHECK(node.memory_used.bytes == node.memory_planned.bytes);
+      }
+    }
+  }
+}
+
+TEST_CASE("a star is what a tree with a child for each node is, to the nanosecond") {
+  const SmallScene small("teapot-4", 512, 24);
+  svm::RunOptions options{.computer = {.node_count = 7, .machine = nodes::Machine{}},
+                          .pages = {.cache_pages = 5, .homes = svm::PageHomes::host}};
+  const svm::Report star = svm::run_svm(small.database, small.settings, options, {});
+  options.pages.homes = svm::PageHomes::tree;
+  options.pages.tree_arity = 7;
+  const svm::Report tree = svm::run_svm(small.database, small.settings, options, {});
+  CHECK(tree.virtual_time->hash == star.virtual_time->hash);
+  options.pages.tree_arity = 2;
+  CHECK(svm::run_svm(small.database, small.settings, options, {}).virtual_time->hash != star.virtual_time->hash);
+}
+
+TEST_CASE("resident pages are found as those at home are, and at most one a node is fetched where they are all others") {
+  const SmallScene small("teapot-4", 512, 40);
+  const std::uint64_t film = svm::run_svm(small.database, small.settings, {}, {}).film.hash();
+  const auto pages = static_cast<std::uint32_t>(small.database.page_count());
+  for (const svm::PageHomes homes : {svm::PageHomes::spread, svm::PageHomes::host, svm::PageHomes::tree}) {
+    CAPTURE(name_of(homes));
+    svm::RunOptions options = fixed_order(4);
+    options.pages.homes = homes;
+    options.pages.replacement = svm::Replacement::fifo;
+    options.pages.cache_pages = pages / 4;
+    const svm::Report without = svm::run_svm(small.database, small.settings, options, {});
+    options.pages.resident_percent = 50;
+    const svm::Report with = svm::run_svm(small.database, small.settings, options, {});
+    CHECK(without.film.hash() == film);
+    CHECK(with.film.hash() == film);
+    CHECK(with.pages().home_hits > without.pages().home_hits);
+    CHECK(with.pages().faults != without.pages().faults);
+    options.pages.cache_pages = pages;
+    options.pages.resident_percent = 100;
+    const svm::Report all = svm::run_svm(small.database, small.settings, options, {});
+    CHECK(all.film.hash() == film);
+    CHECK((homes == svm::PageHomes::spread || all.pages().faults <= 4));
+    for (const svm::NodeReport& node : all.nodes) {
+      CHECK(node.memory_used.bytes == node.memory_planned.bytes);
+    }
+  }
+}
+
 TEST_CASE("with the same frames, references in a fixed order fault at the host as often as stack distances say") {
   const SmallScene small("teapot-4", 512, 24);
   svm::RunOptions options = fixed_order(3);

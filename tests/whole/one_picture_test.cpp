@@ -71,7 +71,7 @@ svm::Report run_paged(std::size_t strategy, const Subject& subject, const svm::R
 void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
   const Subjects subjects(scene, size);
   const auto rows = tests::pairwise({std::size(node_counts), std::size(page_sizes), std::size(cache_shares),
-                                     std::size(in_flights), std::size(item_sides), 3, std::size(nodes_a_worker), 2, 3, 2});
+                                     std::size(in_flights), std::size(item_sides), 3, std::size(nodes_a_worker), 2, 3, 3});
   for (const auto& row : rows) {
     const bool is_forest = row[5] == 2, is_one_tree = is_forest || row[7] == 1;
     const Subject& subject = subjects.with(is_one_tree ? core::Structure::extents : core::Structure::grid, page_sizes[row[1]]);
@@ -85,7 +85,8 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
     if (row[5] == 0) {
       const double frames = cache_shares[row[2]] * static_cast<double>(subject.database().page_count());
       options.pages.cache_pages = std::max(1U, static_cast<std::uint32_t>(frames));
-      options.pages.homes = row[9] == 1 ? svm::PageHomes::host : svm::PageHomes::spread;
+      options.pages.homes = row[9] == 0 ? svm::PageHomes::spread : row[9] == 1 ? svm::PageHomes::host : svm::PageHomes::tree;
+      options.pages.resident_percent = row[9] == 2 ? 50 : 0;
     }
     CAPTURE(options.computer.node_count);
     CAPTURE(subject.database().page_size());
@@ -152,7 +153,7 @@ TEST_CASE("interleaved pixels, with pages at home at the host or with the nodes,
                                 .pages = {.work_item_side = side, .pixel_shares = svm::PixelShares::interleaved}};
         CHECK(outcome_of(run_replicated(grid, options)) == grid.outcome());
         CHECK(outcome_of(run_forest(extents, options)) == grid.outcome());
-        for (const svm::PageHomes homes : {svm::PageHomes::spread, svm::PageHomes::host}) {
+        for (const svm::PageHomes homes : {svm::PageHomes::spread, svm::PageHomes::host, svm::PageHomes::tree}) {
           CAPTURE(name_of(homes));
           options.pages.homes = homes;
           options.pages.cache_pages = 2;

@@ -40,6 +40,7 @@ void check_watched(const Subject& subject, svm::RunOptions options, svm::PageHom
   options.computer.node_count = watchers_nodes;
   options.pages.cache_pages = 2;
   options.pages.homes = homes;
+  options.pages.tree_arity = 1;
   options.watching.observer = &group;
   options.pages.reference_logs = &logs;
   const svm::Report report = run_svm(subject, options);
@@ -57,7 +58,7 @@ void check_watched(const Subject& subject, svm::RunOptions options, svm::PageHom
 
 TEST_CASE("onlookers see every fetch, by threads, in virtual time and under chaos") {
   const Subject small = subject_to_watch();
-  for (const svm::PageHomes homes : {svm::PageHomes::spread, svm::PageHomes::host}) {
+  for (const svm::PageHomes homes : {svm::PageHomes::spread, svm::PageHomes::host, svm::PageHomes::tree}) {
     check_watched(small, {}, homes);
     check_watched(small, {.computer = {.machine = priced_machine()}}, homes);
     for (const std::uint64_t seed : {1, 2, 3}) {

@@ -163,8 +163,12 @@ std::string page_conclusion(const svm::PageCounters& pages, const svm::Fetches& 
     served[pair % fetches.peer_count] += static_cast<double>(fetches.by_pair[pair]);
   }
   const std::vector<double> by_page(fetches.by_page.begin(), fetches.by_page.end());
-  const std::string even =
-      fetches.where == svm::PageHomes::host ? "The host, home to all pages, served all" : evenness(served, "served");
+  const std::string even = fetches.where == svm::PageHomes::host ? "The host, home to all pages, served all"
+                           : fetches.where == svm::PageHomes::tree
+                               ? "The host, home to all pages, served " +
+                                     share_text(share_of(served.back(), static_cast<double>(pages.faults))) +
+                                     ", nodes above who asked the others"
+                               : evenness(served, "served");
   return counted(pages.faults, "page fault") + " in " + counted(pages.references, "look-up") + " (" + share_text(asked) +
          "); the tenth of the pages that was fetched most had " + share_text(top_tenth_share(by_page)) + " of the fetches. " +
          even + (even.empty() ? "" : ".");

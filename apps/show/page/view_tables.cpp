@@ -227,7 +227,7 @@ Table page_table(const Fetches& fetches) {
                      static_cast<double>(count) / std::max(1.0, static_cast<double>(fetches.asker_count()))});
     }
   }
-  if (fetches.where == svm::PageHomes::host) {
+  if (are_at_host(fetches.where)) {
     table.add_note("Home " + std::to_string(fetches.asker_count()) + " is the host.");
   }
   table.add_note("Nodes' mean: how often each of the other nodes fetched the page, on average.");

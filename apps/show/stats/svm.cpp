@@ -59,6 +59,10 @@ StrategyStats strategy_stats(const RenderOptions& options, const svm::Report& re
   if (options.strategy == Strategy::svm) {
     stats.options["cache_pages"] = plan.frames;
     stats.options["homes"] = svm::name_of(plan.request.pages.homes);
+    if (plan.request.pages.homes == svm::PageHomes::tree) {
+      stats.options["tree_arity"] = plan.request.pages.tree_arity;
+    }
+    stats.options["resident_pages"] = plan.resident_count;
     stats.host["pages_served"] = report.host_pages_served;
     stats.options["replacement"] = svm::name_of(plan.request.pages.replacement);
   }

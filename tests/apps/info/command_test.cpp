@@ -63,7 +63,7 @@ TEST_CASE("wrong options of info are refused") {
 TEST_CASE("a system by name is asked about with its database and its pages' homes, and what contradicts it is refused") {
   const InfoOptions machine = info("balls-1", {"--system=pixel-machine"});
   CHECK(machine.database.build.structure == core::Structure::extents);
-  CHECK(machine.homes == svm::PageHomes::host);
+  CHECK(machine.pages.homes == svm::PageHomes::host);
   CHECK(info("balls-1", {"--system=forest"}).database.build.page_size_bytes == 4096);
   CHECK(info("balls-1", {"--system=subsampled"}).balance.balance == dataflow::Balance::subsampled);
   for (const std::string option : {"--structure=grid", "--homes=spread"}) {

@@ -228,6 +228,13 @@ TEST_CASE("every option of dataflow reaches its field") {
   CHECK(render({"--work-giver=host"}).pages.work_giver == svm::WorkGiver::host);
   CHECK(options.pages.homes == svm::PageHomes::spread);
   CHECK(render({"--homes=host"}).pages.homes == svm::PageHomes::host);
+  CHECK(render({"--homes=tree"}).pages.tree_arity == 3);
+  CHECK(render({"--homes=tree", "--tree-arity=4", "--resident=25"}).pages.tree_arity == 4);
+  CHECK(render({"--resident=25"}).pages.resident_percent == 25);
+  for (const std::string wrong : {"--tree-arity=0", "--resident=101", "--resident=-1", "--homes=root"}) {
+    CHECK_THROWS_AS(render({"--homes=tree", wrong}), core::UsageError);
+  }
+  CHECK_THROWS_AS(render({"--homes=host", "--tree-arity=4"}), core::UsageError);
   CHECK(options.pages.pixel_shares == svm::PixelShares::submaps);
   CHECK(render({"--pixels=interleaved"}).pages.pixel_shares == svm::PixelShares::interleaved);
   CHECK_FALSE(options.rays.without_backpressure);
@@ -270,6 +277,8 @@ TEST_CASE("an option of another strategy is refused with the strategies that it 
                                      {"--homes=host", replicated, svm},
                                      {"--homes=host", forest, svm},
                                      {"--homes=spread", dataflow, svm},
+                                     {"--tree-arity=4", replicated, svm},
+                                     {"--resident=50", forest, svm},
                                      {"--pixels=interleaved", dataflow, svm + " or " + replicated + " or " + forest},
                                      {"--no-backpressure", svm, dataflow},
                                      {"--topology=hypercube", replicated, dataflow}};
@@ -291,6 +300,8 @@ TEST_CASE("a system by name stands for its options") {
   CHECK(machine.pages.work_item_side == 0U);
   CHECK(options_of(System::pixel_machine) ==
         "--strategy=svm --structure=extents --work-item=0 --pixels=interleaved --homes=host");
+  CHECK(options_of(System::green_paddon) == "--strategy=svm --structure=grid --work-giver=host --resident=50 --homes=tree");
+  CHECK(render({"--system=green-paddon", "--tree-arity=2"}).pages.tree_arity == 2);
   const RenderOptions forest = render({"--system=forest"});
   CHECK(forest.strategy == Strategy::forest);
   CHECK(forest.database.build.structure == core::Structure::extents);
@@ -406,7 +417,7 @@ TEST_CASE("the help of render names every option and its default") {
                                  "ring|host [ring]",
                                  "--system",
                                  "--homes",
-                                 "spread|host [spread]",
+                                 "spread|host|tree [spread]",
                                  "--pixels",
                                  "submaps|interleaved [submaps]",
                                  "--workers",

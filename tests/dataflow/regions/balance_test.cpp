@@ -1,4 +1,5 @@
 #include "dataflow/regions/balance.h"
+#include "core/picture/subsample.h"
 
 #include <doctest/doctest.h>
 
@@ -38,7 +39,7 @@ struct Stage {
   /// The loads of the whole picture.
   ColumnLoads all_loads() const {
     return measure_loads(database, settings, lattice(),
-                         dataflow::subsampled_pixels(settings.camera.width(), settings.camera.height(), 1));
+                         core::subsampled_pixels(settings.camera.width(), settings.camera.height(), 1));
   }
 };
 
@@ -83,18 +84,18 @@ TEST_CASE("the cuts are made along the two axes most parallel to the screen") {
 }
 
 TEST_CASE("a subsampled picture has the middle pixel of every full square") {
-  CHECK(dataflow::subsampled_pixels(16, 8, 8) == std::vector<std::uint32_t>{4 * 16 + 4, 4 * 16 + 12});
-  CHECK(dataflow::subsampled_pixels(23, 15, 8).size() == 2);
-  CHECK(dataflow::subsampled_pixels(512, 512, 8).size() == 4096);
+  CHECK(core::subsampled_pixels(16, 8, 8) == std::vector<std::uint32_t>{4 * 16 + 4, 4 * 16 + 12});
+  CHECK(core::subsampled_pixels(23, 15, 8).size() == 2);
+  CHECK(core::subsampled_pixels(512, 512, 8).size() == 4096);
 }
 
 TEST_CASE("a picture smaller than a square still gives one pixel") {
-  CHECK(dataflow::subsampled_pixels(1, 1, 8) == std::vector<std::uint32_t>{0});
-  CHECK(dataflow::subsampled_pixels(5, 3, 8) == std::vector<std::uint32_t>{5 + 2});
+  CHECK(core::subsampled_pixels(1, 1, 8) == std::vector<std::uint32_t>{0});
+  CHECK(core::subsampled_pixels(5, 3, 8) == std::vector<std::uint32_t>{5 + 2});
 }
 
 TEST_CASE("one pixel of every 1x1 is the whole picture") {
-  const std::vector<std::uint32_t> pixels = dataflow::subsampled_pixels(3, 2, 1);
+  const std::vector<std::uint32_t> pixels = core::subsampled_pixels(3, 2, 1);
   CHECK(pixels == std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5});
 }
 

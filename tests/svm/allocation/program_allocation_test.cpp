@@ -56,6 +56,9 @@ TEST_CASE("a node of svm allocates nothing while it renders, pages, asks for wor
   CHECK(allocated_by<svm::Pager, core::BundleTask>(svm::Strategy::svm, options) == 0);
   options.pages.in_flight = 15;
   CHECK(allocated_by<svm::Pager>(svm::Strategy::svm, options) == 0);
+  options.pages.homes = svm::PageHomes::tree;
+  options.pages.tree_arity = 1;
+  CHECK(allocated_by<svm::Pager>(svm::Strategy::svm, options) == 0);
   options.pages.homes = svm::PageHomes::host;
   CHECK(allocated_by<svm::Pager>(svm::Strategy::svm, options) == 0);
   options.pages.count_pages = true;
