@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <span>
 
 #include "core/base/expect.h"
@@ -10,38 +11,45 @@
 
 namespace dmpc::nodes {
 
-/// Pieces of equal size, by number. On a modelled machine, where all nodes share the real computer's caches,
-/// the room is there and counted, but has in it where each piece is, in place of a copy. Thread safety: none; belongs to one
-/// node.
+/// Pieces of equal size, by number. On a modelled machine, where all nodes share the real computer's caches and memory, the room
+/// is counted, but in place of copies there is a table, outside of the node's memory, of where each piece is. Thread safety:
+/// none; belongs to one node.
 class LastingPieces {
  public:
   /// Takes `room_bytes`: those of all pieces, and what must be readable behind the last one. It is so behind each that is put
   /// there, too.
   LastingPieces(LocalMemory& memory, Category category, std::size_t room_bytes, std::size_t piece_bytes)
-      : room_(memory.allocate<std::byte>(category, room_bytes)),
-        piece_bytes_(piece_bytes),
-        is_referring_(memory.lasting() == Lasting::is_referred_to) {
-    core::expect(piece_bytes >= sizeof(const std::byte*), "a piece has room for its place");
+      : piece_bytes_(piece_bytes) {
+    core::expect(piece_bytes > 0, "a piece has a byte");
+    if (memory.lasting() == Lasting::is_referred_to) {
+      memory.count_lasting(category, room_bytes);
+      places_ = std::make_unique<const std::byte*[]>(room_bytes / piece_bytes);
+    } else {
+      room_ = memory.allocate<std::byte>(category, room_bytes);
+    }
+  }
+  /// Adds to `plan` exactly what the constructor takes.
+  static void add_needs(MemoryPlan& plan, Category category, std::size_t room_bytes) {
+    plan[category] += LocalMemory::bytes_for<std::byte>(room_bytes);
+    plan.lasting_bytes += LocalMemory::bytes_for<std::byte>(room_bytes);
   }
 
   /// `piece` is now at `index`, in place of what was there.
   void put(std::size_t index, std::span<const std::byte> piece) {
     core::expect(piece.size() == piece_bytes_, "pieces are of one size");
-    if (is_referring_) {
-      places()[index] = piece.data();
+    if (places_) {
+      places_[index] = piece.data();
     } else {
       std::copy(piece.begin(), piece.end(), room_.begin() + static_cast<std::ptrdiff_t>(index * piece_bytes_));
     }
   }
   /// The first byte of the piece that was put there last.
-  const std::byte* at(std::size_t index) const { return is_referring_ ? places()[index] : room_.data() + index * piece_bytes_; }
+  const std::byte* at(std::size_t index) const { return places_ ? places_[index] : room_.data() + index * piece_bytes_; }
 
  private:
-  const std::byte** places() const { return reinterpret_cast<const std::byte**>(room_.data()); }
-
   std::span<std::byte> room_;
   std::size_t piece_bytes_;
-  bool is_referring_;
+  std::unique_ptr<const std::byte*[]> places_;  ///< on a modelled machine
 };
 
 /// One piece: where its bytes are from now on, and `overread_bytes` that are readable behind them.

@@ -47,8 +47,6 @@ std::byte* reserve_zero(std::size_t bytes) {
   return block;
 }
 
-std::size_t block_bytes(const MemoryPlan& plan) { return plan.total() - plan[Category::reserve]; }
-
 }  // namespace
 
 const char* name_of(Category category) {
@@ -77,20 +75,36 @@ LocalMemory::Block LocalMemory::reserve(std::size_t bytes) {
 }
 
 LocalMemory::LocalMemory(const MemoryPlan& plan, Lasting lasting)
-    : plan_(plan), block_(reserve(block_bytes(plan))), lasting_(lasting) {
+    : plan_(plan), lasting_(lasting), block_(reserve(block_bytes())) {
   used_[Category::reserve] = plan[Category::reserve];
 }
 
-std::byte* LocalMemory::allocate_bytes(Category category, std::size_t bytes) {
+std::size_t LocalMemory::block_bytes() const {
+  return plan_.total() - plan_[Category::reserve] - (lasting_ == Lasting::is_referred_to ? plan_.lasting_bytes : 0);
+}
+
+/// Returns the bytes of the cache lines that `bytes` take.
+std::size_t LocalMemory::count(Category category, std::size_t bytes) {
   const std::size_t lines_bytes = core::round_up(bytes, alignment);
   core::expect(!sealed_, "nothing is allocated after the start");
   core::expect(category != Category::reserve, "the reserve is not for allocation");
   core::expect(lines_bytes <= plan_[category] - used_[category], "an allocation stays within its category's plan");
-  core::expect(lines_bytes <= block_bytes(plan_) - offset_, "the categories together stay within the block");
+  used_[category] += lines_bytes;
+  return lines_bytes;
+}
+
+void LocalMemory::count_lasting(Category category, std::size_t bytes) {
+  core::expect(lasting_ == Lasting::is_referred_to, "bytes that are copied are allocated");
+  used_.lasting_bytes += count(category, bytes);
+  core::expect(used_.lasting_bytes <= plan_.lasting_bytes, "lasting bytes stay within the plan of them");
+}
+
+std::byte* LocalMemory::allocate_bytes(Category category, std::size_t bytes) {
+  const std::size_t lines_bytes = count(category, bytes);
+  core::expect(lines_bytes <= block_bytes() - offset_, "the categories together stay within the block");
   std::byte* const place = block_.get() + offset_;
   ASAN_UNPOISON_MEMORY_REGION(place, bytes);
   offset_ += lines_bytes;
-  used_[category] += lines_bytes;
   return place;
 }
 

@@ -33,6 +33,7 @@ const char* name_of(Category category);
 /// Bytes by category: what a program will need, known before anything is allocated.
 struct MemoryPlan {
   std::array<std::size_t, category_count> bytes{};
+  std::size_t lasting_bytes = 0;  ///< of all of them, room for LastingPieces, which a modelled machine's nodes do not fill
 
   /// Bytes of one category.
   std::size_t& operator[](Category category) { return bytes[static_cast<std::size_t>(category)]; }
@@ -53,8 +54,8 @@ class LocalMemory {
   static constexpr std::size_t alignment = 64;
 
   /// Reserves plan.total() bytes at once, but for the `reserve` category: that is the thread's stack, which the runner makes; it
-  /// counts as used from the start. The real computer sets bytes aside when they are first written. Throws core::RoomError if it
-  /// has not so much, as far as it knows by then.
+  /// counts as used from the start. Where lasting bytes are referred to, it reserves no room for them, either. The real computer
+  /// sets bytes aside when they are first written. Throws core::RoomError if it has not so much, as far as it knows by then.
   explicit LocalMemory(const MemoryPlan& plan, Lasting lasting = Lasting::is_copied);
 
   /// `count` value-initialised objects; expects that the memory is not sealed and that the category's plan has room.
@@ -79,6 +80,8 @@ class LocalMemory {
 
   /// For LastingPieces.
   Lasting lasting() const { return lasting_; }
+  /// For LastingPieces: counts as allocate<std::byte>() does, where lasting bytes are referred to, and takes nothing.
+  void count_lasting(Category category, std::size_t bytes);
 
   /// From now on allocate() is a broken invariant.
   void seal() { sealed_ = true; }
@@ -92,13 +95,15 @@ class LocalMemory {
  private:
   using Block = std::unique_ptr<std::byte[], void (*)(std::byte*)>;
   static Block reserve(std::size_t bytes);
+  std::size_t block_bytes() const;
+  std::size_t count(Category category, std::size_t bytes);
   std::byte* allocate_bytes(Category category, std::size_t bytes);
 
   MemoryPlan plan_;
   MemoryPlan used_;
+  Lasting lasting_;
   Block block_;
   std::size_t offset_ = 0;
-  Lasting lasting_;
   bool sealed_ = false;
 };
 

@@ -24,7 +24,7 @@ std::size_t Cache::table_size(std::uint32_t frame_count) {
 }
 
 void Cache::add_needs(nodes::MemoryPlan& plan, const CacheShape& shape) {
-  plan[Category::cache_frames] += LocalMemory::bytes_for<std::byte>(frame_bytes(shape));
+  nodes::LastingPieces::add_needs(plan, Category::cache_frames, frame_bytes(shape));
   plan[Category::page_table] += LocalMemory::bytes_for<Entry>(table_size(shape.frame_count));
   plan[Category::page_table] += LocalMemory::bytes_for<std::uint64_t>(shape.frame_count);
   plan[Category::page_table] += LocalMemory::bytes_for<PageId>(shape.frame_count);

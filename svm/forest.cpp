@@ -63,7 +63,7 @@ std::size_t question_packet_bytes(std::uint32_t questions) {
 }
 
 void Forest::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index) {
-  memory[Category::home_pages] += LocalMemory::bytes_for<std::byte>(capacity.forest_bytes() + core::overread_bytes);
+  nodes::LastingPieces::add_needs(memory, Category::home_pages, capacity.forest_bytes() + core::overread_bytes);
   HomePages::add_needs(memory, capacity, index);
   memory[Category::queues] +=
       LocalMemory::bytes_for<Question>(capacity.in_flight) + LocalMemory::bytes_for<Queue>(capacity.node_count) +

@@ -28,7 +28,7 @@ HomePages::HomePages(nodes::Node& node, const PageCapacity& capacity, std::span<
 }
 
 void HomePages::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index) {
-  memory[nodes::Category::home_pages] += nodes::LocalMemory::bytes_for<std::byte>(room_bytes(capacity, index));
+  nodes::LastingPieces::add_needs(memory, nodes::Category::home_pages, room_bytes(capacity, index));
 }
 
 void grant_requests(nodes::Node& node, const PageCapacity& capacity) {

@@ -26,7 +26,7 @@ class LocalCopy {
   }
   /// Adds to `plan` exactly what the constructor takes.
   static void add_needs(nodes::MemoryPlan& plan, std::size_t database_bytes) {
-    plan[nodes::Category::home_pages] += nodes::LocalMemory::bytes_for<std::byte>(database_bytes + core::overread_bytes);
+    nodes::LastingPieces::add_needs(plan, nodes::Category::home_pages, database_bytes + core::overread_bytes);
   }
 
   const std::byte* find(core::Address address) const { return bytes_.data() + core::byte_offset(address); }

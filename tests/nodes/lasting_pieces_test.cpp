@@ -6,6 +6,8 @@
 #include <cstring>
 #include <span>
 
+#include "core/base/expect.h"
+
 namespace dmpc::nodes {
 namespace {
 
@@ -15,7 +17,7 @@ constexpr std::size_t piece_bytes = 64;
 struct Room {
   static MemoryPlan plan() {
     MemoryPlan plan;
-    plan[Category::home_pages] = 3 * piece_bytes;
+    LastingPieces::add_needs(plan, Category::home_pages, 3 * piece_bytes);
     return plan;
   }
 
@@ -57,6 +59,19 @@ TEST_CASE("a piece of another size is refused, wherever it would be kept") {
     CHECK_THROWS_AS(room.pieces.put(0, std::span(bytes).first(piece_bytes - 1)), core::InternalError);
     CHECK_THROWS_AS(room.pieces.put(0, bytes), core::InternalError);
   }
+}
+
+TEST_CASE("of the real computer no room is asked for pieces that are referred to") {
+  constexpr std::size_t petabyte = std::size_t{1} << 50U;
+  MemoryPlan plan;
+  LastingPieces::add_needs(plan, Category::cache_frames, petabyte);
+  plan[Category::queues] = 64;
+  CHECK_THROWS_AS(LocalMemory(plan, Lasting::is_copied), core::RoomError);
+  LocalMemory memory(plan, Lasting::is_referred_to);
+  const LastingPieces pieces(memory, Category::cache_frames, petabyte, petabyte);
+  CHECK(memory.used()[Category::cache_frames] == petabyte);
+  CHECK(memory.allocate<std::byte>(Category::queues, 64).size() == 64);
+  CHECK_THROWS_AS(LastingPieces(memory, Category::cache_frames, 64, 64), core::InternalError);
 }
 
 TEST_CASE("one piece is kept with what must be readable behind it") {
