@@ -55,6 +55,7 @@ TEST_CASE("the pages that a picture uses are among those that come first for it"
   const svm::Report half = svm::run_svm(small.database, small.settings, options, {});
   CHECK(half.plan.resident_count == small.database.page_count() / 2);
   CHECK(half.pages().faults < used / 2);
+  CHECK(half.pages().home_hits > 3 * (half.pages().references / 4));
   CHECK(half.film.hash() == report.film.hash());
 }
 
