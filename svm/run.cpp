@@ -98,7 +98,7 @@ void check_conservation(const Report& report) {
 }
 
 /// Serving a page, or passing the request for it on, installs none and runs no pixel: a node may be interrupted for it at any
-/// time. What its cache has changes between quanta alone.
+/// time. Which pages its cache has changes between quanta alone; serving one marks it as used, like any look-up.
 constexpr std::uint32_t interrupt_kinds = 1U << number_of(Kind::page_request) | 1U << number_of(Kind::passed_request);
 
 template <class Records>
