@@ -265,6 +265,24 @@ TEST_CASE("virtual time: where the host is home it alone is interrupted, and a p
   }
 }
 
+TEST_CASE(
+    "virtual time: to pass a request on costs a node of the tree its reception, the service and the message to its parent") {
+  const Subject subject(built_in("teapot-4"), {24, 24}, {.page_size_bytes = 512});
+  const nodes::Machine machine = slow_network();
+  const svm::Report report = run_svm(subject, {.computer = {.node_count = 8, .machine = machine},
+                                               .pages = {.cache_pages = 4, .homes = svm::PageHomes::tree, .tree_arity = 2}});
+  CHECK(outcome_of(report) == subject.outcome());
+  const std::uint64_t passed = report.sent()[svm::number_of(svm::Kind::passed_request)].packets;
+  const std::uint64_t taken_ns = machine.short_message.receive_ns + machine.service_ns;
+  std::uint64_t interrupted_ns = 0;
+  for (const nodes::VirtualTimes& times : report.virtual_time->nodes) {
+    interrupted_ns += times.stolen_ns + times.lent_ns;
+  }
+  CHECK(passed > 100);
+  CHECK(interrupted_ns ==
+        report.pages().faults * (taken_ns + machine.long_message.send_ns) + passed * (taken_ns + machine.short_message.send_ns));
+}
+
 TEST_CASE("virtual time: one node alone computes what its operations cost") {
   const Subject subject(mirrors_and_glass(), {16, 16});
   const nodes::Machine machine = slow_network();
