@@ -72,6 +72,7 @@ void add_options(OptionSet options, InfoOptions& info) {
     if (info.system) {
       settle(options, info);
     }
+    check_homes(options, info.pages.homes);
     check_regions(options, info.balance);
   });
   options.set_examples(

@@ -54,7 +54,7 @@ void add_memory_option(OptionSet options, std::optional<std::size_t>& node_memor
 void add_machine_options(OptionSet options, RunnerOptions& runner, const std::string& when);
 /// Declares --homes and --tree-arity.
 void add_homes_options(OptionSet options, svm::PageHomes& homes, std::uint32_t& tree_arity);
-/// Throws core::UsageError for --tree-arity without a tree.
+/// For OptionSet::check_in_the_end(): throws core::UsageError for --tree-arity without a tree.
 void check_homes(const OptionSet& options, svm::PageHomes homes);
 /// Declares the options of svm and replicated but --count-pages, in a group of their own. `in_flight_default` is what help says
 /// of the default of --in-flight; as it stands here it covers every runner.

@@ -72,6 +72,12 @@ TEST_CASE("a system by name is asked about with its database and its pages' home
   }
 }
 
+TEST_CASE("a tree of another arity is asked about where there is a tree") {
+  CHECK(info("balls-1", {"--homes=tree", "--tree-arity=2"}).pages.tree_arity == 2);
+  CHECK(info("balls-1", {"--system=green-paddon", "--tree-arity=2"}).pages.tree_arity == 2);
+  CHECK_THROWS_AS(info("balls-1", {"--homes=host", "--tree-arity=2"}), core::UsageError);
+}
+
 TEST_CASE("with pages at home at the host a node needs less, the more of them there are") {
   const auto least = [](const std::string& homes) {
     return find_out(info("teapot-8", {"--nodes=2", "--quiet", homes})).forecast.computers.at(0).svm.least_bytes;
