@@ -32,10 +32,7 @@ struct PageCapacity {
   std::size_t forest_bytes() const { return forest_pages * page_size_bytes(); }
   Homes homes() const { return homes_of(where, node_count); }
   /// Who asks whom, if all pages are at home at the host.
-  std::optional<RequestTree> tree() const {
-    return are_at_host(where) ? std::optional(RequestTree(node_count, where == PageHomes::tree ? tree_arity : node_count))
-                              : std::nullopt;
-  }
+  std::optional<RequestTree> tree() const { return request_tree_of(where, node_count, tree_arity); }
   /// Whether requests come to node `index`, or the host.
   bool is_asked(std::uint32_t index) const {
     return pages_at(index) > 0 || (index < node_count && tree() && tree()->count_below(index) > 0);

@@ -67,10 +67,8 @@ std::uint32_t item_side_of(const PlanRequest& request) {
 
 /// Nodes from which page requests come to one node, at most: to the first of a tree.
 std::uint32_t askers_of(const PlanRequest& request) {
-  if (request.pages.homes == PageHomes::tree) {
-    return RequestTree(request.computer.node_count, request.pages.tree_arity).count_below(0);
-  }
-  return is_host_home(request) ? 0 : request.computer.node_count - 1;
+  const auto tree = request_tree_of(request.pages.homes, request.computer.node_count, request.pages.tree_arity);
+  return tree ? tree->count_below(0) : request.computer.node_count - 1;
 }
 
 bool is_dealt(const PlanRequest& request) { return request.pages.work_giver == WorkGiver::host; }
@@ -445,7 +443,7 @@ nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
 }
 
 std::size_t Plan::node_memory_max_bytes() const {
-  std::size_t most = node_memory(0).total();  // it has as many pages at home as any
+  std::size_t most = node_memory(0).total();  // it has as many pages at home, and asks come to it, as to any
   for (std::uint32_t index = 1; request.is_masked() && index < request.computer.node_count; ++index) {
     most = std::max(most, node_memory(index).total());
   }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/picture/pixel_task.h"
+#include "core/picture/render.h"
 #include "core/picture/subsample.h"
 #include "core/record/records.h"
 
@@ -37,11 +37,10 @@ std::vector<std::uint64_t> references_of_small_picture(const core::Database& dat
   core::Operations operations;
   std::vector<core::HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
   core::PixelTask task(stack);
-  for (const std::uint32_t pixel :
-       core::subsampled_pixels(settings.camera.width(), settings.camera.height(), profile_subsample)) {
-    task.start(pixel, settings.first_samples(), settings, operations);
-    while (!stop.stop_requested() && task.run(tracer, settings, operations) != core::TaskState::finished) {
-    }
+  const std::vector<std::uint32_t> pixels =
+      core::subsampled_pixels(settings.camera.width(), settings.camera.height(), profile_subsample);
+  for (std::size_t index = 0; index < pixels.size() && !stop.stop_requested(); ++index) {
+    core::render_pixel(task, pixels[index], {0, 1}, tracer, settings, operations);
   }
   return records.counts();
 }

@@ -57,14 +57,18 @@ std::uint64_t packets_of(const std::array<nodes::Traffic, nodes::packet_kind_cou
   return traffic[number_of(kind)].packets;
 }
 
+/// For pages, passed on or not.
+std::uint64_t requests_received(const nodes::NodeCounters& counters) {
+  return packets_of(counters.received, Kind::page_request) + packets_of(counters.received, Kind::passed_request);
+}
+
 void check_conservation(const NodeReport& report) {
   const ProgramReport& program = report.program;
   const nodes::NodeCounters& counters = report.counters;
   core::expect(program.operations.ray_count() == program.rays_ended, "every ray shot has ended");
   core::expect(program.pages.faults == packets_of(counters.sent, Kind::page_request), "every fault was requested, once");
   core::expect(program.pages.faults == packets_of(counters.received, Kind::page_reply), "every page request was replied to");
-  core::expect(program.pages.served + packets_of(counters.sent, Kind::passed_request) ==
-                   packets_of(counters.received, Kind::page_request) + packets_of(counters.received, Kind::passed_request),
+  core::expect(program.pages.served + packets_of(counters.sent, Kind::passed_request) == requests_received(counters),
                "every page request was served, or passed on");
   core::expect(program.questions.rays_asked + program.questions.records_asked == program.questions.answers,
                "every question was answered, once");
@@ -86,9 +90,7 @@ void check_conservation(const Report& report) {
   const PageCounters pages = report.pages();
   core::expect(pages.references == pages.home_hits + pages.cache_hits + pages.misses && pages.misses >= pages.faults,
                "every reference was a page hit or a page miss");
-  core::expect(report.host_pages_served ==
-                   packets_of(report.host.received, Kind::page_request) + packets_of(report.host.received, Kind::passed_request),
-               "every page request to the host was served");
+  core::expect(report.host_pages_served == requests_received(report.host), "every page request to the host was served");
   core::expect(pages.faults == pages.served + report.host_pages_served, "every fault was served, by a node or the host");
   const WorkCounters work = report.work();
   core::expect(work.items_given + report.items_dealt == work.items_taken, "every work item given was taken");

@@ -123,8 +123,7 @@ void add_homes_options(OptionSet options, svm::PageHomes& homes, std::uint32_t& 
   options.add_choice<PageHomes>("--homes", homes,
                                 {{"spread", PageHomes::spread}, {"host", PageHomes::host}, {"tree", PageHomes::tree}},
                                 "Who keeps the pages for good: all nodes, each its part, or the host; tree: the host, and nodes "
-                                "ask their parents in a tree "
-                                "below it, of which the first that has the page replies (svm)");
+                                "ask their parents in a tree below it, of which the first that has the page replies (svm)");
   options.add_number("--tree-arity", tree_arity, 1, svm::node_count_max, std::to_string(svm::default_tree_arity),
                      "Children of the host, and of each node, with --homes=tree");
 }

@@ -42,9 +42,8 @@ inline constexpr std::size_t fetch_sample_max = 100'000;
 
 /// What a watch has seen.
 struct Fetches {
-  std::uint32_t peer_count = 0;  ///< nodes, and the host if it is home to all pages, the last
-  std::vector<std::uint64_t>
-      by_pair;  ///< counted: those of asker a from h, its home or who else served it, at a * peer_count + h
+  std::uint32_t peer_count = 0;        ///< nodes, and the host if it is home to all pages, the last
+  std::vector<std::uint64_t> by_pair;  ///< counted: those of asker a that h served, at a * peer_count + h
   std::vector<std::uint64_t> by_page;  ///< counted, by number
   /// One of `every`, a power of two, chosen by a hash of who asks whom for the how many-th time, sorted by asker, home and time;
   /// in a tree, where who is asked need not have the page, by one of asker and page.

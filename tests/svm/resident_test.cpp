@@ -5,31 +5,16 @@
 #include <map>
 #include <stop_token>
 
-#include "core/families/scenes.h"
 #include "svm/run.h"
-#include "svm/watch/reference_log.h"
+#include "tests/support/built_scene.h"
 
 using namespace dmpc;
 using svm::PageId;
-
-namespace {
-
-struct Profiled {
-  explicit Profiled(int side)
-      : scene(core::built_in_scene(core::parse_scene_name("rings-2"))),
-        database(core::build_database(scene, {.page_size_bytes = 512})),
-        settings{database.header(), core::Camera(scene.view, database.header().frame, side, side, 1), {}} {}
-
-  core::Scene scene;
-  core::Database database;
-  core::RenderSettings settings;
-};
-
-}  // namespace
+using tests::BuiltScene;
 
 TEST_CASE("what a small picture uses most comes first, as often as it is looked up, and each page once") {
   // Of one pixel of 8x8 the small picture is the picture of one pixel.
-  const Profiled one(8);
+  const BuiltScene one("rings-2", 512, 8);
   const auto count = static_cast<std::uint32_t>(one.database.page_count());
   const std::vector<PageId> pages = svm::most_used_pages(one.database, one.settings, count);
   REQUIRE(pages.size() == count);
@@ -43,8 +28,8 @@ TEST_CASE("what a small picture uses most comes first, as often as it is looked 
 }
 
 TEST_CASE("the pages that a picture uses are among those that come first for it") {
-  const Profiled small(64);
-  svm::RunOptions options{.pages = {.in_flight = 1, .work_item_side = 0, .count_pages = true}};
+  const BuiltScene small("rings-2", 512, 64);
+  svm::RunOptions options{.pages = {.in_flight = 1, .work_item_side = 0}};
   // With room for all pages and the host for home, faults are the pages that the picture uses.
   options.pages.homes = svm::PageHomes::host;
   options.pages.cache_pages = static_cast<std::uint32_t>(small.database.page_count());
@@ -60,7 +45,7 @@ TEST_CASE("the pages that a picture uses are among those that come first for it"
 }
 
 TEST_CASE("no pages are asked for, or more than there are, or nobody waits for them any more") {
-  const Profiled small(16);
+  const BuiltScene small("rings-2", 512, 16);
   CHECK(svm::most_used_pages(small.database, small.settings, 0).empty());
   CHECK(svm::most_used_pages(small.database, small.settings, 0xffffffffU).size() == small.database.page_count());
   std::stop_source stop;

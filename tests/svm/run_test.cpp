@@ -6,33 +6,15 @@
 #include <array>
 #include <stop_token>
 
-#include "core/families/scenes.h"
-#include "core/picture/render.h"
 #include "svm/watch/miss_curve.h"
 #include "svm/watch/optimum.h"
+#include "tests/support/built_scene.h"
 #include "tests/support/references.h"
 
 using namespace dmpc;
+using tests::BuiltScene;
 
 namespace {
-
-/// A built-in scene, small, with what rendering it needs.
-struct SmallScene {
-  SmallScene(const char* name, std::size_t page_size_bytes, int side)
-      : scene(core::built_in_scene(core::parse_scene_name(name))),
-        database(core::build_database(scene, {.page_size_bytes = page_size_bytes})),
-        settings{database.header(), core::Camera(scene.view, database.header().frame, side, side, 1), {}} {}
-
-  core::Film reference(core::Operations& operations) const {
-    core::LocalRecords records(database.bytes());
-    core::GridTracer<core::LocalRecords> tracer(records, database.header(), {});
-    return core::render(tracer, settings, operations);
-  }
-
-  core::Scene scene;
-  core::Database database;
-  core::RenderSettings settings;
-};
 
 /// Nothing in the order of references depends on the cache.
 svm::RunOptions fixed_order(std::uint32_t node_count) {
@@ -43,7 +25,7 @@ svm::RunOptions fixed_order(std::uint32_t node_count) {
   return options;
 }
 
-svm::Report recorded_run(const SmallScene& small, std::uint32_t node_count) {
+svm::Report recorded_run(const BuiltScene& small, std::uint32_t node_count) {
   svm::RunOptions options = fixed_order(node_count);
   options.pages.record_references = true;
   return svm::run_svm(small.database, small.settings, options, {});
@@ -52,7 +34,7 @@ svm::Report recorded_run(const SmallScene& small, std::uint32_t node_count) {
 }  // namespace
 
 TEST_CASE("a host that deals the work gives every item, and no node another, on threads and on a modelled machine") {
-  const SmallScene small("teapot-4", 1024, 30);
+  const BuiltScene small("teapot-4", 1024, 30);
   const std::uint64_t film = svm::run_svm(small.database, small.settings, {}, {}).film.hash();
   for (const bool is_modelled : {false, true}) {
     svm::RunOptions options{.computer = {.node_count = 4},
@@ -68,7 +50,7 @@ TEST_CASE("a host that deals the work gives every item, and no node another, on 
 }
 
 TEST_CASE("where the host is home it serves every fault, and nodes find nothing at home") {
-  const SmallScene small("teapot-4", 512, 30);
+  const BuiltScene small("teapot-4", 512, 30);
   const std::uint64_t film = svm::run_svm(small.database, small.settings, {}, {}).film.hash();
   for (const std::uint32_t nodes : {1U, 2U, 5U, 8U}) {
     for (const svm::Replacement replacement : {svm::Replacement::lru, svm::Replacement::fifo}) {
@@ -88,7 +70,7 @@ TEST_CASE("where the host is home it serves every fault, and nodes find nothing 
 }
 
 TEST_CASE("in a tree somebody above serves every fault, and as a star it is the host for all") {
-  const SmallScene small("teapot-4", 512, 30);
+  const BuiltScene small("teapot-4", 512, 30);
   const std::uint64_t film = svm::run_svm(small.database, small.settings, {}, {}).film.hash();
   for (const std::uint32_t nodes : {1U, 2U, 5U, 16U}) {
     for (const std::uint32_t arity : {1U, 2U, 3U, nodes}) {
@@ -110,7 +92,7 @@ TEST_CASE("in a tree somebody above serves every fault, and as a star it is the 
 }
 
 TEST_CASE("a star is what a tree with a child for each node is, to the nanosecond") {
-  const SmallScene small("teapot-4", 512, 24);
+  const BuiltScene small("teapot-4", 512, 24);
   svm::RunOptions options{.computer = {.node_count = 7, .machine = nodes::Machine{}},
                           .pages = {.cache_pages = 5, .homes = svm::PageHomes::host}};
   const svm::Report star = svm::run_svm(small.database, small.settings, options, {});
@@ -123,7 +105,7 @@ TEST_CASE("a star is what a tree with a child for each node is, to the nanosecon
 }
 
 TEST_CASE("resident pages are found as those at home are, and at most one a node is fetched where they are all others") {
-  const SmallScene small("teapot-4", 512, 40);
+  const BuiltScene small("teapot-4", 512, 40);
   const std::uint64_t film = svm::run_svm(small.database, small.settings, {}, {}).film.hash();
   const auto pages = static_cast<std::uint32_t>(small.database.page_count());
   for (const svm::PageHomes homes : {svm::PageHomes::spread, svm::PageHomes::host, svm::PageHomes::tree}) {
@@ -151,7 +133,7 @@ TEST_CASE("resident pages are found as those at home are, and at most one a node
 }
 
 TEST_CASE("with the same frames, references in a fixed order fault at the host as often as stack distances say") {
-  const SmallScene small("teapot-4", 512, 24);
+  const BuiltScene small("teapot-4", 512, 24);
   svm::RunOptions options = fixed_order(3);
   options.pages.homes = svm::PageHomes::host;
   options.pages.record_references = true;
@@ -166,7 +148,7 @@ TEST_CASE("with the same frames, references in a fixed order fault at the host a
 }
 
 TEST_CASE("one worker renders all of a picture from the memories of all nodes, which serve its pages") {
-  const SmallScene small("rings-2", 512, 24);
+  const BuiltScene small("rings-2", 512, 24);
   core::Operations reference;
   const std::uint64_t hash = small.reference(reference).hash();
   svm::RunOptions options;
@@ -185,7 +167,7 @@ TEST_CASE("one worker renders all of a picture from the memories of all nodes, w
 }
 
 TEST_CASE("svm and replicated give the reference renderer's film and its counts of rays") {
-  const SmallScene small("rings-2", 512, 24);
+  const BuiltScene small("rings-2", 512, 24);
   core::Operations reference;
   const std::uint64_t hash = small.reference(reference).hash();
   for (const std::uint32_t nodes : {1U, 3U, 8U}) {
@@ -203,7 +185,7 @@ TEST_CASE("svm and replicated give the reference renderer's film and its counts 
 }
 
 TEST_CASE("a node uses exactly the memory of its plan, category by category, with real tasks") {
-  const SmallScene small("balls-2", 1024, 8);
+  const BuiltScene small("balls-2", 1024, 8);
   svm::RunOptions options;
   options.computer.node_count = 3;
   for (const bool count_pages : {false, true}) {
@@ -218,7 +200,7 @@ TEST_CASE("a node uses exactly the memory of its plan, category by category, wit
 }
 
 TEST_CASE("the smallest memory that is named renders the picture") {
-  const SmallScene small("tetra-4", 512, 16);
+  const BuiltScene small("tetra-4", 512, 16);
   svm::RunOptions options;
   options.computer.node_count = 5;
   core::Operations operations;
@@ -233,7 +215,7 @@ TEST_CASE("the smallest memory that is named renders the picture") {
 }
 
 TEST_CASE("a tracer of one's own may stand in for the grid in replicated") {
-  const SmallScene small("balls-2", 1024, 12);
+  const BuiltScene small("balls-2", 1024, 12);
   struct OtherTracer {
     core::LocalRecords records;
     core::DatabaseHeader header;
@@ -257,7 +239,7 @@ TEST_CASE("a tracer of one's own may stand in for the grid in replicated") {
 }
 
 TEST_CASE("a run that is stopped on the way says so and has not every pixel") {
-  const SmallScene small("balls-3", 1024, 64);
+  const BuiltScene small("balls-3", 1024, 64);
   std::stop_source source;
   svm::RunOptions options;
   options.computer.node_count = 2;
@@ -268,14 +250,14 @@ TEST_CASE("a run that is stopped on the way says so and has not every pixel") {
 }
 
 TEST_CASE("an exception of the progress function ends the run and comes out") {
-  const SmallScene small("balls-2", 1024, 8);
+  const BuiltScene small("balls-2", 1024, 8);
   svm::RunOptions options;
   options.watching.progress = [](std::uint32_t, std::uint32_t) { throw core::InputError("enough"); };
   CHECK_THROWS_AS(svm::run_svm(small.database, small.settings, options, {}), core::InputError);
 }
 
 TEST_CASE("the references recorded in one run give every node's faults in runs with other caches, to the last one") {
-  const SmallScene small("rings-2", 512, 24);
+  const BuiltScene small("rings-2", 512, 24);
   const svm::Report recorded = recorded_run(small, 4);
   for (const std::uint32_t cache_pages : {1U, 3U, 8U, 20U, 60U}) {
     svm::RunOptions options = fixed_order(4);
@@ -292,7 +274,7 @@ TEST_CASE("the references recorded in one run give every node's faults in runs w
 }
 
 TEST_CASE("recording changes neither film nor counters, and does not depend on the cache") {
-  const SmallScene small("balls-2", 512, 24);
+  const BuiltScene small("balls-2", 512, 24);
   const svm::Report recorded = recorded_run(small, 3);
   svm::RunOptions options = fixed_order(3);
   const svm::Report plain = svm::run_svm(small.database, small.settings, options, {});
@@ -311,11 +293,11 @@ TEST_CASE("recording changes neither film nor counters, and does not depend on t
 }
 
 TEST_CASE("one node has every page at home and records nothing") {
-  CHECK(recorded_run(SmallScene("balls-2", 1024, 8), 1).nodes[0].references.pages().empty());
+  CHECK(recorded_run(BuiltScene("balls-2", 1024, 8), 1).nodes[0].references.pages().empty());
 }
 
 TEST_CASE("under every replacement policy the film is the same and no node misses less than the optimum") {
-  const SmallScene small("rings-2", 512, 24);
+  const BuiltScene small("rings-2", 512, 24);
   const svm::Report recorded = recorded_run(small, 4);
   for (const auto replacement :
        {svm::Replacement::lru, svm::Replacement::clock, svm::Replacement::fifo, svm::Replacement::random}) {
@@ -334,9 +316,9 @@ TEST_CASE("under every replacement policy the film is the same and no node misse
 
 TEST_CASE("the host may forget the database once it is distributed, and the film is the same") {
   core::Operations reference;
-  const std::uint64_t hash = SmallScene("rings-2", 512, 24).reference(reference).hash();
+  const std::uint64_t hash = BuiltScene("rings-2", 512, 24).reference(reference).hash();
   for (const svm::Strategy strategy : {svm::Strategy::svm, svm::Strategy::replicated}) {
-    SmallScene small("rings-2", 512, 24);
+    BuiltScene small("rings-2", 512, 24);
     int times = 0;
     svm::RunOptions options;
     options.watching.distributed = [&] {
@@ -349,7 +331,7 @@ TEST_CASE("the host may forget the database once it is distributed, and the film
     CHECK(report.film.hash() == hash);
     CHECK(times == 1);
   }
-  SmallScene small("rings-2", 512, 24);
+  BuiltScene small("rings-2", 512, 24);
   svm::RunOptions options{.pages = {.homes = svm::PageHomes::host}};
   options.watching.distributed = [&] { small.database.forget_records(); };
   CHECK(svm::run_svm(small.database, small.settings, options, {}).film.hash() == hash);
@@ -357,7 +339,7 @@ TEST_CASE("the host may forget the database once it is distributed, and the film
 
 TEST_CASE("nobody is told to forget the database where modelled nodes refer to it") {
   for (const svm::Strategy strategy : {svm::Strategy::svm, svm::Strategy::replicated}) {
-    const SmallScene small("rings-2", 512, 8);
+    const BuiltScene small("rings-2", 512, 8);
     svm::RunOptions options{.computer = {.node_count = 3, .machine = nodes::Machine{}}};
     options.watching.distributed = [] { FAIL("the nodes have no copies"); };
     const svm::Report report = strategy == svm::Strategy::svm ? svm::run_svm(small.database, small.settings, options, {})
@@ -370,7 +352,7 @@ TEST_CASE("nobody is told to forget the database where modelled nodes refer to i
 
 TEST_CASE(
     "who walks in a bundle does not depend on who renders it, and what is looked up and avoided is what single rays look up") {
-  const SmallScene small("teapot-4", 1024, 30);
+  const BuiltScene small("teapot-4", 1024, 30);
   const auto run = [&](const svm::RunOptions& options, bool bundles) {
     core::RenderSettings settings = small.settings;
     settings.skips.bundles = bundles;
@@ -400,7 +382,7 @@ TEST_CASE(
 }
 
 TEST_CASE("heat maps, references, distinct pages and modelled machines have rays that walk alone") {
-  const SmallScene small("tetra-3", 1024, 16);
+  const BuiltScene small("tetra-3", 1024, 16);
   const auto bundles = [&](const svm::RunOptions& options) {
     const svm::Plan plan = svm::plan_of(svm::Strategy::svm, small.database, small.settings, options);
     return plan.pixels_a_task;

@@ -46,6 +46,15 @@ void check(const Subject& subject, const Report& report) {
   }
 }
 
+/// What requests for pages took of all processors, while they computed or waited.
+std::uint64_t interrupted_ns_of(const svm::Report& report) {
+  std::uint64_t sum_ns = 0;
+  for (const nodes::VirtualTimes& times : report.virtual_time->nodes) {
+    sum_ns += times.stolen_ns + times.lent_ns;
+  }
+  return sum_ns;
+}
+
 /// Both of a run's hashes.
 template <class Report>
 std::vector<std::uint64_t> hashes(const Report& report) {
@@ -237,10 +246,7 @@ TEST_CASE("virtual time: only homes are interrupted, by as many requests as ther
   const Subject subject(built_in("teapot-4"), {24, 24}, {.page_size_bytes = 512});
   const nodes::Machine machine = slow_network();
   const svm::Report report = run_svm(subject, {.computer = {.node_count = 8, .machine = machine}, .pages = {.cache_pages = 4}});
-  std::uint64_t stolen_ns = 0;
-  for (const nodes::VirtualTimes& times : report.virtual_time->nodes) {
-    stolen_ns += times.stolen_ns + times.lent_ns;
-  }
+  const std::uint64_t stolen_ns = interrupted_ns_of(report);
   const std::uint64_t service_ns = machine.short_message.receive_ns + machine.service_ns + machine.long_message.send_ns;
   CHECK(stolen_ns == report.pages().faults * service_ns);
   CHECK(report.virtual_time->nodes.back().stolen_ns + report.virtual_time->nodes.back().lent_ns == 0);
@@ -254,10 +260,7 @@ TEST_CASE("virtual time: where the host is home it alone is interrupted, and a p
                                                  .pages = {.cache_pages = 4, .homes = svm::PageHomes::host}});
     CHECK(outcome_of(report) == subject.outcome());
     const std::uint64_t service_ns = machine.short_message.receive_ns + machine.service_ns + machine.long_message.send_ns;
-    std::uint64_t interrupted_ns = 0;
-    for (const nodes::VirtualTimes& times : report.virtual_time->nodes) {
-      interrupted_ns += times.stolen_ns + times.lent_ns;
-    }
+    const std::uint64_t interrupted_ns = interrupted_ns_of(report);
     const nodes::VirtualTimes& host = report.virtual_time->nodes.back();
     CHECK(report.pages().faults > 100);
     CHECK(interrupted_ns == report.pages().faults * service_ns);
@@ -274,10 +277,7 @@ TEST_CASE(
   CHECK(outcome_of(report) == subject.outcome());
   const std::uint64_t passed = report.sent()[svm::number_of(svm::Kind::passed_request)].packets;
   const std::uint64_t taken_ns = machine.short_message.receive_ns + machine.service_ns;
-  std::uint64_t interrupted_ns = 0;
-  for (const nodes::VirtualTimes& times : report.virtual_time->nodes) {
-    interrupted_ns += times.stolen_ns + times.lent_ns;
-  }
+  const std::uint64_t interrupted_ns = interrupted_ns_of(report);
   CHECK(passed > 100);
   CHECK(interrupted_ns ==
         report.pages().faults * (taken_ns + machine.long_message.send_ns) + passed * (taken_ns + machine.short_message.send_ns));
