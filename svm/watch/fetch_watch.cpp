@@ -100,6 +100,11 @@ Name name_of_next(PageHomes where, std::uint32_t asker, std::uint32_t home, std:
 
 bool is_kind(const nodes::Passing& packet, Kind kind) { return packet.kind == number_of(kind); }
 
+/// A request or a reply. Others may pass the host, which is nobody's home where pages are spread, and begin with no page.
+bool is_of_fetch(const nodes::Passing& packet) {
+  return is_kind(packet, Kind::page_request) || is_kind(packet, Kind::passed_request) || is_kind(packet, Kind::page_reply);
+}
+
 /// When a message was at its target; without a clock on the way, when it was received.
 std::uint64_t arrival_ns(const nodes::MessageTimes& times) {
   return times.arrived_ns == 0 ? times.received_ns : times.arrived_ns;
@@ -167,8 +172,11 @@ FetchWatch::FetchWatch(std::uint32_t node_count, std::uint32_t page_count, std::
 FetchWatch::~FetchWatch() = default;
 
 void FetchWatch::sent(const nodes::Passing& packet) {
+  if (!is_of_fetch(packet)) {
+    return;
+  }
   const std::uint32_t self = index_of(packet.node), peer = index_of(packet.peer), page = page_in(packet);
-  Log& log = *logs_[self];
+  Log& log = *logs_.at(self);
   if (is_kind(packet, Kind::page_request)) {
     log.as_asker.open({.name = name_of_next(where_, self, peer, page, log.asked[peer]),
                        .page = page,
@@ -176,7 +184,7 @@ void FetchWatch::sent(const nodes::Passing& packet) {
   } else if (is_kind(packet, Kind::passed_request)) {
     log.count(asker_in(packet), page, -1);
     log.as_home.drop({asker_in(packet), page, 0});
-  } else if (is_kind(packet, Kind::page_reply)) {
+  } else {
     const Name name = name_of_next(where_, peer, self, page, log.replied[peer]);
     if (End* const end = log.as_home.find(name)) {
       end->time_ns[2] = packet.times.left_ns;
@@ -186,9 +194,12 @@ void FetchWatch::sent(const nodes::Passing& packet) {
 }
 
 void FetchWatch::received(const nodes::Passing& packet) {
+  if (!is_of_fetch(packet)) {
+    return;
+  }
   const std::uint32_t self = index_of(packet.node), peer = index_of(packet.peer);
   const nodes::MessageTimes& times = packet.times;
-  Log& log = *logs_[self];
+  Log& log = *logs_.at(self);
   const bool is_passed = is_kind(packet, Kind::passed_request);
   if (is_passed || is_kind(packet, Kind::page_request)) {
     const std::uint32_t asker = is_passed ? asker_in(packet) : peer, page = page_in(packet);
@@ -198,7 +209,7 @@ void FetchWatch::received(const nodes::Passing& packet) {
                       .home = self,
                       .time_ns = {arrival_ns(times), times.received_ns},
                       .links_ns = times.links_ns});
-  } else if (is_kind(packet, Kind::page_reply)) {
+  } else {
     const Name name = name_of_next(where_, self, peer, page_in(packet), log.taken[peer]);
     if (End* const end = log.as_asker.find(name)) {
       core::expect(end->page == page_in(packet), "pages come in the order in which one home was asked for them");
