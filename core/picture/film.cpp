@@ -44,6 +44,11 @@ class Fnv1a {
   std::uint64_t hash_ = 0xcbf29ce484222325ULL;
 };
 
+std::size_t pixel_count_of(int width, int height) {
+  expect(width > 0 && height > 0, "a film has pixels");
+  return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+}
+
 Vec3d sum_of(const FixedColor& plane) {
   return {static_cast<double>(plane.channel[0]), static_cast<double>(plane.channel[1]), static_cast<double>(plane.channel[2])};
 }
@@ -63,11 +68,8 @@ bool add(FixedColor& sum, const FixedColor& deposit) {
   return saturated;
 }
 
-Film::Film(int width, int height) : width_(width), height_(height) {
-  expect(width > 0 && height > 0, "a film has pixels");
-  pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  samples_.resize(pixels_.size());
-}
+Film::Film(int width, int height)
+    : width_(width), height_(height), pixels_(pixel_count_of(width, height)), samples_(pixels_.size()) {}
 
 bool Film::deposit(std::uint32_t pixel, const PixelSums& sums) {
   expect(pixel < pixels_.size(), "a deposit falls on the film");
@@ -76,7 +78,8 @@ bool Film::deposit(std::uint32_t pixel, const PixelSums& sums) {
   return even || odd;
 }
 
-std::uint64_t Film::samples() const { return std::accumulate(samples_.begin(), samples_.end(), std::uint64_t{0}); }
+std::uint64_t Film::samples() const { const std::span<const std::uint32_t> all = samples_.span();
+  return std::accumulate(all.begin(), all.end(), std::uint64_t{0}); }
 
 Vec3d Film::radiance(std::uint32_t pixel) const {
   expect(samples_[pixel] > 0, "a picture has samples");
@@ -94,7 +97,7 @@ std::uint64_t Film::hash() const {
   Fnv1a hash;
   hash.add(static_cast<std::uint64_t>(width_));
   hash.add(static_cast<std::uint64_t>(height_));
-  for (const PixelSums& sums : pixels_) {
+  for (const PixelSums& sums : pixels()) {
     for (const FixedColor& plane : sums.plane) {
       for (const std::int64_t channel : plane.channel) {
         hash.add(static_cast<std::uint64_t>(channel));

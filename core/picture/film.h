@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/base/vec.h"
+#include "core/base/zeroed_array.h"
 
 namespace dmpc::core {
 
@@ -39,7 +39,7 @@ class Film {
   int height() const { return height_; }
   /// Adds a node's sums of one pixel; returns whether a channel saturated. Requires pixel < width * height.
   bool deposit(std::uint32_t pixel, const PixelSums& sums);
-  std::span<const PixelSums> pixels() const { return pixels_; }
+  std::span<const PixelSums> pixels() const { return pixels_.span(); }
   /// Says that a pixel's deposits are those of so many more samples, half of them even or one more.
   void add_samples(std::uint32_t pixel, std::uint32_t count) { samples_[pixel] += count; }
   std::uint32_t samples(std::uint32_t pixel) const { return samples_[pixel]; }
@@ -54,8 +54,8 @@ class Film {
 
  private:
   int width_, height_;
-  std::vector<PixelSums> pixels_;
-  std::vector<std::uint32_t> samples_;
+  ZeroedArray<PixelSums> pixels_;
+  ZeroedArray<std::uint32_t> samples_;
 };
 
 }  // namespace dmpc::core

@@ -233,7 +233,7 @@ const Times& PlainRenderer::build_times() const { return stage_->tree.build_time
 PlainPicture PlainRenderer::render(std::uint32_t thread_count) const {
   const int width = stage_->settings.camera.width(), height = stage_->settings.camera.height();
   const int columns = core::ceil_divide(width, tile_side), tiles = columns * core::ceil_divide(height, tile_side);
-  PlainPicture picture{.pixels = std::vector<Color>(stage_->settings.camera.pixel_count())};
+  PlainPicture picture{.pixels = core::ZeroedArray<Color>(stage_->settings.camera.pixel_count())};
   std::vector<std::uint64_t> rays(thread_count);
   std::atomic<int> next_tile = 0;
   on_threads(thread_count, [&](std::size_t thread) {

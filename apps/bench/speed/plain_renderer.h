@@ -3,16 +3,16 @@
 
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 #include "apps/scene/subject.h"
 #include "apps/system/stopwatch.h"
 #include "core/base/vec.h"
+#include "core/base/zeroed_array.h"
 
 namespace dmpc::apps {
 
 struct PlainPicture {
-  std::vector<core::Color> pixels;  ///< linear radiance, row by row from the top left
+  core::ZeroedArray<core::Color> pixels;  ///< linear radiance, row by row from the top left
   std::uint64_t rays = 0;           ///< of all kinds
 };
 
