@@ -35,7 +35,7 @@ class RayQueue {
       : packets_each_(capacity.packets_each),
         ray_batch_(capacity.ray_batch),
         lists_a_depth_(capacity.are_kinds_apart ? 2 : 1),
-        rays_(memory.allocate<RayMessage>(nodes::Category::queues, capacity.rays())),
+        rays_(memory.allocate_unset<RayMessage>(nodes::Category::queues, capacity.rays())),
         entries_(memory.allocate<Entry>(nodes::Category::queues, capacity.rays())),
         newest_(memory.allocate<std::uint32_t>(nodes::Category::queues, capacity.lists())),
         senders_(memory.allocate<Sender>(nodes::Category::queues, capacity.sender_count)) {

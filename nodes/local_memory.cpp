@@ -1,13 +1,13 @@
 #include "nodes/local_memory.h"
 
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <new>
 #include <string>
 
 #include "core/base/expect.h"
 #include "core/base/units.h"
+#include "core/base/zeroed_array.h"
 
 #if defined(__SANITIZE_ADDRESS__)
 #include <sanitizer/asan_interface.h>
@@ -32,15 +32,12 @@ void release(std::byte* block) {
   BlockFront front;
   std::memcpy(&front, block - sizeof(front), sizeof(front));
   ASAN_UNPOISON_MEMORY_REGION(block, front.bytes);
-  std::free(front.start);
+  core::free_zeros(front.start, front.bytes + 2 * block_alignment);
 }
 
 /// Zero. Of a large block nothing but its front has been touched.
 std::byte* reserve_zero(std::size_t bytes) {
-  const BlockFront front{bytes, std::calloc(1, bytes + 2 * block_alignment)};
-  if (front.start == nullptr) {
-    throw std::bad_alloc();
-  }
+  const BlockFront front{bytes, core::allocate_zeros(bytes + 2 * block_alignment)};
   const auto offset = reinterpret_cast<std::uintptr_t>(front.start) % block_alignment;
   std::byte* const block = static_cast<std::byte*>(front.start) + (2 * block_alignment - offset);
   std::memcpy(block - sizeof(front), &front, sizeof(front));

@@ -10,8 +10,8 @@
 namespace dmpc::core {
 namespace {
 
-/// From here on an array has a large page of its own, on most computers: 2 MiB.
-constexpr std::size_t large_bytes_min = std::size_t{4} << 20U;
+/// From here on large pages, which have 2 MiB on most computers, are worth a wish.
+constexpr std::size_t large_bytes_min = std::size_t{2} << 20U;
 
 }  // namespace
 
