@@ -23,7 +23,7 @@ constexpr Patience patience_of(PacketKind kind, std::uint32_t credits) {
   return {.kinds = 1U << kind, .packets = std::max(credits * 3 / 4, 1U)};
 }
 
-/// The credits of each of so many nodes for packets that may wait, as far as their target has some 256 places for those of all;
+/// The credits of each of so many nodes for packets that may wait, as far as their target has some 1,024 places for those of all;
 /// on a modelled machine, which knows no wake-ups, two: one packet travels while the next is gathered.
 constexpr std::uint32_t patient_credits(std::uint32_t node_count, bool is_modelled) {
   constexpr std::uint32_t least = 4, most = 128, places = 1024;

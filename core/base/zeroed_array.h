@@ -21,12 +21,14 @@ void free_zeros(void* first, std::size_t bytes) noexcept;
 /// moved as a std::vector. Thread safety: as a std::vector.
 template <class T>
 class ZeroedArray {
-  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T> && alignof(T) <= alignof(std::max_align_t));
+  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T> &&
+                alignof(T) <= alignof(std::max_align_t));
 
  public:
   ZeroedArray() = default;
   explicit ZeroedArray(std::size_t count)
-      : items_(count == 0 ? nullptr : static_cast<T*>(allocate_zeros(count * sizeof(T))), Free{count * sizeof(T)}), count_(count) {}
+      : items_(count == 0 ? nullptr : static_cast<T*>(allocate_zeros(count * sizeof(T))), Free{count * sizeof(T)}),
+        count_(count) {}
   ZeroedArray(const ZeroedArray& other) : ZeroedArray(other.count_) {
     if (count_ != 0) {
       std::memcpy(items_.get(), other.items_.get(), count_ * sizeof(T));

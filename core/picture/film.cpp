@@ -78,8 +78,10 @@ bool Film::deposit(std::uint32_t pixel, const PixelSums& sums) {
   return even || odd;
 }
 
-std::uint64_t Film::samples() const { const std::span<const std::uint32_t> all = samples_.span();
-  return std::accumulate(all.begin(), all.end(), std::uint64_t{0}); }
+std::uint64_t Film::samples() const {
+  const std::span<const std::uint32_t> all = samples_.span();
+  return std::accumulate(all.begin(), all.end(), std::uint64_t{0});
+}
 
 Vec3d Film::radiance(std::uint32_t pixel) const {
   expect(samples_[pixel] > 0, "a picture has samples");

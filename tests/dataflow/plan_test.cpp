@@ -186,7 +186,7 @@ TEST_CASE("one node, or nodes without credits, need no queue") {
 
 TEST_CASE("film credits are many where nodes are few, but for a modelled machine") {
   PlanRequest request = request_with(2, 1000);
-  CHECK(make_plan(request).film_credits == 32);
+  CHECK(make_plan(request).film_credits == 128);
   request.computer.machine = nodes::Machine();
   CHECK(make_plan(request).film_credits == 2);
 }

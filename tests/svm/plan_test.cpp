@@ -213,18 +213,18 @@ TEST_CASE("a mailbox has room for everything that may be under way to it") {
   request.pages.in_flight = 3;
   const svm::Plan plan = make_plan(request);
   CHECK(plan.request_credits == 3);
-  CHECK(plan.film_credits == 32);
-  CHECK(plan.node_mailbox.small_slots == 4 * 3 + 4 + 1 + 32 + 1);
+  CHECK(plan.film_credits == 128);
+  CHECK(plan.node_mailbox.small_slots == 4 * 3 + 4 + 1 + 128 + 1);
   CHECK(plan.node_mailbox.bulk_slots == 3);
   CHECK(plan.node_mailbox.bulk_payload_bytes == 1024 + 8);
   CHECK(plan.host_mailbox.small_slots == 5);
-  CHECK(plan.host_mailbox.bulk_slots == 5 * 32);
+  CHECK(plan.host_mailbox.bulk_slots == 5 * 128);
   CHECK(plan.host_mailbox.bulk_payload_bytes <= 1024);
 }
 
 TEST_CASE("film credits are few where nodes are many, and on a modelled machine, and fewer packets wait at a node") {
   PlanRequest request = request_with(1, 100);
-  for (const auto& [nodes, credits] : {std::pair{1U, 32U}, {16U, 16U}, {64U, 4U}, {4096U, 4U}}) {
+  for (const auto& [nodes, credits] : {std::pair{1U, 128U}, {16U, 64U}, {64U, 16U}, {4096U, 4U}}) {
     request.computer.node_count = nodes;
     const svm::Plan plan = make_plan(request);
     CHECK(plan.film_credits == credits);
@@ -283,7 +283,7 @@ TEST_CASE("two pixels take room for two replies, however many were asked for") {
   request.pages.in_flight = svm::in_flight_max;
   const nodes::MemoryPlan many = make_plan(request).node_memory(0);
   CHECK(many.total() == two.total());
-  CHECK(many[nodes::Category::mailbox] < 3 * (64_KiB + 64) + 8_KiB);
+  CHECK(many[nodes::Category::mailbox] < 3 * (64_KiB + 64) + 16_KiB);
 }
 
 TEST_CASE("a node of replicated keeps no room for pages of others") {
