@@ -26,10 +26,10 @@ bool all_finished(const Processors<Processor>& processors) {
 template <class Processor>
 std::string describe(const Processors<Processor>& processors) {
   std::string lines;
-  for (std::size_t i = 0; i < processors.size(); ++i) {
-    const Processor& processor = *processors[i];
-    lines += "\n  " + (i + 1 == processors.size() ? std::string("host") : "node " + std::to_string(i)) +
-             (processor.program->finished() ? " (finished): " : ": ") + processor.program->describe();
+  for (const auto& processor : processors) {
+    const std::uint32_t index = index_of(processor->node.id());
+    lines += "\n  " + (index + 1 == processor->node.peer_count() ? std::string("host") : "node " + std::to_string(index)) +
+             (processor->program->finished() ? " (finished): " : ": ") + processor->program->describe();
   }
   return lines;
 }
