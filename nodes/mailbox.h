@@ -166,6 +166,9 @@ class BasicMailbox {
   /// A look without taking anything, of a receiver that is awake: may miss a packet that is just arriving.
   bool is_empty() const { return inbox_->load(std::memory_order_relaxed) == empty; }
 
+  /// The same for one who calls drain_while(): nothing waits to be offered again, either.
+  bool is_drained() const { return offered_ == empty && is_empty(); }
+
   /// Whether a packet lies in it; after a run, when nobody sends.
   bool has_packets() const {
     const SlotIndex head = inbox_->load(std::memory_order_relaxed);
