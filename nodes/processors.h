@@ -34,6 +34,16 @@ std::string describe(const Processors<Processor>& processors) {
   return lines;
 }
 
+/// What the processors say of themselves, by index.
+template <class Processor, class Tell>
+std::vector<std::string> told_by(const Processors<Processor>& processors, std::size_t peer_count, const Tell& tell) {
+  std::vector<std::string> told(peer_count);
+  for (const auto& processor : processors) {
+    told[index_of(processor->node.id())] = tell(index_of(processor->node.id()));
+  }
+  return told;
+}
+
 /// Expects, at a regular end, that packets sent are packets received.
 template <class Processor>
 void expect_all_received(const Processors<Processor>& processors) {

@@ -8,6 +8,8 @@
 #include <optional>
 #include <span>
 #include <stop_token>
+#include <string>
+#include <vector>
 
 #include "nodes/computer_request.h"
 #include "nodes/mailbox.h"
@@ -47,9 +49,17 @@ class Runner {
   /// At a regular end it expects that packets sent = packets received. Once only.
   virtual RunEnd run(std::stop_token stop) = 0;
 
-  /// After run().
+  /// After run(), of those that are here.
   virtual Node& node(std::size_t index) = 0;
   virtual Program& program(std::size_t index) = 0;
+  /// Whether a node is in this process. The host is on rank 0.
+  virtual bool is_here(std::size_t /*index*/) const { return true; }
+
+  /// What a node has to say when it is over, in bytes.
+  using Tell = std::function<std::string(std::size_t index)>;
+  /// After run(): calls tell(index) for each node and the host where it is. What all have said, by index; on a rank that is not
+  /// the host's, only what was said there.
+  virtual std::vector<std::string> gather(const Tell& tell) = 0;
   /// After a regular end; nothing from a runner without a clock of its own.
   virtual std::optional<VirtualReport> virtual_report() const { return std::nullopt; }
 };

@@ -33,10 +33,10 @@ class Fabric {
   /// For messages: "rank 2 on host b".
   virtual std::string name_of(std::uint32_t rank) const = 0;
 
-  /// Sets aside what frames of `frame_bytes` need, the same on all ranks. Before everything else, once.
-  virtual void open(std::size_t frame_bytes) = 0;
-  /// Where the next frame to another rank is put together, frame_bytes long; the same until it is sent. Empty while two are under
-  /// way.
+  /// The longest frame, the same on all ranks.
+  virtual std::size_t frame_bytes() const = 0;
+  /// Where the next frame to another rank is put together, frame_bytes() long; the same until it is sent. Empty while two are
+  /// under way.
   virtual std::span<std::byte> room(std::uint32_t rank) = 0;
   /// Sends the first `bytes` of the room.
   virtual void send(std::uint32_t rank, std::size_t bytes) = 0;

@@ -19,12 +19,14 @@ enum class Item : std::uint8_t {
   packet,   ///< from a node to a node
   counts,   ///< Counts, of the sender's next wave
   text,     ///< a part of what the sender's words are about
-  closing,  ///< an Ending: the sender's last word
+  closing,  ///< how the run has ended for the sender: its last word of the run
+  report,   ///< a part of what a node has to say after it
+  reported  ///< no more of that comes from the sender
 };
 
 /// Stands before an item's bytes.
 struct ItemHeader {
-  std::uint32_t target = 0;  ///< of a packet: its node's index
+  std::uint32_t target = 0;  ///< the index of a packet's target, or of the node that a report is of
   PacketHeader packet;       ///< of other items only `bytes` counts
   Item item = Item::packet;
 

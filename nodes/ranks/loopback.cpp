@@ -12,13 +12,7 @@ class Loopback::End final : public Fabric {
   std::uint32_t rank_count() const override { return of_->rank_count_; }
   std::string name_of(std::uint32_t rank) const override { return "rank " + std::to_string(rank); }
 
-  void open(std::size_t frame_bytes) override {
-    for (std::uint32_t to = 0; to < rank_count(); ++to) {
-      for (Lane::Frame& frame : of_->lane(rank_, to).frames) {
-        frame.bytes.resize(frame_bytes);
-      }
-    }
-  }
+  std::size_t frame_bytes() const override { return of_->frame_bytes_; }
 
   std::span<std::byte> room(std::uint32_t rank) override {
     Lane& lane = of_->lane(rank_, rank);
@@ -83,9 +77,14 @@ class Loopback::End final : public Fabric {
   Lane* held_ = nullptr;
 };
 
-Loopback::Loopback(std::uint32_t rank_count, const LoopbackTrouble& trouble)
-    : rank_count_(rank_count), trouble_(trouble), lanes_(std::size_t{rank_count} * rank_count) {
+Loopback::Loopback(std::uint32_t rank_count, const LoopbackTrouble& trouble, std::size_t frame_bytes)
+    : rank_count_(rank_count), trouble_(trouble), frame_bytes_(frame_bytes), lanes_(std::size_t{rank_count} * rank_count) {
   core::expect(rank_count > 0, "there is a rank");
+  for (Lane& lane : lanes_) {
+    for (Lane::Frame& frame : lane.frames) {
+      frame.bytes.resize(frame_bytes);
+    }
+  }
   for (std::uint32_t rank = 0; rank < rank_count; ++rank) {
     ends_.push_back(std::make_unique<End>(*this, rank));
   }

@@ -12,6 +12,7 @@
 #include "nodes/atomics.h"
 #include "nodes/chaos.h"
 #include "nodes/ranks/fabric.h"
+#include "nodes/ranks/frame.h"
 
 namespace dmpc::nodes {
 
@@ -31,7 +32,7 @@ struct LoopbackTrouble {
 /// Outlives the threads on which its ranks run. Thread safety: each rank's end belongs to its thread.
 class Loopback {
  public:
-  explicit Loopback(std::uint32_t rank_count, const LoopbackTrouble& trouble = {});
+  explicit Loopback(std::uint32_t rank_count, const LoopbackTrouble& trouble = {}, std::size_t frame_bytes = frame_bytes_min);
   ~Loopback();
 
   Fabric& rank(std::uint32_t rank);
@@ -54,6 +55,7 @@ class Loopback {
 
   std::uint32_t rank_count_;
   LoopbackTrouble trouble_;
+  std::size_t frame_bytes_;
   std::vector<Lane> lanes_;  ///< by sender, then receiver
   std::vector<std::unique_ptr<End>> ends_;
 };

@@ -11,29 +11,25 @@
 #include <vector>
 
 #include "core/base/expect.h"
+#include "nodes/processors.h"
 #include "nodes/ranks/counting_waves.h"
 #include "nodes/ranks/frame.h"
 #include "nodes/ranks/nap.h"
-#include "nodes/ranks/way.h"
 #include "nodes/threads/node_threads.h"
 
 namespace dmpc::nodes {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Before a packet in the outbox.
 using TargetIndex = std::uint32_t;
-/// Frames that are taken before the outbox is looked at again.
-constexpr int takes_at_once = 16;
 /// Of a communicating thread that always has something to do, from one look at who is silent to the next.
 constexpr std::uint32_t turns_a_look = 256;
 
-std::vector<bool> here(std::size_t peer_count, const Fabric& fabric) {
+std::vector<bool> here(std::size_t peer_count, const RankLinks& links) {
   const auto node_count = static_cast<std::uint32_t>(peer_count - 1);
   std::vector<bool> is_here;
   for (std::uint32_t index = 0; index <= node_count; ++index) {
-    is_here.push_back(rank_of(index, node_count, fabric.rank_count()) == fabric.rank());
+    is_here.push_back(rank_of(index, node_count, links.rank_count()) == links.rank());
   }
   return is_here;
 }
@@ -59,12 +55,12 @@ MemoryPlan plan_of(const MailboxCapacity& outbox) {
   return plan;
 }
 
-std::size_t frame_bytes_of(std::span<const NodeSpecification> specifications) {
-  std::size_t payload_bytes_max = small_payload_bytes;
+std::size_t payload_bytes_max(std::span<const NodeSpecification> specifications) {
+  std::size_t most = small_payload_bytes;
   for (const NodeSpecification& specification : specifications) {
-    payload_bytes_max = std::max(payload_bytes_max, specification.mailbox.bulk_payload_bytes);
+    most = std::max(most, specification.mailbox.bulk_payload_bytes);
   }
-  return frame_bytes_for(payload_bytes_max);
+  return most;
 }
 
 /// What a failure is, for those who hear of it.
@@ -75,8 +71,6 @@ struct Closing {
   Ending ending;
   FailureKind kind;
 };
-/// Of a text, in one frame.
-constexpr std::size_t text_bytes = frame_bytes_min / 2;
 
 /// A rank's last word.
 struct LastWord {
@@ -137,10 +131,9 @@ std::span<const std::byte> bytes_of(const T& value) {
 
 /// Thread safety: the nodes' threads touch `nodes` and, through it, the outbox; all else belongs to the communicating thread.
 struct RanksRunner::Implementation {
-  Implementation(std::span<const NodeSpecification> specifications, Fabric& to, const std::optional<Chaos>& chaos,
-                 Observer* observer, const RankSilence& silences)
-      : fabric(to),
-        silence(silences),
+  Implementation(std::span<const NodeSpecification> specifications, RankLinks& to, const std::optional<Chaos>& chaos,
+                 Observer* observer)
+      : links(to),
         disturbance(chaos),
         node_count(static_cast<std::uint32_t>(specifications.size() - 1)),
         is_here(here(specifications.size(), to)),
@@ -148,113 +141,76 @@ struct RanksRunner::Implementation {
         outbox_memory(plan_of(outbox_capacity)),
         outbox(outbox_capacity, outbox_memory),
         outlet{is_here, outbox},
-        frame_bytes(frame_bytes_of(specifications)),
         nodes(specifications, chaos, observer, &outlet),
         waves(to.rank_count()),
-        peers(to.rank_count()) {
+        last_words(to.rank_count()),
+        reports(specifications.size()) {
     core::expect(node_count >= to.rank_count(), "each rank has a node");
-    for (std::uint32_t rank = 0; rank < to.rank_count(); ++rank) {
-      ways.emplace_back(to, rank);
-    }
+    core::expect(frame_bytes_for(payload_bytes_max(specifications)) <= to.frame_bytes(), "every packet fits a frame");
   }
-
-  /// Another rank, as far as it is known here.
-  struct Peer {
-    FrameNumber frames_taken = 0;
-    Clock::time_point heard, spoken_to;
-    LastWord last_word;  ///< as far as it has come
-  };
 
   RunEnd run(std::stop_token stop) {
     core::expect(!started, "a runner runs once");
     started = true;
     const std::stop_callback on_stop(std::move(stop), [this] { nodes.end(Ending::interrupted); });
-    fabric.open(frame_bytes);
-    const Clock::time_point now = Clock::now();
-    for (Peer& peer : peers) {
-      peer.heard = peer.spoken_to = now;
-    }
     nodes.start();
-    try {
-      communicate();
-    } catch (const FabricError&) {  // without a rank there is no orderly end
-      nodes.fail(std::current_exception());
-      nodes.join();
-      throw;
-    } catch (...) {
-      nodes.fail(std::current_exception());
-      communicate();
+    while (true) {
+      try {
+        communicate_until([this] { return is_closed(); });
+        return judge();
+      } catch (const LostRank&) {
+        nodes.fail(std::current_exception());
+        nodes.join();
+        throw;
+      } catch (...) {
+        if (is_closed()) {
+          throw;
+        }
+        nodes.fail(std::current_exception());  // of which the others are to hear
+      }
     }
-    return judge();
   }
 
-  void communicate() {
-    for (std::uint32_t turn = 0; !is_closed(); ++turn) {
-      bool has_moved = take_frames();
+  template <class IsDone>
+  void communicate_until(const IsDone& is_done) {
+    for (std::uint32_t turn = 0; !is_done(); ++turn) {
+      bool has_moved = links.take([this](auto&&... item) { receive(item...); });
       if (nodes.ending() == Ending::none) {
         has_moved = send_packets() || has_moved;
         count_if_quiet();
       } else if (!is_closing) {
         close();
       }
-      for (std::uint32_t rank = 0; rank < ways.size(); ++rank) {
-        if (rank != fabric.rank() && ways[rank].flush()) {
-          peers[rank].spoken_to = Clock::now();
-          has_moved = true;
-        }
-      }
+      has_moved = links.flush() || has_moved;
       if (!has_moved || turn % turns_a_look == 0) {
-        look_after_ranks();
+        links.look_after();
       }
       has_moved ? nap.end() : rest();
     }
   }
 
-  bool take_frames() {
-    int taken = 0;
-    for (; taken < takes_at_once; ++taken) {
-      const std::optional<Arrival> arrival = fabric.take();
-      if (!arrival) {
-        break;
-      }
-      receive(*arrival);
+  void receive(std::uint32_t rank, const ItemHeader& header, std::span<const std::byte> bytes) {
+    LastWord& word = last_words[rank];
+    const auto append = [&bytes](std::string& text) { text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size()); };
+    switch (header.item) {
+      case Item::packet:
+        ++traffic.packets_received;
+        return is_closing ? void() : NodeThreads::Bringing(nodes).bring(NodeId{header.target}, header.packet, bytes);
+      case Item::counts:
+        return waves.count(rank, value_of<Counts>(bytes));
+      case Item::text:
+        return append(word.text);
+      case Item::closing:
+        word.ending = value_of<Closing>(bytes).ending;
+        word.kind = value_of<Closing>(bytes).kind;
+        return nodes.end(word.ending);
+      case Item::report:
+        return append(reports.at(header.target));
+      case Item::reported:
+        ++ranks_reported;
+        return;
     }
-    return taken > 0;
-  }
-
-  void receive(const Arrival& arrival) {
-    Peer& peer = peers[arrival.rank];
-    peer.heard = Clock::now();
-    expect_number(peer.frames_taken, arrival);
-    peer.frames_taken = number_of(arrival.frame) + 1;
-    NodeThreads::Bringing bringing(nodes);
-    for_each_item(arrival.frame, [&](const ItemHeader& header, std::span<const std::byte> bytes) {
-      switch (header.item) {
-        case Item::packet:
-          ++traffic.packets_received;
-          return is_closing ? void() : bringing.bring(NodeId{header.target}, header.packet, bytes);
-        case Item::counts:
-          return waves.count(arrival.rank, value_of<Counts>(bytes));
-        case Item::text:
-          peer.last_word.text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-          return;
-        case Item::closing:
-          peer.last_word.ending = value_of<Closing>(bytes).ending;
-          peer.last_word.kind = value_of<Closing>(bytes).kind;
-          return nodes.end(peer.last_word.ending);
-      }
-      core::expect(false, "an item is of a kind that there is");
-    });
-  }
-
-  /// Whoever is left can still be told that a frame is lost.
-  void expect_number(FrameNumber expected, const Arrival& arrival) {
-    const FrameNumber number = number_of(arrival.frame);
-    if (number != expected) {
-      nodes.fail(std::make_exception_ptr(
-          FabricError("a frame from " + fabric.name_of(arrival.rank) + " to " + fabric.name_of(fabric.rank()) +
-                      " is lost: number " + std::to_string(number) + " came in place of number " + std::to_string(expected))));
-    }
+    core::expect(false, "an item is of a kind that there is");
   }
 
   /// Out of the outbox into frames, as far as there is room. A way that is full holds the others up, but not for long: what
@@ -268,7 +224,7 @@ struct RanksRunner::Implementation {
                               .packet = {.bytes = static_cast<std::uint32_t>(payload.size()),
                                          .source = static_cast<std::uint16_t>(index_of(packet.source)),
                                          .kind = packet.kind}};
-      const bool has_room = ways[rank_of(target, node_count, fabric.rank_count())].put(header, payload);
+      const bool has_room = links.put(rank_of(target, node_count, links.rank_count()), header, payload);
       traffic.packets_sent += has_room ? 1 : 0;
       return has_room;
     });
@@ -279,10 +235,10 @@ struct RanksRunner::Implementation {
   bool is_quiet() { return nodes.all_sleep() && outbox.is_drained(); }
 
   void count_if_quiet() {
-    if (!waves.has_counted(fabric.rank()) && is_quiet()) {
+    if (!waves.has_counted(links.rank()) && is_quiet()) {
       const Counts counts{traffic.packets_sent, traffic.packets_received, nodes.unfinished_count()};
-      waves.count(fabric.rank(), counts);
-      say_to_all(Item::counts, bytes_of(counts));
+      waves.count(links.rank(), counts);
+      links.say_to_all(Item::counts, bytes_of(counts));
     }
     if (const std::optional<Counts> still = waves.end_wave()) {
       nodes.end(still->unfinished == 0 ? Ending::finished : Ending::stalled);
@@ -294,32 +250,36 @@ struct RanksRunner::Implementation {
     is_closing = true;
     nodes.join();
     const LastWord word = last_word_of(nodes);
-    for (std::size_t offset = 0; offset < word.text.size(); offset += text_bytes) {
-      const std::string part = word.text.substr(offset, text_bytes);
-      say_to_all(Item::text, std::as_bytes(std::span(part)));
+    if (!word.text.empty()) {
+      links.say_to_all(Item::text, std::as_bytes(std::span(word.text)));
     }
-    say_to_all(Item::closing, bytes_of(Closing{word.ending, word.kind}));
-  }
-
-  void say_to_all(Item item, std::span<const std::byte> bytes) {
-    for (std::uint32_t rank = 0; rank < ways.size(); ++rank) {
-      if (rank != fabric.rank()) {
-        ways[rank].say(item, bytes);
-      }
-    }
+    links.say_to_all(Item::closing, bytes_of(Closing{word.ending, word.kind}));
   }
 
   /// All have said their last word.
   bool is_closed() const {
-    if (!is_closing) {
-      return false;
+    const auto is_silent = [](const LastWord& word) { return word.ending == Ending::none; };
+    return is_closing && std::count_if(last_words.begin(), last_words.end(), is_silent) == 1 && links.has_said_all();
+  }
+
+  /// Every rank does so after the run, in which it is seen to that nothing else is under way.
+  std::vector<std::string> gather(const Tell& tell) {
+    std::vector<std::string> told = told_by(nodes.processors(), is_here.size(), tell);
+    if (links.rank() == 0) {
+      communicate_until([this] { return ranks_reported + 1 == links.rank_count(); });
+      for (std::size_t index = 0; index < told.size(); ++index) {
+        told[index] += reports[index];
+      }
+      return told;
     }
-    for (std::uint32_t rank = 0; rank < ways.size(); ++rank) {
-      if (rank != fabric.rank() && (peers[rank].last_word.ending == Ending::none || !ways[rank].has_said_all())) {
-        return false;
+    for (std::uint32_t index = 0; index < told.size(); ++index) {
+      if (!told[index].empty()) {
+        links.say(0, Item::report, std::as_bytes(std::span(told[index])), index);
       }
     }
-    return true;
+    links.say(0, Item::reported, {});
+    communicate_until([this] { return links.has_said_all(); });
+    return told;
   }
 
   void rest() {
@@ -330,39 +290,21 @@ struct RanksRunner::Implementation {
       std::this_thread::sleep_for(time);
     } else if (outbox.fall_asleep()) {
       // Whoever has roused this thread before it slept has left something to be seen.
-      const bool is_something_new = nodes.ending() != Ending::none || (nodes.all_sleep() && !waves.has_counted(fabric.rank()));
+      const bool is_something_new = nodes.ending() != Ending::none || (nodes.all_sleep() && !waves.has_counted(links.rank()));
       outbox.wait(is_something_new ? time.zero() : time);
     }
   }
 
-  void look_after_ranks() {
-    const Clock::time_point now = Clock::now();
-    for (std::uint32_t rank = 0; rank < ways.size(); ++rank) {
-      if (rank == fabric.rank()) {
-        continue;
-      }
-      if (now - peers[rank].spoken_to > silence.life_sign) {
-        ways[rank].show_life();
-        peers[rank].spoken_to = now;
-      }
-      if (now - peers[rank].heard > silence.longest) {
-        throw FabricError(fabric.name_of(rank) + " is lost: nothing has been heard of it for " +
-                          std::to_string(silence.longest.count()) + " ms");
-      }
-    }
-  }
-
   RunEnd judge() const {
-    const auto gravity = [](const Peer& peer) { return std::pair(peer.last_word.ending, !peer.last_word.text.empty()); };
-    const auto gravest =
-        std::max_element(peers.begin(), peers.end(), [&](const Peer& a, const Peer& b) { return gravity(a) < gravity(b); });
-    switch (std::max(nodes.ending(), gravest->last_word.ending)) {  // as badly as anywhere
+    const auto gravity = [](const LastWord& word) { return std::pair(word.ending, !word.text.empty()); };
+    const auto gravest = std::max_element(last_words.begin(), last_words.end(),
+                                          [&](const LastWord& a, const LastWord& b) { return gravity(a) < gravity(b); });
+    switch (std::max(nodes.ending(), gravest->ending)) {  // as badly as anywhere
       case Ending::failed:
         if (nodes.failure()) {
           std::rethrow_exception(nodes.failure());
         }
-        fail_as(gravest->last_word.kind,
-                fabric.name_of(static_cast<std::uint32_t>(gravest - peers.begin())) + ": " + gravest->last_word.text);
+        fail_as(gravest->kind, links.name_of(static_cast<std::uint32_t>(gravest - last_words.begin())) + ": " + gravest->text);
       case Ending::stalled:
         throw core::InternalError(stall_text(disturbance) + nodes.describe() + texts());
       case Ending::interrupted:
@@ -376,8 +318,8 @@ struct RanksRunner::Implementation {
   /// Of the other ranks.
   std::string texts() const {
     std::string texts;
-    for (const Peer& peer : peers) {
-      texts += peer.last_word.text;
+    for (const LastWord& word : last_words) {
+      texts += word.text;
     }
     return texts;
   }
@@ -393,8 +335,7 @@ struct RanksRunner::Implementation {
     core::expect(sent + traffic.packets_received == received + traffic.packets_sent, "packets sent are packets received");
   }
 
-  Fabric& fabric;
-  RankSilence silence;
+  RankLinks& links;
   std::optional<Chaos> disturbance;
   std::uint32_t node_count;
   std::vector<bool> is_here;
@@ -402,19 +343,19 @@ struct RanksRunner::Implementation {
   LocalMemory outbox_memory;
   Mailbox outbox;
   Outlet outlet;
-  std::size_t frame_bytes;
   NodeThreads nodes;
   CountingWaves waves;
-  std::vector<Peer> peers;  ///< by rank, this one included
-  std::vector<Way> ways;    ///< likewise
+  std::vector<LastWord> last_words;  ///< of other ranks, as far as they have come
+  std::vector<std::string> reports;  ///< of other ranks' nodes, by node
+  std::uint32_t ranks_reported = 0;
   RankTraffic traffic;
   Nap nap;
   bool started = false, is_closing = false;
 };
 
-RanksRunner::RanksRunner(std::span<const NodeSpecification> specifications, Fabric& fabric, const std::optional<Chaos>& chaos,
-                         Observer* observer, const RankSilence& silence)
-    : implementation_(std::make_unique<Implementation>(specifications, fabric, chaos, observer, silence)) {}
+RanksRunner::RanksRunner(std::span<const NodeSpecification> specifications, RankLinks& links, const std::optional<Chaos>& chaos,
+                         Observer* observer)
+    : implementation_(std::make_unique<Implementation>(specifications, links, chaos, observer)) {}
 RanksRunner::~RanksRunner() = default;
 
 RunEnd RanksRunner::run(std::stop_token stop) { return implementation_->run(std::move(stop)); }
@@ -422,15 +363,13 @@ RunEnd RanksRunner::run(std::stop_token stop) { return implementation_->run(std:
 Node& RanksRunner::node(std::size_t index) { return implementation_->nodes.processor(index).node; }
 Program& RanksRunner::program(std::size_t index) { return *implementation_->nodes.processor(index).program; }
 bool RanksRunner::is_here(std::size_t index) const { return implementation_->nodes.is_here(index); }
+std::vector<std::string> RanksRunner::gather(const Tell& tell) { return implementation_->gather(tell); }
 
 RankTraffic RanksRunner::traffic() const {
   RankTraffic traffic = implementation_->traffic;
-  for (const Way& way : implementation_->ways) {
-    traffic.frames_sent += way.frames();
-  }
+  traffic.frames_sent = implementation_->links.frames_sent();
   traffic.waves = implementation_->waves.waves();
-  traffic.network_bytes =
-      implementation_->outbox_capacity.bytes() + 2 * implementation_->frame_bytes * (implementation_->ways.size() - 1);
+  traffic.network_bytes = implementation_->outbox_capacity.bytes() + implementation_->links.room_bytes();
   return traffic;
 }
 

@@ -2,16 +2,17 @@
 // communicates.
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <stop_token>
+#include <string>
+#include <vector>
 
 #include "nodes/chaos.h"
-#include "nodes/ranks/fabric.h"
+#include "nodes/ranks/rank_links.h"
 #include "nodes/runner.h"
 
 namespace dmpc::nodes {
@@ -21,12 +22,6 @@ namespace dmpc::nodes {
 constexpr std::uint32_t rank_of(std::uint32_t index, std::uint32_t node_count, std::uint32_t rank_count) {
   return index == node_count ? 0 : static_cast<std::uint32_t>(std::uint64_t{index} * rank_count / node_count);
 }
-
-/// When ranks are taken for lost.
-struct RankSilence {
-  std::chrono::milliseconds life_sign{2'000};  ///< a rank with nothing to say says so after so long
-  std::chrono::milliseconds longest{30'000};   ///< one that says nothing for so long is lost
-};
 
 /// What went between this rank and others.
 struct RankTraffic {
@@ -40,19 +35,22 @@ struct RankTraffic {
 class RanksRunner final : public Runner {
  public:
   /// All ranks are given equal specifications, of all nodes, then the host; of those that are elsewhere no program is made. There
-  /// are at least as many nodes as ranks. `fabric` and `observer` outlive this. An observer is told of this rank's nodes.
-  RanksRunner(std::span<const NodeSpecification> specifications, Fabric& fabric, const std::optional<Chaos>& chaos = std::nullopt,
-              Observer* observer = nullptr, const RankSilence& silence = {});
+  /// are at least as many nodes as ranks, and every packet fits a frame. `links` and `observer` outlive this. An observer is told
+  /// of this rank's nodes.
+  RanksRunner(std::span<const NodeSpecification> specifications, RankLinks& links,
+              const std::optional<Chaos>& chaos = std::nullopt, Observer* observer = nullptr);
   ~RanksRunner() override;
 
   /// To be called on all ranks. The end and a stall are found exactly, without a time-out. It ends alike on all ranks: what fails
   /// on one fails on the others, with its rank and text; a stop that is requested on one stops all. A stall's report has all
-  /// nodes on rank 0, and its own on others. Throws FabricError if a rank is lost, or a frame.
+  /// nodes on rank 0, and its own on others. Throws FabricError if a frame is lost, LostRank if a rank is.
   RunEnd run(std::stop_token stop) override;
   Node& node(std::size_t index) override;
   Program& program(std::size_t index) override;
 
-  bool is_here(std::size_t index) const;
+  bool is_here(std::size_t index) const override;
+  /// To be called on all ranks, or on none.
+  std::vector<std::string> gather(const Tell& tell) override;
   /// After run().
   RankTraffic traffic() const;
 

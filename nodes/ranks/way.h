@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <deque>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "nodes/ranks/fabric.h"
@@ -29,9 +28,8 @@ class Way {
   }
 
   /// A word of this rank's: goes with the next frame that has room, in the order of such words.
-  void say(Item item, std::span<const std::byte> bytes) {
-    words_.push_back({{.packet = {.bytes = static_cast<std::uint32_t>(bytes.size())}, .item = item},
-                      std::vector<std::byte>(bytes.begin(), bytes.end())});
+  void say(const ItemHeader& header, std::span<const std::byte> bytes) {
+    words_.push_back({header, std::vector<std::byte>(bytes.begin(), bytes.end())});
   }
 
   /// Sends what there is, if the way is free; the next frame fills meanwhile. Returns whether anything was sent.

@@ -54,4 +54,9 @@ RunEnd ThreadsRunner::run(std::stop_token stop) {
 Node& ThreadsRunner::node(std::size_t index) { return implementation_->nodes.processor(index).node; }
 Program& ThreadsRunner::program(std::size_t index) { return *implementation_->nodes.processor(index).program; }
 
+std::vector<std::string> ThreadsRunner::gather(const Tell& tell) {
+  const auto& processors = implementation_->nodes.processors();
+  return told_by(processors, processors.size(), tell);
+}
+
 }  // namespace dmpc::nodes

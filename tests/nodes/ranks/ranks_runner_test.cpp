@@ -34,7 +34,8 @@ std::vector<RankResult<RankRun>> run_on(std::uint32_t ranks, const std::vector<N
                                         const Look& look, const LoopbackTrouble& trouble = {}, std::stop_token stop = {},
                                         const RankSilence& silence = {}) {
   return on_ranks(ranks, trouble, [&](Fabric& fabric) {
-    RanksRunner runner(specifications, fabric, std::nullopt, nullptr, silence);
+    RankLinks links(fabric, silence);
+    RanksRunner runner(specifications, links);
     const RunEnd end = runner.run(fabric.rank() + 1 == ranks ? stop : std::stop_token());
     look(runner);
     return RankRun{end, runner.traffic()};
@@ -225,6 +226,30 @@ TEST_CASE("a rank whose nodes work for long without a word is not taken for lost
     bool is_done_ = false;
   };
   check_ended(run_on(2, equal_nodes(3, {}, making<WorksAlone>()), no_look, {}, {}, short_silence));
+}
+
+TEST_CASE("what nodes have to say after a run comes to rank 0, however long it is") {
+  const auto text = [](std::size_t index) { return std::string(index * 20'000, static_cast<char>('a' + index)); };
+  const auto results = on_ranks(3, {.late_looks_max = 3}, [&](Fabric& fabric) {
+    RankLinks links(fabric);
+    RanksRunner runner(equal_nodes(6, TokenRound::mailbox, making<TokenRound>(3U)), links);
+    CHECK(runner.run({}) == RunEnd::finished);
+    return runner.gather(text);
+  });
+  for (std::size_t index = 0; index < 6; ++index) {
+    CHECK(results[0].value->at(index) == text(index));
+  }
+  CHECK(results[1].value->at(2) == text(2));
+  CHECK(results[1].value->at(4).empty());
+}
+
+TEST_CASE("a packet that fits no frame is refused before the run") {
+  const auto results = on_ranks(2, {}, [&](Fabric& fabric) {
+    RankLinks links(fabric);
+    RanksRunner(equal_nodes(4, {.bulk_slots = 1, .bulk_payload_bytes = frame_bytes_min}, making<ToyProgram>()), links);
+    return 0;
+  });
+  CHECK(results[0].failure_text().find("every packet fits a frame") != std::string::npos);
 }
 
 TEST_CASE("a computer with fewer nodes than ranks is refused") {

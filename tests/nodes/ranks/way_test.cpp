@@ -40,12 +40,11 @@ std::vector<std::vector<std::byte>> taken(Fabric& fabric) {
 
 TEST_CASE("packets and words come out of a frame as they went in") {
   Loopback loopback(2);
-  loopback.rank(0).open(frame_bytes_min);
   Way way(loopback.rank(0), 1);
   const auto a = bytes_from(1, 7), none = bytes_from(0, 0), b = bytes_from(9, 300);
   CHECK(way.put(packet_of(a), a));
   CHECK(way.put(packet_of(none), none));
-  way.say(Item::text, b);
+  way.say({.packet = {.bytes = 300}, .item = Item::text}, b);
   CHECK_FALSE(way.has_said_all());
   CHECK(way.flush());
   CHECK(way.has_said_all());
@@ -56,7 +55,6 @@ TEST_CASE("packets and words come out of a frame as they went in") {
 
 TEST_CASE("two frames are under way, a packet that finds them so is refused, and none is lost") {
   Loopback loopback(2);
-  loopback.rank(0).open(frame_bytes_min);
   Way way(loopback.rank(0), 1);
   const auto packet = bytes_from(0, frame_bytes_min / 2);  // one fits
   std::size_t put = 0, got = 0;
@@ -79,7 +77,6 @@ TEST_CASE("frames are as long as the longest packet asks") {
 
 TEST_CASE("a frame that is cut off is found out") {
   Loopback loopback(2);
-  loopback.rank(0).open(frame_bytes_min);
   const auto room = loopback.rank(0).room(1);
   FrameWriter writer(room, 0);
   const auto bytes = bytes_from(0, 20);
