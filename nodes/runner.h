@@ -37,6 +37,9 @@ struct NodeSpecification {
 };
 static_assert(packet_kind_count <= 32);
 
+/// Throws core::UsageError if there are fewer nodes than ranks: for plans.
+void check_ranks(const ComputerRequest& computer);
+
 enum class RunEnd : std::uint8_t { finished, interrupted };
 
 /// Thread safety: one thread constructs, runs and reads. While run() is going nothing else may be called.
@@ -66,6 +69,7 @@ class Runner {
 
 /// Threads and the wall clock, or, with a machine, a model and virtual time. `specifications`: the nodes in order, then the host,
 /// last. `observer`, if given, looks on, and outlives the run.
+/// The ranks that `computer` asks for are given, too: then this rank's nodes alone are made.
 std::unique_ptr<Runner> make_runner(std::span<const NodeSpecification> specifications, const ComputerRequest& computer,
                                     Observer* observer = nullptr);
 
