@@ -40,7 +40,7 @@ bool RankLinks::flush() {
 }
 
 bool RankLinks::has_said_all() const {
-  return std::all_of(ways_.begin(), ways_.end(), [](const Way& way) { return way.has_said_all(); });
+  return std::all_of(ways_.begin(), ways_.end(), [](const RankWay& way) { return way.has_said_all(); });
 }
 
 FrameNumber RankLinks::note(const Arrival& arrival) {
@@ -77,7 +77,7 @@ void RankLinks::look_after() {
 
 std::uint64_t RankLinks::frames_sent() const {
   std::uint64_t sum = 0;
-  for (const Way& way : ways_) {
+  for (const RankWay& way : ways_) {
     sum += way.frames();
   }
   return sum;

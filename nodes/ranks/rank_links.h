@@ -11,7 +11,7 @@
 
 #include "nodes/ranks/fabric.h"
 #include "nodes/ranks/frame.h"
-#include "nodes/ranks/way.h"
+#include "nodes/ranks/rank_way.h"
 
 namespace dmpc::nodes {
 
@@ -90,8 +90,8 @@ class RankLinks {
 
   Fabric* fabric_;
   RankSilence silence_;
-  std::vector<Way> ways_;    ///< by rank, this one included
-  std::vector<Peer> peers_;  ///< likewise
+  std::vector<RankWay> ways_;  ///< by rank, this one included
+  std::vector<Peer> peers_;    ///< likewise
 };
 
 }  // namespace dmpc::nodes

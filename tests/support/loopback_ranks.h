@@ -32,11 +32,12 @@ struct RankResult {
   }
 };
 
-/// Calls run(fabric) for each rank; by rank.
+/// Calls run(fabric) for each rank. By rank.
 template <class Run>
-auto on_ranks(std::uint32_t rank_count, const nodes::LoopbackTrouble& trouble, const Run& run) {
+auto on_ranks(std::uint32_t rank_count, const nodes::LoopbackTrouble& trouble, const Run& run,
+              std::size_t frame_bytes = nodes::frame_bytes_min) {
   using T = std::invoke_result_t<const Run&, nodes::Fabric&>;
-  nodes::Loopback loopback(rank_count, trouble);
+  nodes::Loopback loopback(rank_count, trouble, frame_bytes);
   std::vector<RankResult<T>> results(rank_count);
   {
     std::vector<std::jthread> threads;

@@ -1,4 +1,4 @@
-#include "nodes/ranks/way.h"
+#include "nodes/ranks/rank_way.h"
 
 #include <doctest/doctest.h>
 
@@ -40,7 +40,7 @@ std::vector<std::vector<std::byte>> taken(Fabric& fabric) {
 
 TEST_CASE("packets and words come out of a frame as they went in") {
   Loopback loopback(2);
-  Way way(loopback.rank(0), 1);
+  RankWay way(loopback.rank(0), 1);
   const auto a = bytes_from(1, 7), none = bytes_from(0, 0), b = bytes_from(9, 300);
   CHECK(way.put(packet_of(a), a));
   CHECK(way.put(packet_of(none), none));
@@ -55,7 +55,7 @@ TEST_CASE("packets and words come out of a frame as they went in") {
 
 TEST_CASE("two frames are under way, a packet that finds them so is refused, and none is lost") {
   Loopback loopback(2);
-  Way way(loopback.rank(0), 1);
+  RankWay way(loopback.rank(0), 1);
   const auto packet = bytes_from(0, frame_bytes_min / 2);  // one fits
   std::size_t put = 0, got = 0;
   for (int round = 0; round < 5; ++round) {

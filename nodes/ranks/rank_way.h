@@ -13,10 +13,10 @@
 namespace dmpc::nodes {
 
 /// Thread safety: belongs to the communicating thread.
-class Way {
+class RankWay {
  public:
   /// `fabric` outlives this.
-  Way(Fabric& fabric, std::uint32_t rank) : fabric_(&fabric), rank_(rank) {}
+  RankWay(Fabric& fabric, std::uint32_t rank) : fabric_(&fabric), rank_(rank) {}
 
   /// Puts a packet into the frame; false if there is no room while two frames are under way.
   [[nodiscard]] bool put(const ItemHeader& header, std::span<const std::byte> bytes) {
