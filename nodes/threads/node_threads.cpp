@@ -3,6 +3,7 @@
 #include <sched.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <thread>
 #include <utility>
 
@@ -29,8 +30,8 @@ bool packet_comes_soon(ThreadProcessor& self) {
 bool is_here(const Outlet* outlet, std::size_t index) { return outlet == nullptr || outlet->is_here[index]; }
 
 std::uint32_t count_here(const Outlet* outlet, std::size_t peer_count) {
-  return static_cast<std::uint32_t>(
-      outlet == nullptr ? peer_count : std::count(outlet->is_here.begin(), outlet->is_here.end(), true));
+  return static_cast<std::uint32_t>(outlet == nullptr ? peer_count
+                                                      : std::count(outlet->is_here.begin(), outlet->is_here.end(), true));
 }
 
 }  // namespace
@@ -40,8 +41,8 @@ std::string stall_text(const std::optional<Chaos>& chaos) {
          (chaos ? " (chaos seed " + std::to_string(chaos->seed) + "):" : ":");
 }
 
-NodeThreads::NodeThreads(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos,
-                         Observer* observer, const Outlet* outlet)
+NodeThreads::NodeThreads(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos, Observer* observer,
+                         const Outlet* outlet)
     : chaos_(chaos), observer_(observer), outlet_(outlet), awake_(count_here(outlet, specifications.size())), uncounted_(0) {
   core::expect(!specifications.empty(), "a computer has at least the host");
   core::expect(outlet == nullptr || outlet->is_here.size() == specifications.size(), "each node is here or elsewhere");
@@ -89,8 +90,7 @@ Mailbox& NodeThreads::mailbox_towards(NodeId target) const {
 void NodeThreads::add_waiting(ThreadProcessor& source, NodeId target, const PacketHeader& header,
                               std::span<const std::byte> payload, std::span<const std::byte> front, bool may_wait) {
   core::expect(source.waiting_count == 0 || source.waiting_for == target, "packets that may wait have one target");
-  core::expect(mailbox_towards(target).add(source.waiting, header, payload, front),
-               "credits leave room in the target's mailbox");
+  core::expect(mailbox_towards(target).add(source.waiting, header, payload, front), "credits leave room in the target's mailbox");
   source.waiting_for = target;
   if (++source.waiting_count >= source.patience.packets || !may_wait) {
     hand_over(source);
@@ -139,6 +139,7 @@ void NodeThreads::enter(void* start) {
 }
 
 void NodeThreads::run_node(ThreadProcessor& self) {
+  std::fesetenv(FE_DFL_ENV);  // a library may have made threads flush to zero as it was loaded, which they inherit
   NodeCounters& counters = self.node.counters();
   const std::uint64_t start_ns = nanoseconds(CLOCK_MONOTONIC);
   try {

@@ -74,8 +74,8 @@ class NodeThreads final : public Network {
    private:
     NodeThreads* nodes_;
   };
-  /// The bringer's: whether all nodes here sleep, and will until a packet is brought. If so, what their programs say of themselves
-  /// may be asked.
+  /// The bringer's: whether all nodes here sleep, and will until a packet is brought. If so, what their programs say of
+  /// themselves may be asked.
   bool all_sleep() const { return awake_.is_zero(); }
   std::uint32_t unfinished_count() const;
   /// A line for each program that is here.
@@ -122,7 +122,7 @@ class NodeThreads final : public Network {
   AwakeCount uncounted_;        ///< of the outbox, whose receiver is no node: read by nobody
   alignas(cache_line_bytes) std::atomic<Ending> ending_{Ending::none};
   std::atomic<bool> failing_{false};
-  std::exception_ptr failure_;  ///< written once, before the release in end(); read after the joins
+  std::exception_ptr failure_;                                ///< written once, before the release in end(); read after the joins
   std::vector<std::unique_ptr<ThreadProcessor>> processors_;  ///< those that are here
   std::vector<ThreadProcessor*> by_index_;                    ///< of all; nothing for those that are elsewhere
   std::vector<Start> starts_;

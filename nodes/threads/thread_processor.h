@@ -30,8 +30,8 @@ namespace dmpc::nodes {
 inline constexpr std::uint32_t quanta_per_yield = 16;
 
 /// A place for the packets that chaos holds back at this node, if it does.
-inline std::optional<HeldPackets> held_packets_of(const std::optional<Chaos>& chaos, const NodeSpecification& specification, NodeId id,
-                                           LocalMemory& memory, Network& network) {
+inline std::optional<HeldPackets> held_packets_of(const std::optional<Chaos>& chaos, const NodeSpecification& specification,
+                                                  NodeId id, LocalMemory& memory, Network& network) {
   if (!chaos || specification.held_bytes == 0) {
     return std::nullopt;
   }

@@ -5,8 +5,10 @@
 #include <time.h>
 
 #include <array>
+#include <cfenv>
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <stop_token>
@@ -276,6 +278,38 @@ TEST_CASE("a stop request before the start ends the run at once") {
   stop.request_stop();
   ThreadsRunner runner(equal_nodes(4, {}, making<Worker>(false)));
   CHECK(runner.run(stop.get_token()) == RunEnd::interrupted);
+}
+
+TEST_CASE("nodes compute alike, however the thread that starts them flushes to zero or rounds") {
+  /// Halves the least normal number, and divides where rounding shows.
+  class Halves : public ToyProgram {
+   public:
+    using ToyProgram::ToyProgram;
+    bool work() override {
+      volatile float least = std::numeric_limits<float>::min(), one = 1, three = 3;
+      is_right_ = least / 2 > 0 && one / three > 0.33333332F;
+      has_worked_ = true;
+      return false;
+    }
+    bool is_right() const { return is_right_; }
+    bool finished() const override { return has_worked_; }
+
+   private:
+    bool has_worked_ = false, is_right_ = false;
+  };
+  std::fenv_t usual;
+  std::fegetenv(&usual);
+  std::fenv_t other = usual;
+  other.__mxcsr |= 0x8040U;  // flush to zero, denormals are zeros
+  std::fesetenv(&other);
+  std::fesetround(FE_DOWNWARD);
+  ThreadsRunner runner(equal_nodes(3, {}, making<Halves>()));
+  const RunEnd end = runner.run({});
+  std::fesetenv(&usual);
+  CHECK(end == RunEnd::finished);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(program_of<Halves>(runner, i).is_right());
+  }
 }
 
 TEST_CASE("a memory is sealed before the run begins") {
