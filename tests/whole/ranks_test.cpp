@@ -64,4 +64,43 @@ TEST_CASE("every strategy gives one picture on any number of ranks, and the repo
   }
 }
 
+TEST_CASE("questions travel between ranks, and samples follow where a pass before has found the picture uneven") {
+  const core::Scene scene = tests::mirrors_and_glass();
+  const Subject tree(scene, {.width = scaled_edge(24), .height = scaled_edge(20)},
+                     {.page_size_bytes = 1024, .structure = core::Structure::extents});
+  const Subject refined(scene, {.width = 12, .height = 9, .samples = 2, .refinement = {.error = 0.03}},
+                        {.page_size_bytes = 1024});
+  for (const std::uint32_t ranks : rank_counts) {
+    CAPTURE(ranks);
+    const auto forest =
+        on_ranks(ranks, 7, [&](const nodes::ComputerRequest& computer) { return run_forest(tree, {.computer = computer}); });
+    CHECK(outcome_of(forest) == tree.outcome());
+    const auto svm =
+        on_ranks(ranks, 7, [&](const nodes::ComputerRequest& computer) { return run_svm(refined, {.computer = computer}); });
+    CHECK(outcome_of(svm) == refined.outcome());
+    const auto dataflow =
+        on_ranks(ranks, 7, [&](const nodes::ComputerRequest& computer) { return run_dataflow(refined, {.computer = computer}); });
+    CHECK(outcome_of(dataflow) == refined.outcome());
+  }
+}
+
+TEST_CASE("fewer nodes than ranks are refused by every strategy's plan") {
+  const Subject subject(tests::mirrors_and_glass(), {.width = 4, .height = 4});
+  const auto refusals = [&](const auto& render) {
+    return tests::on_ranks(4, {}, [&](nodes::Fabric& fabric) {
+      nodes::RankLinks links(fabric);
+      return render(nodes::ComputerRequest{.node_count = 3, .ranks = &links});
+    });
+  };
+  const std::string sentence = "node_count=3: expected at least one node for each of the 4 ranks";
+  for (const auto& result :
+       refusals([&](const nodes::ComputerRequest& computer) { return run_svm(subject, {.computer = computer}); })) {
+    CHECK(result.failure_text() == sentence);
+  }
+  for (const auto& result :
+       refusals([&](const nodes::ComputerRequest& computer) { return run_dataflow(subject, {.computer = computer}); })) {
+    CHECK(result.failure_text() == sentence);
+  }
+}
+
 }  // namespace
