@@ -14,6 +14,7 @@
 #include "dataflow/ray_queue.h"
 #include "dataflow/ray_task.h"
 #include "nodes/patience.h"
+#include "nodes/runner.h"
 #include "nodes/size_text.h"
 #include "nodes/threads/held_packets.h"
 
@@ -108,6 +109,7 @@ void check_use(bool right, const std::string& sentence) {
 }
 
 void check(const PlanRequest& request) {
+  nodes::check_ranks(request.computer);
   check_use(request.node_count() >= 1 && request.node_count() <= region_count_max,
             "node_count=" + std::to_string(request.node_count()) + ": from 1 to " + std::to_string(region_count_max) +
                 " nodes with strategy=dataflow");

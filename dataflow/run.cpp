@@ -8,6 +8,7 @@
 #include "dataflow/packets.h"
 #include "dataflow/regions/mapping.h"
 #include "dataflow/regions/work.h"
+#include "nodes/flat_bytes.h"
 
 namespace dmpc::dataflow {
 namespace {
@@ -83,19 +84,63 @@ void report_regions(NodeReport& report, const Regions& regions, const std::vecto
   report.region_share = cells / volume({.high = regions.grid_size()});
 }
 
-NodeReport report_of(nodes::Node& node, const nodes::Program& program, const Distribution& distribution, std::size_t part_bytes) {
-  const std::uint32_t index = nodes::index_of(node.id());
-  const core::DatabasePart& part = distribution.parts[index];
-  NodeReport report{.program = dynamic_cast<const NodeProgram&>(program).report(),
-                    .counters = node.counters(),
-                    .memory_planned = node.memory().plan(),
-                    .memory_used = node.memory().used(),
-                    .part_bytes = part_bytes,
-                    .primitive_copies = part.primitive_copies};
+/// Whether every credit of a node, or of the host, is back where it started.
+bool has_its_credits(const nodes::Node& node, const Plan& plan) {
+  const std::uint32_t host = plan.node_count(), self = nodes::index_of(node.id());
+  for (std::uint32_t peer = 0; peer <= host; ++peer) {
+    const bool with_host = self == host || peer == host;
+    const std::uint32_t planned = self == peer ? 0 : with_host ? plan.host_credits : plan.ray_credits;
+    const bool deals = self == host && peer < host;
+    if (node.credits(nodes::NodeId{peer}, ray_channel) != planned ||
+        (deals && node.credits(nodes::NodeId{peer}, film_channel) != plan.dealing_credits())) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// What a node reports, as it travels to the host's rank; the host of its credits alone.
+std::string told_by(nodes::Runner& runner, std::size_t index, const Plan& plan) {
+  nodes::Node& node = runner.node(index);
+  nodes::FlatWriter told;
+  told.put(has_its_credits(node, plan));
+  if (index == plan.node_count()) {
+    return told.take();
+  }
+  const ProgramReport program = dynamic_cast<const NodeProgram&>(runner.program(index)).report();
+  told.put(program.operations);
+  told.put(program.rays);
+  told.put(program.gather);
+  told.put(program.film);
+  told.put(program.backlog_high_water);
+  told.put_all(program.pairs);
+  told.put(node.counters());
+  told.put(node.memory().plan());
+  told.put(node.memory().used());
+  return told.take();
+}
+
+NodeReport report_from(nodes::FlatReader& told) {
+  NodeReport report;
+  report.program.operations = told.take<core::Operations>();
+  report.program.rays = told.take<RayCounters>();
+  report.program.gather = told.take<Gather::Counters>();
+  report.program.film = told.take<FilmGather::Counters>();
+  report.program.backlog_high_water = told.take<std::uint32_t>();
+  report.program.pairs = told.take_all<PairCounters>();
+  report.counters = told.take<nodes::NodeCounters>();
+  report.memory_planned = told.take<nodes::MemoryPlan>();
+  report.memory_used = told.take<nodes::MemoryPlan>();
+  return report;
+}
+
+/// Adds what the node was dealt.
+void report_share(NodeReport& report, const Distribution& distribution, std::uint32_t index, const Share& share) {
+  report.part_bytes = share.part_bytes;
+  report.primitive_copies = distribution.parts[index].primitive_copies;
   for (const PrimaryRun& run : distribution.primaries[index]) {
     report.primary_rays += run.count;
   }
-  return report;
 }
 
 void add(TrafficByKind& sum, const TrafficByKind& more) {
@@ -135,25 +180,19 @@ void check_packets(const Report& report) {
                "every film packet was acknowledged");
 }
 
-/// Every credit is back where it started.
-void check_credits(nodes::Runner& runner, const Plan& plan) {
-  for (std::uint32_t i = 0; i <= plan.node_count(); ++i) {
-    for (std::uint32_t j = 0; j <= plan.node_count(); ++j) {
-      const bool with_host = i == plan.node_count() || j == plan.node_count();
-      const std::uint32_t planned = i == j ? 0 : with_host ? plan.host_credits : plan.ray_credits;
-      core::expect(runner.node(i).credits(nodes::NodeId{j}, ray_channel) == planned, "every credit has come back");
-      const bool deals = i == plan.node_count() && j < i;
-      core::expect(!deals || runner.node(i).credits(nodes::NodeId{j}, film_channel) == plan.dealing_credits(),
-                   "every packet of primary rays was worked off");
-    }
-  }
-}
-
 void fill(Report& report, nodes::Runner& runner, const Distribution& distribution) {
   const std::uint32_t node_count = report.plan.node_count();
+  const std::vector<std::string> told = runner.gather([&](std::size_t index) { return told_by(runner, index, report.plan); });
+  if (!runner.is_here(node_count)) {
+    return;
+  }
   const std::vector<std::vector<std::uint32_t>> regions = distribution.regions.by_node();
+  bool are_credits_back = nodes::FlatReader(told[node_count]).take<bool>();
   for (std::uint32_t i = 0; i < node_count; ++i) {
-    report.nodes.push_back(report_of(runner.node(i), runner.program(i), distribution, report.plan.request.shares[i].part_bytes));
+    nodes::FlatReader reader(told[i]);
+    are_credits_back = reader.take<bool>() && are_credits_back;
+    report.nodes.push_back(report_from(reader));
+    report_share(report.nodes.back(), distribution, i, report.plan.request.shares[i]);
     report_regions(report.nodes.back(), distribution.regions, regions[i]);
   }
   report.host = runner.node(node_count).counters();
@@ -163,7 +202,7 @@ void fill(Report& report, nodes::Runner& runner, const Distribution& distributio
   if (report.end == nodes::RunEnd::finished) {
     check_rays(report);
     check_packets(report);
-    check_credits(runner, report.plan);
+    core::expect(are_credits_back, "every credit has come back, and every packet of primary rays was worked off");
     report.virtual_time = runner.virtual_report();
   }
 }

@@ -99,7 +99,8 @@ Prepared prepare(const core::Database& database, const core::RenderSettings& set
 /// What prepare() asks make_plan() for, where the nodes are dealt these shares.
 PlanRequest plan_request(std::vector<Share> shares, const core::RenderSettings& settings, const RunOptions& options);
 
-/// Renders what prepare() has prepared with the same settings and options. Throws core::InternalError if a law of conservation is
+/// Renders what prepare() has prepared with the same settings and options. On ranks each calls it, but the host's alone has a
+/// report: those of others have nothing but their end. Throws core::InternalError if a law of conservation is
 /// broken. Several calls at one time are independent.
 Report run_prepared(const Prepared& prepared, const core::RenderSettings& settings, const RunOptions& options,
                     std::stop_token stop);

@@ -27,8 +27,8 @@ struct SystemAtomics {
 
   /// Blocks the calling thread while `word` is `value`, until wake() or for `most`; may also return without a reason, so look
   /// again.
-  static void sleep(const Atomic<std::uint32_t>& word, std::uint32_t value, std::chrono::milliseconds most) {
-    const timespec time_out{.tv_sec = most.count() / 1000, .tv_nsec = most.count() % 1000 * 1'000'000};
+  static void sleep(const Atomic<std::uint32_t>& word, std::uint32_t value, std::chrono::nanoseconds most) {
+    const timespec time_out{.tv_sec = most.count() / 1'000'000'000, .tv_nsec = most.count() % 1'000'000'000};
     syscall(SYS_futex, &word, FUTEX_WAIT_PRIVATE, value, &time_out, nullptr, 0);
   }
   /// Ends the sleep() of the one thread that sleeps on `word`, if there is one. Never blocks.

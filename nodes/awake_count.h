@@ -9,7 +9,9 @@
 //     counted the sleeper again *before* (and takes the count back if another was faster). So every node that is
 //     neither asleep nor about to be is counted, and a packet in a mailbox, whose receiver cannot be asleep, keeps
 //     the count above zero.
-// (3) Hence zero is reached once at most, and for ever: nobody is left to raise it.
+// (3) Hence zero is reached once at most, and for ever: nobody is left to raise it. Unless there is one thread more, which
+//     brings packets from other processes and is no node: it raises the count for itself before it puts them into mailboxes,
+//     and leaves it after. Then zero lasts until that thread ends it, and it alone can know.
 #pragma once
 
 #include <cstdint>
@@ -29,6 +31,10 @@ class BasicAwakeCount {
   void raise() { count_.fetch_add(1, std::memory_order_relaxed); }
   /// Takes a raise() back: another thread was faster. The caller is counted itself, so this never reaches zero.
   void withdraw() { count_.fetch_sub(1, std::memory_order_relaxed); }
+
+  /// For the thread that brings packets from elsewhere: whether all nodes sleep, and will until it wakes one. If so it may read
+  /// what every node wrote.
+  bool is_zero() const { return count_.load(std::memory_order_acquire) == 0; }
 
   /// The calling node's mailbox word is ASLEEP; leaves the count. True for the last one, which then may read what every other
   /// node wrote: the release of each node's leaving has its partner in the acquire of the last one's (all changes of the word are

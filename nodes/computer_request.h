@@ -10,6 +10,8 @@
 
 namespace dmpc::nodes {
 
+class RankLinks;
+
 /// A value; what is out of range is refused by the plan that is made from it.
 struct ComputerRequest {
   std::uint32_t node_count = 8;
@@ -21,6 +23,10 @@ struct ComputerRequest {
   std::optional<Chaos> chaos = std::nullopt;
   /// A modelled machine, in virtual time, in place of threads. Not with chaos.
   std::optional<Machine> machine = std::nullopt;
+
+  /// The ranks on which the nodes are (nodes/ranks/ranks_runner.h), in place of this process alone; outlive the run, which each
+  /// of them calls with equal arguments. Not with a machine.
+  RankLinks* ranks = nullptr;
 
   /// The machine, or nothing where nodes are threads. Lives as long as this does.
   const Machine* model() const { return machine ? &*machine : nullptr; }

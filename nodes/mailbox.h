@@ -18,8 +18,8 @@
 //
 // Invariants
 // (1) The inbox word is EMPTY, ASLEEP, or the index of the slot pushed last. Only the receiver writes ASLEEP, and
-//     only over EMPTY; whoever replaces ASLEEP wakes the receiver. It is one word with one order of changes, so no
-//     wake-up is lost and no fence is needed.
+//     only over EMPTY; whoever else replaces ASLEEP wakes the receiver. It is one word with one order of changes, so
+//     no wake-up is lost and no fence is needed.
 // (2) Every change of the inbox word is a read-modify-write, so the release of each push and rouse reaches the
 //     receiver's next acquire, whatever came between.
 // (3) A slot is on the free list, with one sender, on the inbox, or with the receiver. The receiver gives a slot back
@@ -53,6 +53,7 @@ struct MailboxCapacity {
   std::uint32_t small_slots = 0;
   std::uint32_t bulk_slots = 0;
   std::size_t bulk_payload_bytes = 0;  ///< the largest payload; at least what the small class holds if bulk_slots > 0
+  std::size_t small_front_bytes = 0;   ///< that the small class holds above small_payload_bytes: for push() with a front
 
   /// What such a mailbox takes of the local memory (Category::mailbox).
   std::size_t bytes() const;
@@ -64,10 +65,11 @@ class BasicMailbox {
   /// Empty, awake, all its memory taken from `memory` (Category::mailbox, exactly bytes(capacity)).
   BasicMailbox(const MailboxCapacity& capacity, LocalMemory& memory)
       : small_slots_(slot_count(capacity.small_slots)),
+        small_payload_bytes_(small_payload_bytes + capacity.small_front_bytes),
         bulk_payload_bytes_(capacity.bulk_slots == 0 ? 0 : capacity.bulk_payload_bytes),
         inbox_(&memory.allocate<Inbox>(Category::mailbox, 1).front().word),
         links_(memory.allocate<Atomic<SlotIndex>>(Category::mailbox, link_count(capacity))),
-        small_(make_pool(memory, 0, capacity.small_slots, small_slot_bytes)),
+        small_(make_pool(memory, 0, capacity.small_slots, small_stride_bytes(capacity))),
         bulk_(make_pool(memory, first_bulk(capacity), capacity.bulk_slots, bulk_slot_bytes(capacity))) {}
 
   /// Packets of one sender that lie in slots, and that the receiver does not see yet. Belongs to its sender, who hands it over.
@@ -82,10 +84,11 @@ class BasicMailbox {
 
   /// Copies the packet in, wakes the receiver if it sleeps, and returns true; false if the class has no free slot (then nothing
   /// has happened). A payload of at most small_payload_bytes takes a small slot, a longer one a bulk slot; expects that it fits.
-  /// `awake` counts the receiver; the caller is counted itself.
-  [[nodiscard]] bool push(const PacketHeader& header, std::span<const std::byte> payload, BasicAwakeCount<Atomics>& awake) {
+  /// `awake` counts the receiver; the caller is counted itself. What is put in is `front` and then `payload`.
+  [[nodiscard]] bool push(const PacketHeader& header, std::span<const std::byte> payload, BasicAwakeCount<Atomics>& awake,
+                          std::span<const std::byte> front = {}) {
     Batch batch;
-    if (!add(batch, header, payload)) {
+    if (!add(batch, header, payload, front)) {
       return false;
     }
     hand_over(batch, awake);
@@ -93,16 +96,17 @@ class BasicMailbox {
   }
 
   /// Copies the packet in, behind those of the batch; returns and expects as push().
-  [[nodiscard]] bool add(Batch& batch, const PacketHeader& header, std::span<const std::byte> payload) {
-    core::expect(header.bytes == payload.size(), "a header says how long its payload is");
-    const bool is_small = payload.size() <= small_payload_bytes;
-    core::expect(is_small || payload.size() <= bulk_payload_bytes_, "a payload fits the slots of its class");
+  [[nodiscard]] bool add(Batch& batch, const PacketHeader& header, std::span<const std::byte> payload,
+                         std::span<const std::byte> front = {}) {
+    core::expect(header.bytes == front.size() + payload.size(), "a header says how long its payload is");
+    const bool is_small = header.bytes <= small_payload_bytes_;
+    core::expect(is_small || header.bytes <= bulk_payload_bytes_, "a payload fits the slots of its class");
     Pool& pool = is_small ? small_ : bulk_;
     const SlotIndex slot = pool.take();
     if (slot == no_slot) {
       return false;
     }
-    fill(pool.slot(slot), header, payload);
+    fill(pool.slot(slot), header, front, payload);
     links_[slot].store(batch.newest_, std::memory_order_relaxed);
     batch.oldest_ = batch.is_empty() ? slot : batch.oldest_;
     batch.newest_ = slot;
@@ -132,16 +136,38 @@ class BasicMailbox {
     std::size_t count = 0;
     for (; slot != empty; ++count) {
       const SlotIndex next = links_[slot].load(std::memory_order_relaxed);
-      Pool& pool = slot < small_slots_ ? small_ : bulk_;
-      read(pool.slot(slot), receive);
+      Pool& pool = pool_of(slot);
+      receive(packet_in(pool.slot(slot)));
       pool.give(slot);
       slot = next;
     }
     return count;
   }
 
+  /// Calls accept(packet) for each, oldest first, until it returns false: that packet and those behind it are offered again by
+  /// the next call. Returns whether there is none left. A receiver that calls it calls no drain().
+  template <class Accept>
+  bool drain_while(Accept&& accept) {
+    if (offered_ == empty && !is_empty()) {
+      offered_ = turned_round(inbox_->exchange(empty, std::memory_order_acquire));  // partner: as in drain()
+    }
+    while (offered_ != empty) {
+      const SlotIndex slot = offered_;
+      Pool& pool = pool_of(slot);
+      if (!accept(packet_in(pool.slot(slot)))) {
+        return false;
+      }
+      offered_ = links_[slot].load(std::memory_order_relaxed);
+      pool.give(slot);
+    }
+    return true;
+  }
+
   /// A look without taking anything, of a receiver that is awake: may miss a packet that is just arriving.
   bool is_empty() const { return inbox_->load(std::memory_order_relaxed) == empty; }
+
+  /// The same for one who calls drain_while(): nothing waits to be offered again, either.
+  bool is_drained() const { return offered_ == empty && is_empty(); }
 
   /// Whether a packet lies in it; after a run, when nobody sends.
   bool has_packets() const {
@@ -164,6 +190,13 @@ class BasicMailbox {
     }
   }
 
+  /// The same, for `most` at most, and the receiver is awake after it. For one whose waking `awake` does not count.
+  void wait(std::chrono::nanoseconds most) {
+    Atomics::sleep(*inbox_, asleep, most);
+    SlotIndex expected = asleep;
+    inbox_->compare_exchange_strong(expected, empty, std::memory_order_relaxed, std::memory_order_relaxed);
+  }
+
   /// Wakes the receiver without a packet, or makes its next fall_asleep() see what the caller wrote before. For the end of a run:
   /// it does not touch the count of awake nodes.
   void rouse() {
@@ -180,7 +213,7 @@ class BasicMailbox {
   /// What a mailbox of this capacity takes of the local memory, in bytes.
   static std::size_t bytes(const MailboxCapacity& capacity) {
     return LocalMemory::bytes_for<Inbox>(1) + LocalMemory::bytes_for<Atomic<SlotIndex>>(link_count(capacity)) +
-           2 * LocalMemory::bytes_for<Head>(1) + slot_count(capacity.small_slots) * small_slot_bytes +
+           2 * LocalMemory::bytes_for<Head>(1) + slot_count(capacity.small_slots) * small_stride_bytes(capacity) +
            slot_count(capacity.bulk_slots) * bulk_slot_bytes(capacity);
   }
 
@@ -216,6 +249,9 @@ class BasicMailbox {
   static std::size_t link_count(const MailboxCapacity& capacity) {
     return std::size_t{first_bulk(capacity)} + slot_count(capacity.bulk_slots);
   }
+  static std::size_t small_stride_bytes(const MailboxCapacity& capacity) {
+    return core::round_up(small_slot_bytes + capacity.small_front_bytes, cache_line_bytes);
+  }
   static std::size_t bulk_slot_bytes(const MailboxCapacity& capacity) {
     return core::round_up(sizeof(PacketHeader) + capacity.bulk_payload_bytes, cache_line_bytes);
   }
@@ -227,20 +263,25 @@ class BasicMailbox {
     return Pool(head, links_, first, slots, stride_bytes);
   }
 
-  static void fill(std::span<std::byte> slot, const PacketHeader& header, std::span<const std::byte> payload) {
+  Pool& pool_of(SlotIndex slot) { return slot < small_slots_ ? small_ : bulk_; }
+
+  static void fill(std::span<std::byte> slot, const PacketHeader& header, std::span<const std::byte> front,
+                   std::span<const std::byte> payload) {
     Atomics::writes(slot.data());
     std::memcpy(slot.data(), &header, sizeof(header));
+    if (!front.empty()) {
+      std::memcpy(slot.data() + sizeof(header), front.data(), front.size());
+    }
     if (!payload.empty()) {
-      std::memcpy(slot.data() + sizeof(header), payload.data(), payload.size());
+      std::memcpy(slot.data() + sizeof(header) + front.size(), payload.data(), payload.size());
     }
   }
 
-  template <class Receive>
-  static void read(std::span<const std::byte> slot, Receive& receive) {
+  static Packet packet_in(std::span<const std::byte> slot) {
     Atomics::reads(slot.data());
     PacketHeader header;
     std::memcpy(&header, slot.data(), sizeof(header));
-    receive(Packet{NodeId{header.source}, header.kind, slot.subspan(sizeof(header), header.bytes)});
+    return {NodeId{header.source}, header.kind, slot.subspan(sizeof(header), header.bytes)};
   }
 
   /// One attempt to put `batch` on the inbox whose word was `head`; sets `head` anew if that failed.
@@ -274,7 +315,8 @@ class BasicMailbox {
   static constexpr std::size_t link_count_limit = asleep;
 
   SlotIndex small_slots_;
-  std::size_t bulk_payload_bytes_;
+  SlotIndex offered_ = empty;  ///< the oldest of those that drain_while() has taken and not given
+  std::size_t small_payload_bytes_, bulk_payload_bytes_;
   Atomic<SlotIndex>* inbox_;
   std::span<Atomic<SlotIndex>> links_;
   Pool small_;

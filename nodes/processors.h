@@ -26,12 +26,22 @@ bool all_finished(const Processors<Processor>& processors) {
 template <class Processor>
 std::string describe(const Processors<Processor>& processors) {
   std::string lines;
-  for (std::size_t i = 0; i < processors.size(); ++i) {
-    const Processor& processor = *processors[i];
-    lines += "\n  " + (i + 1 == processors.size() ? std::string("host") : "node " + std::to_string(i)) +
-             (processor.program->finished() ? " (finished): " : ": ") + processor.program->describe();
+  for (const auto& processor : processors) {
+    const std::uint32_t index = index_of(processor->node.id());
+    lines += "\n  " + (index + 1 == processor->node.peer_count() ? std::string("host") : "node " + std::to_string(index)) +
+             (processor->program->finished() ? " (finished): " : ": ") + processor->program->describe();
   }
   return lines;
+}
+
+/// What the processors say of themselves, by index.
+template <class Processor, class Tell>
+std::vector<std::string> told_by(const Processors<Processor>& processors, std::size_t peer_count, const Tell& tell) {
+  std::vector<std::string> told(peer_count);
+  for (const auto& processor : processors) {
+    told[index_of(processor->node.id())] = tell(index_of(processor->node.id()));
+  }
+  return told;
 }
 
 /// Expects, at a regular end, that packets sent are packets received.

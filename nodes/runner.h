@@ -8,6 +8,8 @@
 #include <optional>
 #include <span>
 #include <stop_token>
+#include <string>
+#include <vector>
 
 #include "nodes/computer_request.h"
 #include "nodes/mailbox.h"
@@ -35,6 +37,9 @@ struct NodeSpecification {
 };
 static_assert(packet_kind_count <= 32);
 
+/// Throws core::UsageError if there are fewer nodes than ranks: for plans.
+void check_ranks(const ComputerRequest& computer);
+
 enum class RunEnd : std::uint8_t { finished, interrupted };
 
 /// Thread safety: one thread constructs, runs and reads. While run() is going nothing else may be called.
@@ -47,15 +52,24 @@ class Runner {
   /// At a regular end it expects that packets sent = packets received. Once only.
   virtual RunEnd run(std::stop_token stop) = 0;
 
-  /// After run().
+  /// After run(), of those that are here.
   virtual Node& node(std::size_t index) = 0;
   virtual Program& program(std::size_t index) = 0;
+  /// Whether a node is in this process. The host is on rank 0.
+  virtual bool is_here(std::size_t /*index*/) const { return true; }
+
+  /// What a node has to say when it is over, in bytes.
+  using Tell = std::function<std::string(std::size_t index)>;
+  /// After run(): calls tell(index) for each node and the host where it is. What all have said, by index; on a rank that is not
+  /// the host's, only what was said there.
+  virtual std::vector<std::string> gather(const Tell& tell) = 0;
   /// After a regular end; nothing from a runner without a clock of its own.
   virtual std::optional<VirtualReport> virtual_report() const { return std::nullopt; }
 };
 
 /// Threads and the wall clock, or, with a machine, a model and virtual time. `specifications`: the nodes in order, then the host,
 /// last. `observer`, if given, looks on, and outlives the run.
+/// The ranks that `computer` asks for are given, too: then this rank's nodes alone are made.
 std::unique_ptr<Runner> make_runner(std::span<const NodeSpecification> specifications, const ComputerRequest& computer,
                                     Observer* observer = nullptr);
 

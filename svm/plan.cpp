@@ -6,6 +6,7 @@
 #include "core/base/units.h"
 #include "core/picture/bundle_task.h"
 #include "nodes/lasting_pieces.h"
+#include "nodes/runner.h"
 #include "nodes/size_text.h"
 #include "nodes/threads/held_packets.h"
 #include "svm/forest.h"
@@ -224,6 +225,7 @@ void check_recording(const PlanRequest& request) {
 }
 
 void check(const PlanRequest& request) {
+  nodes::check_ranks(request.computer);
   check_use(is_page_size(request.page_size_bytes),
             "page_size_bytes=" + size_text(request.page_size_bytes) + ": a page is a power of two from 512B to 64KiB");
   check_use(

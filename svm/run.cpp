@@ -6,6 +6,7 @@
 
 #include "core/base/expect.h"
 #include "core/picture/bundle_task.h"
+#include "nodes/flat_bytes.h"
 #include "svm/forest.h"
 #include "svm/host.h"
 #include "svm/pager.h"
@@ -48,9 +49,25 @@ PlanRequest request_of(Strategy strategy, const core::Database& database, const 
           .bundles = settings.skips.bundles && strategy != Strategy::forest && walks_in_bundles(options)};
 }
 
-NodeReport report_of(nodes::Node& node, const nodes::Program& program) {
-  const auto& reporting = dynamic_cast<const NodeProgram&>(program);
-  return {reporting.report(), node.counters(), node.memory().plan(), node.memory().used()};
+/// A node's report, as it travels to the host's rank.
+std::string told_by(nodes::Runner& runner, std::size_t index) {
+  nodes::Node& node = runner.node(index);
+  nodes::FlatWriter told;
+  told.put(dynamic_cast<const NodeProgram&>(runner.program(index)).report());
+  told.put(node.counters());
+  told.put(node.memory().plan());
+  told.put(node.memory().used());
+  return told.take();
+}
+
+NodeReport report_from(const std::string& told) {
+  nodes::FlatReader reader(told);
+  NodeReport report;
+  report.program = reader.take<ProgramReport>();
+  report.counters = reader.take<nodes::NodeCounters>();
+  report.memory_planned = reader.take<nodes::MemoryPlan>();
+  report.memory_used = reader.take<nodes::MemoryPlan>();
+  return report;
 }
 
 std::uint64_t packets_of(const std::array<nodes::Traffic, nodes::packet_kind_count>& traffic, Kind kind) {
@@ -253,11 +270,17 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
     options.watching.distributed();
   }
   report.end = runner->run(std::move(stop));
-  for (std::uint32_t i = 0; i < plan.request.computer.node_count; ++i) {
-    report.nodes.push_back(report_of(runner->node(i), runner->program(i)));
+  const std::uint32_t host_index = plan.request.computer.node_count;
+  const std::vector<std::string> told =
+      runner->gather([&](std::size_t index) { return index == host_index ? std::string() : told_by(*runner, index); });
+  if (!runner->is_here(host_index)) {
+    return report;
   }
-  report.host = runner->node(plan.request.computer.node_count).counters();
-  const auto& host = dynamic_cast<const HostProgram&>(runner->program(plan.request.computer.node_count));
+  for (std::uint32_t i = 0; i < host_index; ++i) {
+    report.nodes.push_back(report_from(told[i]));
+  }
+  report.host = runner->node(host_index).counters();
+  const auto& host = dynamic_cast<const HostProgram&>(runner->program(host_index));
   report.host_deposits_saturated = host.deposits_saturated();
   report.pixels_done = host.pixels_done();
   report.items_dealt = host.items_given();

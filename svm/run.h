@@ -75,8 +75,9 @@ struct Report {
 /// The plan that a run with these options will follow, for messages before the run. Throws as make_plan() does.
 Plan plan_of(Strategy strategy, const core::Database& database, const core::RenderSettings& settings, const RunOptions& options);
 
-/// Renders with strategy svm. Throws as make_plan() does before anything is rendered; core::InternalError if a law of
-/// conservation is broken. One call at a time in a process needs no care; several are independent.
+/// Renders with strategy svm. On ranks each calls it, but the host's alone has a report: those of others have nothing but their
+/// end. Throws as make_plan() does before anything is rendered; core::InternalError if a law of conservation is broken. One call
+/// at a time in a process needs no care; several are independent.
 Report run_svm(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                std::stop_token stop);
 

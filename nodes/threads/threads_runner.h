@@ -6,6 +6,8 @@
 #include <optional>
 #include <span>
 #include <stop_token>
+#include <string>
+#include <vector>
 
 #include "nodes/chaos.h"
 #include "nodes/runner.h"
@@ -30,6 +32,7 @@ class ThreadsRunner final : public Runner {
   RunEnd run(std::stop_token stop) override;
   Node& node(std::size_t index) override;
   Program& program(std::size_t index) override;
+  std::vector<std::string> gather(const Tell& tell) override;
 
  private:
   struct Implementation;

@@ -336,6 +336,10 @@ RunEnd VirtualRunner::run(std::stop_token stop) { return implementation_->run(st
 
 Node& VirtualRunner::node(std::size_t index) { return implementation_->computer.processors.at(index)->node; }
 Program& VirtualRunner::program(std::size_t index) { return *implementation_->computer.processors.at(index)->program; }
+std::vector<std::string> VirtualRunner::gather(const Tell& tell) {
+  const auto& processors = implementation_->computer.processors;
+  return told_by(processors, processors.size(), tell);
+}
 std::optional<VirtualReport> VirtualRunner::virtual_report() const { return implementation_->result; }
 
 }  // namespace dmpc::nodes

@@ -18,6 +18,8 @@
 #include <optional>
 #include <span>
 #include <stop_token>
+#include <string>
+#include <vector>
 
 #include "nodes/machine.h"
 #include "nodes/runner.h"
@@ -35,6 +37,7 @@ class VirtualRunner final : public Runner {
   RunEnd run(std::stop_token stop) override;
   Node& node(std::size_t index) override;
   Program& program(std::size_t index) override;
+  std::vector<std::string> gather(const Tell& tell) override;
 
   std::optional<VirtualReport> virtual_report() const override;
 

@@ -221,7 +221,7 @@ struct ExploredAtomics {
   };
 
   /// Without a time-out: no wake-up may be missing.
-  static void sleep(const Atomic<std::uint32_t>& word, std::uint32_t value, std::chrono::milliseconds /*most*/) {
+  static void sleep(const Atomic<std::uint32_t>& word, std::uint32_t value, std::chrono::nanoseconds /*most*/) {
     Explorer::current().step();
     if (word.newest() == value) {
       Explorer::current().block(&word);

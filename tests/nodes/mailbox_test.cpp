@@ -47,7 +47,8 @@ TEST_CASE("a new mailbox is empty and gives nothing") {
 }
 
 TEST_CASE("a mailbox takes exactly what it says of the local memory") {
-  for (const MailboxCapacity& capacity : {MailboxCapacity{}, MailboxCapacity{1, 0, 0}, MailboxCapacity{7, 3, 1000}}) {
+  for (const MailboxCapacity& capacity :
+       {MailboxCapacity{}, MailboxCapacity{1, 0, 0}, MailboxCapacity{7, 3, 1000}, MailboxCapacity{7, 3, 1000, 4}}) {
     OneMailbox box(capacity);
     CHECK(box.memory.used()[Category::mailbox] == capacity.bytes());
   }
@@ -157,6 +158,51 @@ TEST_CASE("a payload that just fits a small slot takes one, and one byte more ta
   OneMailbox box({.small_slots = 0, .bulk_slots = 4, .bulk_payload_bytes = 64});
   CHECK_FALSE(box.push(1, std::vector<std::byte>(small_payload_bytes)));
   CHECK(box.push(1, std::vector<std::byte>(small_payload_bytes + 1)));
+}
+
+TEST_CASE("a front stands before the payload, and the small class holds as much more as is asked for") {
+  OneMailbox box({.small_slots = 1, .small_front_bytes = 4});
+  const std::vector<std::byte> front(4, std::byte{7}), payload(small_payload_bytes, std::byte{8});
+  CHECK(box.mailbox.push({.bytes = small_payload_bytes + 4}, payload, box.awake, front));
+  box.mailbox.drain([](const Packet& packet) {
+    CHECK(packet.payload.size() == small_payload_bytes + 4);
+    CHECK(packet.payload[3] == std::byte{7});
+    CHECK(packet.payload[4] == std::byte{8});
+  });
+}
+
+TEST_CASE("packets that are not accepted are offered again, in order, before later ones, and keep their slots") {
+  OneMailbox box({.small_slots = 2});
+  for (std::uint8_t i = 0; i < 3; ++i) {
+    CHECK(box.push_number(1, i));
+  }
+  std::vector<int> offered;
+  std::size_t accepted = 1;
+  const auto accept = [&](const Packet& packet) {
+    offered.push_back(static_cast<int>(packet.payload.front()));
+    return accepted-- > 0;
+  };
+  CHECK_FALSE(box.mailbox.drain_while(accept));
+  CHECK_FALSE(box.mailbox.is_drained());
+  CHECK(box.push_number(1, 3));
+  CHECK_FALSE(box.push_number(1, 4));
+  accepted = 9;
+  CHECK(box.mailbox.drain_while(accept));  // what has come meanwhile is for the next call
+  CHECK_FALSE(box.mailbox.is_drained());
+  CHECK(box.mailbox.drain_while(accept));
+  CHECK(box.mailbox.is_drained());
+  CHECK(offered == std::vector{0, 1, 1, 2, 3});
+}
+
+TEST_CASE("a sleep with an end leaves the receiver awake, whether something came or not") {
+  OneMailbox box({.small_slots = 1});
+  CHECK(box.mailbox.fall_asleep());
+  box.mailbox.wait(std::chrono::microseconds(10));
+  CHECK(box.mailbox.is_empty());
+  CHECK(box.mailbox.fall_asleep());
+  CHECK(box.push_number(1, 1));
+  box.mailbox.wait(std::chrono::microseconds(10));
+  CHECK(box.take() == Taken{{1, 1}});
 }
 
 TEST_CASE("a payload may be empty") {

@@ -42,7 +42,8 @@ const std::map<std::string, Names> rooms = {
 
 /// Rooms of other layers, and the files of their floor, by how they begin, that look down into them.
 const std::map<std::string, Names> looked_into_by = {
-    {"nodes/threads", {"nodes/runner.cpp"}},  {"nodes/virtual", {"nodes/runner."}}, {"nodes/watch", {}},
+    {"nodes/threads", {"nodes/runner.cpp"}},  {"nodes/ranks", {"nodes/runner.cpp"}},
+    {"nodes/virtual", {"nodes/runner."}},     {"nodes/watch", {}},
     {"svm/watch", {"svm/run.", "svm/plan."}}, {"dataflow/regions", {"dataflow/"}},
 };
 

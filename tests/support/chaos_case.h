@@ -1,6 +1,7 @@
 // What a seed of chaos stands for: a picture, a computer, and the bounds of its nodes, starved or ample.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -35,6 +36,12 @@ class ChaosCase {
   bool is_in_parts() const { return is_in_parts_ && !is_modelled_; }
   /// How often light comes in a part until it is kept.
   std::uint32_t part() const { return part_; }
+
+  /// The processes that share the nodes, by a draw of its own.
+  std::uint32_t rank_count() const {
+    nodes::ChaosStream draws(core::mix(seed_ ^ 0x3a9c5));
+    return draws.chance(40) ? 1 : std::min(nodes_, 2 + draws.below(4));
+  }
 
   /// Of svm; replicated and forest have no cache. `round` tells the parts of one picture apart.
   svm::RunOptions page_options(svm::Strategy strategy, std::uint32_t round = 0) {
@@ -79,7 +86,8 @@ class ChaosCase {
 
   friend std::ostream& operator<<(std::ostream& out, const ChaosCase& one) {
     return out << chaos_subjects().at(one.subject_).name << " on " << one.nodes_ << " nodes, "
-               << (one.is_modelled_ ? "modelled" : "threads") << (one.is_in_parts() ? ", in parts" : "");
+               << (one.is_modelled_ ? "modelled" : "threads") << (one.is_in_parts() ? ", in parts" : "") << ", "
+               << one.rank_count() << " ranks";
   }
 
  private:

@@ -1,8 +1,8 @@
 // One picture under chaos: whatever a seed does to packets, nodes, links and credits, the film equals the reference renderer's.
 //
-// A seed chooses the picture, the number of nodes, their bounds, and whether it is made in parts (tests/support/chaos_case.h). A
-// run checks its laws of conservation itself. tests/chaos has more seeds tried, by the variables DMPC_CHAOS_FIRST and
-// DMPC_CHAOS_SEEDS of the environment.
+// A seed chooses the picture, the number of nodes, their bounds, the ranks they are on, and whether it is made in parts
+// (tests/support/chaos_case.h). A run checks its laws of conservation itself. tests/chaos has more seeds tried, by the variables
+// DMPC_CHAOS_FIRST and DMPC_CHAOS_SEEDS of the environment.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -17,9 +17,11 @@
 #include "core/picture/partial_picture.h"
 #include "dataflow/run.h"
 #include "nodes/chaos.h"
+#include "nodes/ranks/rank_links.h"
 #include "svm/run.h"
 #include "tests/support/chaos_case.h"
 #include "tests/support/environment.h"
+#include "tests/support/loopback_ranks.h"
 #include "tests/support/subject.h"
 
 namespace dmpc::tests {
@@ -31,6 +33,9 @@ constexpr std::uint64_t seeds_by_default = 20;
 #else
 constexpr std::uint64_t seeds_by_default = 140;
 #endif
+
+/// A page of the largest size with its header, or any other packet.
+constexpr std::size_t page_packet_bytes_max = 65536 + 64;
 
 /// Small enough to render hundreds of times.
 const Subject& subject() { return chaos_subject(0); }
@@ -86,14 +91,38 @@ struct Damage {
     }
     auto calm = report.plan.request;
     calm.computer.chaos.reset();
+    calm.computer.ranks = nullptr;
     runs_with_fewer_credits += credits_of(report.plan) < credits_of(make_plan(calm)) ? 1 : 0;
   }
 };
 
+/// On ranks, of which some seeds have several: late frames on the way, as well. A computer that is modelled has none.
+template <class Options, class Run>
+auto run_on_ranks(const ChaosCase& one, Options options, const Run& run, const std::stop_token& stop) {
+  const std::uint32_t ranks = options.computer.machine ? 1 : one.rank_count();
+  if (ranks == 1) {
+    return run(one.subject(), options, stop);
+  }
+  const Subject& subject = one.subject();  // made before there are threads
+  const nodes::LoopbackTrouble trouble{.seed = one.seed(), .late_looks_max = static_cast<std::uint32_t>(one.seed() % 8)};
+  const auto run_here = [&](nodes::Fabric& fabric) {
+    nodes::RankLinks links(fabric);
+    Options own = options;
+    own.computer.ranks = &links;
+    return run(subject, own, fabric.rank() == 0 ? stop : std::stop_token());
+  };
+  auto results = on_ranks(ranks, trouble, run_here, nodes::frame_bytes_for(page_packet_bytes_max));
+  for (const auto& result : results) {
+    CHECK(result.failure_text() == "");
+  }
+  REQUIRE(results.front().value);
+  return std::move(*results.front().value);
+}
+
 /// The whole picture in one run.
 template <class Options, class Run>
 void check_whole(ChaosCase& one, Damage& damage, const Options& options, const Run& run) {
-  const auto report = run(one.subject(), options, {});
+  const auto report = run_on_ranks(one, options, run, {});
   REQUIRE(outcome_of(report) == one.subject().outcome());
   damage.add(report);
 }
@@ -106,7 +135,7 @@ void check_parts(ChaosCase& one, Damage& damage, const MakeOptions& options_of, 
     StoppingKeeper keeper(one.part() << std::min(round, 16U));  // so that few runs make a picture
     auto options = options_of(one, round);
     options.continuation = keeper.continuation(start);
-    const auto report = run(one.subject(), options, keeper.token());
+    const auto report = run_on_ranks(one, options, run, keeper.token());
     damage.add(report);
     if (report.end == nodes::RunEnd::finished) {
       REQUIRE(report.film.hash() == one.subject().outcome().film_hash);

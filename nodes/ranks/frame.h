@@ -1,0 +1,92 @@
+// What travels between ranks: frames, each a number and then items one behind the other, packets of nodes and words of ranks.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+#include "core/base/expect.h"
+#include "nodes/packet.h"
+
+namespace dmpc::nodes {
+
+/// A rank's frames to another are numbered from 0, so that one which is lost is missed when the next one comes.
+using FrameNumber = std::uint64_t;
+
+/// What an item is.
+enum class Item : std::uint8_t {
+  packet,   ///< from a node to a node
+  counts,   ///< Counts, of the sender's next wave
+  text,     ///< a part of what the sender's words are about
+  closing,  ///< how the run has ended for the sender: its last word of the run
+  report,   ///< a part of what a node has to say after it
+  reported  ///< no more of that comes from the sender
+};
+
+/// Stands before an item's bytes.
+struct ItemHeader {
+  std::uint32_t target = 0;  ///< the index of a packet's target, or of the node that a report is of
+  PacketHeader packet;       ///< of other items only `bytes` counts
+  Item item = Item::packet;
+
+  /// With what follows it.
+  std::size_t bytes() const { return sizeof(ItemHeader) + packet.bytes; }
+};
+
+/// Frames are at least so long; longer ones where a packet does not fit in.
+inline constexpr std::size_t frame_bytes_min = std::size_t{16} << 10U;
+
+/// A frame that holds one packet of this size, at least.
+constexpr std::size_t frame_bytes_for(std::size_t payload_bytes_max) {
+  const std::size_t least = sizeof(FrameNumber) + sizeof(ItemHeader) + payload_bytes_max;
+  return least > frame_bytes_min ? least : frame_bytes_min;
+}
+
+/// Puts a frame together in a fabric's room.
+class FrameWriter {
+ public:
+  /// Not begun: there is no room yet.
+  FrameWriter() = default;
+  FrameWriter(std::span<std::byte> room, FrameNumber number) : room_(room), used_bytes_(sizeof(number)) {
+    std::memcpy(room.data(), &number, sizeof(number));
+  }
+
+  bool is_begun() const { return !room_.empty(); }
+  bool has_room_for(const ItemHeader& header) const { return room_.size() - used_bytes_ >= header.bytes(); }
+  void add(const ItemHeader& header, std::span<const std::byte> bytes) {
+    core::expect(header.packet.bytes == bytes.size() && has_room_for(header), "an item fits its frame");
+    std::memcpy(room_.data() + used_bytes_, &header, sizeof(header));
+    if (!bytes.empty()) {
+      std::memcpy(room_.data() + used_bytes_ + sizeof(header), bytes.data(), bytes.size());
+    }
+    used_bytes_ += header.bytes();
+  }
+  std::size_t used_bytes() const { return used_bytes_; }
+
+ private:
+  std::span<std::byte> room_;
+  std::size_t used_bytes_ = 0;
+};
+
+inline FrameNumber number_of(std::span<const std::byte> frame) {
+  FrameNumber number = 0;
+  core::expect(frame.size() >= sizeof(number), "a frame has a number");
+  std::memcpy(&number, frame.data(), sizeof(number));
+  return number;
+}
+
+/// Calls receive(header, bytes) for each item.
+template <class Receive>
+void for_each_item(std::span<const std::byte> frame, const Receive& receive) {
+  for (std::size_t offset = sizeof(FrameNumber); offset < frame.size();) {
+    ItemHeader header;
+    core::expect(frame.size() - offset >= sizeof(header), "a frame's items are whole");
+    std::memcpy(&header, frame.data() + offset, sizeof(header));
+    core::expect(frame.size() - offset >= header.bytes(), "a frame's items are whole");
+    receive(header, frame.subspan(offset + sizeof(header), header.packet.bytes));
+    offset += header.bytes();
+  }
+}
+
+}  // namespace dmpc::nodes

@@ -1,0 +1,97 @@
+#include "nodes/ranks/loopback.h"
+
+#include "core/base/expect.h"
+
+namespace dmpc::nodes {
+
+class Loopback::End final : public Fabric {
+ public:
+  End(Loopback& of, std::uint32_t rank) : of_(&of), rank_(rank), lateness_(core::mix(of.trouble_.seed) + rank) {}
+
+  std::uint32_t rank() const override { return rank_; }
+  std::uint32_t rank_count() const override { return of_->rank_count_; }
+  std::string name_of(std::uint32_t rank) const override { return "rank " + std::to_string(rank); }
+
+  std::size_t frame_bytes() const override { return of_->frame_bytes_; }
+
+  std::span<std::byte> room(std::uint32_t rank) override {
+    Lane& lane = of_->lane(rank_, rank);
+    const std::uint64_t sent = lane.sent.load(std::memory_order_relaxed);
+    // Acquire: partner of the release in give_back(); the reader is done with the frame that lay there.
+    const bool is_free = sent - lane.taken.load(std::memory_order_acquire) < lane.frames.size();
+    return is_free ? std::span(lane.frames[sent % lane.frames.size()].bytes) : std::span<std::byte>();
+  }
+
+  void send(std::uint32_t rank, std::size_t bytes) override {
+    Lane& lane = of_->lane(rank_, rank);
+    const std::uint64_t sent = lane.sent.load(std::memory_order_relaxed);
+    if (is_lost(rank, sent + lane.lost)) {
+      ++lane.lost;
+      return;
+    }
+    Lane::Frame& frame = lane.frames[sent % lane.frames.size()];
+    frame.used_bytes = bytes;
+    frame.late_looks = lateness_.below(of_->trouble_.late_looks_max + 1);
+    lane.sent.store(sent + 1, std::memory_order_release);  // partner: take()
+  }
+
+  std::optional<Arrival> take() override {
+    give_back();
+    for (std::uint32_t turn = 0; turn < rank_count(); ++turn) {
+      next_ = (next_ + 1) % rank_count();
+      Lane& lane = of_->lane(next_, rank_);
+      const std::uint64_t taken = lane.taken.load(std::memory_order_relaxed);
+      if (lane.sent.load(std::memory_order_acquire) == taken) {  // partner: send()
+        continue;
+      }
+      Lane::Frame& frame = lane.frames[taken % lane.frames.size()];
+      if (frame.late_looks > 0) {
+        --frame.late_looks;
+        continue;
+      }
+      held_ = &lane;
+      return Arrival{next_, std::span(frame.bytes).first(frame.used_bytes)};
+    }
+    return std::nullopt;
+  }
+
+ private:
+  bool is_lost(std::uint32_t to, std::uint64_t frame) const {
+    const LoopbackTrouble& trouble = of_->trouble_;
+    return trouble.dead_rank == rank_ ||
+           (trouble.loss && trouble.loss->from == rank_ && trouble.loss->to == to && trouble.loss->frame == frame);
+  }
+
+  /// The frame that was taken last.
+  void give_back() {
+    if (held_ != nullptr) {
+      held_->taken.fetch_add(1, std::memory_order_release);  // partner: room()
+      held_ = nullptr;
+    }
+  }
+
+  Loopback* of_;
+  std::uint32_t rank_;
+  ChaosStream lateness_;
+  std::uint32_t next_ = 0;  ///< the rank that was looked at last
+  Lane* held_ = nullptr;
+};
+
+Loopback::Loopback(std::uint32_t rank_count, const LoopbackTrouble& trouble, std::size_t frame_bytes)
+    : rank_count_(rank_count), trouble_(trouble), frame_bytes_(frame_bytes), lanes_(std::size_t{rank_count} * rank_count) {
+  core::expect(rank_count > 0, "there is a rank");
+  for (Lane& lane : lanes_) {
+    for (Lane::Frame& frame : lane.frames) {
+      frame.bytes.resize(frame_bytes);
+    }
+  }
+  for (std::uint32_t rank = 0; rank < rank_count; ++rank) {
+    ends_.push_back(std::make_unique<End>(*this, rank));
+  }
+}
+
+Loopback::~Loopback() = default;
+
+Fabric& Loopback::rank(std::uint32_t rank) { return *ends_.at(rank); }
+
+}  // namespace dmpc::nodes

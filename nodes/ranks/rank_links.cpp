@@ -1,0 +1,86 @@
+#include "nodes/ranks/rank_links.h"
+
+#include <algorithm>
+
+namespace dmpc::nodes {
+
+RankLinks::RankLinks(Fabric& fabric, const RankSilence& silence) : fabric_(&fabric), silence_(silence) {
+  for (std::uint32_t rank = 0; rank < fabric.rank_count(); ++rank) {
+    ways_.emplace_back(fabric, rank);
+    peers_.push_back({.heard = Clock::now(), .spoken_to = Clock::now()});
+  }
+}
+
+void RankLinks::say(std::uint32_t rank, Item item, std::span<const std::byte> bytes, std::uint32_t target) {
+  const std::size_t bytes_max = frame_bytes() / 2;  // so that others fit beside it
+  do {
+    const std::span<const std::byte> part = bytes.first(std::min(bytes.size(), bytes_max));
+    ways_[rank].say({.target = target, .packet = {.bytes = static_cast<std::uint32_t>(part.size())}, .item = item}, part);
+    bytes = bytes.subspan(part.size());
+  } while (!bytes.empty());
+}
+
+void RankLinks::say_to_all(Item item, std::span<const std::byte> bytes) {
+  for (std::uint32_t rank = 0; rank < ways_.size(); ++rank) {
+    if (is_other(rank)) {
+      say(rank, item, bytes);
+    }
+  }
+}
+
+bool RankLinks::flush() {
+  bool has_sent = false;
+  for (std::uint32_t rank = 0; rank < ways_.size(); ++rank) {
+    if (is_other(rank) && ways_[rank].flush()) {
+      peers_[rank].spoken_to = Clock::now();
+      has_sent = true;
+    }
+  }
+  return has_sent;
+}
+
+bool RankLinks::has_said_all() const {
+  return std::all_of(ways_.begin(), ways_.end(), [](const RankWay& way) { return way.has_said_all(); });
+}
+
+FrameNumber RankLinks::note(const Arrival& arrival) {
+  Peer& peer = peers_[arrival.rank];
+  peer.heard = Clock::now();
+  const FrameNumber expected = peer.frames_taken;
+  peer.frames_taken = number_of(arrival.frame) + 1;
+  return expected;
+}
+
+void RankLinks::expect_number(FrameNumber expected, const Arrival& arrival) const {
+  if (number_of(arrival.frame) != expected) {
+    throw FabricError("a frame from " + name_of(arrival.rank) + " to " + name_of(rank()) + " is lost: number " +
+                      std::to_string(number_of(arrival.frame)) + " came in place of number " + std::to_string(expected));
+  }
+}
+
+void RankLinks::look_after() {
+  const Clock::time_point now = Clock::now();
+  for (std::uint32_t rank = 0; rank < ways_.size(); ++rank) {
+    if (!is_other(rank)) {
+      continue;
+    }
+    if (now - peers_[rank].spoken_to > silence_.life_sign) {
+      ways_[rank].show_life();
+      peers_[rank].spoken_to = now;
+    }
+    if (now - peers_[rank].heard > silence_.longest) {
+      throw LostRank(name_of(rank) + " is lost: nothing has been heard of it for " + std::to_string(silence_.longest.count()) +
+                     " ms");
+    }
+  }
+}
+
+std::uint64_t RankLinks::frames_sent() const {
+  std::uint64_t sum = 0;
+  for (const RankWay& way : ways_) {
+    sum += way.frames();
+  }
+  return sum;
+}
+
+}  // namespace dmpc::nodes

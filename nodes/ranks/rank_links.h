@@ -1,0 +1,97 @@
+// One rank's links to all others: what it sends them, what comes from them, and whether they are still there.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "nodes/ranks/fabric.h"
+#include "nodes/ranks/frame.h"
+#include "nodes/ranks/rank_way.h"
+
+namespace dmpc::nodes {
+
+/// A rank is gone: with it there is no orderly end.
+struct LostRank : FabricError {
+  using FabricError::FabricError;
+};
+
+/// When ranks are taken for lost.
+struct RankSilence {
+  std::chrono::milliseconds life_sign{2'000};  ///< a rank with nothing to say says so after so long
+  std::chrono::milliseconds longest{30'000};   ///< one that says nothing for so long is lost
+};
+
+/// Thread safety: belongs to the communicating thread.
+class RankLinks {
+ public:
+  /// `fabric` outlives this. Others have this one's `longest` to begin.
+  explicit RankLinks(Fabric& fabric, const RankSilence& silence = {});
+
+  std::uint32_t rank() const { return fabric_->rank(); }
+  std::uint32_t rank_count() const { return fabric_->rank_count(); }
+  std::string name_of(std::uint32_t rank) const { return fabric_->name_of(rank); }
+  std::size_t frame_bytes() const { return fabric_->frame_bytes(); }
+
+  /// Puts a packet into the frame for another rank; false if there is no room while two are under way.
+  [[nodiscard]] bool put(std::uint32_t rank, const ItemHeader& header, std::span<const std::byte> bytes) {
+    return ways_[rank].put(header, bytes);
+  }
+  /// A word of this rank's, about a node if `target` says so; cut into several if it is long.
+  void say(std::uint32_t rank, Item item, std::span<const std::byte> bytes, std::uint32_t target = 0);
+  void say_to_all(Item item, std::span<const std::byte> bytes);
+  /// Sends what there is, as far as ways are free. Returns whether anything was sent.
+  bool flush();
+  bool has_said_all() const;
+
+  /// Takes some of the frames that have come and calls receive(rank, header, bytes) for each item. Returns whether there was one.
+  /// Throws FabricError, when the items of a frame are received, if one before it is lost.
+  template <class Receive>
+  bool take(const Receive& receive) {
+    int taken = 0;
+    for (; taken < takes_at_once; ++taken) {
+      const std::optional<Arrival> arrival = fabric_->take();
+      if (!arrival) {
+        break;
+      }
+      const FrameNumber expected = note(*arrival);
+      for_each_item(arrival->frame,
+                    [&](const ItemHeader& header, std::span<const std::byte> bytes) { receive(arrival->rank, header, bytes); });
+      expect_number(expected, *arrival);
+    }
+    return taken > 0;
+  }
+
+  /// Shows others that this rank lives; throws LostRank if one has been silent for too long.
+  void look_after();
+
+  /// Frames sent so far.
+  std::uint64_t frames_sent() const;
+  /// What is set aside for frames that are sent.
+  std::size_t room_bytes() const { return 2 * frame_bytes() * (rank_count() - 1); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr int takes_at_once = 16;
+
+  struct Peer {
+    FrameNumber frames_taken = 0;
+    Clock::time_point heard, spoken_to;
+  };
+
+  bool is_other(std::size_t rank) const { return rank != fabric_->rank(); }
+  /// Returns the number that it should have.
+  FrameNumber note(const Arrival& arrival);
+  void expect_number(FrameNumber expected, const Arrival& arrival) const;
+
+  Fabric* fabric_;
+  RankSilence silence_;
+  std::vector<RankWay> ways_;  ///< by rank, this one included
+  std::vector<Peer> peers_;    ///< likewise
+};
+
+}  // namespace dmpc::nodes

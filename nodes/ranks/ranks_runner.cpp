@@ -1,0 +1,376 @@
+#include "nodes/ranks/ranks_runner.h"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "core/base/expect.h"
+#include "nodes/processors.h"
+#include "nodes/ranks/counting_waves.h"
+#include "nodes/ranks/frame.h"
+#include "nodes/ranks/nap.h"
+#include "nodes/threads/node_threads.h"
+
+namespace dmpc::nodes {
+namespace {
+
+/// Before a packet in the outbox.
+using TargetIndex = std::uint32_t;
+/// Of a communicating thread that always has something to do, from one look at who is silent to the next.
+constexpr std::uint32_t turns_a_look = 256;
+
+std::vector<bool> here(std::size_t peer_count, const RankLinks& links) {
+  const auto node_count = static_cast<std::uint32_t>(peer_count - 1);
+  std::vector<bool> is_here;
+  for (std::uint32_t index = 0; index <= node_count; ++index) {
+    is_here.push_back(rank_of(index, node_count, links.rank_count()) == links.rank());
+  }
+  return is_here;
+}
+
+/// A packet under way has a place in its target's mailbox. So what is under way to nodes elsewhere, all of which may wait here,
+/// has as many as their mailboxes have together. Bytes are set aside when they are first written: of these places few ever are.
+MailboxCapacity outbox_of(std::span<const NodeSpecification> specifications, const std::vector<bool>& is_here) {
+  MailboxCapacity outbox{.small_front_bytes = sizeof(TargetIndex)};
+  for (std::size_t index = 0; index < specifications.size(); ++index) {
+    if (!is_here[index]) {
+      const MailboxCapacity& mailbox = specifications[index].mailbox;
+      outbox.small_slots += mailbox.small_slots;
+      outbox.bulk_slots += mailbox.bulk_slots;
+      outbox.bulk_payload_bytes = std::max(outbox.bulk_payload_bytes, mailbox.bulk_payload_bytes + sizeof(TargetIndex));
+    }
+  }
+  return outbox;
+}
+
+MemoryPlan plan_of(const MailboxCapacity& outbox) {
+  MemoryPlan plan;
+  plan[Category::mailbox] = outbox.bytes();
+  return plan;
+}
+
+std::size_t payload_bytes_max(std::span<const NodeSpecification> specifications) {
+  std::size_t most = small_payload_bytes;
+  for (const NodeSpecification& specification : specifications) {
+    most = std::max(most, specification.mailbox.bulk_payload_bytes);
+  }
+  return most;
+}
+
+/// What a failure is, for those who hear of it.
+enum class FailureKind : std::uint8_t { internal, room, fabric };
+
+/// How the last word of a rank travels, behind its text.
+struct Closing {
+  Ending ending;
+  FailureKind kind;
+};
+
+/// A rank's last word.
+struct LastWord {
+  Ending ending = Ending::none;
+  FailureKind kind = FailureKind::internal;  ///< of one that has failed
+  std::string text;                          ///< of one that has failed, or a line for each program of one that stalls
+};
+
+LastWord last_word_of(const NodeThreads& nodes) {
+  LastWord word{.ending = nodes.ending()};
+  if (word.ending == Ending::stalled) {
+    word.text = nodes.describe();
+  }
+  try {
+    if (nodes.failure()) {
+      std::rethrow_exception(nodes.failure());
+    }
+  } catch (const core::RoomError& error) {
+    word.kind = FailureKind::room;
+    word.text = error.what();
+  } catch (const FabricError& error) {
+    word.kind = FailureKind::fabric;
+    word.text = error.what();
+  } catch (const std::exception& error) {
+    word.text = error.what();
+  } catch (...) {
+    word.text = "something that is no error";
+  }
+  return word;
+}
+
+[[noreturn]] void fail_as(FailureKind kind, const std::string& text) {
+  switch (kind) {
+    case FailureKind::room:
+      throw core::RoomError(text);
+    case FailureKind::fabric:
+      throw FabricError(text);
+    case FailureKind::internal:
+      break;
+  }
+  throw core::InternalError(text);
+}
+
+template <class T>
+T value_of(std::span<const std::byte> bytes) {
+  core::expect(bytes.size() == sizeof(T), "a word has the size of its kind");
+  T value;
+  std::memcpy(&value, bytes.data(), sizeof(T));
+  return value;
+}
+
+template <class T>
+std::span<const std::byte> bytes_of(const T& value) {
+  return std::as_bytes(std::span(&value, 1));
+}
+
+}  // namespace
+
+/// Thread safety: the nodes' threads touch `nodes` and, through it, the outbox; all else belongs to the communicating thread.
+struct RanksRunner::Implementation {
+  Implementation(std::span<const NodeSpecification> specifications, RankLinks& to, const std::optional<Chaos>& chaos,
+                 Observer* observer)
+      : links(to),
+        disturbance(chaos),
+        node_count(static_cast<std::uint32_t>(specifications.size() - 1)),
+        is_here(here(specifications.size(), to)),
+        outbox_capacity(outbox_of(specifications, is_here)),
+        outbox_memory(plan_of(outbox_capacity)),
+        outbox(outbox_capacity, outbox_memory),
+        outlet{is_here, outbox},
+        nodes(specifications, chaos, observer, &outlet),
+        waves(to.rank_count()),
+        last_words(to.rank_count()),
+        reports(specifications.size()) {
+    core::expect(node_count >= to.rank_count(), "each rank has a node");
+    core::expect(frame_bytes_for(payload_bytes_max(specifications)) <= to.frame_bytes(), "every packet fits a frame");
+  }
+
+  RunEnd run(std::stop_token stop) {
+    core::expect(!started, "a runner runs once");
+    started = true;
+    const std::stop_callback on_stop(std::move(stop), [this] { nodes.end(Ending::interrupted); });
+    nodes.start();
+    while (true) {
+      try {
+        communicate_until([this] { return is_closed(); });
+        return judge();
+      } catch (const LostRank&) {
+        nodes.fail(std::current_exception());
+        nodes.join();
+        throw;
+      } catch (...) {
+        if (is_closed()) {
+          throw;
+        }
+        nodes.fail(std::current_exception());  // of which the others are to hear
+      }
+    }
+  }
+
+  template <class IsDone>
+  void communicate_until(const IsDone& is_done) {
+    for (std::uint32_t turn = 0; !is_done(); ++turn) {
+      bool has_moved = links.take([this](auto&&... item) { receive(item...); });
+      if (nodes.ending() == Ending::none) {
+        has_moved = send_packets() || has_moved;
+        count_if_quiet();
+      } else if (!is_closing) {
+        close();
+      }
+      has_moved = links.flush() || has_moved;
+      if (!has_moved || turn % turns_a_look == 0) {
+        links.look_after();
+      }
+      has_moved ? nap.end() : rest();
+    }
+  }
+
+  void receive(std::uint32_t rank, const ItemHeader& header, std::span<const std::byte> bytes) {
+    LastWord& word = last_words[rank];
+    const auto append = [&bytes](std::string& text) { text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size()); };
+    switch (header.item) {
+      case Item::packet:
+        ++traffic.packets_received;
+        return is_closing ? void() : NodeThreads::Bringing(nodes).bring(NodeId{header.target}, header.packet, bytes);
+      case Item::counts:
+        return waves.count(rank, value_of<Counts>(bytes));
+      case Item::text:
+        return append(word.text);
+      case Item::closing:
+        word.ending = value_of<Closing>(bytes).ending;
+        word.kind = value_of<Closing>(bytes).kind;
+        return nodes.end(word.ending);
+      case Item::report:
+        return append(reports.at(header.target));
+      case Item::reported:
+        ++ranks_reported;
+        return;
+    }
+    core::expect(false, "an item is of a kind that there is");
+  }
+
+  /// Out of the outbox into frames, as far as there is room. A way that is full holds the others up, but not for long: what
+  /// arrives at a rank has its place there, so frames are always taken.
+  bool send_packets() {
+    const std::uint64_t before = traffic.packets_sent;
+    outbox.drain_while([this](const Packet& packet) {
+      const auto target = value_of<TargetIndex>(packet.payload.first(sizeof(TargetIndex)));
+      const std::span<const std::byte> payload = packet.payload.subspan(sizeof(TargetIndex));
+      const ItemHeader header{.target = target,
+                              .packet = {.bytes = static_cast<std::uint32_t>(payload.size()),
+                                         .source = static_cast<std::uint16_t>(index_of(packet.source)),
+                                         .kind = packet.kind}};
+      const bool has_room = links.put(rank_of(target, node_count, links.rank_count()), header, payload);
+      traffic.packets_sent += has_room ? 1 : 0;
+      return has_room;
+    });
+    return traffic.packets_sent > before;
+  }
+
+  /// The order matters: nodes that sleep have put into the outbox what they had, and only what this thread brings wakes them.
+  bool is_quiet() { return nodes.all_sleep() && outbox.is_drained(); }
+
+  void count_if_quiet() {
+    if (!waves.has_counted(links.rank()) && is_quiet()) {
+      const Counts counts{traffic.packets_sent, traffic.packets_received, nodes.unfinished_count()};
+      waves.count(links.rank(), counts);
+      links.say_to_all(Item::counts, bytes_of(counts));
+    }
+    if (const std::optional<Counts> still = waves.end_wave()) {
+      nodes.end(still->unfinished == 0 ? Ending::finished : Ending::stalled);
+    }
+  }
+
+  /// The last words of this rank, when its nodes have stopped: how the run has ended here and, if not well, what there is to say.
+  void close() {
+    is_closing = true;
+    nodes.join();
+    const LastWord word = last_word_of(nodes);
+    if (!word.text.empty()) {
+      links.say_to_all(Item::text, std::as_bytes(std::span(word.text)));
+    }
+    links.say_to_all(Item::closing, bytes_of(Closing{word.ending, word.kind}));
+  }
+
+  /// All have said their last word.
+  bool is_closed() const {
+    const auto is_silent = [](const LastWord& word) { return word.ending == Ending::none; };
+    return is_closing && std::count_if(last_words.begin(), last_words.end(), is_silent) == 1 && links.has_said_all();
+  }
+
+  /// Every rank does so after the run, in which it is seen to that nothing else is under way.
+  std::vector<std::string> gather(const Tell& tell) {
+    std::vector<std::string> told = told_by(nodes.processors(), is_here.size(), tell);
+    if (links.rank() == 0) {
+      communicate_until([this] { return ranks_reported + 1 == links.rank_count(); });
+      for (std::size_t index = 0; index < told.size(); ++index) {
+        told[index] += reports[index];
+      }
+      return told;
+    }
+    for (std::uint32_t index = 0; index < told.size(); ++index) {
+      if (!told[index].empty()) {
+        links.say(0, Item::report, std::as_bytes(std::span(told[index])), index);
+      }
+    }
+    links.say(0, Item::reported, {});
+    communicate_until([this] { return links.has_said_all(); });
+    return told;
+  }
+
+  void rest() {
+    const std::chrono::nanoseconds time = nap.next();
+    if (time == time.zero()) {
+      sched_yield();
+    } else if (is_closing || !outbox.is_drained()) {  // what is in it waits for a frame to leave
+      std::this_thread::sleep_for(time);
+    } else if (outbox.fall_asleep()) {
+      // Whoever has roused this thread before it slept has left something to be seen.
+      const bool is_something_new = nodes.ending() != Ending::none || (nodes.all_sleep() && !waves.has_counted(links.rank()));
+      outbox.wait(is_something_new ? time.zero() : time);
+    }
+  }
+
+  RunEnd judge() const {
+    const auto gravity = [](const LastWord& word) { return std::pair(word.ending, !word.text.empty()); };
+    const auto gravest = std::max_element(last_words.begin(), last_words.end(),
+                                          [&](const LastWord& a, const LastWord& b) { return gravity(a) < gravity(b); });
+    switch (std::max(nodes.ending(), gravest->ending)) {  // as badly as anywhere
+      case Ending::failed:
+        if (nodes.failure()) {
+          std::rethrow_exception(nodes.failure());
+        }
+        fail_as(gravest->kind, links.name_of(static_cast<std::uint32_t>(gravest - last_words.begin())) + ": " + gravest->text);
+      case Ending::stalled:
+        throw core::InternalError(stall_text(disturbance) + nodes.describe() + texts());
+      case Ending::interrupted:
+        return RunEnd::interrupted;
+      default:
+        expect_nothing_lost();
+        return RunEnd::finished;
+    }
+  }
+
+  /// Of the other ranks.
+  std::string texts() const {
+    std::string texts;
+    for (const LastWord& word : last_words) {
+      texts += word.text;
+    }
+    return texts;
+  }
+
+  /// What was sent here or came here was received here or left.
+  void expect_nothing_lost() const {
+    nodes.expect_nothing_lies_about();
+    std::uint64_t sent = 0, received = 0;
+    for (const auto& processor : nodes.processors()) {
+      sent += total(processor->node.counters().sent).packets;
+      received += total(processor->node.counters().received).packets;
+    }
+    core::expect(sent + traffic.packets_received == received + traffic.packets_sent, "packets sent are packets received");
+  }
+
+  RankLinks& links;
+  std::optional<Chaos> disturbance;
+  std::uint32_t node_count;
+  std::vector<bool> is_here;
+  MailboxCapacity outbox_capacity;
+  LocalMemory outbox_memory;
+  Mailbox outbox;
+  Outlet outlet;
+  NodeThreads nodes;
+  CountingWaves waves;
+  std::vector<LastWord> last_words;  ///< of other ranks, as far as they have come
+  std::vector<std::string> reports;  ///< of other ranks' nodes, by node
+  std::uint32_t ranks_reported = 0;
+  RankTraffic traffic;
+  Nap nap;
+  bool started = false, is_closing = false;
+};
+
+RanksRunner::RanksRunner(std::span<const NodeSpecification> specifications, RankLinks& links, const std::optional<Chaos>& chaos,
+                         Observer* observer)
+    : implementation_(std::make_unique<Implementation>(specifications, links, chaos, observer)) {}
+RanksRunner::~RanksRunner() = default;
+
+RunEnd RanksRunner::run(std::stop_token stop) { return implementation_->run(std::move(stop)); }
+
+Node& RanksRunner::node(std::size_t index) { return implementation_->nodes.processor(index).node; }
+Program& RanksRunner::program(std::size_t index) { return *implementation_->nodes.processor(index).program; }
+bool RanksRunner::is_here(std::size_t index) const { return implementation_->nodes.is_here(index); }
+std::vector<std::string> RanksRunner::gather(const Tell& tell) { return implementation_->gather(tell); }
+
+RankTraffic RanksRunner::traffic() const {
+  RankTraffic traffic = implementation_->traffic;
+  traffic.frames_sent = implementation_->links.frames_sent();
+  traffic.waves = implementation_->waves.waves();
+  traffic.network_bytes = implementation_->outbox_capacity.bytes() + implementation_->links.room_bytes();
+  return traffic;
+}
+
+}  // namespace dmpc::nodes

@@ -1,0 +1,62 @@
+// Runs the node programs on several ranks, each a process with a share of the nodes, one thread a node, and a thread that
+// communicates.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "nodes/chaos.h"
+#include "nodes/ranks/rank_links.h"
+#include "nodes/runner.h"
+
+namespace dmpc::nodes {
+
+/// The rank of a node, or of the host, whose index is node_count: blocks keep neighbours together, the host is on rank 0. Each
+/// rank has a node where there are at least as many nodes as ranks.
+constexpr std::uint32_t rank_of(std::uint32_t index, std::uint32_t node_count, std::uint32_t rank_count) {
+  return index == node_count ? 0 : static_cast<std::uint32_t>(std::uint64_t{index} * rank_count / node_count);
+}
+
+/// What went between this rank and others.
+struct RankTraffic {
+  std::uint64_t packets_sent = 0, packets_received = 0;
+  std::uint64_t frames_sent = 0;
+  std::uint64_t waves = 0;        ///< that were counted until all stood still
+  std::size_t network_bytes = 0;  ///< set aside for the outbox and for frames that are sent; no node's memory
+};
+
+/// As Runner, but that node() and program() have this rank's nodes alone. The calling thread is the one that communicates.
+class RanksRunner final : public Runner {
+ public:
+  /// All ranks are given equal specifications, of all nodes, then the host; of those that are elsewhere no program is made. There
+  /// are at least as many nodes as ranks, and every packet fits a frame. `links` and `observer` outlive this. An observer is told
+  /// of this rank's nodes.
+  RanksRunner(std::span<const NodeSpecification> specifications, RankLinks& links,
+              const std::optional<Chaos>& chaos = std::nullopt, Observer* observer = nullptr);
+  ~RanksRunner() override;
+
+  /// To be called on all ranks. The end and a stall are found exactly, without a time-out. It ends alike on all ranks: what fails
+  /// on one fails on the others, with its rank and text; a stop that is requested on one stops all. A stall's report has all
+  /// nodes on rank 0, and its own on others. Throws FabricError if a frame is lost, LostRank if a rank is.
+  RunEnd run(std::stop_token stop) override;
+  Node& node(std::size_t index) override;
+  Program& program(std::size_t index) override;
+
+  bool is_here(std::size_t index) const override;
+  /// To be called on all ranks, or on none.
+  std::vector<std::string> gather(const Tell& tell) override;
+  /// After run().
+  RankTraffic traffic() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace dmpc::nodes

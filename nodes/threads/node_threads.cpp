@@ -1,0 +1,297 @@
+#include "nodes/threads/node_threads.h"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <cfenv>
+#include <thread>
+#include <utility>
+
+#include "core/base/expect.h"
+#include "nodes/processors.h"
+#include "nodes/threads/clock.h"
+
+namespace dmpc::nodes {
+namespace {
+
+bool packet_comes_soon(ThreadProcessor& self) {
+  for (int look = 0; look < self.looks.allowed() && self.mailbox.is_empty(); ++look) {
+    const std::uint64_t before_ns = nanoseconds(CLOCK_MONOTONIC);
+    sched_yield();
+    const std::uint64_t now_ns = nanoseconds(CLOCK_MONOTONIC);
+    if (now_ns - before_ns > Looks::long_yield_ns) {
+      self.looks.yielded_long(now_ns, nanoseconds(CLOCK_PROCESS_CPUTIME_ID));
+    }
+  }
+  self.looks.end();
+  return !self.mailbox.is_empty();
+}
+
+bool is_here(const Outlet* outlet, std::size_t index) { return outlet == nullptr || outlet->is_here[index]; }
+
+std::uint32_t count_here(const Outlet* outlet, std::size_t peer_count) {
+  return static_cast<std::uint32_t>(outlet == nullptr ? peer_count
+                                                      : std::count(outlet->is_here.begin(), outlet->is_here.end(), true));
+}
+
+}  // namespace
+
+std::string stall_text(const std::optional<Chaos>& chaos) {
+  return "all nodes sleep, nothing is under way, and the work is unfinished" +
+         (chaos ? " (chaos seed " + std::to_string(chaos->seed) + "):" : ":");
+}
+
+NodeThreads::NodeThreads(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos, Observer* observer,
+                         const Outlet* outlet)
+    : chaos_(chaos), observer_(observer), outlet_(outlet), awake_(count_here(outlet, specifications.size())), uncounted_(0) {
+  core::expect(!specifications.empty(), "a computer has at least the host");
+  core::expect(outlet == nullptr || outlet->is_here.size() == specifications.size(), "each node is here or elsewhere");
+  const auto peer_count = static_cast<std::uint32_t>(specifications.size());
+  const ThreadComputer computer{peer_count, *this, chaos_, observer_, start_ns_, std::thread::hardware_concurrency()};
+  by_index_.resize(peer_count);
+  for (std::uint32_t i = 0; i < peer_count; ++i) {
+    if (nodes::is_here(outlet, i)) {
+      processors_.push_back(std::make_unique<ThreadProcessor>(specifications[i], NodeId{i}, computer));
+      by_index_[i] = processors_.back().get();
+    }
+  }
+}
+
+NodeThreads::~NodeThreads() = default;
+
+void NodeThreads::deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) {
+  ThreadProcessor& source = *by_index_[header.source];
+  const bool may_wait = (source.patience.kinds >> header.kind & 1U) != 0;
+  PacketHeader sent = header;
+  const std::uint32_t index = index_of(target);
+  std::span<const std::byte> front;
+  if (by_index_[index] == nullptr) {
+    front = std::as_bytes(std::span(&index, 1));
+    sent.bytes += sizeof(index);
+  }
+  // What a sender sends one target arrives in order, so nothing overtakes what waits.
+  if (may_wait || (source.waiting_count > 0 && source.waiting_for == target)) {
+    return add_waiting(source, target, sent, payload, front, may_wait);
+  }
+  core::expect(mailbox_towards(target).push(sent, payload, count_towards(target), front),
+               "credits leave room in the target's mailbox");
+}
+
+void NodeThreads::Bringing::bring(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) {
+  core::expect(nodes_->processor(index_of(target)).mailbox.push(header, payload, nodes_->awake_),
+               "credits leave room in the target's mailbox");
+}
+
+Mailbox& NodeThreads::mailbox_towards(NodeId target) const {
+  ThreadProcessor* const here = by_index_[index_of(target)];
+  return here != nullptr ? here->mailbox : outlet_->outbox;
+}
+
+void NodeThreads::add_waiting(ThreadProcessor& source, NodeId target, const PacketHeader& header,
+                              std::span<const std::byte> payload, std::span<const std::byte> front, bool may_wait) {
+  core::expect(source.waiting_count == 0 || source.waiting_for == target, "packets that may wait have one target");
+  core::expect(mailbox_towards(target).add(source.waiting, header, payload, front), "credits leave room in the target's mailbox");
+  source.waiting_for = target;
+  if (++source.waiting_count >= source.patience.packets || !may_wait) {
+    hand_over(source);
+  }
+}
+
+void NodeThreads::hand_over(ThreadProcessor& source) {
+  mailbox_towards(source.waiting_for).hand_over(source.waiting, count_towards(source.waiting_for));
+  source.waiting_count = source.quanta_waited = 0;
+}
+
+void NodeThreads::start() {
+  start_ns_ = nanoseconds(CLOCK_MONOTONIC);
+  try {
+    start_threads();
+  } catch (const core::RoomError&) {
+    fail(std::make_exception_ptr(core::RoomError(too_few_threads(starts_.size() - 1))));
+  } catch (...) {
+    fail(std::current_exception());
+  }
+}
+
+void NodeThreads::start_threads() {
+  starts_.reserve(processors_.size());
+  for (const auto& processor : processors_) {
+    starts_.push_back({this, processor.get()});
+    processor->thread.start(processor->memory.plan()[Category::reserve], enter, &starts_.back());
+  }
+}
+
+void NodeThreads::join() {
+  for (const auto& processor : processors_) {
+    processor->thread.join();
+  }
+}
+
+std::string NodeThreads::too_few_threads(std::size_t started) const {
+  return "a computer of " + std::to_string(by_index_.size() - 1) + " nodes takes " + std::to_string(processors_.size()) +
+         " threads" + (outlet_ == nullptr ? "" : " here") + ", and this one lets dmpc start but " + std::to_string(started) +
+         ": ask for fewer nodes, or for a higher limit (ulimit -u, pids.max of a container)";
+}
+
+void NodeThreads::enter(void* start) {
+  const Start& self = *static_cast<Start*>(start);
+  self.nodes->run_node(*self.processor);
+}
+
+void NodeThreads::run_node(ThreadProcessor& self) {
+  std::fesetenv(FE_DFL_ENV);  // a library may have made threads flush to zero as it was loaded, which they inherit
+  NodeCounters& counters = self.node.counters();
+  const std::uint64_t start_ns = nanoseconds(CLOCK_MONOTONIC);
+  try {
+    while (ending() == Ending::none) {
+      step(self);
+    }
+  } catch (...) {
+    fail(std::current_exception());
+  }
+  counters.busy_ns = nanoseconds(CLOCK_THREAD_CPUTIME_ID);
+  counters.wall_ns = nanoseconds(CLOCK_MONOTONIC) - start_ns;
+}
+
+/// Receives all that has come and works one quantum; with nothing to do, sleeps until a packet comes or the run ends. A node that
+/// holds packets back does not sleep: they are under way.
+void NodeThreads::step(ThreadProcessor& self) {
+  if (self.sits_out()) {
+    return self.pass_idly();
+  }
+  self.mailbox.drain([this, &self](const Packet& packet) {
+    self.node.counters().received[packet.kind].add(packet.payload.size());
+    if (observer_ != nullptr) {
+      return receive_observed(self, packet);
+    }
+    self.program->receive(packet);
+  });
+  const bool has_more = work(self);
+  const bool holds_packets = self.holds_packets();
+  // Before it sleeps in any case, for an awake node alone keeps the others from finding that all is over.
+  if (!has_more || (self.waiting_count > 0 && ++self.quanta_waited >= patience_quanta_max)) {
+    hand_over(self);
+  }
+  if (!has_more && holds_packets) {
+    self.pass_idly();
+  } else if (!has_more && !packet_comes_soon(self) && !self.program->has_leftovers()) {
+    sleep(self);
+  }
+}
+
+bool NodeThreads::work(ThreadProcessor& self) {
+  if (self.program->finished()) {
+    return false;
+  }
+  ++self.node.counters().quanta;
+  if (observer_ != nullptr) {
+    return work_observed(self);
+  }
+  return self.program->work();
+}
+
+std::uint64_t NodeThreads::since_start_ns() const { return nanoseconds(CLOCK_MONOTONIC) - start_ns_; }
+
+bool NodeThreads::work_observed(ThreadProcessor& self) {
+  Span span = begin_span(self, Activity::work, 0);
+  const bool has_more = self.program->work();
+  end_span(self, span);
+  return has_more;
+}
+
+void NodeThreads::receive_observed(ThreadProcessor& self, const Packet& packet) {
+  Span span = begin_span(self, Activity::receive, packet.kind);
+  observer_->received({.node = self.node.id(),
+                       .peer = packet.source,
+                       .kind = packet.kind,
+                       .call = span.call,
+                       .payload = packet.payload,
+                       .times = {.received_ns = span.begin_ns}});
+  self.program->receive(packet);
+  end_span(self, span);
+}
+
+Span NodeThreads::begin_span(ThreadProcessor& self, Activity activity, PacketKind packet) const {
+  return {.node = self.node.id(),
+          .activity = activity,
+          .packet = packet,
+          .call = ++self.call,
+          .begin_ns = since_start_ns(),
+          .before = self.charged};
+}
+
+void NodeThreads::end_span(ThreadProcessor& self, Span& span) const {
+  span.end_ns = since_start_ns();
+  span.own_ns = span.end_ns - span.begin_ns;
+  span.after = self.charged = self.program->charges();
+  observer_->ended(span, *self.program);
+}
+
+void NodeThreads::sleep(ThreadProcessor& self) {
+  if (!go_to_sleep(self)) {
+    return;
+  }
+  ++self.node.counters().sleeps;
+  const std::uint64_t start_ns = nanoseconds(CLOCK_MONOTONIC);
+  self.mailbox.wait();
+  self.node.counters().asleep_ns += nanoseconds(CLOCK_MONOTONIC) - start_ns;
+}
+
+/// Whether there is something to sleep for.
+bool NodeThreads::go_to_sleep(ThreadProcessor& self) {
+  // The order matters: ASLEEP first, so that end() either finds it or is seen; then the count, so that zero means all ASLEEP.
+  if (!self.mailbox.fall_asleep() || ending() != Ending::none) {
+    return false;
+  }
+  if (!awake_.leave()) {
+    return true;
+  }
+  if (outlet_ != nullptr) {
+    outlet_->outbox.rouse();
+    return true;
+  }
+  end(unfinished_count() == 0 ? Ending::finished : Ending::stalled);  // every node sleeps: the programs stand still
+  return false;
+}
+
+void NodeThreads::fail(std::exception_ptr failure) {
+  if (!failing_.exchange(true, std::memory_order_relaxed)) {
+    failure_ = std::move(failure);
+    end(Ending::failed);
+  }
+}
+
+void NodeThreads::end(Ending ending) {
+  Ending none = Ending::none;
+  // Release: partner of the load in ending().
+  if (!ending_.compare_exchange_strong(none, ending, std::memory_order_release, std::memory_order_relaxed)) {
+    return;
+  }
+  for (const auto& processor : processors_) {
+    processor->mailbox.rouse();
+  }
+  if (outlet_ != nullptr) {
+    outlet_->outbox.rouse();
+  }
+}
+
+std::uint32_t NodeThreads::unfinished_count() const {
+  return static_cast<std::uint32_t>(std::count_if(processors_.begin(), processors_.end(),
+                                                  [](const auto& processor) { return !processor->program->finished(); }));
+}
+
+std::string NodeThreads::describe() const { return nodes::describe(processors_); }
+
+void NodeThreads::expect_nothing_lies_about() const {
+  for (const auto& processor : processors_) {
+    core::expect(!processor->mailbox.has_packets(), "at the end all mailboxes are empty");
+    core::expect(!processor->held || processor->held->empty(), "at the end no packet is held back");
+  }
+}
+
+ThreadProcessor& NodeThreads::processor(std::size_t index) const {
+  core::expect(is_here(index), "only a node that is here can be looked at");
+  return *by_index_[index];
+}
+
+}  // namespace dmpc::nodes

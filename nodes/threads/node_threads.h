@@ -1,0 +1,131 @@
+// The nodes of this process, each on a thread of its own: all of a computer's, or a rank's share of them.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "nodes/awake_count.h"
+#include "nodes/chaos.h"
+#include "nodes/mailbox.h"
+#include "nodes/node.h"
+#include "nodes/observer.h"
+#include "nodes/runner.h"
+#include "nodes/threads/thread_processor.h"
+
+namespace dmpc::nodes {
+
+/// How a run ends, the gravest last. The first to say so decides in a process.
+enum class Ending : std::uint8_t { none, finished, interrupted, stalled, failed };
+
+/// Where a computer has nodes in other processes, too.
+struct Outlet {
+  std::vector<bool> is_here;  ///< by node, the host last
+  /// Where packets for the others go, each behind its target's index (4 bytes). Its receiver is roused when all nodes here sleep.
+  Mailbox& outbox;
+};
+
+/// What is said of a stall, before a line for each program.
+std::string stall_text(const std::optional<Chaos>& chaos);
+
+/// Thread safety: deliver() and what threads run belongs to the nodes' threads; end(), fail() and ending() may be called from
+/// any. What is said to be the bringer's is called by one thread that is no node's, the only one that brings packets from
+/// elsewhere; everything else by the thread that makes this, while no node's thread exists.
+class NodeThreads final : public Network {
+ public:
+  /// Makes the programs of the nodes that are here; without an outlet those of all. `observer`, if there is one, is told on the
+  /// nodes' threads; it and the outlet outlive this.
+  NodeThreads(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos, Observer* observer,
+              const Outlet* outlet = nullptr);
+  ~NodeThreads() override;
+
+  void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) override;
+
+  /// Starts them; what keeps one from starting is a failure.
+  void start();
+  /// Waits until all have left.
+  void join();
+
+  /// Ends the run, unless something else has; every thread leaves within a quantum. Without an outlet it ends by itself when all
+  /// nodes sleep.
+  void end(Ending ending);
+  /// Ends it with this, unless something else has failed.
+  void fail(std::exception_ptr failure);
+  Ending ending() const { return ending_.load(std::memory_order_acquire); }  // partner: end()
+  /// What the run failed with; after join().
+  const std::exception_ptr& failure() const { return failure_; }
+
+  /// The bringer's: as long as it lives, packets may be brought.
+  class Bringing {
+   public:
+    explicit Bringing(NodeThreads& nodes) : nodes_(&nodes) { nodes_->awake_.raise(); }
+    Bringing(const Bringing&) = delete;
+    Bringing& operator=(const Bringing&) = delete;
+    ~Bringing() { static_cast<void>(nodes_->awake_.leave()); }
+    /// Puts a packet into the mailbox of its target, which is here, and has room by its sender's credit.
+    void bring(NodeId target, const PacketHeader& header, std::span<const std::byte> payload);
+
+   private:
+    NodeThreads* nodes_;
+  };
+  /// The bringer's: whether all nodes here sleep, and will until a packet is brought. If so, what their programs say of
+  /// themselves may be asked.
+  bool all_sleep() const { return awake_.is_zero(); }
+  std::uint32_t unfinished_count() const;
+  /// A line for each program that is here.
+  std::string describe() const;
+
+  /// Expects that nothing lies in a mailbox or is held back; after a regular end.
+  void expect_nothing_lies_about() const;
+
+  const std::vector<std::unique_ptr<ThreadProcessor>>& processors() const { return processors_; }
+  /// Expects that it is here.
+  ThreadProcessor& processor(std::size_t index) const;
+  bool is_here(std::size_t index) const { return by_index_.at(index) != nullptr; }
+
+ private:
+  struct Start {
+    NodeThreads* nodes;
+    ThreadProcessor* processor;
+  };
+
+  Mailbox& mailbox_towards(NodeId target) const;
+  void add_waiting(ThreadProcessor& source, NodeId target, const PacketHeader& header, std::span<const std::byte> payload,
+                   std::span<const std::byte> front, bool may_wait);
+  void hand_over(ThreadProcessor& source);
+  AwakeCount& count_towards(NodeId target) { return by_index_[index_of(target)] != nullptr ? awake_ : uncounted_; }
+  void start_threads();
+  std::string too_few_threads(std::size_t started) const;
+  static void enter(void* start);
+  void run_node(ThreadProcessor& self);
+  void step(ThreadProcessor& self);
+  bool work(ThreadProcessor& self);
+  std::uint64_t since_start_ns() const;
+  bool work_observed(ThreadProcessor& self);
+  void receive_observed(ThreadProcessor& self, const Packet& packet);
+  Span begin_span(ThreadProcessor& self, Activity activity, PacketKind packet) const;
+  void end_span(ThreadProcessor& self, Span& span) const;
+  void sleep(ThreadProcessor& self);
+  bool go_to_sleep(ThreadProcessor& self);
+
+  std::optional<Chaos> chaos_;
+  Observer* observer_;
+  const Outlet* outlet_;
+  std::uint64_t start_ns_ = 0;  ///< of the run; written before the threads start
+  AwakeCount awake_;            ///< nodes, and the bringer while it brings
+  AwakeCount uncounted_;        ///< of the outbox, whose receiver is no node: read by nobody
+  alignas(cache_line_bytes) std::atomic<Ending> ending_{Ending::none};
+  std::atomic<bool> failing_{false};
+  std::exception_ptr failure_;                                ///< written once, before the release in end(); read after the joins
+  std::vector<std::unique_ptr<ThreadProcessor>> processors_;  ///< those that are here
+  std::vector<ThreadProcessor*> by_index_;                    ///< of all; nothing for those that are elsewhere
+  std::vector<Start> starts_;
+};
+
+}  // namespace dmpc::nodes

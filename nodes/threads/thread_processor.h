@@ -1,0 +1,149 @@
+// One node of those whose programs run on threads: its memory, mailbox, program, and what it knows of the run.
+#pragma once
+
+#include <sched.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "core/base/expect.h"
+#include "nodes/atomics.h"
+#include "nodes/chaos.h"
+#include "nodes/local_memory.h"
+#include "nodes/mailbox.h"
+#include "nodes/node.h"
+#include "nodes/observer.h"
+#include "nodes/patience.h"
+#include "nodes/runner.h"
+#include "nodes/threads/clock.h"
+#include "nodes/threads/held_packets.h"
+#include "nodes/threads/looks.h"
+#include "nodes/threads/thread.h"
+#include "nodes/threads/threads_runner.h"
+
+namespace dmpc::nodes {
+
+/// Quanta that pass at a node which pauses, or only waits for packets held back to fall due, until it gives its core to others.
+/// Giving it away in each would cost a time slice each where other processes want the core.
+inline constexpr std::uint32_t quanta_per_yield = 16;
+
+/// A place for the packets that chaos holds back at this node, if it does.
+inline std::optional<HeldPackets> held_packets_of(const std::optional<Chaos>& chaos, const NodeSpecification& specification,
+                                                  NodeId id, LocalMemory& memory, Network& network) {
+  if (!chaos || specification.held_bytes == 0) {
+    return std::nullopt;
+  }
+  return HeldPackets(*chaos, id, memory, specification.held_bytes, network);
+}
+
+/// What all processors of a computer have in common.
+struct ThreadComputer {
+  std::uint32_t peer_count;
+  Network& network;
+  const std::optional<Chaos>& chaos;
+  Observer* observer;
+  const std::uint64_t& start_ns;  ///< of the run
+  std::size_t core_count;         ///< 0: not known
+};
+
+/// Between a program and the network, chaos or not: tells an observer what is sent, when the program sends it.
+class Telling final : public Network {
+ public:
+  /// `call` is the number of the program's. All outlive this.
+  Telling(Observer& observer, const std::uint64_t& start_ns, const std::uint32_t& call, Network& next)
+      : observer_(&observer), start_ns_(&start_ns), call_(&call), next_(&next) {}
+
+  void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) override {
+    const std::uint64_t now_ns = nanoseconds(CLOCK_MONOTONIC) - *start_ns_;
+    observer_->sent({.node = NodeId{header.source},
+                     .peer = target,
+                     .kind = header.kind,
+                     .call = *call_,
+                     .payload = payload,
+                     .times = {.sending_ns = now_ns, .left_ns = now_ns}});
+    next_->deliver(target, header, payload);
+  }
+
+ private:
+  Observer* observer_;
+  const std::uint64_t* start_ns_;
+  const std::uint32_t* call_;
+  Network* next_;
+};
+
+/// One node with all that belongs to it. On cache lines of its own, so that neighbours do not disturb each other's counters.
+struct alignas(cache_line_bytes) ThreadProcessor {
+  ThreadProcessor(const NodeSpecification& specification, NodeId id, const ThreadComputer& computer)
+      : memory(specification.plan),
+        mailbox(specification.mailbox, memory),
+        held(held_packets_of(computer.chaos, specification, id, memory, computer.network)),
+        patience(specification.patience),
+        looks(looks_before_sleep(computer.peer_count, computer.core_count), computer.core_count),
+        node(id, computer.peer_count, memory, way_out(computer)) {
+    core::expect(specification.plan[Category::reserve] >= thread_stack_bytes_min, "a plan reserves room for the thread's stack");
+    if (computer.chaos) {
+      pauses.emplace(*computer.chaos, id);
+    }
+    program = specification.make_program(node);
+    core::expect(program != nullptr, "a specification makes a program");
+    memory.seal();
+  }
+
+  /// Where the program's packets go first.
+  Network& way_out(const ThreadComputer& computer) {
+    Network& next = held ? *held : computer.network;
+    return computer.observer == nullptr ? next : telling.emplace(*computer.observer, computer.start_ns, call, next);
+  }
+
+  /// Whether this node, being slow, lets the next quantum pass.
+  bool sits_out() {
+    if (!pauses) {
+      return false;
+    }
+    if (quanta_to_run == 0) {
+      quanta_to_run = pauses->next_quanta() + 1;
+    }
+    --quanta_to_run;
+    node.counters().sat_out += quanta_to_run > 0 ? 1 : 0;
+    return quanta_to_run > 0;
+  }
+
+  /// Hands on the packets whose time has come; returns whether others are still held back.
+  bool holds_packets() {
+    if (!held) {
+      return false;
+    }
+    held->pass_quantum();
+    node.counters().held = held->count();
+    return !held->empty();
+  }
+
+  /// A quantum in which chaos alone keeps the node from sleeping.
+  void pass_idly() {
+    if (++quanta_idle % quanta_per_yield == 0) {
+      sched_yield();
+    }
+  }
+
+  LocalMemory memory;
+  Mailbox mailbox;
+  std::optional<HeldPackets> held;
+  Patience patience;
+  Mailbox::Batch waiting;  ///< packets sent that may wait, in slots of their target
+  NodeId waiting_for{};    ///< their target
+  std::uint32_t waiting_count = 0, quanta_waited = 0;
+  Looks looks;                     ///< at its mailbox before it sleeps
+  std::optional<Telling> telling;  ///< if somebody looks on
+  Node node;
+  std::unique_ptr<Program> program;
+  std::optional<ChaosPauses> pauses;
+  std::uint32_t quanta_idle = 0;
+  std::uint32_t call = 0;           ///< number of the program's call, if somebody looks on
+  Charges charged;                  ///< until the last one's end, likewise
+  std::uint32_t quanta_to_run = 0;  ///< this many quanta from now the node runs one
+  Thread thread;
+};
+
+}  // namespace dmpc::nodes

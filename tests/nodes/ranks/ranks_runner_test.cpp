@@ -1,0 +1,261 @@
+#include "nodes/ranks/ranks_runner.h"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cstdint>
+#include <numeric>
+#include <stop_token>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "tests/nodes/toy_machine.h"
+#include "tests/nodes/toy_programs.h"
+#include "tests/support/loopback_ranks.h"
+#include "tests/support/scaled.h"
+
+namespace dmpc::tests {
+namespace {
+
+using namespace nodes;
+
+/// What a rank's run came to.
+struct RankRun {
+  RunEnd end;
+  RankTraffic traffic;
+};
+
+constexpr RankSilence short_silence{.life_sign = std::chrono::milliseconds(50), .longest = std::chrono::milliseconds(1000)};
+
+/// Runs `specifications` on so many ranks, and looks at each rank's runner with look(runner) after a regular end.
+template <class Look>
+std::vector<RankResult<RankRun>> run_on(std::uint32_t ranks, const std::vector<NodeSpecification>& specifications,
+                                        const Look& look, const LoopbackTrouble& trouble = {}, std::stop_token stop = {},
+                                        const RankSilence& silence = {}) {
+  return on_ranks(ranks, trouble, [&](Fabric& fabric) {
+    RankLinks links(fabric, silence);
+    RanksRunner runner(specifications, links);
+    const RunEnd end = runner.run(fabric.rank() + 1 == ranks ? stop : std::stop_token());
+    look(runner);
+    return RankRun{end, runner.traffic()};
+  });
+}
+
+constexpr auto no_look = [](RanksRunner& /*runner*/) {};
+
+/// Expects that all ranks have ended regularly, and that nothing is lost between them; returns the packets between them.
+std::uint64_t check_ended(const std::vector<RankResult<RankRun>>& results) {
+  std::uint64_t sent = 0, received = 0;
+  for (const RankResult<RankRun>& result : results) {
+    CHECK(result.failure_text() == "");
+    CHECK((result.value && result.value->end == RunEnd::finished));
+    if (result.value) {
+      sent += result.value->traffic.packets_sent;
+      received += result.value->traffic.packets_received;
+    }
+  }
+  CHECK(sent == received);
+  return sent;
+}
+
+/// Calls check(program, index) for each program of type T that is on the runner's rank.
+template <class T, class Check>
+void check_programs(RanksRunner& runner, std::uint32_t peers, const Check& check) {
+  for (std::uint32_t i = 0; i < peers; ++i) {
+    if (runner.is_here(i)) {
+      check(program_of<T>(runner, i), i);
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("blocks of nodes are on each rank, the host on rank 0") {
+  CHECK(rank_of(0, 5, 3) == 0);
+  CHECK(rank_of(1, 5, 3) == 0);
+  CHECK(rank_of(2, 5, 3) == 1);
+  CHECK(rank_of(3, 5, 3) == 1);
+  CHECK(rank_of(4, 5, 3) == 2);
+  CHECK(rank_of(5, 5, 3) == 0);
+  for (std::uint32_t ranks = 1; ranks < 20; ++ranks) {
+    for (std::uint32_t index = 0; index + 1 < ranks; ++index) {
+      CHECK(rank_of(index + 1, ranks, ranks) == rank_of(index, ranks, ranks) + 1);  // none is without a node
+    }
+  }
+}
+
+TEST_CASE("programs that are finished from the start end the run on every rank") {
+  for (const std::uint32_t ranks : {1U, 2U, 3U, 5U}) {
+    CHECK(check_ended(run_on(ranks, equal_nodes(8, {}, making<ToyProgram>()), no_look)) == 0);
+  }
+}
+
+TEST_CASE("a token goes round the ring across ranks") {
+  for (const std::uint32_t ranks : {1U, 2U, 3U, 5U}) {
+    const auto check = [](const TokenRound& program, std::uint32_t /*index*/) { CHECK(program.passed() == 20); };
+    const auto look = [&](RanksRunner& runner) { check_programs<TokenRound>(runner, 8, check); };
+    const std::uint64_t crossed = check_ended(run_on(ranks, equal_nodes(8, TokenRound::mailbox, making<TokenRound>(20U)), look));
+    CHECK(crossed == (ranks == 1 ? 0U : 20U * ranks));  // the host sits beside node 0
+  }
+}
+
+TEST_CASE("every request is answered across ranks, with one credit or many, however late frames are") {
+  for (const std::uint32_t ranks : {1U, 2U, 3U, 5U}) {
+    for (const auto& [peers, window] : {std::pair{6U, 1U}, std::pair{6U, 7U}, std::pair{24U, 2U}}) {
+      for (const std::uint32_t late : {0U, 9U}) {
+        CAPTURE(ranks);
+        CAPTURE(peers);
+        CAPTURE(window);
+        const auto check = [](const Asker& program, std::uint32_t /*index*/) { CHECK(program.all_right()); };
+        const auto look = [&, count = peers](RanksRunner& runner) { check_programs<Asker>(runner, count, check); };
+        check_ended(run_on(ranks, equal_nodes(peers, Asker::mailbox(peers, window), making<Asker>(20U, window)), look,
+                           {.seed = peers, .late_looks_max = late}));
+      }
+    }
+  }
+}
+
+TEST_CASE("many nodes on many ranks send to one, each in order, each within its credit") {
+  const auto look = [](RanksRunner& runner) {
+    if (runner.is_here(20)) {
+      CHECK(program_of<AllToHost>(runner, 20).in_order());
+      CHECK(total(runner.node(20).counters().received).packets == 20 * 50);
+    }
+  };
+  for (const std::uint32_t ranks : {2U, 5U}) {
+    check_ended(run_on(ranks, equal_nodes(21, AllToHost::mailbox(21), making<AllToHost>(50U)), look, {.late_looks_max = 3}));
+  }
+}
+
+TEST_CASE("packets that may wait arrive at another rank in order, overtaken by none") {
+  std::vector<std::uint32_t> expected(Patient::count);
+  std::iota(expected.begin(), expected.end(), 0);
+  auto specifications = equal_nodes(3, Patient::mailbox, making<ToyProgram>());
+  specifications[1].make_program = making<Patient>(6U);
+  specifications[1].patience = {.kinds = 1U << 1U, .packets = 5};
+  specifications[2].make_program = making<Patient>(6U);
+  const auto look = [&](RanksRunner& runner) {
+    if (runner.is_here(2)) {
+      CHECK(program_of<Patient>(runner, 2).received() == expected);
+    }
+  };
+  CHECK(check_ended(run_on(2, specifications, look)) == Patient::count);
+}
+
+TEST_CASE("full frames are few, and hold what their way has no room for") {
+  const auto results =
+      run_on(2, equal_nodes(12, Asker::mailbox(12, 40), making<Asker>(200U, 40U)), no_look, {.late_looks_max = 20});
+  const std::uint64_t packets = check_ended(results);
+  CHECK(results[0].value->traffic.frames_sent + results[1].value->traffic.frames_sent < packets / 4);
+}
+
+TEST_CASE("a stall is found on all ranks, and the report of rank 0 has every node") {
+  const auto results = run_on(2, equal_nodes(4, {}, making<Waiter>()), no_look);
+  const std::string report = results[0].failure_text();
+  CHECK(report.find("all nodes sleep") != std::string::npos);
+  CHECK(report.find("node 0 (finished): waits for Godot") != std::string::npos);
+  CHECK(report.find("node 1: waits for Godot") != std::string::npos);
+  CHECK(report.find("node 2: waits for Godot") != std::string::npos);
+  CHECK(report.find("host: waits for Godot") != std::string::npos);
+  CHECK(results[1].failure_text().find("node 2: waits for Godot") != std::string::npos);
+}
+
+TEST_CASE("an exception of a program ends the run on all ranks, and others say where it was") {
+  auto specifications = equal_nodes(8, {}, making<Waiter>());
+  specifications[3].make_program = making<Worker>(true);
+  const auto results = run_on(3, specifications, no_look);
+  CHECK(results[0].failure_text() == "rank 1: the hundredth quantum");
+  CHECK(results[1].failure_text() == "the hundredth quantum");
+  CHECK(results[2].failure_text() == "rank 1: the hundredth quantum");
+}
+
+TEST_CASE("a mailbox smaller than the credits is found out by the rank whose node it is") {
+  const auto results =
+      run_on(2, equal_nodes(5, {.small_slots = 1, .bulk_slots = 1, .bulk_payload_bytes = 200}, making<Asker>(50U, 40U)), no_look);
+  CHECK(results[0].failure_text().find("credits leave room") != std::string::npos);
+  CHECK(results[1].failure_text().find("credits leave room") != std::string::npos);
+}
+
+TEST_CASE("a stop that is requested on one rank interrupts all, workers and sleepers alike") {
+  auto specifications = equal_nodes(8, {}, making<Waiter>());
+  specifications[0].make_program = making<Worker>(false);
+  std::stop_source stop;
+  std::jthread stopper([&stop] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    stop.request_stop();
+  });
+  for (const RankResult<RankRun>& result : run_on(3, specifications, no_look, {}, stop.get_token())) {
+    CHECK(result.failure_text() == "");
+    CHECK((result.value && result.value->end == RunEnd::interrupted));
+  }
+}
+
+TEST_CASE("a frame that is lost is found out, whichever it is") {
+  for (std::uint64_t frame = 0; frame < 6; ++frame) {
+    CAPTURE(frame);
+    const auto results = run_on(3, equal_nodes(7, Asker::mailbox(7, 2), making<Asker>(20U, 2U)), no_look,
+                                {.seed = frame, .late_looks_max = 4, .loss = LoopbackTrouble::Loss{1, 2, frame}});
+    for (const RankResult<RankRun>& result : results) {
+      CHECK(result.failure_text().find("a frame from rank 1 to rank 2 is lost") != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("a rank of which nothing is heard is named") {
+  const auto results =
+      run_on(3, equal_nodes(7, TokenRound::mailbox, making<TokenRound>(20U)), no_look, {.dead_rank = 2}, {}, short_silence);
+  CHECK(results[0].failure_text() == "rank 2 is lost: nothing has been heard of it for 1000 ms");
+  CHECK(results[1].failure_text() == "rank 2 is lost: nothing has been heard of it for 1000 ms");
+}
+
+TEST_CASE("a rank whose nodes work for long without a word is not taken for lost") {
+  class WorksAlone : public ToyProgram {
+   public:
+    using ToyProgram::ToyProgram;
+    bool work() override {
+      if (index() == 0 && !is_done_) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+      }
+      is_done_ = true;
+      return false;
+    }
+    bool finished() const override { return is_done_; }
+
+   private:
+    bool is_done_ = false;
+  };
+  check_ended(run_on(2, equal_nodes(3, {}, making<WorksAlone>()), no_look, {}, {}, short_silence));
+}
+
+TEST_CASE("what nodes have to say after a run comes to rank 0, however long it is") {
+  const auto text = [](std::size_t index) { return std::string(index * 20'000, static_cast<char>('a' + index)); };
+  const auto results = on_ranks(3, {.late_looks_max = 3}, [&](Fabric& fabric) {
+    RankLinks links(fabric);
+    RanksRunner runner(equal_nodes(6, TokenRound::mailbox, making<TokenRound>(3U)), links);
+    CHECK(runner.run({}) == RunEnd::finished);
+    return runner.gather(text);
+  });
+  for (std::size_t index = 0; index < 6; ++index) {
+    CHECK(results[0].value->at(index) == text(index));
+  }
+  CHECK(results[1].value->at(2) == text(2));
+  CHECK(results[1].value->at(4).empty());
+}
+
+TEST_CASE("a packet that fits no frame is refused before the run") {
+  const auto results = on_ranks(2, {}, [&](Fabric& fabric) {
+    RankLinks links(fabric);
+    RanksRunner(equal_nodes(4, {.bulk_slots = 1, .bulk_payload_bytes = frame_bytes_min}, making<ToyProgram>()), links);
+    return 0;
+  });
+  CHECK(results[0].failure_text().find("every packet fits a frame") != std::string::npos);
+}
+
+TEST_CASE("a computer with fewer nodes than ranks is refused") {
+  for (const RankResult<RankRun>& result : run_on(3, equal_nodes(3, {}, making<ToyProgram>()), no_look)) {
+    CHECK(result.failure_text().find("each rank has a node") != std::string::npos);
+  }
+}
+
+}  // namespace dmpc::tests

@@ -1,0 +1,175 @@
+// Programs for tests of runners: they ask each other, send all to one, wait in vain, work for ever.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "nodes/runner.h"
+#include "tests/nodes/toy_machine.h"
+
+namespace dmpc::tests {
+
+template <class T>
+T& program_of(nodes::Runner& runner, std::size_t index) {
+  return dynamic_cast<T&>(runner.program(index));
+}
+
+inline constexpr nodes::Channel requests = 0;
+inline constexpr nodes::Channel replies = 1;
+inline constexpr nodes::PacketKind request = 1;
+inline constexpr nodes::PacketKind reply = 2;
+
+/// Asks every other node `count` times, with `window` requests to each under way at most; answers by a bulk packet.
+class Asker : public ToyProgram {
+ public:
+  struct Answer {
+    std::uint64_t question;
+    std::array<std::uint64_t, 15> words;
+  };
+
+  static nodes::MailboxCapacity mailbox(std::uint32_t peer_count, std::uint32_t window) {
+    return {.small_slots = (peer_count - 1) * window,  // every other node's requests under way to this one
+            .bulk_slots = (peer_count - 1) * window,   // the replies to this node's own
+            .bulk_payload_bytes = sizeof(Answer)};
+  }
+
+  Asker(nodes::Node& node, std::uint32_t count, std::uint32_t window) : ToyProgram(node), left_(node.peer_count(), count) {
+    left_[index()] = 0;
+    for (std::uint32_t i = 0; i < node.peer_count(); ++i) {
+      node.grant(nodes::NodeId{i}, requests, window);
+    }
+    unanswered_ = std::uint64_t{count} * (node.peer_count() - 1);
+  }
+
+  void receive(const nodes::Packet& packet) override { packet.kind == request ? answer(packet) : take(packet); }
+
+  /// Sends as long as credits last; a refused question stays where it is.
+  bool work() override {
+    for (std::uint32_t i = 0; i < left_.size(); ++i) {
+      if (left_[i] > 0 && node().try_send(nodes::NodeId{i}, requests, request, std::uint64_t{left_[i]})) {
+        --left_[i];
+        return true;
+      }
+    }
+    return false;
+  }
+
+  bool finished() const override { return unanswered_ == 0; }
+  std::string describe() const override { return std::to_string(unanswered_) + " unanswered"; }
+  bool all_right() const { return wrong_ == 0; }
+
+ private:
+  void answer(const nodes::Packet& packet) {
+    const auto question = packet.as<std::uint64_t>();
+    node().grant(packet.source, replies);  // its place was reserved when the request left
+    node().send_reserved(packet.source, replies, reply, Answer{question, {question * 3}});
+  }
+  void take(const nodes::Packet& packet) {
+    const auto answer = packet.as<Answer>();
+    wrong_ += answer.words[0] == 3 * answer.question ? 0 : 1;
+    --unanswered_;
+    node().grant(packet.source, requests);
+  }
+
+  std::vector<std::uint32_t> left_;
+  std::uint64_t unanswered_ = 0;
+  std::uint64_t wrong_ = 0;
+};
+
+/// Every node sends the host `count` numbers, one credit each, returned by acknowledgement; the host checks the order.
+class AllToHost : public ToyProgram {
+ public:
+  static nodes::MailboxCapacity mailbox(std::uint32_t peer_count) { return {.small_slots = peer_count}; }
+
+  AllToHost(nodes::Node& node, std::uint32_t count) : ToyProgram(node), count_(count), next_of_(node.peer_count(), 0) {
+    node.grant(host(), 0);
+    is_host_ = node.id() == host();
+    left_ = is_host_ ? count * (node.peer_count() - 1) : count;
+  }
+
+  void receive(const nodes::Packet& packet) override { is_host_ ? collect(packet) : node().grant(host(), 0); }
+  bool work() override {
+    if (!is_host_ && left_ > 0 && node().try_send(host(), 0, 1, count_ - left_)) {
+      --left_;
+    }
+    return false;
+  }
+  bool finished() const override { return left_ == 0; }
+  bool in_order() const { return in_order_; }
+
+ private:
+  void collect(const nodes::Packet& packet) {
+    std::uint32_t& next = next_of_[index_of(packet.source)];
+    in_order_ = in_order_ && packet.as<std::uint32_t>() == next++;
+    --left_;
+    node().grant(packet.source, 1);
+    node().send_reserved(packet.source, 1, 2, std::span<const std::byte>());
+  }
+
+  std::uint32_t count_;
+  std::uint32_t left_ = 0;
+  std::vector<std::uint32_t> next_of_;
+  bool is_host_ = false;
+  bool in_order_ = true;
+};
+
+/// Waits for a packet that nobody sends.
+class Waiter : public ToyProgram {
+ public:
+  using ToyProgram::ToyProgram;
+  bool finished() const override { return index() == 0; }
+  std::string describe() const override { return "waits for Godot"; }
+};
+
+/// Works for ever, or fails in its hundredth quantum.
+class Worker : public ToyProgram {
+ public:
+  Worker(nodes::Node& node, bool fails) : ToyProgram(node), fails_(fails) {}
+  bool work() override {
+    if (fails_ && node().counters().quanta == 100) {
+      throw std::runtime_error("the hundredth quantum");
+    }
+    return true;
+  }
+  bool finished() const override { return false; }
+
+ private:
+  bool fails_;
+};
+
+/// Sends its numbers to the host, one in a quantum: kind 1 may wait, kind 2 not.
+class Patient : public ToyProgram {
+ public:
+  static constexpr nodes::MailboxCapacity mailbox{.small_slots = 40};
+  static constexpr std::uint32_t count = 38;
+
+  Patient(nodes::Node& node, std::uint32_t hasty_one) : ToyProgram(node), hasty_one_(hasty_one), is_host_(node.id() == host()) {
+    node.grant(host(), 0, count);
+  }
+
+  void receive(const nodes::Packet& packet) override { received_.push_back(packet.as<std::uint32_t>()); }
+  bool work() override {
+    if (is_host_ || sent_ == count) {
+      return false;
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(100));  // so that the host goes to sleep again
+    const nodes::PacketKind kind = sent_ == hasty_one_ ? 2 : 1;
+    node().send_reserved(host(), 0, kind, sent_++);
+    return sent_ < count;
+  }
+  bool finished() const override { return is_host_ ? received_.size() == count : sent_ == count; }
+  const std::vector<std::uint32_t>& received() const { return received_; }
+
+ private:
+  std::uint32_t hasty_one_;
+  std::uint32_t sent_ = 0;
+  bool is_host_;
+  std::vector<std::uint32_t> received_;
+};
+
+}  // namespace dmpc::tests
