@@ -29,7 +29,9 @@ Gather::Gather(nodes::Node& node, const Capacity& capacity)
       host_(NodeId{capacity.node_count}),
       ray_batch_(capacity.ray_batch),
       queue_capacity_(capacity.queue_packets),
-      are_nodes_joined_(capacity.ray_credits > 0),
+      open_packets_max_(capacity.open_packets_max()),
+      shares_places_(capacity.shares_places),
+      are_nodes_joined_(capacity.shares_places || capacity.ray_credits > 0),
       room_(node.memory().allocate<std::byte>(Category::queues, capacity.packets() * stride_bytes(capacity.ray_batch))),
       slots_(node.memory().allocate<Slot>(Category::queues, capacity.packets())),
       owners_(node.memory().allocate<Owner>(Category::queues, capacity.node_count)) {
@@ -53,11 +55,38 @@ std::size_t Gather::stride_bytes(std::uint32_t ray_batch) {
 
 std::uint32_t Gather::credits_returned(NodeId receiver, std::uint32_t count) {
   node_->grant(receiver, ray_channel, count);
+  if (receiver == host_) {
+    return 0;
+  }
+  if (shares_places_) {
+    core::expect(owner_at(receiver).has_asked && count == 1, "a place is granted to who asks for it");
+    owner_at(receiver).has_asked = false;
+    --asked_;
+  }
   std::uint32_t sent = 0;
-  for (; receiver != host_ && owner_at(receiver).first != none && has_credit(receiver); ++sent) {
+  for (; owner_at(receiver).first != none && has_credit(receiver); ++sent) {
     dequeue(receiver);
   }
-  return sent;
+  return sent + (ask_or_decline(receiver) ? 1 : 0);
+}
+
+/// After whatever changes what is here for `owner`, or its credit. Says whether a credit went back.
+bool Gather::ask_or_decline(NodeId owner) {
+  if (!shares_places_) {
+    return false;
+  }
+  Owner& target = owner_at(owner);
+  const bool has_rays = target.open != none || target.first != none;
+  if (asks(has_rays, has_credit(owner), target.has_asked)) {
+    target.has_asked = true;
+    ++asked_;
+    send_control(*node_, owner, Kind::ask, Ask{});
+  }
+  const bool goes_back = declines(has_rays, has_credit(owner));
+  if (goes_back) {
+    node_->send_reserved(owner, ray_channel, number_of(Kind::unused), Unused{});
+  }
+  return goes_back;
 }
 
 void Gather::add(NodeId owner, const RayMessage& message) {
@@ -76,7 +105,10 @@ void Gather::add(NodeId owner, const RayMessage& message) {
   ++owner_at(owner).pair.rays[static_cast<std::size_t>(message.ray.kind)];
   if (++slot.count == ray_batch_) {
     closed_ = owner;
+  } else if (must_close(open_count_, open_packets_max_)) {
+    close_one();
   }
+  ask_or_decline(owner);
 }
 
 /// An open packet is not sent by way of the host as long as it can wait for its owner's credit.
@@ -100,20 +132,36 @@ void Gather::for_each_open(const Visit& visit) const {
 
 void Gather::set_open(NodeId owner, std::uint16_t slot) {
   owner_at(owner).open = slot;
+  open_count_ += slot == none ? -1U : 1U;
   const std::uint32_t i = nodes::index_of(owner);
   const std::uint64_t bit = std::uint64_t{1} << (i % 64);
   open_[i / 64] = slot == none ? open_[i / 64] & ~bit : open_[i / 64] | bit;
 }
 
-void Gather::flush() {
+/// Of the owners that `may` is true of, whose open packet has most rays.
+template <class May>
+std::optional<NodeId> Gather::fullest(const May& may) const {
+  std::optional<NodeId> found;
   std::uint16_t most = 0;
   for_each_open([&](std::uint32_t i) {
-    if (may_leave(NodeId{i}) && slots_[owners_[i].open].count > most) {
+    if (slots_[owners_[i].open].count > most && may(NodeId{i})) {
       most = slots_[owners_[i].open].count;
-      closed_ = NodeId{i};
+      found = NodeId{i};
     }
   });
+  return found;
+}
+
+void Gather::flush() {
+  closed_ = fullest([this](NodeId owner) { return may_leave(owner); });
   core::expect(closed_.has_value(), "an open packet is flushed that may leave");
+  ++counters_.packets_flushed;
+}
+
+/// The next ray may need room for a packet of its own.
+void Gather::close_one() {
+  closed_ = fullest([this](NodeId owner) { return may_leave(owner); });
+  closed_ = closed_ ? closed_ : fullest([](NodeId) { return true; });
   ++counters_.packets_flushed;
 }
 
@@ -132,6 +180,7 @@ Way Gather::send() {
   }
   set_open(owner, none);
   closed_.reset();
+  ask_or_decline(owner);
   return way;
 }
 

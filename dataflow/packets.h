@@ -4,19 +4,21 @@
 //   rays                   node -> owner         rays      bulk   the sender's ray credits for that owner
 //   overflow               node -> host          rays      bulk   the sender's ray credits for the host
 //   forwarded              host -> owner         rays      bulk   the host's ray credits for that owner
-//   credits                receiver -> sender    control   small  the ray packets whose credits it gives back
-//   hold                   node -> each node     control   small  itself: the next waits for the answers
-//   hold_acknowledgement   node -> node          control   small  the announcement that it answers
-//   film                   node -> host          film      bulk   the sender's film credits
-//   film_acknowledgement   host -> node          control   small  the film packet
-//   token                  member -> next        control   small  itself: one goes round the ring
-//   finish                 host -> node          control   small  once a run
-//   done                   node -> host          control   small  once a run
-//   stop                   host -> node          control   small  once a run
-//   primaries              host -> node          film      bulk   the host's credits for dealing to that node
-//   primaries_taken        node -> host          control   small  the packet of primaries whose credit it gives back
+//   credits                receiver -> sender    control   small  the ray packets whose credits it gives back; a grant: the
+//   request ask                    node -> owner         control   small  itself: the next waits for the grant unused node ->
+//   owner         rays      bulk   the credit that it gives back hold                   node -> each node     control   small
+//   itself: the next waits for the answers hold_acknowledgement   node -> node          control   small  the announcement that it
+//   answers film                   node -> host          film      bulk   the sender's film credits film_acknowledgement   host
+//   -> node          control   small  the film packet token                  member -> next        control   small  itself: one
+//   goes round the ring finish                 host -> node          control   small  once a run done                   node ->
+//   host          control   small  once a run stop                   host -> node          control   small  once a run primaries
+//   host -> node          film      bulk   the host's credits for dealing to that node primaries_taken        node -> host
+//   control   small  the packet of primaries whose credit it gives back
 //
-// The last two exist only where the host deals primary rays after the start (PlanRequest::is_dealt()): those of later passes, and
+// Requests and unused credits exist only where owners' places are shared (flow_control.h). An unused credit counts as a packet of
+// rays for the proof of the end, so none is under way then.
+//
+// Primaries exist only where the host deals primary rays after the start (PlanRequest::is_dealt()): those of later passes, and
 // those of the first in a run that is kept or goes on. A packet of them counts as one of rays for the proof of the end. Finish
 // and done then come once a pass.
 #pragma once
@@ -55,13 +57,15 @@ enum class Kind : nodes::PacketKind {
   done,
   stop,
   primaries,
-  primaries_taken
+  primaries_taken,
+  ask,
+  unused
 };
 constexpr nodes::PacketKind number_of(Kind kind) { return static_cast<nodes::PacketKind>(kind); }
-static_assert(number_of(Kind::primaries_taken) < nodes::packet_kind_count);
-inline constexpr std::array<const char*, 14> kind_names = {
+static_assert(number_of(Kind::unused) < nodes::packet_kind_count);
+inline constexpr std::array<const char*, 16> kind_names = {
     "rays",  "overflow", "forwarded", "credits", "hold",      "hold_acknowledgement", "film", "film_acknowledgement",
-    "token", "finish",   "done",      "stop",    "primaries", "primaries_taken"};
+    "token", "finish",   "done",      "stop",    "primaries", "primaries_taken",      "ask",  "unused"};
 /// The packet's name, for reports.
 constexpr const char* name_of(Kind kind) { return kind_names[number_of(kind)]; }
 
@@ -123,6 +127,18 @@ inline constexpr std::uint32_t ray_batch_max = rays_in(packet_bytes_max);
 struct Credits {
   std::uint32_t count = 0;
 };
+
+/// Asks an owner for one of its shared places; the answer is a credit.
+struct Ask {
+  std::uint32_t padding = 0;
+};
+
+/// Gives a credit back that is not needed any more, in the place that it stands for: so long that it takes a slot of packets of
+/// rays.
+struct Unused {
+  std::array<std::byte, nodes::small_payload_bytes + 8> padding{};
+};
+static_assert(sizeof(Unused) > nodes::small_payload_bytes && sizeof(Unused) <= ray_packet_bytes(1));
 
 /// What a node asks of all others (backpressure.h).
 struct Hold {
@@ -188,7 +204,7 @@ struct Stop {
 
 template <class T>
 inline constexpr bool is_small_packet = std::is_trivially_copyable_v<T> && sizeof(T) <= nodes::small_payload_bytes;
-static_assert(is_small_packet<Credits> && is_small_packet<FilmAcknowledgement> && is_small_packet<Token>);
+static_assert(is_small_packet<Credits> && is_small_packet<Ask> && is_small_packet<FilmAcknowledgement> && is_small_packet<Token>);
 static_assert(is_small_packet<PrimariesTaken> && is_small_packet<Hold> && is_small_packet<HoldAcknowledgement>);
 static_assert(is_small_packet<Finish> && is_small_packet<Done> && is_small_packet<Stop>);
 

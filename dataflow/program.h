@@ -31,6 +31,7 @@
 #include "dataflow/flow_control.h"
 #include "dataflow/gather.h"
 #include "dataflow/next_stop.h"
+#include "dataflow/places.h"
 #include "dataflow/plan.h"
 #include "dataflow/primaries.h"
 #include "dataflow/ray_queue.h"
@@ -141,6 +142,8 @@ class RayProgram final : public NodeProgram {
   void end_miss(const core::Ray& ray);
   void dispatch(nodes::NodeId owner, const RayMessage& message);
   void give_back(std::uint32_t sender, bool rests);
+  std::uint32_t account_of(nodes::NodeId sender) const;
+  void grant_places();
   void rest();
   void be_passive();
   void settle();
@@ -156,6 +159,8 @@ class RayProgram final : public NodeProgram {
   PartTracer tracer_;
   Primaries primaries_;
   RayQueue backlog_;
+  Places places_;
+  bool shares_places_;
   RaysTask task_;
   Gather gather_;
   FilmGather film_;

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "core/base/expect.h"
-#include "core/base/units.h"
+#include "dataflow/flow_control.h"
 #include "dataflow/packets.h"
 #include "nodes/local_memory.h"
 
@@ -14,19 +14,20 @@ namespace dmpc::dataflow {
 
 /// A bounded set of rays in order of depth, and the account of whose credits its places stand for.
 ///
-/// A sender's credit is a place for one full packet. So of the packets that have come from a sender, as many stay withheld as the
-/// rays of it that are still here would fill; the others are owed to it. Thread safety: belongs to one node.
+/// Senders whose places are shared count as one. A sender's credit is a place for one full packet. So of the packets that have
+/// come from a sender, as many stay withheld as the rays of it that are still here would fill; the others are owed to it. Thread
+/// safety: belongs to one node.
 class RayQueue {
  public:
   struct Capacity {
     std::uint32_t sender_count = 0;  ///< senders have indices below this
-    std::uint32_t packets_each = 0;  ///< that one sender's credits allow
+    std::uint32_t packets_each = 0;  ///< that one sender's credits allow, at most
+    std::uint32_t packets = 0;       ///< that all credits together allow
     std::uint32_t ray_batch = 1;     ///< rays in a full packet
     std::uint32_t depth_max = 1;     ///< rays have depths 1 .. depth_max
     bool are_kinds_apart = false;    ///< shadow rays of a depth are not among its other rays
 
-    /// All senders but the node itself.
-    std::uint32_t rays() const { return (sender_count - 1) * packets_each * ray_batch; }
+    std::uint32_t rays() const { return packets * ray_batch; }
     std::uint32_t lists() const { return (depth_max + 1) * (are_kinds_apart ? 2 : 1); }
   };
 
@@ -95,7 +96,7 @@ class RayQueue {
   }
   /// The credits that `sender` can have back: its packets that its rays still here would not fill.
   std::uint32_t owed(std::uint32_t sender) const {
-    return senders_[sender].packets - core::ceil_divide(senders_[sender].rays, ray_batch_);
+    return places_freed(senders_[sender].packets, senders_[sender].rays, ray_batch_);
   }
   /// `count` of them, at most owed(), have been given back.
   void gave_back(std::uint32_t sender, std::uint32_t count) {

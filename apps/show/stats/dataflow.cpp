@@ -123,7 +123,8 @@ Json options_json(const dataflow::RayOptions& rays, const dataflow::Plan& plan) 
           {"subsample", subsampled ? Json(rays.balance.subsample) : Json()},
           {"balance_grid", subsampled ? Json(rays.balance.columns_per_side) : Json()},
           {"ray_batch", plan.ray_batch},
-          {"ray_credits", plan.ray_credits},
+          {"ray_credits", plan.shares_places() ? Json() : Json(plan.ray_credits)},
+          {"ray_places", plan.shares_places() ? Json(plan.ray_places) : Json()},
           {"ray_queue", plan.queue_packets},
           {"backpressure", !rays.without_backpressure},
           {"topology", std::string(name_of(*rays.topology))}};

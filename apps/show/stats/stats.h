@@ -15,7 +15,7 @@ namespace dmpc::apps {
 ///                  node_memory (bytes a node, the most), page_size; camera, light (a list), scale, up, smooth, missing (as the
 ///                  command line takes them, null where it said nothing); of pages: cache_pages, in_flight, work_item,
 ///                  work_giver, pixels, workers, count_pages; of dataflow: balance, cuts, regions_a_node, subsample,
-///                  balance_grid, ray_batch, ray_credits, ray_queue, backpressure, topology
+///                  balance_grid, ray_batch, ray_credits, ray_places, ray_queue, backpressure, topology
 ///   runner         threads or virtual
 ///   machine        that was modelled, as machine_file.h says; null with threads, as is all that follows from virtual time
 ///   film_hash      of the film's integers, 16 hexadecimal digits: equal pictures, equal hashes
