@@ -178,7 +178,8 @@ void add_ray_options(OptionSet options, dataflow::RayOptions& rays) {
   options.add_number(
       "--ray-places", rays.ray_places, 1, dataflow::ray_places_max, "64 of more than 128 nodes; else credits",
       "Packets of rays from all others that each node has room for, and that they ask for; not with --ray-credits");
-  options.add_number("--ray-queue", rays.queue_packets, 0, dataflow::queue_packets_max, "256, or 512 if rays walk alone",
+  options.add_number("--ray-queue", rays.queue_packets, 0, dataflow::queue_packets_max,
+                     "256; 512 if rays walk alone; 128 with --ray-places",
                      "Packets of rays that can wait on a node for credit before more go by way of the host");
   options.add_flag("--no-backpressure", rays.without_backpressure,
                    "Nodes start primary rays whatever waits, as in 1994: what a full queue leaves goes by way of the host");

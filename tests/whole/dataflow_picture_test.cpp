@@ -100,6 +100,31 @@ TEST_CASE("dataflow: any nodes, batches, credits, queues, balances, skips and ax
   check_pairwise(built_in("gears-2"), {scaled_edge(16), scaled_edge(16)});
 }
 
+TEST_CASE("dataflow: places that are shared and asked for, however few, give the picture of mirrors and glass") {
+  const Subject subject(mirrors_and_glass(), {scaled_edge(20), scaled_edge(20)});
+  for (const std::uint32_t nodes : {1U, 2U, 5U, 16U}) {
+    for (const std::uint32_t places : {1U, 2U, 64U}) {
+      for (const Wish& queue : queues) {
+        CAPTURE(places);
+        const RunOptions options{.computer = {.node_count = nodes}, .rays = {.ray_places = places, .queue_packets = queue}};
+        check(subject, options, {.bundles = places == 2});
+      }
+    }
+  }
+}
+
+TEST_CASE("dataflow: places that are shared give the picture on a modelled machine, twice with one run hash") {
+  const Subject subject(built_in("gears-2"), {scaled_edge(16), scaled_edge(16)});
+  for (const std::uint32_t places : {1U, 3U, 64U}) {
+    CAPTURE(places);
+    const RunOptions options{.computer = {.node_count = 8, .machine = nodes::Machine{}},
+                             .rays = {.ray_batch = 2, .ray_places = places}};
+    const dataflow::Report first = check(subject, options), second = check(subject, options);
+    REQUIRE(first.virtual_time);
+    CHECK(first.virtual_time->run_hash(first.film.hash()) == second.virtual_time->run_hash(second.film.hash()));
+  }
+}
+
 TEST_CASE("dataflow: several regions a node, on any nodes, alone or in bundles, give the picture of mirrors and glass") {
   const std::array<Subject, 2> subjects = along_both_axes(mirrors_and_glass(), {scaled_edge(20), scaled_edge(20)});
   for (const std::uint32_t nodes : {1U, 2U, 5U, 8U}) {
