@@ -13,6 +13,14 @@ using nodes::Category;
 using nodes::LocalMemory;
 using nodes::NodeId;
 
+namespace {
+
+std::size_t packet_bytes_of(const Gather::Capacity& capacity) {
+  return ray_packet_bytes(capacity.ray_batch, capacity.tested_objects);
+}
+
+}  // namespace
+
 Gather::Counters& Gather::Counters::operator+=(const Counters& more) {
   packets += more.packets;
   rays += more.rays;
@@ -29,10 +37,11 @@ Gather::Gather(nodes::Node& node, const Capacity& capacity)
       host_(NodeId{capacity.node_count}),
       ray_batch_(capacity.ray_batch),
       queue_capacity_(capacity.queue_packets),
+      tested_objects_(capacity.tested_objects),
       open_packets_max_(capacity.open_packets_max()),
       shares_places_(capacity.shares_places),
       are_nodes_joined_(capacity.shares_places || capacity.ray_credits > 0),
-      room_(node.memory().allocate<std::byte>(Category::queues, capacity.packets() * stride_bytes(capacity.ray_batch))),
+      room_(node.memory().allocate<std::byte>(Category::queues, capacity.packets() * stride_bytes(packet_bytes_of(capacity)))),
       slots_(node.memory().allocate<Slot>(Category::queues, capacity.packets())),
       owners_(node.memory().allocate<Owner>(Category::queues, capacity.node_count)) {
   for (std::size_t slot = capacity.packets(); slot > 0; --slot) {
@@ -45,13 +54,11 @@ Gather::Gather(nodes::Node& node, const Capacity& capacity)
 }
 
 void Gather::add_needs(nodes::MemoryPlan& plan, const Capacity& capacity) {
-  plan[Category::queues] += LocalMemory::bytes_for<std::byte>(capacity.packets() * stride_bytes(capacity.ray_batch)) +
+  plan[Category::queues] += LocalMemory::bytes_for<std::byte>(capacity.packets() * stride_bytes(packet_bytes_of(capacity))) +
                             LocalMemory::bytes_for<Slot>(capacity.packets()) + LocalMemory::bytes_for<Owner>(capacity.node_count);
 }
 
-std::size_t Gather::stride_bytes(std::uint32_t ray_batch) {
-  return core::round_up(ray_packet_bytes(ray_batch), LocalMemory::alignment);
-}
+std::size_t Gather::stride_bytes(std::size_t bytes) { return core::round_up(bytes, LocalMemory::alignment); }
 
 std::uint32_t Gather::credits_returned(NodeId receiver, std::uint32_t count) {
   node_->grant(receiver, ray_channel, count);
@@ -100,7 +107,8 @@ void Gather::add(NodeId owner, const RayMessage& message) {
   }
   const std::uint16_t open = owner_at(owner).open;
   Slot& slot = slots_[open];
-  std::memcpy(packet_in(open).data() + ray_packet_bytes(slot.count), &message, sizeof(message));
+  std::memcpy(packet_in(open).data() + ray_packet_bytes(slot.count, tested_objects_), &message,
+              ray_message_bytes(tested_objects_));
   ++size_;
   ++owner_at(owner).pair.rays[static_cast<std::size_t>(message.ray.kind)];
   if (++slot.count == ray_batch_) {
@@ -202,13 +210,14 @@ void Gather::dequeue(NodeId owner) {
 }
 
 std::span<std::byte> Gather::packet_in(std::uint16_t slot) const {
-  return room_.subspan(slot * stride_bytes(ray_batch_), ray_packet_bytes(ray_batch_));
+  const std::size_t bytes = ray_packet_bytes(ray_batch_, tested_objects_);
+  return room_.subspan(slot * stride_bytes(bytes), bytes);
 }
 
 void Gather::transmit(NodeId owner, std::uint16_t slot, bool overflows) {
   const std::uint16_t count = slots_[slot].count;
   const RayPacketHeader header{count, static_cast<std::uint16_t>(nodes::index_of(owner))};
-  const std::span<std::byte> packet = packet_in(slot).first(ray_packet_bytes(count));
+  const std::span<std::byte> packet = packet_in(slot).first(ray_packet_bytes(count, tested_objects_));
   std::memcpy(packet.data(), &header, sizeof(header));
   node_->send_reserved(overflows ? host_ : owner, ray_channel, number_of(overflows ? Kind::overflow : Kind::rays), packet);
   ++counters_.packets;

@@ -31,12 +31,13 @@ class Gather {
  public:
   struct Capacity {
     std::uint32_t node_count = 1;
-    std::uint32_t ray_batch = 1;      ///< rays in a full packet
-    std::uint32_t ray_credits = 1;    ///< for each other node
-    bool shares_places = false;       ///< owners are asked for credits; without that and without credits all go by the host
-    std::uint32_t open_packets = 0;   ///< that are being filled at one time; 0: one for each node
-    std::uint32_t host_credits = 1;   ///< for the host, node `node_count`; at least 1
-    std::uint32_t queue_packets = 0;  ///< full packets that may wait for their owners' credits
+    std::uint32_t ray_batch = 1;       ///< rays in a full packet
+    std::uint32_t ray_credits = 1;     ///< for each other node
+    bool shares_places = false;        ///< owners are asked for credits; without that and without credits all go by the host
+    std::uint32_t open_packets = 0;    ///< that are being filled at one time; 0: one for each node
+    std::uint32_t host_credits = 1;    ///< for the host, node `node_count`; at least 1
+    std::uint32_t queue_packets = 0;   ///< full packets that may wait for their owners' credits
+    std::uint32_t tested_objects = 0;  ///< that a ray has with it
 
     /// Open and queued ones.
     std::uint32_t packets() const { return open_packets_max() + queue_packets; }
@@ -107,7 +108,7 @@ class Gather {
     bool has_asked = false;                   ///< for a place that is not granted yet
     PairCounters pair;
   };
-  static std::size_t stride_bytes(std::uint32_t ray_batch);
+  static std::size_t stride_bytes(std::size_t bytes);
 
   std::span<std::byte> packet_in(std::uint16_t slot) const;
   bool has_credit(nodes::NodeId owner) const { return node_->credits(owner, ray_channel) > 0; }
@@ -129,6 +130,7 @@ class Gather {
   nodes::NodeId host_;
   std::uint32_t ray_batch_;
   std::uint32_t queue_capacity_;
+  std::uint32_t tested_objects_;
   std::uint32_t open_packets_max_;
   bool shares_places_;
   bool are_nodes_joined_;  ///< there are credits between nodes

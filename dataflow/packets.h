@@ -36,6 +36,7 @@
 #include "dataflow/regions/bsp.h"
 #include "dataflow/regions/primary_run.h"
 #include "dataflow/termination.h"
+#include "dataflow/tested_objects.h"
 #include "nodes/node.h"
 #include "nodes/packet.h"
 
@@ -90,10 +91,17 @@ struct RayMessage {
   /// Index of the node in whose memory best.block is; without meaning if there is no candidate.
   std::uint16_t finder = 0;
   core::Hit best;
+  TestedNames tested{};  ///< of which as many travel as the run has asked for: none, as a rule
 
   core::Passage passage() const { return {t_enter, cell, entry_axis, best}; }
 };
-static_assert(sizeof(RayMessage) == 120 && std::is_trivially_copyable_v<RayMessage>);
+static_assert(sizeof(RayMessage) == 152 && std::is_trivially_copyable_v<RayMessage>);
+
+/// What a message takes on its way, and where it waits: the first bytes of a RayMessage.
+constexpr std::size_t ray_message_bytes(std::uint32_t tested_objects) {
+  return offsetof(RayMessage, tested) + tested_objects * sizeof(std::uint32_t);
+}
+static_assert(ray_message_bytes(0) == 120 && ray_message_bytes(tested_objects_max) == sizeof(RayMessage));
 static_assert(region_count_max <= 0x10000, "a finder's index fits a message");
 
 /// A fresh ray, or one that leaves a region.
@@ -115,11 +123,13 @@ struct RayPacketHeader {
 static_assert(sizeof(RayPacketHeader) == 8 && std::is_trivially_copyable_v<RayPacketHeader>);
 
 /// What a packet of so many rays takes, in bytes.
-constexpr std::size_t ray_packet_bytes(std::size_t ray_count) { return sizeof(RayPacketHeader) + ray_count * sizeof(RayMessage); }
+constexpr std::size_t ray_packet_bytes(std::size_t ray_count, std::uint32_t tested_objects = 0) {
+  return sizeof(RayPacketHeader) + ray_count * ray_message_bytes(tested_objects);
+}
 static_assert(ray_packet_bytes(1) > nodes::small_payload_bytes, "every packet of rays is bulk");
 /// How many rays fit so many bytes.
-constexpr std::uint32_t rays_in(std::size_t bytes) {
-  return static_cast<std::uint32_t>((bytes - sizeof(RayPacketHeader)) / sizeof(RayMessage));
+constexpr std::uint32_t rays_in(std::size_t bytes, std::uint32_t tested_objects = 0) {
+  return static_cast<std::uint32_t>((bytes - sizeof(RayPacketHeader)) / ray_message_bytes(tested_objects));
 }
 inline constexpr std::uint32_t ray_batch_max = rays_in(packet_bytes_max);
 

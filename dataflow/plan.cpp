@@ -61,7 +61,7 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
                         + plan.ray_places                       // rays, or credits unused: the places that others share
                         + plan.host_credits                     // forwarded rays: the host's
                         + dealt,                                // primary rays dealt after the start
-          .bulk_payload_bytes = std::max(ray_packet_bytes(plan.ray_batch), dealt > 0 ? sizeof(DealtPrimaries) : 0)};
+          .bulk_payload_bytes = std::max(plan.packet_bytes(), dealt > 0 ? sizeof(DealtPrimaries) : 0)};
 }
 
 nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
@@ -71,7 +71,7 @@ nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
                          + plan.node_count() * plan.dealing_credits(),  // credits back for primary rays
           .bulk_slots = plan.node_count() * plan.host_credits           // overflow: each node's credits for the host
                         + plan.node_count() * plan.film_credits,
-          .bulk_payload_bytes = std::max(ray_packet_bytes(plan.ray_batch), film_packet_bytes(film_packet_entries))};
+          .bulk_payload_bytes = std::max(plan.packet_bytes(), film_packet_bytes(film_packet_entries))};
 }
 
 /// Fewer credits than the mailboxes have room for, and a place for packets held back.
@@ -121,9 +121,13 @@ void check(const PlanRequest& request) {
   check_use(request.node_count() >= 1 && request.node_count() <= region_count_max,
             "node_count=" + std::to_string(request.node_count()) + ": from 1 to " + std::to_string(region_count_max) +
                 " nodes with strategy=dataflow");
-  const std::uint32_t batch = request.rays.ray_batch.value_or(1);
-  check_use(batch >= 1 && batch <= ray_batch_max,
-            "ray_batch=" + std::to_string(batch) + ": from 1 to " + std::to_string(ray_batch_max) + " rays");
+  const std::uint32_t tested = request.rays.tested_objects;
+  check_use(tested <= tested_objects_max,
+            "tested_objects=" + std::to_string(tested) + ": at most " + std::to_string(tested_objects_max) + " names");
+  const std::uint32_t batch = request.rays.ray_batch.value_or(1), batch_max = rays_in(packet_bytes_max, tested);
+  check_use(batch >= 1 && batch <= batch_max, "ray_batch=" + std::to_string(batch) + ": from 1 to " + std::to_string(batch_max) +
+                                                  " rays" +
+                                                  (tested == 0 ? "" : " with tested_objects=" + std::to_string(tested)));
   const std::uint32_t credits = request.rays.ray_credits.value_or(1);
   check_use(credits <= ray_credits_max,
             "ray_credits=" + std::to_string(credits) + ": at most " + std::to_string(ray_credits_max) + " packets");
@@ -157,7 +161,10 @@ std::uint32_t default_queue(const PlanRequest& request) {
 /// Threads that share cores are woken less often by packets twice as long: 64 on two cores took 0.89 of the processor time for
 /// three scenes. On a modelled machine nobody is woken. Bundles double that once more: 0.8 on two scenes.
 std::uint32_t default_batch(const PlanRequest& request) {
-  return rays_in(request.computer.machine ? packet_bytes : request.bundles ? 4 * packet_bytes : 2 * packet_bytes);
+  return rays_in(request.computer.machine ? packet_bytes
+                 : request.bundles        ? 4 * packet_bytes
+                                          : 2 * packet_bytes,
+                 request.rays.tested_objects);
 }
 
 Bounds wanted(const PlanRequest& request) {

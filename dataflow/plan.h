@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/picture/refinement.h"
+#include "dataflow/packets.h"
 #include "dataflow/ray_options.h"
 #include "dataflow/regions/regions.h"
 #include "nodes/computer_request.h"
@@ -61,6 +62,10 @@ struct Plan {
   std::uint32_t node_count() const { return request.node_count(); }
   nodes::NodeId host() const { return nodes::NodeId{node_count()}; }
   bool shares_places() const { return ray_places > 0; }
+  /// Names of tested blocks that a ray takes along.
+  std::uint32_t tested_objects() const { return request.rays.tested_objects; }
+  /// A full packet of rays.
+  std::size_t packet_bytes() const { return ray_packet_bytes(ray_batch, tested_objects()); }
 
   /// Packets of primary rays that the host may have under way to each node.
   std::uint32_t dealing_credits() const;

@@ -47,6 +47,7 @@ RayCounters& operator+=(RayCounters& sum, const RayCounters& more) {
   sum.hits_sent_back += more.hits_sent_back;
   sum.rests += more.rests;
   sum.holds += more.holds;
+  sum.tests_avoided += more.tests_avoided;
   return sum;
 }
 
@@ -60,7 +61,8 @@ RayQueue::Capacity backlog_capacity(const Plan& plan) {
           .packets = plan.shares_places() ? plan.ray_places + plan.host_credits : plan.node_count() * packets_each,
           .ray_batch = plan.ray_batch,
           .depth_max = plan.request.depth_max,
-          .are_kinds_apart = plan.rays_a_task > 1};
+          .are_kinds_apart = plan.rays_a_task > 1,
+          .tested_objects = plan.tested_objects()};
 }
 
 Gather::Capacity gather_capacity(const Plan& plan) {
@@ -70,7 +72,19 @@ Gather::Capacity gather_capacity(const Plan& plan) {
           .shares_places = plan.shares_places(),
           .open_packets = plan.shares_places() ? std::min(plan.ray_places, plan.node_count()) : 0,
           .host_credits = plan.host_credits,
-          .queue_packets = plan.queue_packets};
+          .queue_packets = plan.queue_packets,
+          .tested_objects = plan.tested_objects()};
+}
+
+/// Only rays that walk alone have lists of what they have tested.
+template <class RaysTask>
+RaysTask make_task(nodes::Node& node, const Plan& plan) {
+  if constexpr (RaysTask::rays_max == 1) {
+    return RaysTask(node.memory(), node.id(), plan.request.depth_max, plan.tested_objects());
+  } else {
+    core::expect(plan.tested_objects() == 0, "rays with lists of what they have tested walk alone");
+    return RaysTask(node.memory(), node.id(), plan.request.depth_max);
+  }
 }
 
 }  // namespace
@@ -94,7 +108,8 @@ RayProgram<RaysTask>::RayProgram(nodes::Node& node, const Plan& plan, const Node
       backlog_(node.memory(), backlog_capacity(plan)),
       places_(node.memory(), plan.node_count(), plan.ray_places),
       shares_places_(plan.shares_places()),
-      task_(node.memory(), node.id(), plan.request.depth_max),
+      tested_objects_(plan.tested_objects()),
+      task_(make_task<RaysTask>(node, plan)),
       gather_(node, gather_capacity(plan)),
       film_(node, plan.node_count(), plan.film_credits),
       backpressure_(plan.node_count() - 1, plan.queue_packets, !plan.request.rays.without_backpressure) {
@@ -175,13 +190,14 @@ void RayProgram<RaysTask>::receive_rays(const nodes::Packet& packet) {
   core::expect(packet.payload.size() >= sizeof(RayPacketHeader), "a packet of rays has a header");
   RayPacketHeader header;
   std::memcpy(&header, packet.payload.data(), sizeof(header));
-  core::expect(packet.payload.size() == ray_packet_bytes(header.count), "a packet of rays is as long as it says");
+  core::expect(packet.payload.size() == ray_packet_bytes(header.count, tested_objects_),
+               "a packet of rays is as long as it says");
   core::expect(nodes::NodeId{header.owner} == node_->id(), "rays come to their owner");
   const std::uint32_t sender = account_of(packet.source);
   backlog_.accept_packet(sender, header.count);
   for (std::uint32_t i = 0; i < header.count; ++i) {
     RayMessage message;
-    std::memcpy(&message, packet.payload.data() + ray_packet_bytes(i), sizeof(message));
+    std::memcpy(&message, packet.payload.data() + ray_packet_bytes(i, tested_objects_), ray_message_bytes(tested_objects_));
     backlog_.put(sender, message);
     ++counters_.in[static_cast<std::size_t>(message.ray.kind)];
   }
@@ -377,7 +393,8 @@ void RayProgram<RaysTask>::go_to_next(const RayMessage& message) {
     return end_confirmed(message);
   }
   const nodes::NodeId owner = constants_->regions.owner_at(stop.region);
-  const RayMessage next = message_of(message.ray, stop.passage, nodes::NodeId{message.finder});
+  RayMessage next = message_of(message.ray, stop.passage, nodes::NodeId{message.finder});
+  next.tested = message.tested;
   if (owner == node_->id()) {
     task_.enter(next);
   } else {
@@ -588,6 +605,9 @@ ProgramReport RayProgram<RaysTask>::report() const {
                        .backlog_high_water = backlog_.high_water(),
                        .pairs = gather_.pairs()};
   report.rays.holds = backpressure_.count();
+  if constexpr (RaysTask::rays_max == 1) {
+    report.rays.tests_avoided = task_.tests_avoided();
+  }
   report.operations.deposits_saturated += film_.counters().saturated;
   return report;
 }

@@ -50,7 +50,8 @@ struct RayCounters {
   std::uint64_t ended = 0;                                      ///< hit or miss; over all nodes as many as were shot
   std::uint64_t hits_sent_back = 0;                             ///< confirmed here, shaded by their finder
   std::uint64_t rests = 0;                                      ///< times that the node ran out of work
-  std::uint64_t holds = 0;                                      ///< times that it asked the others to hold primary rays back
+  std::uint64_t tests_avoided = 0;  ///< lanes that rays had tested where they came from (RayOptions::tested_objects)
+  std::uint64_t holds = 0;          ///< times that it asked the others to hold primary rays back
 };
 RayCounters& operator+=(RayCounters& sum, const RayCounters& more);
 
@@ -161,6 +162,7 @@ class RayProgram final : public NodeProgram {
   RayQueue backlog_;
   Places places_;
   bool shares_places_;
+  std::uint32_t tested_objects_;
   RaysTask task_;
   Gather gather_;
   FilmGather film_;

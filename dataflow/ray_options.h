@@ -15,6 +15,9 @@ struct RayOptions {
   /// Rays in a full packet. Without it what fills a packet of 4 KiB, or of 2 KiB where rays walk alone, of 1 KiB on a modelled
   /// machine, or fewer if the memory is scarce.
   std::optional<std::uint32_t> ray_batch = std::nullopt;
+  /// Names of blocks that a ray has tested and takes along, so that they are not tested again where they reach into other
+  /// regions; 4 bytes each lengthen its message. With any, rays walk alone.
+  std::uint32_t tested_objects = 0;
   /// Packets of rays that may be under way, or in the receiver's backlog, for each sender and receiver. Without it 4, with
   /// bundles up to 64 among fewer than 16 nodes, or fewer if the memory is scarce; among more than 128 nodes places are shared.
   /// 0: no node sends to another, every ray goes by way of the host.

@@ -65,7 +65,7 @@ struct LoneProgramOf {
     const dataflow::RayPacketHeader header{1, static_cast<std::uint16_t>(nodes::index_of(single.node.id()))};
     std::vector<std::byte> payload(dataflow::ray_packet_bytes(1));
     std::memcpy(payload.data(), &header, sizeof(header));
-    std::memcpy(payload.data() + sizeof(header), &message, sizeof(message));
+    std::memcpy(payload.data() + sizeof(header), &message, dataflow::ray_message_bytes(0));
     program.receive({NodeId{sender}, dataflow::number_of(Kind::rays), payload});
   }
   void work_to_rest() {
@@ -76,9 +76,9 @@ struct LoneProgramOf {
     std::vector<RayMessage> rays;
     for (const Parcel& parcel : single.post.parcels) {
       for (std::size_t at = sizeof(dataflow::RayPacketHeader); Kind{parcel.kind} == Kind::rays && at < parcel.payload.size();
-           at += sizeof(RayMessage)) {
+           at += dataflow::ray_message_bytes(0)) {
         rays.emplace_back();
-        std::memcpy(&rays.back(), parcel.payload.data() + at, sizeof(RayMessage));
+        std::memcpy(&rays.back(), parcel.payload.data() + at, dataflow::ray_message_bytes(0));
       }
     }
     return rays;

@@ -241,7 +241,7 @@ Json options_json(const RenderRecord& record, const Account& account, const Json
   result.update(filled(
       {"cache_pages", "replacement", "homes",       "tree_arity", "resident_pages", "in_flight",      "work_item", "work_giver",
        "pixels",      "workers",     "count_pages", "balance",    "cuts",           "regions_a_node", "subsample", "balance_grid",
-       "ray_batch",   "ray_credits", "ray_places",  "ray_queue",  "backpressure",   "topology"},
+       "ray_batch",   "ray_credits", "ray_places",  "ray_queue",  "tested_objects", "backpressure",   "topology"},
       special));
   return result;
 }
