@@ -47,7 +47,8 @@ RayPacketHeader header_of(const tests::Parcel& parcel) {
 
 std::uint32_t pixel_in(const tests::Parcel& parcel, std::uint32_t index) {
   RayMessage message;
-  std::memcpy(&message, parcel.payload.data() + dataflow::ray_packet_bytes(index), dataflow::ray_message_bytes(0));
+  std::memcpy(static_cast<void*>(&message), parcel.payload.data() + dataflow::ray_packet_bytes(index),
+              dataflow::ray_message_bytes(0));
   return message.ray.pixel;
 }
 

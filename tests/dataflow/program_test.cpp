@@ -78,7 +78,7 @@ struct LoneProgramOf {
       for (std::size_t at = sizeof(dataflow::RayPacketHeader); Kind{parcel.kind} == Kind::rays && at < parcel.payload.size();
            at += dataflow::ray_message_bytes(0)) {
         rays.emplace_back();
-        std::memcpy(&rays.back(), parcel.payload.data() + at, dataflow::ray_message_bytes(0));
+        std::memcpy(static_cast<void*>(&rays.back()), parcel.payload.data() + at, dataflow::ray_message_bytes(0));
       }
     }
     return rays;

@@ -45,12 +45,12 @@ struct ProtocolRules {
 
 struct ProtocolSettings {
   std::array<std::uint8_t, model_nodes> primaries{1, 1, 0};
-  std::uint8_t children = 3;       ///< that all rays together may have
-  std::uint8_t credits_each = 1;   ///< packets of rays, for each (sender, target)
-  std::uint8_t rays_a_packet = 1;  ///< more than 1 only with one credit
-  std::uint8_t return_batch = 1;   ///< credits that a busy node collects
-  std::uint8_t queue_packets = 0;  ///< at most 2
-  std::uint8_t shared_places = 0;  ///< of each owner, that nodes ask for; 0: they have credits_each of their own
+  std::uint8_t children = 3;                ///< that all rays together may have
+  std::uint8_t credits_each = 1;            ///< packets of rays, for each (sender, target)
+  std::uint8_t rays_a_packet = 1;           ///< more than 1 only with one credit
+  std::uint8_t return_batch = 1;            ///< credits that a busy node collects
+  std::uint8_t queue_packets = 0;           ///< at most 2
+  std::uint8_t shared_places = 0;           ///< of each owner, that nodes ask for; 0: they have credits_each of their own
   std::uint8_t open_packets = model_nodes;  ///< being filled at one node at a time
   bool has_backpressure = true;
   std::uint8_t owners = model_nodes;  ///< children go to the first so many nodes: fewer, and more children can be explored
@@ -210,9 +210,7 @@ class ProtocolModel {
   }
 
   /// That a peer has for a node without asking.
-  std::uint8_t credits_each(std::size_t peer) const {
-    return shares_with(peer) ? std::uint8_t{0} : settings_.credits_each;
-  }
+  std::uint8_t credits_each(std::size_t peer) const { return shares_with(peer) ? std::uint8_t{0} : settings_.credits_each; }
   /// Nodes' places are shared, the host's are its own.
   bool shares_with(std::size_t peer) const { return settings_.shared_places > 0 && peer != model_host; }
 
@@ -284,9 +282,8 @@ class ProtocolModel {
 
   static std::uint32_t ray_packets_in(const State& state) {
     std::uint32_t count = 0;
-    for_each_message(state, [&](const Message& message) {
-      count += carries_rays(message) || message.kind == Kind::unused ? 1U : 0U;
-    });
+    for_each_message(state,
+                     [&](const Message& message) { count += carries_rays(message) || message.kind == Kind::unused ? 1U : 0U; });
     return count;
   }
 
@@ -332,7 +329,8 @@ class ProtocolModel {
   void check_shared_places(const State& state) const {
     for (std::size_t to = 0; to < model_nodes; ++to) {
       const Member& target = state.member[to];
-      hold(rays_of_nodes(target) <= settings_.shared_places * settings_.rays_a_packet, "a received ray has its place in the backlog");
+      hold(rays_of_nodes(target) <= settings_.shared_places * settings_.rays_a_packet,
+           "a received ray has its place in the backlog");
       std::uint32_t count = target.free_places + target.withheld;
       for (std::size_t from = 0; from < model_nodes; ++from) {
         const Channel &there = state.channel[from][to], &back = state.channel[to][from];
@@ -390,9 +388,9 @@ class ProtocolModel {
   }
 
   static const char* verb(Kind kind) {
-    constexpr std::array<const char*, 9> verbs{"receives rays",   "receives overflow",  "receives credits", "is asked to hold",
-                                               "is acknowledged", "receives the token", "receives the end", "is asked for a place",
-                                               "is given back a place"};
+    constexpr std::array<const char*, 9> verbs{"receives rays",    "receives overflow",    "receives credits",
+                                               "is asked to hold", "is acknowledged",      "receives the token",
+                                               "receives the end", "is asked for a place", "is given back a place"};
     return verbs[static_cast<std::size_t>(kind)];
   }
 

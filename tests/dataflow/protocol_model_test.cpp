@@ -198,12 +198,13 @@ TEST_CASE("places that are shared and asked for become free again in every order
   check_all_orders({.primaries = {1, 0, 0}, .children = children(3), .shared_places = 1}, 10'000);
   check_all_orders({.primaries = {1, 1, 0}, .children = children(3), .shared_places = 2, .owners = 2}, 10'000);
   check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .queue_packets = 1, .shared_places = 1}, 10'000);
-  check_all_orders({.primaries = {1, 1, 0}, .children = children(3), .queue_packets = 2, .shared_places = 1, .owners = 2}, 10'000);
+  check_all_orders({.primaries = {1, 1, 0}, .children = children(3), .queue_packets = 2, .shared_places = 1, .owners = 2},
+                   10'000);
 }
 
 TEST_CASE("nodes that fill one packet at a time go on in every order of events") {
-  check_all_orders(
-      {.primaries = {1, 1, 0}, .children = children(2), .rays_a_packet = 2, .shared_places = 1, .open_packets = 1}, 1'000);
+  check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .rays_a_packet = 2, .shared_places = 1, .open_packets = 1},
+                   1'000);
   check_all_orders({.primaries = {1, 0, 0},
                     .children = children(3),
                     .rays_a_packet = 2,
@@ -254,7 +255,7 @@ TEST_CASE("a node that asks again before it has its answer has no room for that 
 
 TEST_CASE("without asking for shared places queued rays wait for ever") {
   check_found<NotAsking>({.primaries = {2, 0, 0}, .children = 3, .queue_packets = 1, .shared_places = 1, .owners = 2},
-                          "deadlock");
+                         "deadlock");
 }
 
 TEST_CASE("a node that keeps the place it no longer needs keeps others from theirs") {
