@@ -15,6 +15,12 @@
 //     (backpressure.h), few packets are queued here and no other node asks to hold them back. No work is taken up while a packet
 //     waits: one work() adds at most one ray to a gather, which had room. The packets that the host forwards take the credits of
 //     (host, target), with places of their own.
+// (5) Where nodes are few, every sender has credits of its own, which come back to it. Where they are many, an owner's places are
+//     shared: a sender asks for one as soon as it has a ray for that owner, and has no second request or unused credit there.
+//     A credit so granted is for rays that are there, so it is used when their packet is full or its node has nothing else
+//     to do, by (3); if they have gone by way of the host meanwhile, it goes back unused, in the place that it stands for. So
+//     every place becomes free again, and goes to who has waited longest: nobody who asks waits for ever.
+// (6) A node that fills as many packets as it has room for closes one before the next ray, so (2) is the way out here, too.
 #pragma once
 
 #include <algorithm>
@@ -33,6 +39,7 @@ struct NodeState {
   bool can_flush = false;          ///< an open packet has rays and may leave
   bool has_gathered = false;       ///< rays in open or queued packets
   bool is_unacknowledged = false;  ///< an announcement is to be taken back or acknowledged
+  bool is_unanswered = false;      ///< some owner has been asked for a place and has not granted it yet
 };
 
 /// In the order of precedence.
@@ -69,7 +76,8 @@ constexpr Task next_task(const NodeState& state) {
 /// Passive in the sense of termination: it will not send a ray packet unless it receives one. A node that rests with rays that
 /// wait for a credit, or for leave to start, is not.
 constexpr bool is_passive(const NodeState& state) {
-  return next_task(state) == Task::rest && !state.has_primaries && !state.has_gathered && !state.is_unacknowledged;
+  return next_task(state) == Task::rest && !state.has_primaries && !state.has_gathered && !state.is_unacknowledged &&
+         !state.is_unanswered;
 }
 
 /// Where a packet of rays goes.
@@ -98,6 +106,24 @@ constexpr std::uint32_t return_batch(std::uint32_t credits_each) { return std::m
 /// waiting for them with rays for it.
 constexpr bool returns_credits(std::uint32_t owed, std::uint32_t batch, bool rests) {
   return owed > 0 && (rests || owed >= batch);
+}
+
+/// Whether a node closes a packet that is not full: as many are being filled as there is room for, and the next ray may need one
+/// more.
+constexpr bool must_close(std::uint32_t open_packets, std::uint32_t open_packets_max) { return open_packets == open_packets_max; }
+
+/// Whether a node asks an owner whose places are shared for one: there are rays for it, being gathered or in a closed packet.
+constexpr bool asks(bool has_rays, bool has_credit, bool has_asked) { return has_rays && !has_credit && !has_asked; }
+
+/// Whether a shared place that was granted goes back unused: all rays for that owner have gone by way of the host.
+constexpr bool declines(bool has_rays, bool has_credit) { return has_credit && !has_rays; }
+
+/// Whether an owner grants one of its shared places to the node that has waited longest.
+constexpr bool grants(std::uint32_t free_places, bool is_asked) { return free_places > 0 && is_asked; }
+
+/// How many of the places in which `packets` packets came are free again, with `rays` of their rays still here.
+constexpr std::uint32_t places_freed(std::uint32_t packets, std::uint32_t rays, std::uint32_t ray_batch) {
+  return packets - (rays + ray_batch - 1) / ray_batch;
 }
 
 /// Whether the host forwards a packet of the `kept` rays that it keeps for one owner: only into a place that is free.

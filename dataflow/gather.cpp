@@ -13,6 +13,14 @@ using nodes::Category;
 using nodes::LocalMemory;
 using nodes::NodeId;
 
+namespace {
+
+std::size_t packet_bytes_of(const Gather::Capacity& capacity) {
+  return ray_packet_bytes(capacity.ray_batch, capacity.tested_objects);
+}
+
+}  // namespace
+
 Gather::Counters& Gather::Counters::operator+=(const Counters& more) {
   packets += more.packets;
   rays += more.rays;
@@ -29,8 +37,11 @@ Gather::Gather(nodes::Node& node, const Capacity& capacity)
       host_(NodeId{capacity.node_count}),
       ray_batch_(capacity.ray_batch),
       queue_capacity_(capacity.queue_packets),
-      are_nodes_joined_(capacity.ray_credits > 0),
-      room_(node.memory().allocate<std::byte>(Category::queues, capacity.packets() * stride_bytes(capacity.ray_batch))),
+      tested_objects_(capacity.tested_objects),
+      open_packets_max_(capacity.open_packets_max()),
+      shares_places_(capacity.shares_places),
+      are_nodes_joined_(capacity.shares_places || capacity.ray_credits > 0),
+      room_(node.memory().allocate<std::byte>(Category::queues, capacity.packets() * stride_bytes(packet_bytes_of(capacity)))),
       slots_(node.memory().allocate<Slot>(Category::queues, capacity.packets())),
       owners_(node.memory().allocate<Owner>(Category::queues, capacity.node_count)) {
   for (std::size_t slot = capacity.packets(); slot > 0; --slot) {
@@ -43,21 +54,46 @@ Gather::Gather(nodes::Node& node, const Capacity& capacity)
 }
 
 void Gather::add_needs(nodes::MemoryPlan& plan, const Capacity& capacity) {
-  plan[Category::queues] += LocalMemory::bytes_for<std::byte>(capacity.packets() * stride_bytes(capacity.ray_batch)) +
+  plan[Category::queues] += LocalMemory::bytes_for<std::byte>(capacity.packets() * stride_bytes(packet_bytes_of(capacity))) +
                             LocalMemory::bytes_for<Slot>(capacity.packets()) + LocalMemory::bytes_for<Owner>(capacity.node_count);
 }
 
-std::size_t Gather::stride_bytes(std::uint32_t ray_batch) {
-  return core::round_up(ray_packet_bytes(ray_batch), LocalMemory::alignment);
-}
+std::size_t Gather::stride_bytes(std::size_t bytes) { return core::round_up(bytes, LocalMemory::alignment); }
 
 std::uint32_t Gather::credits_returned(NodeId receiver, std::uint32_t count) {
   node_->grant(receiver, ray_channel, count);
+  if (receiver == host_) {
+    return 0;
+  }
+  if (shares_places_) {
+    core::expect(owner_at(receiver).has_asked && count == 1, "a place is granted to who asks for it");
+    owner_at(receiver).has_asked = false;
+    --asked_;
+  }
   std::uint32_t sent = 0;
-  for (; receiver != host_ && owner_at(receiver).first != none && has_credit(receiver); ++sent) {
+  for (; owner_at(receiver).first != none && has_credit(receiver); ++sent) {
     dequeue(receiver);
   }
-  return sent;
+  return sent + (ask_or_decline(receiver) ? 1 : 0);
+}
+
+/// After whatever changes what is here for `owner`, or its credit. Says whether a credit went back.
+bool Gather::ask_or_decline(NodeId owner) {
+  if (!shares_places_) {
+    return false;
+  }
+  Owner& target = owner_at(owner);
+  const bool has_rays = target.open != none || target.first != none;
+  if (asks(has_rays, has_credit(owner), target.has_asked)) {
+    target.has_asked = true;
+    ++asked_;
+    send_control(*node_, owner, Kind::ask, Ask{});
+  }
+  const bool goes_back = declines(has_rays, has_credit(owner));
+  if (goes_back) {
+    node_->send_reserved(owner, ray_channel, number_of(Kind::unused), Unused{});
+  }
+  return goes_back;
 }
 
 void Gather::add(NodeId owner, const RayMessage& message) {
@@ -71,12 +107,16 @@ void Gather::add(NodeId owner, const RayMessage& message) {
   }
   const std::uint16_t open = owner_at(owner).open;
   Slot& slot = slots_[open];
-  std::memcpy(packet_in(open).data() + ray_packet_bytes(slot.count), &message, sizeof(message));
+  std::memcpy(packet_in(open).data() + ray_packet_bytes(slot.count, tested_objects_), &message,
+              ray_message_bytes(tested_objects_));
   ++size_;
   ++owner_at(owner).pair.rays[static_cast<std::size_t>(message.ray.kind)];
   if (++slot.count == ray_batch_) {
     closed_ = owner;
+  } else if (must_close(open_count_, open_packets_max_)) {
+    close_one();
   }
+  ask_or_decline(owner);
 }
 
 /// An open packet is not sent by way of the host as long as it can wait for its owner's credit.
@@ -100,20 +140,36 @@ void Gather::for_each_open(const Visit& visit) const {
 
 void Gather::set_open(NodeId owner, std::uint16_t slot) {
   owner_at(owner).open = slot;
+  open_count_ += slot == none ? -1U : 1U;
   const std::uint32_t i = nodes::index_of(owner);
   const std::uint64_t bit = std::uint64_t{1} << (i % 64);
   open_[i / 64] = slot == none ? open_[i / 64] & ~bit : open_[i / 64] | bit;
 }
 
-void Gather::flush() {
+/// Of the owners that `may` is true of, whose open packet has most rays.
+template <class May>
+std::optional<NodeId> Gather::fullest(const May& may) const {
+  std::optional<NodeId> found;
   std::uint16_t most = 0;
   for_each_open([&](std::uint32_t i) {
-    if (may_leave(NodeId{i}) && slots_[owners_[i].open].count > most) {
+    if (slots_[owners_[i].open].count > most && may(NodeId{i})) {
       most = slots_[owners_[i].open].count;
-      closed_ = NodeId{i};
+      found = NodeId{i};
     }
   });
+  return found;
+}
+
+void Gather::flush() {
+  closed_ = fullest([this](NodeId owner) { return may_leave(owner); });
   core::expect(closed_.has_value(), "an open packet is flushed that may leave");
+  ++counters_.packets_flushed;
+}
+
+/// The next ray may need room for a packet of its own.
+void Gather::close_one() {
+  closed_ = fullest([this](NodeId owner) { return may_leave(owner); });
+  closed_ = closed_ ? closed_ : fullest([](NodeId) { return true; });
   ++counters_.packets_flushed;
 }
 
@@ -132,6 +188,7 @@ Way Gather::send() {
   }
   set_open(owner, none);
   closed_.reset();
+  ask_or_decline(owner);
   return way;
 }
 
@@ -153,13 +210,14 @@ void Gather::dequeue(NodeId owner) {
 }
 
 std::span<std::byte> Gather::packet_in(std::uint16_t slot) const {
-  return room_.subspan(slot * stride_bytes(ray_batch_), ray_packet_bytes(ray_batch_));
+  const std::size_t bytes = ray_packet_bytes(ray_batch_, tested_objects_);
+  return room_.subspan(slot * stride_bytes(bytes), bytes);
 }
 
 void Gather::transmit(NodeId owner, std::uint16_t slot, bool overflows) {
   const std::uint16_t count = slots_[slot].count;
   const RayPacketHeader header{count, static_cast<std::uint16_t>(nodes::index_of(owner))};
-  const std::span<std::byte> packet = packet_in(slot).first(ray_packet_bytes(count));
+  const std::span<std::byte> packet = packet_in(slot).first(ray_packet_bytes(count, tested_objects_));
   std::memcpy(packet.data(), &header, sizeof(header));
   node_->send_reserved(overflows ? host_ : owner, ray_channel, number_of(overflows ? Kind::overflow : Kind::rays), packet);
   ++counters_.packets;

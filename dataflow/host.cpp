@@ -31,11 +31,12 @@ HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, 
       continuation_(continuation),
       refinement_(plan.request.refinement, plan.request.first_samples, film.width(), film.height(), detail),
       undealt_(plan.node_count(), plan.request.is_dealt_on_the_way ? run_rays_max : ~std::uint64_t{0}),
-      kept_(plan.node_count()),
-      packet_(node.memory().allocate<std::byte>(Category::queues, ray_packet_bytes(plan.ray_batch))),
+      kept_(plan.node_count(), plan.tested_objects()),
+      packet_(node.memory().allocate<std::byte>(Category::queues, plan.packet_bytes())),
       has_light_(node.memory().allocate<std::uint64_t>(Category::film_tiles, light_words(plan))),
       node_count_(plan.node_count()),
       ray_batch_(plan.ray_batch),
+      tested_objects_(plan.tested_objects()),
       pixels_total_(plan.request.width * plan.request.height) {
   for (std::uint32_t i = 0; i < node_count_; ++i) {
     node.grant(nodes::NodeId{i}, ray_channel, plan.host_credits);
@@ -70,7 +71,7 @@ void HostProgram::deal_pass(const core::PixelMask& done) {
 }
 
 void HostProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan) {
-  memory[Category::queues] += LocalMemory::bytes_for<std::byte>(ray_packet_bytes(plan.ray_batch));
+  memory[Category::queues] += LocalMemory::bytes_for<std::byte>(plan.packet_bytes());
   memory[Category::film_tiles] += LocalMemory::bytes_for<std::uint64_t>(light_words(plan));
 }
 
@@ -122,12 +123,13 @@ void HostProgram::take_overflow(const nodes::Packet& packet) {
   core::expect(packet.payload.size() >= sizeof(RayPacketHeader), "a packet of rays has a header");
   RayPacketHeader header;
   std::memcpy(&header, packet.payload.data(), sizeof(header));
-  core::expect(packet.payload.size() == ray_packet_bytes(header.count), "a packet of rays is as long as it says");
+  core::expect(packet.payload.size() == ray_packet_bytes(header.count, tested_objects_),
+               "a packet of rays is as long as it says");
   core::expect(header.owner < node_count_, "rays have an owner");
   termination_.ray_packet_received();
   for (std::uint32_t i = 0; i < header.count; ++i) {
     RayMessage message;
-    std::memcpy(&message, packet.payload.data() + ray_packet_bytes(i), sizeof(message));
+    std::memcpy(&message, packet.payload.data() + ray_packet_bytes(i, tested_objects_), ray_message_bytes(tested_objects_));
     kept_.put(header.owner, message);
   }
   counters_.rays_in += header.count;
@@ -144,10 +146,10 @@ void HostProgram::forward(std::uint32_t owner) {
   std::memcpy(packet_.data(), &header, sizeof(header));
   for (std::uint32_t i = 0; i < count; ++i) {
     const RayMessage message = kept_.take(owner);
-    std::memcpy(packet_.data() + ray_packet_bytes(i), &message, sizeof(message));
+    std::memcpy(packet_.data() + ray_packet_bytes(i, tested_objects_), &message, ray_message_bytes(tested_objects_));
   }
   node_->send_reserved(nodes::NodeId{owner}, ray_channel, number_of(Kind::forwarded),
-                       std::span<const std::byte>(packet_.first(ray_packet_bytes(count))));
+                       std::span<const std::byte>(packet_.first(ray_packet_bytes(count, tested_objects_))));
   termination_.ray_packet_sent();
   counters_.rays_out += count;
 }

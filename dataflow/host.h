@@ -95,6 +95,7 @@ class HostProgram final : public nodes::Program {
   std::span<std::uint64_t> has_light_;  ///< a bit a pixel
   std::uint32_t node_count_;
   std::uint32_t ray_batch_;
+  std::uint32_t tested_objects_;
   std::uint32_t pixels_total_;
   std::uint32_t pixels_with_light_ = 0;
   std::uint32_t nodes_done_ = 0;

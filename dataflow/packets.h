@@ -4,19 +4,21 @@
 //   rays                   node -> owner         rays      bulk   the sender's ray credits for that owner
 //   overflow               node -> host          rays      bulk   the sender's ray credits for the host
 //   forwarded              host -> owner         rays      bulk   the host's ray credits for that owner
-//   credits                receiver -> sender    control   small  the ray packets whose credits it gives back
-//   hold                   node -> each node     control   small  itself: the next waits for the answers
-//   hold_acknowledgement   node -> node          control   small  the announcement that it answers
-//   film                   node -> host          film      bulk   the sender's film credits
-//   film_acknowledgement   host -> node          control   small  the film packet
-//   token                  member -> next        control   small  itself: one goes round the ring
-//   finish                 host -> node          control   small  once a run
-//   done                   node -> host          control   small  once a run
-//   stop                   host -> node          control   small  once a run
-//   primaries              host -> node          film      bulk   the host's credits for dealing to that node
-//   primaries_taken        node -> host          control   small  the packet of primaries whose credit it gives back
+//   credits                receiver -> sender    control   small  the ray packets whose credits it gives back; a grant: the
+//   request ask                    node -> owner         control   small  itself: the next waits for the grant unused node ->
+//   owner         rays      bulk   the credit that it gives back hold                   node -> each node     control   small
+//   itself: the next waits for the answers hold_acknowledgement   node -> node          control   small  the announcement that it
+//   answers film                   node -> host          film      bulk   the sender's film credits film_acknowledgement   host
+//   -> node          control   small  the film packet token                  member -> next        control   small  itself: one
+//   goes round the ring finish                 host -> node          control   small  once a run done                   node ->
+//   host          control   small  once a run stop                   host -> node          control   small  once a run primaries
+//   host -> node          film      bulk   the host's credits for dealing to that node primaries_taken        node -> host
+//   control   small  the packet of primaries whose credit it gives back
 //
-// The last two exist only where the host deals primary rays after the start (PlanRequest::is_dealt()): those of later passes, and
+// Requests and unused credits exist only where owners' places are shared (flow_control.h). An unused credit counts as a packet of
+// rays for the proof of the end, so none is under way then.
+//
+// Primaries exist only where the host deals primary rays after the start (PlanRequest::is_dealt()): those of later passes, and
 // those of the first in a run that is kept or goes on. A packet of them counts as one of rays for the proof of the end. Finish
 // and done then come once a pass.
 #pragma once
@@ -34,6 +36,7 @@
 #include "dataflow/regions/bsp.h"
 #include "dataflow/regions/primary_run.h"
 #include "dataflow/termination.h"
+#include "dataflow/tested_objects.h"
 #include "nodes/node.h"
 #include "nodes/packet.h"
 
@@ -55,13 +58,15 @@ enum class Kind : nodes::PacketKind {
   done,
   stop,
   primaries,
-  primaries_taken
+  primaries_taken,
+  ask,
+  unused
 };
 constexpr nodes::PacketKind number_of(Kind kind) { return static_cast<nodes::PacketKind>(kind); }
-static_assert(number_of(Kind::primaries_taken) < nodes::packet_kind_count);
-inline constexpr std::array<const char*, 14> kind_names = {
+static_assert(number_of(Kind::unused) < nodes::packet_kind_count);
+inline constexpr std::array<const char*, 16> kind_names = {
     "rays",  "overflow", "forwarded", "credits", "hold",      "hold_acknowledgement", "film", "film_acknowledgement",
-    "token", "finish",   "done",      "stop",    "primaries", "primaries_taken"};
+    "token", "finish",   "done",      "stop",    "primaries", "primaries_taken",      "ask",  "unused"};
 /// The packet's name, for reports.
 constexpr const char* name_of(Kind kind) { return kind_names[number_of(kind)]; }
 
@@ -86,10 +91,17 @@ struct RayMessage {
   /// Index of the node in whose memory best.block is; without meaning if there is no candidate.
   std::uint16_t finder = 0;
   core::Hit best;
+  TestedNames tested{};  ///< of which as many travel as the run has asked for: none, as a rule
 
   core::Passage passage() const { return {t_enter, cell, entry_axis, best}; }
 };
-static_assert(sizeof(RayMessage) == 120 && std::is_trivially_copyable_v<RayMessage>);
+static_assert(sizeof(RayMessage) == 152 && std::is_trivially_copyable_v<RayMessage>);
+
+/// What a message takes on its way, and where it waits: the first bytes of a RayMessage.
+constexpr std::size_t ray_message_bytes(std::uint32_t tested_objects) {
+  return offsetof(RayMessage, tested) + tested_objects * sizeof(std::uint32_t);
+}
+static_assert(ray_message_bytes(0) == 120 && ray_message_bytes(tested_objects_max) == sizeof(RayMessage));
 static_assert(region_count_max <= 0x10000, "a finder's index fits a message");
 
 /// A fresh ray, or one that leaves a region.
@@ -111,11 +123,13 @@ struct RayPacketHeader {
 static_assert(sizeof(RayPacketHeader) == 8 && std::is_trivially_copyable_v<RayPacketHeader>);
 
 /// What a packet of so many rays takes, in bytes.
-constexpr std::size_t ray_packet_bytes(std::size_t ray_count) { return sizeof(RayPacketHeader) + ray_count * sizeof(RayMessage); }
+constexpr std::size_t ray_packet_bytes(std::size_t ray_count, std::uint32_t tested_objects = 0) {
+  return sizeof(RayPacketHeader) + ray_count * ray_message_bytes(tested_objects);
+}
 static_assert(ray_packet_bytes(1) > nodes::small_payload_bytes, "every packet of rays is bulk");
 /// How many rays fit so many bytes.
-constexpr std::uint32_t rays_in(std::size_t bytes) {
-  return static_cast<std::uint32_t>((bytes - sizeof(RayPacketHeader)) / sizeof(RayMessage));
+constexpr std::uint32_t rays_in(std::size_t bytes, std::uint32_t tested_objects = 0) {
+  return static_cast<std::uint32_t>((bytes - sizeof(RayPacketHeader)) / ray_message_bytes(tested_objects));
 }
 inline constexpr std::uint32_t ray_batch_max = rays_in(packet_bytes_max);
 
@@ -123,6 +137,18 @@ inline constexpr std::uint32_t ray_batch_max = rays_in(packet_bytes_max);
 struct Credits {
   std::uint32_t count = 0;
 };
+
+/// Asks an owner for one of its shared places; the answer is a credit.
+struct Ask {
+  std::uint32_t padding = 0;
+};
+
+/// Gives a credit back that is not needed any more, in the place that it stands for: so long that it takes a slot of packets of
+/// rays.
+struct Unused {
+  std::array<std::byte, nodes::small_payload_bytes + 8> padding{};
+};
+static_assert(sizeof(Unused) > nodes::small_payload_bytes && sizeof(Unused) <= ray_packet_bytes(1));
 
 /// What a node asks of all others (backpressure.h).
 struct Hold {
@@ -188,7 +214,7 @@ struct Stop {
 
 template <class T>
 inline constexpr bool is_small_packet = std::is_trivially_copyable_v<T> && sizeof(T) <= nodes::small_payload_bytes;
-static_assert(is_small_packet<Credits> && is_small_packet<FilmAcknowledgement> && is_small_packet<Token>);
+static_assert(is_small_packet<Credits> && is_small_packet<Ask> && is_small_packet<FilmAcknowledgement> && is_small_packet<Token>);
 static_assert(is_small_packet<PrimariesTaken> && is_small_packet<Hold> && is_small_packet<HoldAcknowledgement>);
 static_assert(is_small_packet<Finish> && is_small_packet<Done> && is_small_packet<Stop>);
 

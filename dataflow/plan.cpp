@@ -31,31 +31,38 @@ constexpr std::uint32_t default_ray_credits = 4;
 /// Bundles are worked off faster than a sleeping node wakes, so few nodes, which have room for it, get more: two with 4 idle for
 /// a quarter of the time.
 constexpr std::uint32_t few_nodes_ray_credits = 64;
-/// Among many nodes a node has a few neighbours and room for all: beyond 128 nodes there are fewer credits a pair.
-constexpr std::uint32_t default_ray_credits_in_all = 512;
+/// Among many nodes a node hears of few (5.7 of 1,024 on rings-4-t1), so room for all is a waste: places are shared. Among fewer
+/// it is affordable, and nobody has to ask.
+constexpr std::uint32_t own_credits_nodes_max = 128;
+constexpr std::uint32_t default_ray_places = 64;
 /// Where many nodes share a core, a receiver may not run for milliseconds, and the others go on until the announcement of a long
 /// queue reaches them. 8 to 64 nodes on two cores that others used, too, queued up to 464 packets on seven scenes at 512x512.
 constexpr std::uint32_t default_queue_packets = 512;
 /// Packets of bundles are twice as long.
 constexpr std::uint32_t default_bundle_queue_packets = 256;
+/// Where places are shared memory is what counts, and packets are few: among 1,024 nodes they are seldom full.
+constexpr std::uint32_t default_shared_queue_packets = 128;
 constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 
 /// What a node's mailbox must be able to hold, whoever sends when; the mailbox itself adds the slot of the packet being received.
 nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   const std::uint32_t others = plan.node_count() - 1;
   const std::uint32_t dealt = plan.dealing_credits();
-  return {.small_slots = others * plan.ray_credits  // credits back from each other node, at least one a packet
-                         + plan.host_credits        // the same from the host
-                         + others                   // Hold: one from each other node, until it is acknowledged
-                         + others                   // acknowledgements of this node's
-                         + plan.film_credits        // acknowledgements: one for each film packet of this node's
-                         + 1                        // the token
-                         + 1                        // Finish
-                         + 1,                       // Stop
-          .bulk_slots = others * plan.ray_credits   // rays: each other node's credits for this one
-                        + plan.host_credits         // forwarded rays: the host's
-                        + dealt,                    // primary rays dealt after the start
-          .bulk_payload_bytes = std::max(ray_packet_bytes(plan.ray_batch), dealt > 0 ? sizeof(DealtPrimaries) : 0)};
+  return {.small_slots = others * plan.ray_credits              // credits back from each other node, at least one a packet
+                         + (plan.shares_places() ? others : 0)  // requests for places: one from each other node
+                         + (plan.shares_places() ? others : 0)  // grants: one for each of this node's requests
+                         + plan.host_credits                    // the same from the host
+                         + others                               // Hold: one from each other node, until it is acknowledged
+                         + others                               // acknowledgements of this node's
+                         + plan.film_credits                    // acknowledgements: one for each film packet of this node's
+                         + 1                                    // the token
+                         + 1                                    // Finish
+                         + 1,                                   // Stop
+          .bulk_slots = others * plan.ray_credits               // rays: each other node's credits for this one
+                        + plan.ray_places                       // rays, or credits unused: the places that others share
+                        + plan.host_credits                     // forwarded rays: the host's
+                        + dealt,                                // primary rays dealt after the start
+          .bulk_payload_bytes = std::max(plan.packet_bytes(), dealt > 0 ? sizeof(DealtPrimaries) : 0)};
 }
 
 nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
@@ -65,12 +72,13 @@ nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
                          + plan.node_count() * plan.dealing_credits(),  // credits back for primary rays
           .bulk_slots = plan.node_count() * plan.host_credits           // overflow: each node's credits for the host
                         + plan.node_count() * plan.film_credits,
-          .bulk_payload_bytes = std::max(ray_packet_bytes(plan.ray_batch), film_packet_bytes(film_packet_entries))};
+          .bulk_payload_bytes = std::max(plan.packet_bytes(), film_packet_bytes(film_packet_entries))};
 }
 
 /// Fewer credits than the mailboxes have room for, and a place for packets held back.
 void plan_chaos(Plan& plan, const nodes::Chaos& chaos) {
   plan.ray_credits = nodes::shrunk_credits(chaos, plan.ray_credits, ray_channel);
+  plan.ray_places = nodes::shrunk_credits(chaos, plan.ray_places, ray_channel);
   plan.host_credits = nodes::shrunk_credits(chaos, plan.host_credits, nodes::channel_count);
   plan.film_credits = nodes::shrunk_credits(chaos, plan.film_credits, film_channel);
   plan.queue_packets = nodes::shrunk_credits(chaos, plan.queue_packets, nodes::channel_count + 1);
@@ -80,8 +88,9 @@ void plan_chaos(Plan& plan, const nodes::Chaos& chaos) {
 
 /// What may be given up where memory is scarce.
 struct Bounds {
-  std::uint32_t ray_batch = 1, ray_credits = 1, queue_packets = 0;
+  std::uint32_t ray_batch = 1, ray_credits = 1, ray_places = 0, queue_packets = 0;
   bool bundles = false;
+  bool joins_nodes() const { return ray_credits > 0 || ray_places > 0; }
 };
 
 /// The plan with these bounds, whether or not it fits.
@@ -90,8 +99,9 @@ Plan plan_with(const PlanRequest& request, const Bounds& bounds) {
   plan.request = request;
   plan.ray_batch = bounds.ray_batch;
   plan.ray_credits = bounds.ray_credits;
+  plan.ray_places = bounds.ray_places;
   plan.host_credits = std::max(1U, bounds.ray_credits);
-  plan.queue_packets = bounds.ray_credits == 0 || request.node_count() == 1 ? 0 : bounds.queue_packets;
+  plan.queue_packets = !bounds.joins_nodes() || request.node_count() == 1 ? 0 : bounds.queue_packets;
   plan.rays_a_task = bounds.bundles ? BundleTask::rays_max : RayTask::rays_max;
   plan.film_credits = nodes::patient_credits(request.node_count(), request.computer.machine.has_value());
   plan.node_mailbox = node_mailbox_of(plan);
@@ -113,12 +123,22 @@ void check(const PlanRequest& request) {
   check_use(request.node_count() >= 1 && request.node_count() <= region_count_max,
             "node_count=" + std::to_string(request.node_count()) + ": from 1 to " + std::to_string(region_count_max) +
                 " nodes with strategy=dataflow");
-  const std::uint32_t batch = request.rays.ray_batch.value_or(1);
-  check_use(batch >= 1 && batch <= ray_batch_max,
-            "ray_batch=" + std::to_string(batch) + ": from 1 to " + std::to_string(ray_batch_max) + " rays");
+  const std::uint32_t tested = request.rays.tested_objects;
+  check_use(tested <= tested_objects_max,
+            "tested_objects=" + std::to_string(tested) + ": at most " + std::to_string(tested_objects_max) + " names");
+  const std::uint32_t batch = request.rays.ray_batch.value_or(1), batch_max = rays_in(packet_bytes_max, tested);
+  check_use(batch >= 1 && batch <= batch_max, "ray_batch=" + std::to_string(batch) + ": from 1 to " + std::to_string(batch_max) +
+                                                  " rays" +
+                                                  (tested == 0 ? "" : " with tested_objects=" + std::to_string(tested)));
   const std::uint32_t credits = request.rays.ray_credits.value_or(1);
   check_use(credits <= ray_credits_max,
             "ray_credits=" + std::to_string(credits) + ": at most " + std::to_string(ray_credits_max) + " packets");
+  const std::uint32_t places = request.rays.ray_places.value_or(1);
+  check_use(places >= 1 && places <= ray_places_max,
+            "ray_places=" + std::to_string(places) + ": from 1 to " + std::to_string(ray_places_max) + " packets");
+  check_use(!request.rays.ray_places || !request.rays.ray_credits,
+            "ray_places=" + std::to_string(places) + " and ray_credits=" + std::to_string(credits) +
+                ": senders have credits of their own or share places, not both");
   const std::uint32_t queue = request.rays.queue_packets.value_or(0);
   check_use(queue <= queue_packets_max,
             "queue_packets=" + std::to_string(queue) + ": at most " + std::to_string(queue_packets_max) + " packets");
@@ -127,30 +147,48 @@ void check(const PlanRequest& request) {
 }
 
 std::uint32_t default_credits(const PlanRequest& request) {
-  const std::uint32_t most = std::max(default_ray_credits, request.bundles ? few_nodes_ray_credits / request.node_count() : 0);
-  return std::clamp(default_ray_credits_in_all / request.node_count(), 1U, most);
+  return std::max(default_ray_credits, request.bundles ? few_nodes_ray_credits / request.node_count() : 0);
+}
+
+bool shares_places(const PlanRequest& request) {
+  return request.rays.ray_places || (!request.rays.ray_credits && request.node_count() > own_credits_nodes_max);
+}
+
+std::uint32_t default_queue(const PlanRequest& request) {
+  return shares_places(request) ? default_shared_queue_packets
+         : request.bundles      ? default_bundle_queue_packets
+                                : default_queue_packets;
 }
 
 /// Threads that share cores are woken less often by packets twice as long: 64 on two cores took 0.89 of the processor time for
 /// three scenes. On a modelled machine nobody is woken. Bundles double that once more: 0.8 on two scenes.
 std::uint32_t default_batch(const PlanRequest& request) {
-  return rays_in(request.computer.machine ? packet_bytes : request.bundles ? 4 * packet_bytes : 2 * packet_bytes);
+  return rays_in(request.computer.machine ? packet_bytes
+                 : request.bundles        ? 4 * packet_bytes
+                                          : 2 * packet_bytes,
+                 request.rays.tested_objects);
 }
 
 Bounds wanted(const PlanRequest& request) {
-  return {request.rays.ray_batch.value_or(default_batch(request)), request.rays.ray_credits.value_or(default_credits(request)),
-          request.rays.queue_packets.value_or(request.bundles ? default_bundle_queue_packets : default_queue_packets),
-          request.bundles};
+  const bool shares = shares_places(request);
+  return {.ray_batch = request.rays.ray_batch.value_or(default_batch(request)),
+          .ray_credits = shares ? 0 : request.rays.ray_credits.value_or(default_credits(request)),
+          .ray_places = shares ? request.rays.ray_places.value_or(default_ray_places) : 0,
+          .queue_packets = request.rays.queue_packets.value_or(default_queue(request)),
+          .bundles = request.bundles};
 }
 
 /// With the least of what the request leaves open.
 Plan smallest_plan(const PlanRequest& request) {
-  return plan_with(request, {request.rays.ray_batch.value_or(1), request.rays.ray_credits.value_or(1),
-                             request.rays.queue_packets.value_or(0), false});
+  const bool shares = shares_places(request);
+  return plan_with(request, {.ray_batch = request.rays.ray_batch.value_or(1),
+                             .ray_credits = shares ? 0 : request.rays.ray_credits.value_or(1),
+                             .ray_places = shares ? request.rays.ray_places.value_or(1) : 0,
+                             .queue_packets = request.rays.queue_packets.value_or(0)});
 }
 
-/// Gives up queued packets first, then credits, then bundles, then the length of packets, as far as the request leaves them open
-/// and the memory asks.
+/// Gives up queued packets first, then credits or places, then bundles, then the length of packets, as far as the request leaves
+/// them open and the memory asks.
 Plan fitting_plan(const PlanRequest& request, std::size_t memory_bytes) {
   Bounds bounds = wanted(request);
   Plan plan = plan_with(request, bounds);
@@ -159,6 +197,8 @@ Plan fitting_plan(const PlanRequest& request, std::size_t memory_bytes) {
       --bounds.queue_packets;
     } else if (!request.rays.ray_credits && bounds.ray_credits > 1) {
       --bounds.ray_credits;
+    } else if (!request.rays.ray_places && bounds.ray_places > 1) {
+      --bounds.ray_places;
     } else if (bounds.bundles) {
       bounds.bundles = false;
     } else {
@@ -194,6 +234,7 @@ void note_reductions(Plan& plan) {
   const Plan unbounded = plan_with(request, wanted(request));
   note("packets of rays that wait for credits", unbounded.queue_packets, plan.queue_packets);
   note("credits for rays", unbounded.ray_credits, plan.ray_credits);
+  note("places for packets of rays", unbounded.ray_places, plan.ray_places);
   note("rays that walk together", unbounded.rays_a_task, plan.rays_a_task);
   note("rays in a packet", unbounded.ray_batch, plan.ray_batch);
 }

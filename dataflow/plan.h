@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/picture/refinement.h"
+#include "dataflow/packets.h"
 #include "dataflow/ray_options.h"
 #include "dataflow/regions/regions.h"
 #include "nodes/computer_request.h"
@@ -41,13 +42,15 @@ struct PlanRequest {
 };
 
 inline constexpr std::uint32_t ray_credits_max = 64;
+inline constexpr std::uint32_t ray_places_max = 4096;
 inline constexpr std::uint32_t queue_packets_max = 16384;
 
 /// The answer. Every capacity is derived in plan.cpp, as a sum with a comment for each term.
 struct Plan {
   PlanRequest request;
   std::uint32_t ray_batch = 1;      ///< rays in a full packet
-  std::uint32_t ray_credits = 1;    ///< from each node for each other
+  std::uint32_t ray_credits = 1;    ///< from each node for each other, without asking
+  std::uint32_t ray_places = 0;     ///< of each node, that the others share and ask for; 0: they have credits of their own
   std::uint32_t host_credits = 1;   ///< packets of rays from each node for the host, and from the host for each node
   std::uint32_t queue_packets = 0;  ///< full packets that may wait at their sender for credits
   std::uint32_t rays_a_task = 1;    ///< rays that a node traces at a time, at most: more than one where they walk in bundles
@@ -58,8 +61,11 @@ struct Plan {
 
   std::uint32_t node_count() const { return request.node_count(); }
   nodes::NodeId host() const { return nodes::NodeId{node_count()}; }
-  /// Packets that one sender can have in a node's backlog.
-  std::uint32_t packets_each() const { return ray_credits > host_credits ? ray_credits : host_credits; }
+  bool shares_places() const { return ray_places > 0; }
+  /// Names of tested blocks that a ray takes along.
+  std::uint32_t tested_objects() const { return request.rays.tested_objects; }
+  /// A full packet of rays.
+  std::size_t packet_bytes() const { return ray_packet_bytes(ray_batch, tested_objects()); }
 
   /// Packets of primary rays that the host may have under way to each node.
   std::uint32_t dealing_credits() const;

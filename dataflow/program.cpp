@@ -47,25 +47,44 @@ RayCounters& operator+=(RayCounters& sum, const RayCounters& more) {
   sum.hits_sent_back += more.hits_sent_back;
   sum.rests += more.rests;
   sum.holds += more.holds;
+  sum.tests_avoided += more.tests_avoided;
   return sum;
 }
 
 namespace {
 
+/// Where places are shared all other nodes count as one sender, the host as another.
 RayQueue::Capacity backlog_capacity(const Plan& plan) {
-  return {.sender_count = plan.node_count() + 1,
-          .packets_each = plan.packets_each(),
+  const std::uint32_t packets_each = std::max({plan.ray_credits, plan.ray_places, plan.host_credits});
+  return {.sender_count = plan.shares_places() ? 2 : plan.node_count() + 1,
+          .packets_each = packets_each,
+          .packets = plan.shares_places() ? plan.ray_places + plan.host_credits : plan.node_count() * packets_each,
           .ray_batch = plan.ray_batch,
           .depth_max = plan.request.depth_max,
-          .are_kinds_apart = plan.rays_a_task > 1};
+          .are_kinds_apart = plan.rays_a_task > 1,
+          .tested_objects = plan.tested_objects()};
 }
 
 Gather::Capacity gather_capacity(const Plan& plan) {
   return {.node_count = plan.node_count(),
           .ray_batch = plan.ray_batch,
           .ray_credits = plan.ray_credits,
+          .shares_places = plan.shares_places(),
+          .open_packets = plan.shares_places() ? std::min(plan.ray_places, plan.node_count()) : 0,
           .host_credits = plan.host_credits,
-          .queue_packets = plan.queue_packets};
+          .queue_packets = plan.queue_packets,
+          .tested_objects = plan.tested_objects()};
+}
+
+/// Only rays that walk alone have lists of what they have tested.
+template <class RaysTask>
+RaysTask make_task(nodes::Node& node, const Plan& plan) {
+  if constexpr (RaysTask::rays_max == 1) {
+    return RaysTask(node.memory(), node.id(), plan.request.depth_max, plan.tested_objects());
+  } else {
+    core::expect(plan.tested_objects() == 0, "rays with lists of what they have tested walk alone");
+    return RaysTask(node.memory(), node.id(), plan.request.depth_max);
+  }
 }
 
 }  // namespace
@@ -87,7 +106,10 @@ RayProgram<RaysTask>::RayProgram(nodes::Node& node, const Plan& plan, const Node
       tracer_(records_, deal.part.header, deal.settings.skips, constants_->regions, node.id()),
       primaries_(node.memory(), deal.primaries, deal.settings.first_samples(), plan.request.is_dealt()),
       backlog_(node.memory(), backlog_capacity(plan)),
-      task_(node.memory(), node.id(), plan.request.depth_max),
+      places_(node.memory(), plan.node_count(), plan.ray_places),
+      shares_places_(plan.shares_places()),
+      tested_objects_(plan.tested_objects()),
+      task_(make_task<RaysTask>(node, plan)),
       gather_(node, gather_capacity(plan)),
       film_(node, plan.node_count(), plan.film_credits),
       backpressure_(plan.node_count() - 1, plan.queue_packets, !plan.request.rays.without_backpressure) {
@@ -101,6 +123,7 @@ void NodeProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::ui
   memory[Category::home_pages] += LocalMemory::bytes_for<std::byte>(share.part_bytes + core::overread_bytes);
   Primaries::add_needs(memory, share.primary_runs, plan.request.is_dealt());
   RayQueue::add_needs(memory, backlog_capacity(plan));
+  Places::add_needs(memory, plan.node_count(), plan.ray_places);
   (plan.rays_a_task > 1 ? BundleTask::add_needs : RayTask::add_needs)(memory, plan.request.depth_max);
   Gather::add_needs(memory, gather_capacity(plan));
   FilmGather::add_needs(memory);
@@ -114,6 +137,13 @@ void RayProgram<RaysTask>::receive(const nodes::Packet& packet) {
       return receive_rays(packet);
     case Kind::credits:
       return take_credits(packet.source, packet.as<Credits>().count);
+    case Kind::ask:
+      places_.ask(packet.source);
+      return grant_places();
+    case Kind::unused:
+      termination_.ray_packet_received();
+      places_.give_back(1);
+      return grant_places();
     case Kind::hold:
       backpressure_.take(packet.as<Hold>().holds != 0);
       return send_control(*node_, packet.source, Kind::hold_acknowledgement, HoldAcknowledgement{});
@@ -132,6 +162,7 @@ void RayProgram<RaysTask>::receive(const nodes::Packet& packet) {
       return receive_primaries(packet.as<DealtPrimaries>());
     case Kind::stop:
       core::expect(done_ && !stopped_, "the host stops only nodes that are done, and once");
+      core::expect(places_.free() == places_.count() && places_.asking() == 0, "every shared place has become free again");
       stopped_ = true;
       return;
     default:
@@ -159,13 +190,14 @@ void RayProgram<RaysTask>::receive_rays(const nodes::Packet& packet) {
   core::expect(packet.payload.size() >= sizeof(RayPacketHeader), "a packet of rays has a header");
   RayPacketHeader header;
   std::memcpy(&header, packet.payload.data(), sizeof(header));
-  core::expect(packet.payload.size() == ray_packet_bytes(header.count), "a packet of rays is as long as it says");
+  core::expect(packet.payload.size() == ray_packet_bytes(header.count, tested_objects_),
+               "a packet of rays is as long as it says");
   core::expect(nodes::NodeId{header.owner} == node_->id(), "rays come to their owner");
-  const std::uint32_t sender = nodes::index_of(packet.source);
+  const std::uint32_t sender = account_of(packet.source);
   backlog_.accept_packet(sender, header.count);
   for (std::uint32_t i = 0; i < header.count; ++i) {
     RayMessage message;
-    std::memcpy(&message, packet.payload.data() + ray_packet_bytes(i), sizeof(message));
+    std::memcpy(&message, packet.payload.data() + ray_packet_bytes(i, tested_objects_), ray_message_bytes(tested_objects_));
     backlog_.put(sender, message);
     ++counters_.in[static_cast<std::size_t>(message.ray.kind)];
   }
@@ -189,7 +221,8 @@ NodeState RayProgram<RaysTask>::state() const {
           .admits_primaries = backpressure_.admits_primaries(gather_.queued()),
           .can_flush = !has_work && gather_.can_flush(),  // looks at every owner
           .has_gathered = !gather_.empty(),
-          .is_unacknowledged = !backpressure_.is_settled()};
+          .is_unacknowledged = !backpressure_.is_settled(),
+          .is_unanswered = gather_.is_unanswered()};
 }
 
 template <class RaysTask>
@@ -360,7 +393,8 @@ void RayProgram<RaysTask>::go_to_next(const RayMessage& message) {
     return end_confirmed(message);
   }
   const nodes::NodeId owner = constants_->regions.owner_at(stop.region);
-  const RayMessage next = message_of(message.ray, stop.passage, nodes::NodeId{message.finder});
+  RayMessage next = message_of(message.ray, stop.passage, nodes::NodeId{message.finder});
+  next.tested = message.tested;
   if (owner == node_->id()) {
     task_.enter(next);
   } else {
@@ -471,10 +505,28 @@ void RayProgram<RaysTask>::dispatch(nodes::NodeId owner, const RayMessage& messa
 template <class RaysTask>
 void RayProgram<RaysTask>::give_back(std::uint32_t sender, bool rests) {
   const std::uint32_t owed = backlog_.owed(sender);
-  const nodes::NodeId target{sender};
+  if (shares_places_ && sender != account_of(host_)) {
+    backlog_.gave_back(sender, owed);
+    places_.give_back(owed);
+    return grant_places();
+  }
+  const nodes::NodeId target = shares_places_ ? host_ : nodes::NodeId{sender};
   if (returns_credits(owed, target == host_ ? return_batch_host_ : return_batch_, rests)) {
     backlog_.gave_back(sender, owed);
     send_control(*node_, target, Kind::credits, Credits{owed});
+  }
+}
+
+/// In the backlog's account.
+template <class RaysTask>
+std::uint32_t RayProgram<RaysTask>::account_of(nodes::NodeId sender) const {
+  return !shares_places_ ? nodes::index_of(sender) : sender == host_ ? 1 : 0;
+}
+
+template <class RaysTask>
+void RayProgram<RaysTask>::grant_places() {
+  while (const std::optional<nodes::NodeId> sender = places_.grant()) {
+    send_control(*node_, *sender, Kind::credits, Credits{1});
   }
 }
 
@@ -532,6 +584,8 @@ std::string RayProgram<RaysTask>::describe() const {
                                                   : "hits") +
          " under way, " + std::to_string(gather_.size()) + " rays gathered" +
          (gather_.waits() ? " (a packet waits for room), " : ", ") + std::to_string(gather_.queued()) + " packets queued, " +
+         (places_.asking() > 0 ? std::to_string(places_.asking()) + " nodes wait for a place here, " : "") +
+         (gather_.is_unanswered() ? "waits for places, " : "") +
          (backpressure_.admits_primaries(0) ? "" : "asked to hold primary rays back, ") + std::to_string(film_.gathered()) +
          " film entries" + (film_.waits() ? " (waiting)" : "") + ", ray packets sent - received " +
          std::to_string(termination_.balance()) + (termination_.holds_token() ? ", holds the token" : "") +
@@ -551,6 +605,9 @@ ProgramReport RayProgram<RaysTask>::report() const {
                        .backlog_high_water = backlog_.high_water(),
                        .pairs = gather_.pairs()};
   report.rays.holds = backpressure_.count();
+  if constexpr (RaysTask::rays_max == 1) {
+    report.rays.tests_avoided = task_.tests_avoided();
+  }
   report.operations.deposits_saturated += film_.counters().saturated;
   return report;
 }

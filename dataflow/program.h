@@ -31,6 +31,7 @@
 #include "dataflow/flow_control.h"
 #include "dataflow/gather.h"
 #include "dataflow/next_stop.h"
+#include "dataflow/places.h"
 #include "dataflow/plan.h"
 #include "dataflow/primaries.h"
 #include "dataflow/ray_queue.h"
@@ -49,7 +50,8 @@ struct RayCounters {
   std::uint64_t ended = 0;                                      ///< hit or miss; over all nodes as many as were shot
   std::uint64_t hits_sent_back = 0;                             ///< confirmed here, shaded by their finder
   std::uint64_t rests = 0;                                      ///< times that the node ran out of work
-  std::uint64_t holds = 0;                                      ///< times that it asked the others to hold primary rays back
+  std::uint64_t tests_avoided = 0;  ///< lanes that rays had tested where they came from (RayOptions::tested_objects)
+  std::uint64_t holds = 0;          ///< times that it asked the others to hold primary rays back
 };
 RayCounters& operator+=(RayCounters& sum, const RayCounters& more);
 
@@ -141,6 +143,8 @@ class RayProgram final : public NodeProgram {
   void end_miss(const core::Ray& ray);
   void dispatch(nodes::NodeId owner, const RayMessage& message);
   void give_back(std::uint32_t sender, bool rests);
+  std::uint32_t account_of(nodes::NodeId sender) const;
+  void grant_places();
   void rest();
   void be_passive();
   void settle();
@@ -156,6 +160,9 @@ class RayProgram final : public NodeProgram {
   PartTracer tracer_;
   Primaries primaries_;
   RayQueue backlog_;
+  Places places_;
+  bool shares_places_;
+  std::uint32_t tested_objects_;
   RaysTask task_;
   Gather gather_;
   FilmGather film_;

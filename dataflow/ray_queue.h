@@ -2,11 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 
 #include "core/base/expect.h"
-#include "core/base/units.h"
+#include "dataflow/flow_control.h"
 #include "dataflow/packets.h"
 #include "nodes/local_memory.h"
 
@@ -14,19 +16,21 @@ namespace dmpc::dataflow {
 
 /// A bounded set of rays in order of depth, and the account of whose credits its places stand for.
 ///
-/// A sender's credit is a place for one full packet. So of the packets that have come from a sender, as many stay withheld as the
-/// rays of it that are still here would fill; the others are owed to it. Thread safety: belongs to one node.
+/// Senders whose places are shared count as one. A sender's credit is a place for one full packet. So of the packets that have
+/// come from a sender, as many stay withheld as the rays of it that are still here would fill; the others are owed to it. Thread
+/// safety: belongs to one node.
 class RayQueue {
  public:
   struct Capacity {
-    std::uint32_t sender_count = 0;  ///< senders have indices below this
-    std::uint32_t packets_each = 0;  ///< that one sender's credits allow
-    std::uint32_t ray_batch = 1;     ///< rays in a full packet
-    std::uint32_t depth_max = 1;     ///< rays have depths 1 .. depth_max
-    bool are_kinds_apart = false;    ///< shadow rays of a depth are not among its other rays
+    std::uint32_t sender_count = 0;    ///< senders have indices below this
+    std::uint32_t packets_each = 0;    ///< that one sender's credits allow, at most
+    std::uint32_t packets = 0;         ///< that all credits together allow
+    std::uint32_t ray_batch = 1;       ///< rays in a full packet
+    std::uint32_t depth_max = 1;       ///< rays have depths 1 .. depth_max
+    bool are_kinds_apart = false;      ///< shadow rays of a depth are not among its other rays
+    std::uint32_t tested_objects = 0;  ///< that a ray has with it
 
-    /// All senders but the node itself.
-    std::uint32_t rays() const { return (sender_count - 1) * packets_each * ray_batch; }
+    std::uint32_t rays() const { return packets * ray_batch; }
     std::uint32_t lists() const { return (depth_max + 1) * (are_kinds_apart ? 2 : 1); }
   };
 
@@ -35,7 +39,8 @@ class RayQueue {
       : packets_each_(capacity.packets_each),
         ray_batch_(capacity.ray_batch),
         lists_a_depth_(capacity.are_kinds_apart ? 2 : 1),
-        rays_(memory.allocate_unset<RayMessage>(nodes::Category::queues, capacity.rays())),
+        message_bytes_(ray_message_bytes(capacity.tested_objects)),
+        rays_(memory.allocate<std::byte>(nodes::Category::queues, capacity.rays() * message_bytes_)),
         entries_(memory.allocate<Entry>(nodes::Category::queues, capacity.rays())),
         newest_(memory.allocate<std::uint32_t>(nodes::Category::queues, capacity.lists())),
         senders_(memory.allocate<Sender>(nodes::Category::queues, capacity.sender_count)) {
@@ -51,8 +56,9 @@ class RayQueue {
   static void add_needs(nodes::MemoryPlan& plan, const Capacity& capacity) {
     using nodes::LocalMemory;
     plan[nodes::Category::queues] +=
-        LocalMemory::bytes_for<RayMessage>(capacity.rays()) + LocalMemory::bytes_for<Entry>(capacity.rays()) +
-        LocalMemory::bytes_for<std::uint32_t>(capacity.lists()) + LocalMemory::bytes_for<Sender>(capacity.sender_count);
+        LocalMemory::bytes_for<std::byte>(capacity.rays() * ray_message_bytes(capacity.tested_objects)) +
+        LocalMemory::bytes_for<Entry>(capacity.rays()) + LocalMemory::bytes_for<std::uint32_t>(capacity.lists()) +
+        LocalMemory::bytes_for<Sender>(capacity.sender_count);
   }
 
   /// A packet with `ray_count` rays from `sender` has come; put() them next.
@@ -69,7 +75,7 @@ class RayQueue {
     core::expect(list < newest_.size(), "a ray is no deeper than the picture's depth");
     const std::uint32_t place = free_;
     free_ = entries_[place].older;
-    rays_[place] = message;
+    std::memcpy(&rays_[place * message_bytes_], &message, message_bytes_);
     entries_[place] = {newest_[list], sender};
     newest_[list] = place;
     last_ = std::max<std::uint32_t>(last_, list);
@@ -95,7 +101,7 @@ class RayQueue {
   }
   /// The credits that `sender` can have back: its packets that its rays still here would not fill.
   std::uint32_t owed(std::uint32_t sender) const {
-    return senders_[sender].packets - core::ceil_divide(senders_[sender].rays, ray_batch_);
+    return places_freed(senders_[sender].packets, senders_[sender].rays, ray_batch_);
   }
   /// `count` of them, at most owed(), have been given back.
   void gave_back(std::uint32_t sender, std::uint32_t count) {
@@ -124,7 +130,9 @@ class RayQueue {
     --size_;
     sender = entry.sender;
     --senders_[sender].rays;
-    return rays_[place];
+    RayMessage message;
+    std::memcpy(&message, &rays_[place * message_bytes_], message_bytes_);
+    return message;
   }
 
   /// What the list needs to know of a ray, by itself: places are found without waiting for the rays' memory.
@@ -138,7 +146,8 @@ class RayQueue {
   };
 
   std::uint32_t packets_each_, ray_batch_, lists_a_depth_;
-  std::span<RayMessage> rays_;
+  std::size_t message_bytes_;
+  std::span<std::byte> rays_;
   std::span<Entry> entries_;
   std::span<std::uint32_t> newest_;  ///< by depth, and by kind if they are apart
   std::span<Sender> senders_;

@@ -8,8 +8,9 @@ namespace dmpc::dataflow {
 using nodes::Category;
 using nodes::LocalMemory;
 
-RayTask::RayTask(LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max)
+RayTask::RayTask(LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max, std::uint32_t tested_objects)
     : self_(self),
+      tested_(tested_objects),
       flight_(memory.allocate<Flight>(Category::ray_stacks, 1).data()),
       stack_(memory.allocate<core::HitState>(Category::ray_stacks, depth_max)) {}
 
@@ -20,6 +21,7 @@ void RayTask::add_needs(nodes::MemoryPlan& plan, std::uint32_t depth_max) {
 void RayTask::shoot(const core::Ray& ray) {
   core::expect(stage_ == Stage::none, "one ray at a time is under way");
   flight_->ray = ray;
+  tested_.set({});
   stage_ = Stage::shot;
 }
 
@@ -32,6 +34,7 @@ void RayTask::enter(const RayMessage& message) {
   if (flight_->finder != self_) {
     flight_->cursor.best.block = core::no_address;
   }
+  tested_.set(message.tested);
   entered_cell_ = message.cell;
   stage_ = Stage::entered;
 }
@@ -46,10 +49,30 @@ void RayTask::trace(PartTracer& tracer, const core::DatabaseHeader& header, core
   const bool is_here = stage_ == Stage::entered ? tracer.enter(entered_cell_) : begin(tracer, header);
   core::expect(is_here || stage_ != Stage::entered, "a ray enters a region of the node's");
   if (is_here) {
-    traced_ = tracer.trace(flight_->ray, flight_->cursor, operations);
+    traced_ =
+        tested_.capacity() > 0 ? trace_with_list(tracer, operations) : tracer.trace(flight_->ray, flight_->cursor, operations);
   }
   core::expect(traced_ != core::Traced::absent, "a node has every record of its region");
   stage_ = Stage::ended;
+}
+
+/// A block on the list is tested no more. One that gave a candidate is not put there: the node where that proves to be the hit
+/// is to meet it itself, so that it need not go back to its finder.
+core::Traced RayTask::trace_with_list(PartTracer& tracer, core::Operations& operations) {
+  const core::ShearedRay sheared(flight_->ray);
+  const auto test = [&](const std::byte* record, core::Address address, core::Hit& best) {
+    const auto header = core::read<core::BlockHeader>(record);
+    if (tested_.has(header.shared_name)) {
+      tests_avoided_ += header.count;
+    } else {
+      const core::Hit before = best;
+      core::test_block(flight_->ray, sheared, record, address, best, operations);
+      if (best.block == before.block) {
+        tested_.add(header.shared_name);
+      }
+    }
+  };
+  return tracer.trace(flight_->ray, flight_->cursor, operations, test);
 }
 
 /// Whether the ray starts in a region of the node's. If not, it has left that, or misses the grid.
@@ -86,7 +109,9 @@ core::Hit RayTask::travelling_candidate() const {
 RayMessage RayTask::leaving() const {
   core::Passage passage = core::passage_of(flight_->cursor);
   passage.best = travelling_candidate();
-  return message_of(flight_->ray, passage, finder_of_candidate());
+  RayMessage message = message_of(flight_->ray, passage, finder_of_candidate());
+  message.tested = tested_.names();
+  return message;
 }
 
 RayMessage RayTask::confirmed_hit() const {

@@ -20,7 +20,8 @@ class RayTask {
   static constexpr std::uint32_t rays_max = 1;
 
   /// Nothing under way. A stack of `depth_max` hits.
-  RayTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max);
+  /// With `tested_objects` rays remember so many blocks that they have tested.
+  RayTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max, std::uint32_t tested_objects = 0);
   /// Adds to `plan` exactly what the constructor takes.
   static void add_needs(nodes::MemoryPlan& plan, std::uint32_t depth_max);
 
@@ -55,6 +56,8 @@ class RayTask {
   /// The hit as it goes to its finder.
   RayMessage confirmed_hit() const;
   nodes::NodeId finder() const { return flight_->finder; }
+  /// Lanes of blocks that were not tested here, since their ray had them on its list.
+  std::uint64_t tests_avoided() const { return tests_avoided_; }
   /// The caller has seen to the ray: it is no longer under way.
   void drop_ended() { stage_ = Stage::none; }
 
@@ -87,9 +90,12 @@ class RayTask {
   nodes::NodeId finder_of_candidate() const { return found_here() ? self_ : flight_->finder; }
   void push(const core::Ray& ray, const core::Hit& hit);
   bool next_child(PartTracer& tracer, const core::RenderSettings& settings, core::Ray& child, core::Operations& operations);
+  core::Traced trace_with_list(PartTracer& tracer, core::Operations& operations);
   bool begin(PartTracer& tracer, const core::DatabaseHeader& header);
 
   nodes::NodeId self_;
+  TestedObjects tested_;  ///< by the ray under way
+  std::uint64_t tests_avoided_ = 0;
   Flight* flight_;
   std::span<core::HitState> stack_;
   std::uint32_t depth_ = 0;      ///< hits on the stack

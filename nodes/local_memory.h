@@ -72,14 +72,7 @@ class LocalMemory {
     }
     return {std::launder(reinterpret_cast<T*>(first)), count};
   }
-  /// The same without a value: none may be read before it is assigned. Nothing is touched, so what is never used costs nothing.
-  template <class T>
-  std::span<T> allocate_unset(Category category, std::size_t count) {
-    static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T> && alignof(T) <= alignment);
-    core::expect(count <= plan_[category] / sizeof(T), "an allocation stays within its category's plan");
-    return {std::launder(reinterpret_cast<T*>(allocate_bytes(category, count * sizeof(T)))), count};
-  }
-  /// What either takes: for plans.
+  /// What `allocate<T>(category, count)` takes: for plans.
   template <class T>
   static constexpr std::size_t bytes_for(std::size_t count) {
     return (count * sizeof(T) + alignment - 1) / alignment * alignment;

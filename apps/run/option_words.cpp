@@ -12,25 +12,14 @@ struct FieldName {
   std::string_view field, option;
 };
 /// Of svm::PlanRequest and dataflow::PlanRequest.
-constexpr std::array<FieldName, 19> field_names = {{{"node_count=", "--nodes="},
-                                                    {"node_memory_bytes=", "--node-memory="},
-                                                    {"page_size_bytes=", "--page-size="},
-                                                    {"cache_pages=", "--cache-pages="},
-                                                    {"replacement=", "--replacement="},
-                                                    {"homes=", "--homes="},
-                                                    {"tree_arity=", "--tree-arity="},
-                                                    {"resident_percent=", "--resident="},
-                                                    {"in_flight=", "--in-flight="},
-                                                    {"work_item_side=", "--work-item="},
-                                                    {"work_giver=", "--work-giver="},
-                                                    {"pixel_shares=", "--pixels="},
-                                                    {"worker_count=", "--workers="},
-                                                    {"ray_batch=", "--ray-batch="},
-                                                    {"ray_credits=", "--ray-credits="},
-                                                    {"queue_packets=", "--ray-queue="},
-                                                    {"strategy=", "--strategy="},
-                                                    {"structure=", "--structure="},
-                                                    {"record_order=", "--record-order="}}};
+constexpr std::array<FieldName, 21> field_names = {
+    {{"node_count=", "--nodes="},         {"node_memory_bytes=", "--node-memory="}, {"page_size_bytes=", "--page-size="},
+     {"cache_pages=", "--cache-pages="},  {"replacement=", "--replacement="},       {"homes=", "--homes="},
+     {"tree_arity=", "--tree-arity="},    {"resident_percent=", "--resident="},     {"in_flight=", "--in-flight="},
+     {"work_item_side=", "--work-item="}, {"work_giver=", "--work-giver="},         {"pixel_shares=", "--pixels="},
+     {"worker_count=", "--workers="},     {"ray_batch=", "--ray-batch="},           {"ray_credits=", "--ray-credits="},
+     {"ray_places=", "--ray-places="},    {"queue_packets=", "--ray-queue="},       {"tested_objects=", "--tested-objects="},
+     {"strategy=", "--strategy="},        {"structure=", "--structure="},           {"record_order=", "--record-order="}}};
 
 bool is_within_word(const std::string& text, std::size_t at) {
   return at > 0 && (text[at - 1] == '-' || text[at - 1] == '_' || (text[at - 1] >= 'a' && text[at - 1] <= 'z'));

@@ -54,6 +54,8 @@ const std::vector<Belonging>& belongings() {
       {"--balance-grid", {Strategy::dataflow}, "the others share out pixels, not space"},
       {"--ray-batch", {Strategy::dataflow}, "rays of the others do not travel"},
       {"--ray-credits", {Strategy::dataflow}, "rays of the others do not travel"},
+      {"--ray-places", {Strategy::dataflow}, "rays of the others do not travel"},
+      {"--tested-objects", {Strategy::dataflow}, "rays of the others do not travel"},
       {"--ray-queue", {Strategy::dataflow}, "rays of the others do not travel"},
       {"--no-backpressure", {Strategy::dataflow}, "rays of the others do not travel"},
       {"--topology", {Strategy::dataflow}, "the others map no regions onto nodes"},
@@ -174,8 +176,14 @@ void add_ray_options(OptionSet options, dataflow::RayOptions& rays) {
   options.add_number("--ray-credits", rays.ray_credits, 0, dataflow::ray_credits_max,
                      "4; up to 64 of few nodes whose rays walk together",
                      "Packets of rays that each node may have under way to each other; 0: all go by way of the host");
-  options.add_number("--ray-queue", rays.queue_packets, 0, dataflow::queue_packets_max, "256, or 512 if rays walk alone",
+  options.add_number(
+      "--ray-places", rays.ray_places, 1, dataflow::ray_places_max, "64 of more than 128 nodes; else credits",
+      "Packets of rays from all others that each node has room for, and that they ask for; not with --ray-credits");
+  options.add_number("--ray-queue", rays.queue_packets, 0, dataflow::queue_packets_max,
+                     "256; 512 if rays walk alone; 128 with --ray-places",
                      "Packets of rays that can wait on a node for credit before more go by way of the host");
+  options.add_number("--tested-objects", rays.tested_objects, 0, dataflow::tested_objects_max, "",
+                     "Blocks that a ray remembers to have tested, so that other regions need not; rays then walk alone");
   options.add_flag("--no-backpressure", rays.without_backpressure,
                    "Nodes start primary rays whatever waits, as in 1994: what a full queue leaves goes by way of the host");
 }

@@ -127,8 +127,13 @@ std::string regions_text(const RenderOptions& options, const dataflow::Report& r
          fixed(hops.mean, 2) + " links a message, " + fixed(hops.mean_of_random, 2) + " if mapped at random";
 }
 
+std::string places_text(const dataflow::Plan& plan) {
+  return plan.shares_places() ? counted(plan.ray_places, "place") + " a node to be asked for"
+                              : counted(plan.ray_credits, "credit") + " a pair";
+}
+
 StrategyLines lines_of(const RenderOptions& options, const dataflow::Report& report) {
-  return {counted(report.plan.ray_batch, "ray") + " a packet, " + counted(report.plan.ray_credits, "credit") + " a pair, " +
+  return {counted(report.plan.ray_batch, "ray") + " a packet, " + places_text(report.plan) + ", " +
               counted(report.plan.queue_packets, "packet") + " queued",
           "travel   " + travel_text(report) + "\nload     " + load_text(report) + "\nregions  " + regions_text(options, report) +
               "\n"};

@@ -183,17 +183,31 @@ class Extractor {
   BrickChild copy_child(const Brick& from, std::size_t child, const Those& those) {
     const Address old = from.child[child].address();
     const Those left = touched(from, child, those);
-    const BrickChild copy = from.child[child].is_block() ? BrickChild::block(copy_block(old, left))
+    const BrickChild copy = from.child[child].is_block() ? BrickChild::block(copy_block(old, left, is_shared(from, child, left)))
                                                          : BrickChild::brick(copy_brick(brick_at(old), left));
     let_go(left);
     return copy;
   }
 
-  Address copy_block(Address from, const Those& those) {
+  /// Whether a child's box lies in none of those regions: a ray may meet it in others, too.
+  bool is_shared(const Brick& brick, std::size_t child, const Those& those) const {
+    const auto holds = [&](std::uint32_t region) {
+      bool is_within = true;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        is_within = is_within && place_of(brick, axis, child) > plane_at(whole_.frame, axis, regions_[region].low[axis]) &&
+                    place_of(brick, axis + 3, child) < plane_at(whole_.frame, axis, regions_[region].high[axis]);
+      }
+      return is_within;
+    };
+    const auto first = among_.begin() + static_cast<std::ptrdiff_t>(those.first);
+    return std::none_of(first, first + static_cast<std::ptrdiff_t>(those.count), holds);
+  }
+
+  Address copy_block(Address from, const Those& those, bool is_shared) {
     for (std::size_t i = 0; i < those.count; ++i) {
       part_.holds[among_[those.first + i]] = true;
     }
-    const auto header = read<BlockHeader>(at(from));
+    auto header = read<BlockHeader>(at(from));
     const std::size_t rows = block_bytes(header.kind, header.count), size = block_bytes(header);
     const std::size_t row = sizeof(ShadingReference) * header.count;
     std::array<ShadingReference, block_lanes> lanes;
@@ -207,6 +221,8 @@ class Extractor {
     const Address to = writer_.allocate(size);
     writer_.write(to, 0, std::span(at(from), size));
     writer_.write(to, rows - row, std::as_bytes(shading));
+    header.shared_name = is_shared ? static_cast<std::uint32_t>(from) + 1 : 0;
+    writer_.write(to, 0, header);
     part_.primitive_copies += header.count;
     return to;
   }

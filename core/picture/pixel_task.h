@@ -33,6 +33,11 @@ class GridTracer {
   Traced trace(const Ray& ray, Cursor& cursor, Operations& operations) {
     return core::trace(ray, cursor, *records_, header_, skips_, operations);
   }
+  /// The same with a test of blocks of one's own: test(record, address, best).
+  template <class Test>
+  Traced trace(const Ray& ray, Cursor& cursor, Operations& operations, const Test& test) {
+    return trace_blocks(ray, cursor, *records_, header_, skips_, operations, meet_children, test);
+  }
   /// The same for rays that walk together.
   bool trace(RayBundle& bundle, Operations& operations) { return core::trace(bundle, *records_, header_, skips_, operations); }
   const std::byte* find(Address address) { return records_->find(address); }

@@ -117,7 +117,9 @@ struct BlockHeader {
   std::uint8_t count = 0;
   bool has_plane = false;         ///< all share a plane that no axis stands on
   std::uint8_t shared_lanes = 0;  ///< a bit for each triangle that shares its plane with others (core/build/coplanar.h)
-  std::array<std::uint8_t, 4> padding{};
+  /// In a part of a database (core/build/extract.h) what names the block in all parts, if its box reaches beyond each of the
+  /// part's regions; else 0.
+  std::uint32_t shared_name = 0;
 };
 static_assert(sizeof(BlockHeader) == 8);
 

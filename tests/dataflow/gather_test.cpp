@@ -47,7 +47,8 @@ RayPacketHeader header_of(const tests::Parcel& parcel) {
 
 std::uint32_t pixel_in(const tests::Parcel& parcel, std::uint32_t index) {
   RayMessage message;
-  std::memcpy(&message, parcel.payload.data() + dataflow::ray_packet_bytes(index), sizeof(message));
+  std::memcpy(static_cast<void*>(&message), parcel.payload.data() + dataflow::ray_packet_bytes(index),
+              dataflow::ray_message_bytes(0));
   return message.ray.pixel;
 }
 
@@ -177,6 +178,65 @@ TEST_CASE("a packet that is not full waits for its owner's credit and does not o
   CHECK_FALSE(sender.gather.can_flush());
   CHECK(sender.gather.credits_returned(NodeId{0}, 1) == 0);
   CHECK(sender.gather.can_flush());
+}
+
+TEST_CASE("a shared place is asked for with the first ray, once, and again for what is left when it is used") {
+  RaySender sender({.node_count = 3, .ray_batch = 2, .ray_credits = 0, .shares_places = true, .queue_packets = 2});
+  sender.add(0, 1);
+  const tests::Parcel request = sender.single.take();
+  CHECK(request.target == NodeId{0});
+  CHECK(Kind{request.kind} == Kind::ask);
+  CHECK(sender.gather.is_unanswered());
+  CHECK_FALSE(sender.gather.can_flush());
+  sender.add(0, 2);
+  CHECK(sender.gather.send() == Way::to_queue);
+  sender.add(0, 3);
+  CHECK(sender.single.post.parcels.empty());
+  CHECK(sender.gather.credits_returned(NodeId{0}, 1) == 1);
+  CHECK(pixel_in(sender.single.take(), 1) == 2);
+  CHECK(Kind{sender.single.take().kind} == Kind::ask);
+  CHECK(sender.gather.credits_returned(NodeId{0}, 1) == 0);
+  CHECK_FALSE(sender.gather.is_unanswered());
+  sender.gather.flush();
+  CHECK(sender.gather.send() == Way::to_owner);
+  CHECK(pixel_in(sender.single.take(), 0) == 3);
+  CHECK(sender.single.post.parcels.empty());
+  CHECK(sender.gather.empty());
+  CHECK_THROWS_AS(sender.gather.credits_returned(NodeId{0}, 1), core::InternalError);
+}
+
+TEST_CASE("a shared place goes back unused, and counts as a packet, if its rays have gone by way of the host") {
+  RaySender sender({.node_count = 3, .ray_batch = 1, .ray_credits = 0, .shares_places = true, .host_credits = 1});
+  sender.add(2, 1);
+  CHECK(Kind{sender.single.take().kind} == Kind::ask);
+  CHECK(sender.gather.send() == Way::to_host);
+  CHECK(sender.single.take().target == host);
+  CHECK(sender.gather.is_unanswered());
+  CHECK(sender.gather.credits_returned(NodeId{2}, 1) == 1);
+  const tests::Parcel unused = sender.single.take();
+  CHECK(unused.target == NodeId{2});
+  CHECK(Kind{unused.kind} == Kind::unused);
+  CHECK(unused.payload.size() > nodes::small_payload_bytes);
+  CHECK(sender.single.node.credits(NodeId{2}, dataflow::ray_channel) == 0);
+  CHECK_FALSE(sender.gather.is_unanswered());
+}
+
+TEST_CASE("with as many packets open as there is room for the fullest is closed, preferably one that may leave") {
+  RaySender sender({.node_count = 4, .ray_batch = 9, .ray_credits = 1, .open_packets = 2, .queue_packets = 1});
+  sender.add(0, 1);
+  sender.add(0, 2);
+  CHECK_FALSE(sender.gather.waits());
+  sender.add(2, 3);
+  CHECK(sender.gather.send() == Way::to_owner);
+  CHECK(header_of(sender.single.take()).count == 2);
+  sender.add(0, 4);  // without credit now: that of 2 may leave
+  CHECK(sender.gather.send() == Way::to_owner);
+  CHECK(sender.single.take().target == NodeId{2});
+  sender.add(2, 5);  // none may leave: one is queued
+  CHECK(sender.gather.send() == Way::to_queue);
+  CHECK(sender.gather.queued() == 1);
+  CHECK(sender.gather.counters().packets_flushed == 3);
+  CHECK(sender.single.memory.used().bytes == sender.single.memory.plan().bytes);
 }
 
 TEST_CASE("no ray leaves for its own node or for the host") {

@@ -42,7 +42,7 @@ struct LoneHost {
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       RayMessage message;
       message.ray.pixel = pixels[i];
-      std::memcpy(payload.data() + dataflow::ray_packet_bytes(i), &message, sizeof(message));
+      std::memcpy(payload.data() + dataflow::ray_packet_bytes(i), &message, dataflow::ray_message_bytes(0));
     }
     program.receive({NodeId{sender}, dataflow::number_of(Kind::overflow), payload});
   }

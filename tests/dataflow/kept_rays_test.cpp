@@ -48,8 +48,8 @@ TEST_CASE("the places of kept rays are counted in bytes, which never get fewer")
     kept.put(0, ray(i));
   }
   const std::size_t bytes = kept.store_bytes();
-  CHECK(bytes >= 100 * sizeof(dataflow::RayMessage));
-  CHECK(bytes <= 2 * 100 * (sizeof(dataflow::RayMessage) + 8));
+  CHECK(bytes >= 100 * dataflow::ray_message_bytes(0));
+  CHECK(bytes <= 2 * 100 * (dataflow::ray_message_bytes(0) + 8));
   for (std::uint32_t i = 0; i < 100; ++i) {
     kept.take(0);
   }

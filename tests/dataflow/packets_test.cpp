@@ -86,12 +86,14 @@ TEST_CASE("packets of rays and film are bulk, however short, and those of contro
   CHECK(dataflow::is_small_packet<dataflow::FilmAcknowledgement>);
   CHECK(dataflow::is_small_packet<dataflow::Done>);
   CHECK(dataflow::is_small_packet<dataflow::Stop>);
+  CHECK(dataflow::is_small_packet<dataflow::Ask>);
   CHECK(!dataflow::is_small_packet<RayMessage>);
+  CHECK(!dataflow::is_small_packet<dataflow::Unused>);
 }
 
 TEST_CASE("every kind of packet has a number and a name of its own") {
   std::set<std::string> names;
-  for (nodes::PacketKind number = 0; number <= dataflow::number_of(Kind::primaries_taken); ++number) {
+  for (nodes::PacketKind number = 0; number <= dataflow::number_of(Kind::unused); ++number) {
     names.insert(dataflow::name_of(Kind{number}));
   }
   CHECK(names.size() == dataflow::kind_names.size());

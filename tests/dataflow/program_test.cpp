@@ -65,7 +65,7 @@ struct LoneProgramOf {
     const dataflow::RayPacketHeader header{1, static_cast<std::uint16_t>(nodes::index_of(single.node.id()))};
     std::vector<std::byte> payload(dataflow::ray_packet_bytes(1));
     std::memcpy(payload.data(), &header, sizeof(header));
-    std::memcpy(payload.data() + sizeof(header), &message, sizeof(message));
+    std::memcpy(payload.data() + sizeof(header), &message, dataflow::ray_message_bytes(0));
     program.receive({NodeId{sender}, dataflow::number_of(Kind::rays), payload});
   }
   void work_to_rest() {
@@ -76,9 +76,9 @@ struct LoneProgramOf {
     std::vector<RayMessage> rays;
     for (const Parcel& parcel : single.post.parcels) {
       for (std::size_t at = sizeof(dataflow::RayPacketHeader); Kind{parcel.kind} == Kind::rays && at < parcel.payload.size();
-           at += sizeof(RayMessage)) {
+           at += dataflow::ray_message_bytes(0)) {
         rays.emplace_back();
-        std::memcpy(&rays.back(), parcel.payload.data() + at, sizeof(RayMessage));
+        std::memcpy(static_cast<void*>(&rays.back()), parcel.payload.data() + at, dataflow::ray_message_bytes(0));
       }
     }
     return rays;
@@ -283,13 +283,26 @@ void run_shuffled(const Stage& stage, std::uint64_t seed) {
 }  // namespace
 
 TEST_CASE("any legal order of events gives the same film, and no mailbox overflows") {
-  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+  for (std::uint64_t seed = 0; seed < 36; ++seed) {
     dataflow::PlanRequest bounds;
     bounds.rays.ray_batch = seed % 3 == 0 ? 1 : seed % 3 == 1 ? 3 : 10;
-    bounds.rays.ray_credits = seed % 4;
+    if (seed % 3 == 2) {
+      bounds.rays.ray_places = 1 + seed % 4;
+    } else {
+      bounds.rays.ray_credits = seed % 4;
+    }
     bounds.rays.queue_packets = seed % 5 * 2;
     bounds.bundles = seed / 4 % 2 == 0;
     run_shuffled(Stage(tests::mirrors_and_glass(), static_cast<std::uint32_t>(1 + seed % 7), 8, bounds), seed);
+  }
+}
+
+TEST_CASE("nodes that share an owner's only place, without a queue, go on by way of the host") {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    dataflow::PlanRequest bounds;
+    bounds.rays = {.ray_batch = 2, .ray_places = 1, .queue_packets = 0};
+    bounds.bundles = seed % 2 == 0;
+    run_shuffled(Stage(tests::mirrors_and_glass(), 6, 8, bounds), seed);
   }
 }
 

@@ -37,15 +37,21 @@ struct ProtocolRules {
   static constexpr bool returns_credits(std::uint32_t owed, std::uint32_t batch, bool rests) {
     return dataflow::returns_credits(owed, batch, rests);
   }
+  static constexpr bool must_close(std::uint32_t open, std::uint32_t open_max) { return dataflow::must_close(open, open_max); }
+  static constexpr bool asks(bool rays, bool credit, bool asked) { return dataflow::asks(rays, credit, asked); }
+  static constexpr bool declines(bool rays, bool credit) { return dataflow::declines(rays, credit); }
+  static constexpr bool grants(std::uint32_t free, bool is_asked) { return dataflow::grants(free, is_asked); }
 };
 
 struct ProtocolSettings {
   std::array<std::uint8_t, model_nodes> primaries{1, 1, 0};
-  std::uint8_t children = 3;       ///< that all rays together may have
-  std::uint8_t credits_each = 1;   ///< packets of rays, for each (sender, target)
-  std::uint8_t rays_a_packet = 1;  ///< more than 1 only with one credit
-  std::uint8_t return_batch = 1;   ///< credits that a busy node collects
-  std::uint8_t queue_packets = 0;  ///< at most 2
+  std::uint8_t children = 3;                ///< that all rays together may have
+  std::uint8_t credits_each = 1;            ///< packets of rays, for each (sender, target)
+  std::uint8_t rays_a_packet = 1;           ///< more than 1 only with one credit
+  std::uint8_t return_batch = 1;            ///< credits that a busy node collects
+  std::uint8_t queue_packets = 0;           ///< at most 2
+  std::uint8_t shared_places = 0;           ///< of each owner, that nodes ask for; 0: they have credits_each of their own
+  std::uint8_t open_packets = model_nodes;  ///< being filled at one node at a time
   bool has_backpressure = true;
   std::uint8_t owners = model_nodes;  ///< children go to the first so many nodes: fewer, and more children can be explored
 };
@@ -63,7 +69,7 @@ inline void hold(bool condition, const char* sentence) {
 template <class Rules>
 class ProtocolModel {
  public:
-  enum class Kind : std::uint8_t { rays, overflow, credits, hold, hold_acknowledgement, token, finish };
+  enum class Kind : std::uint8_t { rays, overflow, credits, hold, hold_acknowledgement, token, finish, ask, unused };
 
   struct Message {
     Kind kind{};
@@ -90,6 +96,10 @@ class ProtocolModel {
     std::array<Queue, model_nodes> queue{};            ///< by owner
     std::uint8_t waiting = 0;                          ///< rays of the packet that has found neither credit nor room
     std::uint8_t waiting_owner = 0;
+    std::array<std::uint8_t, model_nodes> asked{};       ///< whether a place is asked for, by owner
+    std::array<std::uint8_t, model_nodes - 1> asking{};  ///< who waits for a place here, the longest first: index + 1
+    std::uint8_t free_places = 0;                        ///< of those shared
+    std::uint8_t withheld = 0;                           ///< of those shared: in them packets have come
     bool is_finished = false;
   };
   struct State {
@@ -158,8 +168,12 @@ class ProtocolModel {
     if (host.termination.is_terminated()) {
       hold(state.alive == 0, "termination is detected only when no ray is left");
       hold(ray_packets_in(state) == 0, "termination is detected only when no ray packet is under way");
+      hold(asked_in(state) == 0, "termination is detected only when no place is asked for");
     }
     check_credits(state);
+    if (settings_.shared_places > 0) {
+      check_shared_places(state);
+    }
   }
 
   /// Everything is done: proved, told to all, and every credit is where it started.
@@ -176,7 +190,8 @@ class ProtocolModel {
     return is_done && state.alive == 0 && credits_are_home(state);
   }
 
-  bool is_quiet(const State& state) const { return state.alive == 0; }
+  /// No ray is left, and nothing that counts as a packet of them.
+  bool is_quiet(const State& state) const { return state.alive == 0 && ray_packets_in(state) == 0; }
 
  private:
   using Task = dataflow::Task;
@@ -188,10 +203,16 @@ class ProtocolModel {
              .backpressure{model_nodes - 1, settings_.queue_packets, settings_.has_backpressure}};
     m.primaries = is_host ? std::uint8_t{0} : settings_.primaries[peer];
     for (std::size_t target = 0; target < model_peers; ++target) {
-      m.credits[target] = target == peer ? std::uint8_t{0} : target == model_host ? std::uint8_t{1} : settings_.credits_each;
+      m.credits[target] = target == peer ? std::uint8_t{0} : target == model_host ? std::uint8_t{1} : credits_each(peer);
     }
+    m.free_places = is_host ? std::uint8_t{0} : settings_.shared_places;
     return m;
   }
+
+  /// That a peer has for a node without asking.
+  std::uint8_t credits_each(std::size_t peer) const { return shares_with(peer) ? std::uint8_t{0} : settings_.credits_each; }
+  /// Nodes' places are shared, the host's are its own.
+  bool shares_with(std::size_t peer) const { return settings_.shared_places > 0 && peer != model_host; }
 
   static void append(std::string& bytes, const Member& m) {
     const auto& token = m.termination.token();
@@ -213,7 +234,9 @@ class ProtocolModel {
               static_cast<char>(m.backpressure.missing()),
               static_cast<char>(m.backpressure.holders()),
               static_cast<char>(m.waiting),
-              static_cast<char>(m.waiting_owner)};
+              static_cast<char>(m.waiting_owner),
+              static_cast<char>(m.free_places),
+              static_cast<char>(m.withheld)};
     const auto add = [&](const auto& counts) {
       for (const std::uint8_t count : counts) {
         bytes += static_cast<char>(count);
@@ -223,6 +246,8 @@ class ProtocolModel {
     add(m.owed);
     add(m.credits);
     add(m.gathered);
+    add(m.asked);
+    add(m.asking);
     for (const Queue& queue : m.queue) {
       add(queue);
     }
@@ -231,7 +256,8 @@ class ProtocolModel {
   bool credits_are_home(const State& state) const {
     bool is_home = true;
     for (std::size_t peer = 0; peer < model_peers; ++peer) {
-      is_home = is_home && state.member[peer].credits == member(peer).credits;
+      is_home = is_home && state.member[peer].credits == member(peer).credits &&
+                state.member[peer].free_places == member(peer).free_places;
     }
     return is_home;
   }
@@ -256,7 +282,18 @@ class ProtocolModel {
 
   static std::uint32_t ray_packets_in(const State& state) {
     std::uint32_t count = 0;
-    for_each_message(state, [&](const Message& message) { count += carries_rays(message) ? 1U : 0U; });
+    for_each_message(state,
+                     [&](const Message& message) { count += carries_rays(message) || message.kind == Kind::unused ? 1U : 0U; });
+    return count;
+  }
+
+  static std::uint32_t asked_in(const State& state) {
+    std::uint32_t count = 0;
+    for (const Member& m : state.member) {
+      for (const std::uint8_t asked : m.asked) {
+        count += asked;
+      }
+    }
     return count;
   }
 
@@ -275,7 +312,7 @@ class ProtocolModel {
   void check_credits(const State& state) const {
     for (std::size_t from = 0; from < model_peers; ++from) {
       for (std::size_t to = 0; to < model_nodes; ++to) {
-        if (from != to) {
+        if (from != to && !shares_with(from)) {
           const Member& target = state.member[to];
           const std::uint32_t rays = target.backlog[from], each = settings_.rays_a_packet;
           std::uint32_t count = state.member[from].credits[to] + target.owed[from] + (rays + each - 1) / each;
@@ -285,6 +322,33 @@ class ProtocolModel {
         }
       }
     }
+  }
+
+  /// The same for a place that is shared, which may also be free or travel back unused; and of each pair there is one request,
+  /// grant or place in use at most, for so many have room in the mailboxes.
+  void check_shared_places(const State& state) const {
+    for (std::size_t to = 0; to < model_nodes; ++to) {
+      const Member& target = state.member[to];
+      hold(rays_of_nodes(target) <= settings_.shared_places * settings_.rays_a_packet,
+           "a received ray has its place in the backlog");
+      std::uint32_t count = target.free_places + target.withheld;
+      for (std::size_t from = 0; from < model_nodes; ++from) {
+        const Channel &there = state.channel[from][to], &back = state.channel[to][from];
+        const std::uint32_t granted = count_in(back, Kind::credits, true) + state.member[from].credits[to];
+        count += granted + count_in(there, Kind::rays, false) + count_in(there, Kind::unused, false);
+        hold(count_in(there, Kind::ask, false) <= 1, "a request has its place in the mailbox");
+        hold(granted <= 1, "a grant has its place in the mailbox");
+      }
+      hold(count == settings_.shared_places, "no place is lost and none is made");
+    }
+  }
+
+  static std::uint32_t rays_of_nodes(const Member& m) {
+    std::uint32_t count = 0;
+    for (std::size_t node = 0; node < model_nodes; ++node) {
+      count += m.backlog[node];
+    }
+    return count;
   }
 
   static std::uint32_t count_in(const Channel& channel, Kind kind, bool by_count) {
@@ -324,8 +388,9 @@ class ProtocolModel {
   }
 
   static const char* verb(Kind kind) {
-    constexpr std::array<const char*, 7> verbs{"receives rays",   "receives overflow",  "receives credits", "is asked to hold",
-                                               "is acknowledged", "receives the token", "receives the end"};
+    constexpr std::array<const char*, 9> verbs{"receives rays",    "receives overflow",    "receives credits",
+                                               "is asked to hold", "is acknowledged",      "receives the token",
+                                               "receives the end", "is asked for a place", "is given back a place"};
     return verbs[static_cast<std::size_t>(kind)];
   }
 
@@ -336,6 +401,7 @@ class ProtocolModel {
         hold(!m.is_finished, "no ray comes after the end");
         m.termination.ray_packet_received();
         m.backlog[from] = static_cast<std::uint8_t>(m.backlog[from] + message.count);
+        m.withheld = static_cast<std::uint8_t>(m.withheld + (shares_with(from) ? 1 : 0));
         break;
       case Kind::overflow:
         count_overflow(m, &Rules::Termination::ray_packet_received);
@@ -346,7 +412,19 @@ class ProtocolModel {
         break;
       case Kind::credits:
         m.credits[from] = static_cast<std::uint8_t>(m.credits[from] + message.count);
+        if (is_shared(to, from)) {
+          m.asked[from] = 0;
+        }
         send_queued(state, to, from);
+        break;
+      case Kind::ask:
+        *std::find(m.asking.begin(), m.asking.end(), 0) = narrow(from + 1);
+        grant_places(state, to);
+        break;
+      case Kind::unused:
+        m.termination.ray_packet_received();
+        ++m.free_places;
+        grant_places(state, to);
         break;
       case Kind::hold:
         m.backpressure.take(message.count != 0);
@@ -369,6 +447,49 @@ class ProtocolModel {
     if (Rules::counts_overflow) {
       (m.termination.*tell)();
     }
+  }
+
+  // ---- Shared places -----------------------------------------------------------------------------------------------------
+
+  bool is_shared(std::size_t node, std::size_t owner) const { return shares_with(node) && owner != model_host; }
+
+  void grant_places(State& state, std::size_t owner) const {
+    Member& m = state.member[owner];
+    while (Rules::grants(m.free_places, m.asking[0] > 0)) {
+      send(state, owner, m.asking[0] - 1U, {.kind = Kind::credits, .count = 1});
+      --m.free_places;
+      std::shift_left(m.asking.begin(), m.asking.end(), 1);
+      m.asking.back() = 0;
+    }
+  }
+
+  static bool has_rays(const Member& m, std::size_t owner) {
+    return m.gathered[owner] > 0 || m.queue[owner][0] > 0 || (m.waiting > 0 && m.waiting_owner == owner);
+  }
+
+  /// After whatever changes the rays or the credits for `owner`.
+  void ask_or_decline(State& state, std::size_t node, std::size_t owner) const {
+    if (!is_shared(node, owner)) {
+      return;
+    }
+    Member& m = state.member[node];
+    if (Rules::declines(has_rays(m, owner), m.credits[owner] > 0)) {
+      --m.credits[owner];
+      m.termination.ray_packet_sent();
+      send(state, node, owner, {.kind = Kind::unused});
+    }
+    if (Rules::asks(has_rays(m, owner), m.credits[owner] > 0, m.asked[owner] > 0)) {
+      m.asked[owner] = 1;
+      send(state, node, owner, {.kind = Kind::ask});
+    }
+  }
+
+  void free_places(State& state, std::size_t node) const {
+    Member& m = state.member[node];
+    const std::uint32_t freed = dataflow::places_freed(m.withheld, rays_of_nodes(m), settings_.rays_a_packet);
+    m.withheld = static_cast<std::uint8_t>(m.withheld - freed);
+    m.free_places = static_cast<std::uint8_t>(m.free_places + freed);
+    grant_places(state, node);
   }
 
   // ---- A node's quantum --------------------------------------------------------------------------------------------------
@@ -395,7 +516,8 @@ class ProtocolModel {
             .admits_primaries = m.backpressure.admits_primaries(queued_in(m)),
             .can_flush = may_leave(m, 0) || may_leave(m, 1) || may_leave(m, 2),
             .has_gathered = any(m.gathered) || queued_in(m) > 0,
-            .is_unacknowledged = !m.backpressure.is_settled()};
+            .is_unacknowledged = !m.backpressure.is_settled(),
+            .is_unanswered = any(m.asked)};
   }
 
   template <class Visit>
@@ -449,10 +571,12 @@ class ProtocolModel {
     if (way == Way::to_queue) {
       Queue& queue = m.queue[owner];
       queue[queue[0] > 0 ? 1 : 0] = count;
+      ask_or_decline(state, node, owner);
       return visit(Action{"queues rays", narrow(node), narrow(owner), count}, state);
     }
     const std::size_t target = way == Way::to_owner ? owner : model_host;
     send_rays(state, node, target, {target == owner ? Kind::rays : Kind::overflow, count, narrow(owner)});
+    ask_or_decline(state, node, owner);
     visit(Action{"sends rays", narrow(node), narrow(target), count}, state);
   }
 
@@ -465,6 +589,7 @@ class ProtocolModel {
       send_rays(state, node, owner, {Kind::rays, queue[0]});
       queue = {queue[1], 0};
     }
+    ask_or_decline(state, node, owner);
   }
 
   void send_rays(State& state, std::size_t from, std::size_t to, const Message& message) const {
@@ -486,13 +611,25 @@ class ProtocolModel {
         State next = state;
         Member& m = next.member[node];
         --m.children;
+        hold(m.gathered[owner] > 0 || open_in(m) < settings_.open_packets, "a new ray finds a packet to be put into");
         hold(m.gathered[owner] < settings_.rays_a_packet, "a new ray finds room in its gather");
         if (++m.gathered[owner] == settings_.rays_a_packet) {
           close(m, owner);
+        } else if (Rules::must_close(open_in(m), settings_.open_packets)) {
+          close(m, fullest(m));
         }
+        ask_or_decline(next, node, owner);
         visit(Action{"makes a child", narrow(node), narrow(owner), 1}, next);
       }
     }
+  }
+
+  static std::uint32_t open_in(const Member& m) {
+    return static_cast<std::uint32_t>(m.gathered.size()) -
+           static_cast<std::uint32_t>(std::count(m.gathered.begin(), m.gathered.end(), 0));
+  }
+  static std::size_t fullest(const Member& m) {
+    return static_cast<std::size_t>(std::max_element(m.gathered.begin(), m.gathered.end()) - m.gathered.begin());
   }
 
   /// The rays gathered for `owner` become a packet, which waits until it is sent.
@@ -510,6 +647,11 @@ class ProtocolModel {
         State next = state;
         Member& m = next.member[node];
         --m.backlog[sender];
+        if (shares_with(sender)) {
+          free_places(next, node);
+          trace(next, {"traces a received ray", narrow(node), narrow(sender)}, visit);
+          continue;
+        }
         // With one credit a packet is used up when no ray of its sender is left; with several a packet has one ray.
         const bool is_used_up = settings_.rays_a_packet == 1 || m.backlog[sender] == 0;
         m.owed[sender] = static_cast<std::uint8_t>(m.owed[sender] + (is_used_up ? 1 : 0));

@@ -123,6 +123,33 @@ struct OverflowUncounted : ProtocolRules {
   static constexpr bool counts_overflow = false;
 };
 
+struct FillingOn : ProtocolRules {
+  static bool must_close(std::uint32_t, std::uint32_t) { return false; }
+};
+
+struct AskingTwice : ProtocolRules {
+  static bool asks(bool rays, bool credit, bool) { return dataflow::asks(rays, credit, false); }
+};
+
+struct NotAsking : ProtocolRules {
+  static bool asks(bool, bool, bool) { return false; }
+};
+
+struct KeepingPlaces : ProtocolRules {
+  static bool declines(bool, bool) { return false; }
+};
+
+struct GrantingBlindly : ProtocolRules {
+  static bool grants(std::uint32_t, bool is_asked) { return is_asked; }
+};
+
+struct PassiveUnanswered : ProtocolRules {
+  static bool is_passive(dataflow::NodeState state) {
+    state.is_unanswered = false;
+    return dataflow::is_passive(state);
+  }
+};
+
 }  // namespace
 
 TEST_CASE("without any ray the end is proved") { check_all_orders({.primaries = {0, 0, 0}, .children = 0}, 10); }
@@ -166,6 +193,27 @@ TEST_CASE("primary rays that start whatever waits end in every order of events")
   check_all_orders({.primaries = {1, 1, 0}, .children = children(3), .queue_packets = 1, .has_backpressure = false}, 10'000);
 }
 
+TEST_CASE("places that are shared and asked for become free again in every order of events") {
+  check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .shared_places = 1}, 10'000);
+  check_all_orders({.primaries = {1, 0, 0}, .children = children(3), .shared_places = 1}, 10'000);
+  check_all_orders({.primaries = {1, 1, 0}, .children = children(3), .shared_places = 2, .owners = 2}, 10'000);
+  check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .queue_packets = 1, .shared_places = 1}, 10'000);
+  check_all_orders({.primaries = {1, 1, 0}, .children = children(3), .queue_packets = 2, .shared_places = 1, .owners = 2},
+                   10'000);
+}
+
+TEST_CASE("nodes that fill one packet at a time go on in every order of events") {
+  check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .rays_a_packet = 2, .shared_places = 1, .open_packets = 1},
+                   1'000);
+  check_all_orders({.primaries = {1, 0, 0},
+                    .children = children(3),
+                    .rays_a_packet = 2,
+                    .queue_packets = 1,
+                    .shared_places = 1,
+                    .open_packets = 2},
+                   1'000);
+}
+
 TEST_CASE("without the way by the host there is a deadlock") {
   check_found<WithoutOverflow>({.primaries = {1, 1, 0}, .children = 4, .owners = 2}, "deadlock");
 }
@@ -193,6 +241,33 @@ TEST_CASE("a node that takes queued rays for nothing lets the end be announced t
 
 TEST_CASE("a node that never takes back what it asked of the others keeps their primary rays from starting") {
   check_found<HoldingForEver>({.primaries = {1, 1, 0}, .children = 3, .queue_packets = 1, .owners = 2}, "deadlock");
+}
+
+TEST_CASE("a node that fills on has no packet for the next ray") {
+  check_found<FillingOn>({.primaries = {1, 0, 0}, .children = 2, .rays_a_packet = 2, .shared_places = 1, .open_packets = 1},
+                         "finds a packet to be put into");
+}
+
+TEST_CASE("a node that asks again before it has its answer has no room for that in the mailbox") {
+  check_found<AskingTwice>({.primaries = {2, 0, 0}, .children = 3, .queue_packets = 1, .shared_places = 1, .owners = 2},
+                           "a request has its place");
+}
+
+TEST_CASE("without asking for shared places queued rays wait for ever") {
+  check_found<NotAsking>({.primaries = {2, 0, 0}, .children = 3, .queue_packets = 1, .shared_places = 1, .owners = 2},
+                         "deadlock");
+}
+
+TEST_CASE("a node that keeps the place it no longer needs keeps others from theirs") {
+  check_found<KeepingPlaces>({.primaries = {1, 1, 0}, .children = 3, .shared_places = 1, .owners = 2}, "deadlock");
+}
+
+TEST_CASE("an owner that grants what it does not have floods its backlog") {
+  check_found<GrantingBlindly>({.primaries = {2, 1, 0}, .children = 3, .shared_places = 1, .owners = 3}, "place");
+}
+
+TEST_CASE("a node that takes an unanswered request for nothing lets the end be announced too early") {
+  check_found<PassiveUnanswered>({.primaries = {0, 1, 0}, .children = 2, .shared_places = 1}, "no place is asked for");
 }
 
 TEST_CASE("without colours the end is announced too early") {

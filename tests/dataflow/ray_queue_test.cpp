@@ -44,7 +44,7 @@ struct Backlog {
 }  // namespace
 
 TEST_CASE("an empty backlog gives nothing and owes nothing") {
-  Backlog backlog({.sender_count = 3, .packets_each = 2, .ray_batch = 4, .depth_max = 5});
+  Backlog backlog({.sender_count = 3, .packets_each = 2, .packets = 4, .ray_batch = 4, .depth_max = 5});
   CHECK(backlog.queue.empty());
   CHECK(backlog.queue.owed(0) == 0);
   CHECK_THROWS_AS(backlog.take(), core::InternalError);
@@ -52,7 +52,7 @@ TEST_CASE("an empty backlog gives nothing and owes nothing") {
 }
 
 TEST_CASE("the deepest ray comes first, of equally deep ones the newest") {
-  Backlog backlog({.sender_count = 3, .packets_each = 2, .ray_batch = 4, .depth_max = 5});
+  Backlog backlog({.sender_count = 3, .packets_each = 2, .packets = 4, .ray_batch = 4, .depth_max = 5});
   backlog.receive(0, {1, 3, 2, 3});
   backlog.receive(2, {5, 1});
   CHECK(backlog.take() == 4);
@@ -69,7 +69,7 @@ TEST_CASE("the deepest ray comes first, of equally deep ones the newest") {
 }
 
 TEST_CASE("a credit is owed as soon as the rays left do not fill its packet") {
-  Backlog backlog({.sender_count = 2, .packets_each = 3, .ray_batch = 2, .depth_max = 1});
+  Backlog backlog({.sender_count = 2, .packets_each = 3, .packets = 3, .ray_batch = 2, .depth_max = 1});
   backlog.receive(0, {1, 1});
   backlog.receive(0, {1});
   CHECK(backlog.queue.owed(0) == 0);
@@ -86,7 +86,7 @@ TEST_CASE("a credit is owed as soon as the rays left do not fill its packet") {
 }
 
 TEST_CASE("every sender can fill its places, and not one packet more") {
-  Backlog backlog({.sender_count = 3, .packets_each = 2, .ray_batch = 2, .depth_max = 1});
+  Backlog backlog({.sender_count = 3, .packets_each = 2, .packets = 4, .ray_batch = 2, .depth_max = 1});
   for (const std::uint32_t sender : {0U, 2U}) {
     backlog.receive(sender, {1, 1});
     backlog.receive(sender, {1, 1});
@@ -96,7 +96,7 @@ TEST_CASE("every sender can fill its places, and not one packet more") {
 }
 
 TEST_CASE("a packet with no ray, with too many, or with a ray too deep is an error") {
-  Backlog backlog({.sender_count = 2, .packets_each = 2, .ray_batch = 2, .depth_max = 3});
+  Backlog backlog({.sender_count = 2, .packets_each = 2, .packets = 2, .ray_batch = 2, .depth_max = 3});
   CHECK_THROWS_AS(backlog.queue.accept_packet(0, 0), core::InternalError);
   CHECK_THROWS_AS(backlog.queue.accept_packet(0, 3), core::InternalError);
   CHECK_THROWS_AS(backlog.receive(0, {4}), core::InternalError);
@@ -104,7 +104,7 @@ TEST_CASE("a packet with no ray, with too many, or with a ray too deep is an err
 
 TEST_CASE("whatever comes and goes, a sender within its credits always finds room") {
   std::mt19937 random(1);
-  Backlog backlog({.sender_count = 5, .packets_each = 3, .ray_batch = 4, .depth_max = 6});
+  Backlog backlog({.sender_count = 5, .packets_each = 3, .packets = 12, .ray_batch = 4, .depth_max = 6});
   std::uint32_t credits[5] = {3, 3, 3, 3, 0};
   for (int i = 0; i < 20000; ++i) {
     const std::uint32_t sender = random() % 4;
@@ -129,7 +129,7 @@ TEST_CASE("whatever comes and goes, a sender within its credits always finds roo
 }
 
 TEST_CASE("with kinds apart the deepest comes first, then all that are as deep and shadow rays, or not, as it is") {
-  Backlog backlog({.sender_count = 2, .packets_each = 1, .ray_batch = 6, .depth_max = 3, .are_kinds_apart = true});
+  Backlog backlog({.sender_count = 2, .packets_each = 1, .packets = 1, .ray_batch = 6, .depth_max = 3, .are_kinds_apart = true});
   CHECK(backlog.memory.used().bytes == backlog.memory.plan().bytes);
   backlog.queue.accept_packet(0, 6);
   const std::pair<int, core::RayKind> rays[] = {{1, core::RayKind::primary}, {3, core::RayKind::reflected},

@@ -78,20 +78,6 @@ TEST_CASE("objects with a constructor of their own are made by it") {
   }
 }
 
-TEST_CASE("objects that are allocated unset are not made, count as others do, and lie apart") {
-  struct Made {
-    std::uint64_t value = 7;
-  };
-  LocalMemory memory(queues_of(256));
-  const auto unset = memory.allocate_unset<Made>(Category::queues, 9);
-  const auto made = memory.allocate<Made>(Category::queues, 9);
-  CHECK(unset[8].value == 0);  // as the memory was
-  unset[8].value = 9;
-  CHECK(made[0].value == 7);
-  CHECK(memory.used()[Category::queues] == 2 * LocalMemory::bytes_for<Made>(9));
-  CHECK_THROWS_AS(memory.allocate_unset<Made>(Category::queues, 1), core::InternalError);
-}
-
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST_CASE("a memory takes nothing of the real computer until it is written") {
   constexpr std::size_t bytes = std::size_t{64} << 20U, page_bytes = 4096;

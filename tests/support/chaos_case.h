@@ -71,6 +71,11 @@ class ChaosCase {
     dataflow::RunOptions options{.computer = {.node_count = nodes_}};
     options.rays.ray_batch = one_of<std::optional<std::uint32_t>>({1, 1, 2, 5, 10, 40, std::nullopt});
     options.rays.ray_credits = one_of<std::optional<std::uint32_t>>({0, 1, 1, 2, std::nullopt});
+    options.rays.tested_objects = one_of({0U, 0U, 1U, 8U});
+    if (draws_.chance(30)) {
+      options.rays.ray_credits.reset();
+      options.rays.ray_places = 1 + draws_.below(4);
+    }
     options.rays.queue_packets = one_of<std::optional<std::uint32_t>>({0, 1, 2, 7, std::nullopt});
     options.rays.balance = {
         .balance = draws_.chance(50) ? dataflow::Balance::subsampled : dataflow::Balance::equal_size,

@@ -76,7 +76,9 @@ dataflow::Report run_dataflow(const Subject& subject, const dataflow::RunOptions
 }
 
 std::uint32_t credits_of(const svm::Plan& plan) { return plan.request_credits + plan.film_credits; }
-std::uint32_t credits_of(const dataflow::Plan& plan) { return plan.ray_credits + plan.host_credits + plan.film_credits; }
+std::uint32_t credits_of(const dataflow::Plan& plan) {
+  return plan.ray_credits + plan.ray_places + plan.host_credits + plan.film_credits;
+}
 
 /// What chaos did in all runs together.
 struct Damage {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <iterator>
+#include <numeric>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -98,6 +99,63 @@ TEST_CASE("dataflow: any nodes, batches, credits, queues, balances, skips and ax
 
 TEST_CASE("dataflow: any nodes, batches, credits, queues, balances, skips and axes give the picture of gears") {
   check_pairwise(built_in("gears-2"), {scaled_edge(16), scaled_edge(16)});
+}
+
+TEST_CASE("dataflow: places that are shared and asked for, however few, give the picture of mirrors and glass") {
+  const Subject subject(mirrors_and_glass(), {scaled_edge(20), scaled_edge(20)});
+  for (const std::uint32_t nodes : {1U, 2U, 5U, 16U}) {
+    for (const std::uint32_t places : {1U, 2U, 64U}) {
+      for (const Wish& queue : queues) {
+        CAPTURE(places);
+        const RunOptions options{.computer = {.node_count = nodes}, .rays = {.ray_places = places, .queue_packets = queue}};
+        check(subject, options, {.bundles = places == 2});
+      }
+    }
+  }
+}
+
+TEST_CASE("dataflow: lists of tested objects, however long, give the picture of mirrors and glass with fewer tests") {
+  const std::array<Subject, 2> subjects = along_both_axes(mirrors_and_glass(), {scaled_edge(20), scaled_edge(20)});
+  for (const Subject& subject : subjects) {
+    std::uint64_t tests_without = 0, tests_before = ~std::uint64_t{0};
+    for (const std::uint32_t names : {0U, 1U, 3U, 8U}) {
+      CAPTURE(names);
+      RunOptions options{.computer = {.node_count = 8}, .rays = {.tested_objects = names, .ray_credits = names % 2}};
+      options.computer.machine = nodes::Machine{};
+      const dataflow::Report report = check(subject, options);
+      const auto& by_kind = report.operations().primitive_tests;
+      const std::uint64_t tests = std::accumulate(by_kind.begin(), by_kind.end(), std::uint64_t{0});
+      tests_without = names == 0 ? tests : tests_without;
+      CHECK(report.rays().tests_avoided + tests == tests_without);
+      CHECK(tests <= tests_before);
+      tests_before = tests;
+    }
+    CHECK(tests_before < tests_without);
+  }
+}
+
+TEST_CASE("dataflow: lists of tested objects give the picture with several regions a node, and on threads") {
+  const Subject subject(built_in("gears-2"), {scaled_edge(16), scaled_edge(16)});
+  for (const std::uint32_t nodes : {2U, 5U}) {
+    for (const std::uint32_t regions : {1U, 4U}) {
+      CAPTURE(regions);
+      RunOptions options{.computer = {.node_count = nodes}, .rays = {.tested_objects = 4}};
+      options.rays.balance = {.balance = Balance::scattered, .regions_a_node = regions};
+      check(subject, options);
+    }
+  }
+}
+
+TEST_CASE("dataflow: places that are shared give the picture on a modelled machine, twice with one run hash") {
+  const Subject subject(built_in("gears-2"), {scaled_edge(16), scaled_edge(16)});
+  for (const std::uint32_t places : {1U, 3U, 64U}) {
+    CAPTURE(places);
+    const RunOptions options{.computer = {.node_count = 8, .machine = nodes::Machine{}},
+                             .rays = {.ray_batch = 2, .ray_places = places}};
+    const dataflow::Report first = check(subject, options), second = check(subject, options);
+    REQUIRE(first.virtual_time);
+    CHECK(first.virtual_time->run_hash(first.film.hash()) == second.virtual_time->run_hash(second.film.hash()));
+  }
 }
 
 TEST_CASE("dataflow: several regions a node, on any nodes, alone or in bundles, give the picture of mirrors and glass") {

@@ -45,6 +45,7 @@ Json travel_json(const Travel& travel, std::uint32_t ray_batch) {
             {"packets", gather.packets_overflowed},
             {"share", ratio(gather.rays_overflowed, gather.rays)}}},
           {"hits_sent_back", travel.rays.hits_sent_back},
+          {"tests_avoided", travel.rays.tests_avoided},
           {"queue_max", gather.queue_high_water},
           {"backlog_max", travel.backlog_max}};
 }
@@ -123,8 +124,10 @@ Json options_json(const dataflow::RayOptions& rays, const dataflow::Plan& plan) 
           {"subsample", subsampled ? Json(rays.balance.subsample) : Json()},
           {"balance_grid", subsampled ? Json(rays.balance.columns_per_side) : Json()},
           {"ray_batch", plan.ray_batch},
-          {"ray_credits", plan.ray_credits},
+          {"ray_credits", plan.shares_places() ? Json() : Json(plan.ray_credits)},
+          {"ray_places", plan.shares_places() ? Json(plan.ray_places) : Json()},
           {"ray_queue", plan.queue_packets},
+          {"tested_objects", rays.tested_objects},
           {"backpressure", !rays.without_backpressure},
           {"topology", std::string(name_of(*rays.topology))}};
 }

@@ -238,11 +238,11 @@ Json options_json(const RenderRecord& record, const Account& account, const Json
                  {"node_memory", account.node_memory_max_bytes},
                  {"page_size", record.database.page_size()}};
   add_staging(result, options.picture.staging);
-  result.update(
-      filled({"cache_pages", "replacement",  "homes",     "tree_arity",  "resident_pages", "in_flight",    "work_item",
-              "work_giver",  "pixels",       "workers",   "count_pages", "balance",        "cuts",         "regions_a_node",
-              "subsample",   "balance_grid", "ray_batch", "ray_credits", "ray_queue",      "backpressure", "topology"},
-             special));
+  result.update(filled(
+      {"cache_pages", "replacement", "homes",       "tree_arity", "resident_pages", "in_flight",      "work_item", "work_giver",
+       "pixels",      "workers",     "count_pages", "balance",    "cuts",           "regions_a_node", "subsample", "balance_grid",
+       "ray_batch",   "ray_credits", "ray_places",  "ray_queue",  "tested_objects", "backpressure",   "topology"},
+      special));
   return result;
 }
 

@@ -15,7 +15,7 @@ namespace dmpc::apps {
 ///                  node_memory (bytes a node, the most), page_size; camera, light (a list), scale, up, smooth, missing (as the
 ///                  command line takes them, null where it said nothing); of pages: cache_pages, in_flight, work_item,
 ///                  work_giver, pixels, workers, count_pages; of dataflow: balance, cuts, regions_a_node, subsample,
-///                  balance_grid, ray_batch, ray_credits, ray_queue, backpressure, topology
+///                  balance_grid, ray_batch, ray_credits, ray_places, ray_queue, tested_objects, backpressure, topology
 ///   runner         threads or virtual
 ///   machine        that was modelled, as machine_file.h says; null with threads, as is all that follows from virtual time
 ///   film_hash      of the film's integers, 16 hexadecimal digits: equal pictures, equal hashes
@@ -60,7 +60,8 @@ namespace dmpc::apps {
 ///                  rays), packets_flushed (sent before they were full), packets_queued (sent after a wait for credit), mean_fill
 ///                  (rays in a packet over those in a full one), bytes (headers included; in total those that the host forwards,
 ///                  too), overflow {rays, packets, share of the rays sent}, hits_sent_back (to the node that found them),
-///                  queue_max and backlog_max (packets to send, and rays to trace, waiting on a node at once)
+///                  tests_avoided (primitives that rays had tested elsewhere, by option tested_objects), queue_max and
+///                  backlog_max (packets to send, and rays to trace, waiting on a node at once)
 ///   load           of dataflow: work_ps (picoseconds by measured prices), predicted_ps (of the subsampled picture), average and
 ///                  average_predicted (mean over maximum of the nodes)
 ///   regions        of dataflow: grid (finest cells along x, y, z), duplication (copies of primitives over primitives listed),

@@ -161,14 +161,15 @@ TEST_CASE("a value may follow its option as a word of its own") { CHECK(render({
 
 TEST_CASE("a value out of range or of the wrong kind names its option") {
   for (const std::string option :
-       {"--nodes=0",          "--nodes=4097",         "--nodes=-1",       "--nodes=many",      "--nodes=2.5",
-        "--strategy=dance",   "--tracer=magic",       "--samples=0",      "--samples=32769",   "--depth=0",
-        "--depth=256",        "--convention=mine",    "--cache-pages=0",  "--in-flight=0",     "--in-flight=4097",
-        "--work-item=-1",     "--balance=even",       "--cuts=third",     "--subsample=0",     "--subsample=65537",
-        "--balance-grid=0",   "--balance-grid=4097",  "--ray-batch=0",    "--ray-batch=683",   "--ray-credits=-1",
-        "--ray-queue=-1",     "--ray-queue=16385",    "--ray-credits=65", "--topology=ring",   "--grid-axes=moon",
-        "--work-item=1025",   "--no-skip=everything", "--resolution=512", "--page-size=1000B", "--page-size=256B",
-        "--page-size=128KiB", "--node-memory=lots",   "--unheard-of=1"}) {
+       {"--nodes=0",        "--nodes=4097",        "--nodes=-1",        "--nodes=many",       "--nodes=2.5",
+        "--strategy=dance", "--tracer=magic",      "--samples=0",       "--samples=32769",    "--depth=0",
+        "--depth=256",      "--convention=mine",   "--cache-pages=0",   "--in-flight=0",      "--in-flight=4097",
+        "--work-item=-1",   "--balance=even",      "--cuts=third",      "--subsample=0",      "--subsample=65537",
+        "--balance-grid=0", "--balance-grid=4097", "--ray-batch=0",     "--ray-batch=683",    "--ray-credits=-1",
+        "--ray-queue=-1",   "--ray-places=0",      "--ray-places=4097", "--tested-objects=9", "--ray-queue=16385",
+        "--ray-credits=65", "--topology=ring",     "--grid-axes=moon",  "--work-item=1025",   "--no-skip=everything",
+        "--resolution=512", "--page-size=1000B",   "--page-size=256B",  "--page-size=128KiB", "--node-memory=lots",
+        "--unheard-of=1"}) {
     CAPTURE(option);
     CHECK(contains(render_complaint({option}), option.substr(0, option.find('='))));
     CHECK(contains(render_complaint({option}), "Try: dmpc render --help"));
@@ -183,7 +184,8 @@ TEST_CASE("the smallest and largest values are taken") {
   }
   for (const std::string option :
        {"--nodes=1024", "--subsample=1", "--subsample=65536", "--balance-grid=1", "--balance-grid=4096", "--ray-batch=1",
-        "--ray-batch=546", "--ray-credits=0", "--ray-credits=64", "--ray-queue=0", "--ray-queue=16384"}) {
+        "--ray-batch=546", "--ray-credits=0", "--ray-credits=64", "--ray-queue=0", "--ray-queue=16384", "--ray-places=1",
+        "--ray-places=4096", "--tested-objects=0", "--tested-objects=8"}) {
     CAPTURE(option);
     CHECK_NOTHROW(render({"--strategy=dataflow", option}));
   }
@@ -272,6 +274,8 @@ TEST_CASE("an option of another strategy is refused with the strategies that it 
                                      {"--balance-grid=256", svm, dataflow},
                                      {"--ray-batch=10", replicated, dataflow},
                                      {"--ray-credits=4", svm, dataflow},
+                                     {"--ray-places=4", svm, dataflow},
+                                     {"--tested-objects=4", svm, dataflow},
                                      {"--ray-queue=512", replicated, dataflow},
                                      {"--work-giver=host", dataflow, svm + " or " + replicated + " or " + forest},
                                      {"--homes=host", replicated, svm},
@@ -441,8 +445,11 @@ TEST_CASE("the help of render names every option and its default") {
                                  "1..546 [what fills 4 KiB; 2 KiB if rays walk alone, modelled machines 1 KiB]",
                                  "--ray-credits",
                                  "0..64 [4; up to 64 of few nodes whose rays walk together]",
+                                 "--ray-places",
+                                 "1..4096 [64 of more than 128 nodes; else credits]",
                                  "--ray-queue",
-                                 "0..16384 [256, or 512 if rays walk alone]",
+                                 "0..16384 [256; 512 if rays walk alone; 128 with --ray-places]",
+                                 "--tested-objects",
                                  "--no-backpressure",
                                  "--topology",
                                  "--runner",

@@ -46,7 +46,7 @@ TEST_CASE("the figures of rays do not contradict each other or the run") {
   CHECK(rays == report.gathers().rays);
   CHECK(real(table, 0, "hops a ray") == report.messages_per_ray());
   CHECK(whole(table, 0, "ray packets") <= rays);
-  CHECK(whole(table, 0, "ray traffic") >= rays * sizeof(dataflow::RayMessage));
+  CHECK(whole(table, 0, "ray traffic") >= rays * dataflow::ray_message_bytes(0));
   CHECK(bytes_sent(report, dataflow::Kind::rays) > 0);
   CHECK(real(table, 0, "packet fill") > 0);
   CHECK(real(table, 0, "packet fill") <= 100);
