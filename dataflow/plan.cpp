@@ -119,10 +119,10 @@ void check_use(bool right, const std::string& sentence) {
 }
 
 void check(const PlanRequest& request) {
-  nodes::check_ranks(request.computer);
   check_use(request.node_count() >= 1 && request.node_count() <= region_count_max,
             "node_count=" + std::to_string(request.node_count()) + ": from 1 to " + std::to_string(region_count_max) +
                 " nodes with strategy=dataflow");
+  nodes::check_ranks(request.computer);
   const std::uint32_t tested = request.rays.tested_objects;
   check_use(tested <= tested_objects_max,
             "tested_objects=" + std::to_string(tested) + ": at most " + std::to_string(tested_objects_max) + " names");

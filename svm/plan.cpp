@@ -225,12 +225,12 @@ void check_recording(const PlanRequest& request) {
 }
 
 void check(const PlanRequest& request) {
-  nodes::check_ranks(request.computer);
   check_use(is_page_size(request.page_size_bytes),
             "page_size_bytes=" + size_text(request.page_size_bytes) + ": a page is a power of two from 512B to 64KiB");
   check_use(
       request.computer.node_count >= 1 && request.computer.node_count <= node_count_max,
       "node_count=" + std::to_string(request.computer.node_count) + ": from 1 to " + std::to_string(node_count_max) + " nodes");
+  nodes::check_ranks(request.computer);
   const std::uint32_t workers = worker_count_of(request);
   check_use(workers >= 1 && workers <= request.computer.node_count,
             "worker_count=" + std::to_string(workers) +

@@ -13,7 +13,7 @@ namespace dmpc::apps {
 
 struct PlainPicture {
   core::ZeroedArray<core::Color> pixels;  ///< linear radiance, row by row from the top left
-  std::uint64_t rays = 0;           ///< of all kinds
+  std::uint64_t rays = 0;                 ///< of all kinds
 };
 
 /// Recursive shading after Whitted in single precision, one ray at a time asked of Embree's robust tree, one process, one copy of
