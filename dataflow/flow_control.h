@@ -26,6 +26,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "core/base/units.h"
+
 namespace dmpc::dataflow {
 
 /// What a node has to do, as far as the choice of the next task asks.
@@ -123,7 +125,7 @@ constexpr bool grants(std::uint32_t free_places, bool is_asked) { return free_pl
 
 /// How many of the places in which `packets` packets came are free again, with `rays` of their rays still here.
 constexpr std::uint32_t places_freed(std::uint32_t packets, std::uint32_t rays, std::uint32_t ray_batch) {
-  return packets - (rays + ray_batch - 1) / ray_batch;
+  return packets - core::ceil_divide(rays, ray_batch);
 }
 
 /// Whether the host forwards a packet of the `kept` rays that it keeps for one owner: only into a place that is free.

@@ -107,8 +107,7 @@ void Gather::add(NodeId owner, const RayMessage& message) {
   }
   const std::uint16_t open = owner_at(owner).open;
   Slot& slot = slots_[open];
-  std::memcpy(packet_in(open).data() + ray_packet_bytes(slot.count, tested_objects_), &message,
-              ray_message_bytes(tested_objects_));
+  put_ray(packet_in(open), slot.count, tested_objects_, message);
   ++size_;
   ++owner_at(owner).pair.rays[static_cast<std::size_t>(message.ray.kind)];
   if (++slot.count == ray_batch_) {

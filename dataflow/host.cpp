@@ -128,9 +128,7 @@ void HostProgram::take_overflow(const nodes::Packet& packet) {
   core::expect(header.owner < node_count_, "rays have an owner");
   termination_.ray_packet_received();
   for (std::uint32_t i = 0; i < header.count; ++i) {
-    RayMessage message;
-    std::memcpy(&message, packet.payload.data() + ray_packet_bytes(i, tested_objects_), ray_message_bytes(tested_objects_));
-    kept_.put(header.owner, message);
+    kept_.put(header.owner, ray_in(packet.payload, i, tested_objects_));
   }
   counters_.rays_in += header.count;
   send_control(*node_, packet.source, Kind::credits, Credits{1});
@@ -145,8 +143,7 @@ void HostProgram::forward(std::uint32_t owner) {
   const RayPacketHeader header{count, static_cast<std::uint16_t>(owner)};
   std::memcpy(packet_.data(), &header, sizeof(header));
   for (std::uint32_t i = 0; i < count; ++i) {
-    const RayMessage message = kept_.take(owner);
-    std::memcpy(packet_.data() + ray_packet_bytes(i, tested_objects_), &message, ray_message_bytes(tested_objects_));
+    put_ray(packet_, i, tested_objects_, kept_.take(owner));
   }
   node_->send_reserved(nodes::NodeId{owner}, ray_channel, number_of(Kind::forwarded),
                        std::span<const std::byte>(packet_.first(ray_packet_bytes(count, tested_objects_))));

@@ -4,16 +4,19 @@
 //   rays                   node -> owner         rays      bulk   the sender's ray credits for that owner
 //   overflow               node -> host          rays      bulk   the sender's ray credits for the host
 //   forwarded              host -> owner         rays      bulk   the host's ray credits for that owner
-//   credits                receiver -> sender    control   small  the ray packets whose credits it gives back; a grant: the
-//   request ask                    node -> owner         control   small  itself: the next waits for the grant unused node ->
-//   owner         rays      bulk   the credit that it gives back hold                   node -> each node     control   small
-//   itself: the next waits for the answers hold_acknowledgement   node -> node          control   small  the announcement that it
-//   answers film                   node -> host          film      bulk   the sender's film credits film_acknowledgement   host
-//   -> node          control   small  the film packet token                  member -> next        control   small  itself: one
-//   goes round the ring finish                 host -> node          control   small  once a run done                   node ->
-//   host          control   small  once a run stop                   host -> node          control   small  once a run primaries
-//   host -> node          film      bulk   the host's credits for dealing to that node primaries_taken        node -> host
-//   control   small  the packet of primaries whose credit it gives back
+//   credits                receiver -> sender    control   small  the ray packets whose credits it gives back, or the request
+//   ask                    node -> owner         control   small  itself: the next waits for the grant
+//   unused                 node -> owner         rays      bulk   the credit that it gives back
+//   hold                   node -> each node     control   small  itself: the next waits for the answers
+//   hold_acknowledgement   node -> node          control   small  the announcement that it answers
+//   film                   node -> host          film      bulk   the sender's film credits
+//   film_acknowledgement   host -> node          control   small  the film packet
+//   token                  member -> next        control   small  itself: one goes round the ring
+//   finish                 host -> node          control   small  once a run
+//   done                   node -> host          control   small  once a run
+//   stop                   host -> node          control   small  once a run
+//   primaries              host -> node          film      bulk   the host's credits for dealing to that node
+//   primaries_taken        node -> host          control   small  the packet of primaries whose credit it gives back
 //
 // Requests and unused credits exist only where owners' places are shared (flow_control.h). An unused credit counts as a packet of
 // rays for the proof of the end, so none is under way then.
@@ -26,6 +29,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <span>
 #include <type_traits>
 
 #include "core/base/units.h"
@@ -127,6 +132,16 @@ constexpr std::size_t ray_packet_bytes(std::size_t ray_count, std::uint32_t test
   return sizeof(RayPacketHeader) + ray_count * ray_message_bytes(tested_objects);
 }
 static_assert(ray_packet_bytes(1) > nodes::small_payload_bytes, "every packet of rays is bulk");
+/// The ray at `place` of such a packet, whose rays take along `tested_objects` names.
+inline RayMessage ray_in(std::span<const std::byte> packet, std::size_t place, std::uint32_t tested_objects) {
+  RayMessage message;
+  std::memcpy(&message, packet.data() + ray_packet_bytes(place, tested_objects), ray_message_bytes(tested_objects));
+  return message;
+}
+/// Puts it there.
+inline void put_ray(std::span<std::byte> packet, std::size_t place, std::uint32_t tested_objects, const RayMessage& message) {
+  std::memcpy(packet.data() + ray_packet_bytes(place, tested_objects), &message, ray_message_bytes(tested_objects));
+}
 /// How many rays fit so many bytes.
 constexpr std::uint32_t rays_in(std::size_t bytes, std::uint32_t tested_objects = 0) {
   return static_cast<std::uint32_t>((bytes - sizeof(RayPacketHeader)) / ray_message_bytes(tested_objects));

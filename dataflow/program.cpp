@@ -196,8 +196,7 @@ void RayProgram<RaysTask>::receive_rays(const nodes::Packet& packet) {
   const std::uint32_t sender = account_of(packet.source);
   backlog_.accept_packet(sender, header.count);
   for (std::uint32_t i = 0; i < header.count; ++i) {
-    RayMessage message;
-    std::memcpy(&message, packet.payload.data() + ray_packet_bytes(i, tested_objects_), ray_message_bytes(tested_objects_));
+    const RayMessage message = ray_in(packet.payload, i, tested_objects_);
     backlog_.put(sender, message);
     ++counters_.in[static_cast<std::size_t>(message.ray.kind)];
   }
