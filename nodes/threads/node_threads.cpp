@@ -30,8 +30,10 @@ bool packet_comes_soon(ThreadProcessor& self) {
 bool is_here(const Outlet* outlet, std::size_t index) { return outlet == nullptr || outlet->is_here[index]; }
 
 std::uint32_t count_here(const Outlet* outlet, std::size_t peer_count) {
-  return static_cast<std::uint32_t>(outlet == nullptr ? peer_count
-                                                      : std::count(outlet->is_here.begin(), outlet->is_here.end(), true));
+  if (outlet == nullptr) {
+    return static_cast<std::uint32_t>(peer_count);
+  }
+  return static_cast<std::uint32_t>(std::count(outlet->is_here.begin(), outlet->is_here.end(), true));
 }
 
 }  // namespace
