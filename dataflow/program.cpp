@@ -24,15 +24,15 @@ const T* keep(LocalMemory& memory, const T& value) {
   return std::construct_at(reinterpret_cast<T*>(bytes.data()), value);
 }
 
-std::span<std::byte> keep_records(LocalMemory& memory, Category category, std::span<const std::byte> records) {
-  const std::span<std::byte> bytes = memory.allocate<std::byte>(category, records.size());
-  std::copy(records.begin(), records.end(), bytes.begin());
+std::span<std::byte> keep_records(LocalMemory& memory, Category category, const nodes::ByteSource& records) {
+  const std::span<std::byte> bytes = memory.allocate<std::byte>(category, records.size_bytes());
+  records.copy(0, bytes);
   return bytes;
 }
 
 core::RenderSettings settings_for(const NodeDeal& deal) {
   core::RenderSettings settings = deal.settings;
-  settings.header = deal.part.header;
+  settings.header = deal.header;
   return settings;
 }
 
@@ -98,12 +98,12 @@ RayProgram<RaysTask>::RayProgram(nodes::Node& node, const Plan& plan, const Node
       return_batch_(return_batch(plan.ray_credits)),
       return_batch_host_(return_batch(plan.host_credits)),
       constants_(keep(node.memory(), Constants{settings_for(deal), deal.regions, deal.outline.header})),
-      part_(keep_records(node.memory(), Category::home_pages, deal.part.bytes)),
+      part_(keep_records(node.memory(), Category::home_pages, deal.records)),
       records_(part_),
       surroundings_{constants_->regions, constants_->outline,
-                    core::LocalRecords(keep_records(node.memory(), Category::constants, deal.outline.bytes)),
+                    core::LocalRecords(keep_records(node.memory(), Category::constants, std::span(deal.outline.bytes))),
                     deal.settings.skips},
-      tracer_(records_, deal.part.header, deal.settings.skips, constants_->regions, node.id()),
+      tracer_(records_, deal.header, deal.settings.skips, constants_->regions, node.id()),
       primaries_(node.memory(), deal.primaries, deal.settings.first_samples(), plan.request.is_dealt()),
       backlog_(node.memory(), backlog_capacity(plan)),
       places_(node.memory(), plan.node_count(), plan.ray_places),

@@ -38,6 +38,7 @@
 #include "dataflow/ray_task.h"
 #include "dataflow/regions/regions.h"
 #include "dataflow/termination.h"
+#include "nodes/byte_source.h"
 #include "nodes/node.h"
 #include "nodes/program.h"
 #include "nodes/watch/meter.h"
@@ -67,7 +68,8 @@ struct ProgramReport {
 
 /// What a node is given before the start, read in the constructor and never again.
 struct NodeDeal {
-  const core::DatabasePart& part;
+  const core::DatabaseHeader& header;  ///< of its part of the database
+  nodes::ByteSource records;           ///< which are these
   std::span<const PrimaryRun> primaries;
   const core::RenderSettings& settings;  ///< the whole picture's
   const Regions& regions;

@@ -6,6 +6,7 @@
 
 #include "core/base/expect.h"
 #include "dataflow/packets.h"
+#include "dataflow/ranks.h"
 #include "dataflow/regions/mapping.h"
 #include "dataflow/regions/work.h"
 #include "nodes/flat_bytes.h"
@@ -114,23 +115,19 @@ std::string told_by(nodes::Runner& runner, std::size_t index, const Plan& plan) 
   told.put(program.film);
   told.put(program.backlog_high_water);
   told.put_all(program.pairs);
-  told.put(node.counters());
-  told.put(node.memory().plan());
-  told.put(node.memory().used());
+  told.put(nodes::figures_of(node));
   return told.take();
 }
 
 NodeReport report_from(nodes::FlatReader& told) {
-  NodeReport report;
+  NodeReport report{};
   report.program.operations = told.take<core::Operations>();
   report.program.rays = told.take<RayCounters>();
   report.program.gather = told.take<Gather::Counters>();
   report.program.film = told.take<FilmGather::Counters>();
   report.program.backlog_high_water = told.take<std::uint32_t>();
   report.program.pairs = told.take_all<PairCounters>();
-  report.counters = told.take<nodes::NodeCounters>();
-  report.memory_planned = told.take<nodes::MemoryPlan>();
-  report.memory_used = told.take<nodes::MemoryPlan>();
+  static_cast<nodes::NodeFigures&>(report) = told.take<nodes::NodeFigures>();
   return report;
 }
 
@@ -182,18 +179,12 @@ void check_packets(const Report& report) {
 
 void fill(Report& report, nodes::Runner& runner, const Distribution& distribution) {
   const std::uint32_t node_count = report.plan.node_count();
-  const std::vector<std::string> told = runner.gather([&](std::size_t index) { return told_by(runner, index, report.plan); });
-  if (!runner.is_here(node_count)) {
-    return;
-  }
+  GatheredReports gathered = gather_reports(runner, report.plan);
   const std::vector<std::vector<std::uint32_t>> regions = distribution.regions.by_node();
-  bool are_credits_back = nodes::FlatReader(told[node_count]).take<bool>();
+  report.nodes = std::move(gathered.nodes);
   for (std::uint32_t i = 0; i < node_count; ++i) {
-    nodes::FlatReader reader(told[i]);
-    are_credits_back = reader.take<bool>() && are_credits_back;
-    report.nodes.push_back(report_from(reader));
-    report_share(report.nodes.back(), distribution, i, report.plan.request.shares[i]);
-    report_regions(report.nodes.back(), distribution.regions, regions[i]);
+    report_share(report.nodes[i], distribution, i, report.plan.request.shares[i]);
+    report_regions(report.nodes[i], distribution.regions, regions[i]);
   }
   report.host = runner.node(node_count).counters();
   const auto& host = dynamic_cast<const HostProgram&>(runner.program(node_count));
@@ -202,7 +193,7 @@ void fill(Report& report, nodes::Runner& runner, const Distribution& distributio
   if (report.end == nodes::RunEnd::finished) {
     check_rays(report);
     check_packets(report);
-    core::expect(are_credits_back, "every credit has come back, and every packet of primary rays was worked off");
+    core::expect(gathered.are_credits_back, "every credit has come back, and every packet of primary rays was worked off");
     report.virtual_time = runner.virtual_report();
   }
 }
@@ -321,6 +312,9 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
                 .duplication = prepared.duplication};
   core::expect(options.watching.heat == nullptr || options.watching.heat->pixel_count() == report.film.pixels().size(),
                "a heat map is of the picture's size");
+  if (options.computer.ranks != nullptr) {
+    hand_out(report.plan, prepared.distribution, settings, *options.computer.ranks);
+  }
   const auto runner = nodes::make_runner(
       specifications_of(report.plan, prepared.distribution, settings, report.film, options, stop, &prepared.detail),
       options.computer, options.watching.observer);
@@ -332,21 +326,44 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
   return report;
 }
 
+std::vector<nodes::NodeSpecification> specifications_without_host(const Plan& plan, const MakeProgram& make_program) {
+  std::vector<nodes::NodeSpecification> specifications;
+  for (std::uint32_t i = 0; i < plan.node_count(); ++i) {
+    specifications.push_back({plan.node_memory(i), plan.node_mailbox,
+                              [make_program, i](nodes::Node& node) { return make_program(i, node); }, plan.held_bytes, 0,
+                              nodes::patience_of(number_of(Kind::film), plan.film_credits)});
+  }
+  specifications.push_back({plan.host_memory(), plan.host_mailbox, {}, plan.held_bytes});
+  return specifications;
+}
+
+GatheredReports gather_reports(nodes::Runner& runner, const Plan& plan) {
+  const std::vector<std::string> told = runner.gather([&](std::size_t index) { return told_by(runner, index, plan); });
+  GatheredReports gathered;
+  if (!runner.is_here(plan.node_count())) {
+    return gathered;
+  }
+  for (std::uint32_t i = 0; i < plan.node_count(); ++i) {
+    nodes::FlatReader reader(told[i]);
+    gathered.are_credits_back = reader.take<bool>() && gathered.are_credits_back;
+    gathered.nodes.push_back(report_from(reader));
+  }
+  gathered.are_credits_back = nodes::FlatReader(told[plan.node_count()]).take<bool>() && gathered.are_credits_back;
+  return gathered;
+}
+
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,
                                                         const core::RenderSettings& settings, core::Film& film,
                                                         const RunOptions& options, const std::stop_token& stop,
                                                         const core::FineDetail* detail) {
-  std::vector<nodes::NodeSpecification> specifications;
-  for (std::uint32_t i = 0; i < plan.node_count(); ++i) {
-    const auto make_program = [&, i](nodes::Node& node) {
-      return make_node_program(
-          node, plan,
-          NodeDeal{distribution.parts[i], distribution.primaries[i], settings, distribution.regions, distribution.outline},
-          nodes::meter_for(options.watching, options.computer, node.id()));
-    };
-    specifications.push_back({plan.node_memory(i), plan.node_mailbox, make_program, plan.held_bytes, 0,
-                              nodes::patience_of(number_of(Kind::film), plan.film_credits)});
-  }
+  const MakeProgram make_program = [&](std::uint32_t index, nodes::Node& node) {
+    const core::DatabasePart& part = distribution.parts[index];
+    return make_node_program(node, plan,
+                             NodeDeal{part.header, std::span(part.bytes), distribution.primaries[index], settings,
+                                      distribution.regions, distribution.outline},
+                             nodes::meter_for(options.watching, options.computer, node.id()));
+  };
+  std::vector<nodes::NodeSpecification> specifications = specifications_without_host(plan, make_program);
   const auto deal = [&settings, &distribution, stop](const core::Pass& pass, const core::PixelMask& done) {
     std::optional runs = deal_primaries(settings, distribution.regions, pass, done, stop);
     return stop.stop_requested() ? std::nullopt : std::move(runs);
@@ -354,7 +371,7 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
   const auto make_host = [&, deal, detail](nodes::Node& node) {
     return std::make_unique<HostProgram>(node, plan, film, options.watching.progress, deal, options.continuation, detail);
   };
-  specifications.push_back({plan.host_memory(), plan.host_mailbox, make_host, plan.held_bytes});
+  specifications.back().make_program = make_host;
   return specifications;
 }
 

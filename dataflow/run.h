@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -21,6 +23,7 @@
 #include "dataflow/regions/regions.h"
 #include "nodes/computer_request.h"
 #include "nodes/counters.h"
+#include "nodes/node_figures.h"
 #include "nodes/runner.h"
 #include "nodes/watch/watching.h"
 
@@ -37,10 +40,8 @@ struct RunOptions {
   core::Continuation continuation = {};
 };
 
-struct NodeReport {
+struct NodeReport : nodes::NodeFigures {
   ProgramReport program;
-  nodes::NodeCounters counters;
-  nodes::MemoryPlan memory_planned, memory_used;
   core::Region region;  ///< the box around its regions, in finest cells
   std::uint32_t region_count = 1;
   double region_share = 0;             ///< of the grid's volume that is in them
@@ -99,9 +100,8 @@ Prepared prepare(const core::Database& database, const core::RenderSettings& set
 /// What prepare() asks make_plan() for, where the nodes are dealt these shares.
 PlanRequest plan_request(std::vector<Share> shares, const core::RenderSettings& settings, const RunOptions& options);
 
-/// Renders what prepare() has prepared with the same settings and options. On ranks each calls it, but the host's alone has a
-/// report: those of others have nothing but their end. Throws core::InternalError if a law of conservation is
-/// broken. Several calls at one time are independent.
+/// Renders what prepare() has prepared with the same settings and options. On ranks rank 0 calls it, and the others follow()
+/// (dataflow/ranks.h). Throws core::InternalError if a law of conservation is broken. Several calls at one time are independent.
 Report run_prepared(const Prepared& prepared, const core::RenderSettings& settings, const RunOptions& options,
                     std::stop_token stop);
 
@@ -109,11 +109,25 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
 Report run_dataflow(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                     std::stop_token stop);
 
+/// Makes the program of node `index`; called before the start, in order, on the calling thread.
+using MakeProgram = std::function<std::unique_ptr<NodeProgram>(std::uint32_t index, nodes::Node& node)>;
+
 /// What a runner needs for `plan`: the nodes in order, then the host, which writes `film`. All arguments outlive
 /// the runner. Of `options` it reads what meters are for. `stop` is that of the run.
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,
                                                         const core::RenderSettings& settings, core::Film& film,
                                                         const RunOptions& options, const std::stop_token& stop = {},
                                                         const core::FineDetail* detail = nullptr);
+
+/// The same where the host is elsewhere.
+std::vector<nodes::NodeSpecification> specifications_without_host(const Plan& plan, const MakeProgram& make_program);
+
+/// What is told after a run.
+struct GatheredReports {
+  std::vector<NodeReport> nodes;  ///< as far as their programs know
+  bool are_credits_back = true;   ///< to where they started
+};
+/// After a run, on all ranks alike: what its nodes report, on that of the host; on others nothing.
+GatheredReports gather_reports(nodes::Runner& runner, const Plan& plan);
 
 }  // namespace dmpc::dataflow

@@ -2,8 +2,11 @@
 // computer.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstring>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -22,10 +25,10 @@ class FlatWriter {
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
   }
   /// How many there are, and then each.
-  template <class T>
-  void put_all(const std::vector<T>& values) {
-    put(values.size());
-    for (const T& value : values) {
+  template <class Values>
+  void put_all(const Values& values) {
+    put(std::size_t{values.size()});
+    for (const auto& value : values) {
       put(value);
     }
   }
@@ -44,10 +47,10 @@ class FlatReader {
   T take() {
     static_assert(std::is_trivially_copyable_v<T>);
     core::expect(bytes_.size() >= sizeof(T), "flat bytes hold what is taken out of them");
-    T value;
-    std::memcpy(&value, bytes_.data(), sizeof(T));
+    std::array<std::byte, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), bytes_.data(), sizeof(T));
     bytes_.remove_prefix(sizeof(T));
-    return value;
+    return std::bit_cast<T>(bytes);
   }
   template <class T>
   std::vector<T> take_all() {
@@ -58,6 +61,14 @@ class FlatReader {
       values.push_back(take<T>());
     }
     return values;
+  }
+  /// Into values of which there are as many.
+  template <class T>
+  void take_all(std::span<T> values) {
+    core::expect(take<std::size_t>() == values.size(), "flat bytes hold as many as are taken out of them");
+    for (T& value : values) {
+      value = take<T>();
+    }
   }
   bool is_at_end() const { return bytes_.empty(); }
 

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/expect.h"
+#include "nodes/byte_source.h"
 #include "nodes/local_memory.h"
 
 namespace dmpc::nodes {
@@ -43,6 +44,14 @@ class LastingPieces {
       std::copy(piece.begin(), piece.end(), room_.begin() + static_cast<std::ptrdiff_t>(index * piece_bytes_));
     }
   }
+  /// The same with the piece of `source` from `offset_bytes` on.
+  void put(std::size_t index, const ByteSource& source, std::size_t offset_bytes) {
+    if (places_) {
+      places_[index] = source.lasting(offset_bytes, piece_bytes_).data();
+    } else {
+      source.copy(offset_bytes, room_.subspan(index * piece_bytes_, piece_bytes_));
+    }
+  }
   /// The first byte of the piece that was put there last.
   const std::byte* at(std::size_t index) const { return places_ ? places_[index] : room_.data() + index * piece_bytes_; }
 
@@ -52,12 +61,16 @@ class LastingPieces {
   std::unique_ptr<const std::byte*[]> places_;  ///< on a modelled machine
 };
 
-/// One piece: where its bytes are from now on, and `overread_bytes` that are readable behind them.
+/// One piece, the first `bytes` of `source`: where it is from now on, and `overread_bytes` that are readable behind it.
+inline std::span<const std::byte> kept(LocalMemory& memory, Category category, const ByteSource& source, std::size_t bytes,
+                                       std::size_t overread_bytes = 0) {
+  LastingPieces room(memory, category, bytes + overread_bytes, bytes);
+  room.put(0, source, 0);
+  return {room.at(0), bytes};
+}
 inline std::span<const std::byte> kept(LocalMemory& memory, Category category, std::span<const std::byte> bytes,
                                        std::size_t overread_bytes = 0) {
-  LastingPieces room(memory, category, bytes.size() + overread_bytes, bytes.size());
-  room.put(0, bytes);
-  return {room.at(0), bytes.size()};
+  return kept(memory, category, ByteSource(bytes), bytes.size(), overread_bytes);
 }
 
 }  // namespace dmpc::nodes

@@ -40,6 +40,15 @@ Cache::Cache(LocalMemory& memory, const CacheShape& shape, std::uint32_t seed)
       victims_(memory, shape.replacement, shape.frame_count, seed) {}
 
 PageId Cache::install(PageId page, std::span<const std::byte> bytes) {
+  return install_by(page, [&](std::uint32_t frame) { frames_.put(frame, bytes); });
+}
+
+PageId Cache::install(PageId page, const nodes::ByteSource& source, std::size_t offset_bytes) {
+  return install_by(page, [&](std::uint32_t frame) { frames_.put(frame, source, offset_bytes); });
+}
+
+template <class Put>
+PageId Cache::install_by(PageId page, const Put& put) {
   core::expect(!stamps_.empty(), "a page is installed only where there is a frame");
   core::expect(frame_of(page) == no_frame, "a page is in at most one frame");
   const bool is_full = filled_count_ == frame_count();
@@ -48,7 +57,7 @@ PageId Cache::install(PageId page, std::span<const std::byte> bytes) {
   if (is_full) {
     erase(evicted);
   }
-  frames_.put(frame, bytes);
+  put(frame);
   pages_[frame] = page;
   stamps_[frame] = ++clock_;
   insert(page, frame);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "nodes/byte_source.h"
 #include "nodes/lasting_pieces.h"
 #include "nodes/local_memory.h"
 #include "svm/page.h"
@@ -54,6 +55,8 @@ class Cache {
   /// most recently used. Returns the page that had to go, or no_page. Requires at least one frame and `bytes` of the page's
   /// size.
   PageId install(PageId page, std::span<const std::byte> bytes);
+  /// The same with the page that lies at `offset_bytes` of `source`.
+  PageId install(PageId page, const nodes::ByteSource& source, std::size_t offset_bytes);
 
   /// Frames that have a page.
   std::uint32_t filled_count() const { return filled_count_; }
@@ -69,6 +72,9 @@ class Cache {
 
   std::size_t start_of(PageId page) const { return (index_of(page) * 0x9e3779b1U) >> hash_shift_; }
   std::size_t after(std::size_t place) const { return (place + 1) & (table_.size() - 1); }
+  /// Returns the page that had to go. put(frame) puts the page's bytes there.
+  template <class Put>
+  PageId install_by(PageId page, const Put& put);
   void insert(PageId page, std::uint32_t frame);
   void erase(PageId page);
 

@@ -70,9 +70,9 @@ void Forest::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, 
       LocalMemory::bytes_for<std::byte>(capacity.question_bytes) + LocalMemory::bytes_for<std::byte>(lent_bytes);
 }
 
-Forest::Forest(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database)
+Forest::Forest(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
     : geometry_(capacity.page_size_bytes()),
-      forest_(nodes::kept(node.memory(), Category::home_pages, database.first(capacity.forest_bytes()), core::overread_bytes)),
+      forest_(nodes::kept(node.memory(), Category::home_pages, database, capacity.forest_bytes(), core::overread_bytes)),
       homes_(node, capacity, database),
       self_(nodes::index_of(node.id())),
       node_(&node),

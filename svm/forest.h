@@ -41,7 +41,7 @@ class Forest {
 
   /// Puts the forest and the node's home pages, from `database`, into its local memory (nodes/lasting_pieces.h), and takes the
   /// credits for its questions.
-  Forest(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database);
+  Forest(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database);
   /// Adds to `memory` exactly what the constructor takes at node `index`.
   static void add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index);
 

@@ -13,18 +13,15 @@ std::size_t room_bytes(const PageCapacity& capacity, std::uint32_t index) {
 
 }  // namespace
 
-HomePages::HomePages(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database)
+HomePages::HomePages(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
     : homes_(capacity.homes()),
       self_(nodes::index_of(node.id())),
       first_page_(capacity.forest_pages),
       count_(capacity.pages_at(self_)),
       pages_(node.memory(), nodes::Category::home_pages, room_bytes(capacity, self_), capacity.page_size_bytes()) {
-  core::expect(database.size() == capacity.database_bytes(), "the plan is the database's");
-  const std::size_t size = capacity.page_size_bytes();
-  for (std::uint32_t slot = 0; slot < count_; ++slot) {
-    const std::size_t page = index_of(homes_.page_at({self_, slot})) + first_page_;
-    pages_.put(slot, database.subspan(page * size, size));
-  }
+  core::expect(database.size_bytes() == capacity.database_bytes(), "the plan is the database's");
+  std::size_t slot = 0;
+  for_each_page(capacity, self_, [&](std::size_t offset_bytes) { pages_.put(slot++, database, offset_bytes); });
 }
 
 void HomePages::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index) {

@@ -3,8 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
+#include "nodes/byte_source.h"
 #include "nodes/lasting_pieces.h"
 #include "nodes/node.h"
 #include "svm/home.h"
@@ -18,9 +18,18 @@ namespace dmpc::svm {
 class HomePages {
  public:
   /// Puts the node's pages, from `database`, into its local memory (nodes/lasting_pieces.h).
-  HomePages(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database);
+  HomePages(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database);
   /// Adds to `memory` exactly what the constructor takes at node `index`.
   static void add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index);
+  /// Calls visit(offset in bytes) for each page that the constructor reads at node `index`, in its order.
+  template <class Visit>
+  static void for_each_page(const PageCapacity& capacity, std::uint32_t index, const Visit& visit) {
+    const Homes homes = capacity.homes();
+    for (std::uint32_t slot = 0; slot < capacity.pages_at(index); ++slot) {
+      const std::size_t page = index_of(homes.page_at({index, slot})) + capacity.forest_pages;
+      visit(page * capacity.page_size_bytes());
+    }
+  }
 
   /// The node that keeps a page, or the host.
   std::uint32_t home_of(PageId page) const { return place_of(page).node; }

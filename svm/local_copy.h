@@ -20,9 +20,9 @@ class LocalCopy {
   static constexpr bool pages_travel = false;
 
   /// Puts `database` into the node's local memory.
-  LocalCopy(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database)
-      : bytes_(nodes::kept(node.memory(), nodes::Category::home_pages, database, core::overread_bytes)) {
-    core::expect(database.size() == capacity.database_bytes(), "the plan is the database's");
+  LocalCopy(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
+      : bytes_(nodes::kept(node.memory(), nodes::Category::home_pages, database, database.size_bytes(), core::overread_bytes)) {
+    core::expect(database.size_bytes() == capacity.database_bytes(), "the plan is the database's");
   }
   /// Adds to `plan` exactly what the constructor takes.
   static void add_needs(nodes::MemoryPlan& plan, std::size_t database_bytes) {

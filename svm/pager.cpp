@@ -22,7 +22,7 @@ void Pager::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, s
   Faults::add_needs(memory, capacity.in_flight, capacity.faults_max);
 }
 
-Pager::Pager(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database)
+Pager::Pager(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
     : geometry_(capacity.page_size_bytes()),
       translations_(node.memory().allocate<Translation>(Category::page_table, translation_count)),
       homes_(node, capacity, database),
@@ -34,8 +34,7 @@ Pager::Pager(nodes::Node& node, const PageCapacity& capacity, std::span<const st
       node_(&node) {
   core::expect(capacity.resident.size() == capacity.resident_count, "it is known which pages are resident");
   for (const PageId page : capacity.resident) {
-    const std::size_t size = capacity.page_size_bytes();
-    resident_.install(page, database.subspan(index_of(page) * size, size));
+    resident_.install(page, database, index_of(page) * capacity.page_size_bytes());
   }
   grant_requests(node, capacity);
 }

@@ -29,7 +29,7 @@ class Pager {
 
   /// Puts the node's home pages, from `database`, into its local memory (nodes::LastingPieces) and takes the credits for its
   /// requests.
-  Pager(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database);
+  Pager(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database);
   /// Adds to `memory` exactly what the constructor takes at node `index`.
   static void add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index);
 

@@ -220,6 +220,7 @@ void check_recording(const PlanRequest& request) {
     check_use(request.pages.work_item_side == 0U,
               "page references are recorded only if no node gives work away: work_item_side=0");
     check_use(request.pages.in_flight == 1U, "page references are recorded only with one pixel in flight: in_flight=1");
+    check_use(request.computer.ranks == nullptr, "page references are recorded in one process, not on ranks");
     check_use(!request.pages.count_pages, "page references are recorded, or distinct pages counted, not both");
   }
 }
@@ -267,7 +268,7 @@ void check(const PlanRequest& request) {
   check_recording(request);
   core::expect(request.page_count >= 1 && request.depth_max >= 1, "a database has a page, and a ray a depth");
   core::expect(request.width >= 1 && request.height >= 1, "a picture has a pixel");
-  core::expect(request.start == nullptr || request.start->film.pixels().size() == std::size_t{request.width} * request.height,
+  core::expect(request.start == nullptr || request.start->pass.steps().size() == std::size_t{request.width} * request.height,
                "what is gone on with is of the same picture");
 }
 

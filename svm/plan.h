@@ -40,7 +40,8 @@ struct PlanRequest {
   std::uint32_t width = 0, height = 0;
   std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
   core::RefinementOptions refinement;
-  const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; outlives plan and run
+  const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; outlives plan and run. Its light is the
+                                                ///< host's: without that there may be none
   std::span<const std::byte> database = {};  ///< its bytes, where the host is home to all pages; outlive the making of programs
   const core::FineDetail* detail = nullptr;  ///< the picture's, if it is refined; the host's alone; outlives plan and run
   bool bundles = false;                      ///< rays of neighbouring pixels walk together, where enough are in flight

@@ -23,6 +23,7 @@
 
 #include "core/base/expect.h"
 #include "core/picture/pixel_task.h"
+#include "nodes/byte_source.h"
 #include "nodes/lasting_pieces.h"
 #include "nodes/node.h"
 #include "nodes/watch/meter.h"
@@ -45,7 +46,7 @@ class ControlProgram final : public NodeProgram {
   /// Takes all its memory from `node`, which keeps `settings` and `database` (nodes/lasting_pieces.h). make_tracer(Records&)
   /// returns the tracer. `meter` is there where somebody wants to know what is done for which pixel.
   template <class MakeTracer>
-  ControlProgram(nodes::Node& node, const Plan& plan, const core::RenderSettings& settings, std::span<const std::byte> database,
+  ControlProgram(nodes::Node& node, const Plan& plan, const core::RenderSettings& settings, const nodes::ByteSource& database,
                  const MakeTracer& make_tracer, const std::optional<nodes::Meter>& meter = std::nullopt)
       : settings_(kept(node, settings)),
         node_(&node),

@@ -2,17 +2,12 @@
 
 #include <memory>
 #include <string>
-#include <type_traits>
 
 #include "core/base/expect.h"
-#include "core/picture/bundle_task.h"
 #include "nodes/flat_bytes.h"
-#include "svm/forest.h"
 #include "svm/host.h"
-#include "svm/pager.h"
+#include "svm/ranks.h"
 #include "svm/resident.h"
-#include "svm/watch/counting_pager.h"
-#include "svm/watch/recording_pager.h"
 
 namespace dmpc::svm {
 namespace {
@@ -51,23 +46,16 @@ PlanRequest request_of(Strategy strategy, const core::Database& database, const 
 
 /// A node's report, as it travels to the host's rank.
 std::string told_by(nodes::Runner& runner, std::size_t index) {
-  nodes::Node& node = runner.node(index);
   nodes::FlatWriter told;
   told.put(dynamic_cast<const NodeProgram&>(runner.program(index)).report());
-  told.put(node.counters());
-  told.put(node.memory().plan());
-  told.put(node.memory().used());
+  told.put(nodes::figures_of(runner.node(index)));
   return told.take();
 }
 
 NodeReport report_from(const std::string& told) {
   nodes::FlatReader reader(told);
-  NodeReport report;
-  report.program = reader.take<ProgramReport>();
-  report.counters = reader.take<nodes::NodeCounters>();
-  report.memory_planned = reader.take<nodes::MemoryPlan>();
-  report.memory_used = reader.take<nodes::MemoryPlan>();
-  return report;
+  const auto program = reader.take<ProgramReport>();
+  return {{reader.take<nodes::NodeFigures>()}, program};
 }
 
 std::uint64_t packets_of(const std::array<nodes::Traffic, nodes::packet_kind_count>& traffic, Kind kind) {
@@ -120,35 +108,22 @@ void check_conservation(const Report& report) {
 /// time. Which pages its cache has changes between quanta alone; serving one marks it as used, like any look-up.
 constexpr std::uint32_t interrupt_kinds = 1U << number_of(Kind::page_request) | 1U << number_of(Kind::passed_request);
 
-template <class Records>
-MakeProgram maker(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
-                  const RunOptions& options) {
-  return [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
-    const auto make_tracer = [&](Records& records) {
-      if constexpr (std::is_same_v<Records, RecordingPager>) {
-        records.record_into(options.pages.reference_logs->at(index));
-      }
-      return core::GridTracer<Records>(records, settings.header, settings.skips);
-    };
-    const auto make = [&]<class Task>(std::type_identity<Task>) -> std::unique_ptr<NodeProgram> {
-      return std::make_unique<ControlProgram<Records, core::GridTracer<Records>, Task>>(
-          node, plan, settings, database.bytes(), make_tracer, nodes::meter_for(options.watching, options.computer, node.id()));
-    };
-    if constexpr (std::is_same_v<Records, Pager> || std::is_same_v<Records, LocalCopy>) {
-      if (plan.pixels_a_task > 1) {
-        return make(std::type_identity<core::BundleTask>());
-      }
-    }
-    return make(std::type_identity<core::PixelTask>());
-  };
+/// Where there are other ranks, they are handed out first what their nodes keep.
+Report run_with_grid(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
+                     const RunOptions& options, std::stop_token stop) {
+  if (options.computer.ranks != nullptr) {
+    hand_out(plan, settings, database, *options.computer.ranks);
+  }
+  return run_programs(plan, maker_of(plan, settings, database.bytes(), options.watching, options.pages.reference_logs), options,
+                      std::move(stop));
 }
 
 /// The references of each node become a part of its report.
-Report run_recording(const core::Database& database, const core::RenderSettings& settings, const Plan& plan, RunOptions options,
-                     std::stop_token stop) {
+Report run_recording(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
+                     const RunOptions& options, std::stop_token stop) {
   std::vector<ReferenceLog> logs(plan.request.computer.node_count);
-  options.pages.reference_logs = &logs;
-  Report report = run_programs(plan, maker<RecordingPager>(database, settings, plan, options), options, std::move(stop));
+  Report report =
+      run_programs(plan, maker_of(plan, settings, database.bytes(), options.watching, &logs), options, std::move(stop));
   for (std::size_t i = 0; i < logs.size(); ++i) {
     report.nodes[i].references = std::move(logs[i]);
   }
@@ -233,8 +208,7 @@ Plan plan_of(Strategy strategy, const core::Database& database, const core::Rend
   return make_plan(request_of(strategy, database, settings, options));
 }
 
-std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const MakeProgram& make_program, core::Film& film,
-                                                        const nodes::Progress& progress, const core::Continuation& continuation) {
+std::vector<nodes::NodeSpecification> specifications_without_host(const Plan& plan, const MakeProgram& make_program) {
   std::vector<nodes::NodeSpecification> specifications;
   const bool is_host_home = are_at_host(plan.request.pages.homes);  // whose service then costs what a node's would
   for (std::uint32_t i = 0; i < plan.request.computer.node_count; ++i) {
@@ -242,12 +216,29 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
                               [&make_program, i](nodes::Node& node) { return make_program(i, node); }, plan.held_bytes,
                               interrupt_kinds, plan.patience()});
   }
-  specifications.push_back({plan.host_memory(), plan.host_mailbox,
-                            [&plan, &film, &progress, continuation](nodes::Node& node) {
-                              return std::make_unique<HostProgram>(node, plan.host(), film, progress, continuation);
-                            },
-                            plan.held_bytes, is_host_home ? interrupt_kinds : 0});
+  specifications.push_back(
+      {plan.host_memory(), plan.host_mailbox, {}, plan.held_bytes, is_host_home ? interrupt_kinds : std::uint32_t{0}});
   return specifications;
+}
+
+std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const MakeProgram& make_program, core::Film& film,
+                                                        const nodes::Progress& progress, const core::Continuation& continuation) {
+  std::vector<nodes::NodeSpecification> specifications = specifications_without_host(plan, make_program);
+  specifications.back().make_program = [&plan, &film, &progress, continuation](nodes::Node& node) {
+    return std::make_unique<HostProgram>(node, plan.host(), film, progress, continuation);
+  };
+  return specifications;
+}
+
+std::vector<NodeReport> gather_reports(nodes::Runner& runner, const Plan& plan) {
+  const std::uint32_t host_index = plan.request.computer.node_count;
+  const std::vector<std::string> told =
+      runner.gather([&](std::size_t index) { return index == host_index ? std::string() : told_by(runner, index); });
+  std::vector<NodeReport> reports;
+  for (std::uint32_t i = 0; i < host_index && runner.is_here(host_index); ++i) {
+    reports.push_back(report_from(told[i]));
+  }
+  return reports;
 }
 
 Report run_programs(const Plan& plan, const MakeProgram& make_program, const RunOptions& options, std::stop_token stop) {
@@ -271,14 +262,7 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
   }
   report.end = runner->run(std::move(stop));
   const std::uint32_t host_index = plan.request.computer.node_count;
-  const std::vector<std::string> told =
-      runner->gather([&](std::size_t index) { return index == host_index ? std::string() : told_by(*runner, index); });
-  if (!runner->is_here(host_index)) {
-    return report;
-  }
-  for (std::uint32_t i = 0; i < host_index; ++i) {
-    report.nodes.push_back(report_from(told[i]));
-  }
+  report.nodes = gather_reports(*runner, plan);
   report.host = runner->node(host_index).counters();
   const auto& host = dynamic_cast<const HostProgram&>(runner->program(host_index));
   report.host_deposits_saturated = host.deposits_saturated();
@@ -305,11 +289,7 @@ Report run_svm(const core::Database& database, const core::RenderSettings& setti
   if (options.pages.record_references) {
     return run_recording(database, settings, plan, options, std::move(stop));
   }
-  const MakeProgram make_program = plan.request.pages.count_pages ? maker<CountingPager>(database, settings, plan, options)
-                                   : options.pages.reference_logs != nullptr
-                                       ? maker<RecordingPager>(database, settings, plan, options)
-                                       : maker<Pager>(database, settings, plan, options);
-  return run_programs(plan, make_program, options, std::move(stop));
+  return run_with_grid(database, settings, plan, options, std::move(stop));
 }
 
 Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
@@ -317,7 +297,7 @@ Report run_replicated(const core::Database& database, const core::RenderSettings
   Plan plan = plan_of(Strategy::replicated, database, settings, options);
   const core::FineDetail detail = settings.fine_detail(database);
   plan.request.detail = &detail;
-  return run_programs(plan, maker<LocalCopy>(database, settings, plan, options), options, std::move(stop));
+  return run_with_grid(database, settings, plan, options, std::move(stop));
 }
 
 Report run_forest(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
@@ -325,7 +305,7 @@ Report run_forest(const core::Database& database, const core::RenderSettings& se
   Plan plan = plan_of(Strategy::forest, database, settings, options);
   const core::FineDetail detail = settings.fine_detail(database);
   plan.request.detail = &detail;
-  return run_programs(plan, maker<Forest>(database, settings, plan, options), options, std::move(stop));
+  return run_with_grid(database, settings, plan, options, std::move(stop));
 }
 
 }  // namespace dmpc::svm

@@ -21,11 +21,13 @@
 #include "core/trace/traversal.h"
 #include "nodes/computer_request.h"
 #include "nodes/counters.h"
+#include "nodes/node_figures.h"
 #include "nodes/runner.h"
 #include "nodes/watch/meter.h"
 #include "nodes/watch/watching.h"
 #include "svm/host.h"
 #include "svm/local_copy.h"
+#include "svm/make_programs.h"
 #include "svm/node_program.h"
 #include "svm/page_options.h"
 #include "svm/plan.h"
@@ -44,10 +46,8 @@ struct RunOptions {
   bool tracer_is_own = false;  ///< run_replicated() with a tracer that knows no bundles: rays walk alone
 };
 
-struct NodeReport {
+struct NodeReport : nodes::NodeFigures {
   ProgramReport program;
-  nodes::NodeCounters counters;
-  nodes::MemoryPlan memory_planned, memory_used;
   ReferenceLog references = {};  ///< empty unless recorded
 };
 
@@ -75,20 +75,23 @@ struct Report {
 /// The plan that a run with these options will follow, for messages before the run. Throws as make_plan() does.
 Plan plan_of(Strategy strategy, const core::Database& database, const core::RenderSettings& settings, const RunOptions& options);
 
-/// Renders with strategy svm. On ranks each calls it, but the host's alone has a report: those of others have nothing but their
-/// end. Throws as make_plan() does before anything is rendered; core::InternalError if a law of conservation is broken. One call
-/// at a time in a process needs no care; several are independent.
+/// Renders with strategy svm. On ranks rank 0 calls it, and the others follow() (svm/ranks.h). Throws as make_plan() does before
+/// anything is rendered; core::InternalError if a law of conservation is broken. One call at a time in a process needs no care;
+/// several are independent.
 Report run_svm(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                std::stop_token stop);
-
-/// Makes the program of node `index`; called before the start, in order, on the calling thread.
-using MakeProgram = std::function<std::unique_ptr<NodeProgram>(std::uint32_t index, nodes::Node& node)>;
 
 /// What a runner needs for `plan`: the nodes in order, then the host, which writes `film`. All arguments but `continuation`
 /// outlive the runner.
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const MakeProgram& make_program, core::Film& film,
                                                         const nodes::Progress& progress,
                                                         const core::Continuation& continuation = {});
+
+/// The same where the host is elsewhere.
+std::vector<nodes::NodeSpecification> specifications_without_host(const Plan& plan, const MakeProgram& make_program);
+
+/// After a run, on all ranks alike: what its nodes report, on that of the host; on others nothing.
+std::vector<NodeReport> gather_reports(nodes::Runner& runner, const Plan& plan);
 
 /// Runs any programs of this family under `plan`, checks the laws of conservation and reports.
 Report run_programs(const Plan& plan, const MakeProgram& make_program, const RunOptions& options, std::stop_token stop);

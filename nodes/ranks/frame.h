@@ -16,12 +16,19 @@ using FrameNumber = std::uint64_t;
 
 /// What an item is.
 enum class Item : std::uint8_t {
-  packet,   ///< from a node to a node
-  counts,   ///< Counts, of the sender's next wave
-  text,     ///< a part of what the sender's words are about
-  closing,  ///< how the run has ended for the sender: its last word of the run
-  report,   ///< a part of what a node has to say after it
-  reported  ///< no more of that comes from the sender
+  packet,    ///< from a node to a node
+  counts,    ///< Counts, of the sender's next wave
+  text,      ///< a part of what the sender's words are about
+  closing,   ///< how the run has ended for the sender: its last word of the run
+  report,    ///< a part of what a node has to say after it
+  reported,  ///< no more of that comes from the sender
+
+  stream,       ///< from rank 0, before the run: a part of what a rank's nodes are made from
+  stream_read,  ///< to rank 0: how many bytes of that have been read
+  ready,        ///< to rank 0: all nodes are made
+  start,        ///< from rank 0: everybody is ready
+  failure,      ///< to rank 0: why no node is made, or no report
+  dismissal     ///< from rank 0, its very last word: the status with which all end
 };
 
 /// Stands before an item's bytes.
@@ -68,6 +75,19 @@ class FrameWriter {
   std::span<std::byte> room_;
   std::size_t used_bytes_ = 0;
 };
+
+/// A word that is a value.
+template <class T>
+T value_of(std::span<const std::byte> bytes) {
+  core::expect(bytes.size() == sizeof(T), "a word has the size of its kind");
+  T value;
+  std::memcpy(&value, bytes.data(), sizeof(T));
+  return value;
+}
+template <class T>
+std::span<const std::byte> bytes_of(const T& value) {
+  return std::as_bytes(std::span(&value, 1));
+}
 
 inline FrameNumber number_of(std::span<const std::byte> frame) {
   FrameNumber number = 0;

@@ -3,7 +3,6 @@
 #include <sched.h>
 
 #include <algorithm>
-#include <cstring>
 #include <exception>
 #include <string>
 #include <thread>
@@ -13,6 +12,9 @@
 #include "core/base/expect.h"
 #include "nodes/processors.h"
 #include "nodes/ranks/counting_waves.h"
+#include "nodes/ranks/dismissal.h"
+#include "nodes/ranks/exchange.h"
+#include "nodes/ranks/failure.h"
 #include "nodes/ranks/frame.h"
 #include "nodes/ranks/nap.h"
 #include "nodes/threads/node_threads.h"
@@ -63,9 +65,6 @@ std::size_t payload_bytes_max(std::span<const NodeSpecification> specifications)
   return most;
 }
 
-/// What a failure is, for those who hear of it.
-enum class FailureKind : std::uint8_t { internal, room, fabric };
-
 /// How the last word of a rank travels, behind its text.
 struct Closing {
   Ending ending;
@@ -84,47 +83,12 @@ LastWord last_word_of(const NodeThreads& nodes) {
   if (word.ending == Ending::stalled) {
     word.text = nodes.describe();
   }
-  try {
-    if (nodes.failure()) {
-      std::rethrow_exception(nodes.failure());
-    }
-  } catch (const core::RoomError& error) {
-    word.kind = FailureKind::room;
-    word.text = error.what();
-  } catch (const FabricError& error) {
-    word.kind = FailureKind::fabric;
-    word.text = error.what();
-  } catch (const std::exception& error) {
-    word.text = error.what();
-  } catch (...) {
-    word.text = "something that is no error";
+  if (nodes.failure()) {
+    Failure failure = failure_of(nodes.failure());
+    word.kind = failure.kind;
+    word.text = std::move(failure.text);
   }
   return word;
-}
-
-[[noreturn]] void fail_as(FailureKind kind, const std::string& text) {
-  switch (kind) {
-    case FailureKind::room:
-      throw core::RoomError(text);
-    case FailureKind::fabric:
-      throw FabricError(text);
-    case FailureKind::internal:
-      break;
-  }
-  throw core::InternalError(text);
-}
-
-template <class T>
-T value_of(std::span<const std::byte> bytes) {
-  core::expect(bytes.size() == sizeof(T), "a word has the size of its kind");
-  T value;
-  std::memcpy(&value, bytes.data(), sizeof(T));
-  return value;
-}
-
-template <class T>
-std::span<const std::byte> bytes_of(const T& value) {
-  return std::as_bytes(std::span(&value, 1));
 }
 
 }  // namespace
@@ -150,17 +114,19 @@ struct RanksRunner::Implementation {
   }
 
   RunEnd run(std::stop_token stop) {
-    core::expect(!started, "a runner runs once");
-    started = true;
+    core::expect(!is_run, "a runner runs once");
+    is_run = true;
     const std::stop_callback on_stop(std::move(stop), [this] { nodes.end(Ending::interrupted); });
-    nodes.start();
     while (true) {
       try {
+        start_with_others();
         communicate_until([this] { return is_closed(); });
         return judge();
       } catch (const LostRank&) {
         nodes.fail(std::current_exception());
         nodes.join();
+        throw;
+      } catch (const Dismissed&) {  // while it waited for the start
         throw;
       } catch (...) {
         if (is_closed()) {
@@ -169,6 +135,19 @@ struct RanksRunner::Implementation {
         nodes.fail(std::current_exception());  // of which the others are to hear
       }
     }
+  }
+
+  /// Until all ranks have made their nodes nobody starts: packets would come where there is no mailbox yet. Rank 0 knows when.
+  void start_with_others() {
+    if (std::exchange(has_started, true)) {
+      return;
+    }
+    if (links.rank() == 0) {
+      links.say_to_all(Item::start, {});
+    } else {
+      Exchange(links).turn_until([this] { return may_start; }, [this](auto&&... item) { receive(item...); });
+    }
+    nodes.start();
   }
 
   template <class IsDone>
@@ -209,8 +188,19 @@ struct RanksRunner::Implementation {
       case Item::reported:
         ++ranks_reported;
         return;
+      case Item::start:
+        may_start = true;
+        return;
+      case Item::failure:
+        fail_as_said(links.name_of(rank), bytes);
+      case Item::dismissal:
+        throw Dismissed{value_of<int>(bytes)};
+      case Item::stream:
+      case Item::stream_read:
+      case Item::ready:
+        break;
     }
-    core::expect(false, "an item is of a kind that there is");
+    core::expect(false, "what a run is made from comes before it");
   }
 
   /// Out of the outbox into frames, as far as there is room. A way that is full holds the others up, but not for long: what
@@ -350,7 +340,7 @@ struct RanksRunner::Implementation {
   std::uint32_t ranks_reported = 0;
   RankTraffic traffic;
   Nap nap;
-  bool started = false, is_closing = false;
+  bool is_run = false, may_start = false, has_started = false, is_closing = false;
 };
 
 RanksRunner::RanksRunner(std::span<const NodeSpecification> specifications, RankLinks& links, const std::optional<Chaos>& chaos,

@@ -16,7 +16,7 @@ namespace dmpc::svm {
 /// in it. Thread safety: none.
 class CountingPager : public Pager {
  public:
-  CountingPager(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database)
+  CountingPager(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
       : Pager(node, capacity, database),
         geometry_(capacity.page_size_bytes()),
         words_per_slot_(words_for(capacity.page_count)),

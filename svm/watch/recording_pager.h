@@ -14,7 +14,7 @@ namespace dmpc::svm {
 /// good are left out: they need no frame. Takes as much local memory as a Pager; the log lies outside. Thread safety: none.
 class RecordingPager : public Pager {
  public:
-  RecordingPager(nodes::Node& node, const PageCapacity& capacity, std::span<const std::byte> database)
+  RecordingPager(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
       : Pager(node, capacity, database), geometry_(capacity.page_size_bytes()) {}
 
   /// To be called once, before the first reference. `log` outlives this.

@@ -58,8 +58,8 @@ struct LoneProgramOf {
   LoneProgramOf(const Stage& stage, std::uint32_t index, std::span<const dataflow::PrimaryRun> primaries = {})
       : single(stage.plan.node_memory(index), index, stage.plan.node_count() + 1),
         program(single.node, stage.plan,
-                {stage.distribution.parts[index], primaries, stage.settings, stage.distribution.regions,
-                 stage.distribution.outline}) {}
+                {stage.distribution.parts[index].header, std::span(stage.distribution.parts[index].bytes), primaries,
+                 stage.settings, stage.distribution.regions, stage.distribution.outline}) {}
 
   void receive(std::uint32_t sender, const RayMessage& message) {
     const dataflow::RayPacketHeader header{1, static_cast<std::uint16_t>(nodes::index_of(single.node.id()))};

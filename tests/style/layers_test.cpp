@@ -44,7 +44,7 @@ const std::map<std::string, Names> rooms = {
 const std::map<std::string, Names> looked_into_by = {
     {"nodes/threads", {"nodes/runner.cpp"}},  {"nodes/ranks", {"nodes/runner.cpp"}},
     {"nodes/virtual", {"nodes/runner."}},     {"nodes/watch", {}},
-    {"svm/watch", {"svm/run.", "svm/plan."}}, {"dataflow/regions", {"dataflow/"}},
+    {"svm/watch", {"svm/run.", "svm/plan.", "svm/make_programs."}}, {"dataflow/regions", {"dataflow/"}},
 };
 
 /// What begins so may be included by files that begin so, and by no others.

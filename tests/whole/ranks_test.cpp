@@ -1,11 +1,20 @@
-// One picture on several ranks, too: the same node programs over the loopback fabric.
+// One picture on several ranks, too, of which rank 0 alone has the scene: the same node programs over the loopback fabric.
 #include <doctest/doctest.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "core/base/expect.h"
+#include "dataflow/ranks.h"
+#include "nodes/byte_source.h"
+#include "nodes/ranks/dismissal.h"
 #include "nodes/ranks/rank_links.h"
+#include "nodes/ranks/ranks_runner.h"
+#include "svm/ranks.h"
 #include "tests/support/loopback_ranks.h"
 #include "tests/support/scaled.h"
 #include "tests/support/small_scenes.h"
@@ -20,18 +29,46 @@ using tests::Subject;
 
 constexpr std::uint32_t rank_counts[] = {1, 2, 3, 5};
 
-/// What rank 0 has to report of render(subject, computer), which all call.
-template <class Render>
-auto on_ranks(std::uint32_t rank_count, std::uint32_t node_count, const Render& render,
-              const nodes::LoopbackTrouble& trouble = {}) {
-  auto results = tests::on_ranks(rank_count, trouble, [&](nodes::Fabric& fabric) {
+/// What has come of a run: the report of rank 0, and the bytes that each other rank was sent before it.
+template <class Report>
+struct OnRanks {
+  Report report;
+  std::vector<std::uint64_t> bytes_received;
+};
+
+/// Rank 0 calls render(computer), the others follow(links), which is that of its strategy.
+template <class Render, class Follow>
+auto on_ranks(std::uint32_t rank_count, std::uint32_t node_count, const Render& render, const Follow& follow) {
+  using Report = std::invoke_result_t<const Render&, nodes::ComputerRequest>;
+  struct Result {
+    std::optional<Report> report;
+    std::uint64_t bytes_received = 0;
+  };
+  auto results = tests::on_ranks(rank_count, {}, [&](nodes::Fabric& fabric) {
     nodes::RankLinks links(fabric);
-    return render(nodes::ComputerRequest{.node_count = node_count, .ranks = &links});
+    Result result;
+    if (fabric.rank() == 0) {
+      result.report.emplace(render(nodes::ComputerRequest{.node_count = node_count, .ranks = &links}));
+    } else {
+      result.bytes_received = follow(links, {}).bytes_received;
+    }
+    return result;
   });
+  std::vector<std::uint64_t> bytes_received;
   for (const auto& result : results) {
     CHECK(result.failure_text() == "");
+    bytes_received.push_back(result.value.value().bytes_received);
   }
-  return std::move(results.front().value.value());
+  return OnRanks<Report>{std::move(*results.front().value->report), std::move(bytes_received)};
+}
+
+template <class Render>
+auto pages_on_ranks(std::uint32_t rank_count, std::uint32_t node_count, const Render& render) {
+  return on_ranks(rank_count, node_count, render, svm::follow);
+}
+template <class Render>
+auto rays_on_ranks(std::uint32_t rank_count, std::uint32_t node_count, const Render& render) {
+  return on_ranks(rank_count, node_count, render, dataflow::follow);
 }
 
 Subject subject_of(const core::Scene& scene) {
@@ -46,17 +83,18 @@ TEST_CASE("every strategy gives one picture on any number of ranks, and the repo
         CAPTURE(scene.name);
         CAPTURE(ranks);
         CAPTURE(nodes);
-        const auto svm = on_ranks(ranks, nodes, [&](const nodes::ComputerRequest& computer) {
-          return run_svm(subject, {.computer = computer, .pages = {.cache_pages = 3}});
-        });
+        const auto svm = pages_on_ranks(ranks, nodes, [&](const nodes::ComputerRequest& computer) {
+                           return run_svm(subject, {.computer = computer, .pages = {.cache_pages = 3}});
+                         }).report;
         CHECK(outcome_of(svm) == subject.outcome());
         CHECK(svm.nodes.size() == nodes);
-        const auto replicated = on_ranks(ranks, nodes, [&](const nodes::ComputerRequest& computer) {
-          return run_replicated(subject, {.computer = computer});
-        });
+        const auto replicated = pages_on_ranks(ranks, nodes, [&](const nodes::ComputerRequest& computer) {
+                                  return run_replicated(subject, {.computer = computer});
+                                }).report;
         CHECK(outcome_of(replicated) == subject.outcome());
-        const auto dataflow = on_ranks(
-            ranks, nodes, [&](const nodes::ComputerRequest& computer) { return run_dataflow(subject, {.computer = computer}); });
+        const auto dataflow = rays_on_ranks(ranks, nodes, [&](const nodes::ComputerRequest& computer) {
+                                return run_dataflow(subject, {.computer = computer});
+                              }).report;
         CHECK(outcome_of(dataflow) == subject.outcome());
         CHECK(dataflow.nodes.size() == nodes);
       }
@@ -72,35 +110,91 @@ TEST_CASE("questions travel between ranks, and samples follow where a pass befor
                         {.page_size_bytes = 1024});
   for (const std::uint32_t ranks : rank_counts) {
     CAPTURE(ranks);
-    const auto forest =
-        on_ranks(ranks, 7, [&](const nodes::ComputerRequest& computer) { return run_forest(tree, {.computer = computer}); });
-    CHECK(outcome_of(forest) == tree.outcome());
-    const auto svm =
-        on_ranks(ranks, 7, [&](const nodes::ComputerRequest& computer) { return run_svm(refined, {.computer = computer}); });
-    CHECK(outcome_of(svm) == refined.outcome());
-    const auto dataflow =
-        on_ranks(ranks, 7, [&](const nodes::ComputerRequest& computer) { return run_dataflow(refined, {.computer = computer}); });
-    CHECK(outcome_of(dataflow) == refined.outcome());
+    const auto forest = pages_on_ranks(
+        ranks, 7, [&](const nodes::ComputerRequest& computer) { return run_forest(tree, {.computer = computer}); });
+    CHECK(outcome_of(forest.report) == tree.outcome());
+    const auto svm = pages_on_ranks(
+        ranks, 7, [&](const nodes::ComputerRequest& computer) { return run_svm(refined, {.computer = computer}); });
+    CHECK(outcome_of(svm.report) == refined.outcome());
+    const auto dataflow = rays_on_ranks(
+        ranks, 7, [&](const nodes::ComputerRequest& computer) { return run_dataflow(refined, {.computer = computer}); });
+    CHECK(outcome_of(dataflow.report) == refined.outcome());
   }
 }
 
-TEST_CASE("fewer nodes than ranks are refused by every strategy's plan") {
-  const Subject subject(tests::mirrors_and_glass(), {.width = 4, .height = 4});
-  const auto refusals = [&](const auto& render) {
-    return tests::on_ranks(4, {}, [&](nodes::Fabric& fabric) {
-      nodes::RankLinks links(fabric);
-      return render(nodes::ComputerRequest{.node_count = 3, .ranks = &links});
-    });
+TEST_CASE("a rank is sent the pages of its nodes and no others, and who has no nodes' pages has none of the scene") {
+  const Subject subject = subject_of(tests::built_in("gears-1"));
+  const std::size_t page_bytes = subject.database().page_size();
+  constexpr std::uint32_t ranks = 3, nodes = 7;
+  const auto bytes_received = [&](svm::PageOptions pages) {
+    return pages_on_ranks(
+               ranks, nodes,
+               [&](const nodes::ComputerRequest& computer) { return run_svm(subject, {.computer = computer, .pages = pages}); })
+        .bytes_received;
   };
+  const std::vector<std::uint64_t> spread = bytes_received({}), none = bytes_received({.homes = svm::PageHomes::host});
+  std::vector<std::uint64_t> pages(ranks);
+  for (std::size_t page = 0; page < subject.database().page_count(); ++page) {
+    ++pages[nodes::rank_of(static_cast<std::uint32_t>(page % nodes), nodes, ranks)];
+  }
+  for (std::uint32_t rank = 1; rank < ranks; ++rank) {
+    CAPTURE(rank);
+    CHECK(none[rank] < 2 * sizeof(core::RenderSettings));
+    CHECK(spread[rank] - none[rank] == pages[rank] * (sizeof(nodes::PieceHeader) + page_bytes));
+  }
+}
+
+TEST_CASE("a rank is sent the parts of its nodes' regions, and with strategy replicated a whole scene for each node") {
+  const Subject subject = subject_of(tests::built_in("gears-1"));
+  constexpr std::uint32_t ranks = 3, nodes = 7;
+  const auto rays = rays_on_ranks(
+      ranks, nodes, [&](const nodes::ComputerRequest& computer) { return run_dataflow(subject, {.computer = computer}); });
+  const auto whole = pages_on_ranks(
+      ranks, nodes, [&](const nodes::ComputerRequest& computer) { return run_replicated(subject, {.computer = computer}); });
+  for (std::uint32_t rank = 1; rank < ranks; ++rank) {
+    CAPTURE(rank);
+    std::size_t part_bytes = 0, node_count = 0, dealt_bytes = 0;
+    for (std::uint32_t node = 0; node < nodes; ++node) {
+      if (nodes::rank_of(node, nodes, ranks) == rank) {
+        ++node_count;
+        part_bytes += rays.report.nodes[node].part_bytes + core::overread_bytes;
+        dealt_bytes += rays.report.plan.request.shares[node].primary_runs * sizeof(dataflow::PrimaryRun);
+      }
+    }
+    const std::size_t outline_bytes = rays.report.plan.request.shares.front().outline_bytes;
+    CHECK(rays.bytes_received[rank] >= part_bytes + dealt_bytes + outline_bytes);
+    CHECK(rays.bytes_received[rank] < part_bytes + dealt_bytes + outline_bytes + std::size_t{64 << 10U});
+    CHECK(whole.bytes_received[rank] >= node_count * subject.database().bytes().size());
+    CHECK(whole.bytes_received[rank] < node_count * subject.database().bytes().size() + std::size_t{16 << 10U});
+  }
+}
+
+TEST_CASE("fewer nodes than ranks are refused by every strategy's plan, and the other ranks are dismissed") {
+  const Subject subject(tests::mirrors_and_glass(), {.width = 4, .height = 4});
   const std::string sentence = "node_count=3: expected at least one node for each of the 4 ranks";
-  for (const auto& result :
-       refusals([&](const nodes::ComputerRequest& computer) { return run_svm(subject, {.computer = computer}); })) {
-    CHECK(result.failure_text() == sentence);
-  }
-  for (const auto& result :
-       refusals([&](const nodes::ComputerRequest& computer) { return run_dataflow(subject, {.computer = computer}); })) {
-    CHECK(result.failure_text() == sentence);
-  }
+  const auto check_refusal = [&](const auto& render, const auto& follow) {
+    const auto results = tests::on_ranks(4, {}, [&](nodes::Fabric& fabric) {
+      nodes::RankLinks links(fabric);
+      if (fabric.rank() == 0) {
+        CHECK_THROWS_WITH_AS(render(nodes::ComputerRequest{.node_count = 3, .ranks = &links}), sentence.c_str(),
+                             core::UsageError);
+        nodes::dismiss(links, 2);
+        return 2;
+      }
+      try {
+        follow(links, {});
+      } catch (const nodes::Dismissed& dismissed) {
+        return dismissed.status;
+      }
+      return 0;
+    });
+    for (const auto& result : results) {
+      CHECK(result.value == 2);
+    }
+  };
+  check_refusal([&](const nodes::ComputerRequest& computer) { return run_svm(subject, {.computer = computer}); }, svm::follow);
+  check_refusal([&](const nodes::ComputerRequest& computer) { return run_dataflow(subject, {.computer = computer}); },
+                dataflow::follow);
 }
 
 }  // namespace

@@ -1,0 +1,80 @@
+#include "dataflow/ranks.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dataflow/job.h"
+#include "dataflow/program.h"
+#include "dataflow/run.h"
+#include "nodes/byte_source.h"
+#include "nodes/flat_bytes.h"
+#include "nodes/ranks/ranks_runner.h"
+#include "nodes/ranks/stream_from_host.h"
+#include "nodes/ranks/streams_to_ranks.h"
+
+namespace dmpc::dataflow {
+namespace {
+
+/// What a node is dealt but for its records, which its program reads itself, behind it.
+struct Dealt {
+  core::DatabaseHeader header;
+  std::size_t record_bytes = 0;
+  std::vector<PrimaryRun> primaries;
+};
+
+std::string dealt_bytes(const core::DatabasePart& part, const std::vector<PrimaryRun>& primaries) {
+  nodes::FlatWriter flat;
+  flat.put(part.header);
+  flat.put(std::size_t{part.bytes.size()});
+  flat.put_all(primaries);
+  return flat.take();
+}
+
+Dealt dealt_from(std::string_view bytes) {
+  nodes::FlatReader flat(bytes);
+  const auto header = flat.take<core::DatabaseHeader>();
+  const auto record_bytes = flat.take<std::size_t>();
+  return {header, record_bytes, flat.take_all<PrimaryRun>()};
+}
+
+}  // namespace
+
+void hand_out(const Plan& plan, const Distribution& distribution, const core::RenderSettings& settings, nodes::RankLinks& links) {
+  nodes::StreamsToRanks streams(links);
+  const std::string job = job_bytes(plan, settings, distribution.regions, distribution.outline);
+  for (std::uint32_t rank = 1; rank < links.rank_count(); ++rank) {
+    streams.write_counted(rank, std::as_bytes(std::span(job)));
+  }
+  for (std::uint32_t node = 0; node < plan.node_count(); ++node) {
+    const std::uint32_t rank = nodes::rank_of(node, plan.node_count(), links.rank_count());
+    if (rank != 0) {
+      const core::DatabasePart& part = distribution.parts[node];
+      const std::string dealt = dealt_bytes(part, distribution.primaries[node]);
+      streams.write_counted(rank, std::as_bytes(std::span(dealt)));
+      streams.write_piece(rank, part.bytes, 0, part.bytes.size());
+    }
+  }
+  streams.finish();
+}
+
+Followed follow(nodes::RankLinks& links, std::stop_token stop) {
+  nodes::StreamFromHost stream(links);
+  const Job job = job_from(nodes::read_counted(stream), links);
+  const MakeProgram make_program = [&](std::uint32_t, nodes::Node& node) {
+    const Dealt dealt = dealt_from(nodes::read_counted(stream));
+    return make_node_program(node, job.plan,
+                             NodeDeal{dealt.header, nodes::ByteSource(stream, dealt.record_bytes), dealt.primaries, job.settings,
+                                      job.regions, job.outline});
+  };
+  const auto runner = nodes::make_runner(specifications_without_host(job.plan, make_program), job.plan.request.computer);
+  stream.say_ready();
+  Followed followed{.bytes_received = stream.bytes_read()};
+  followed.end = runner->run(std::move(stop));
+  gather_reports(*runner, job.plan);
+  return followed;
+}
+
+}  // namespace dmpc::dataflow

@@ -1,0 +1,72 @@
+// Where a node's program has what it keeps of the scene from: bytes that are here, or that come from another rank.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+
+#include "core/base/expect.h"
+
+namespace dmpc::nodes {
+
+/// Bytes that come one behind the other, once.
+class ByteStream {
+ public:
+  virtual ~ByteStream() = default;
+  /// Waits for as many as there is room for.
+  virtual void read(std::span<std::byte> into) = 0;
+};
+
+/// How many bytes come, then these.
+inline std::string read_counted(ByteStream& stream) {
+  std::uint64_t bytes = 0;
+  stream.read(std::as_writable_bytes(std::span(&bytes, 1)));
+  std::string text(bytes, '\0');
+  stream.read(std::as_writable_bytes(std::span(text)));
+  return text;
+}
+
+/// Stands before a piece of a whole in a stream.
+struct PieceHeader {
+  std::uint64_t offset_bytes = 0, bytes = 0;
+
+  bool operator==(const PieceHeader&) const = default;
+};
+
+/// A whole, of which pieces are asked for. Where it comes as a stream, nothing but the pieces does, each behind its header, in
+/// the order in which they are asked for; who sends them knows it. A value; what it refers to outlives it.
+class ByteSource {
+ public:
+  /// All of it is here, and lasts.
+  ByteSource(std::span<const std::byte> whole) : whole_(whole), size_bytes_(whole.size()) {}
+  ByteSource(ByteStream& stream, std::size_t size_bytes) : stream_(&stream), size_bytes_(size_bytes) {}
+
+  /// Of the whole.
+  std::size_t size_bytes() const { return size_bytes_; }
+  /// Copies the piece from `offset_bytes` on.
+  void copy(std::size_t offset_bytes, std::span<std::byte> into) const {
+    if (stream_ == nullptr) {
+      const std::span<const std::byte> piece = whole_.subspan(offset_bytes, into.size());
+      std::memcpy(into.data(), piece.data(), piece.size());
+      return;
+    }
+    PieceHeader header;
+    stream_->read(std::as_writable_bytes(std::span(&header, 1)));
+    core::expect(header == PieceHeader{offset_bytes, into.size()}, "pieces come in the order in which they are asked for");
+    stream_->read(into);
+  }
+  /// Where a piece lies for good. Not of a stream.
+  std::span<const std::byte> lasting(std::size_t offset_bytes, std::size_t bytes) const {
+    core::expect(stream_ == nullptr, "nothing lasts of a stream");
+    return whole_.subspan(offset_bytes, bytes);
+  }
+
+ private:
+  std::span<const std::byte> whole_;
+  ByteStream* stream_ = nullptr;
+  std::size_t size_bytes_;
+};
+
+}  // namespace dmpc::nodes
