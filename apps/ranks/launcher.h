@@ -26,4 +26,7 @@ std::optional<Launcher> launcher();
 /// would do all. Where this is not the first of them, nothing more is said on stderr: one of them says it.
 void expect_one_process();
 
+/// From now on this process says nothing on stderr, in its whole life: another one does.
+void say_no_more();
+
 }  // namespace dmpc::apps

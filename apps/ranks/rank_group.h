@@ -30,16 +30,13 @@ class RankGroup {
   /// communicating thread's, and one at least.
   std::uint32_t default_node_count() const { return default_node_count_; }
 
-  /// Waits for all. Makes the fabric, for packets of up to so many bytes; it lives as long as this. Once. Throws core::InputError,
-  /// alike on all ranks, if they want frames of different sizes.
+  /// Waits for all. Makes the fabric, for packets of up to so many bytes; it lives as long as this. Once. Throws
+  /// core::InputError, alike on all ranks, if they want frames of different sizes.
   nodes::Fabric& connect(std::size_t payload_bytes_max);
 
  private:
   friend int run_as_rank(const std::function<int(RankGroup&)>& run);
-  RankGroup();
-
-  /// What each rank says, by rank. Waits for all.
-  std::vector<std::string> exchange(const std::string& own) const;
+  explicit RankGroup(const MpiLibrary& library);
 
   const MpiLibrary& library_;
   std::uint32_t rank_;
@@ -49,8 +46,8 @@ class RankGroup {
 
 /// Starts MPI, calls run(group), ends MPI, and returns what run() has. Before it calls, it makes sure that all ranks are of one
 /// build and that their arithmetic is the same. Throws core::UsageError if MPI knows of fewer processes than were started,
-/// core::InputError if they are not alike (on all ranks), InstallationError if the module dmpc_mpi.so is not there, and what run()
-/// throws.
+/// core::InputError if they are not alike (on all ranks), InstallationError if the module dmpc_mpi.so is not there, and what
+/// run() throws.
 ///
 /// What all ranks throw, each for itself or by agreement, rank 0 is to say: on the others nothing more is said on stderr. What
 /// only some throw, each of them says, and end_ranks() then ends the others.
