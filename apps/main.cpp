@@ -15,6 +15,7 @@
 #include "apps/commands.h"
 #include "apps/line/exit_status.h"
 #include "apps/line/shown_text.h"
+#include "apps/ranks/rank_group.h"
 #include "apps/system/companion_path.h"
 #include "apps/system/interrupt.h"
 #include "apps/system/last_words.h"
@@ -76,6 +77,8 @@ int run(const std::vector<std::string>& arguments, Interrupt& interrupt, bool& h
     return complain_of_memory();
   } catch (const InstallationError& error) {
     return complain(error.what(), internal_status);
+  } catch (const nodes::FabricError& error) {
+    return complain(error.what(), internal_status);
   } catch (const std::exception& error) {
     return complain_of_bug(error);
   }
@@ -106,6 +109,7 @@ int main(int count, char** values) {
   bool has_broken_pipe = false;
   try {
     const int status = apps::run_within_memory(count, values, has_broken_pipe);
+    apps::end_ranks(status);
     if (has_broken_pipe) {
       apps::end_by_broken_pipe();
     }

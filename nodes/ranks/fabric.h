@@ -15,6 +15,11 @@ struct FabricError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A rank is gone, or the way to it: there is no orderly end.
+struct LostRank : FabricError {
+  using FabricError::FabricError;
+};
+
 /// A frame that has come.
 struct Arrival {
   std::uint32_t rank = 0;  ///< its sender
@@ -22,7 +27,8 @@ struct Arrival {
 };
 
 /// One rank's end of it. Frames from one rank to another arrive whole and in the order in which they were sent; of more it need
-/// not know anything. Two to each rank may be under way. Thread safety: belongs to one thread, the communicating thread.
+/// not know anything. Two to each rank may be under way. What it can no longer do is a LostRank. Thread safety: belongs to one
+/// thread, the communicating thread.
 class Fabric {
  public:
   virtual ~Fabric() = default;

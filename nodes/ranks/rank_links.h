@@ -15,11 +15,6 @@
 
 namespace dmpc::nodes {
 
-/// A rank is gone: with it there is no orderly end.
-struct LostRank : FabricError {
-  using FabricError::FabricError;
-};
-
 /// When ranks are taken for lost.
 struct RankSilence {
   std::chrono::milliseconds life_sign{2'000};  ///< a rank with nothing to say says so after so long

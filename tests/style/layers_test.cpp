@@ -36,8 +36,8 @@ const std::map<std::string, Names> stands_on = {
 /// Rooms from the ground up: each uses those that stand before it. What lies on the floor of the layer itself uses all.
 const std::map<std::string, Names> rooms = {
     {"core", {"base", "record", "scene", "build", "trace", "picture", "families"}},
-    {"apps", {"line", "system", "reader", "picture", "formats", "scene", "table", "machine", "oracle",  "run",   "effort",
-              "help", "show",   "render", "info",    "check",   "study", "bench", "modules", "foreign", "manual"}},
+    {"apps", {"line",   "system", "ranks", "reader", "picture", "formats", "scene", "table", "machine", "oracle",  "run",
+              "effort", "help",   "show",  "render", "info",    "check",   "study", "bench", "modules", "foreign", "manual"}},
 };
 
 /// Rooms of other layers, and the files of their floor, by how they begin, that look down into them.
@@ -57,6 +57,7 @@ const std::vector<Foreign> foreign = {
     {"OpenImageIO/",
      {"apps/modules/pictures.cpp", "apps/foreign/picture_decoder.cpp", "tests/apps/modules/", "tests/fuzz/picture.cpp"}},
     {"OpenEXR/", {"apps/picture/exr_file.cpp"}},
+    {"mpi.h", {"apps/modules/mpi.cpp"}},
     {"gmpxx.h", {"apps/oracle/exact.cpp"}},
     {"png.h", {"apps/picture/png_file.cpp"}},
     {"dlfcn.h", {"apps/system/module.cpp", "tests/failing_allocation/"}},

@@ -1,0 +1,32 @@
+// What has started this process together with others of its kind: mpirun, srun.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace dmpc::apps {
+
+/// As a process learns it from its environment, without MPI.
+struct Launcher {
+  std::string name;  ///< "mpirun", "mpiexec", "srun"
+  std::uint32_t rank = 0, rank_count = 1;
+};
+
+/// A variable's value; nothing if it is not set.
+using Variable = std::function<const char*(const char* name)>;
+
+/// Nothing if this process was started alone.
+std::optional<Launcher> launcher(const Variable& variable);
+/// Of this process's environment.
+std::optional<Launcher> launcher();
+
+/// For commands that know nothing of ranks: throws core::UsageError if a launcher has started several processes, each of which
+/// would do all. Where this is not the first of them, nothing more is said on stderr: one of them says it.
+void expect_one_process();
+
+/// From now on this process says nothing on stderr, in its whole life: another one does.
+void say_no_more();
+
+}  // namespace dmpc::apps

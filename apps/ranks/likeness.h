@@ -1,0 +1,24 @@
+// What all ranks must have in common, so that one picture comes of them.
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dmpc::apps {
+
+/// What is compared, and what one rank has of it, as text.
+using Likeness = std::vector<std::pair<std::string, std::string>>;
+
+/// This process's: version, build, byte order, page format, arithmetic.
+Likeness own_likeness();
+
+/// As it travels: a line for each.
+std::string text_of(const Likeness& likeness);
+
+/// Throws core::InputError with what differs first and on whom, if not all texts are those of rank 0. `names` are for messages,
+/// by rank as well.
+void expect_alike(std::span<const std::string> texts, std::span<const std::string> names);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,107 @@
+#include "apps/ranks/rank_group.h"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "apps/ranks/launcher.h"
+#include "apps/ranks/likeness.h"
+#include "apps/ranks/mpi_library.h"
+#include "core/base/expect.h"
+#include "nodes/ranks/frame.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Who has failed waits so long for the others, which may be about to find the same.
+constexpr std::chrono::milliseconds patience_in_failure = 5s;
+/// Who is done waits for rank 0, which writes: for as long as that takes.
+constexpr std::chrono::milliseconds patience_at_the_end = 24h;
+
+/// MPI, while it is started.
+const MpiLibrary* started = nullptr;
+
+bool finish(std::chrono::milliseconds patience) {
+  const bool is_finished = started->finish(patience);
+  if (is_finished) {
+    started = nullptr;
+  }
+  return is_finished;
+}
+
+/// Processors that this process may use, as far as a set of usual size can say.
+std::uint32_t allowed_processors() {
+  cpu_set_t allowed;
+  return ::sched_getaffinity(0, sizeof(allowed), &allowed) == 0 ? static_cast<std::uint32_t>(CPU_COUNT(&allowed)) : 1;
+}
+
+/// A launcher of another MPI, or without one, starts processes that know nothing of each other.
+void expect_all_known(const MpiLibrary& library) {
+  const std::optional<Launcher> launched = launcher();
+  const std::uint32_t rank_count = library.rank_count();
+  if (!launched || launched->rank_count <= rank_count) {
+    return;
+  }
+  const std::string advice = launched->name == "srun" ? "start it by srun --mpi=pmix (srun --mpi=list says what there is)"
+                                                      : "start it by the " + launched->name + " of " + library.version();
+  throw core::UsageError(launched->name + " has started " + std::to_string(launched->rank_count) + " processes, of which MPI (" +
+                         library.version() + ") knows " + std::to_string(rank_count) + ": " + advice);
+}
+
+/// Of those that were started together.
+bool is_first(const MpiLibrary& library) {
+  const std::optional<Launcher> launched = launcher();
+  return library.rank() == 0 && (!launched || launched->rank == 0);
+}
+
+}  // namespace
+
+RankGroup::RankGroup(const MpiLibrary& library)
+    : library_(library),
+      rank_(library.rank()),
+      names_(library.exchange("rank " + std::to_string(rank_) + " on host " + library.host())) {
+  expect_alike(library_.exchange(text_of(own_likeness())), names_);
+  for (const std::string& processors : library_.exchange(std::to_string(allowed_processors()))) {
+    default_node_count_ += static_cast<std::uint32_t>(std::max(1, std::stoi(processors) - 1));
+  }
+}
+
+nodes::Fabric& RankGroup::connect(std::size_t payload_bytes_max) {
+  const std::size_t frame_bytes = nodes::frame_bytes_for(payload_bytes_max);
+  expect_alike(library_.exchange(text_of({{"frames in bytes", std::to_string(frame_bytes)}})), names_);
+  return library_.make_fabric(frame_bytes, names_);
+}
+
+int run_as_rank(const std::function<int(RankGroup&)>& run) {
+  const MpiLibrary& library = mpi_library();
+  library.start();
+  started = &library;
+  const bool says_errors = is_first(library);
+  try {
+    expect_all_known(library);
+    RankGroup group(library);
+    const int status = run(group);
+    return finish(patience_at_the_end) ? status : throw nodes::LostRank("not all ranks have come to the end");
+  } catch (const nodes::LostRank&) {
+    throw;  // nobody need be waited for
+  } catch (...) {
+    if (finish(patience_in_failure) && !says_errors) {
+      say_no_more();
+    }
+    throw;
+  }
+}
+
+void end_ranks(int status) {
+  if (started != nullptr) {
+    started->abort(status);
+  }
+}
+
+}  // namespace dmpc::apps
