@@ -9,12 +9,15 @@
 
 namespace dmpc::nodes {
 
-void check_ranks(const ComputerRequest& computer) {
-  const std::uint32_t ranks = computer.ranks == nullptr ? 1 : computer.ranks->rank_count();
-  if (computer.node_count < ranks) {
-    throw core::UsageError("node_count=" + std::to_string(computer.node_count) + ": expected at least one node for each of the " +
-                           std::to_string(ranks) + " ranks");
+void check_nodes_for(std::uint32_t node_count, std::uint32_t rank_count) {
+  if (node_count < rank_count) {
+    throw core::UsageError("node_count=" + std::to_string(node_count) + ": expected at least one node for each of the " +
+                           std::to_string(rank_count) + " ranks");
   }
+}
+
+void check_ranks(const ComputerRequest& computer) {
+  check_nodes_for(computer.node_count, computer.ranks == nullptr ? 1 : computer.ranks->rank_count());
 }
 
 std::unique_ptr<Runner> make_runner(std::span<const NodeSpecification> specifications, const ComputerRequest& computer,

@@ -5,6 +5,7 @@
 
 #include "core/base/expect.h"
 #include "nodes/flat_bytes.h"
+#include "nodes/ranks/life_signs.h"
 #include "svm/host.h"
 #include "svm/ranks.h"
 #include "svm/resident.h"
@@ -285,7 +286,9 @@ Report run_svm(const core::Database& database, const core::RenderSettings& setti
   const core::FineDetail detail = settings.fine_detail(database);
   plan.request.detail = &detail;
   plan.request.database = database.bytes();
-  plan.resident = most_used_pages(database, settings, plan.resident_count, stop);
+  const auto find_resident = [&] { return most_used_pages(database, settings, plan.resident_count, stop); };
+  plan.resident =
+      options.computer.ranks == nullptr ? find_resident() : nodes::with_life_signs(*options.computer.ranks, find_resident);
   if (options.pages.record_references) {
     return run_recording(database, settings, plan, options, std::move(stop));
   }

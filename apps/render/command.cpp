@@ -13,10 +13,12 @@
 #include "apps/effort/render_effort.h"
 #include "apps/oracle/oracle.h"
 #include "apps/picture/film_image.h"
+#include "apps/ranks/rank_group.h"
 #include "apps/render/checkpoints.h"
 #include "apps/render/onlookers.h"
 #include "apps/render/outputs.h"
 #include "apps/render/preview.h"
+#include "apps/render/ranks.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
@@ -27,6 +29,7 @@
 #include "apps/system/output_file.h"
 #include "apps/system/progress.h"
 #include "apps/system/stopwatch.h"
+#include "nodes/ranks/life_signs.h"
 
 namespace dmpc::apps {
 
@@ -167,7 +170,8 @@ Report run_timed(const RenderOptions& options, const ReadyRun& run, const Interr
   Report report = run.start(update, interrupt.token());
   if (account_of(report).end != nodes::RunEnd::finished) {  // else the picture is done, and a signal comes too late for it
     interrupt.check();
-    core::expect(false, "a run that nobody stopped is finished");
+    core::expect(options.computer.ranks != nullptr, "a run that nobody stopped is finished");
+    throw Interrupted{};  // by a signal that came to another rank
   }
   const ProcessorTime after = processor_time();
   seconds.render = stopwatch.lap();
@@ -210,20 +214,24 @@ void write_others(RenderRecord record, const OutputSet<RenderRecord>& outputs, F
   attempts.make([&] { print_closing(record, output); });
 }
 
-}  // namespace
+/// Where there are other ranks, they are shown that this one lives while it does something that has nothing to do with them.
+template <class Work>
+auto apart(const RenderOptions& options, const Work& work) {
+  return options.computer.ranks == nullptr ? work() : nodes::with_life_signs(*options.computer.ranks, work);
+}
 
-int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostream& output, Files& files) {
-  const OutputSet<RenderRecord> outputs = outputs_of(asked);
-  check_outputs(asked, outputs);
-  if (asked.tracer == TracerChoice::embree) {
+/// Renders, on ranks the first one.
+int render(RenderOptions options, Interrupt& interrupt, std::ostream& output, Files& files) {
+  const OutputSet<RenderRecord> outputs = outputs_of(options);
+  check_outputs(options, outputs);
+  if (options.tracer == TracerChoice::embree) {
     open_embree();
   }
-  const std::optional<FileLock> lock = claim_checkpoint(asked.checkpoint);
-  RenderOptions options = asked;
+  const std::optional<FileLock> lock = claim_checkpoint(options.checkpoint);
   choose_machine(options);
   Seconds seconds;
   std::optional<Checkpoints> checkpoints;
-  Loaded loaded = load(options, outputs, files, checkpoints, interrupt, seconds);
+  Loaded loaded = apart(options, [&] { return load(options, outputs, files, checkpoints, interrupt, seconds); });
   Subject& subject = loaded.subject;
   std::optional<nodes::HeatMap> heat = make_heat_map(options, subject.settings.camera);
   Onlookers onlookers(options, static_cast<std::uint32_t>(subject.database.page_count()));
@@ -234,29 +242,63 @@ int render_command(const RenderOptions& asked, Interrupt& interrupt, std::ostrea
                                  }};
   options.pages.reference_logs = onlookers.reference_logs();
   const core::Continuation continuation = continuation_of(checkpoints ? &*checkpoints : nullptr, preview.get(), interrupt);
-  announce_effort(options, subject, checkpoints ? &*checkpoints : nullptr, interrupt);
-  const ReadyRun run = prepare(options, subject, watching, continuation, interrupt, seconds);
+  const ReadyRun run = apart(options, [&] {
+    announce_effort(options, subject, checkpoints ? &*checkpoints : nullptr, interrupt);
+    return prepare(options, subject, watching, continuation, interrupt, seconds);
+  });
   if (checkpoints) {
     interrupt.set_consequence(consequence_of(*checkpoints));
   }
   const Report report = run_timed(options, run, interrupt, seconds);
-  const core::Film& film = account_of(report).film;
-  Attempts attempts(std::cerr);
-  const bool is_written = attempts.make([&] { write_picture(options, film, files, interrupt, seconds); });
-  if (checkpoints && is_written) {
-    attempts.make([&] { checkpoints->finish(); });
-  } else if (checkpoints && checkpoints->has_one()) {
-    std::cerr << "dmpc: the checkpoint stays, --resume goes on from it\n";
+  return apart(options, [&] {
+    const core::Film& film = account_of(report).film;
+    Attempts attempts(std::cerr);
+    const bool is_written = attempts.make([&] { write_picture(options, film, files, interrupt, seconds); });
+    if (checkpoints && is_written) {
+      attempts.make([&] { checkpoints->finish(); });
+    } else if (checkpoints && checkpoints->has_one()) {
+      std::cerr << "dmpc: the checkpoint stays, --resume goes on from it\n";
+    }
+    Sights sights;
+    attempts.make([&] { sights = take_sights(options, onlookers); });
+    write_others(
+        {options, subject.database, report, seconds, heat ? &*heat : nullptr, sights.trace ? &*sights.trace : nullptr,
+         sights.view ? &*sights.view : nullptr, checkpoints ? checkpoints->samples_found_done() : 0, loaded.scene_digest},
+        outputs, files, interrupt, attempts, output);
+    if (preview) {
+      preview->finish(film);
+    }
+    return attempts.status();
+  });
+}
+
+int render_by_mpi(RenderOptions options, RankGroup& group, Interrupt& interrupt, std::ostream& output, Files& files) {
+  if (!options.is_node_count_given) {
+    options.computer.node_count = group.default_node_count();
   }
-  Sights sights;
-  attempts.make([&] { sights = take_sights(options, onlookers); });
-  write_others({options, subject.database, report, seconds, heat ? &*heat : nullptr, sights.trace ? &*sights.trace : nullptr,
-                sights.view ? &*sights.view : nullptr, checkpoints ? checkpoints->samples_found_done() : 0, loaded.scene_digest},
-               outputs, files, interrupt, attempts, output);
-  if (preview) {
-    preview->finish(film);
+  return render_over(group.connect(payload_bytes_max(options)), options, interrupt, output, files);
+}
+
+}  // namespace
+
+int render_command(const RenderOptions& options, Interrupt& interrupt, std::ostream& output, Files& files) {
+  if (options.runner.kind == RunnerKind::mpi) {
+    return run_as_rank([&](RankGroup& group) { return render_by_mpi(options, group, interrupt, output, files); });
   }
-  return attempts.status();
+  return render(options, interrupt, output, files);
+}
+
+int render_over(nodes::Fabric& fabric, const RenderOptions& options, Interrupt& interrupt, std::ostream& output, Files& files) {
+  check_nodes_on_ranks(options, fabric.rank_count());
+  const auto render_here = [&](nodes::RankLinks& links) {
+    if (links.rank_count() == 1 && !options.quiet) {
+      std::cerr << "dmpc: --runner=mpi: this is the only process, so that all nodes are in it\n";
+    }
+    RenderOptions here = options;
+    here.computer.ranks = &links;
+    return render(here, interrupt, output, files);
+  };
+  return render_as_rank(fabric, options, render_here, interrupt.token());
 }
 
 }  // namespace dmpc::apps

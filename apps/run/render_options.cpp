@@ -20,7 +20,8 @@ using core::UsageError;
 void add_computer_options(OptionSet& options, RenderOptions& render) {
   nodes::ComputerRequest& computer = render.computer;
   options.begin_group("The computer");
-  options.add_number("--nodes", computer.node_count, 1, svm::node_count_max, "8",
+  options.add_number("--nodes", computer.node_count, 1, svm::node_count_max,
+                     "8; with --runner=mpi the processors of all ranks, less one each",
                      "Nodes, each with a memory of its own; dataflow takes up to " + std::to_string(dataflow::region_count_max));
   add_strategy_option(options, render.strategy);
   add_system_option(options, render.system);
@@ -31,8 +32,10 @@ void add_computer_options(OptionSet& options, RenderOptions& render) {
 void add_runner_options(OptionSet& options, RenderOptions& render) {
   options.begin_group("What drives the computer");
   options.add_choice<RunnerKind>(
-      "--runner", render.runner.kind, {{"threads", RunnerKind::threads}, {"virtual", RunnerKind::virtual_time}},
-      "threads: a thread for each node. virtual: the model of a machine, in its own time, the same whenever it is repeated");
+      "--runner", render.runner.kind,
+      {{"threads", RunnerKind::threads}, {"virtual", RunnerKind::virtual_time}, {"mpi", RunnerKind::mpi}},
+      "threads: a thread for each node. virtual: the model of a machine, in its own time, the same whenever it is repeated. mpi: "
+      "threads of all the processes that mpirun or srun has started; the first of them reads, prints and writes");
   add_machine_options(options, render.runner, " (virtual)");
   options.add_text(
       "--chaos", "SEED [calm]",
@@ -75,6 +78,12 @@ constexpr Conflict conflicts[] = {
     {"--memory-port", RunnerKind::threads, "threads model no ports"},
     {"--chaos", RunnerKind::virtual_time, "chaos disturbs threads only"},
     {"--checkpoint", RunnerKind::virtual_time, "the time of two halves of a run is not the time of a whole one"},
+    {"--machine", RunnerKind::mpi, "what ranks run on is no model"},
+    {"--no-contention", RunnerKind::mpi, "what ranks run on is no model"},
+    {"--memory-port", RunnerKind::mpi, "what ranks run on is no model"},
+    {"--heatmap", RunnerKind::mpi, "nodes are watched in one process"},
+    {"--trace", RunnerKind::mpi, "nodes are watched in one process"},
+    {"--report", RunnerKind::mpi, "nodes are watched in one process"},
     {"--topology", RunnerKind::virtual_time, "the machine has a topology of its own, onto which regions are mapped"},
 };
 
@@ -87,6 +96,9 @@ void check_runner(const OptionSet& options, const RenderOptions& render) {
   }
   if (render.tracer == TracerChoice::embree && runner == RunnerKind::virtual_time) {
     throw UsageError("--tracer=embree does not go with --runner=virtual: nobody knows what Embree's operations would cost");
+  }
+  if (render.tracer == TracerChoice::embree && runner == RunnerKind::mpi) {
+    throw UsageError("--tracer=embree does not go with --runner=mpi: Embree sees the whole scene, which one process alone has");
   }
 }
 
@@ -129,6 +141,7 @@ void add_options(OptionSet options, RenderOptions& render) {
       settle_system(options, *render.system, render, render.database);
     }
     settle_database(options, render.strategy, render.database);
+    render.is_node_count_given = options.is_given("--nodes");
     check(options, render);
   });
   options.set_examples(
@@ -141,6 +154,7 @@ void add_options(OptionSet options, RenderOptions& render) {
       "  dmpc render rings-4-t1 --cache-pages=64 --heatmap=faults:faults.png --report=rings.html -o rings.png\n"
       "  dmpc render rings-3-t1 --strategy=dataflow --nodes=16 --grid-axes=screen -o rings.png\n"
       "  dmpc render teapot-12 --nodes=64 --runner=virtual --machine=ipsc860 --stats=teapot.json -o teapot.png\n"
+      "  mpirun -n 4 dmpc render tetra-10 --runner=mpi --nodes=28 -o tetra.exr\n"
       "  dmpc render balls-6 --samples=256 --checkpoint=balls.checkpoint --resume -o balls.exr\n"
       "  dmpc render my.nff --strategy=replicated --tracer=embree --resolution=1024x768 -o my.tif\n"
       "The picture does not depend on the computer's options, to the last bit: the film_hash of --stats says so. Only\n"

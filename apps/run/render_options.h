@@ -19,7 +19,8 @@
 namespace dmpc::apps {
 
 struct RenderOptions : StrategyOptions {
-  std::optional<System> system;  ///< whose options the strategy has, if one was named
+  std::optional<System> system;      ///< whose options the strategy has, if one was named
+  bool is_node_count_given = false;  ///< else, on ranks, it follows from their processors
   PictureOptions picture;
   DatabaseOptions database;
   std::filesystem::path image;                  ///< where the picture goes

@@ -10,6 +10,8 @@
 #include "apps/system/memory_room.h"
 #include "core/base/expect.h"
 #include "core/record/records.h"
+#include "nodes/ranks/rank_links.h"
+#include "nodes/ranks/ranks_runner.h"
 
 namespace dmpc::apps {
 
@@ -30,14 +32,19 @@ svm::Report run_with_embree(const core::Database& database, const core::RenderSe
   });
 }
 
-/// The nodes' memories are touched before a run begins.
+/// The nodes' memories are touched before a run begins. This is rank 0 if there are several.
 template <class Plan>
-void check_room(const Plan& plan, std::uint32_t node_count) {
+void check_room(const Plan& plan, const nodes::ComputerRequest& computer) {
+  const std::uint32_t rank_count = computer.ranks == nullptr ? 1 : computer.ranks->rank_count();
   std::uint64_t bytes = plan.host_memory().total();
-  for (std::uint32_t node = 0; node < node_count; ++node) {
-    bytes += plan.node_memory(node).total();
+  std::uint32_t nodes_here = 0;
+  for (std::uint32_t node = 0; node < computer.node_count; ++node) {
+    if (nodes::rank_of(node, computer.node_count, rank_count) == 0) {
+      bytes += plan.node_memory(node).total();
+      ++nodes_here;
+    }
   }
-  check_memory_room(bytes, counted(node_count, "node") + " and the host");
+  check_memory_room(bytes, counted(nodes_here, "node") + " and the host");
 }
 
 svm::Strategy page_strategy(Strategy strategy) {
@@ -77,7 +84,7 @@ ReadyRun ready_with_pages(const StrategyOptions& options, const core::Database& 
     return run_with_pages(strategy, database, settings, watched, std::move(stop));
   };
   const svm::Plan plan = with_options_named([&] { return svm::plan_of(strategy, database, settings, run); });
-  check_room(plan, run.computer.node_count);
+  check_room(plan, run.computer);
   return {plan.notes, start};
 }
 
@@ -87,7 +94,7 @@ ReadyRun ready_with_rays(const StrategyOptions& options, const core::Database& d
       .computer = options.computer, .rays = options.rays, .watching = watching, .continuation = continuation};
   const auto prepared =
       std::make_shared<dataflow::Prepared>(with_options_named([&] { return dataflow::prepare(database, settings, run, stop); }));
-  check_room(prepared->plan, run.computer.node_count);
+  check_room(prepared->plan, run.computer);
   if (watching.distributed) {
     watching.distributed();
     run.watching.distributed = [prepared] { prepared->distribution.forget_records(); };
@@ -109,7 +116,7 @@ void choose_machine(StrategyOptions& options, const nodes::Machine& machine) {
 }
 
 void choose_machine(StrategyOptions& options) {
-  if (options.runner.kind == RunnerKind::threads) {
+  if (options.runner.kind != RunnerKind::virtual_time) {
     return;
   }
   nodes::Machine machine = load_machine(options.runner.machine_name).machine;

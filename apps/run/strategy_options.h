@@ -23,8 +23,9 @@ const char* name_of(Strategy strategy);
 /// Who finds what a ray hits: our grid, or Embree (with strategy replicated only).
 enum class TracerChoice : std::uint8_t { grid, embree };
 
-/// What calls the nodes' programs: threads, by the wall clock, or the model of a machine, in virtual time.
-enum class RunnerKind : std::uint8_t { threads, virtual_time };
+/// What calls the nodes' programs: threads, by the wall clock, of one process or of the ranks that MPI has started, or the model
+/// of a machine, in virtual time.
+enum class RunnerKind : std::uint8_t { threads, virtual_time, mpi };
 /// As the command line calls it.
 const char* name_of(RunnerKind runner);
 

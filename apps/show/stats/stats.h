@@ -16,7 +16,7 @@ namespace dmpc::apps {
 ///                  command line takes them, null where it said nothing); of pages: cache_pages, in_flight, work_item,
 ///                  work_giver, pixels, workers, count_pages; of dataflow: balance, cuts, regions_a_node, subsample,
 ///                  balance_grid, ray_batch, ray_credits, ray_places, ray_queue, tested_objects, backpressure, topology
-///   runner         threads or virtual
+///   runner         threads, virtual or mpi
 ///   machine        that was modelled, as machine_file.h says; null with threads, as is all that follows from virtual time
 ///   film_hash      of the film's integers, 16 hexadecimal digits: equal pictures, equal hashes
 ///   sampling       samples (of all pixels), resumed (how many of them a checkpoint had: no counter below has seen them, and

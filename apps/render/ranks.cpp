@@ -1,0 +1,93 @@
+#include "apps/render/ranks.h"
+
+#include <exception>
+#include <new>
+
+#include "apps/line/exit_status.h"
+#include "apps/run/option_words.h"
+#include "apps/system/interrupt.h"
+#include "core/base/expect.h"
+#include "dataflow/packets.h"
+#include "dataflow/ranks.h"
+#include "nodes/ranks/dismissal.h"
+#include "nodes/ranks/failure.h"
+#include "nodes/runner.h"
+#include "svm/packets.h"
+#include "svm/ranks.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+/// With which main() will end.
+int status_of(const std::exception_ptr& failure) {
+  try {
+    std::rethrow_exception(failure);
+  } catch (const Interrupted&) {
+    return interrupted_status;
+  } catch (const core::RoomError&) {
+    return no_room_status;
+  } catch (const core::InputError&) {
+    return input_status;
+  } catch (const core::UsageError&) {
+    return usage_status;
+  } catch (const std::bad_alloc&) {
+    return no_room_status;
+  } catch (...) {
+    return internal_status;
+  }
+}
+
+/// Rank 0. It says what has failed when the others know that all is over.
+int lead(nodes::RankLinks& links, const RenderOnRanks& render) {
+  try {
+    const int status = render(links);
+    nodes::dismiss(links, status);
+    return status;
+  } catch (const nodes::LostRank&) {
+    throw;  // the others find it out, too
+  } catch (...) {
+    nodes::dismiss(links, status_of(std::current_exception()));
+    throw;
+  }
+}
+
+/// Any other rank. Rank 0 knows of what fails in a run, and is told of what fails before.
+int follow(nodes::RankLinks& links, Strategy strategy, const std::stop_token& stop) {
+  try {
+    if (strategy == Strategy::dataflow) {
+      dataflow::follow(links, stop);
+    } else {
+      svm::follow(links, stop);
+    }
+  } catch (const nodes::Dismissed& dismissed) {
+    return dismissed.status;
+  } catch (const nodes::LostRank&) {
+    throw;
+  } catch (...) {
+    nodes::say_failure(links, nodes::failure_of(std::current_exception()));
+  }
+  return nodes::wait_for_dismissal(links);
+}
+
+}  // namespace
+
+std::size_t payload_bytes_max(const RenderOptions& options) {
+  if (options.strategy == Strategy::dataflow) {
+    return dataflow::ray_packet_bytes(options.rays.ray_batch.value_or(1), options.rays.tested_objects);
+  }
+  return sizeof(svm::PageReplyHeader) + options.database.build.page_size_bytes;
+}
+
+void check_nodes_on_ranks(const RenderOptions& options, std::uint32_t rank_count) {
+  check_node_count(options.strategy, options.computer.node_count);
+  with_options_named([&] { nodes::check_nodes_for(options.computer.node_count, rank_count); });
+}
+
+int render_as_rank(nodes::Fabric& fabric, const RenderOptions& options, const RenderOnRanks& render,
+                   const std::stop_token& stop) {
+  nodes::RankLinks links(fabric);
+  return links.rank() == 0 ? lead(links, render) : follow(links, options.strategy, stop);
+}
+
+}  // namespace dmpc::apps
