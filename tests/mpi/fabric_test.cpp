@@ -40,7 +40,7 @@ class FramesOf {
 /// Sends to each other rank, and takes from it, so many frames at once, as fast as there is room.
 class Flood {
  public:
-  Flood(const Here& here, std::size_t count) : here_(here), count_(count), unsent_(here.rank_count(), count), untaken_(unsent_) {
+  Flood(const Here& here, std::size_t count) : here_(here), unsent_(here.rank_count(), count), untaken_(unsent_) {
     unsent_[here.rank()] = untaken_[here.rank()] = 0;
     for (std::uint32_t rank = 0; rank < here.rank_count(); ++rank) {
       out_.emplace_back(here.rank(), rank);
@@ -80,7 +80,6 @@ class Flood {
   }
 
   const Here& here_;
-  std::size_t count_;
   std::vector<std::size_t> unsent_, untaken_;  ///< by rank
   std::vector<FramesOf> out_, in_;
   std::size_t wrong_ = 0;
