@@ -84,6 +84,16 @@ TEST_CASE("a command that several processes would each do is refused by all of t
   }
 }
 
+TEST_CASE("a wrong line is said once") {
+  const auto said = [](const std::string& rank) {
+    return dmpc_with({"PMI_SIZE=3", "PMI_RANK=" + rank}, {"info", "--nodes=x", "tetra-1"});
+  };
+  CHECK(said("0").status == 2);
+  CHECK(contains(said("0").errors, "--nodes"));
+  CHECK(said("1").status == 2);
+  CHECK(said("1").errors == "");
+}
+
 TEST_CASE("one process under a launcher, and what does nothing, are as without") {
   CHECK(dmpc_with({"OMPI_COMM_WORLD_SIZE=1", "OMPI_COMM_WORLD_RANK=0"}, {"info", "tetra-1"}).status == 0);
   CHECK(dmpc_with({"OMPI_COMM_WORLD_SIZE=3", "OMPI_COMM_WORLD_RANK=0"}, {"--version"}).status == 0);
