@@ -29,6 +29,7 @@
 #include "apps/machine/machine_command.h"
 #include "apps/machine/machines.h"
 #include "apps/picture/compare_command.h"
+#include "apps/ranks/launcher.h"
 #include "apps/render/command.h"
 #include "apps/scene/scene_command.h"
 #include "apps/study/command.h"
@@ -130,6 +131,7 @@ class Commands {
     }
     rows_[(group_ ? group_->first : "") + name] = [options, run] {
       return Command(*options, is_quiet(*options), [options, run](Interrupt& interrupt, std::ostream& output) {
+        expect_one_process();
         if constexpr (std::is_invocable_v<Run, const Options&, std::ostream&>) {
           return run(*options, output);
         } else {

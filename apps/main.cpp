@@ -15,6 +15,7 @@
 #include "apps/commands.h"
 #include "apps/line/exit_status.h"
 #include "apps/line/shown_text.h"
+#include "apps/ranks/launcher.h"
 #include "apps/ranks/rank_group.h"
 #include "apps/system/companion_path.h"
 #include "apps/system/interrupt.h"
@@ -54,10 +55,19 @@ int complain_of_bug(const std::exception& error) {
   return complain(std::string("this is a bug in dmpc, please report it: ") + error.what(), internal_status);
 }
 
+Command command_of(const std::vector<std::string>& arguments) {
+  try {
+    return parse_command_line(arguments);
+  } catch (const core::UsageError&) {
+    leave_errors_to_first();
+    throw;
+  }
+}
+
 /// `has_broken_pipe` becomes true if nobody reads any more what was to be said.
 int run(const std::vector<std::string>& arguments, Interrupt& interrupt, bool& has_broken_pipe) {
   try {
-    const Command command = parse_command_line(arguments);
+    const Command command = command_of(arguments);
     if (command.is_quiet()) {
       silence_progress();
     }

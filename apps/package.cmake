@@ -1,4 +1,4 @@
-# The Debian package: cpack -G DEB in the build's folder writes dmpc_VERSION_ARCHITECTURE.deb.
+# The Debian packages: cpack -G DEB in the build's folder writes dmpc_VERSION_ARCHITECTURE.deb and, of what needs MPI, dmpc-mpi.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME dmpc)
 set(CPACK_PACKAGE_VENDOR "the dmpc developers")
@@ -12,5 +12,14 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS gnuplot-nox)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_NAME dmpc)
+set(CPACK_DEBIAN_UNSPECIFIED_DESCRIPTION ${CPACK_PACKAGE_DESCRIPTION})
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_RECOMMENDS gnuplot-nox)
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_SUGGESTS dmpc-mpi)
+set(CPACK_DEBIAN_MPI_PACKAGE_NAME dmpc-mpi)
+set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "dmpc (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS openmpi-bin)
+set(CPACK_DEBIAN_MPI_DESCRIPTION "The module with which dmpc runs on several processes, on one computer or on many, that
+mpirun or srun has started.")
 include(CPack)

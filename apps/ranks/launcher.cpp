@@ -1,5 +1,7 @@
 #include "apps/ranks/launcher.h"
 
+#include <unistd.h>
+
 #include <array>
 #include <charconv>
 #include <cstdlib>
@@ -22,6 +24,9 @@ struct Sign {
 constexpr std::array<Sign, 3> signs = {{{"mpirun", "OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
                                         {"mpiexec", "PMI_SIZE", "PMI_RANK"},
                                         {"srun", "SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}}};
+
+/// mpirun ends all processes as soon as one has ended with an error: the first is to have said it by then.
+constexpr useconds_t time_to_say_it_us = 500'000;
 
 std::optional<std::uint32_t> number(const char* text) {
   const std::string_view digits = text == nullptr ? "" : text;
@@ -49,11 +54,17 @@ void expect_one_process() {
   if (!started_by || started_by->rank_count < 2) {
     return;
   }
-  if (started_by->rank != 0) {
-    say_no_more();
-  }
+  leave_errors_to_first();
   throw core::UsageError(started_by->name + " has started " + std::to_string(started_by->rank_count) +
                          " processes, and each of them would do all of this: call dmpc without " + started_by->name);
+}
+
+void leave_errors_to_first() {
+  const std::optional<Launcher> started_by = launcher();
+  if (started_by && started_by->rank != 0) {
+    say_no_more();
+    ::usleep(time_to_say_it_us);
+  }
 }
 
 void say_no_more() { std::cerr.setstate(std::ios_base::badbit); }

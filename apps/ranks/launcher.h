@@ -23,8 +23,11 @@ std::optional<Launcher> launcher(const Variable& variable);
 std::optional<Launcher> launcher();
 
 /// For commands that know nothing of ranks: throws core::UsageError if a launcher has started several processes, each of which
-/// would do all. Where this is not the first of them, nothing more is said on stderr: one of them says it.
+/// would do all. The first of them says it.
 void expect_one_process();
+
+/// Before an error that all processes of a launcher come to, each by itself: the first one is to say it.
+void leave_errors_to_first();
 
 /// From now on this process says nothing on stderr, in its whole life: another one does.
 void say_no_more();

@@ -6,7 +6,7 @@ namespace dmpc::apps {
 
 const MpiLibrary& mpi_library() {
   static const auto* const library =
-      static_cast<const MpiLibrary*>(open_module("mpi", "runs on several ranks (Debian's package is dmpc-mpi),", 0));
+      static_cast<const MpiLibrary*>(open_module("mpi", "runs on several ranks (Debian's package is dmpc-mpi)", 0));
   return *library;
 }
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "tests/apps/manual/shell.h"
 #include "tests/support/temporary_folder.h"
@@ -41,6 +42,25 @@ void check_program(const fs::path& program, const fs::path& folder) {
     CHECK_MESSAGE(rendered.errors.empty(), rendered.errors);
     CHECK(fs::file_size(folder / name) > 0);
   }
+}
+
+/// What a package that lies in `made` says of itself; what is in it is unpacked into a folder of this name.
+std::string unpacked_text(const TemporaryFolder& folder, const std::string& package, const std::string& name) {
+  const std::string file = "made/" + package;
+  const Said unpacked =
+      run({"sh", "-c", "cd '" + folder.path().string() + "' && dpkg-deb -f " + file + " && dpkg-deb -x " + file + " " + name});
+  REQUIRE_MESSAGE(unpacked.status == 0, unpacked.errors);
+  return unpacked.output;
+}
+
+std::vector<fs::path> files_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) {
+      files.push_back(entry.path().lexically_relative(folder));
+    }
+  }
+  return files;
 }
 
 /// What apps/dmpc has ninja build when it is called for the first time: with words in place of the tools that it calls.
@@ -86,7 +106,7 @@ TEST_CASE("what cmake installs below a folder is complete and works there") {
   check_program(prefix / "bin/dmpc", folder.path());
 }
 
-TEST_CASE("the Debian package says what it needs, and what is in it works") {
+TEST_CASE("the Debian packages say what they need, MPI for one of them alone, and what is in them works") {
   if (!is_installed("dpkg-shlibdeps")) {
     MESSAGE("dpkg-dev is not installed: no package is made");
     return;
@@ -94,16 +114,26 @@ TEST_CASE("the Debian package says what it needs, and what is in it works") {
   const TemporaryFolder folder;
   const Said packed = run({"cpack", "-G", "DEB", "--config", DMPC_BUILD_DIR "/CPackConfig.cmake", "-B", folder / "made"});
   REQUIRE_MESSAGE(packed.status == 0, packed.errors);
-  const Said unpacked =
-      run({"sh", "-c", "cd '" + folder.path().string() + "' && dpkg-deb -f made/*.deb && dpkg-deb -x made/*.deb all"});
-  REQUIRE_MESSAGE(unpacked.status == 0, unpacked.errors);
-  for (const char* const line :
-       {"Package: dmpc\n", "Section: graphics\n", "Recommends: gnuplot-nox\n", "libembree3-3", "libtbb12", "libopenimageio2.4",
-        "libopenexr-3-1-30", "libpng16-16", "libgmp10", "Description: distributed-memory parallel computer"}) {
-    CHECK_MESSAGE(contains(unpacked.output, line), line);
+  const std::string all = unpacked_text(folder, "dmpc_*.deb", "all");
+  for (const char* const line : {"Package: dmpc\n", "Section: graphics\n", "Recommends: gnuplot-nox\n", "libembree3-3",
+                                 "libtbb12", "libopenimageio2.4", "libopenexr-3-1-30", "libpng16-16", "libgmp10",
+                                 "Description: distributed-memory parallel computer", "Emulates N nodes"}) {
+    CHECK_MESSAGE(contains(all, line), line);
   }
+  CHECK_FALSE(contains(all, "openmpi"));
   check_installed(folder / "all/usr", "vendor-completions");
   check_program(folder / "all/usr/bin/dmpc", folder.path());
+  const fs::path module = "usr/lib/dmpc/dmpc_mpi.so";
+  CHECK_FALSE(fs::exists(folder / "all" / module));
+  if (!fs::exists(DMPC_BUILD_DIR "/apps/dmpc_mpi.so")) {
+    MESSAGE("MPI is not installed: there is no package dmpc-mpi");
+    return;
+  }
+  const std::string mpi = unpacked_text(folder, "dmpc-mpi_*.deb", "mpi");
+  for (const char* const line : {"Package: dmpc-mpi\n", "Depends: dmpc (= ", "libopenmpi3", "Recommends: openmpi-bin\n"}) {
+    CHECK_MESSAGE(contains(mpi, line), line);
+  }
+  CHECK(files_below(folder / "mpi") == std::vector<fs::path>{module});
 }
 
 }  // namespace dmpc::tests
