@@ -61,6 +61,15 @@ bool is_quiet(const Options& options) {
   return false;
 }
 
+/// Whether it is for all the processes that a launcher has started.
+template <class Options>
+bool runs_on_ranks(const Options& options) {
+  if constexpr (requires { options.runner.kind; }) {
+    return options.runner.kind == RunnerKind::mpi;
+  }
+  return false;
+}
+
 /// All commands, declared, and what a line sets.
 class Commands {
  public:
@@ -131,7 +140,9 @@ class Commands {
     }
     rows_[(group_ ? group_->first : "") + name] = [options, run] {
       return Command(*options, is_quiet(*options), [options, run](Interrupt& interrupt, std::ostream& output) {
-        expect_one_process();
+        if (!runs_on_ranks(*options)) {
+          expect_one_process();
+        }
         if constexpr (std::is_invocable_v<Run, const Options&, std::ostream&>) {
           return run(*options, output);
         } else {

@@ -12,6 +12,7 @@
 #include <system_error>
 #include <vector>
 
+#include "apps/allocation.h"
 #include "apps/commands.h"
 #include "apps/line/exit_status.h"
 #include "apps/line/shown_text.h"
@@ -110,6 +111,7 @@ int run_within_memory(int count, char** values, bool& has_broken_pipe) {
 int main(int count, char** values) {
   using namespace dmpc;
   apps::end_without_abort();
+  apps::keep_freed_memory();
   apps::settle_in();
   const apps::ShownOutput errors(std::cerr);
   std::optional<apps::ShownOutput> output;

@@ -55,13 +55,11 @@ ChoiceList named_systems() {
 }
 
 ChoiceList policies() {
-  using svm::Replacement;
-  const auto entry = [](Replacement policy, const char* meaning) { return Choice{std::string(svm::name_of(policy)), meaning}; };
-  return {"policies",
-          "--replacement=",
-          {entry(Replacement::lru, "the page that was looked up least recently makes room"),
-           entry(Replacement::clock, "going round, the first page that was not looked up since the last time round"),
-           entry(Replacement::fifo, "the page that came first"), entry(Replacement::random, "any page, with equal chances")}};
+  ChoiceList all{"policies", "--replacement=", {}};
+  for (const svm::PolicyKind& kind : svm::policy_kinds()) {
+    all.entries.push_back({std::string(kind.name), std::string(kind.meaning)});
+  }
+  return all;
 }
 
 ChoiceList topologies() {

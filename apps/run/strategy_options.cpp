@@ -146,11 +146,12 @@ void add_page_options(OptionSet options, svm::PageOptions& pages, const std::str
   add_homes_options(options, pages.homes, pages.tree_arity);
   options.add_number("--resident", pages.resident_percent, 0, 100, "0",
                      "Percent of those that every node keeps for good: what a small picture uses most (svm)");
-  using svm::Replacement;
-  options.add_choice<Replacement>(
-      "--replacement", pages.replacement,
-      {{"lru", Replacement::lru}, {"clock", Replacement::clock}, {"fifo", Replacement::fifo}, {"random", Replacement::random}},
-      "Which of them makes room for another (svm)");
+  std::vector<std::pair<std::string, svm::Replacement>> policies;
+  for (const svm::PolicyKind& kind : svm::policy_kinds()) {
+    policies.emplace_back(kind.name, static_cast<svm::Replacement>(policies.size()));
+  }
+  options.add_choice<svm::Replacement>("--replacement", pages.replacement, policies,
+                                       "Which of them makes room for another (svm)");
   options.add_number("--in-flight", pages.in_flight, 1, svm::in_flight_max, in_flight_default,
                      "Pixels that a node works on at once; on threads the rays of 16 walk together, of fewer alone");
   options.add_number("--work-item", pages.work_item_side, 0, 1024, "4, or 3 if rays walk alone",

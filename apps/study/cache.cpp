@@ -1,7 +1,7 @@
 #include "apps/study/cache.h"
 
 #include <algorithm>
-#include <array>
+#include <functional>
 #include <span>
 #include <utility>
 
@@ -16,6 +16,7 @@
 #include "svm/run.h"
 #include "svm/watch/miss_curve.h"
 #include "svm/watch/optimum.h"
+#include "svm/watch/policy_misses.h"
 
 namespace dmpc::apps {
 namespace {
@@ -25,11 +26,19 @@ using Sizes = std::vector<std::uint32_t>;
 
 constexpr std::uint32_t standard_size_count = 12;
 
-/// The policies that have to be run, in the order of their columns.
-constexpr std::array run_policies = {Replacement::clock, Replacement::fifo, Replacement::random};
+/// Those beside lru, whose misses are known for all sizes at once, in the order of their columns.
+std::vector<Replacement> other_policies() {
+  std::vector<Replacement> policies;
+  for (std::size_t i = 0; i < svm::policy_kinds().size(); ++i) {
+    if (const auto policy = static_cast<Replacement>(i); policy != Replacement::lru) {
+      policies.push_back(policy);
+    }
+  }
+  return policies;
+}
 
-/// Where a row's cells are.
-enum At : std::size_t { cache_pages_at, share_at, miss_ratio_at, lru_at, first_policy_at, optimum_at = 7, time_at };
+/// Where a row's cells are. Behind the other policies come the optimum, and what is timed.
+enum At : std::size_t { cache_pages_at, share_at, miss_ratio_at, lru_at, first_policy_at };
 
 /// svm on a machine, one pixel at a time on each node as the 1994 paper's nodes worked.
 StrategyOptions one_at_a_time(std::uint32_t node_count, const nodes::Machine& machine) {
@@ -38,47 +47,54 @@ StrategyOptions one_at_a_time(std::uint32_t node_count, const nodes::Machine& ma
   return options;
 }
 
-/// With these the references depend on neither cache nor machine, so any machine will do: the default one takes no time.
-StrategyOptions fixed_order(std::uint32_t node_count) {
-  StrategyOptions options = one_at_a_time(node_count, nodes::Machine());
-  options.pages.work_item_side = 0;
-  return options;
-}
-
-/// The same with all references recorded.
+/// All references, which depend on neither cache nor machine, so any machine will do: the default one takes no time.
 svm::RunOptions recording(std::uint32_t node_count) {
   return {.computer = {.node_count = node_count, .machine = nodes::Machine()},
           .pages = {.in_flight = 1, .work_item_side = 0, .record_references = true}};
 }
 
-/// What follows from the references, by size.
+/// What follows from the references.
 struct Curves {
   svm::MissCurve lru;
-  std::vector<std::uint64_t> optimum;
+  /// By size: of each of the other policies, then of the optimum.
+  std::vector<std::vector<std::uint64_t>> faults;
   std::uint64_t references = 0;  ///< of pages at home, too, and repeated ones
 };
 
-Curves curves_of(const svm::Report& recorded, const Sizes& sizes, const StudyRuns& runs) {
-  Curves curves{.optimum = std::vector<std::uint64_t>(sizes.size()), .references = recorded.pages().references};
-  side_by_side(recorded.nodes.size(), [&](std::size_t node) -> std::function<void()> {
-    runs.check();
-    const std::span<const svm::PageId> references = recorded.nodes[node].references.pages();
-    const svm::Optimum optimum(references);
-    std::vector<std::uint64_t> misses;
-    for (const std::uint32_t size : sizes) {
-      misses.push_back(optimum.misses(size));
+/// For one node: of each size each policy's misses, then the optimum's.
+std::vector<std::vector<std::uint64_t>> faults_of(std::span<const svm::PageId> references, std::uint32_t node, const Sizes& sizes,
+                                                  const StudyRuns& runs) {
+  const svm::Optimum optimum(references);
+  std::vector<std::vector<std::uint64_t>> faults;
+  for (const std::uint32_t size : sizes) {
+    std::vector<std::uint64_t>& row = faults.emplace_back();
+    for (const Replacement policy : other_policies()) {
+      runs.check();
+      row.push_back(svm::policy_misses(policy, references, size, node));
     }
-    return [&curves, misses, lru = svm::MissCurve(references)] {
+    row.push_back(optimum.misses(size));
+  }
+  return faults;
+}
+
+void add(const std::vector<std::vector<std::uint64_t>>& more, std::vector<std::vector<std::uint64_t>>& sums) {
+  for (std::size_t row = 0; row < sums.size(); ++row) {
+    std::transform(more[row].begin(), more[row].end(), sums[row].begin(), sums[row].begin(), std::plus());
+  }
+}
+
+Curves curves_of(const svm::Report& recorded, const Sizes& sizes, const StudyRuns& runs) {
+  Curves curves{.faults = {sizes.size(), std::vector<std::uint64_t>(other_policies().size() + 1)},
+                .references = recorded.pages().references};
+  side_by_side(recorded.nodes.size(), [&](std::size_t node) -> std::function<void()> {
+    const std::span<const svm::PageId> references = recorded.nodes[node].references.pages();
+    return [&curves, faults = faults_of(references, static_cast<std::uint32_t>(node), sizes, runs),
+            lru = svm::MissCurve(references)] {
       curves.lru += lru;
-      std::transform(misses.begin(), misses.end(), curves.optimum.begin(), curves.optimum.begin(), std::plus());
+      add(faults, curves.faults);
     };
   });
   return curves;
-}
-
-/// One frame leaves no choice, and where every page has a frame nothing has to go: all policies do the same.
-bool has_choice(std::uint32_t cache_pages, const Curves& curves) {
-  return cache_pages > 1 && cache_pages < curves.lru.distinct_pages();
 }
 
 /// The rows of the table on their way: each is added if all of its runs have ended.
@@ -87,12 +103,11 @@ class Sweep {
   Sweep(const CacheStudy& study, const Sizes& sizes, std::uint32_t page_count, const Curves& curves, Table& table)
       : node_count_(study.node_count), table_(table) {
     for (std::size_t row = 0; row < sizes.size(); ++row) {
-      begin_row(sizes[row], page_count, curves, curves.optimum[row]);
-      if (row == 0 && study.machine) {
-        add_job(one_at_a_time(1, *study.machine), [this](const svm::Report& report) { one_node_ns_ = total_ns(report); });
-      }
-      add_policies(sizes[row], has_choice(sizes[row], curves));
+      begin_row(sizes[row], page_count, curves, curves.faults[row]);
       if (study.machine) {
+        if (row == 0) {
+          add_job(one_at_a_time(1, *study.machine), [this](const svm::Report& report) { one_node_ns_ = total_ns(report); });
+        }
         add_timed(sizes[row], *study.machine);
       }
       rows_.back().cells.resize(table.columns().size());
@@ -153,28 +168,16 @@ class Sweep {
     ++rows_.back().jobs_left;
   }
 
-  void begin_row(std::uint32_t cache_pages, std::uint32_t page_count, const Curves& curves, std::uint64_t optimum) {
+  void begin_row(std::uint32_t cache_pages, std::uint32_t page_count, const Curves& curves,
+                 const std::vector<std::uint64_t>& faults) {
     const std::uint64_t misses = curves.lru.misses(cache_pages);
-    std::vector<Cell>& row = rows_.emplace_back(Row{std::vector<Cell>(time_at)}).cells;
+    std::vector<Cell>& row = rows_.emplace_back(Row{std::vector<Cell>(first_policy_at)}).cells;
     row[cache_pages_at] = std::uint64_t{cache_pages};
     row[share_at] = percent_of<std::uint64_t>(cache_pages, page_count);
     row[miss_ratio_at] = percent_of<std::uint64_t>(misses, curves.references);
     row[lru_at] = misses;
-    row[optimum_at] = optimum;
-  }
-
-  void add_policies(std::uint32_t cache_pages, bool is_run) {
-    for (std::size_t i = 0; i < run_policies.size(); ++i) {
-      const std::size_t row = rows_.size() - 1, column = first_policy_at + i;
-      if (!is_run) {
-        rows_[row].cells[column] = rows_[row].cells[lru_at];
-        continue;
-      }
-      StrategyOptions options = fixed_order(node_count_);
-      options.pages.cache_pages = cache_pages;
-      options.pages.replacement = run_policies[i];
-      add_job(options, [this, row, column](const svm::Report& report) { rows_[row].cells[column] = report.pages().faults; });
-    }
+    row.insert(row.end(), faults.begin(), faults.end());
+    time_at_ = row.size();
   }
 
   void add_timed(std::uint32_t cache_pages, const nodes::Machine& machine) {
@@ -187,16 +190,17 @@ class Sweep {
     const double seconds = static_cast<double>(total_ns(report)) * 1e-9;
     const std::uint64_t page_bytes = report.sent()[svm::number_of(svm::Kind::page_reply)].bytes;
     const bool takes_time = total_ns(report) > 0;
-    row[time_at] = seconds;
-    row[time_at + 1] =
+    row[time_at_] = seconds;
+    row[time_at_ + 1] =
         takes_time && one_node_ns_ ? Cell(percent_of<std::uint64_t>(*one_node_ns_, node_count_ * total_ns(report))) : Cell();
-    row[time_at + 2] =
+    row[time_at_ + 2] =
         takes_time ? Cell(static_cast<std::uint64_t>(static_cast<double>(page_bytes) / node_count_ / seconds)) : Cell();
   }
 
   std::uint32_t node_count_;
   Table& table_;
   std::optional<std::uint64_t> one_node_ns_;
+  std::size_t time_at_ = 0;  ///< where a row's cells of what is timed are
   std::vector<Row> rows_;
   std::vector<Job> jobs_;  ///< in the order of their rows
 };
@@ -214,7 +218,7 @@ std::string needs_note(const svm::MissCurve& lru) {
 
 std::vector<Column> CacheStudy::columns() const {
   std::vector<Column> columns = {{"cache pages"}, {"share of database", "%", 2}, {"misses lru", "%", 4}, {"faults lru"}};
-  for (const Replacement policy : run_policies) {
+  for (const Replacement policy : other_policies()) {
     columns.push_back({"faults " + std::string(svm::name_of(policy))});
   }
   columns.push_back({"faults optimum"});
@@ -228,7 +232,7 @@ std::vector<Plot> CacheStudy::plots() const {
   const PlotAxis sizes{.label = "cache of a node (pages)", .scale = PlotScale::powers_of_10};
   const PlotAxis count{.label = "faults", .scale = PlotScale::powers_of_10}, rate{.label = "", .least = 0};
   std::vector<PlotSeries> policies = {{"lru", "faults lru"}};
-  for (const Replacement policy : run_policies) {
+  for (const Replacement policy : other_policies()) {
     const std::string policy_name(svm::name_of(policy));
     policies.push_back({.title = policy_name, .column = "faults " + policy_name, .color = policies.size()});
   }
@@ -260,8 +264,8 @@ std::vector<std::string> CacheStudy::notes(const std::string& scene) const {
       std::to_string(node_count) + " nodes. Share of database: the cache of one node over all pages.",
       "Faults and misses: pixels shared out beforehand, one in flight on a node, so that all policies see the same references "
       "and every miss is a fault. Misses are given as a share of all references, pages at home included.",
-      "Lru: from the stack distances of one run's references (Mattson, Gecsei, Slutz and Traiger, 1970). Clock, fifo, random: by "
-      "a run each, but for sizes that leave no choice. Optimum: the page that leaves is the one needed last (Belady, 1966)."};
+      "Lru: from the stack distances of one run's references (Mattson, Gecsei, Slutz and Traiger, 1970). Other policies: by a "
+      "cache of each size, fed with these references. Optimum: the page that leaves is the one needed last (Belady, 1966)."};
   if (machine) {
     notes.push_back(
         "Virtual time, efficiency against one node with all pages at home, and bytes of pages received a node and "

@@ -57,7 +57,8 @@ class ChaosCase {
     if (strategy == svm::Strategy::svm) {
       options.pages.cache_pages = one_of<std::optional<std::uint32_t>>({1, 1, 2, 3, 16, std::nullopt});
       options.pages.replacement = one_of({svm::Replacement::lru, svm::Replacement::lru, svm::Replacement::clock,
-                                          svm::Replacement::fifo, svm::Replacement::random});
+                                          svm::Replacement::fifo, svm::Replacement::random, svm::Replacement::two_queues,
+                                          svm::Replacement::adaptive, svm::Replacement::small_and_main});
       options.pages.homes = one_of({svm::PageHomes::spread, svm::PageHomes::spread, svm::PageHomes::host, svm::PageHomes::tree});
       options.pages.tree_arity = 1 + draws_.below(4);
       options.pages.resident_percent = one_of({0U, 0U, 50U, 100U});

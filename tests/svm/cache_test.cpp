@@ -21,7 +21,8 @@ using tests::page_size;
 
 namespace {
 
-constexpr auto all_policies = {Replacement::lru, Replacement::clock, Replacement::fifo, Replacement::random};
+constexpr auto all_policies = {Replacement::lru,        Replacement::clock,    Replacement::fifo,          Replacement::random,
+                               Replacement::two_queues, Replacement::adaptive, Replacement::small_and_main};
 
 /// A cache in a memory of exactly the size that it says it needs.
 struct SmallCache {

@@ -4,28 +4,42 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <set>
 #include <string_view>
 #include <vector>
 
+#include "core/base/expect.h"
 #include "nodes/local_memory.h"
 
 using namespace dmpc;
 using svm::Replacement;
-using svm::VictimChoice;
 
 namespace {
 
 using Pages = std::vector<std::uint32_t>;
 constexpr std::uint32_t empty = 0xffffffffU;
 
+std::vector<Replacement> all_policies() {
+  std::vector<Replacement> all;
+  for (std::size_t i = 0; i < svm::policy_kinds().size(); ++i) {
+    all.push_back(static_cast<Replacement>(i));
+  }
+  return all;
+}
+
 /// Frames with pages, and a policy alone.
 struct Frames {
   Frames(Replacement replacement, std::uint32_t count, std::uint32_t seed = 0)
-      : memory(needs(replacement, count)), victims(memory, replacement, count, seed), stamps(count), pages(count, empty) {}
+      : kind(svm::kind_of(replacement)),
+        memory(needs(replacement, count)),
+        stamps(count),
+        pages(count, empty),
+        names(count),
+        policy(kind.make({memory, stamps, names, seed})) {}
   static nodes::MemoryPlan needs(Replacement replacement, std::uint32_t count) {
     nodes::MemoryPlan plan;
-    VictimChoice::add_needs(plan, replacement, count);
+    svm::kind_of(replacement).add_needs(plan, count);
     return plan;
   }
   /// Returns whether it was a page hit.
@@ -34,10 +48,17 @@ struct Frames {
     const bool is_hit = place != pages.end();
     if (!is_hit) {
       place = std::find(pages.begin(), pages.end(), empty);
-      place = place != pages.end() ? place : pages.begin() + victims.victim(stamps);
+      place = place != pages.end() ? place : pages.begin() + policy->victim(svm::PageId{page});
     }
     *place = page;
-    stamps[static_cast<std::size_t>(place - pages.begin())] = ++now;
+    const auto frame = static_cast<std::uint32_t>(place - pages.begin());
+    names[frame] = svm::PageId{page};
+    stamps[frame] = ++now;
+    if (!is_hit) {
+      policy->insert(names[frame], frame);
+    } else if (kind.hears_hits) {
+      policy->hit(names[frame], frame);
+    }
     return is_hit;
   }
   std::uint32_t misses(const Pages& references) {
@@ -48,10 +69,12 @@ struct Frames {
     return misses;
   }
 
+  svm::PolicyKind kind;
   nodes::LocalMemory memory;
-  VictimChoice victims;
   std::vector<std::uint64_t> stamps;
   Pages pages;
+  std::vector<svm::PageId> names;
+  std::unique_ptr<svm::ReplacementPolicy> policy;
   std::uint64_t now = 0;
 };
 
@@ -62,7 +85,7 @@ const Pages anomaly = {1, 2, 3, 4, 1, 2, 5, 1, 2, 3, 4, 5};
 
 TEST_CASE("policies have names of their own") {
   std::set<std::string_view> names;
-  for (const Replacement replacement : {Replacement::lru, Replacement::clock, Replacement::fifo, Replacement::random}) {
+  for (const Replacement replacement : all_policies()) {
     CHECK(names.insert(svm::name_of(replacement)).second);
   }
 }
@@ -94,10 +117,10 @@ TEST_CASE("random takes every frame about as often, the same ones for the same n
   std::vector<int> taken(frame_count);
   int agreements = 0;
   for (int i = 0; i < draws; ++i) {
-    const std::uint32_t frame = first.victims.victim(first.stamps);
+    const std::uint32_t frame = first.policy->victim(svm::PageId{9});
     REQUIRE(frame < frame_count);
-    REQUIRE(same.victims.victim(same.stamps) == frame);
-    agreements += other.victims.victim(other.stamps) == frame ? 1 : 0;
+    REQUIRE(same.policy->victim(svm::PageId{9}) == frame);
+    agreements += other.policy->victim(svm::PageId{9}) == frame ? 1 : 0;
     ++taken[frame];
   }
   const double sigma = std::sqrt(draws / 7.0 * 6 / 7);
@@ -108,16 +131,67 @@ TEST_CASE("random takes every frame about as often, the same ones for the same n
 }
 
 TEST_CASE("every policy has one frame to choose from where there is one") {
-  for (const Replacement replacement : {Replacement::lru, Replacement::clock, Replacement::fifo, Replacement::random}) {
+  for (const Replacement replacement : all_policies()) {
     CHECK(Frames(replacement, 1).misses({1, 1, 2, 2, 1}) == 3);
   }
 }
 
-TEST_CASE("a policy takes exactly the memory that it says it needs, and all but lru none") {
-  for (const Replacement replacement : {Replacement::lru, Replacement::clock, Replacement::fifo, Replacement::random}) {
+TEST_CASE("a policy takes exactly the memory that it says it needs, and clock, fifo and random none") {
+  for (const Replacement replacement : all_policies()) {
     for (const std::uint32_t frames : {0U, 1U, 64U, 1000U}) {
       CHECK(Frames(replacement, frames).memory.used().bytes == Frames::needs(replacement, frames).bytes);
-      CHECK((Frames::needs(replacement, frames).total() > 0) == (replacement == Replacement::lru && frames > 0));
+      const bool takes_none =
+          replacement == Replacement::clock || replacement == Replacement::fifo || replacement == Replacement::random;
+      CHECK((takes_none || frames == 0 || Frames::needs(replacement, frames).total() > 0));
+      CHECK((!takes_none || Frames::needs(replacement, frames).total() == 0));
     }
   }
+}
+
+namespace {
+
+/// The worst that a cache can do with what goes round and round is lru; with this nearly all is kept.
+class MostRecentlyUsed final : public svm::ReplacementPolicy {
+ public:
+  explicit MostRecentlyUsed(const svm::PolicySite& site) : stamps_(site.stamps) {}
+  std::uint32_t victim(svm::PageId /*incoming*/) override {
+    return static_cast<std::uint32_t>(std::max_element(stamps_.begin(), stamps_.end()) - stamps_.begin());
+  }
+
+ private:
+  svm::Stamps stamps_;
+};
+
+/// Added once, whatever tests run.
+Replacement most_recently_used() {
+  static const Replacement added = svm::add_policy({"mru", "the page that was looked up most recently", false,
+                                                    [](nodes::MemoryPlan& /*plan*/, std::uint32_t /*frames*/) {},
+                                                    [](const svm::PolicySite& site) -> std::unique_ptr<svm::ReplacementPolicy> {
+                                                      return std::make_unique<MostRecentlyUsed>(site);
+                                                    }});
+  return added;
+}
+
+}  // namespace
+
+TEST_CASE("a policy of one's own has a name, is listed, and chooses what leaves") {
+  const Replacement own = most_recently_used();
+  CHECK(svm::name_of(own) == "mru");
+  CHECK(svm::policy_kinds().back().name == "mru");
+  Pages round_and_round;
+  for (std::uint32_t i = 0; i < 50; ++i) {
+    round_and_round.push_back(i % 5);
+  }
+  CHECK(Frames(Replacement::lru, 4).misses(round_and_round) == 50);
+  CHECK(Frames(own, 4).misses(round_and_round) == 5 + 45 / 4);
+}
+
+TEST_CASE("a policy whose name is taken, or that cannot be made, is a broken invariant") {
+  const auto make = [](const svm::PolicySite& site) -> std::unique_ptr<svm::ReplacementPolicy> {
+    return std::make_unique<MostRecentlyUsed>(site);
+  };
+  const auto needs = [](nodes::MemoryPlan& /*plan*/, std::uint32_t /*frames*/) {};
+  CHECK_THROWS_AS(svm::add_policy({"lru", "a second one", false, needs, make}), core::InternalError);
+  CHECK_THROWS_AS(svm::add_policy({"none", "cannot be made", false, needs, nullptr}), core::InternalError);
+  CHECK_THROWS_AS(svm::name_of(static_cast<Replacement>(200)), core::InternalError);
 }

@@ -299,8 +299,9 @@ TEST_CASE("one node has every page at home and records nothing") {
 TEST_CASE("under every replacement policy the film is the same and no node misses less than the optimum") {
   const BuiltScene small("rings-2", 512, 24);
   const svm::Report recorded = recorded_run(small, 4);
-  for (const auto replacement :
-       {svm::Replacement::lru, svm::Replacement::clock, svm::Replacement::fifo, svm::Replacement::random}) {
+  for (std::size_t policy = 0; policy < svm::policy_kinds().size(); ++policy) {
+    const auto replacement = static_cast<svm::Replacement>(policy);
+    CAPTURE(svm::name_of(replacement));
     svm::RunOptions options = fixed_order(4);
     options.pages.cache_pages = 8;
     options.pages.replacement = replacement;

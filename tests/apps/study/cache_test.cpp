@@ -53,10 +53,11 @@ TEST_CASE("the faults of every policy are those of its own run on threads, to th
   for (std::size_t row = 0; row < 3; ++row) {
     CAPTURE(row);
     const auto cache_pages = static_cast<std::uint32_t>(whole(table, row, "cache pages"));
-    CHECK(whole(table, row, "faults lru") == faults_on_threads(subject, cache_pages, svm::Replacement::lru));
-    CHECK(whole(table, row, "faults clock") == faults_on_threads(subject, cache_pages, svm::Replacement::clock));
-    CHECK(whole(table, row, "faults fifo") == faults_on_threads(subject, cache_pages, svm::Replacement::fifo));
-    CHECK(whole(table, row, "faults random") == faults_on_threads(subject, cache_pages, svm::Replacement::random));
+    for (std::size_t policy = 0; policy < svm::policy_kinds().size(); ++policy) {
+      const auto replacement = static_cast<svm::Replacement>(policy);
+      const std::string column = "faults " + std::string(svm::name_of(replacement));
+      CHECK_MESSAGE(whole(table, row, column.c_str()) == faults_on_threads(subject, cache_pages, replacement), column);
+    }
     CHECK(whole(table, row, "faults optimum") <= whole(table, row, "faults lru"));
   }
 }
@@ -72,7 +73,8 @@ TEST_CASE("by default the sizes go from one page to all that are not at home, wh
   CHECK(real(table, last, "share of database") ==
         doctest::Approx(100 * static_cast<double>(page_count - page_count / 2) / static_cast<double>(page_count)));
   for (const std::size_t row : {std::size_t{0}, last}) {
-    for (const char* const policy : {"faults clock", "faults fifo", "faults random", "faults optimum"}) {
+    for (const char* const policy :
+         {"faults clock", "faults fifo", "faults random", "faults 2q", "faults arc", "faults s3-fifo", "faults optimum"}) {
       CHECK(whole(table, row, policy) == whole(table, row, "faults lru"));
     }
   }

@@ -1,0 +1,33 @@
+#include "svm/watch/policy_misses.h"
+
+#include <array>
+#include <cstddef>
+
+#include "nodes/local_memory.h"
+#include "svm/cache.h"
+
+namespace dmpc::svm {
+
+std::uint64_t policy_misses(Replacement replacement, std::span<const PageId> references, std::uint32_t cache_pages,
+                            std::uint32_t seed) {
+  if (cache_pages == 0) {
+    return references.size();
+  }
+  constexpr std::array<std::byte, 1> page_bytes{};
+  const CacheShape shape{cache_pages, page_bytes.size(), replacement};
+  nodes::MemoryPlan plan;
+  Cache::add_needs(plan, shape);
+  nodes::LocalMemory memory(plan);
+  Cache cache(memory, shape, seed);
+  std::uint64_t misses = 0;
+  for (const PageId page : references) {
+    if (cache.frame_of(page) == Cache::no_frame) {
+      ++misses;
+      cache.install(page, page_bytes);
+    }
+    cache.touch(cache.frame_of(page));
+  }
+  return misses;
+}
+
+}  // namespace dmpc::svm
