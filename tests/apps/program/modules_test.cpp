@@ -51,8 +51,14 @@ std::vector<std::string> render_of(const fs::path& picture, const std::string& o
 struct Wanted {
   std::string picture, option, module;
 };
-const std::vector<Wanted> all_wanted = {{"a.bmp", "--depth=5", "dmpc_pictures.so"},
-                                        {"a.png", "--tracer=embree", "dmpc_embree.so"}};
+std::vector<Wanted> all_that_are_built() {
+  std::vector<Wanted> all = {{"a.bmp", "--depth=5", "dmpc_pictures.so"}, {"a.png", "--tracer=embree", "dmpc_embree.so"}};
+  if (fs::exists(built / "dmpc_mpi.so")) {  // if there is MPI
+    all.push_back({"a.png", "--runner=mpi", "dmpc_mpi.so"});
+  }
+  return all;
+}
+const std::vector<Wanted> all_wanted = all_that_are_built();
 
 /// As it is installed, without its modules.
 struct Installation {
@@ -90,7 +96,7 @@ void alter_build(const fs::path& module) {
 
 }  // namespace
 
-TEST_CASE("what renders nothing, and a render to EXR or PNG, load neither OpenImageIO nor Embree") {
+TEST_CASE("what renders nothing, and a render to EXR or PNG, load neither OpenImageIO nor Embree nor MPI") {
   const TemporaryFolder folder;
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{"--version"},
@@ -99,7 +105,7 @@ TEST_CASE("what renders nothing, and a render to EXR or PNG, load neither OpenIm
                                              render_of(folder / "a.png", "--heatmap=rays:" + (folder / "h.png").string())}) {
     CAPTURE(arguments[0]);
     const std::string loaded = loaded_by(arguments);
-    for (const std::string library : {"OpenImageIO", "embree", "assimp", "dmpc_"}) {
+    for (const std::string library : {"OpenImageIO", "embree", "assimp", "libmpi", "dmpc_"}) {
       CHECK_FALSE_MESSAGE(contains(loaded, library), library);
     }
   }
