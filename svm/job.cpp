@@ -80,7 +80,7 @@ std::optional<core::PartialPicture> take_start(nodes::FlatReader& flat, const Pl
     return std::nullopt;
   }
   const std::uint32_t pixel_count = request.width * request.height;
-  core::PartialPicture start{.film = core::Film(0, 0),
+  core::PartialPicture start{.film = core::Film(1, 1),  // the light is the host's
                              .passes = flat.take<std::uint32_t>(),
                              .pass = core::Pass(pixel_count, request.first_samples),
                              .done = core::PixelMask(pixel_count)};

@@ -56,7 +56,8 @@ void expect_one_process() {
   }
   leave_errors_to_first();
   throw core::UsageError(started_by->name + " has started " + std::to_string(started_by->rank_count) +
-                         " processes, and each of them would do all of this: call dmpc without " + started_by->name);
+                         " processes, and each of them would do all of this: call dmpc without " + started_by->name +
+                         ", or let them render together: dmpc render --runner=mpi");
 }
 
 void leave_errors_to_first() {

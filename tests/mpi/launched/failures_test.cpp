@@ -1,0 +1,107 @@
+// What goes wrong on several ranks is said once, and ends all of them.
+#include <doctest/doctest.h>
+
+#include <dirent.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/mpi/launched/mpirun.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
+
+namespace dmpc::tests {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A process of this rank among the children of mpirun; 0 if there is none.
+pid_t process_of_rank(pid_t mpirun, int rank) {
+  const std::string mark = "OMPI_COMM_WORLD_RANK=" + std::to_string(rank);
+  std::istringstream children(file_text("/proc/" + std::to_string(mpirun) + "/task/" + std::to_string(mpirun) + "/children"));
+  for (pid_t child = 0; children >> child;) {
+    const std::string surroundings = file_text("/proc/" + std::to_string(child) + "/environ");
+    if (surroundings.find(mark + '\0') != std::string::npos) {
+      return child;
+    }
+  }
+  return 0;
+}
+
+/// Waits a minute at most.
+template <class Condition>
+bool comes_true(const Condition& condition) {
+  for (int attempt = 0; attempt < 6000; ++attempt) {
+    if (condition()) {
+      return true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+void check_said_once(const std::vector<std::string>& arguments, int status, const std::string& text) {
+  const TemporaryFolder folder;
+  std::vector<std::string> line = arguments;
+  line.insert(line.end(), {"--runner=mpi", "-o", folder / "a.png"});
+  const Ended ended = end_of(mpirun(3, line));
+  CHECK(ended.status == status);
+  CHECK_MESSAGE(count(ended.errors, "dmpc: ") == 1, ended.errors);
+  CHECK_MESSAGE(contains(ended.errors, text), ended.errors);
+  CHECK(folder.entry_count() == 0);
+}
+
+}  // namespace
+
+TEST_CASE("a scene that is not there is said by rank 0 alone") {
+  check_said_once({"render", "/nowhere/scene.nff"}, 1, "/nowhere/scene.nff");
+}
+
+TEST_CASE("fewer nodes than ranks are refused before anything is read") {
+  check_said_once({"render", "tetra-3", "--nodes=2"}, 2, "--nodes");
+}
+
+TEST_CASE("too little memory of nodes is an error that names what would do") {
+  check_said_once({"render", "tetra-6", "--nodes=4", "--node-memory=1KiB"}, 4, "memory");
+}
+
+TEST_CASE("a process that is killed ends all, and the picture goes on from what was kept, on another number of ranks") {
+  const TemporaryFolder folder;
+  const std::string kept = folder / "kept", stats = "--stats=" + (folder / "s.json").string();
+  const std::vector<std::string> line = {"render",        "rings-3-t1",           "--resolution=256x256",    "--samples=64",
+                                         "--quiet",       "--checkpoint=" + kept, "--checkpoint-every=0.05", "-o",
+                                         folder / "a.exr"};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = line;
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  {
+    ChildProcess process(mpirun(3, with({"--runner=mpi", "--nodes=5"})));
+    CHECK(comes_true([&] { return fs::exists(kept); }));
+    const pid_t lost = process_of_rank(process.id(), 2);
+    REQUIRE(lost > 0);
+    ::kill(lost, SIGKILL);
+    CHECK(process.status() != 0);
+    CHECK_FALSE(fs::exists(folder / "a.exr"));
+    CHECK(contains(process.errors(), "rank 2"));
+  }
+  const Ended resumed = end_of(mpirun(2, with({"--runner=mpi", "--nodes=4", "--resume", stats})));
+  CHECK_MESSAGE(resumed.status == 0, resumed.errors);
+  const std::string after = file_text(folder / "s.json");
+  std::vector<std::string> alone = {DMPC_PROGRAM};
+  const std::vector<std::string> whole = with({"--nodes=2", stats});
+  alone.insert(alone.end(), whole.begin(), whole.end());
+  CHECK(end_of(alone).status == 0);
+  const auto film_in = [](const std::string& text) { return text.substr(text.find("\"film_hash\""), 32); };
+  CHECK(film_in(after) == film_in(file_text(folder / "s.json")));
+}
+
+}  // namespace dmpc::tests

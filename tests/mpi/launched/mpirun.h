@@ -1,0 +1,42 @@
+// dmpc as mpirun starts it, on one computer.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/support/child_process.h"
+
+namespace dmpc::tests {
+
+/// How frames travel: Open MPI's names.
+inline const std::string shared_memory = "vader,self", tcp = "tcp,self";
+
+/// `ranks` times dmpc with these arguments. Root may do so, and more than there are processors, none bound to one of them.
+inline std::vector<std::string> mpirun(int ranks, const std::vector<std::string>& arguments,
+                                       const std::string& way = shared_memory) {
+  std::vector<std::string> command = {"/usr/bin/env",
+                                      "OMPI_ALLOW_RUN_AS_ROOT=1",
+                                      "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
+                                      "OMPI_MCA_rmaps_base_oversubscribe=1",
+                                      "OMPI_MCA_hwloc_base_binding_policy=none",
+                                      "OMPI_MCA_btl=" + way,
+                                      "mpirun",
+                                      "-n",
+                                      std::to_string(ranks),
+                                      DMPC_PROGRAM};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return command;
+}
+
+struct Ended {
+  int status = 0;
+  std::string output, errors;
+};
+
+inline Ended end_of(const std::vector<std::string>& command) {
+  ChildProcess process(command);
+  const int status = process.status();
+  return {status, process.output(), process.errors()};
+}
+
+}  // namespace dmpc::tests
