@@ -14,16 +14,22 @@
 namespace dmpc::svm {
 namespace {
 
+/// `log` is there where references are to be noted.
+template <class Records>
+core::GridTracer<Records> tracer_over(Records& records, const core::RenderSettings& settings,
+                                      [[maybe_unused]] ReferenceLog* log) {
+  if constexpr (std::is_same_v<Records, RecordingPager>) {
+    records.record_into(*log);
+  }
+  return core::GridTracer<Records>(records, settings.header, settings.skips);
+}
+
 template <class Records>
 MakeProgram maker(const Plan& plan, const core::RenderSettings& settings, const nodes::ByteSource& database,
                   const nodes::Watching& watching, std::vector<ReferenceLog>* reference_logs) {
   return [&, reference_logs](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
-    const auto make_tracer = [&](Records& records) {
-      if constexpr (std::is_same_v<Records, RecordingPager>) {
-        records.record_into(reference_logs->at(index));
-      }
-      return core::GridTracer<Records>(records, settings.header, settings.skips);
-    };
+    ReferenceLog* const log = reference_logs == nullptr ? nullptr : &reference_logs->at(index);
+    const auto make_tracer = [&](Records& records) { return tracer_over(records, settings, log); };
     const auto make = [&]<class Task>(std::type_identity<Task>) -> std::unique_ptr<NodeProgram> {
       return std::make_unique<ControlProgram<Records, core::GridTracer<Records>, Task>>(
           node, plan, settings, database, make_tracer, nodes::meter_for(watching, plan.request.computer, node.id()));

@@ -102,6 +102,7 @@ core::Continuation continuation_of(Checkpoints* checkpoints, Preview* preview, I
   core::Continuation continuation;
   if (checkpoints != nullptr) {
     continuation = checkpoints->continuation();
+    continuation.is_due = [is_due = continuation.is_due, &interrupt] { return interrupt.take_keep_request() || is_due(); };
     continuation.keep = [keep = continuation.keep, checkpoints, &interrupt](const core::Film& film, const core::Refinement& pass,
                                                                             const core::PixelMask& done) {
       keep(film, pass, done);
@@ -282,6 +283,9 @@ int render_by_mpi(RenderOptions options, RankGroup& group, Interrupt& interrupt,
 }  // namespace
 
 int render_command(const RenderOptions& options, Interrupt& interrupt, std::ostream& output, Files& files) {
+  if (options.checkpoint.file) {
+    interrupt.take_usr1_for_keep();
+  }
   if (options.runner.kind == RunnerKind::mpi) {
     return run_as_rank([&](RankGroup& group) { return render_by_mpi(options, group, interrupt, output, files); });
   }

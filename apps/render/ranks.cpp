@@ -63,6 +63,7 @@ int follow(nodes::RankLinks& links, Strategy strategy, const std::stop_token& st
   } catch (const nodes::Dismissed& dismissed) {
     return dismissed.status;
   } catch (const nodes::LostRank&) {
+    nodes::let_rank_0_speak();
     throw;
   } catch (...) {
     nodes::say_failure(links, nodes::failure_of(std::current_exception()));

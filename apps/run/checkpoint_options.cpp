@@ -25,9 +25,10 @@ double parse_seconds(const std::string& text) {
 
 void add_options(OptionSet options, CheckpointOptions& checkpoint) {
   options.begin_group("Long renders");
-  options.add_path("--checkpoint", "FILE", checkpoint.file,
-                   "Keep what is done in FILE now and then, so that a render that was stopped or killed can be gone on with; "
-                   "removed when the picture is there");
+  options.add_path(
+      "--checkpoint", "FILE", checkpoint.file,
+      "Keep what is done in FILE now and then, and at SIGUSR1, so that a render that was stopped or killed can be gone on with; "
+      "removed when the picture is there");
   options.add_text(
       "--checkpoint-every", "SECONDS [120]",
       [&checkpoint](const std::string& text) { checkpoint.every_seconds = parse_seconds(text); },

@@ -126,7 +126,9 @@ void Interrupt::wait_for_signals(const std::stop_token& closing) {
   const sigset_t set = stop_signals();
   int signal = 0;
   while (sigwait(&set, &signal) == 0 && !closing.stop_requested()) {
-    if (!is_ignored(signal) && (!source_.request_stop() || end_at_once_)) {
+    if (signal == SIGUSR1 && takes_usr1_for_keep_) {
+      is_keep_requested_ = true;
+    } else if (!is_ignored(signal) && (!source_.request_stop() || end_at_once_)) {
       end_now();
     }
   }

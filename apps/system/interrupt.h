@@ -19,7 +19,7 @@ struct Interrupted {};
 /// signal handler. The first signal requests a stop, the second ends the process at once with status 130. One that was ignored
 /// when the process started, as SIGHUP is under nohup, still is. At most one at a time, made before any other thread.
 ///
-/// Thread safety: token(), requested() and set_consequence() from any thread, the rest from the thread that made it.
+/// Thread safety: token(), requested(), set_consequence() and what is about SIGUSR1 from any thread, the rest from one at a time.
 class Interrupt {
  public:
   Interrupt();
@@ -32,6 +32,11 @@ class Interrupt {
   bool requested() const { return source_.stop_requested(); }
   /// Throws Interrupted if a signal has come.
   void check() const;
+
+  /// From now on SIGUSR1 stops nothing, but asks that what is done be kept.
+  void take_usr1_for_keep() { takes_usr1_for_keep_ = true; }
+  /// Whether that has been asked since the last call.
+  bool take_keep_request() { return is_keep_requested_.exchange(false); }
 
   /// What an interruption from now on means for the outputs, as its message ends; at first "nothing was written". `words` is a
   /// literal.
@@ -60,6 +65,7 @@ class Interrupt {
   std::stop_source source_;
   std::atomic<const char*> consequence_ = "nothing was written";
   std::atomic<bool> end_at_once_ = false;
+  std::atomic<bool> takes_usr1_for_keep_ = false, is_keep_requested_ = false;
   std::jthread waiter_;
 };
 

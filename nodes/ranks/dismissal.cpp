@@ -1,9 +1,11 @@
 #include "nodes/ranks/dismissal.h"
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <thread>
 
 #include "nodes/ranks/exchange.h"
 #include "nodes/ranks/frame.h"
@@ -26,5 +28,7 @@ int wait_for_dismissal(RankLinks& links) {
                              });
   return *status;
 }
+
+void let_rank_0_speak() { std::this_thread::sleep_for(std::chrono::seconds(1)); }
 
 }  // namespace dmpc::nodes

@@ -16,4 +16,8 @@ void dismiss(RankLinks& links, int status);
 /// Waits for that on another rank, whatever else comes, and returns the status. Throws LostRank as RankLinks do.
 int wait_for_dismissal(RankLinks& links);
 
+/// Where a rank is lost, for the others but rank 0: waits a moment, since rank 0, if it lives, finds it out, too, says so, and
+/// ends all.
+void let_rank_0_speak();
+
 }  // namespace dmpc::nodes

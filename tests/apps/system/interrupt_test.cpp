@@ -8,6 +8,7 @@
 #include <csignal>
 #include <mutex>
 #include <string>
+#include <thread>
 
 #include "tests/support/forked_process.h"
 #include "tests/support/temporary_folder.h"
@@ -56,6 +57,24 @@ TEST_CASE("signals that would end a process request a stop and end nothing") {
             }
           }
           return 0;
+        }) == 0);
+}
+
+TEST_CASE("where what is done can be kept SIGUSR1 asks for that, once each time, and stops nothing") {
+  CHECK(in_child([] {
+          Interrupt interrupt;
+          interrupt.take_usr1_for_keep();
+          if (interrupt.take_keep_request()) {
+            return 1;
+          }
+          ::kill(::getpid(), SIGUSR1);
+          for (int tries = 0; tries < 10'000 && !interrupt.take_keep_request(); ++tries) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            if (tries == 9'999) {
+              return 2;
+            }
+          }
+          return interrupt.take_keep_request() || interrupt.requested() ? 3 : stops_after(interrupt, SIGUSR2) ? 0 : 4;
         }) == 0);
 }
 

@@ -1,0 +1,165 @@
+// The command over ranks, of which the first reads, writes and prints: several in one process, by the loopback fabric.
+#include <doctest/doctest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "apps/commands.h"
+#include "apps/line/exit_status.h"
+#include "apps/render/command.h"
+#include "apps/render/ranks.h"
+#include "core/base/expect.h"
+#include "tests/support/loopback_ranks.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+using namespace dmpc;
+namespace fs = std::filesystem;
+using apps::RenderOptions;
+
+RenderOptions options_of(std::vector<std::string> line) {
+  line.insert(line.begin(), "render");
+  return apps::parse_command_line(line).options<RenderOptions>();
+}
+
+/// What has become of a rank's command: its status, or what it threw, and what it printed.
+struct Ended {
+  int status = 0;
+  std::string printed;
+};
+
+std::vector<tests::RankResult<Ended>> render_over(std::uint32_t rank_count, const RenderOptions& options,
+                                                  const nodes::LoopbackTrouble& trouble = {}) {
+  apps::Interrupt interrupt;
+  const auto render = [&](nodes::Fabric& fabric) {
+    std::ostringstream output;
+    const int status = apps::render_over(fabric, options, interrupt, output);
+    return Ended{status, output.str()};
+  };
+  return tests::on_ranks(rank_count, trouble, render, nodes::frame_bytes_for(apps::payload_bytes_max(options)));
+}
+
+/// The picture's file, of a render that goes well on all ranks.
+std::string picture_over(std::uint32_t rank_count, std::vector<std::string> line, const nodes::LoopbackTrouble& trouble = {}) {
+  const tests::TemporaryFolder folder;
+  const fs::path image = folder.path() / "picture.exr";
+  line.insert(line.end(), {"--runner=mpi", "-o", image.string()});
+  const auto results = render_over(rank_count, options_of(line), trouble);
+  for (std::size_t rank = 0; rank < results.size(); ++rank) {
+    CAPTURE(rank);
+    CHECK(results[rank].failure_text() == "");
+    REQUIRE(results[rank].value);
+    CHECK(results[rank].value->status == 0);
+    CHECK(results[rank].value->printed.empty() == (rank > 0));
+  }
+  return tests::file_text(image);
+}
+
+std::string picture_of(std::vector<std::string> line) {
+  const tests::TemporaryFolder folder;
+  const fs::path image = folder.path() / "picture.exr";
+  line.insert(line.end(), {"-o", image.string()});
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  CHECK(apps::render_command(options_of(line), interrupt, output) == 0);
+  return tests::file_text(image);
+}
+
+const std::vector<std::string> small = {"balls-1", "--resolution=20x14", "--nodes=5"};
+
+std::vector<std::string> small_with(std::initializer_list<const char*> more) {
+  std::vector<std::string> line = small;
+  line.insert(line.end(), more.begin(), more.end());
+  return line;
+}
+
+TEST_CASE("every strategy and its systems render over ranks what they do in one process, and the first rank alone prints") {
+  const std::string picture = picture_of(small);
+  for (const char* const how : {"--strategy=svm", "--strategy=replicated", "--strategy=dataflow", "--strategy=forest",
+                                "--system=pixel-machine", "--system=green-paddon", "--system=scattered", "--count-pages"}) {
+    for (const std::uint32_t ranks : {1U, 2U, 5U}) {
+      CAPTURE(how);
+      CAPTURE(ranks);
+      std::vector<std::string> line = small_with({how});
+      const tests::TemporaryFolder folder;
+      line.push_back("--stats=" + (folder.path() / "stats.json").string());
+      CHECK((picture_over(ranks, line) == picture));
+    }
+  }
+}
+
+TEST_CASE("frames that are late change no picture") {
+  const std::string picture = picture_of(small);
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    CAPTURE(seed);
+    CHECK((picture_over(3, small_with({"--strategy=svm"}), {.seed = seed, .late_looks_max = 30}) == picture));
+    CHECK((picture_over(3, small_with({"--strategy=dataflow"}), {.seed = seed, .late_looks_max = 30}) == picture));
+  }
+}
+
+TEST_CASE("a picture with as many samples as it needs is the same over ranks") {
+  const auto line = small_with({"--samples=auto"});
+  const std::string picture = picture_of(line);
+  CHECK((picture_over(3, line) == picture));
+  auto rays = line;
+  rays.emplace_back("--strategy=dataflow");
+  CHECK((picture_over(3, rays) == picture));
+}
+
+TEST_CASE("what was kept on some ranks is gone on with on others, by another strategy, to the same picture") {
+  const tests::TemporaryFolder folder;
+  const std::string kept = "--checkpoint=" + (folder.path() / "kept").string();
+  const std::string picture = picture_of(small);
+  auto first = small_with({"--checkpoint-every=0.000001", "--keep-checkpoint", "--strategy=svm"});
+  first.push_back(kept);
+  CHECK((picture_over(2, first) == picture));
+  REQUIRE(fs::exists(folder.path() / "kept"));
+  for (const char* const strategy : {"--strategy=dataflow", "--strategy=replicated", "--strategy=svm"}) {
+    CAPTURE(strategy);
+    auto next = small_with({"--resume", "--keep-checkpoint", strategy});
+    next.push_back(kept);
+    CHECK((picture_over(3, next) == picture));
+  }
+}
+
+TEST_CASE("what is wrong before a run is said by the first rank, and the others end with its status") {
+  const tests::TemporaryFolder folder;
+  const std::string image = (folder.path() / "picture.png").string();
+  const auto check = [&](const std::vector<std::string>& line, const char* words, int status) {
+    const auto results = render_over(3, options_of(line));
+    CHECK(results[0].failure_text().find(words) != std::string::npos);
+    for (const std::size_t rank : {1U, 2U}) {
+      REQUIRE(results[rank].value);
+      CHECK(results[rank].value->status == status);
+      CHECK(results[rank].value->printed.empty());
+    }
+  };
+  check({"/there/is/no.nff", "--runner=mpi", "-o", image}, "no.nff", apps::input_status);
+  check({"balls-1", "--runner=mpi", "-o", "/there/is/none/picture.png"}, "/there/is/none", apps::input_status);
+  check({"balls-2", "--runner=mpi", "--node-memory=1KiB", "-o", image}, "--node-memory=1KiB is too small", apps::no_room_status);
+  CHECK(!fs::exists(image));
+}
+
+TEST_CASE("fewer nodes than ranks are refused on all of them, before anything is read") {
+  const auto results = render_over(3, options_of({"/there/is/no.nff", "--runner=mpi", "--nodes=2", "-o", "picture.png"}));
+  for (const auto& result : results) {
+    CHECK(result.failure_text() == "--nodes=2: expected at least one node for each of the 3 ranks");
+  }
+}
+
+TEST_CASE("what ranks cannot do is refused with the line") {
+  for (const char* const option : {"--machine=hdr", "--heatmap=rays:rays.png", "--trace=trace.json", "--report=page.html"}) {
+    CAPTURE(option);
+    CHECK_THROWS_AS(options_of({"balls-1", "--runner=mpi", option, "-o", "picture.png"}), core::UsageError);
+  }
+  CHECK_THROWS_AS(options_of({"balls-1", "--runner=mpi", "--strategy=replicated", "--tracer=embree", "-o", "picture.png"}),
+                  core::UsageError);
+}
+
+}  // namespace
