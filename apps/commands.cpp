@@ -33,6 +33,7 @@
 #include "apps/scene/scene_command.h"
 #include "apps/study/command.h"
 #include "apps/study/paper/command.h"
+#include "apps/study/references/command.h"
 #include "apps/study/scale/command.h"
 #include "apps/system/output_file.h"
 #include "core/base/expect.h"
@@ -104,6 +105,7 @@ class Commands {
     add(SpeedupStudy::name, SpeedupStudy::description, StudyOptions{.study = SpeedupStudy()}, study_command);
     add(SystemsStudy::name, SystemsStudy::description, StudyOptions{.study = SystemsStudy()}, study_command);
     add("paper", "Regenerate the tables and claims of the 1994 article", PaperStudyOptions(), study_paper_command);
+    add("references", "How often pages are missed of references that a file has", ReferencesOptions(), study_references_command);
     add("scale", "What larger scenes and more nodes take, and how fast that grows", ScaleOptions(), study_scale_command);
     begin("bench", "Put our own arithmetic to the test and print a table");
     add("stability", "Stress tests of numerical stability, beside Embree on the same rays", StabilityOptions(),
