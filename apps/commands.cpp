@@ -19,6 +19,7 @@
 #include "apps/bench/speed/command.h"
 #include "apps/bench/stability/command.h"
 #include "apps/check/command.h"
+#include "apps/compare/command.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/help/choices.h"
 #include "apps/help/glossary.h"
@@ -28,7 +29,6 @@
 #include "apps/line/words.h"
 #include "apps/machine/machine_command.h"
 #include "apps/machine/machines.h"
-#include "apps/picture/compare_command.h"
 #include "apps/render/command.h"
 #include "apps/scene/scene_command.h"
 #include "apps/study/command.h"
@@ -95,7 +95,8 @@ class Commands {
     add("scene", "Write a built-in scene as an NFF file, or a landscape as glTF", SceneOptions(), scene_command);
     add("check", "Trace every ray of a render with Embree too, and let a referee settle differences", CheckOptions(),
         check_command);
-    add("compare", "Measure how far two pictures lie apart", CompareOptions(), compare_command);
+    add("compare", "Measure how far two pictures lie apart, or where two runs' counters differ", CompareOptions(),
+        compare_command);
     add("machine", "Print a machine's figures as JSON, to read or to start from", MachineOptions(), machine_command);
     add("list", "Tell what scenes, machines, policies and others there are", ListOptions(), list_command);
     begin("study", "Render a scene on several computers and print a table");

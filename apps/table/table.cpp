@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "apps/line/folded_text.h"
+#include "apps/line/json_format.h"
 #include "apps/line/number_text.h"
 #include "core/base/expect.h"
 
@@ -237,7 +238,8 @@ std::string json(const Table& table) {
   for (const std::vector<Cell>& row : table.rows()) {
     rows.push_back(json_row(table, row));
   }
-  const Json all = {{"title", table.title()}, {"columns", columns}, {"rows", rows}, {"notes", table.notes()}};
+  const Json all = {
+      {"format", json_format}, {"title", table.title()}, {"columns", columns}, {"rows", rows}, {"notes", table.notes()}};
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

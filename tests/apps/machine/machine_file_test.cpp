@@ -74,6 +74,13 @@ TEST_CASE("what is printed of a machine reads back as the same") {
   }
 }
 
+TEST_CASE("a machine file is of a format that it may leave out, and of no other") {
+  CHECK(contains(plain_text(), "\"format\": 1,"));
+  CHECK(machine_complaint_with("\"format\": 1,", "").empty());
+  CHECK(machine_complaint_with("\"format\": 1,", "\"format\": 2,") ==
+        "m.json: format: expected 1, for files of this dmpc, got 2");
+}
+
 TEST_CASE("every figure reaches its own field") {
   const std::string text = R"({"name": "mine", "topology": "torus", "uplinks": 1, "switching": "packet", "short_bytes_max": 1,
     "short_message": {"send_ns": 2, "latency_ns": 3, "receive_ns": 4, "byte_ps": 5},

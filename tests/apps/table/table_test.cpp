@@ -107,7 +107,7 @@ TEST_CASE("JSON names columns and units, and has null for what is missing") {
   Table table = small_table();
   table.add_note("A note.");
   CHECK(text_of(table, TableFormat::json) ==
-        "{\n  \"title\": \"two runs\",\n"
+        "{\n  \"format\": 1,\n  \"title\": \"two runs\",\n"
         "  \"columns\": [\n"
         "    {\n      \"name\": \"nodes\",\n      \"unit\": null\n    },\n"
         "    {\n      \"name\": \"kind\",\n      \"unit\": null\n    },\n"
