@@ -35,6 +35,7 @@
 #include "apps/study/paper/command.h"
 #include "apps/study/references/command.h"
 #include "apps/study/scale/command.h"
+#include "apps/study/sweep/command.h"
 #include "apps/system/output_file.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
@@ -108,6 +109,8 @@ class Commands {
     add("paper", "Regenerate the tables and claims of the 1994 article", PaperStudyOptions(), study_paper_command);
     add("references", "How often pages are missed of references that a file has", ReferencesOptions(), study_references_command);
     add("scale", "What larger scenes and more nodes take, and how fast that grows", ScaleOptions(), study_scale_command);
+    add("sweep", "All combinations of any options of render, and the figures asked for", StudySweepOptions(),
+        study_sweep_command);
     begin("bench", "Put our own arithmetic to the test and print a table");
     add("stability", "Stress tests of numerical stability, beside Embree on the same rays", StabilityOptions(),
         bench_stability_command);

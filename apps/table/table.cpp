@@ -243,6 +243,14 @@ std::string json(const Table& table) {
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string json_lines(const Table& table) {
+  std::string text;
+  for (const std::vector<Cell>& row : table.rows()) {
+    text += json_row(table, row).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string header_of(const Column& column) { return column.unit.empty() ? column.name : column.name + " (" + column.unit + ")"; }
@@ -306,6 +314,8 @@ std::string text_of(const Table& table, TableFormat format) {
       return csv(table);
     case TableFormat::json:
       return json(table);
+    case TableFormat::json_lines:
+      return json_lines(table);
     default:
       return markdown(table);
   }

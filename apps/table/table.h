@@ -25,7 +25,7 @@ struct Column {
 /// "average load (%)": how CSV and Markdown call it.
 std::string header_of(const Column& column);
 
-enum class TableFormat : std::uint8_t { markdown, csv, json };
+enum class TableFormat : std::uint8_t { markdown, csv, json, json_lines };
 
 /// Every row has a cell for each column. Not thread-safe.
 class Table {
@@ -72,6 +72,7 @@ std::string row_text(const Table& table, const std::vector<Cell>& row);
 ///   json       {"format", "title", "columns": [{"name", "unit"}], "rows": [{by name}], "notes": [...]}; names with underscores
 ///   for spaces,
 ///              units null where there are none
+///   json_lines its rows alone, a line each
 /// What is missing is empty, in JSON null.
 std::string text_of(const Table& table, TableFormat format);
 

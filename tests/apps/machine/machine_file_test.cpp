@@ -195,12 +195,13 @@ TEST_CASE("what is no JSON is named with its place") {
   }
 }
 
-TEST_CASE("every key but the sources must be there") {
+TEST_CASE("every key but the format and the sources must be there") {
   const auto whole = nlohmann::ordered_json::parse(plain_text());
   for (const auto& [key, value] : whole.items()) {
     auto rest = whole;
     rest.erase(key);
-    CHECK(machine_complaint(rest.dump()) == (key == "sources" ? "" : "m.json: " + key + ": this key is missing"));
+    CHECK(machine_complaint(rest.dump()) ==
+          (key == "sources" || key == "format" ? "" : "m.json: " + key + ": this key is missing"));
     for (const auto& [inner, unused] : value.items()) {
       if (value.is_object()) {
         rest = whole;

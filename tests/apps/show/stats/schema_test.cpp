@@ -24,7 +24,7 @@ constexpr const char* schema_file = DMPC_SOURCE_DIR "/apps/show/stats/stats.sche
 
 /// Says so where it is not there.
 bool has_validator() {
-  const bool is_there = tests::run({"python3", "-c", "import jsonschema"}).status == 0;
+  const bool is_there = tests::run({"/usr/bin/python3", "-c", "import jsonschema"}).status == 0;
   if (!is_there) {
     MESSAGE("skipped: python3-jsonschema is not installed, which tests/run does");
   }
@@ -33,7 +33,7 @@ bool has_validator() {
 
 /// What is wrong with the counters in these files; empty if nothing is.
 std::string faults_by_schema(const std::vector<std::string>& files) {
-  std::vector<std::string> command = {"python3", "-W", "ignore", "-m", "jsonschema"};
+  std::vector<std::string> command = {"/usr/bin/python3", "-W", "ignore", "-m", "jsonschema"};
   for (const std::string& file : files) {
     command.insert(command.end(), {"-i", file});
   }
