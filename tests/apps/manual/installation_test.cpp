@@ -44,6 +44,21 @@ void check_program(const fs::path& program, const fs::path& folder) {
   }
 }
 
+/// Of the package beside dmpc's own.
+void check_python_package(const TemporaryFolder& folder) {
+  const Said unpacked = run({"sh", "-c",
+                             "cd '" + folder.path().string() +
+                                 "' && dpkg-deb -f made/python3-dmpc_*_all.deb && dpkg-deb -x made/python3-dmpc_*.deb python"});
+  REQUIRE_MESSAGE(unpacked.status == 0, unpacked.errors);
+  for (const char* const line :
+       {"Package: python3-dmpc\n", "Section: python\n", "Architecture: all\n", "Depends: dmpc (= ", "python3-pandas"}) {
+    CHECK_MESSAGE(contains(unpacked.output, line), line);
+  }
+  CHECK(fs::file_size(folder / "python/usr/lib/python3/dist-packages/dmpc/__init__.py") > 0);
+  CHECK(fs::file_size(folder / "python/usr/share/doc/python3-dmpc/tour.ipynb") > 0);
+  CHECK_FALSE(fs::exists(folder / "python/usr/bin"));
+}
+
 /// What apps/dmpc has ninja build when it is called for the first time: with words in place of the tools that it calls.
 std::string targets_of_first_call(const TemporaryFolder& folder) {
   const fs::path apps = folder / "root/apps", tools = folder / "tools";
@@ -96,7 +111,7 @@ TEST_CASE("the Debian package says what it needs, and what is in it works") {
   const Said packed = run({"cpack", "-G", "DEB", "--config", DMPC_BUILD_DIR "/CPackConfig.cmake", "-B", folder / "made"});
   REQUIRE_MESSAGE(packed.status == 0, packed.errors);
   const Said unpacked =
-      run({"sh", "-c", "cd '" + folder.path().string() + "' && dpkg-deb -f made/*.deb && dpkg-deb -x made/*.deb all"});
+      run({"sh", "-c", "cd '" + folder.path().string() + "' && dpkg-deb -f made/dmpc_*.deb && dpkg-deb -x made/dmpc_*.deb all"});
   REQUIRE_MESSAGE(unpacked.status == 0, unpacked.errors);
   for (const char* const line :
        {"Package: dmpc\n", "Section: graphics\n", "Recommends: gnuplot-nox\n", "libembree3-3", "libtbb12", "libopenimageio2.4",
@@ -105,6 +120,7 @@ TEST_CASE("the Debian package says what it needs, and what is in it works") {
   }
   check_installed(folder / "all/usr", "vendor-completions");
   check_program(folder / "all/usr/bin/dmpc", folder.path());
+  check_python_package(folder);
 }
 
 }  // namespace dmpc::tests
