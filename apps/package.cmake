@@ -1,4 +1,4 @@
-# The Debian package: cpack -G DEB in the build's folder writes dmpc_VERSION_ARCHITECTURE.deb.
+# The Debian packages: cpack -G DEB in the build's folder writes dmpc_VERSION_ARCHITECTURE.deb and python3-dmpc_VERSION_all.deb.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME dmpc)
 set(CPACK_PACKAGE_VENDOR "the dmpc developers")
@@ -12,5 +12,17 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS gnuplot-nox)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL program python)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME dmpc)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS gnuplot-nox)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-dmpc)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+  "dmpc (= ${PROJECT_VERSION}), python3, python3-numpy, python3-pandas, python3-openimageio")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "dmpc from Python: renders and sweeps as frames and arrays
+A pure module that runs the program dmpc and hands back its counters, the figures of its
+nodes, its film and heat maps, and tables of many runs; a notebook shows them.")
 include(CPack)
