@@ -19,6 +19,7 @@
 #include "apps/bench/speed/command.h"
 #include "apps/bench/stability/command.h"
 #include "apps/check/command.h"
+#include "apps/compare/command.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/help/choices.h"
 #include "apps/help/glossary.h"
@@ -28,13 +29,14 @@
 #include "apps/line/words.h"
 #include "apps/machine/machine_command.h"
 #include "apps/machine/machines.h"
-#include "apps/picture/compare_command.h"
 #include "apps/ranks/launcher.h"
 #include "apps/render/command.h"
 #include "apps/scene/scene_command.h"
 #include "apps/study/command.h"
 #include "apps/study/paper/command.h"
+#include "apps/study/references/command.h"
 #include "apps/study/scale/command.h"
+#include "apps/study/sweep/command.h"
 #include "apps/system/output_file.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
@@ -104,7 +106,8 @@ class Commands {
     add("scene", "Write a built-in scene as an NFF file, or a landscape as glTF", SceneOptions(), scene_command);
     add("check", "Trace every ray of a render with Embree too, and let a referee settle differences", CheckOptions(),
         check_command);
-    add("compare", "Measure how far two pictures lie apart", CompareOptions(), compare_command);
+    add("compare", "Measure how far two pictures lie apart, or where two runs' counters differ", CompareOptions(),
+        compare_command);
     add("machine", "Print a machine's figures as JSON, to read or to start from", MachineOptions(), machine_command);
     add("list", "Tell what scenes, machines, policies and others there are", ListOptions(), list_command);
     begin("study", "Render a scene on several computers and print a table");
@@ -114,7 +117,10 @@ class Commands {
     add(SpeedupStudy::name, SpeedupStudy::description, StudyOptions{.study = SpeedupStudy()}, study_command);
     add(SystemsStudy::name, SystemsStudy::description, StudyOptions{.study = SystemsStudy()}, study_command);
     add("paper", "Regenerate the tables and claims of the 1994 article", PaperStudyOptions(), study_paper_command);
+    add("references", "How often pages are missed of references that a file has", ReferencesOptions(), study_references_command);
     add("scale", "What larger scenes and more nodes take, and how fast that grows", ScaleOptions(), study_scale_command);
+    add("sweep", "All combinations of any options of render, and the figures asked for", StudySweepOptions(),
+        study_sweep_command);
     begin("bench", "Put our own arithmetic to the test and print a table");
     add("stability", "Stress tests of numerical stability, beside Embree on the same rays", StabilityOptions(),
         bench_stability_command);

@@ -1,5 +1,5 @@
 // The program: reads the command line, calls one command, and turns what went wrong into an exit status.
-//   0 done    1 bad input    2 wrong usage    3 an internal check failed    4 no room    130 interrupted
+//   0 done    1 bad input    2 wrong usage    3 an internal check failed    4 no room    5 differs    130 interrupted
 
 #include <unistd.h>
 

@@ -1,4 +1,5 @@
-# The Debian packages: cpack -G DEB in the build's folder writes dmpc_VERSION_ARCHITECTURE.deb and, of what needs MPI, dmpc-mpi.
+# The Debian packages: cpack -G DEB in the build's folder writes dmpc_VERSION_ARCHITECTURE.deb, python3-dmpc_VERSION_all.deb and, where
+# there is MPI, dmpc-mpi_VERSION_ARCHITECTURE.deb.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME dmpc)
 set(CPACK_PACKAGE_VENDOR "the dmpc developers")
@@ -13,10 +14,23 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_NAME dmpc)
-set(CPACK_DEBIAN_UNSPECIFIED_DESCRIPTION ${CPACK_PACKAGE_DESCRIPTION})
-set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_RECOMMENDS gnuplot-nox)
-set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_SUGGESTS dmpc-mpi)
+set(CPACK_COMPONENTS_ALL program python)
+if(TARGET dmpc_module_mpi)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
+endif()
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME dmpc)
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION ${CPACK_PACKAGE_DESCRIPTION})
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS gnuplot-nox)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS dmpc-mpi)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-dmpc)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+  "dmpc (= ${PROJECT_VERSION}), python3, python3-numpy, python3-pandas, python3-openimageio")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "dmpc from Python: renders and sweeps as frames and arrays
+A pure module that runs the program dmpc and hands back its counters, the figures of its
+nodes, its film and heat maps, and tables of many runs; a notebook shows them.")
 set(CPACK_DEBIAN_MPI_PACKAGE_NAME dmpc-mpi)
 set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "dmpc (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS openmpi-bin)

@@ -55,14 +55,13 @@ PageId Cache::install_by(PageId page, const Put& put) {
   stamps_[frame] = ++clock_;
   table_.insert(page, frame);
   policy_->insert(page, frame);
-  fresh_frame_ = frame;
+  last_frame_ = frame;
   return evicted;
 }
 
 void Cache::tell_of_hit(std::uint32_t frame) {
-  if (frame == fresh_frame_) {
-    fresh_frame_ = no_frame;
-  } else {
+  if (frame != last_frame_) {
+    last_frame_ = frame;
     policy_->hit(pages_[frame], frame);
   }
 }

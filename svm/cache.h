@@ -51,7 +51,7 @@ class Cache {
 
   /// Puts an absent page into an empty frame, if there is one, or else into that of the page that has to go, and makes it the
   /// most recently used. Returns the page that had to go, or no_page. Requires at least one frame and `bytes` of the page's
-  /// size. The first touch() of its frame is the reference that it came for, no further one.
+  /// size. A touch() that follows is of the reference that it came for, no further one.
   PageId install(PageId page, std::span<const std::byte> bytes);
   /// The same with the page that lies at `offset_bytes` of `source`.
   PageId install(PageId page, const nodes::ByteSource& source, std::size_t offset_bytes);
@@ -71,10 +71,10 @@ class Cache {
   std::uint64_t clock_ = 0;
   nodes::LastingPieces frames_;
   PageTable table_;
-  std::span<std::uint64_t> stamps_;       ///< time of each frame's last reference
-  std::span<PageId> pages_;               ///< the page in each frame
-  std::uint32_t filled_count_ = 0;        ///< frames that have a page: the first ones
-  std::uint32_t fresh_frame_ = no_frame;  ///< whose page has not been touched since it came, if it came last
+  std::span<std::uint64_t> stamps_;      ///< time of each frame's last reference
+  std::span<PageId> pages_;              ///< the page in each frame
+  std::uint32_t filled_count_ = 0;       ///< frames that have a page: the first ones
+  std::uint32_t last_frame_ = no_frame;  ///< whose page came or was told of as a hit last
   std::unique_ptr<ReplacementPolicy> policy_;
 };
 

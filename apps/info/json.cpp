@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "apps/info/record.h"
+#include "apps/line/json_format.h"
 #include "apps/run/region_options.h"
 #include "apps/scene/staging.h"
 
@@ -119,6 +120,7 @@ Json computers_json(const Forecast& forecast) {
 std::string info_json(const InfoRecord& record) {
   const DatabaseFigures& database = record.database;
   const Json all = {
+      {"format", json_format},
       {"program", "dmpc " DMPC_VERSION},
       {"scene", record.scene.name},
       {"objects", objects_json(record.scene)},

@@ -3,8 +3,10 @@
 
 namespace dmpc::apps {
 
-/// Bad input, wrong usage, an error of dmpc's own, no room on this computer or in the nodes' memory, and a signal.
-inline constexpr int input_status = 1, usage_status = 2, internal_status = 3, no_room_status = 4, interrupted_status = 130;
+/// Bad input, wrong usage, an error of dmpc's own, no room on this computer or in the nodes' memory, what was to be equal
+/// differs, and a signal.
+inline constexpr int input_status = 1, usage_status = 2, internal_status = 3, no_room_status = 4, differs_status = 5,
+                     interrupted_status = 130;
 
 struct ExitStatus {
   int status;
@@ -18,6 +20,7 @@ inline constexpr ExitStatus exit_statuses[] = {
     {usage_status, "Wrong usage: the message ends with the right --help."},
     {internal_status, "An error of dmpc's own, a part of it that is missing, or a difference that check cannot explain."},
     {no_room_status, "There is no room for the input, on this computer or in the nodes' memory."},
+    {differs_status, "What compare compares differs: by more than --fail-above allows, or in a counter."},
     {interrupted_status, "Interrupted by a signal: the message says what became of the output."},
 };
 

@@ -28,6 +28,13 @@ double finite_number(std::string_view text) {
   return is_one ? number : std::numeric_limits<double>::quiet_NaN();
 }
 
+double amount_in(std::string_view text) {
+  const std::size_t slash = text.find('/');
+  const double divisor = slash == std::string_view::npos ? 1 : finite_number(text.substr(slash + 1));
+  const double amount = finite_number(text.substr(0, slash)) / divisor;
+  return amount >= 0 && divisor > 0 ? amount : std::numeric_limits<double>::quiet_NaN();
+}
+
 double parse_share(std::string_view text, std::string_view option, bool or_zero) {
   const std::size_t slash = text.find('/');
   const double divisor = slash == std::string_view::npos ? 1 : finite_number(text.substr(slash + 1));

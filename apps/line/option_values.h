@@ -19,6 +19,9 @@ double parse_share(std::string_view text, std::string_view option, bool or_zero 
 /// A finite number that fills the whole text, or NaN.
 double finite_number(std::string_view text);
 
+/// A number or fraction such as 0.004 or 1/255, from 0 on, that fills the whole text, or NaN.
+double amount_in(std::string_view text);
+
 /// "4,8,16": whole numbers from 1 to `most`. Throws core::UsageError naming `option` for anything else.
 std::vector<std::uint32_t> parse_numbers(std::string_view text, const std::string& option, std::uint32_t most);
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "apps/line/json_format.h"
 #include "apps/system/text_input.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
@@ -188,7 +189,15 @@ bool has_memory_port(const Fields& fields) {
   return has_port;
 }
 
+/// A file need not say it.
+void check_format(const Fields& fields) {
+  if (fields.json().contains("format") && fields.json().at("format") != json_format) {
+    fields.refuse("format", "expected " + std::to_string(json_format) + ", for files of this dmpc", fields.json().at("format"));
+  }
+}
+
 MachineDescription description_of(const Fields& fields) {
+  check_format(fields);
   const Keys message_keys = {"send_ns", "latency_ns", "receive_ns", "byte_ps"};
   const Keys operation_keys(nodes::charge_names.begin(), nodes::charge_names.end());
   return {.machine = {.name = name_of(fields),
@@ -295,7 +304,8 @@ Json machine_json(const nodes::Machine& machine) {
 }
 
 std::string machine_text(const MachineDescription& description) {
-  Json json = machine_json(description.machine);
+  Json json = {{"format", json_format}};
+  json.update(machine_json(description.machine));
   json["sources"] = Json::object();
   for (const auto& [key, source] : description.sources) {
     json["sources"][key] = source;
@@ -311,7 +321,7 @@ MachineDescription parse_machine(std::string_view text, const std::string& file)
   return description_of(Fields(json, file + ": ",
                                {"name", "topology", "uplinks", "switching", "short_bytes_max", "short_message", "long_message",
                                 "hop_ns", "service_ns", "operation_ps", "has_contention", "has_memory_port"},
-                               {"sources"}));
+                               {"format", "sources"}));
 }
 
 MachineDescription load_machine(const std::string& name_or_file) {

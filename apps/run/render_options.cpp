@@ -48,7 +48,7 @@ void add_study_options(OptionSet& options, RenderOptions& render) {
   options.begin_group("Looking closer");
   options.add_choice<TracerChoice>("--tracer", render.tracer, {{"grid", TracerChoice::grid}, {"embree", TracerChoice::embree}},
                                    "Who finds what a ray hits; embree goes with --strategy=replicated only");
-  options.add_path("--stats", "FILE.json", render.stats, "Write all counters");
+  options.add_path("--stats", "FILE.json", render.stats, "Write all counters; stats.schema.json says what each means");
   add_report_option(options, render.report, "with the picture, heat maps asked for, counters, losses, traffic and memory");
   add_heat_option(options, render.heat_maps);
   add_options(options, render.trace);

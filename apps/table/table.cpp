@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "apps/line/folded_text.h"
+#include "apps/line/json_format.h"
 #include "apps/line/number_text.h"
 #include "core/base/expect.h"
 
@@ -237,8 +238,17 @@ std::string json(const Table& table) {
   for (const std::vector<Cell>& row : table.rows()) {
     rows.push_back(json_row(table, row));
   }
-  const Json all = {{"title", table.title()}, {"columns", columns}, {"rows", rows}, {"notes", table.notes()}};
+  const Json all = {
+      {"format", json_format}, {"title", table.title()}, {"columns", columns}, {"rows", rows}, {"notes", table.notes()}};
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string json_lines(const Table& table) {
+  std::string text;
+  for (const std::vector<Cell>& row : table.rows()) {
+    text += json_row(table, row).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  }
+  return text;
 }
 
 }  // namespace
@@ -304,6 +314,8 @@ std::string text_of(const Table& table, TableFormat format) {
       return csv(table);
     case TableFormat::json:
       return json(table);
+    case TableFormat::json_lines:
+      return json_lines(table);
     default:
       return markdown(table);
   }

@@ -25,7 +25,7 @@ struct Column {
 /// "average load (%)": how CSV and Markdown call it.
 std::string header_of(const Column& column);
 
-enum class TableFormat : std::uint8_t { markdown, csv, json };
+enum class TableFormat : std::uint8_t { markdown, csv, json, json_lines };
 
 /// Every row has a cell for each column. Not thread-safe.
 class Table {
@@ -69,8 +69,10 @@ std::string row_text(const Table& table, const std::vector<Cell>& row);
 ///   markdown   the title in bold, the table with its columns in line, the notes as a list, folded; a table that is wider than
 ///              markdown_width_max stands in pieces, each with the columns on the left that tell the rows apart
 ///   csv        a line of column names with their units, then a line a row as RFC 4180 quotes it; neither title nor notes
-///   json       {"title", "columns": [{"name", "unit"}], "rows": [{by name}], "notes": [...]}; names with underscores for spaces,
+///   json       {"format", "title", "columns": [{"name", "unit"}], "rows": [{by name}], "notes": [...]}; names with underscores
+///   for spaces,
 ///              units null where there are none
+///   json_lines its rows alone, a line each
 /// What is missing is empty, in JSON null.
 std::string text_of(const Table& table, TableFormat format);
 

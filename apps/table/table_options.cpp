@@ -6,7 +6,10 @@ namespace dmpc::apps {
 
 void add_options(OptionSet options, TableOutput& output, TableExtras extras) {
   options.add_choice<TableFormat>("--format", output.format,
-                                  {{"markdown", TableFormat::markdown}, {"csv", TableFormat::csv}, {"json", TableFormat::json}},
+                                  {{"markdown", TableFormat::markdown},
+                                   {"csv", TableFormat::csv},
+                                   {"json", TableFormat::json},
+                                   {"jsonl", TableFormat::json_lines}},
                                   "How the table is written");
   if (extras == TableExtras::plots_and_report) {
     add_report_option(options, output.report, "with the table and its plots");

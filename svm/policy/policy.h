@@ -27,8 +27,8 @@ struct PolicySite {
 class ReplacementPolicy {
  public:
   virtual ~ReplacementPolicy() = default;
-  /// A page in a frame is referenced; only if PolicyKind::hears_hits. References of one page in a row count as one, and the one
-  /// that a page came for is its insert().
+  /// A page in a frame is referenced; only if PolicyKind::hears_hits. References of one page in a row count as one, those of
+  /// pages at home left out; the first of a page that came is its insert().
   virtual void hit(PageId /*page*/, std::uint32_t /*frame*/) {}
   /// A page has come into a frame that was empty or is victim()'s.
   virtual void insert(PageId /*page*/, std::uint32_t /*frame*/) {}

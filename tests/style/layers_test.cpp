@@ -36,15 +36,19 @@ const std::map<std::string, Names> stands_on = {
 /// Rooms from the ground up: each uses those that stand before it. What lies on the floor of the layer itself uses all.
 const std::map<std::string, Names> rooms = {
     {"core", {"base", "record", "scene", "build", "trace", "picture", "families"}},
-    {"apps", {"line",   "system", "ranks", "reader", "picture", "formats", "scene", "table", "machine", "oracle",  "run",
-              "effort", "help",   "show",  "render", "info",    "check",   "study", "bench", "modules", "foreign", "manual"}},
+    {"apps",
+     {"line",   "system", "ranks", "figures", "reader", "picture", "formats", "scene", "table", "machine", "oracle",  "run",
+      "effort", "help",   "show",  "render",  "info",   "check",   "compare", "study", "bench", "modules", "foreign", "manual"}},
 };
 
 /// Rooms of other layers, and the files of their floor, by how they begin, that look down into them.
 const std::map<std::string, Names> looked_into_by = {
-    {"nodes/threads", {"nodes/runner.cpp"}},  {"nodes/ranks", {"nodes/runner.cpp"}},
-    {"nodes/virtual", {"nodes/runner."}},     {"nodes/watch", {}},
-    {"svm/watch", {"svm/run.", "svm/plan.", "svm/make_programs."}}, {"dataflow/regions", {"dataflow/"}},
+    {"nodes/threads", {"nodes/runner.cpp"}},
+    {"nodes/ranks", {"nodes/runner.cpp"}},
+    {"nodes/virtual", {"nodes/runner."}},
+    {"nodes/watch", {}},
+    {"svm/watch", {"svm/run.", "svm/plan.", "svm/make_programs."}},
+    {"dataflow/regions", {"dataflow/"}},
 };
 
 /// What begins so may be included by files that begin so, and by no others.
@@ -67,7 +71,7 @@ const std::vector<Foreign> foreign = {
     {"seccomp.h", {"apps/foreign/sandbox.cpp", "tests/apps/reader/foreign_files_test.cpp"}},
     {"CLI/", {"apps/line/command_line.cpp", "apps/line/command_description.cpp"}},
     {"nlohmann/",
-     {"apps/show/stats/", "apps/machine/machine_file.", "apps/table/table.cpp", "apps/picture/compare_command.cpp",
+     {"apps/show/stats/", "apps/machine/machine_file.", "apps/table/table.cpp", "apps/compare/report.cpp", "apps/figures/",
       "apps/oracle/accurate/reference_file.cpp", "apps/foreign/gltf/", "apps/info/json.cpp", "apps/formats/landscape/gltf.cpp",
       "apps/study/scale/figures.cpp", "apps/show/trace/chrome.cpp", "tests/apps/"}},
     {"oneapi/",

@@ -19,12 +19,15 @@ inline apps::Cell cell(const apps::Table& table, std::size_t row, const std::str
   return table.rows().at(row)[column];
 }
 
-/// The same where a real number, a whole one or nothing is known to stand.
+/// The same where a real number, a whole one, a text or nothing is known to stand.
 inline double real(const apps::Table& table, std::size_t row, const std::string& name) {
   return std::get<double>(cell(table, row, name));
 }
 inline std::uint64_t whole(const apps::Table& table, std::size_t row, const std::string& name) {
   return std::get<std::uint64_t>(cell(table, row, name));
+}
+inline std::string text(const apps::Table& table, std::size_t row, const std::string& name) {
+  return std::get<std::string>(cell(table, row, name));
 }
 inline bool is_missing(const apps::Table& table, std::size_t row, const std::string& name) {
   return std::holds_alternative<std::monostate>(cell(table, row, name));

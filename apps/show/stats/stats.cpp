@@ -8,6 +8,7 @@
 #include <string>
 #include <variant>
 
+#include "apps/line/json_format.h"
 #include "apps/line/number_text.h"
 #include "apps/machine/machine_file.h"
 #include "apps/show/heat/field.h"
@@ -313,7 +314,8 @@ std::string stats_json(const RenderRecord& record) {
   const std::optional<nodes::Machine>& machine = record.options.computer.machine;
   const StrategyStats special =
       std::visit([&](const auto& report) { return strategy_stats(record.options, report); }, record.report);
-  Json all = {{"program", "dmpc " DMPC_VERSION},
+  Json all = {{"format", json_format},
+              {"program", "dmpc " DMPC_VERSION},
               {"options", options_json(record, account, special.options)},
               {"runner", name_of(record.options.runner.kind)},
               {"machine", machine ? machine_json(*machine) : Json()},

@@ -1,4 +1,4 @@
-// What one strategy adds to the counters: for stats.cpp alone, which says what every key means in stats.h.
+// What one strategy adds to the counters: for stats.cpp alone; stats.schema.json says what every key means.
 #pragma once
 
 #include <array>

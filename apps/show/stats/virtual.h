@@ -1,4 +1,4 @@
-// What a run in virtual time adds to the counters: for stats.cpp alone, which says what every key means in stats.h.
+// What a run in virtual time adds to the counters: for stats.cpp alone; stats.schema.json says what every key means.
 #pragma once
 
 #include "apps/run/report.h"

@@ -1,15 +1,14 @@
 #include "apps/study/scale/measure.h"
 
 #include <algorithm>
-#include <csignal>
 #include <fstream>
 #include <iostream>
 #include <map>
 #include <sstream>
 #include <utility>
 
-#include "apps/line/exit_status.h"
 #include "apps/line/number_text.h"
+#include "apps/study/render_process.h"
 #include "apps/system/progress.h"
 #include "apps/system/scratch_folder.h"
 #include "apps/system/watched_process.h"
@@ -22,35 +21,6 @@ std::string text_of_file(const std::filesystem::path& path) {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
   return text.str();
-}
-
-/// "dmpc: there is no room\n" as "there is no room".
-std::string sentence_of(std::string complaint) {
-  constexpr std::string_view program = "dmpc: ";
-  if (complaint.starts_with(program)) {
-    complaint.erase(0, program.size());
-  }
-  complaint.erase(complaint.find_last_not_of(" \n.") + 1);
-  return complaint.empty() ? "It did not say why" : complaint;
-}
-
-/// Nothing if it did what it should; throws if it went wrong otherwise than by a lack of room. A computer out of memory ends a
-/// process by the signal that cannot be caught.
-std::optional<std::string> misfit_of(const WatchedProcess& process) {
-  if (process.status == 0) {
-    return std::nullopt;
-  }
-  if (process.status == -SIGKILL) {
-    return "It was killed, as a computer without memory to spare does";
-  }
-  if (process.status == no_room_status) {
-    return sentence_of(process.complaint);
-  }
-  if (process.status == input_status) {
-    throw core::InputError(sentence_of(process.complaint));
-  }
-  throw core::InternalError("a render ended with status " + std::to_string(process.status) + ": " +
-                            sentence_of(process.complaint));
 }
 
 /// The anonymous memory of a dmpc that does nothing; that ends so soon that it is watched several times, and may not be seen.

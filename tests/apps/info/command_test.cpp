@@ -89,9 +89,9 @@ TEST_CASE("the keys of a forecast are an interface") {
   const tests::TemporaryFolder folder;
   const InfoRecord record = find_out(info(tests::write_painted_square(folder, 8), {"--nodes=2", "--resolution=8x4", "--quiet"}));
   const Json json = Json::parse(info_json(record));
-  CHECK(keys_of(json) == Keys{"program", "scene", "objects", "primitives", "rounding", "bounds", "view", "background", "lights",
-                              "materials", "textures", "database", "build_peak", "regions", "system", "homes", "computers",
-                              "seconds"});
+  CHECK(keys_of(json) == Keys{"format", "program", "scene", "objects", "primitives", "rounding", "bounds", "view", "background",
+                              "lights", "materials", "textures", "database", "build_peak", "regions", "system", "homes",
+                              "computers", "seconds"});
   CHECK(keys_of(json["objects"]) == Keys{"polygon", "patch", "textured", "sphere", "cone", "total"});
   CHECK(keys_of(json["primitives"]) == Keys{"count", "dropped", "copies"});
   CHECK(keys_of(json["rounding"]) == Keys{"moved", "moved_pixels", "collapsed", "collapsed_pixels"});

@@ -120,7 +120,7 @@ constexpr Slip slips[] = {
     {"render teapot-12 -o a.png --report=r.htm", "expected a file with the ending .html"},
     {"render teapot-12 -o a.png --machine=ipsc2", "--machine does not go with --runner=threads"},
     {"study balance rings-3 --nodes=4,,8", "a word is missing"},
-    {"study balance rings-3 --format=xml", "--format=xml: expected markdown, csv or json"},
+    {"study balance rings-3 --format=xml", "--format=xml: expected markdown, csv, json or jsonl"},
     {"bench speed --parts=kernels", "Did you mean kernel?"},
     {"list machine", "Did you mean machines?"},
     {"help rendr", "Did you mean render?"},

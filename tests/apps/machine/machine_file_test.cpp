@@ -74,6 +74,13 @@ TEST_CASE("what is printed of a machine reads back as the same") {
   }
 }
 
+TEST_CASE("a machine file is of a format that it may leave out, and of no other") {
+  CHECK(contains(plain_text(), "\"format\": 1,"));
+  CHECK(machine_complaint_with("\"format\": 1,", "").empty());
+  CHECK(machine_complaint_with("\"format\": 1,", "\"format\": 2,") ==
+        "m.json: format: expected 1, for files of this dmpc, got 2");
+}
+
 TEST_CASE("every figure reaches its own field") {
   const std::string text = R"({"name": "mine", "topology": "torus", "uplinks": 1, "switching": "packet", "short_bytes_max": 1,
     "short_message": {"send_ns": 2, "latency_ns": 3, "receive_ns": 4, "byte_ps": 5},
@@ -188,12 +195,13 @@ TEST_CASE("what is no JSON is named with its place") {
   }
 }
 
-TEST_CASE("every key but the sources must be there") {
+TEST_CASE("every key but the format and the sources must be there") {
   const auto whole = nlohmann::ordered_json::parse(plain_text());
   for (const auto& [key, value] : whole.items()) {
     auto rest = whole;
     rest.erase(key);
-    CHECK(machine_complaint(rest.dump()) == (key == "sources" ? "" : "m.json: " + key + ": this key is missing"));
+    CHECK(machine_complaint(rest.dump()) ==
+          (key == "sources" || key == "format" ? "" : "m.json: " + key + ": this key is missing"));
     for (const auto& [inner, unused] : value.items()) {
       if (value.is_object()) {
         rest = whole;

@@ -8,7 +8,7 @@
 #include "apps/commands.h"
 #include "apps/manual/leaves.h"
 #include "tests/apps/manual/painter.h"
-#include "tests/apps/manual/shell.h"
+#include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
 namespace dmpc::apps {

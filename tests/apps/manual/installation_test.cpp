@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/apps/manual/shell.h"
+#include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -19,10 +19,11 @@ namespace fs = std::filesystem;
 /// Everything that is to be installed is below `root`, with zsh's completion in a folder of this name.
 void check_installed(const fs::path& root, const std::string& zsh_folder) {
   const fs::path share = root / "share";
-  for (const fs::path& file : {share / "doc/dmpc/README.md", share / "doc/dmpc/ARCHITECTURE.md", share / "doc/dmpc/LICENSE",
-                               share / "doc/dmpc/apps/teapot.png", share / "doc/dmpc/apps/teapot-heat.png",
-                               share / "doc/dmpc/core/README.md", share / "doc/dmpc/apps/study/paper/RESULTS.md",
-                               share / "fish/vendor_completions.d/dmpc.fish", share / "zsh" / zsh_folder / "_dmpc"}) {
+  for (const fs::path& file :
+       {share / "doc/dmpc/README.md", share / "doc/dmpc/ARCHITECTURE.md", share / "doc/dmpc/LICENSE",
+        share / "doc/dmpc/apps/teapot.png", share / "dmpc/stats.schema.json", share / "doc/dmpc/apps/teapot-heat.png",
+        share / "doc/dmpc/core/README.md", share / "doc/dmpc/apps/study/paper/RESULTS.md",
+        share / "fish/vendor_completions.d/dmpc.fish", share / "zsh" / zsh_folder / "_dmpc"}) {
     CHECK_MESSAGE(fs::file_size(file) > 0, file);
   }
   const Said completed = run({"bash", "--norc", "-c",
@@ -61,6 +62,21 @@ std::vector<fs::path> files_below(const fs::path& folder) {
     }
   }
   return files;
+}
+
+/// Of the package beside dmpc's own.
+void check_python_package(const TemporaryFolder& folder) {
+  const Said unpacked = run({"sh", "-c",
+                             "cd '" + folder.path().string() +
+                                 "' && dpkg-deb -f made/python3-dmpc_*_all.deb && dpkg-deb -x made/python3-dmpc_*.deb python"});
+  REQUIRE_MESSAGE(unpacked.status == 0, unpacked.errors);
+  for (const char* const line :
+       {"Package: python3-dmpc\n", "Section: python\n", "Architecture: all\n", "Depends: dmpc (= ", "python3-pandas"}) {
+    CHECK_MESSAGE(contains(unpacked.output, line), line);
+  }
+  CHECK(fs::file_size(folder / "python/usr/lib/python3/dist-packages/dmpc/__init__.py") > 0);
+  CHECK(fs::file_size(folder / "python/usr/share/doc/python3-dmpc/tour.ipynb") > 0);
+  CHECK_FALSE(fs::exists(folder / "python/usr/bin"));
 }
 
 /// What apps/dmpc has ninja build when it is called for the first time: with words in place of the tools that it calls.
@@ -123,6 +139,7 @@ TEST_CASE("the Debian packages say what they need, MPI for one of them alone, an
   CHECK_FALSE(contains(all, "openmpi"));
   check_installed(folder / "all/usr", "vendor-completions");
   check_program(folder / "all/usr/bin/dmpc", folder.path());
+  check_python_package(folder);
   const fs::path module = "usr/lib/dmpc/dmpc_mpi.so";
   CHECK_FALSE(fs::exists(folder / "all" / module));
   if (!fs::exists(DMPC_BUILD_DIR "/apps/dmpc_mpi.so")) {

@@ -6,7 +6,7 @@
 #include "apps/manual/leaves.h"
 #include "apps/manual/roff.h"
 #include "tests/apps/manual/painter.h"
-#include "tests/apps/manual/shell.h"
+#include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 

@@ -1,8 +1,8 @@
 #include "apps/commands.h"
 #include "apps/check/command.h"
+#include "apps/compare/command.h"
 #include "apps/line/command_line.h"
 #include "apps/machine/machine_command.h"
-#include "apps/picture/compare_command.h"
 #include "apps/scene/scene_command.h"
 
 #include <doctest/doctest.h>
@@ -36,6 +36,20 @@ std::string command_complaint(std::initializer_list<std::string> arguments) {
 
 }  // namespace
 
+TEST_CASE("compare takes two pictures or two files of counters, and each has options of its own") {
+  CHECK(contains(command_complaint({"compare", "a.exr", "b.json"}), "expected two pictures, or two files of counters"));
+  CHECK(contains(command_complaint({"compare", "a.json", "b.json", "--fail-above=max:1"}), "--fail-above goes with pictures"));
+  CHECK(contains(command_complaint({"compare", "a.json", "b.json", "--flip=f.png"}), "--flip goes with pictures"));
+  CHECK(contains(command_complaint({"compare", "a.exr", "b.exr", "--only=rays"}), "--only goes with counters"));
+  CHECK(contains(command_complaint({"compare", "a.exr", "b.exr", "--tolerance=rays:1"}), "--tolerance goes with counters"));
+  const auto pictures = parse({"compare", "a", "b", "--fail-above=rmse:0.1", "--fail-above=max:1"}).options<CompareOptions>();
+  CHECK(pictures.limits.size() == 2);
+  const auto counters =
+      parse({"compare", "a.json", "b.json", "--only=x", "--only=y", "--tolerance=z:1"}).options<CompareOptions>();
+  CHECK(counters.figures.only.size() == 2);
+  CHECK(counters.figures.tolerances.size() == 1);
+}
+
 TEST_CASE("scene, check and compare take their own options") {
   const auto scene = parse({"scene", "rings-4-t1"}).options<SceneOptions>();
   CHECK(scene.name == "rings-4-t1");
@@ -46,7 +60,7 @@ TEST_CASE("scene, check and compare take their own options") {
   CHECK(check.list == 3);
   CHECK(check.brute_force == 100);
   const auto compare = parse({"compare", "a.exr", "b.exr", "--difference=d.png"}).options<CompareOptions>();
-  CHECK(compare.picture == "a.exr");
+  CHECK(compare.a == "a.exr");
   CHECK(compare.reference == "b.exr");
   CHECK(compare.difference == "d.png");
 }

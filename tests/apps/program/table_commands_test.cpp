@@ -14,6 +14,7 @@
 #include "apps/study/command.h"
 #include "apps/study/paper/command.h"
 #include "apps/study/scale/command.h"
+#include "apps/study/sweep/command.h"
 #include "core/base/expect.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
@@ -36,6 +37,9 @@ Options with_program(const apps::Command& command) {
 int run_by(const Words& words, const apps::Command& command, apps::Interrupt& interrupt, std::ostream& output) {
   if (words[1] == "scale") {
     return apps::study_scale_command(with_program<apps::ScaleOptions>(command), interrupt, output);
+  }
+  if (words[1] == "sweep") {
+    return apps::study_sweep_command(with_program<apps::StudySweepOptions>(command), interrupt, output);
   }
   if (words[1] == "speed") {
     return apps::bench_speed_command(with_program<apps::SpeedOptions>(command), interrupt, output);
@@ -70,6 +74,7 @@ std::vector<TableCase> table_cases() {
            "scale.csv",
            true,
            false},
+          {{"study", "sweep", "balls-1", "--resolution=8x8", "--vary=nodes:1,2"}, "sweep.csv", true},
           {{"bench", "speed", "tetra-1", "--quick", "--parts=build", "--repeat=1"}, "speed_build.csv"},
           {{"bench", "error", "tetra-1", "--quick", "--resolution=8x8", "--reference-samples=8", "--knobs=depth"},
            "error_tetra-1.csv"},

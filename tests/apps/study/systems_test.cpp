@@ -34,10 +34,6 @@ SystemsStudy study_of(const std::string& scene, const std::vector<const char*>& 
   return study;
 }
 
-std::string text(const Table& table, std::size_t row, const std::string& column) {
-  return std::get<std::string>(cell(table, row, column));
-}
-
 /// A table with these systems' times on four nodes.
 Table times(const std::vector<std::tuple<const char*, const char*, double>>& rows) {
   Table table("", SystemsStudy().columns());

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <sstream>
@@ -103,11 +104,21 @@ TEST_CASE("CSV quotes what would be taken for its own signs") {
   CHECK(text_of(table, TableFormat::csv) == "\"a, b\",c\n\"he said \"\"no\"\"\",\"two\nlines\"\n");
 }
 
+TEST_CASE("JSON lines are the rows alone, each an object") {
+  Table table = small_table();
+  table.add_note("A note.");
+  const std::string lines = text_of(table, TableFormat::json_lines);
+  CHECK(static_cast<std::size_t>(std::count(lines.begin(), lines.end(), '\n')) == table.rows().size());
+  CHECK(lines.starts_with("{\"nodes\":"));
+  CHECK(lines.find("note") == std::string::npos);
+  CHECK(text_of(Table("", {{"a"}}), TableFormat::json_lines).empty());
+}
+
 TEST_CASE("JSON names columns and units, and has null for what is missing") {
   Table table = small_table();
   table.add_note("A note.");
   CHECK(text_of(table, TableFormat::json) ==
-        "{\n  \"title\": \"two runs\",\n"
+        "{\n  \"format\": 1,\n  \"title\": \"two runs\",\n"
         "  \"columns\": [\n"
         "    {\n      \"name\": \"nodes\",\n      \"unit\": null\n    },\n"
         "    {\n      \"name\": \"kind\",\n      \"unit\": null\n    },\n"

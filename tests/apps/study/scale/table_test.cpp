@@ -45,10 +45,6 @@ ScaleResult misfit(int size) {
           .misfit = "too little memory"};
 }
 
-std::string text(const Table& table, std::size_t row, const std::string& column) {
-  return std::get<std::string>(cell(table, row, column));
-}
-
 }  // namespace
 
 TEST_CASE("the growth over all sizes and over the last three stands below the rows, and in the notes") {

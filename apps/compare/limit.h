@@ -1,0 +1,33 @@
+// How far apart two pictures may lie before they count as different: --fail-above.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/picture/picture_error.h"
+
+namespace dmpc::apps {
+
+/// One measure of PictureError.
+struct Measure {
+  const char* name;  ///< as --fail-above calls it
+  double (*of)(const PictureError& error);
+};
+
+struct Limit {
+  const Measure* measure = nullptr;
+  double most = 0;
+  std::string text;  ///< as typed: "1/255"
+};
+
+/// "rmse|max|...", for help.
+std::string measure_names();
+
+/// "rmse:1/255": a measure, a colon and a number from 0 on. Throws core::UsageError for anything else.
+Limit parse_limit(const std::string& text);
+
+/// Why the pictures count as different, one sentence a limit that is passed: "rmse 0.25 is above 1/255". What is infinite, or no
+/// number, is above any limit.
+std::vector<std::string> passed_limits(const std::vector<Limit>& limits, const PictureError& error);
+
+}  // namespace dmpc::apps

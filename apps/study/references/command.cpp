@@ -1,0 +1,93 @@
+#include "apps/study/references/command.h"
+
+#include <iostream>
+#include <utility>
+
+#include "apps/line/number_text.h"
+#include "apps/line/option_values.h"
+#include "apps/show/page/origin.h"
+#include "apps/show/page/sweep_page.h"
+#include "apps/study/cache_curves.h"
+#include "apps/study/references/reference_file.h"
+#include "apps/system/attempts.h"
+#include "apps/table/geometric_sizes.h"
+#include "apps/table/table_files.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr const char* references_data_file = "references.csv";
+constexpr std::uint32_t references_size_count = 12;
+constexpr std::uint32_t references_cache_pages_max = 0x7fffffff;
+
+TableFiles files_of(const ReferencesOptions& options) {
+  return {options.table, {names_of(references_data_file, {CacheCurves::plot()})}, {.inputs = {{"FILE", options.file}}}};
+}
+
+std::vector<CacheCurves::NodeReferences> references_of(const ReferenceTrace& trace) {
+  return {trace.nodes.begin(), trace.nodes.end()};
+}
+
+Table table_of(const ReferenceTrace& trace, const ReferencesOptions& options, const Interrupt& interrupt) {
+  Table table("Study references of " + options.file + ": " + counted(trace.reference_count, "reference") + " of " +
+                  counted(trace.page_count, "page") + " by " + counted(trace.nodes.size(), "node"),
+              CacheCurves::columns("share of pages"));
+  const std::vector<std::uint32_t> sizes =
+      options.cache_pages.empty() ? geometric_sizes(trace.page_count, references_size_count) : options.cache_pages;
+  const CacheCurves curves(references_of(trace), trace.reference_count, sizes, [&interrupt] { interrupt.check(); });
+  for (std::size_t row = 0; row < curves.row_count(); ++row) {
+    table.add_row(curves.row(row, trace.page_count));
+  }
+  table.add_note(
+      "Each node has a cache of its own, and faults are those of all. Share of pages: the cache of one node over all "
+      "that are referenced. Misses are given as a share of all references.");
+  table.add_note(CacheCurves::note());
+  table.add_note(curves.needs_note());
+  return table;
+}
+
+std::string page_of(const Table& table, const ReferencesOptions& options) {
+  const html::SweepPart part{"", table, {CacheCurves::plot()}};
+  return html::sweep_page({"Study references of " + options.file, {}, {part}}, this_origin(), std::cerr);
+}
+
+}  // namespace
+
+void add_options(OptionSet set, ReferencesOptions& options) {
+  set.add_argument(
+      "FILE", [&options](const std::string& text) { options.file = text; },
+      "A CSV file whose first line names its columns: page, and perhaps node; others are passed over");
+  set.add_text(
+      "--cache-pages", "N,N,... [12 from 1 to all]",
+      [&options](const std::string& text) {
+        options.cache_pages = parse_numbers(text, "--cache-pages", references_cache_pages_max);
+      },
+      "Sizes of the caches in pages");
+  add_options(set, options.table, TableExtras::plots_and_report);
+  set.add_quiet(options.quiet);
+  set.set_examples(
+      "Examples:\n"
+      "  dmpc study references trace.csv\n"
+      "  dmpc study references trace.csv --cache-pages=16,64,256 --plots=plots --format=csv -o misses.csv\n"
+      "A page is a whole number, whatever it stands for: the references may be any program's.");
+}
+
+int study_references_command(const ReferencesOptions& options, Interrupt& interrupt, std::ostream& output) {
+  const TableFiles files = files_of(options);
+  const ReferenceTrace trace = [&] {
+    const Interrupt::EndAtOnce end_at_once(interrupt);
+    return read_references(std::filesystem::path(options.file));
+  }();
+  const Table table = table_of(trace, options, interrupt);
+  Attempts attempts(std::cerr);
+  files.write({.text = text_of(table, options.table.format),
+               .page = [&] { return page_of(table, options); },
+               .plotted =
+                   [&] {
+                     return std::vector<PlottedTable>{{table, references_data_file, {CacheCurves::plot()}}};
+                   }},
+              output, std::cerr, attempts);
+  return attempts.status();
+}
+
+}  // namespace dmpc::apps
