@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/expect.h"
+#include "core/picture/partial_picture.h"
 #include "dataflow/ranks.h"
 #include "nodes/byte_source.h"
 #include "nodes/ranks/dismissal.h"
@@ -24,6 +25,7 @@
 namespace {
 
 using namespace dmpc;
+using tests::outcome_of;
 using tests::scaled_edge;
 using tests::Subject;
 
@@ -119,6 +121,35 @@ TEST_CASE("questions travel between ranks, and samples follow where a pass befor
     const auto dataflow = rays_on_ranks(
         ranks, 7, [&](const nodes::ComputerRequest& computer) { return run_dataflow(refined, {.computer = computer}); });
     CHECK(outcome_of(dataflow.report) == refined.outcome());
+  }
+}
+
+TEST_CASE("what a run has left undone is done on ranks, by any strategy, to the same picture") {
+  const Subject subject = subject_of(tests::mirrors_and_glass());
+  std::optional<core::PartialPicture> half;
+  const auto keep = [&](const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) {
+    half = core::partial_picture(film, pass, done);
+  };
+  run_svm(subject, {.computer = {.node_count = 3}, .continuation = {.is_due = [&] { return !half; }, .keep = keep}});
+  REQUIRE(half);
+  REQUIRE(half->done.count() > 0);
+  REQUIRE(half->missing().count() > 0);
+  const core::Continuation continuation{.start = &*half};
+  for (const std::uint32_t ranks : {2U, 5U}) {
+    CAPTURE(ranks);
+    const auto svm = pages_on_ranks(ranks, 7, [&](const nodes::ComputerRequest& computer) {
+      return run_svm(subject, {.computer = computer, .continuation = continuation});
+    });
+    CHECK(svm.report.film.hash() == subject.outcome().film_hash);
+    CHECK(svm.report.pixels_done == half->missing().count());
+    const auto replicated = pages_on_ranks(ranks, 7, [&](const nodes::ComputerRequest& computer) {
+      return run_replicated(subject, {.computer = computer, .continuation = continuation});
+    });
+    CHECK(replicated.report.film.hash() == subject.outcome().film_hash);
+    const auto dataflow = rays_on_ranks(ranks, 7, [&](const nodes::ComputerRequest& computer) {
+      return run_dataflow(subject, {.computer = computer, .continuation = continuation});
+    });
+    CHECK(dataflow.report.film.hash() == subject.outcome().film_hash);
   }
 }
 

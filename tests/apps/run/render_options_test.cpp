@@ -453,7 +453,7 @@ TEST_CASE("the help of render names every option and its default") {
                                  "--no-backpressure",
                                  "--topology",
                                  "--runner",
-                                 "threads|virtual [threads]",
+                                 "threads|virtual|mpi [threads]",
                                  "MACHINE|FILE.json [ipsc2]",
                                  "ipsc2, ipsc860, paragon, cm5, cs2, gigabit, hdr",
                                  "--no-contention",
