@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "apps/line/number_text.h"
+#include "apps/machine/machines.h"
 #include "apps/run/render_record.h"
 #include "apps/run/report.h"
 #include "apps/run/run_strategy.h"
