@@ -6,6 +6,7 @@
 #include "apps/study/balance.h"
 #include "apps/study/cache.h"
 #include "apps/study/speedup.h"
+#include "apps/study/systems.h"
 #include "apps/study/traffic.h"
 #include "apps/table/table.h"
 
