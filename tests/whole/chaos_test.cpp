@@ -15,9 +15,11 @@
 #include <utility>
 
 #include "core/picture/partial_picture.h"
+#include "dataflow/ranks.h"
 #include "dataflow/run.h"
 #include "nodes/chaos.h"
 #include "nodes/ranks/rank_links.h"
+#include "svm/ranks.h"
 #include "svm/run.h"
 #include "tests/support/chaos_case.h"
 #include "tests/support/environment.h"
@@ -98,6 +100,10 @@ struct Damage {
   }
 };
 
+/// What another rank does while rank 0 runs with such options.
+void follow(const svm::RunOptions& /*options*/, nodes::RankLinks& links) { svm::follow(links, {}); }
+void follow(const dataflow::RunOptions& /*options*/, nodes::RankLinks& links) { dataflow::follow(links, {}); }
+
 /// On ranks, of which some seeds have several: late frames on the way, as well. A computer that is modelled has none.
 template <class Options, class Run>
 auto run_on_ranks(const ChaosCase& one, Options options, const Run& run, const std::stop_token& stop) {
@@ -109,16 +115,22 @@ auto run_on_ranks(const ChaosCase& one, Options options, const Run& run, const s
   const nodes::LoopbackTrouble trouble{.seed = one.seed(), .late_looks_max = static_cast<std::uint32_t>(one.seed() % 8)};
   const auto run_here = [&](nodes::Fabric& fabric) {
     nodes::RankLinks links(fabric);
-    Options own = options;
-    own.computer.ranks = &links;
-    return run(subject, own, fabric.rank() == 0 ? stop : std::stop_token());
+    std::optional<decltype(run(subject, options, stop))> report;
+    if (fabric.rank() == 0) {
+      Options own = options;
+      own.computer.ranks = &links;
+      report.emplace(run(subject, own, stop));
+    } else {
+      follow(options, links);
+    }
+    return report;
   };
   auto results = on_ranks(ranks, trouble, run_here, nodes::frame_bytes_for(page_packet_bytes_max));
   for (const auto& result : results) {
     CHECK(result.failure_text() == "");
   }
   REQUIRE(results.front().value);
-  return std::move(*results.front().value);
+  return std::move(**results.front().value);
 }
 
 /// The whole picture in one run.
