@@ -15,6 +15,8 @@ namespace dmpc::svm {
 /// Up to a number of pages in two lists. In the node's local memory. Thread safety: none.
 class Ghosts {
  public:
+  static constexpr unsigned only_list = 0;  ///< for who needs but one
+
   Ghosts(nodes::LocalMemory& memory, std::uint32_t capacity)
       : lists_(memory, capacity),
         table_(memory, capacity),

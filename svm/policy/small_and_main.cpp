@@ -5,7 +5,6 @@
 namespace dmpc::svm {
 namespace {
 
-constexpr unsigned left = 0;  ///< the only list of ghosts
 constexpr std::uint8_t hits_max = 3;
 
 }  // namespace
@@ -51,10 +50,10 @@ std::uint32_t SmallAndMain::leave_small() {
   while (true) {
     const std::uint32_t frame = frames_.remove_oldest(small);
     if (hits_[frame] <= 1) {
-      if (ghosts_.size(left) == ghosts_max_) {
-        ghosts_.forget_oldest(left);
+      if (ghosts_.size(Ghosts::only_list) == ghosts_max_) {
+        ghosts_.forget_oldest(Ghosts::only_list);
       }
-      ghosts_.remember(left, pages_[frame]);
+      ghosts_.remember(Ghosts::only_list, pages_[frame]);
       return frame;
     }
     hits_[frame] = 0;

@@ -3,12 +3,6 @@
 #include <algorithm>
 
 namespace dmpc::svm {
-namespace {
-
-constexpr unsigned left = 0;  ///< the only list of ghosts
-
-}  // namespace
-
 std::uint32_t TwoQueues::ghost_capacity(std::uint32_t frame_count) {
   return frame_count == 0 ? 0 : std::max(frame_count / 2, 1U);
 }
@@ -44,10 +38,10 @@ std::uint32_t TwoQueues::victim(PageId incoming) {
     return frames_.remove_oldest(kept_ones);
   }
   const std::uint32_t frame = frames_.remove_oldest(new_ones);
-  if (ghosts_.size(left) == ghosts_max_) {
-    ghosts_.forget_oldest(left);
+  if (ghosts_.size(Ghosts::only_list) == ghosts_max_) {
+    ghosts_.forget_oldest(Ghosts::only_list);
   }
-  ghosts_.remember(left, pages_[frame]);
+  ghosts_.remember(Ghosts::only_list, pages_[frame]);
   return frame;
 }
 
