@@ -3,6 +3,7 @@
 #include <algorithm>
 
 namespace dmpc::svm {
+
 std::uint32_t TwoQueues::ghost_capacity(std::uint32_t frame_count) {
   return frame_count == 0 ? 0 : std::max(frame_count / 2, 1U);
 }
