@@ -3,27 +3,26 @@
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
 #include <malloc.h>
-#include <sys/mman.h>
 
 #include <cstddef>
 #include <cstdlib>
 #include <new>
 
+#include "core/base/large_pages.h"
+
 namespace dmpc::apps {
 namespace {
 
-constexpr std::size_t large_page_bytes = std::size_t{2} << 20U;
-
 /// nullptr if there is no room. Either is given back by free().
 void* block(std::size_t bytes) {
-  if (bytes < large_page_bytes) {
+  if (bytes < core::large_page_bytes) {
     return std::malloc(bytes == 0 ? 1 : bytes);
   }
   void* first = nullptr;
-  if (::posix_memalign(&first, large_page_bytes, bytes) != 0) {
+  if (::posix_memalign(&first, core::large_page_bytes, bytes) != 0) {
     return nullptr;
   }
-  ::madvise(first, bytes, MADV_HUGEPAGE);  // a wish: small pages do, too
+  core::wish_large_pages(first, bytes);
   return first;
 }
 

@@ -7,13 +7,13 @@
 #include <cstdlib>
 #include <new>
 
+#include "core/base/large_pages.h"
 #include "core/base/units.h"
 
 namespace dmpc::core {
 namespace {
 
-/// As long as large pages are on most computers. So many bytes and more have pages of their own.
-constexpr std::size_t large_page_bytes = std::size_t{2} << 20U;
+/// So many bytes and more have pages of their own.
 constexpr bool has_pages(std::size_t bytes) { return bytes >= large_page_bytes; }
 
 constexpr std::size_t whole_pages(std::size_t bytes) { return round_up(bytes, std::size_t{4} << 10U); }
@@ -32,7 +32,7 @@ void* map(std::size_t bytes) {
     ::munmap(mapped, before);
   }
   ::munmap(first + length, large_page_bytes - before);
-  ::madvise(first, length, MADV_HUGEPAGE);  // a wish: small pages do, too
+  wish_large_pages(first, length);
   return first;
 }
 
