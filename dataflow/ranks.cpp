@@ -60,7 +60,7 @@ void hand_out(const Plan& plan, const Distribution& distribution, const core::Re
   streams.finish();
 }
 
-Followed follow(nodes::RankLinks& links, std::stop_token stop) {
+nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop) {
   nodes::StreamFromHost stream(links);
   const Job job = job_from(nodes::read_counted(stream), links);
   const MakeProgram make_program = [&](std::uint32_t, nodes::Node& node) {
@@ -71,7 +71,7 @@ Followed follow(nodes::RankLinks& links, std::stop_token stop) {
   };
   const auto runner = nodes::make_runner(specifications_without_host(job.plan, make_program), job.plan.request.computer);
   stream.say_ready();
-  Followed followed{.bytes_received = stream.bytes_read()};
+  nodes::Followed followed{.bytes_received = stream.bytes_read()};
   followed.end = runner->run(std::move(stop));
   gather_reports(*runner, job.plan);
   return followed;

@@ -1,14 +1,13 @@
 // A run on several ranks: what rank 0, which alone has the scene, sends the others, and what they make of it.
 #pragma once
 
-#include <cstdint>
 #include <stop_token>
 
 #include "core/picture/pixel_task.h"
 #include "dataflow/distribution.h"
 #include "dataflow/plan.h"
+#include "nodes/ranks/followed.h"
 #include "nodes/ranks/rank_links.h"
-#include "nodes/runner.h"
 
 namespace dmpc::dataflow {
 
@@ -16,14 +15,8 @@ namespace dmpc::dataflow {
 /// all have their nodes. Throws what fails on another rank.
 void hand_out(const Plan& plan, const Distribution& distribution, const core::RenderSettings& settings, nodes::RankLinks& links);
 
-/// How it went for another rank.
-struct Followed {
-  nodes::RunEnd end = nodes::RunEnd::finished;
-  std::uint64_t bytes_received = 0;  ///< all that it was told before the run: a job, and what its nodes are dealt
-};
-
 /// What another rank does while rank 0 renders by run_prepared(). No more of the scene is in its memory than its nodes' parts.
 /// Throws nodes::Dismissed if rank 0 ends instead, and as run_prepared() does.
-Followed follow(nodes::RankLinks& links, std::stop_token stop);
+nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop);
 
 }  // namespace dmpc::dataflow

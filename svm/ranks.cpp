@@ -33,7 +33,7 @@ void hand_out(const Plan& plan, const core::RenderSettings& settings, const core
   streams.finish();
 }
 
-Followed follow(nodes::RankLinks& links, std::stop_token stop) {
+nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop) {
   nodes::StreamFromHost stream(links);
   const std::unique_ptr<Job> job = job_from(nodes::read_counted(stream), links);
   const nodes::ByteSource pages(stream, job->plan.pages().database_bytes());
@@ -41,7 +41,7 @@ Followed follow(nodes::RankLinks& links, std::stop_token stop) {
   const MakeProgram make_program = maker_of(job->plan, job->settings, pages, nobody);
   const auto runner = nodes::make_runner(specifications_without_host(job->plan, make_program), job->plan.request.computer);
   stream.say_ready();
-  Followed followed{.bytes_received = stream.bytes_read()};
+  nodes::Followed followed{.bytes_received = stream.bytes_read()};
   followed.end = runner->run(std::move(stop));
   gather_reports(*runner, job->plan);
   return followed;

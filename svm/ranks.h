@@ -1,13 +1,12 @@
 // A run on several ranks: what rank 0, which alone has the scene, sends the others, and what they make of it.
 #pragma once
 
-#include <cstdint>
 #include <stop_token>
 
 #include "core/build/database.h"
 #include "core/picture/pixel_task.h"
+#include "nodes/ranks/followed.h"
 #include "nodes/ranks/rank_links.h"
-#include "nodes/runner.h"
 #include "svm/plan.h"
 
 namespace dmpc::svm {
@@ -16,14 +15,8 @@ namespace dmpc::svm {
 /// Returns when all have their nodes. Throws what fails on another rank.
 void hand_out(const Plan& plan, const core::RenderSettings& settings, const core::Database& database, nodes::RankLinks& links);
 
-/// How it went for another rank.
-struct Followed {
-  nodes::RunEnd end = nodes::RunEnd::finished;
-  std::uint64_t bytes_received = 0;  ///< all that it was told before the run: a job, and its nodes' pages
-};
-
 /// What another rank does while rank 0 renders by run_svm(), run_replicated() or run_forest(). No more of the scene is in its
 /// memory than its nodes' pages. Throws nodes::Dismissed if rank 0 ends instead, and as run_svm() does.
-Followed follow(nodes::RankLinks& links, std::stop_token stop);
+nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop);
 
 }  // namespace dmpc::svm
