@@ -58,9 +58,11 @@ void StreamFromHost::receive(std::uint32_t rank, const ItemHeader& header, std::
   core::expect(rank == 0 && header.item == Item::stream,
                "before the run rank 0 alone has something to say, and that is a stream");
   core::expect(count_ + bytes.size() <= window_.size(), "no more is under way than a rank has room for");
-  for (const std::byte byte_of_stream : bytes) {
-    window_[(first_ + count_++) % window_.size()] = byte_of_stream;
-  }
+  const std::size_t end = (first_ + count_) % window_.size();
+  const std::span<const std::byte> before_wrap = bytes.first(std::min(bytes.size(), window_.size() - end));
+  std::copy(before_wrap.begin(), before_wrap.end(), window_.begin() + static_cast<std::ptrdiff_t>(end));
+  std::copy(bytes.begin() + static_cast<std::ptrdiff_t>(before_wrap.size()), bytes.end(), window_.begin());
+  count_ += bytes.size();
 }
 
 }  // namespace dmpc::nodes
