@@ -53,6 +53,13 @@ class Ghosts {
     table_.insert(page, index);
     lists_.push(list, index);
   }
+  /// The same in place of the page that has been in the list longest, where there is no room.
+  void remember_latest(unsigned list, PageId page) {
+    if (free_count_ == 0) {
+      forget_oldest(list);
+    }
+    remember(list, page);
+  }
   /// The page that has been in the list longest; there is one.
   void forget_oldest(unsigned list) { release(lists_.remove_oldest(list)); }
   std::uint32_t size(unsigned list) const { return lists_.size(list); }

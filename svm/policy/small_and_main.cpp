@@ -25,9 +25,8 @@ SmallAndMain::SmallAndMain(const PolicySite& site)
     : pages_(site.pages),
       small_max_(small_frames(site.frame_count())),
       main_max_(site.frame_count() - std::min(site.frame_count(), small_max_)),
-      ghosts_max_(ghost_capacity(site.frame_count())),
       frames_(site.memory, site.frame_count()),
-      ghosts_(site.memory, ghosts_max_),
+      ghosts_(site.memory, ghost_capacity(site.frame_count())),
       hits_(site.memory.allocate<std::uint8_t>(nodes::Category::page_table, site.frame_count())) {}
 
 void SmallAndMain::hit(PageId /*page*/, std::uint32_t frame) {
@@ -50,10 +49,7 @@ std::uint32_t SmallAndMain::leave_small() {
   while (true) {
     const std::uint32_t frame = frames_.remove_oldest(small);
     if (hits_[frame] <= 1) {
-      if (ghosts_.size(Ghosts::only_list) == ghosts_max_) {
-        ghosts_.forget_oldest(Ghosts::only_list);
-      }
-      ghosts_.remember(Ghosts::only_list, pages_[frame]);
+      ghosts_.remember_latest(Ghosts::only_list, pages_[frame]);
       return frame;
     }
     hits_[frame] = 0;

@@ -32,7 +32,7 @@ class SmallAndMain final : public ReplacementPolicy {
   std::uint32_t leave_main();
 
   std::span<const PageId> pages_;
-  std::uint32_t small_max_, main_max_, ghosts_max_;
+  std::uint32_t small_max_, main_max_;
   IndexLists frames_;
   Ghosts ghosts_;
   std::span<std::uint8_t> hits_;  ///< of each frame's page, up to 3

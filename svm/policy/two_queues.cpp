@@ -16,9 +16,8 @@ void TwoQueues::add_needs(nodes::MemoryPlan& plan, std::uint32_t frame_count) {
 TwoQueues::TwoQueues(const PolicySite& site)
     : pages_(site.pages),
       new_ones_max_(std::max(site.frame_count() / 4, 1U)),
-      ghosts_max_(ghost_capacity(site.frame_count())),
       frames_(site.memory, site.frame_count()),
-      ghosts_(site.memory, ghosts_max_) {}
+      ghosts_(site.memory, ghost_capacity(site.frame_count())) {}
 
 /// References soon after the first are taken for one: a new page stays where it is in the queue.
 void TwoQueues::hit(PageId /*page*/, std::uint32_t frame) {
@@ -39,10 +38,7 @@ std::uint32_t TwoQueues::victim(PageId incoming) {
     return frames_.remove_oldest(kept_ones);
   }
   const std::uint32_t frame = frames_.remove_oldest(new_ones);
-  if (ghosts_.size(Ghosts::only_list) == ghosts_max_) {
-    ghosts_.forget_oldest(Ghosts::only_list);
-  }
-  ghosts_.remember(Ghosts::only_list, pages_[frame]);
+  ghosts_.remember_latest(Ghosts::only_list, pages_[frame]);
   return frame;
 }
 

@@ -27,7 +27,7 @@ class TwoQueues final : public ReplacementPolicy {
   static std::uint32_t ghost_capacity(std::uint32_t frame_count);
 
   std::span<const PageId> pages_;
-  std::uint32_t new_ones_max_, ghosts_max_;
+  std::uint32_t new_ones_max_;
   IndexLists frames_;  ///< A1in and Am
   Ghosts ghosts_;      ///< A1out
   bool comes_back_ = false;

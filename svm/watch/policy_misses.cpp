@@ -21,11 +21,12 @@ std::uint64_t policy_misses(Replacement replacement, std::span<const PageId> ref
   Cache cache(memory, shape, seed);
   std::uint64_t misses = 0;
   for (const PageId page : references) {
-    if (cache.frame_of(page) == Cache::no_frame) {
+    if (const std::uint32_t frame = cache.frame_of(page); frame != Cache::no_frame) {
+      cache.touch(frame);
+    } else {
       ++misses;
       cache.install(page, page_bytes);
     }
-    cache.touch(cache.frame_of(page));
   }
   return misses;
 }
