@@ -103,12 +103,9 @@ std::string page_of(const OneStudy& study, const Table& table, const StudyOption
 
 template <class OneStudy>
 TableResult result_of(const OneStudy& study, const Table& table, const Marks& marks, const StudyOptions& options) {
-  return {.text = text_of(table, options.table.format),
-          .page = [&] { return page_of(study, table, options, marks); },
-          .plotted =
-              [&] {
-                return std::vector<PlottedTable>{{table, data_file_of(OneStudy::name), study.plots()}};
-              }};
+  return table_result(
+      table, options.table.format, [&] { return page_of(study, table, options, marks); }, data_file_of(OneStudy::name),
+      study.plots());
 }
 
 template <class OneStudy>

@@ -80,13 +80,9 @@ int study_references_command(const ReferencesOptions& options, Interrupt& interr
   }();
   const Table table = table_of(trace, options, interrupt);
   Attempts attempts(std::cerr);
-  files.write({.text = text_of(table, options.table.format),
-               .page = [&] { return page_of(table, options); },
-               .plotted =
-                   [&] {
-                     return std::vector<PlottedTable>{{table, references_data_file, {CacheCurves::plot()}}};
-                   }},
-              output, std::cerr, attempts);
+  const auto page = [&] { return page_of(table, options); };
+  files.write(table_result(table, options.table.format, page, references_data_file, {CacheCurves::plot()}), output, std::cerr,
+              attempts);
   return attempts.status();
 }
 

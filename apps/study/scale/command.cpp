@@ -44,12 +44,8 @@ std::string page_of(const Table& table, const ScaleOptions& options) {
 }
 
 TableResult result_of(const Table& table, const ScaleOptions& options) {
-  return {.text = text_of(table, options.table.format),
-          .page = [&] { return page_of(table, options); },
-          .plotted =
-              [&] {
-                return std::vector<PlottedTable>{{table, data_file, scale_plots(options.settings)}};
-              }};
+  return table_result(
+      table, options.table.format, [&] { return page_of(table, options); }, data_file, scale_plots(options.settings));
 }
 
 /// Throws core::RoomError if no run found room, core::InputError if there was none.

@@ -34,15 +34,6 @@ std::string page_of(const Table& table, const std::vector<Plot>& plots, const St
   return html::sweep_page({"Study sweep of " + options.settings.scene, {}, {{"", table, plots}}}, this_origin(), std::cerr);
 }
 
-TableResult result_of(const Table& table, const std::vector<Plot>& plots, const StudySweepOptions& options) {
-  return {.text = text_of(table, options.table.format),
-          .page = [&] { return page_of(table, plots, options); },
-          .plotted =
-              [&] {
-                return std::vector<PlottedTable>{{table, sweep_data_file, plots}};
-              }};
-}
-
 /// Throws core::RoomError if no run found room.
 void check_any_fits(const std::vector<SweepResult>& results) {
   if (std::none_of(results.begin(), results.end(), [](const SweepResult& result) { return result.figures.has_value(); })) {
@@ -159,7 +150,8 @@ int study_sweep_command(const StudySweepOptions& options, Interrupt& interrupt, 
       table.add_note("Ended before its time: rows are missing.");
     }
     const std::vector<Plot> plots = sweep_plots(options.settings, runs);
-    files.write(result_of(table, plots, options), output, std::cerr, attempts);
+    const auto page = [&] { return page_of(table, plots, options); };
+    files.write(table_result(table, options.table.format, page, sweep_data_file, plots), output, std::cerr, attempts);
   }
   if (failure) {
     std::rethrow_exception(failure);
