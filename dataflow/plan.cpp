@@ -119,8 +119,8 @@ void check_use(bool right, const std::string& sentence) {
 }
 
 void check(const PlanRequest& request) {
-  check_use(request.node_count() >= 1 && request.node_count() <= region_count_max,
-            "node_count=" + std::to_string(request.node_count()) + ": from 1 to " + std::to_string(region_count_max) +
+  check_use(request.node_count() >= 1 && request.node_count() <= nodes::node_count_max,
+            "node_count=" + std::to_string(request.node_count()) + ": from 1 to " + std::to_string(nodes::node_count_max) +
                 " nodes with strategy=dataflow");
   nodes::check_ranks(request.computer);
   const std::uint32_t tested = request.rays.tested_objects;

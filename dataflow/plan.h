@@ -27,7 +27,7 @@ struct Share {
 
 /// What a plan is made from. `optional` without a value means: choose.
 struct PlanRequest {
-  std::vector<Share> shares;             ///< one a node: from 1 to region_count_max
+  std::vector<Share> shares;             ///< one a node: from 1 to nodes::node_count_max
   nodes::ComputerRequest computer = {};  ///< its nodes are as many as the shares, whatever it says
   RayOptions rays = {};
   std::uint32_t depth_max = 5;  ///< of a ray

@@ -17,7 +17,7 @@ constexpr std::array<std::pair<std::string_view, TopologyKind>, 5> names{{{"cros
                                                                           {"torus", TopologyKind::torus},
                                                                           {"fat-tree", TopologyKind::fat_tree}}};
 constexpr std::uint32_t switch_children = 4;
-constexpr std::uint32_t node_count_max = 65536;
+constexpr std::uint32_t place_count_max = 65536;
 
 /// The largest divisor of `count` from half its root to its root, or the root rounded down if there is none.
 std::uint32_t rows_of(std::uint32_t count) {
@@ -51,7 +51,7 @@ TopologyKind parse_topology(std::string_view name) {
 
 Topology::Topology(TopologyKind kind, std::uint32_t node_count, std::uint32_t uplinks)
     : kind_(kind), node_count_(node_count), place_count_(node_count) {
-  core::expect(node_count >= 1 && node_count <= node_count_max, "a topology has from 1 to 65536 nodes");
+  core::expect(node_count >= 1 && node_count <= place_count_max, "a topology has from 1 to 65536 nodes");
   core::expect(uplinks >= 1 && uplinks <= (kind == TopologyKind::fat_tree ? uplinks_max : 1), "fat trees alone have uplinks");
   if (kind == TopologyKind::hypercube) {
     place_count_ = std::bit_ceil(node_count);

@@ -228,9 +228,9 @@ void check_recording(const PlanRequest& request) {
 void check(const PlanRequest& request) {
   check_use(is_page_size(request.page_size_bytes),
             "page_size_bytes=" + size_text(request.page_size_bytes) + ": a page is a power of two from 512B to 64KiB");
-  check_use(
-      request.computer.node_count >= 1 && request.computer.node_count <= node_count_max,
-      "node_count=" + std::to_string(request.computer.node_count) + ": from 1 to " + std::to_string(node_count_max) + " nodes");
+  check_use(request.computer.node_count >= 1 && request.computer.node_count <= nodes::node_count_max,
+            "node_count=" + std::to_string(request.computer.node_count) + ": from 1 to " + std::to_string(nodes::node_count_max) +
+                " nodes");
   nodes::check_ranks(request.computer);
   const std::uint32_t workers = worker_count_of(request);
   check_use(workers >= 1 && workers <= request.computer.node_count,
@@ -317,7 +317,7 @@ std::uint32_t most_in_flight(const PlanRequest& request, std::size_t memory_byte
 
 /// More nodes hold fewer pages each, but larger mailboxes and credit tables, so fewer nodes may be what helps.
 std::optional<std::uint32_t> smallest_node_count(PlanRequest request) {
-  for (request.computer.node_count = 1; request.computer.node_count <= node_count_max; ++request.computer.node_count) {
+  for (request.computer.node_count = 1; request.computer.node_count <= nodes::node_count_max; ++request.computer.node_count) {
     if (smallest_node_memory_bytes(request) <= *request.computer.node_memory_bytes) {
       return request.computer.node_count;
     }
@@ -334,7 +334,7 @@ std::optional<std::uint32_t> smallest_node_count(PlanRequest request) {
   } else if (request.strategy == Strategy::replicated) {
     sentence += "; every node of strategy=replicated holds the whole database, strategy=svm spreads it";
   } else {
-    sentence += "; no number of nodes up to " + std::to_string(node_count_max) + " works with this memory";
+    sentence += "; no number of nodes up to " + std::to_string(nodes::node_count_max) + " works with this memory";
   }
   throw core::RoomError(sentence);
 }

@@ -50,7 +50,6 @@ struct PlanRequest {
   bool is_masked() const { return refinement.is_wanted() || start != nullptr; }
 };
 
-inline constexpr std::uint32_t node_count_max = 4096;
 inline constexpr std::uint32_t in_flight_max = 4096;
 
 /// The answer. Every capacity is derived in plan.cpp, as a sum with a comment for each term.
@@ -93,7 +92,7 @@ struct Plan {
 };
 
 /// Throws core::UsageError for a value out of range or a wrong combination, and core::RoomError if the memory is too small;
-/// the latter names the smallest node memory that works for this node count and, if there is one up to node_count_max, the
+/// the latter names the smallest node memory that works for this node count and, if there is one up to nodes::node_count_max, the
 /// smallest node count that works with this memory.
 Plan make_plan(const PlanRequest& request);
 

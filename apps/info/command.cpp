@@ -57,7 +57,7 @@ void add_options(OptionSet options, InfoOptions& info) {
   options.begin_group("The forecast");
   options.add_text(
       "--nodes", "N,N,... [1,2,4,...,256]",
-      [&info](const std::string& text) { info.node_counts = parse_different_numbers(text, "--nodes", svm::node_count_max); },
+      [&info](const std::string& text) { info.node_counts = parse_different_numbers(text, "--nodes", nodes::node_count_max); },
       "Nodes of the computers whose memory is forecast");
   add_system_option(options, info.system);
   add_homes_options(options, info.pages.homes, info.pages.tree_arity);

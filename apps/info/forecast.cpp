@@ -37,25 +37,19 @@ class Forecaster {
     if (database_.forest_page_count() > 0) {
       computers_.back().forest = with_pages(svm::Strategy::forest, node_count);
     }
-    if (node_count <= dataflow::region_count_max) {
-      stopwatch_.lap();
-      partitions_.push_back(regions(node_count));
-      parts_.push_back(dataflow::measure_parts(database_, settings_, partitions_.back()));
-      region_seconds_ += stopwatch_.lap();
-    }
+    stopwatch_.lap();
+    partitions_.push_back(regions(node_count));
+    parts_.push_back(dataflow::measure_parts(database_, settings_, partitions_.back()));
+    region_seconds_ += stopwatch_.lap();
   }
 
   /// All computers added. The primary rays are dealt to all at one go.
   Forecast result() {
     stopwatch_.lap();
     const auto shares = dataflow::measure_shares(settings_, partitions_, parts_);
-    std::size_t next = 0;
-    for (ComputerForecast& computer : computers_) {
-      if (computer.nodes <= dataflow::region_count_max) {
-        computer.dataflow = with_rays(shares[next]);
-        computer.dataflow_copies = parts_[next].duplication;
-        ++next;
-      }
+    for (std::size_t i = 0; i < computers_.size(); ++i) {
+      computers_[i].dataflow = with_rays(shares[i]);
+      computers_[i].dataflow_copies = parts_[i].duplication;
     }
     return {.computers = computers_,
             .balance = balance_.balance,
@@ -95,8 +89,8 @@ class Forecaster {
   dataflow::ColumnLoads loads_;
   double region_seconds_;
   std::vector<ComputerForecast> computers_;
-  std::vector<dataflow::Regions> partitions_;   ///< of those computers that dataflow goes on
-  std::vector<dataflow::MeasuredParts> parts_;  ///< of the same
+  std::vector<dataflow::Regions> partitions_;   ///< by computer
+  std::vector<dataflow::MeasuredParts> parts_;  ///< likewise
 };
 
 }  // namespace

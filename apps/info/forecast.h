@@ -24,10 +24,9 @@ struct MemoryForecast {
 /// A computer of so many nodes.
 struct ComputerForecast {
   std::uint32_t nodes = 1;
-  MemoryForecast svm, replicated;
-  std::optional<MemoryForecast> dataflow;  ///< nothing for more nodes than that takes
-  std::optional<MemoryForecast> forest;    ///< nothing unless the database is one tree
-  double dataflow_copies = 1;              ///< of a primitive, over all regions
+  MemoryForecast svm, replicated, dataflow;
+  std::optional<MemoryForecast> forest;  ///< nothing unless the database is one tree
+  double dataflow_copies = 1;            ///< of a primitive, over all regions
 };
 
 struct Forecast {
@@ -44,7 +43,7 @@ using ForecastProgress = std::function<void(std::uint64_t, std::uint64_t)>;
 
 /// What `render` with these settings, svm with `pages`, and otherwise default options would plan. Space is cut up for every
 /// number of nodes, by `balance`: unless that says equal_size the subsampled picture is rendered once, as dataflow does. Each
-/// node count is from 1 to svm::node_count_max. `database` has its records still. Throws core::UsageError as
+/// node count is from 1 to nodes::node_count_max. `database` has its records still. Throws core::UsageError as
 /// dataflow::column_loads() does.
 Forecast forecast(const core::Database& database, const core::RenderSettings& settings,
                   const std::vector<std::uint32_t>& node_counts, const dataflow::BalanceOptions& balance,

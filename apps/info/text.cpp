@@ -187,7 +187,7 @@ Table memory_table(const Forecast& forecast) {
     std::vector<Cell> row = {std::uint64_t{computer.nodes}};
     add_cells(row, computer.svm);
     add_cells(row, computer.dataflow);
-    row.emplace_back(computer.dataflow ? fixed(computer.dataflow_copies, 2) : "");
+    row.emplace_back(fixed(computer.dataflow_copies, 2));
     add_cells(row, computer.replicated);
     if (has_forest) {
       add_cells(row, computer.forest);

@@ -1,7 +1,5 @@
 #include "apps/ranks/rank_group.h"
 
-#include <sched.h>
-
 #include <algorithm>
 #include <chrono>
 #include <memory>
@@ -11,6 +9,7 @@
 #include "apps/ranks/likeness.h"
 #include "apps/ranks/mpi_library.h"
 #include "core/base/expect.h"
+#include "nodes/node_id.h"
 #include "nodes/ranks/frame.h"
 
 namespace dmpc::apps {
@@ -33,12 +32,6 @@ bool finish(std::chrono::milliseconds patience) {
     started = nullptr;
   }
   return is_finished;
-}
-
-/// Processors that this process may use, as far as a set of usual size can say.
-std::uint32_t allowed_processors() {
-  cpu_set_t allowed;
-  return ::sched_getaffinity(0, sizeof(allowed), &allowed) == 0 ? static_cast<std::uint32_t>(CPU_COUNT(&allowed)) : 1;
 }
 
 /// A launcher of another MPI, or without one, starts processes that know nothing of each other.
@@ -67,9 +60,21 @@ RankGroup::RankGroup(const MpiLibrary& library)
       rank_(library.rank()),
       names_(library.exchange("rank " + std::to_string(rank_) + " on host " + library.host())) {
   expect_alike(library_.exchange(text_of(own_likeness())), names_);
-  for (const std::string& processors : library_.exchange(std::to_string(allowed_processors()))) {
-    default_node_count_ += static_cast<std::uint32_t>(std::max(1, std::stoi(processors) - 1));
+  for (const std::string& text : library_.exchange(text_of(own_processors(library.host())))) {
+    processors_.push_back(parse_processors(text));
   }
+}
+
+std::uint32_t RankGroup::default_node_count() const {
+  std::uint32_t count = 0;
+  for (std::uint32_t rank = 0; rank < rank_count(); ++rank) {
+    count += default_nodes_on(share_of_processors(processors_, rank));
+  }
+  return std::min(count, nodes::node_count_max);
+}
+
+nodes::Idle RankGroup::default_idle(std::uint32_t node_count) const {
+  return apps::default_idle(share_of_processors(processors_, rank_), (node_count + rank_count() - 1) / rank_count());
 }
 
 nodes::Fabric& RankGroup::connect(std::size_t payload_bytes_max) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/ranks/processors.h"
 #include "nodes/ranks/fabric.h"
 
 namespace dmpc::apps {
@@ -26,9 +27,11 @@ class RankGroup {
   /// For messages: "rank 2 on host b".
   const std::string& name_of(std::uint32_t rank) const { return names_.at(rank); }
 
-  /// How many nodes there are where nobody says: on each rank one less than the processors that it may use, as one is the
-  /// communicating thread's, and one at least.
-  std::uint32_t default_node_count() const { return default_node_count_; }
+  /// How many nodes there are where nobody says: on each rank one less than its share of the processors that it may use, as one
+  /// is the communicating thread's, and one at least.
+  std::uint32_t default_node_count() const;
+  /// What this rank's communicating thread does while nothing comes, of a computer with so many nodes, where nobody says.
+  nodes::Idle default_idle(std::uint32_t node_count) const;
 
   /// Waits for all. Makes the fabric, for packets of up to so many bytes; it lives as long as this. Once. Throws
   /// core::InputError, alike on all ranks, if they want frames of different sizes.
@@ -40,8 +43,8 @@ class RankGroup {
 
   const MpiLibrary& library_;
   std::uint32_t rank_;
-  std::vector<std::string> names_;  ///< by rank
-  std::uint32_t default_node_count_ = 0;
+  std::vector<std::string> names_;          ///< by rank
+  std::vector<RankProcessors> processors_;  ///< likewise
 };
 
 /// Starts MPI, calls run(group), ends MPI, and returns what run() has. Before it calls, it makes sure that all ranks are of one

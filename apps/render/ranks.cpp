@@ -81,13 +81,12 @@ std::size_t payload_bytes_max(const RenderOptions& options) {
 }
 
 void check_nodes_on_ranks(const RenderOptions& options, std::uint32_t rank_count) {
-  check_node_count(options.strategy, options.computer.node_count);
   with_options_named([&] { nodes::check_nodes_for(options.computer.node_count, rank_count); });
 }
 
 int render_as_rank(nodes::Fabric& fabric, const RenderOptions& options, const RenderOnRanks& render,
                    const std::stop_token& stop) {
-  nodes::RankLinks links(fabric);
+  nodes::RankLinks links(fabric, {}, options.runner.idle.value_or(nodes::Idle::sleep));
   return links.rank() == 0 ? lead(links, render) : follow(links, options.strategy, stop);
 }
 

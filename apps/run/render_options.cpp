@@ -20,9 +20,8 @@ using core::UsageError;
 void add_computer_options(OptionSet& options, RenderOptions& render) {
   nodes::ComputerRequest& computer = render.computer;
   options.begin_group("The computer");
-  options.add_number("--nodes", computer.node_count, 1, svm::node_count_max,
-                     "8; with --runner=mpi the processors of all ranks, less one each",
-                     "Nodes, each with a memory of its own; dataflow takes up to " + std::to_string(dataflow::region_count_max));
+  options.add_number("--nodes", computer.node_count, 1, nodes::node_count_max,
+                     "8; with --runner=mpi the processors of all ranks, less one each", "Nodes, each with a memory of its own");
   add_strategy_option(options, render.strategy);
   add_system_option(options, render.system);
   add_memory_option(options, computer.node_memory_bytes);
@@ -37,6 +36,10 @@ void add_runner_options(OptionSet& options, RenderOptions& render) {
       "threads: a thread for each node. virtual: the model of a machine, in its own time, the same whenever it is repeated. mpi: "
       "threads of all the processes that mpirun or srun has started; the first of them reads, prints and writes");
   add_machine_options(options, render.runner, " (virtual)");
+  options.add_choice<std::optional<nodes::Idle>>(
+      "--idle", render.runner.idle, {{"auto", std::nullopt}, {"spin", nodes::Idle::spin}, {"sleep", nodes::Idle::sleep}},
+      "What the thread of each process that sends and receives does while nothing comes (mpi). spin: keep its processor, so that "
+      "nothing waits. sleep: leave it to the nodes. auto: spin where there are more processors than nodes");
   options.add_text(
       "--chaos", "SEED [calm]",
       [&render](const std::string& text) { render.computer.chaos = nodes::chaos_of(parse_seed(text, "--chaos")); },
@@ -84,6 +87,8 @@ constexpr Conflict conflicts[] = {
     {"--heatmap", RunnerKind::mpi, "nodes are watched in one process"},
     {"--trace", RunnerKind::mpi, "nodes are watched in one process"},
     {"--report", RunnerKind::mpi, "nodes are watched in one process"},
+    {"--idle", RunnerKind::threads, "the nodes of one process wake each other"},
+    {"--idle", RunnerKind::virtual_time, "nobody waits in virtual time"},
     {"--topology", RunnerKind::virtual_time, "the machine has a topology of its own, onto which regions are mapped"},
 };
 
@@ -104,7 +109,6 @@ void check_runner(const OptionSet& options, const RenderOptions& render) {
 
 void check(const OptionSet& options, const RenderOptions& render) {
   check_together(options, render);
-  check_node_count(render.strategy, render.computer.node_count);
   check_tracer(render);
   check_runner(options, render);
   check_heat(render.heat_maps, render.strategy);

@@ -128,7 +128,7 @@ void add_homes_options(OptionSet options, svm::PageHomes& homes, std::uint32_t& 
                                 {{"spread", PageHomes::spread}, {"host", PageHomes::host}, {"tree", PageHomes::tree}},
                                 "Who keeps the pages for good: all nodes, each its part, or the host; tree: the host, and nodes "
                                 "ask their parents in a tree below it, of which the first that has the page replies (svm)");
-  options.add_number("--tree-arity", tree_arity, 1, svm::node_count_max, std::to_string(svm::default_tree_arity),
+  options.add_number("--tree-arity", tree_arity, 1, nodes::node_count_max, std::to_string(svm::default_tree_arity),
                      "Children of the host, and of each node, with --homes=tree");
 }
 
@@ -164,7 +164,7 @@ void add_page_options(OptionSet options, svm::PageOptions& pages, const std::str
   options.add_choice<PixelShares>(
       "--pixels", pages.pixel_shares, {{"submaps", PixelShares::submaps}, {"interleaved", PixelShares::interleaved}},
       "submaps: a node starts with a part of the picture. interleaved: with every m-th pixel of every n-th line, on m x n nodes");
-  options.add_number("--workers", pages.worker_count, 1, svm::node_count_max, "all nodes",
+  options.add_number("--workers", pages.worker_count, 1, nodes::node_count_max, "all nodes",
                      "Nodes that render; the others lend their memories, and serve pages or answer");
 }
 
@@ -221,13 +221,6 @@ void settle_database(const OptionSet& options, Strategy strategy, DatabaseOption
   }
   if (strategy == Strategy::forest && build.record_order != core::RecordOrder::spatial) {
     throw UsageError("--record-order=scattered does not go with --strategy=forest: a subtree lies in one page");
-  }
-}
-
-void check_node_count(Strategy strategy, std::uint32_t node_count) {
-  if (strategy == Strategy::dataflow && node_count > dataflow::region_count_max) {
-    throw UsageError("--nodes=" + std::to_string(node_count) + ": from 1 to " + std::to_string(dataflow::region_count_max) +
-                     " nodes with --strategy=dataflow");
   }
 }
 

@@ -10,6 +10,7 @@
 #include "apps/scene/database_options.h"
 #include "dataflow/ray_options.h"
 #include "nodes/computer_request.h"
+#include "nodes/ranks/nap.h"
 #include "svm/page_options.h"
 
 namespace dmpc::apps {
@@ -35,6 +36,7 @@ struct RunnerOptions {
   std::string machine_name = "ipsc2";  ///< to be modelled: a preset's name or a machine file
   bool no_contention = false;          ///< on the modelled machine
   bool memory_port = false;            ///< on the modelled machine, even if its file says that it has none
+  std::optional<nodes::Idle> idle;     ///< what ranks' communicating threads do meanwhile; else it follows from their processors
 };
 
 /// A strategy, and all that it asks of the computer.
@@ -72,7 +74,5 @@ DatabaseOptions usual_database(Strategy strategy);
 /// For OptionSet::check_in_the_end(), of options that are declared by add_options(OptionSet, DatabaseOptions&), too: chooses what
 /// a strategy needs where nothing is said. Throws core::UsageError for a database that the strategy does not take.
 void settle_database(const OptionSet& options, Strategy strategy, DatabaseOptions& database);
-/// Throws core::UsageError for more nodes than the strategy takes.
-void check_node_count(Strategy strategy, std::uint32_t node_count);
 
 }  // namespace dmpc::apps

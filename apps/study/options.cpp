@@ -29,10 +29,10 @@ std::string listed(const std::vector<std::uint32_t>& counts) {
   return text;
 }
 
-void add_node_counts(OptionSet& set, std::vector<std::uint32_t>& counts, std::uint32_t most = dataflow::region_count_max) {
+void add_node_counts(OptionSet& set, std::vector<std::uint32_t>& counts) {
   set.add_text(
       "--nodes", "N,N,... [" + listed(counts) + "]",
-      [&counts, most](const std::string& text) { counts = parse_numbers(text, "--nodes", most); },
+      [&counts](const std::string& text) { counts = parse_numbers(text, "--nodes", nodes::node_count_max); },
       "Nodes of the computers, one after the other");
 }
 
@@ -40,9 +40,6 @@ void add_node_counts(OptionSet& set, std::vector<std::uint32_t>& counts, std::ui
 void finish(const OptionSet& set, SpeedupStudy& study, DatabaseOptions& database) {
   settle_database(set, study.run.strategy, database);
   check_together(set, study.run);
-  for (const std::uint32_t node_count : study.node_counts) {
-    check_node_count(study.run.strategy, node_count);
-  }
   choose_machine(study.run);
 }
 
@@ -95,7 +92,7 @@ struct AddOwn {
         "  dmpc study traffic rings-4-t1 --nodes=8,64 --resolution=256x256 --format=json -o rings.json");
   }
   void operator()(CacheStudy& study) const {
-    set.add_number("--nodes", study.node_count, 2, svm::node_count_max, "32", "Nodes, each with a cache of its own");
+    set.add_number("--nodes", study.node_count, 2, nodes::node_count_max, "32", "Nodes, each with a cache of its own");
     set.add_text(
         "--cache-pages", "N,N,... [12 from 1 to all]",
         [&study](const std::string& text) { study.cache_pages = parse_numbers(text, "--cache-pages", cache_pages_max); },
@@ -113,7 +110,7 @@ struct AddOwn {
         "  dmpc study cache tetra-9 --nodes=32 --machine=ipsc2 --resolution=512x512 --format=csv -o tetra.csv");
   }
   void operator()(SpeedupStudy& study) const {
-    add_node_counts(set, study.node_counts, svm::node_count_max);
+    add_node_counts(set, study.node_counts);
     add_strategy_option(set, study.run.strategy);
     add_memory_option(set, study.run.computer.node_memory_bytes);
     add_machine_options(set, study.run.runner, "");

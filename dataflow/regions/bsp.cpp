@@ -67,8 +67,8 @@ std::uint32_t Bsp::region_index_of(const core::Corner& cell) const {
   std::uint32_t first = 0, count = region_count_;
   while (count > 1) {
     const std::uint32_t low_count = count / 2;
-    const Cut& cut = cuts_[first + low_count - 1];
-    const bool is_low = cell[static_cast<std::size_t>(cut.axis)] < cut.at;
+    const Cut cut = cuts_[first + low_count - 1];
+    const bool is_low = cell[cut.axis()] < cut.at();
     first += is_low ? 0 : low_count;
     count = is_low ? low_count : count - low_count;
   }
@@ -77,9 +77,7 @@ std::uint32_t Bsp::region_index_of(const core::Corner& cell) const {
 
 core::Region Bsp::region_at(std::uint32_t index) const {
   core::Region region{{}, grid_size_};
-  for_each_cut(index, [&](const Cut& cut, bool is_high) {
-    (is_high ? region.low : region.high)[static_cast<std::size_t>(cut.axis)] = cut.at;
-  });
+  for_each_cut(index, [&](Cut cut, bool is_high) { (is_high ? region.low : region.high)[cut.axis()] = cut.at(); });
   return region;
 }
 

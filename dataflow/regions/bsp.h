@@ -17,7 +17,8 @@
 namespace dmpc::dataflow {
 
 /// The most regions that a Bsp can have; its size follows.
-inline constexpr std::uint32_t region_count_max = 1024;
+inline constexpr std::uint32_t region_count_max = 4096;
+static_assert(region_count_max >= nodes::node_count_max, "every node has a region");
 
 /// How the next cut's axis is chosen. Either way the other axis is taken where the chosen one has no cut left. Measured with 64
 /// regions: the mean of the average loads on rings-3-t1, teapot-12, mount-6-t6, tetra-9 and balls-4 is 85 % across the longer
@@ -57,16 +58,23 @@ class Bsp {
   /// The box of region `index`, in finest cells; empty only if there are more regions than finest columns to share.
   core::Region region_at(std::uint32_t index) const;
 
-  /// A plane between regions.
-  struct Cut {
-    std::int32_t at = 0;  ///< the first finest index of the high side
-    std::int32_t axis = 0;
+  /// A plane between regions, in four bytes.
+  class Cut {
+   public:
+    constexpr Cut() = default;
+    /// `at`: the first finest index of the high side, below 2^29; `axis`: 0, 1 or 2.
+    constexpr Cut(std::int32_t at, std::int32_t axis) : at_and_axis_(at * 4 + axis) {}
+    constexpr std::int32_t at() const { return at_and_axis_ >> 2; }
+    constexpr std::size_t axis() const { return static_cast<std::size_t>(at_and_axis_ & 3); }
+
+   private:
+    std::int32_t at_and_axis_ = 0;
   };
   /// Calls visit(cut, is_high) for every cut above region `index`, the outermost first: on which side of it the region lies.
   template <class Visit>
   void for_each_cut(std::uint32_t index, Visit visit) const;
   /// The cut between region `index` and the next. Every cut is between two such.
-  const Cut& cut_after(std::uint32_t index) const {
+  Cut cut_after(std::uint32_t index) const {
     core::expect(index + 1 < region_count_, "a cut has a region on either side");
     return cuts_[index];
   }

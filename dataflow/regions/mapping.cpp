@@ -186,8 +186,8 @@ Mapping gray_mapping(const Bsp& bsp) {
   for (std::uint32_t region = 0; region < bsp.region_count(); ++region) {
     std::uint32_t code = 0;
     std::array<bool, 3> was_high{};  // along each axis, at the cut before
-    bsp.for_each_cut(region, [&](const Bsp::Cut& cut, bool is_high) {
-      bool& before = was_high[static_cast<std::size_t>(cut.axis)];
+    bsp.for_each_cut(region, [&](Bsp::Cut cut, bool is_high) {
+      bool& before = was_high[cut.axis()];
       code = 2 * code + (is_high != before ? 1U : 0U);
       before = is_high;
     });

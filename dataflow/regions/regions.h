@@ -87,7 +87,7 @@ template <class Visit>
 void Regions::for_each_plane(const Visit& visit) const {
   if (const Bsp* const cut = bsp()) {
     for (std::uint32_t index = 0; index + 1 < cut->region_count(); ++index) {
-      visit(static_cast<std::size_t>(cut->cut_after(index).axis), cut->cut_after(index).at);
+      visit(cut->cut_after(index).axis(), cut->cut_after(index).at());
     }
     return;
   }

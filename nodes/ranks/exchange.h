@@ -16,7 +16,7 @@ namespace dmpc::nodes {
 class Exchange {
  public:
   /// `links` outlive this.
-  explicit Exchange(RankLinks& links) : links_(&links) {}
+  explicit Exchange(RankLinks& links) : links_(&links), nap_(links.idle()) {}
 
   /// Takes and sends what there is, as RankLinks do; sleeps if that is nothing.
   template <class Receive>

@@ -1,4 +1,4 @@
-// How long a communicating thread with nothing to do sleeps: the longer, the longer it has had nothing.
+// What a communicating thread with nothing to do does: it sleeps, the longer, the longer it has had nothing, or it does not.
 #pragma once
 
 #include <algorithm>
@@ -7,25 +7,29 @@
 
 namespace dmpc::nodes {
 
-/// Its own nodes' packets wake it at once; it is frames of other ranks for which it has to look.
+enum class Idle : std::uint8_t {
+  sleep,  ///< where other threads want the core
+  spin    ///< where it has one of its own: no frame waits for it to wake
+};
+
+/// Its own nodes' packets wake it at once; it is frames of other ranks for which it has to look. It does not yield before it
+/// sleeps: where others compute, a yield takes milliseconds, and who wakes goes before them.
 class Nap {
  public:
-  /// Looks that follow each other with but a yield in between.
-  static constexpr std::uint32_t looks_at_once = 16;
   static constexpr std::chrono::nanoseconds shortest{1'000}, longest{100'000};
   /// After so long a silence naps are ten times as long.
   static constexpr std::chrono::nanoseconds silence{50'000'000};
 
+  explicit Nap(Idle idle = Idle::sleep) : idle_(idle) {}
+
   /// Something was done.
   void end() {
-    looks_ = 0;
     next_ = shortest;
     slept_ = {};
   }
   /// How long to sleep now; zero for a yield.
   std::chrono::nanoseconds next() {
-    if (looks_ < looks_at_once) {
-      ++looks_;
+    if (idle_ == Idle::spin) {
       return {};
     }
     const std::chrono::nanoseconds nap = next_;
@@ -35,7 +39,7 @@ class Nap {
   }
 
  private:
-  std::uint32_t looks_ = 0;
+  Idle idle_;
   std::chrono::nanoseconds next_ = shortest, slept_{};
 };
 

@@ -4,7 +4,7 @@
 
 namespace dmpc::nodes {
 
-RankLinks::RankLinks(Fabric& fabric, const RankSilence& silence) : fabric_(&fabric), silence_(silence) {
+RankLinks::RankLinks(Fabric& fabric, const RankSilence& silence, Idle idle) : fabric_(&fabric), silence_(silence), idle_(idle) {
   for (std::uint32_t rank = 0; rank < fabric.rank_count(); ++rank) {
     ways_.emplace_back(fabric, rank);
     peers_.push_back({.heard = Clock::now(), .spoken_to = Clock::now()});

@@ -11,6 +11,7 @@
 
 #include "nodes/ranks/fabric.h"
 #include "nodes/ranks/frame.h"
+#include "nodes/ranks/nap.h"
 #include "nodes/ranks/rank_way.h"
 
 namespace dmpc::nodes {
@@ -25,12 +26,14 @@ struct RankSilence {
 class RankLinks {
  public:
   /// `fabric` outlives this. Others have this one's `longest` to begin.
-  explicit RankLinks(Fabric& fabric, const RankSilence& silence = {});
+  explicit RankLinks(Fabric& fabric, const RankSilence& silence = {}, Idle idle = Idle::sleep);
 
   std::uint32_t rank() const { return fabric_->rank(); }
   std::uint32_t rank_count() const { return fabric_->rank_count(); }
   std::string name_of(std::uint32_t rank) const { return fabric_->name_of(rank); }
   std::size_t frame_bytes() const { return fabric_->frame_bytes(); }
+  /// What this thread does while nothing comes.
+  Idle idle() const { return idle_; }
 
   /// Puts a packet into the frame for another rank; false if there is no room while two are under way.
   [[nodiscard]] bool put(std::uint32_t rank, const ItemHeader& header, std::span<const std::byte> bytes) {
@@ -85,6 +88,7 @@ class RankLinks {
 
   Fabric* fabric_;
   RankSilence silence_;
+  Idle idle_;
   std::vector<RankWay> ways_;  ///< by rank, this one included
   std::vector<Peer> peers_;    ///< likewise
 };

@@ -18,6 +18,7 @@
 #include "nodes/ranks/frame.h"
 #include "nodes/ranks/nap.h"
 #include "nodes/threads/node_threads.h"
+#include "nodes/threads/promptness.h"
 
 namespace dmpc::nodes {
 namespace {
@@ -108,7 +109,8 @@ struct RanksRunner::Implementation {
         nodes(specifications, chaos, observer, &outlet),
         waves(to.rank_count()),
         last_words(to.rank_count()),
-        reports(specifications.size()) {
+        reports(specifications.size()),
+        nap(to.idle()) {
     core::expect(node_count >= to.rank_count(), "each rank has a node");
     core::expect(frame_bytes_for(payload_bytes_max(specifications)) <= to.frame_bytes(), "every packet fits a frame");
   }
@@ -116,6 +118,7 @@ struct RanksRunner::Implementation {
   RunEnd run(std::stop_token stop) {
     core::expect(!is_run, "a runner runs once");
     is_run = true;
+    const Promptness promptness;
     const std::stop_callback on_stop(std::move(stop), [this] { nodes.end(Ending::interrupted); });
     while (true) {
       try {

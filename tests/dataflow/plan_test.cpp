@@ -155,7 +155,7 @@ TEST_CASE("a memory that is too small names the node that needs most, what it ne
 TEST_CASE("values out of range are wrong usage") {
   const auto check_wrong = [](const PlanRequest& request) { CHECK_THROWS_AS(make_plan(request), core::UsageError); };
   check_wrong(request_with(0, 1));
-  check_wrong(request_with(1025, 1));
+  check_wrong(request_with(nodes::node_count_max + 1, 1));
   PlanRequest request = request_with(2, 1);
   request.rays.ray_batch = 0;
   check_wrong(request);

@@ -311,7 +311,7 @@ TEST_CASE("values out of range and wrong combinations are wrong use") {
   };
   is_wrong([](PlanRequest& request) { request.page_size_bytes = 1000; });
   is_wrong([](PlanRequest& request) { request.computer.node_count = 0; });
-  is_wrong([](PlanRequest& request) { request.computer.node_count = svm::node_count_max + 1; });
+  is_wrong([](PlanRequest& request) { request.computer.node_count = nodes::node_count_max + 1; });
   is_wrong([](PlanRequest& request) { request.pages.in_flight = 0; });
   is_wrong([](PlanRequest& request) { request.pages.in_flight = svm::in_flight_max + 1; });
   is_wrong([](PlanRequest& request) { request.pages.cache_pages = 0; });

@@ -202,7 +202,7 @@ void add_options(OptionSet set, ErrorOptions& options) {
       "N x N rays through each pixel of the reference");
   set.add_path("--references", "FOLDER [~/.cache/dmpc]", measure.reference.folder, "Where references are kept");
   add_strategy_option(set, measure.strategy.strategy);
-  set.add_number("--nodes", measure.strategy.computer.node_count, 1, svm::node_count_max,
+  set.add_number("--nodes", measure.strategy.computer.node_count, 1, nodes::node_count_max,
                  std::to_string(measure.strategy.computer.node_count), "Nodes that render");
   set.add_path("--pictures", "FOLDER", measure.pictures,
                "Where pictures of every point's error go, " + fixed(static_cast<double>(picture_scale), 0) + " times as bright");
@@ -221,7 +221,6 @@ void add_options(OptionSet set, ErrorOptions& options) {
     }
     check_scenes(options);
     check_together(set, options.measure.strategy);
-    check_node_count(options.measure.strategy.strategy, options.measure.strategy.computer.node_count);
   });
 }
 

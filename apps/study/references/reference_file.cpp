@@ -127,7 +127,7 @@ class ReferenceReader {
       throw core::RoomError(name_ + ": there are more than " + std::to_string(trace_references_max) +
                             " references; give those of fewer nodes, or of a part of the run");
     }
-    const std::uint64_t node = columns.node ? number_in(fields[*columns.node], "node", svm::node_count_max - 1) : 0;
+    const std::uint64_t node = columns.node ? number_in(fields[*columns.node], "node", nodes::node_count_max - 1) : 0;
     const PageName page = number_in(fields[columns.page], "page", std::numeric_limits<PageName>::max());
     if (node >= names_.size()) {
       names_.resize(node + 1);

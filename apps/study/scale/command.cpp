@@ -97,7 +97,7 @@ void add_subject(OptionSet& set, ScaleSettings& settings) {
 
 /// With what.
 void add_computer(OptionSet& set, ScaleSettings& settings) {
-  constexpr std::uint32_t most = dataflow::region_count_max;
+  constexpr std::uint32_t most = nodes::node_count_max;
   set.add_text(
       "--cache", "BYTES [1MiB]", [&settings](const std::string& text) { settings.cache_bytes = parse_cache(text); },
       "Of each node, for method cache");

@@ -22,7 +22,7 @@ ComputerForecast forecast_for(const RenderOptions& options) {
 }
 
 const MemoryForecast& part_of(const ComputerForecast& forecast, Strategy strategy) {
-  return strategy == Strategy::svm ? forecast.svm : strategy == Strategy::replicated ? forecast.replicated : *forecast.dataflow;
+  return strategy == Strategy::svm ? forecast.svm : strategy == Strategy::replicated ? forecast.replicated : forecast.dataflow;
 }
 
 /// Why a render is refused, if it is for want of room.
@@ -88,19 +88,19 @@ TEST_CASE("what two pixels take is forecast to the byte") {
   CHECK_FALSE(refusal(options, memory.least_bytes - 1).empty());
 }
 
-TEST_CASE("every computer is forecast, and dataflow as far as it goes") {
+TEST_CASE("every computer is forecast, up to the largest") {
   const RenderOptions options = small();
   const Subject subject = build_subject(load_scene(options.picture), options.picture);
   std::vector<std::uint64_t> told;
   const Forecast found =
-      forecast(subject.database, subject.settings, {1, 4, svm::node_count_max}, {.balance = Balance::equal_size},
+      forecast(subject.database, subject.settings, {1, 4, nodes::node_count_max}, {.balance = Balance::equal_size},
                [&](std::uint64_t done, std::uint64_t) { told.push_back(done); });
   REQUIRE(found.computers.size() == 3);
   CHECK(told == std::vector<std::uint64_t>{1, 2, 3});
   CHECK(found.computers[0].dataflow_copies == 1);
   CHECK(found.computers[1].dataflow_copies > 1);
-  CHECK(found.computers[1].dataflow);
-  CHECK_FALSE(found.computers[2].dataflow);
+  CHECK(found.computers[2].dataflow_copies > found.computers[1].dataflow_copies);
+  CHECK(found.computers[2].dataflow.all_bytes > found.computers[1].dataflow.all_bytes);
   CHECK(found.balance == Balance::equal_size);
   CHECK(found.region_seconds > 0);
 }

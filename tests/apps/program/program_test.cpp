@@ -314,7 +314,7 @@ TEST_CASE("wrong usage ends with status 2 and a hint") {
         {"render", "tetra-1", "-o", "a.png", "--machine=ipsc2"},
         {"render", "tetra-1", "-o", "a.png", "--runner=virtual", "--chaos=1"},
         {"machine"},
-        {"render", "tetra-1", "-o", "a.png", "--strategy=dataflow", "--nodes=1025"}}) {
+        {"render", "tetra-1", "-o", "a.png", "--strategy=dataflow", "--nodes=4097"}}) {
     const Result result = run(arguments);
     CHECK(result.status == 2);
     CHECK(contains(result.errors, "--help"));
