@@ -155,7 +155,7 @@ int status_of_run(const std::string& name, const std::vector<std::string>& words
     return complain(name, error.what(), input_status);
   } catch (const core::UsageError& error) {
     return complain(name, error.what(), usage_status);
-  } catch (const UsageError& error) {
+  } catch (const dmpc::UsageError& error) {
     return complain(name, error.what(), usage_status);
   } catch (const ProgramError& error) {
     return complain(name, std::string("the program: ") + error.what(), internal_status);

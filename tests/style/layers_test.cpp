@@ -47,7 +47,7 @@ const std::map<std::string, Names> looked_into_by = {
     {"nodes/ranks", {"nodes/runner.cpp"}},
     {"nodes/virtual", {"nodes/runner."}},
     {"nodes/watch", {}},
-    {"svm/watch", {"svm/run.", "svm/plan.", "svm/make_programs."}},
+    {"svm/watch", {"svm/run.", "svm/run_tasks.", "svm/plan.", "svm/make_programs."}},
     {"dataflow/regions", {"dataflow/"}},
 };
 
