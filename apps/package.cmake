@@ -1,5 +1,5 @@
-# The Debian packages: cpack -G DEB in the build's folder writes dmpc_VERSION_ARCHITECTURE.deb, python3-dmpc_VERSION_all.deb and, where
-# there is MPI, dmpc-mpi_VERSION_ARCHITECTURE.deb.
+# The Debian packages: cpack -G DEB in the build's folder writes dmpc_VERSION_ARCHITECTURE.deb,
+# libdmpc-dev_VERSION_ARCHITECTURE.deb, python3-dmpc_VERSION_all.deb and, where there is MPI, dmpc-mpi_VERSION_ARCHITECTURE.deb.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME dmpc)
 set(CPACK_PACKAGE_VENDOR "the dmpc developers")
@@ -14,7 +14,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_COMPONENTS_ALL program python)
+set(CPACK_COMPONENTS_ALL program python development)
 if(TARGET dmpc_module_mpi)
   list(APPEND CPACK_COMPONENTS_ALL mpi)
 endif()
@@ -31,6 +31,14 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "dmpc from Python: renders and sweeps as frames and arrays
 A pure module that runs the program dmpc and hands back its counters, the figures of its
 nodes, its film and heat maps, and tables of many runs; a notebook shows them.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libdmpc-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "g++ (>= 4:12)")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake (>= 3.25), dmpc (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "dmpc's computer for programs of one's own
+A header, a library and examples: programs for nodes with bounded memories that talk
+only through mailboxes, run on threads or on the model of a machine in virtual time.")
 set(CPACK_DEBIAN_MPI_PACKAGE_NAME dmpc-mpi)
 set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "dmpc (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS openmpi-bin)

@@ -181,8 +181,9 @@ bool OptionSet::is_given(const std::string& name) const {
   return option != nullptr && option->count() > 0;
 }
 
-CommandLine::CommandLine(const std::string& description, const std::string& version, const std::string& examples)
-    : app_(std::make_unique<CLI::App>(description, "dmpc")) {
+CommandLine::CommandLine(const std::string& description, const std::string& version, const std::string& examples,
+                         const std::string& program)
+    : app_(std::make_unique<CLI::App>(description, program)) {
   app_->set_help_flag("-h,--help", "Explain this");
   app_->set_version_flag("--version", version, "Print the version");
   for (const auto& [theirs, ours] : {std::pair{"Positionals", "Arguments"}, {"OPTIONS", "options"}, {"SUBCOMMAND", "COMMAND"}}) {
@@ -193,6 +194,8 @@ CommandLine::CommandLine(const std::string& description, const std::string& vers
 }
 
 CommandLine::~CommandLine() = default;
+
+OptionSet CommandLine::own_options() { return OptionSet(*app_); }
 
 OptionSet CommandLine::add_command(const std::string& name, const std::string& description) {
   return OptionSet(*app_).add_command(name, description);
@@ -207,7 +210,7 @@ std::variant<HelpText, std::string> CommandLine::parse(std::span<const std::stri
     const std::optional<std::string> version = parse_by(*app_, line.words);
     return version ? std::variant<HelpText, std::string>(HelpText{*version}) : line.command;
   } catch (const UsageError& error) {
-    throw UsageError(error.what() + hint_at_help(line.command));
+    throw UsageError(error.what() + hint_at_help(line.command, app_->get_name()));
   }
 }
 

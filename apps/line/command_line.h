@@ -100,11 +100,14 @@ class OptionSet {
 /// All commands of the program, for one line.
 class CommandLine {
  public:
-  CommandLine(const std::string& description, const std::string& version, const std::string& examples);
+  CommandLine(const std::string& description, const std::string& version, const std::string& examples,
+              const std::string& program = "dmpc");
   ~CommandLine();
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
 
+  /// The options of a program without commands, to be declared.
+  OptionSet own_options();
   /// The options of a new command, to be declared.
   OptionSet add_command(const std::string& name, const std::string& description);
 

@@ -65,7 +65,7 @@ std::string command_with(const CommandDescription& outer, const std::string& opt
 }
 
 std::string usage_of(const std::string& path, const CommandDescription& command) {
-  std::string text = joined("dmpc", path);
+  std::string text = path;
   for (const OptionDescription& argument : command.arguments) {
     text += " " + argument.value + (argument.is_list ? "..." : "");
   }
@@ -98,7 +98,9 @@ class Reader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& sentence) const { throw UsageError(sentence + hint_at_help(line_.command)); }
+  [[noreturn]] void fail(const std::string& sentence) const {
+    throw UsageError(sentence + hint_at_help(line_.command, program_.name));
+  }
 
   std::string take() {
     const std::string word = rest_.front();
@@ -134,7 +136,7 @@ class Reader {
   void read_command() {
     while (!here_->commands.empty() && !(!rest_.empty() && rest_.front().starts_with("-"))) {
       if (rest_.empty()) {
-        fail("a command is missing: expected " + joined("dmpc", line_.command) + " " + listed(command_names(*here_)));
+        fail("a command is missing: expected " + joined(program_.name, line_.command) + " " + listed(command_names(*here_)));
       }
       if (!enter(rest_.front())) {
         fail_on_command(rest_.front());
@@ -260,7 +262,7 @@ class Reader {
     }
     if (word.empty()) {
       fail(here_->arguments[std::min(arguments_.size(), here_->arguments.size() - 1)].value + " is empty: expected " +
-           usage_of(line_.command, *here_));
+           usage_of(joined(program_.name, line_.command), *here_));
     }
     arguments_.push_back(word);
   }
@@ -272,7 +274,7 @@ class Reader {
       fail(word + " is an argument too many. Did you mean --" + word + "?");
     }
     if (here_->commands.empty()) {
-      fail("'" + word + "' is an argument too many: expected " + usage_of(line_.command, *here_) +
+      fail("'" + word + "' is an argument too many: expected " + usage_of(joined(program_.name, line_.command), *here_) +
            "; a name with blanks stands between quotation marks");
     }
     fail_on_command_first(word);
@@ -284,16 +286,16 @@ class Reader {
 
   void check_whole() const {
     if (!here_->commands.empty()) {
-      fail("a command is missing: expected " + joined("dmpc", line_.command) + " " + listed(command_names(*here_)));
+      fail("a command is missing: expected " + joined(program_.name, line_.command) + " " + listed(command_names(*here_)));
     }
     for (std::size_t i = 0; i < here_->arguments.size(); ++i) {
       if (here_->arguments[i].is_required && i >= arguments_.size()) {
-        fail(here_->arguments[i].value + " is missing: expected " + usage_of(line_.command, *here_));
+        fail(here_->arguments[i].value + " is missing: expected " + usage_of(joined(program_.name, line_.command), *here_));
       }
     }
     for (const OptionDescription& option : here_->options) {
       if (option.is_required && !given_.contains(long_name(option))) {
-        fail(option.names.front() + " is missing: expected " + usage_of(line_.command, *here_));
+        fail(option.names.front() + " is missing: expected " + usage_of(joined(program_.name, line_.command), *here_));
       }
     }
   }
@@ -308,7 +310,9 @@ class Reader {
 
 }  // namespace
 
-std::string hint_at_help(const std::string& command) { return "\nTry: " + joined(joined("dmpc", command), "--help"); }
+std::string hint_at_help(const std::string& command, const std::string& program) {
+  return "\nTry: " + joined(joined(program, command), "--help");
+}
 
 std::string value_alone(const OptionDescription& option) { return option.value.substr(0, option.value.find(" [")); }
 

@@ -24,8 +24,8 @@ struct TypedLine {
 /// takes one value, and what is required and missing. The message says what would do, and ends with a hint at the right --help.
 TypedLine read_line(const CommandDescription& program, std::span<const std::string> arguments);
 
-/// "\nTry: dmpc study --help", for `command` "study".
-std::string hint_at_help(const std::string& command);
+/// "\nTry: dmpc study --help", for `command` "study" of the program "dmpc".
+std::string hint_at_help(const std::string& command, const std::string& program = "dmpc");
 
 /// What the user types and what help says of its value: "--nodes=1..1023"; what has no long name with a blank: "-o IMAGE".
 std::string typed_form(const OptionDescription& option);

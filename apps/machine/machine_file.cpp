@@ -119,7 +119,7 @@ class Fields {
   std::string place_;
 };
 
-std::string name_of(const Fields& fields) {
+std::string machine_name_in(const Fields& fields) {
   std::string name = fields.text("name");
   const bool is_printable = std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; });
   if (name.empty() || name.size() > name_characters_max || !is_printable) {
@@ -200,7 +200,7 @@ MachineDescription description_of(const Fields& fields) {
   check_format(fields);
   const Keys message_keys = {"send_ns", "latency_ns", "receive_ns", "byte_ps"};
   const Keys operation_keys(nodes::charge_names.begin(), nodes::charge_names.end());
-  return {.machine = {.name = name_of(fields),
+  return {.machine = {.name = machine_name_in(fields),
                       .topology = topology_of(fields),
                       .uplinks = uplinks_of(fields),
                       .switching = named(fields, "switching", nodes::parse_switching),

@@ -262,10 +262,10 @@ int render(RenderOptions options, Interrupt& interrupt, std::ostream& output, Fi
     }
     Sights sights;
     attempts.make([&] { sights = take_sights(options, onlookers); });
-    write_others(
-        {options, subject.database, report, seconds, heat ? &*heat : nullptr, sights.trace ? &*sights.trace : nullptr,
-         sights.view ? &*sights.view : nullptr, checkpoints ? checkpoints->samples_found_done() : 0, loaded.scene_digest},
-        outputs, files, interrupt, attempts, output);
+    write_others({options, subject.database, report, seconds, heat ? &*heat : nullptr, sights.trace ? &*sights.trace : nullptr,
+                  sights.view ? &*sights.view : nullptr, sights.references.empty() ? nullptr : &sights.references,
+                  checkpoints ? checkpoints->samples_found_done() : 0, loaded.scene_digest},
+                 outputs, files, interrupt, attempts, output);
     if (preview) {
       preview->finish(film);
     }

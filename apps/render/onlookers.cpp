@@ -3,21 +3,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "nodes/watch/heat_map.h"
-
 namespace dmpc::apps {
 
 namespace {
 
 /// References of one node, however many there are.
 constexpr std::size_t references_least = 1024;
-
-/// Whether the nodes' pagers have that to do already.
-bool counts_pages(const RenderOptions& options) {
-  return options.pages.count_pages ||
-         std::any_of(options.heat_maps.begin(), options.heat_maps.end(),
-                     [](const HeatRequest& request) { return request.kind == nodes::HeatKind::pages; });
-}
 
 }  // namespace
 
@@ -39,9 +30,12 @@ Onlookers::Onlookers(const RenderOptions& options, std::uint32_t page_count, std
   if (options.report && options.strategy == Strategy::svm) {
     fetches_ = std::make_unique<svm::FetchWatch>(node_count, page_count, svm::fetch_sample_max, options.pages.homes);
     members.push_back(fetches_.get());
-    if (!counts_pages(options)) {
-      reference_logs_.assign(node_count, svm::ReferenceLog(std::max(references_least, references_max / node_count)));
-    }
+  }
+  keeps_references_ = options.references.has_value();
+  if (keeps_references_) {
+    reference_logs_.resize(node_count);
+  } else if (options.report && options.strategy == Strategy::svm && !counts_pages(options)) {
+    reference_logs_.assign(node_count, svm::ReferenceLog(std::max(references_least, references_max / node_count)));
   }
   if (members.size() == 1) {
     observer_ = members.front();
@@ -61,8 +55,11 @@ Sights Onlookers::take() {
   if (fetches_) {
     sights.view->fetches = fetches_->take();
   }
-  if (!reference_logs_.empty()) {
+  if (sights.view && !reference_logs_.empty()) {
     sights.view->misses = estimate_misses();
+  }
+  if (keeps_references_) {
+    sights.references = std::move(reference_logs_);
   }
   return sights;
 }

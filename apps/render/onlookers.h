@@ -17,14 +17,16 @@ namespace dmpc::apps {
 
 /// What they have seen, as far as somebody wants to know it.
 struct Sights {
-  std::optional<nodes::Trace> trace;  ///< for --trace
-  std::optional<RunView> view;        ///< for --report
+  std::optional<nodes::Trace> trace;          ///< for --trace
+  std::optional<RunView> view;                ///< for --report
+  std::vector<svm::ReferenceLog> references;  ///< for --references, one a node
 };
 
 /// Instruments beside one run, whose memory is no node's. Thread safety: as an Observer; take() when the run is over.
 class Onlookers {
  public:
-  /// `page_count`: of the database. `references_max`: of all nodes together that are kept, about.
+  /// `page_count`: of the database. `references_max`: of all nodes together that are kept, about,
+  /// unless a file is to have all.
   Onlookers(const RenderOptions& options, std::uint32_t page_count, std::size_t references_max = std::size_t{1} << 22U);
   Onlookers(const Onlookers&) = delete;
   Onlookers& operator=(const Onlookers&) = delete;
@@ -44,6 +46,7 @@ class Onlookers {
   std::unique_ptr<nodes::ActivityProfile> profile_;
   std::unique_ptr<svm::FetchWatch> fetches_;
   std::vector<svm::ReferenceLog> reference_logs_;
+  bool keeps_references_ = false;
   std::optional<nodes::ObserverGroup> group_;
   nodes::Observer* observer_ = nullptr;
 };

@@ -2,16 +2,18 @@
 
 #include <iostream>
 #include <vector>
-#include "apps/picture/image_file.h"
 
 #include "apps/machine/machines.h"
+#include "apps/picture/image_file.h"
 #include "apps/scene/load_scene.h"
 #include "apps/show/heat/files.h"
 #include "apps/show/page/origin.h"
 #include "apps/show/page/render_page.h"
+#include "apps/show/references/reference_file.h"
 #include "apps/show/stats/stats.h"
 #include "apps/show/trace/file.h"
 #include "apps/system/scratch_folder.h"
+#include "core/base/expect.h"
 
 namespace dmpc::apps {
 
@@ -39,6 +41,12 @@ OutputSet<RenderRecord> outputs_of(const RenderOptions& options) {
   }
   if (options.trace.path) {
     outputs.add("--trace", *options.trace.path, check_output_path, write_trace);
+  }
+  if (options.references) {
+    outputs.add("--references", *options.references, check_output_path, [](Record record, std::ostream& stream) {
+      core::expect(record.references != nullptr, "references that are written were recorded");
+      write_references(stream, *record.references, record.database.page_size());
+    });
   }
   if (options.report) {
     outputs.add("--report", *options.report, check_output_path, [](Record record, std::ostream& stream) {

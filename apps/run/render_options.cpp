@@ -1,5 +1,6 @@
 #include "apps/run/render_options.h"
 
+#include <algorithm>
 #include <string>
 
 #include "apps/line/option_values.h"
@@ -9,6 +10,7 @@
 #include "core/base/expect.h"
 #include "dataflow/packets.h"
 #include "dataflow/plan.h"
+#include "nodes/watch/heat_map.h"
 #include "svm/plan.h"
 
 namespace dmpc::apps {
@@ -55,6 +57,10 @@ void add_study_options(OptionSet& options, RenderOptions& render) {
   add_report_option(options, render.report, "with the picture, heat maps asked for, counters, losses, traffic and memory");
   add_heat_option(options, render.heat_maps);
   add_options(options, render.trace);
+  options.add_path(
+      "--references", "FILE.csv", render.references,
+      "Write every node's references of pages of others, in order, for dmpc study references (svm; 4 bytes of the real "
+      "computer each until then). Those of all caches if --work-item=0 --in-flight=1 fixes their order");
   const ViewerAddress standard;
   options.add_flag_with_text("--preview", standard.host + ":" + standard.port, render.viewer,
                              "Show the picture as it comes in the image viewer tev, if that listens there; --preview=HOST:PORT "
@@ -89,6 +95,7 @@ constexpr Conflict conflicts[] = {
     {"--report", RunnerKind::mpi, "nodes are watched in one process"},
     {"--idle", RunnerKind::threads, "the nodes of one process wake each other"},
     {"--idle", RunnerKind::virtual_time, "nobody waits in virtual time"},
+    {"--references", RunnerKind::mpi, "nodes are watched in one process"},
     {"--topology", RunnerKind::virtual_time, "the machine has a topology of its own, onto which regions are mapped"},
 };
 
@@ -107,12 +114,32 @@ void check_runner(const OptionSet& options, const RenderOptions& render) {
   }
 }
 
+/// Pages are referenced by svm's pagers alone, and by those that note references, not those that count pages.
+void check_references(const RenderOptions& render) {
+  if (!render.references) {
+    return;
+  }
+  if (render.strategy != Strategy::svm) {
+    throw UsageError("--references needs --strategy=svm: with --strategy=" + std::string(name_of(render.strategy)) +
+                     " no node asks another for pages");
+  }
+  if (counts_pages(render)) {
+    throw UsageError("--references does not go with " +
+                     std::string(render.pages.count_pages ? "--count-pages" : "--heatmap=pages") +
+                     ": a node that counts the pages of each pixel does not note their order");
+  }
+  if (render.checkpoint.resumes) {
+    throw UsageError("--resume does not go with --references: those of what was done before would be missing");
+  }
+}
+
 void check(const OptionSet& options, const RenderOptions& render) {
   check_together(options, render);
   check_tracer(render);
   check_runner(options, render);
   check_heat(render.heat_maps, render.strategy);
   check_trace(options, render.trace, render.computer.node_count);
+  check_references(render);
   if (render.pages.count_pages && !render.stats) {
     throw UsageError("--count-pages counts for the --stats file: give --stats=FILE.json too");
   }
@@ -125,6 +152,12 @@ void check(const OptionSet& options, const RenderOptions& render) {
 }
 
 }  // namespace
+
+bool counts_pages(const RenderOptions& render) {
+  return render.pages.count_pages ||
+         std::any_of(render.heat_maps.begin(), render.heat_maps.end(),
+                     [](const HeatRequest& request) { return request.kind == nodes::HeatKind::pages; });
+}
 
 void add_options(OptionSet options, RenderOptions& render) {
   add_options(options, render.picture);
@@ -156,6 +189,7 @@ void add_options(OptionSet options, RenderOptions& render) {
       "  dmpc render rings-4-t1 --heatmap=faults:faults.png --heatmap=faults:faults.exr -o rings.png\n"
       "  dmpc render rings-4-t1 --nodes=4 --cache-pages=64 --trace=rings.json --trace-window=10,12 -o rings.png\n"
       "  dmpc render rings-4-t1 --cache-pages=64 --heatmap=faults:faults.png --report=rings.html -o rings.png\n"
+      "  dmpc render rings-4-t1 --work-item=0 --in-flight=1 --references=rings.csv -o rings.png\n"
       "  dmpc render rings-3-t1 --strategy=dataflow --nodes=16 --grid-axes=screen -o rings.png\n"
       "  dmpc render teapot-12 --nodes=64 --runner=virtual --machine=ipsc860 --stats=teapot.json -o teapot.png\n"
       "  mpirun -n 4 dmpc render tetra-10 --runner=mpi --nodes=28 -o tetra.exr\n"

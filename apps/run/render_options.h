@@ -23,15 +23,19 @@ struct RenderOptions : StrategyOptions {
   bool is_node_count_given = false;  ///< else, on ranks, it follows from their processors
   PictureOptions picture;
   DatabaseOptions database;
-  std::filesystem::path image;                  ///< where the picture goes
-  std::optional<std::filesystem::path> stats;   ///< where the counters go, as JSON
-  std::optional<std::filesystem::path> report;  ///< where the page goes that shows all of it
-  std::vector<HeatRequest> heat_maps;           ///< what else is to be shown of each pixel
-  TraceOptions trace;                           ///< what is recorded of the run
-  CheckpointOptions checkpoint;                 ///< what is kept on the way
-  std::string viewer;                           ///< HOST:PORT of one that is to show the picture as it comes; empty: none
-  bool quiet = false;                           ///< no progress and no closing lines
+  std::filesystem::path image;                      ///< where the picture goes
+  std::optional<std::filesystem::path> stats;       ///< where the counters go, as JSON
+  std::optional<std::filesystem::path> report;      ///< where the page goes that shows all of it
+  std::vector<HeatRequest> heat_maps;               ///< what else is to be shown of each pixel
+  TraceOptions trace;                               ///< what is recorded of the run
+  std::optional<std::filesystem::path> references;  ///< where the nodes' page references go, as CSV
+  CheckpointOptions checkpoint;                     ///< what is kept on the way
+  std::string viewer;                               ///< HOST:PORT of one that is to show the picture as it comes; empty: none
+  bool quiet = false;                               ///< no progress and no closing lines
 };
+
+/// Whether the nodes' pagers count the pages of each pixel, for --count-pages or a heat map: then they do not note references.
+bool counts_pages(const RenderOptions& render);
 
 /// Declares them, and which go together.
 void add_options(OptionSet options, RenderOptions& render);

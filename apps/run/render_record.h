@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/run/render_options.h"
 #include "apps/run/report.h"
@@ -12,6 +13,9 @@
 
 namespace dmpc::nodes {
 struct Trace;
+}
+namespace dmpc::svm {
+class ReferenceLog;
 }
 
 namespace dmpc::apps {
@@ -31,11 +35,12 @@ struct RenderRecord {
   const core::Database& database;
   const Report& report;
   Seconds seconds;
-  const nodes::HeatMap* heat = nullptr;            ///< what options.heat_maps ask for
-  const nodes::Trace* trace = nullptr;             ///< what options.trace asks for
-  const RunView* view = nullptr;                   ///< what options.report asks for
-  std::uint64_t samples_found_done = 0;            ///< of all pixels, in the checkpoint that the run went on from
-  std::optional<std::uint64_t> scene_digest = {};  ///< what options.report asks for
+  const nodes::HeatMap* heat = nullptr;                        ///< what options.heat_maps ask for
+  const nodes::Trace* trace = nullptr;                         ///< what options.trace asks for
+  const RunView* view = nullptr;                               ///< what options.report asks for
+  const std::vector<svm::ReferenceLog>* references = nullptr;  ///< what options.references asks for
+  std::uint64_t samples_found_done = 0;                        ///< of all pixels, in the checkpoint that the run went on from
+  std::optional<std::uint64_t> scene_digest = {};              ///< what options.report asks for
 };
 
 /// The computer that rendered, in words: "svm, 8 nodes of ipsc2".

@@ -66,6 +66,10 @@ CacheCurves::CacheCurves(const std::vector<NodeReferences>& nodes, std::uint64_t
   });
 }
 
+std::uint64_t CacheCurves::check_count(std::size_t node_count, std::size_t size_count) {
+  return std::uint64_t{node_count} * size_count * other_policies().size();
+}
+
 std::vector<Column> CacheCurves::columns(const std::string& share) {
   std::vector<Column> columns = {{"cache pages"}, {share, "%", 2}, {"misses lru", "%", 4}, {fault_column(Replacement::lru)}};
   for (const Replacement policy : other_policies()) {

@@ -21,11 +21,12 @@ class CacheCurves {
   /// Of one node, in order; those of one page in a row may be one.
   using NodeReferences = std::span<const svm::PageId>;
 
-  /// `reference_count`: those that a share of misses is of. `sizes`: in pages. `check` is called now and then, from any thread,
-  /// and may throw. On all cores.
+  /// `reference_count`: those that a share of misses is of. `sizes`: in pages. `check` is called check_count()
+  /// times, from any thread, and may throw. On all cores.
   CacheCurves(const std::vector<NodeReferences>& nodes, std::uint64_t reference_count, std::vector<std::uint32_t> sizes,
               const std::function<void()>& check);
 
+  static std::uint64_t check_count(std::size_t node_count, std::size_t size_count);
   /// Of the cells that row() has. `share`: what the second says that the cache is a share of.
   static std::vector<Column> columns(const std::string& share);
   static Plot plot();

@@ -36,9 +36,9 @@ const std::map<std::string, Names> stands_on = {
 /// Rooms from the ground up: each uses those that stand before it. What lies on the floor of the layer itself uses all.
 const std::map<std::string, Names> rooms = {
     {"core", {"base", "record", "scene", "build", "trace", "picture", "families"}},
-    {"apps",
-     {"line",   "system", "ranks", "figures", "reader", "picture", "formats", "scene", "table", "machine", "oracle",  "run",
-      "effort", "help",   "show",  "render",  "info",   "check",   "compare", "study", "bench", "modules", "foreign", "manual"}},
+    {"apps", {"line",    "system", "ranks",   "figures", "reader", "picture", "formats",  "scene",    "table",
+              "machine", "oracle", "run",     "effort",  "help",   "show",    "computer", "examples", "render",
+              "info",    "check",  "compare", "study",   "bench",  "modules", "foreign",  "manual"}},
 };
 
 /// Rooms of other layers, and the files of their floor, by how they begin, that look down into them.
@@ -47,7 +47,7 @@ const std::map<std::string, Names> looked_into_by = {
     {"nodes/ranks", {"nodes/runner.cpp"}},
     {"nodes/virtual", {"nodes/runner."}},
     {"nodes/watch", {}},
-    {"svm/watch", {"svm/run.", "svm/plan.", "svm/make_programs."}},
+    {"svm/watch", {"svm/run.", "svm/run_tasks.", "svm/plan.", "svm/make_programs."}},
     {"dataflow/regions", {"dataflow/"}},
 };
 
@@ -72,8 +72,8 @@ const std::vector<Foreign> foreign = {
     {"CLI/", {"apps/line/command_line.cpp", "apps/line/command_description.cpp"}},
     {"nlohmann/",
      {"apps/show/stats/", "apps/machine/machine_file.", "apps/table/table.cpp", "apps/compare/report.cpp", "apps/figures/",
-      "apps/oracle/accurate/reference_file.cpp", "apps/foreign/gltf/", "apps/info/json.cpp", "apps/formats/landscape/gltf.cpp",
-      "apps/study/scale/figures.cpp", "apps/show/trace/chrome.cpp", "tests/apps/"}},
+      "apps/oracle/accurate/reference_file.cpp", "apps/foreign/gltf/", "apps/info/json.cpp", "apps/computer/stats.cpp",
+      "apps/formats/landscape/gltf.cpp", "apps/study/scale/figures.cpp", "apps/show/trace/chrome.cpp", "tests/apps/"}},
     {"oneapi/",
      {"apps/check/inspection.cpp", "apps/system/side_by_side.cpp", "apps/oracle/accurate/picture.cpp",
       "tests/apps/oracle/accurate/"}},
@@ -92,7 +92,9 @@ const std::vector<Foreign> foreign = {
     {"atomic",
      {"nodes/", "tests/", "apps/system/interrupt.", "apps/system/last_words.", "apps/render/preview.",
       "apps/bench/speed/plain_renderer."}},
-    {"mutex", {"nodes/", "tests/", "apps/render/preview.", "apps/study/runs.cpp", "core/base/parallel.cpp"}},
+    {"mutex",
+     {"nodes/", "tests/", "apps/render/preview.", "apps/study/runs.cpp", "apps/study/references/command.cpp",
+      "core/base/parallel.cpp"}},
     {"shared_mutex", {"nodes/", "tests/"}},
     {"condition_variable", {"nodes/", "tests/", "apps/render/preview."}},
     {"future", {"nodes/", "tests/"}},

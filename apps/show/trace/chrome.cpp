@@ -148,7 +148,7 @@ class ChromeWriter {
     begin("X", node);
     add("ts", thousandths(span.begin_ns));
     add("dur", thousandths(span.end_ns - span.begin_ns));
-    add("name", quoted(text_of(name_of(span))));
+    add("name", quoted(view_.text_of(name_of(span))));
     add("cat", quoted("node"));
     add("args", "{" + arguments_of(span) + "}");
     end();

@@ -85,7 +85,7 @@ class PajeWriter {
   void define_types() {
     output_ << "0 M 0 \"computer, " << view_.clock << "\"\n0 N M \"node\"\n1 S N \"activity\"\n3 L M N N \"message\"\n";
     for (std::size_t name = 0; name < span_names.size(); ++name) {
-      output_ << "4 s" << name << " S \"" << span_names[name] << "\" \"" << colors[name] << "\"\n";
+      output_ << "4 s" << name << " S \"" << view_.text_of(static_cast<SpanName>(name)) << "\" \"" << colors[name] << "\"\n";
     }
     for (std::size_t kind = 0; kind < view_.kind_names.size(); ++kind) {
       output_ << "4 k" << kind << " L \"" << view_.kind_names[kind] << "\" \"0.5 0.5 0.5\"\n";

@@ -13,6 +13,11 @@
 
 namespace dmpc::apps {
 
+/// What a node is doing.
+enum class SpanName : std::uint8_t { trace, shade, install_page, pack_rays, unpack_rays, control, serve_page, send, take_packet };
+inline constexpr std::array<const char*, 9> span_names = {"trace",   "shade",      "install page", "pack rays",  "unpack rays",
+                                                          "control", "serve page", "send packets", "take packet"};
+
 /// What was recorded, and what its numbers mean. A view.
 struct TraceView {
   const nodes::Trace& trace;
@@ -22,17 +27,16 @@ struct TraceView {
   std::string clock;                        ///< "virtual time" or "wall clock"
   /// What else there is to say of the run, with its name. Written as it is: without line ends.
   std::vector<std::pair<std::string, std::string>> remarks;
+  /// By SpanName, where a program calls its doings otherwise than a renderer.
+  std::span<const char* const> activity_names = span_names;
+
+  const char* text_of(SpanName name) const { return activity_names[static_cast<std::size_t>(name)]; }
 };
 
 /// "node 3", or "host" for the last.
 std::string node_name(const TraceView& view, std::size_t index);
 
-/// What a node is doing.
-enum class SpanName : std::uint8_t { trace, shade, install_page, pack_rays, unpack_rays, control, serve_page, send, take_packet };
-inline constexpr std::array<const char*, 9> span_names = {"trace",   "shade",      "install page", "pack rays",  "unpack rays",
-                                                          "control", "serve page", "send packets", "take packet"};
 SpanName name_of(const nodes::TraceSpan& span);
-inline const char* text_of(SpanName name) { return span_names[static_cast<std::size_t>(name)]; }
 
 /// A node that waits for a page, from the request to the reply.
 struct PageWait {

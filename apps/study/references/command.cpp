@@ -1,15 +1,17 @@
 #include "apps/study/references/command.h"
 
 #include <iostream>
+#include <mutex>
 #include <utility>
 
 #include "apps/line/number_text.h"
 #include "apps/line/option_values.h"
 #include "apps/show/page/origin.h"
 #include "apps/show/page/sweep_page.h"
+#include "apps/show/references/reference_file.h"
 #include "apps/study/cache_curves.h"
-#include "apps/study/references/reference_file.h"
 #include "apps/system/attempts.h"
+#include "apps/system/progress.h"
 #include "apps/table/geometric_sizes.h"
 #include "apps/table/table_files.h"
 
@@ -24,6 +26,22 @@ TableFiles files_of(const ReferencesOptions& options) {
   return {options.table, {names_of(references_data_file, {CacheCurves::plot()})}, {.inputs = {{"FILE", options.file}}}};
 }
 
+/// How many caches have been fed, on a terminal. Thread safety: count() from any thread.
+class CachesFed {
+ public:
+  CachesFed(std::uint64_t total, bool is_shown) : progress_(std::cerr, is_shown, "study references: ", "caches"), total_(total) {}
+  void count() {
+    const std::scoped_lock lock(mutex_);
+    progress_.update(fed_, total_);
+    ++fed_;
+  }
+
+ private:
+  std::mutex mutex_;
+  Progress progress_;
+  std::uint64_t fed_ = 0, total_;
+};
+
 std::vector<CacheCurves::NodeReferences> references_of(const ReferenceTrace& trace) {
   return {trace.nodes.begin(), trace.nodes.end()};
 }
@@ -34,7 +52,11 @@ Table table_of(const ReferenceTrace& trace, const ReferencesOptions& options, co
               CacheCurves::columns("share of pages"));
   const std::vector<std::uint32_t> sizes =
       options.cache_pages.empty() ? geometric_sizes(trace.page_count, references_size_count) : options.cache_pages;
-  const CacheCurves curves(references_of(trace), trace.reference_count, sizes, [&interrupt] { interrupt.check(); });
+  CachesFed fed(CacheCurves::check_count(trace.nodes.size(), sizes.size()), !options.quiet && stderr_is_terminal());
+  const CacheCurves curves(references_of(trace), trace.reference_count, sizes, [&interrupt, &fed] {
+    interrupt.check();
+    fed.count();
+  });
   for (std::size_t row = 0; row < curves.row_count(); ++row) {
     table.add_row(curves.row(row, trace.page_count));
   }

@@ -16,7 +16,7 @@ struct ReferencesOptions {
   std::string file;
   std::vector<std::uint32_t> cache_pages;  ///< sizes in pages; empty: about 12, from 1 to all pages
   TableOutput table;
-  bool quiet = false;  ///< no rows while they come
+  bool quiet = false;  ///< no progress
 };
 
 /// Declares them.

@@ -66,8 +66,9 @@ Texts all_options() {
 
 /// Those of our scripts, of CMake and of what else documents have the reader type.
 bool is_foreign(const std::string& option) {
-  static const Texts foreign = {"--preset", "--prefix",  "--install", "--test-case", "--format", "--tidy",  "--only", "--seeds",
-                                "--calls",  "--minutes", "--replay",  "--shrink",    "--keep",   "--clang", "--mpi"};
+  static const Texts foreign = {"--preset", "--prefix", "--install", "--component", "--build", "--test-case",
+                                "--format", "--tidy",   "--only",    "--seeds",     "--calls", "--minutes",
+                                "--replay", "--shrink", "--keep",    "--clang",     "--mpi"};
   return std::find(foreign.begin(), foreign.end(), option) != foreign.end();
 }
 

@@ -112,6 +112,7 @@ TEST_CASE("the first call of apps/dmpc builds all that is installed") {
     ++files;
   }
   CHECK(files >= 5);
+  CHECK(contains(graph.output, "libdmpc_computer.a"));
 }
 
 TEST_CASE("what cmake installs below a folder is complete and works there") {
@@ -122,7 +123,7 @@ TEST_CASE("what cmake installs below a folder is complete and works there") {
   check_program(prefix / "bin/dmpc", folder.path());
 }
 
-TEST_CASE("the Debian packages say what they need, MPI for one of them alone, and what is in them works") {
+TEST_CASE("the Debian packages say what they need, MPI and a compiler for one of them each, and what is in them works") {
   if (!is_installed("dpkg-shlibdeps")) {
     MESSAGE("dpkg-dev is not installed: no package is made");
     return;
@@ -140,6 +141,10 @@ TEST_CASE("the Debian packages say what they need, MPI for one of them alone, an
   check_installed(folder / "all/usr", "vendor-completions");
   check_program(folder / "all/usr/bin/dmpc", folder.path());
   check_python_package(folder);
+  const std::string development = unpacked_text(folder, "libdmpc-dev_*.deb", "development");
+  CHECK(contains(development, "Package: libdmpc-dev\n"));
+  CHECK(contains(development, "Depends: g++ (>= 4:12)\n"));
+  CHECK(fs::exists(folder / "development/usr/include/dmpc/computer.h"));
   const fs::path module = "usr/lib/dmpc/dmpc_mpi.so";
   CHECK_FALSE(fs::exists(folder / "all" / module));
   if (!fs::exists(DMPC_BUILD_DIR "/apps/dmpc_mpi.so")) {

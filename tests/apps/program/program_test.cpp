@@ -54,6 +54,29 @@ bool until(const Done& done) {
   return false;
 }
 
+/// Of the first figure with this name.
+std::string value_of(const std::string& json, const std::string& name) {
+  const std::size_t begin = json.find("\"" + name + "\":");
+  REQUIRE(begin != std::string::npos);
+  const std::size_t number = json.find_first_of("0123456789", begin + name.size() + 3);
+  return json.substr(number, json.find_first_not_of("0123456789", number) - number);
+}
+
+/// Of a table's only row.
+std::string cell_of(const std::string& csv, const std::string& column) {
+  std::istringstream lines(csv);
+  std::string names, cells;
+  std::getline(lines, names);
+  std::getline(lines, cells);
+  std::istringstream name_stream(names), cell_stream(cells);
+  for (std::string name, cell; std::getline(name_stream, name, ',') && std::getline(cell_stream, cell, ',');) {
+    if (name == column) {
+      return cell;
+    }
+  }
+  return "no column " + column;
+}
+
 std::string film_hash(const std::string& stats_file) {
   const std::string json = file_text(stats_file);
   return json.substr(json.find("\"film_hash\""), 32);
@@ -117,6 +140,22 @@ TEST_CASE("a trace stands beside the picture, or nothing does, and says what it 
   CHECK(contains(render(trace, "--trace-events=5").errors, "the trace is full: "));
   CHECK(contains(file_text(trace), "\"lost\":\"the trace is full: "));
   CHECK(folder.entry_count() == 2);
+}
+
+TEST_CASE("what references that a render writes tell of a cache is what the run faulted, for each policy") {
+  const TemporaryFolder folder;
+  const std::string references = folder / "references.csv", stats = folder / "stats.json", table = folder / "table.csv";
+  const std::vector<std::string> policies = {"lru", "fifo", "arc"};
+  for (const std::string& policy : policies) {
+    const Result rendered = run({"render", "balls-2", "--resolution=32x32", "--nodes=3", "--page-size=512", "--cache-pages=4",
+                                 "--work-item=0", "--in-flight=1", "--replacement=" + policy, "--references=" + references,
+                                 "--stats=" + stats, "-o", folder / "a.png"});
+    REQUIRE_MESSAGE(rendered.status == 0, rendered.errors);
+    REQUIRE(run({"study", "references", references, "--cache-pages=4", "--format=csv", "-o", table}).status == 0);
+    const std::string faults = value_of(file_text(stats), "faults");
+    CHECK(std::stoul(faults) > 100);
+    CHECK(cell_of(file_text(table), "faults " + policy) == faults);
+  }
 }
 
 TEST_CASE("a quiet render says nothing") {

@@ -104,6 +104,21 @@ TEST_CASE("pages are not looked at where there are none, nor their references wh
   CHECK_FALSE(counting.view().misses);
 }
 
+TEST_CASE("a file of references gets all of them, whatever a page beside it would keep, and without one nobody keeps any") {
+  RenderOptions options = starved(modelled());
+  CHECK(Watched(options, 1).sights.references.empty());
+  options.references = "references.csv";
+  options.picture.resolution = {40, 30};
+  options.computer.node_count = 2;
+  const Watched watched(options, 1);
+  REQUIRE(watched.sights.references.size() == options.computer.node_count);
+  CHECK(watched.view().misses->every == 1);
+  for (const svm::ReferenceLog& log : watched.sights.references) {
+    CHECK(log.every() == 1);
+    CHECK(log.pages().size() > 1024);
+  }
+}
+
 TEST_CASE("looking on changes neither the picture nor the run") {
   const Rendered alone(starved(modelled()));
   const Watched watched(starved(modelled()));

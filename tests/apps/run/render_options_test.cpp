@@ -471,6 +471,22 @@ TEST_CASE("every strategy has the name that the command line knows") {
   }
 }
 
+TEST_CASE("references can be written where nodes ask each other for pages and note their order, in one process, of a whole run") {
+  CHECK_FALSE(render().references);
+  CHECK(render({"--references=a.csv"}).references == "a.csv");
+  for (const std::string strategy : {"replicated", "dataflow", "forest"}) {
+    CHECK(contains(render_complaint({"--references=a.csv", "--strategy=" + strategy}),
+                   "--references needs --strategy=svm: with --strategy=" + strategy));
+  }
+  CHECK(contains(render_complaint({"--references=a.csv", "--runner=mpi"}), "--references does not go with --runner=mpi"));
+  CHECK(contains(render_complaint({"--references=a.csv", "--count-pages", "--stats=a.json"}),
+                 "--references does not go with --count-pages"));
+  CHECK(contains(render_complaint({"--references=a.csv", "--heatmap=pages:a.png"}),
+                 "--references does not go with --heatmap=pages"));
+  CHECK(
+      contains(render_complaint({"--references=a.csv", "--checkpoint=a", "--resume"}), "--resume does not go with --references"));
+}
+
 TEST_CASE("a page needs a name that browsers know") {
   CHECK_FALSE(render().report);
   CHECK(render({"--report=a.html"}).report == "a.html");

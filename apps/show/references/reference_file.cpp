@@ -1,4 +1,4 @@
-#include "apps/study/references/reference_file.h"
+#include "apps/show/references/reference_file.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,0 +1,80 @@
+// A program of somebody's own as the runners know programs, and its Node as that sees it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/computer/dmpc/computer.h"
+#include "apps/computer/plan.h"
+#include "nodes/node.h"
+#include "nodes/program.h"
+
+namespace dmpc::apps {
+
+/// A node with packets, operations and memory by a program's own numbers. Keeps the program to what it has declared.
+class HostedNode final : public Node {
+ public:
+  /// Takes the tables of `plan` from the node's memory, and grants its credits. Both outlive this.
+  HostedNode(nodes::Node& node, const ProgramPlan& plan);
+
+  std::uint32_t id() const override { return nodes::index_of(node_.id()); }
+  std::uint32_t node_count() const override { return plan_.node_count(); }
+  std::uint32_t sendable(std::uint32_t target, Index packet) const override;
+  [[nodiscard]] bool try_send(std::uint32_t target, Index packet, std::span<const std::byte> payload) override;
+  void answer(std::uint32_t target, Index packet, std::span<const std::byte> payload) override;
+  void charge(Index operation, std::uint64_t count) override;
+
+  /// A packet has come: of an answer the right to send its request once more, of a request the duty to answer it.
+  void take_note(const nodes::Packet& packet);
+  const nodes::Charges& charges() const { return charges_; }
+  /// What is allocated of each piece of memory.
+  const std::vector<std::size_t>& used_bytes() const { return used_bytes_; }
+
+ private:
+  std::byte* allocate_bytes(Index memory, std::size_t bytes) override;
+  nodes::Channel channel_of(Index packet) const { return plan_.is_small(packet) ? 0 : 1; }
+  /// Of a request the credits left, of an answer those that are owed.
+  std::uint16_t& rights(std::uint32_t target, Index packet) const;
+  void check(std::uint32_t target, Index packet, std::size_t payload_bytes) const;
+
+  nodes::Node& node_;
+  const ProgramPlan& plan_;
+  std::span<std::uint16_t> rights_;  ///< by target, then packet
+  nodes::Charges charges_;
+  std::vector<std::size_t> used_bytes_;
+};
+
+/// A node's program, whoever wrote it.
+class HostedProgram final : public nodes::Program {
+ public:
+  using Make = std::function<std::unique_ptr<dmpc::Program>(Node&)>;
+  HostedProgram(nodes::Node& node, const ProgramPlan& plan, const Make& make);
+
+  void receive(const nodes::Packet& packet) override;
+  bool work() override { return program_->work(); }
+  bool finished() const override { return program_->finished(); }
+  nodes::Charges charges() const override { return node_.charges(); }
+  std::string describe() const override { return program_->describe(); }
+
+  const dmpc::Program& program() const { return *program_; }
+  const HostedNode& node() const { return node_; }
+
+ private:
+  HostedNode node_;
+  std::unique_ptr<dmpc::Program> program_;
+};
+
+/// The host's, which has nothing to do.
+class IdleProgram final : public nodes::Program {
+ public:
+  void receive(const nodes::Packet& /*packet*/) override {}
+  bool work() override { return false; }
+  bool finished() const override { return true; }
+  std::string describe() const override { return "nothing to do"; }
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,115 @@
+#include "apps/computer/options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "apps/line/option_values.h"
+#include "apps/machine/machine_file.h"
+#include "apps/machine/machines.h"
+#include "core/base/expect.h"
+#include "nodes/charge.h"
+
+namespace dmpc::apps {
+namespace {
+
+using core::UsageError;
+
+constexpr std::uint32_t program_nodes_max = 4096;
+
+OptionSet::Choices<nodes::TopologyKind> topologies() {
+  using nodes::TopologyKind;
+  OptionSet::Choices<TopologyKind> choices;
+  for (const TopologyKind kind :
+       {TopologyKind::hypercube, TopologyKind::mesh, TopologyKind::torus, TopologyKind::fat_tree, TopologyKind::crossbar}) {
+    choices.emplace_back(name_of(kind), kind);
+  }
+  return choices;
+}
+
+void add_computer_options(OptionSet& options, ProgramOptions& program) {
+  options.begin_group("The computer");
+  options.add_number("--nodes", program.computer.node_count, 1, program_nodes_max, "8", "Nodes, each with a memory of its own");
+  options.add_text(
+      "--node-memory", "SIZE [what it takes]",
+      [&program](const std::string& text) { program.computer.node_memory_bytes = parse_size_bytes(text, "--node-memory"); },
+      "The bound of each node's memory, such as 256KiB: refused if the program takes more");
+  options.add_choice<bool>("--runner", program.is_modelled, {{"threads", false}, {"virtual", true}},
+                           "threads: a thread for each node. virtual: the model of a machine, in its own time, the same whenever "
+                           "it is repeated");
+  options.add_text(
+      "--machine", "MACHINE|FILE.json [ipsc2]", [&program](const std::string& name) { program.machine_name = name; },
+      "The machine that is modelled (virtual): " + machine_preset_names() + " or a file such as dmpc machine prints");
+  options.add_choice<nodes::TopologyKind>("--topology", program.topology, topologies(), "the machine's",
+                                          "How its nodes are wired, in place of its own wiring (virtual)");
+  options.add_text(
+      "--chaos", "SEED [calm]", [&program](const std::string& text) { program.chaos_seed = parse_seed(text, "--chaos"); },
+      "Disturb the computer by this seed (threads): packets late and out of order, slow nodes and links, few credits");
+}
+
+void check_runner(const OptionSet& options, const ProgramOptions& program) {
+  for (const char* option : {"--machine", "--topology"}) {
+    if (!program.is_modelled && options.is_given(option)) {
+      throw UsageError(std::string(option) + " does not go with --runner=threads: threads model no machine");
+    }
+  }
+  if (program.is_modelled && program.chaos_seed) {
+    throw UsageError("--chaos does not go with --runner=virtual: chaos disturbs threads only");
+  }
+  if (program.trace && program.trace->extension() != ".json" && program.trace->extension() != ".paje") {
+    throw UsageError("--trace=" + program.trace->string() +
+                     ": expected a file with the ending .json (Perfetto, Chrome) or .paje");
+  }
+}
+
+/// How many times as long as a core of today this machine takes for arithmetic: for the tests of a triangle, floating-point
+/// multiplications and additions for the most part.
+double slowdown_of(const nodes::Machine& machine) {
+  constexpr auto arithmetic = static_cast<std::size_t>(nodes::Charge::triangle_test);
+  return static_cast<double>(machine.cost_ps[arithmetic]) / static_cast<double>(operation_costs_ps(1)[arithmetic]);
+}
+
+}  // namespace
+
+void add_options(OptionSet options, ProgramOptions& program, const std::vector<NumberOption>& own) {
+  if (!own.empty()) {
+    options.begin_group("The program");
+  }
+  for (const NumberOption& option : own) {
+    core::expect(option.value != nullptr, "an option has a value to be set");
+    options.add_number(option.name, *option.value, option.least, option.most, std::to_string(*option.value), option.description);
+  }
+  add_computer_options(options, program);
+  options.begin_group("Looking closer");
+  options.add_path("--stats", "FILE.json", program.stats, "Write all counters");
+  options.add_path("--trace", "FILE", program.trace,
+                   "Write what each node did when, and its messages: FILE.json for Perfetto or Chrome, FILE.paje for readers of "
+                   "Paje");
+  options.add_flag("--quiet", program.quiet, "No closing lines");
+  options.check_in_the_end([options, &program] {
+    check_runner(options, program);
+    if (program.chaos_seed) {
+      program.computer.chaos = nodes::chaos_of(*program.chaos_seed);
+    }
+  });
+}
+
+void choose_machine(ProgramOptions& options, const std::vector<OperationNeed>& operations) {
+  if (!options.is_modelled) {
+    return;
+  }
+  nodes::Machine machine = load_machine(options.machine_name).machine;
+  const double slowdown = slowdown_of(machine);
+  machine.cost_ps = {};
+  for (Index i = 0; i < operations.size(); ++i) {
+    machine.cost_ps.at(i) = static_cast<std::uint64_t>(std::llround(operations[i].nanoseconds * 1000 * slowdown));
+  }
+  if (options.topology && *options.topology != machine.topology) {
+    machine.topology = *options.topology;
+    machine.uplinks = 1;
+    machine.name += " as " + std::string(name_of(machine.topology));
+  }
+  options.computer.machine = std::move(machine);
+}
+
+}  // namespace dmpc::apps

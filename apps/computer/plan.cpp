@@ -1,0 +1,173 @@
+#include "apps/computer/plan.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "apps/line/number_text.h"
+#include "core/base/expect.h"
+#include "core/base/units.h"
+#include "nodes/node.h"
+#include "nodes/threads/held_packets.h"
+
+namespace dmpc::apps {
+namespace {
+
+using nodes::Category;
+
+static_assert(small_bytes_max == nodes::small_payload_bytes && packets_max == nodes::packet_kind_count &&
+              operations_max == nodes::charge_count);
+
+std::string quoted(const std::string& name) { return "'" + name + "'"; }
+
+template <class Need>
+void check_different(const std::vector<Need>& needs, const std::string& what) {
+  std::set<std::string> names;
+  for (const Need& need : needs) {
+    if (need.name.empty() || !names.insert(need.name).second) {
+      throw core::UsageError("two " + what + " are called " + quoted(need.name) + ", or one has no name: give each its own");
+    }
+  }
+}
+
+void check_count(std::size_t count, std::size_t most, const std::string& what) {
+  if (count > most) {
+    throw core::UsageError(std::to_string(count) + " " + what + " are declared: a program has at most " + std::to_string(most));
+  }
+}
+
+}  // namespace
+
+ProgramPlan::ProgramPlan(Needs needs, const nodes::ComputerRequest& computer)
+    : needs_(std::move(needs)),
+      node_count_(computer.node_count),
+      chaos_(computer.chaos),
+      stack_bytes_(computer.stack_reserve_bytes),
+      answers_(needs_.packets.size()),
+      requests_(needs_.packets.size()),
+      mailboxes_(node_count_) {
+  check_names();
+  match_answers();
+  count_places();
+  check_memory(computer);
+}
+
+void ProgramPlan::check_names() const {
+  check_different(needs_.packets, "packets");
+  check_different(needs_.operations, "operations");
+  check_different(needs_.memory, "pieces of memory");
+  check_count(needs_.packets.size(), packets_max, "packets");
+  check_count(needs_.operations.size(), operations_max, "operations");
+  for (const OperationNeed& operation : needs_.operations) {
+    if (!(operation.nanoseconds >= 0 && operation.nanoseconds <= 1e6)) {
+      throw core::UsageError("the operation " + quoted(operation.name) + " takes " + shortest(operation.nanoseconds) +
+                             " ns: expected 0 to 1,000,000");
+    }
+  }
+}
+
+void ProgramPlan::match_answers() {
+  for (Index answer = 0; answer < needs_.packets.size(); ++answer) {
+    const PacketNeed& need = needs_.packets[answer];
+    if (need.answers.empty() == !need.senders) {
+      throw core::UsageError("the packet " + quoted(need.name) + " has " +
+                             (need.senders ? "senders and answers another" : "no senders and answers none") +
+                             ": expected one of both");
+    }
+    if (need.senders) {
+      continue;
+    }
+    const auto asked = std::find_if(needs_.packets.begin(), needs_.packets.end(),
+                                    [&](const PacketNeed& request) { return request.name == need.answers && request.senders; });
+    const auto request = static_cast<Index>(asked - needs_.packets.begin());
+    if (asked == needs_.packets.end() || answers_[request]) {
+      throw core::UsageError("the packet " + quoted(need.name) + " answers " + quoted(need.answers) +
+                             ": expected a packet that has senders, and no other answer");
+    }
+    answers_[request] = answer;
+    requests_[answer] = request;
+  }
+}
+
+std::uint32_t ProgramPlan::places(std::uint32_t source, std::uint32_t target, Index packet) const {
+  return needs_.packets[packet].senders(source, target, node_count_);
+}
+
+/// Every packet under way has its place at its target: a request what its sender may have under way, an answer that of its
+/// request. One with a short payload lies in a small place, whatever it might have had.
+void ProgramPlan::count_places() {
+  std::vector<std::uint64_t> small(node_count_), bulk(node_count_);
+  const auto add = [&](std::uint32_t node, Index packet, std::uint64_t count) {
+    small[node] += count;
+    bulk[node] += is_small(packet) ? 0 : count;
+  };
+  for (std::uint32_t source = 0; source < node_count_; ++source) {
+    for (std::uint32_t target = 0; target < node_count_; ++target) {
+      std::uint64_t pair = 0;
+      for (Index packet = 0; packet < needs_.packets.size(); ++packet) {
+        if (requests_[packet]) {
+          continue;
+        }
+        const std::uint32_t count = places(source, target, packet);
+        pair += count;
+        add(target, packet, count);
+        if (answers_[packet]) {
+          add(source, *answers_[packet], count);
+        }
+      }
+      if (2 * pair > nodes::credits_max) {
+        throw core::UsageError("node " + std::to_string(source) + " may have " + std::to_string(pair) +
+                               " packets under way to node " + std::to_string(target) + ": expected at most " +
+                               std::to_string(nodes::credits_max / 2));
+      }
+    }
+  }
+  std::size_t longest = small_bytes_max;
+  for (const PacketNeed& packet : needs_.packets) {
+    longest = std::max(longest, packet.bytes_max);
+  }
+  for (std::uint32_t node = 0; node < node_count_; ++node) {
+    mailboxes_[node] = {.small_slots = static_cast<std::uint32_t>(small[node]),
+                        .bulk_slots = static_cast<std::uint32_t>(bulk[node]),
+                        .bulk_payload_bytes = longest};
+  }
+  held_bytes_ = chaos_ ? nodes::HeldPackets::room_bytes(longest) : 0;
+}
+
+/// What comes back with an answer may be fewer; what does not is all that there is.
+std::uint32_t ProgramPlan::credits(std::uint32_t source, std::uint32_t target, Index packet) const {
+  const std::uint32_t count = requests_[packet] ? 0 : places(source, target, packet);
+  return chaos_ && answers_[packet] ? nodes::shrunk_credits(*chaos_, count, static_cast<std::uint32_t>(packet)) : count;
+}
+
+nodes::MemoryPlan ProgramPlan::memory(std::uint32_t node) const {
+  nodes::MemoryPlan plan = host_memory();
+  plan[Category::mailbox] = mailboxes_[node].bytes();
+  plan[Category::queues] += nodes::LocalMemory::bytes_for<std::uint16_t>(table_size());
+  for (const MemoryNeed& need : needs_.memory) {
+    plan[Category::constants] += core::round_up(need.bytes, nodes::LocalMemory::alignment);
+  }
+  return plan;
+}
+
+nodes::MemoryPlan ProgramPlan::host_memory() const {
+  nodes::MemoryPlan plan;
+  plan[Category::mailbox] = nodes::MailboxCapacity{}.bytes();
+  plan[Category::queues] = nodes::credit_table_bytes(node_count_ + 1) + held_bytes_;
+  plan[Category::reserve] = stack_bytes_;
+  return plan;
+}
+
+void ProgramPlan::check_memory(const nodes::ComputerRequest& computer) const {
+  std::size_t most = 0;
+  for (std::uint32_t node = 0; node < node_count_; ++node) {
+    most = std::max(most, memory(node).total());
+  }
+  if (computer.node_memory_bytes && most > *computer.node_memory_bytes) {
+    throw core::RoomError("--node-memory=" + std::to_string(*computer.node_memory_bytes) + ": a node takes " +
+                          std::to_string(most) + " bytes; ask for as many, or for other nodes");
+  }
+}
+
+}  // namespace dmpc::apps

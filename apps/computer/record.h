@@ -1,0 +1,46 @@
+// What is known of a program's run once it is done.
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/computer/hosted_program.h"
+#include "apps/computer/options.h"
+#include "apps/computer/plan.h"
+#include "nodes/runner.h"
+#include "nodes/watch/trace.h"
+
+namespace dmpc::apps {
+
+/// A view, as far as it has references.
+struct ProgramRecord {
+  std::string name;  ///< of the program
+  const ProgramOptions& options;
+  const ProgramPlan& plan;
+  std::vector<const HostedProgram*> programs;        ///< by node
+  std::vector<const nodes::NodeCounters*> counters;  ///< by node
+  double wall_seconds = 0;
+  std::optional<nodes::VirtualReport> virtual_time;
+  std::string result;  ///< what it came to
+  std::optional<nodes::Trace> trace;
+};
+
+/// Of all nodes together.
+nodes::Traffic sent(const ProgramRecord& record, Index packet);
+nodes::Traffic sent(const ProgramRecord& record);
+
+/// "8 nodes" or "8 nodes of ipsc2".
+std::string computer_text(const ProgramRecord& record);
+
+/// How long it took, what travelled and what a node takes, a line or two.
+std::string summary(const ProgramRecord& record);
+
+/// All counters as JSON, with a line end. The keys are an interface: names with units last.
+std::string stats_json(const ProgramRecord& record);
+
+/// Writes the trace in the format that its file's ending says.
+void write_trace(const ProgramRecord& record, std::ostream& output);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,71 @@
+#include "svm/run_tasks.h"
+
+#include <string>
+#include <utility>
+
+#include "svm/packets.h"
+
+namespace dmpc::svm {
+namespace {
+
+class IdleHost final : public nodes::Program {
+ public:
+  void receive(const nodes::Packet& /*packet*/) override { core::expect(false, "nobody sends the host anything"); }
+  bool work() override { return false; }
+  bool finished() const override { return true; }
+  std::string describe() const override { return "nothing to do"; }
+};
+
+std::vector<nodes::NodeSpecification> task_specifications(const TaskPlan& plan, const MakeTaskProgram& make) {
+  std::vector<nodes::NodeSpecification> all;
+  for (std::uint32_t index = 0; index < plan.node_count(); ++index) {
+    all.push_back({.plan = plan.node_memory(index),
+                   .mailbox = plan.mailbox(),
+                   .make_program = [&make, index](nodes::Node& node) { return make(index, node); },
+                   .held_bytes = plan.held_bytes(),
+                   .interrupt_kinds = 1U << number_of(Kind::page_request)});  // as in svm/run.cpp: serving changes no pages
+  }
+  all.push_back({.plan = plan.host_memory(),
+                 .mailbox = {},
+                 .make_program = [](nodes::Node&) { return std::make_unique<IdleHost>(); },
+                 .held_bytes = plan.held_bytes()});
+  return all;
+}
+
+void check_pages(const TaskFigures& figures) {
+  const PageCounters pages = figures.all_pages();
+  core::expect(pages.references == pages.home_hits + pages.cache_hits + pages.misses && pages.misses >= pages.faults,
+               "every reference was a page hit or a page miss");
+  core::expect(pages.faults == pages.served, "every fault was served");
+}
+
+}  // namespace
+
+PageCounters TaskFigures::all_pages() const {
+  PageCounters sum;
+  for (const PageCounters& node : pages) {
+    sum += node;
+  }
+  return sum;
+}
+
+TaskFigures run_task_programs(const TaskPlan& plan, const TaskOptions& options, const MakeTaskProgram& make,
+                              const TaskWatching& watching, std::stop_token stop,
+                              const std::function<void(std::uint32_t, std::span<const std::byte>)>& results) {
+  const auto runner = nodes::make_runner(task_specifications(plan, make), options.computer, watching.observer);
+  TaskFigures figures;
+  figures.end = runner->run(std::move(stop));
+  for (std::uint32_t index = 0; index < plan.node_count(); ++index) {
+    const auto& program = dynamic_cast<const AnyTaskProgram&>(runner->program(index));
+    figures.pages.push_back(program.report().pages);
+    figures.counters.push_back(runner->node(index).counters());
+    results(index, program.results());
+  }
+  if (figures.end == nodes::RunEnd::finished) {
+    check_pages(figures);
+    figures.virtual_time = runner->virtual_report();
+  }
+  return figures;
+}
+
+}  // namespace dmpc::svm

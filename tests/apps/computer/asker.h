@@ -1,0 +1,130 @@
+// A program that asks its neighbour for squares, well or badly, and what came of a run of it.
+#pragma once
+
+#include <cstdint>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "apps/computer/dmpc/computer.h"
+
+namespace dmpc::tests {
+
+enum class Fault : std::uint8_t {
+  none,
+  answers_nothing,  ///< waits for ever
+  leaves_unanswered,
+  answers_twice,
+  sends_answer,
+  sends_too_much,
+  names_no_packet,
+  names_no_node,
+  charges_nothing_declared,
+  allocates_too_much,
+  allocates_late,
+  takes_for_other
+};
+
+enum AskerPackets : Index { question, square };
+
+/// Asks the next node for the squares of 0, 1, 2, ...
+class Asker final : public Program {
+ public:
+  Asker(Node& node, std::uint32_t questions, Fault fault)
+      : node_(node), fault_(fault), questions_(questions), sums_(node.allocate<std::uint64_t>(0, 2)) {
+    if (fault == Fault::allocates_too_much) {
+      node.allocate<std::byte>(0, 1);
+    }
+  }
+
+  void receive(const Packet& packet) override {
+    const auto value = fault_ == Fault::takes_for_other ? packet.as<std::uint64_t>() : packet.as<std::uint32_t>();
+    if (packet.kind == square) {
+      sums_[0] += value;
+      ++answers_;
+      return;
+    }
+    const auto squared = static_cast<std::uint32_t>(value * value);
+    node_.charge(fault_ == Fault::charges_nothing_declared ? 1 : 0);
+    if (fault_ != Fault::answers_nothing && fault_ != Fault::leaves_unanswered) {
+      node_.answer(packet.source, square, std::as_bytes(std::span(&squared, 1)));
+    }
+    if (fault_ == Fault::answers_twice) {
+      node_.answer(packet.source, square, std::as_bytes(std::span(&squared, 1)));
+    }
+  }
+
+  bool work() override {
+    if (fault_ == Fault::allocates_late) {
+      node_.allocate<std::byte>(1, 1);
+    }
+    if (asked_ == questions_) {
+      return false;
+    }
+    const std::uint32_t values[20] = {asked_};
+    const std::uint32_t target = fault_ == Fault::names_no_node ? node_.node_count() : node_.next();
+    const Index packet = fault_ == Fault::names_no_packet ? 2 : fault_ == Fault::sends_answer ? Index{square} : Index{question};
+    const std::size_t count = fault_ == Fault::sends_too_much ? 20 : 1;
+    const bool may_send = fault_ != Fault::none || node_.sendable(target, packet) > 0;
+    const bool is_sent = node_.try_send(target, packet, std::span<const std::uint32_t>(values, count));
+    is_consistent_ = is_consistent_ && (fault_ != Fault::none || is_sent == may_send);
+    asked_ += is_sent ? 1 : 0;
+    return is_sent;
+  }
+
+  bool finished() const override { return fault_ == Fault::leaves_unanswered ? asked_ == 1 : answers_ == questions_; }
+  std::string describe() const override { return std::to_string(asked_) + " asked"; }
+  std::uint64_t sum() const { return is_consistent_ ? sums_[0] : 0; }
+
+ private:
+  Node& node_;
+  Fault fault_;
+  std::uint32_t questions_, asked_ = 0, answers_ = 0;
+  bool is_consistent_ = true;  ///< sendable() says what try_send() does
+  std::span<std::uint64_t> sums_;
+};
+
+/// `may_ask`: questions of a node under way.
+inline Application<Asker> asker(std::uint32_t questions, Fault fault = Fault::none, std::uint32_t may_ask = 2) {
+  return {.description = "Ask for squares",
+          .needs = [may_ask](std::uint32_t) -> Needs {
+            return {
+                .packets = {{.name = "question", .senders = from_previous(may_ask)}, {.name = "square", .answers = "question"}},
+                .operations = {{"multiplication", 100}},
+                .memory = {{"sums", bytes_of<std::uint64_t>(2)}, {"late", 64}}};
+          },
+          .make = [questions, fault](Node& node) { return std::make_unique<Asker>(node, questions, fault); },
+          .result =
+              [](const std::vector<const Asker*>& programs) {
+                std::uint64_t sum = 0;
+                for (const Asker* program : programs) {
+                  sum += program->sum();
+                }
+                return "sum " + std::to_string(sum);
+              }};
+}
+
+struct Ran {
+  int status = 0;
+  std::string output, errors;
+};
+
+/// As if the words were typed behind the program's name.
+template <class P>
+Ran run_with(const Application<P>& application, const std::vector<std::string>& words) {
+  std::vector<const char*> all = {"/somewhere/asker"};
+  for (const std::string& word : words) {
+    all.push_back(word.c_str());
+  }
+  std::ostringstream output, errors;
+  std::streambuf* const out = std::cout.rdbuf(output.rdbuf());
+  std::streambuf* const err = std::cerr.rdbuf(errors.rdbuf());
+  const int status = run(static_cast<int>(all.size()), all.data(), application);
+  std::cout.rdbuf(out);
+  std::cerr.rdbuf(err);
+  return {status, output.str(), errors.str()};
+}
+
+}  // namespace dmpc::tests

@@ -1,0 +1,60 @@
+// The examples as who has installed dmpc builds and runs them, with what their heads say of them.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "tests/support/shell.h"
+#include "tests/support/temporary_folder.h"
+
+namespace dmpc::tests {
+
+namespace {
+
+bool has(const Said& said, const std::string& part) { return said.output.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("the examples are built from an installed prefix with all warnings, and come to what they say") {
+  const TemporaryFolder folder;
+  const std::string prefix = folder / "a prefix", build = folder / "build";
+  REQUIRE(run({"cmake", "--install", DMPC_BUILD_DIR, "--component", "development", "--prefix", prefix}).status == 0);
+  const Said configured =
+      run({"cmake", "-G", "Ninja", "-S", prefix + "/share/doc/libdmpc-dev/examples", "-B", build, "-D",
+           "CMAKE_PREFIX_PATH=" + prefix, "-D", "CMAKE_CXX_FLAGS=-Wall -Wextra -Wconversion -Wshadow -Werror"});
+  REQUIRE_MESSAGE(configured.status == 0, configured.errors);
+  const Said built = run({"cmake", "--build", build});
+  REQUIRE_MESSAGE(built.status == 0, built.output);
+
+  const auto ring = [&](const std::string& nodes) {
+    return run({build + "/ring_product", "--size=128", "--runner=virtual", "--machine=hdr", "--nodes=" + nodes});
+  };
+  CHECK(has(ring("1"), "as expected\n1 node of hdr: 1.05 ms"));
+  CHECK(has(ring("16"), "as expected\n16 nodes of hdr: 83.5 us"));
+  CHECK(has(ring("64"), "as expected\n64 nodes of hdr: 219 us"));
+
+  const auto sorted = [&](const std::string& nodes, const std::string& keys) {
+    return run({build + "/sample_sort", "--runner=virtual", "--machine=gigabit", "--nodes=" + nodes, "--keys=" + keys});
+  };
+  CHECK(has(sorted("1", "65536"), "sorted; the fullest node has 100 % of its share\n1 node of gigabit: 4.46 ms"));
+  CHECK(has(sorted("16", "4096"), "16 nodes of gigabit: 1.06 ms"));
+  CHECK(has(sorted("64", "1024"), "64 nodes of gigabit: 2.16 ms"));
+  for (int seed = 1; seed <= 4; ++seed) {
+    INFO("seed ", seed);
+    CHECK(has(run({build + "/ring_product", "--size=64", "--chaos=" + std::to_string(seed)}), "as expected"));
+    CHECK(has(run({build + "/sample_sort", "--keys=1000", "--chaos=" + std::to_string(seed)}), "8000 keys, sorted"));
+  }
+}
+
+TEST_CASE("a component that there is not is refused by name") {
+  const TemporaryFolder folder;
+  const std::string prefix = folder / "prefix";
+  REQUIRE(run({"cmake", "--install", DMPC_BUILD_DIR, "--component", "development", "--prefix", prefix}).status == 0);
+  write_text(
+      folder / "CMakeLists.txt",
+      "cmake_minimum_required(VERSION 3.25)\nproject(wrong LANGUAGES CXX)\nfind_package(dmpc REQUIRED COMPONENTS cellar)\n");
+  const Said said = run({"cmake", "-S", folder.path(), "-B", folder / "build", "-D", "CMAKE_PREFIX_PATH=" + prefix});
+  CHECK(said.status != 0);
+  CHECK(said.errors.find("dmpc has no component cellar") != std::string::npos);
+}
+
+}  // namespace dmpc::tests

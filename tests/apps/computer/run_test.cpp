@@ -1,0 +1,166 @@
+// Programs of one's own as their users meet them, on every runner.
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/apps/computer/asker.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
+
+namespace dmpc::tests {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+bool says(const Ran& ran, const std::string& part) { return ran.errors.find(part) != std::string::npos; }
+
+nlohmann::json stats_of(const Application<Asker>& application, Words words) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "stats.json";
+  words.push_back("--stats=" + file);
+  const Ran ran = run_with(application, words);
+  REQUIRE_MESSAGE(ran.status == 0, ran.errors);
+  return nlohmann::json::parse(file_text(file));
+}
+
+}  // namespace
+
+TEST_CASE("a program comes to the same on threads, on modelled machines, with any number of nodes, and disturbed") {
+  const Application<Asker> program = asker(10);
+  for (const Words& words : std::vector<Words>{{"--nodes=4"},
+                                               {"--nodes=4", "--runner=virtual"},
+                                               {"--nodes=4", "--runner=virtual", "--machine=hdr", "--topology=mesh"}}) {
+    const Ran ran = run_with(program, words);
+    CHECK(ran.status == 0);
+    CHECK(ran.output.starts_with("sum " + std::to_string(4 * 285) + "\n"));
+    CHECK(ran.output.find("80 packets") != std::string::npos);
+  }
+  for (int seed = 0; seed < 10; ++seed) {
+    INFO("seed ", seed);
+    CHECK(run_with(program, {"--nodes=4", "--chaos=" + std::to_string(seed), "--quiet"}).output == "sum 1140\n");
+  }
+  CHECK(run_with(program, {"--nodes=1", "--quiet"}).output == "sum 285\n");
+  CHECK(run_with(program, {"--nodes=64", "--quiet"}).output == "sum 18240\n");
+}
+
+TEST_CASE("what a program does that it has not declared ends the run, and is said") {
+  const std::vector<std::pair<Fault, std::string>> faults = {
+      {Fault::leaves_unanswered, "2 packets 'question' had no answer 'square' when all nodes had finished"},
+      {Fault::answers_twice, "the packet 'square' to node "},
+      {Fault::sends_answer, "the packet 'square' is an answer: answer() sends it"},
+      {Fault::sends_too_much, "a packet 'question' of 80 bytes: at most 56 are declared"},
+      {Fault::names_no_packet, "packet 2 to node "},
+      {Fault::names_no_node, "to node 2: there are 2 packets and 2 nodes"},
+      {Fault::charges_nothing_declared, "operation 1 is charged: 1 are declared"},
+      {Fault::allocates_too_much, "the memory 'sums' has 0 of 64 bytes left: 64 are asked for"},
+      {Fault::allocates_late, "the memory 'late' is asked for after the start"},
+      {Fault::takes_for_other, "a packet of 4 bytes is copied to 1 values of 8"}};
+  for (const auto& [fault, message] : faults) {
+    for (const std::string runner : {"threads", "virtual"}) {
+      const Ran ran = run_with(asker(10, fault), {"--nodes=2", "--runner=" + runner});
+      CHECK(ran.status == 3);
+      CHECK(says(ran, "asker: the program: "));
+      CHECK_MESSAGE(says(ran, message), ran.errors);
+      CHECK(ran.output.empty());
+    }
+  }
+}
+
+TEST_CASE("nodes that stand still are found out, with what each says of itself") {
+  for (const std::string runner : {"threads", "virtual"}) {
+    const Ran ran = run_with(asker(10, Fault::answers_nothing, 3), {"--nodes=2", "--runner=" + runner});
+    CHECK(ran.status == 3);
+    CHECK_MESSAGE(count(ran.errors, "3 asked") == 2, ran.errors);
+  }
+}
+
+TEST_CASE("a modelled run is repeated to the last event, and its operations have their price") {
+  const Words words = {"--nodes=4", "--runner=virtual", "--machine=hdr"};
+  const nlohmann::json first = stats_of(asker(10), words), again = stats_of(asker(10), words);
+  CHECK(first["run_hash"].is_string());
+  CHECK(first["run_hash"] == again["run_hash"]);
+  CHECK(first["virtual_seconds"] == again["virtual_seconds"]);
+  CHECK(first["run_hash"] != stats_of(asker(11), words)["run_hash"]);
+  // 10 of 100 ns each, on a core of today.
+  CHECK(first["per_node"][2]["virtual_time"]["computing_ns"] == 1000);
+  CHECK(first["per_node"][2]["operations"]["multiplication"] == 10);
+}
+
+TEST_CASE("counters add up: by packet, by node and by piece of memory") {
+  const nlohmann::json stats = stats_of(asker(10), {"--nodes=3", "--node-memory=1MiB"});
+  CHECK(stats["format"] == 1);
+  CHECK(stats["program"] == "asker");
+  CHECK(stats["result"] == "sum 855");
+  CHECK(stats["runner"] == "threads");
+  CHECK(stats["machine"].is_null());
+  CHECK(stats["packets"]["question"]["packets"] == 30);
+  CHECK(stats["packets"]["square"]["bytes"] == 30 * (8 + 4));
+  CHECK(stats["operations"]["multiplication"] == 30);
+  std::size_t sent = 0, received = 0;
+  for (const nlohmann::json& node : stats["per_node"]) {
+    sent += node["packets_sent"].get<std::size_t>();
+    received += node["packets_received"].get<std::size_t>();
+    const nlohmann::json& bytes = node["memory_bytes"];
+    CHECK(bytes["of_program"]["sums"] == 64);
+    CHECK(bytes["of_program"]["late"] == 0);
+    CHECK(bytes["total"] ==
+          bytes["mailbox"].get<std::size_t>() + bytes["queues"].get<std::size_t>() + bytes["stack"].get<std::size_t>() + 64 + 64);
+  }
+  CHECK(sent == 60);
+  CHECK(received == 60);
+}
+
+TEST_CASE("a trace calls packets as the program does, and its doings computing") {
+  const TemporaryFolder folder;
+  for (const std::string name : {"trace.json", "trace.paje"}) {
+    const std::string file = folder / name;
+    REQUIRE(run_with(asker(10), {"--nodes=2", "--runner=virtual", "--trace=" + file}).status == 0);
+    const std::string text = file_text(file);
+    CHECK(text.find("question") != std::string::npos);
+    CHECK(text.find("compute") != std::string::npos);
+    CHECK(text.find("shade") == std::string::npos);
+  }
+}
+
+TEST_CASE("options that do not go together, or are none, are refused with a hint at the program's own help") {
+  const auto complaint = [](const Words& words) {
+    const Ran ran = run_with(asker(1), words);
+    CHECK(ran.status == 2);
+    return ran.errors;
+  };
+  CHECK(complaint({"--machine=hdr"}).find("--machine does not go with --runner=threads") != std::string::npos);
+  CHECK(complaint({"--topology=mesh"}).find("--topology does not go with --runner=threads") != std::string::npos);
+  CHECK(complaint({"--chaos=1", "--runner=virtual"}).find("chaos disturbs threads only") != std::string::npos);
+  CHECK(complaint({"--trace=a.txt"}).find("--trace=a.txt: expected a file with the ending .json") != std::string::npos);
+  CHECK(complaint({"--node=3"}).find("Try: asker --help") != std::string::npos);
+  CHECK(complaint({"word"}).find("expected asker") != std::string::npos);
+  CHECK(run_with(asker(1), {"--runner=virtual", "--machine=none"}).status == 1);
+  CHECK(run_with(asker(1), {"--stats=/none/stats.json"}).status == 1);
+  CHECK(run_with(asker(1), {"--node-memory=1KiB"}).status == 4);
+}
+
+TEST_CASE("a program has options of its own, which its needs may refuse") {
+  std::uint32_t size = 12;
+  Application<Asker> program = asker(1);
+  program.options = {{"--size", &size, 1, 100, "How large"}};
+  program.needs = [&size, needs = program.needs](std::uint32_t nodes) {
+    if (size % nodes != 0) {
+      throw UsageError("--size=" + std::to_string(size) + " is no multiple");
+    }
+    return needs(nodes);
+  };
+  CHECK(run_with(program, {"--nodes=3"}).status == 0);
+  const Ran refused = run_with(program, {"--nodes=3", "--size=20"});
+  CHECK(refused.status == 2);
+  CHECK(refused.errors == "asker: --size=20 is no multiple\n");
+  CHECK(run_with(program, {"--size=101"}).status == 2);
+  const std::string help = run_with(program, {"--help"}).output;
+  for (const char* part : {"Usage: asker [options]", "--size 1..100 [20]", "--runner", "--stats", "Ask for squares"}) {
+    CHECK_MESSAGE(help.find(part) != std::string::npos, part);
+  }
+}
+
+}  // namespace dmpc::tests
