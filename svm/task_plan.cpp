@@ -71,7 +71,7 @@ TaskPlan::TaskPlan(const TaskOptions& options, std::size_t database_bytes, std::
 }
 
 void TaskPlan::check() const {
-  check_range("node_count", node_count(), 1, node_count_max);
+  check_range("node_count", node_count(), 1, nodes::node_count_max);
   check_range("task_count", task_count_, 1, 0xffffffffU);
   check_range("in_flight", options_.in_flight, 1, in_flight_max);
   check_range("cache_pages", options_.cache_pages.value_or(1), 1, index_of(no_page));
