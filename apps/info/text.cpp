@@ -175,7 +175,7 @@ Table memory_table(const Forecast& forecast) {
   table.add_note(
       "copies: of a primitive by dataflow, whose regions are made by --balance=" + std::string(name_of(forecast.balance)) +
       (forecast.cuts == dataflow::CutOrder::longer_axis ? "" : " --cuts=" + std::string(name_of(forecast.cuts))) +
-      (forecast.balance == dataflow::Balance::scattered ? " --regions=" + std::to_string(forecast.regions_a_node) : "") +
+      (forecast.regions_a_node > 1 ? " --regions=" + std::to_string(forecast.regions_a_node) : "") +
       (forecast.balance == dataflow::Balance::equal_size
            ? "; those of render's own choice may need several times as much: --balance=subsampled tells"
            : ""));

@@ -76,6 +76,31 @@ TEST_CASE("without a bound a render takes what is forecast") {
   }
 }
 
+TEST_CASE("regions that move take what is forecast, room for units that come included, and with less are refused") {
+  RenderOptions options = small(Strategy::dataflow);
+  options.rays.balance = {.balance = Balance::moving, .regions_a_node = 4};
+  const MemoryForecast memory = *forecast_for(options).dataflow;
+  const Rendered rendered(options);
+  std::size_t largest = 0;
+  for (const NodeAccount& node : account_of(*rendered.report).nodes) {
+    largest = std::max(largest, node.memory_planned.total());
+  }
+  CHECK(memory.usual_bytes == largest);
+  CHECK(refusal(options, memory.least_bytes).empty());
+  CHECK(contains(refusal(options, memory.least_bytes - 1),
+                 "the smallest that works is --node-memory=" + nodes::size_text(memory.least_bytes)));
+}
+
+TEST_CASE("of regions that move there is a forecast for as many nodes as there may be units") {
+  const RenderOptions options = small();
+  const Subject subject = build_subject(load_scene(options.picture), options.picture);
+  const Forecast found =
+      forecast(subject.database, subject.settings, {64, 128}, {.balance = Balance::moving, .regions_a_node = 16});
+  CHECK(found.computers[0].dataflow);
+  CHECK_FALSE(found.computers[1].dataflow);
+  CHECK(found.regions_a_node == 16);
+}
+
 TEST_CASE("what two pixels take is forecast to the byte") {
   RenderOptions options = small(Strategy::svm);
   options.picture.resolution = {2, 1};
