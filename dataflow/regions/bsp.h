@@ -100,7 +100,8 @@ class Bsp {
   void assign(std::span<const std::uint32_t> node_of_region);
   /// The same regions before they were cut into units: one a node, numbered by node.
   Bsp without_units() const;
-  /// The same units, as if each were the region of a node of its number.
+  /// The same units, as if each were the region of a node of its number. Known to hold nothing are those alone whose owner holds
+  /// nothing at all: rays start where they would if nodes had one region, which is what loads are measured by.
   Bsp by_unit() const;
   /// From now on region `index` is `node`'s.
   void give_to(std::uint32_t index, nodes::NodeId node) { owner_[index] = static_cast<std::uint16_t>(nodes::index_of(node)); }

@@ -239,6 +239,18 @@ TEST_CASE("units that are given to another node are that one's, and by unit each
   }
 }
 
+TEST_CASE("by unit those hold nothing whose owner holds nothing") {
+  Bsp bsp = dataflow::build_units(hill(), 2, 2);
+  for (const std::uint32_t unit : {0U, 2U, 3U}) {
+    bsp.mark_empty(unit);
+  }
+  const Bsp by_unit = bsp.by_unit();
+  CHECK_FALSE(by_unit.is_empty(0));
+  CHECK_FALSE(by_unit.is_empty(1));
+  CHECK(by_unit.is_empty(2));
+  CHECK(by_unit.is_empty(3));
+}
+
 TEST_CASE("rays walk in the largest block of a node's units that cuts end") {
   Bsp bsp = dataflow::build_units(hill(), 2, 4);
   CHECK(bsp.block_around(1).count == 4);
