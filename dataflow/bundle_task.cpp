@@ -49,7 +49,7 @@ void BundleTask::gather_waiting() {
 /// That of the first ray; the one before if it starts where the node has none.
 void BundleTask::choose_region(PartTracer& tracer, const core::GridFrame& frame) {
   if ((entered_ & 1U) != 0) {
-    const bool is_here = tracer.enter(flights_->entry[0].passage.cell);
+    const bool is_here = tracer.enter_taken_up(flights_->entry[0].passage.cell);
     core::expect(is_here, "a ray enters a region of the node's");
   } else if (const auto passage = core::first_passage(flights_->bundle.rays[0], frame)) {
     tracer.enter(passage->cell);

@@ -1,5 +1,9 @@
 #include "dataflow/distribution.h"
 
+#include <utility>
+
+#include "dataflow/unit_pages.h"
+
 namespace dmpc::dataflow {
 namespace {
 
@@ -29,6 +33,42 @@ void mark_empty(Regions& regions, const std::vector<std::uint32_t>& indices, con
   }
 }
 
+/// Instead of a part made anew, the pages of the whole database: addresses mean the same on every node.
+core::DatabasePart part_in_pages(const core::Database& database, const std::vector<core::Region>& regions,
+                                 const std::vector<std::uint32_t>& pages, bool keeps_bytes) {
+  core::DatabasePart part = core::measure_part(database, regions);
+  part.header = database.header();
+  part.header.region = regions.front();
+  part.record_bytes = pages.size() * database.page_size();
+  for (std::size_t i = 0; keeps_bytes && i < pages.size(); ++i) {
+    const std::span<const std::byte> page = database.page(pages[i]);
+    part.bytes.insert(part.bytes.end(), page.begin(), page.end());
+  }
+  return part;
+}
+
+/// Gives each node the runs of its units, `runs`, one unit after the other.
+void deal_by_unit(Distribution& distribution, const std::vector<std::vector<PrimaryRun>>& runs) {
+  const std::uint32_t node_count = distribution.regions.node_count();
+  distribution.primaries.resize(node_count);
+  distribution.runs_of_unit.resize(node_count, std::vector<std::uint32_t>(runs.size()));
+  for (std::uint32_t unit = 0; unit < runs.size(); ++unit) {
+    const std::uint32_t node = nodes::index_of(distribution.regions.owner_at(unit));
+    std::vector<PrimaryRun>& its = distribution.primaries[node];
+    its.insert(its.end(), runs[unit].begin(), runs[unit].end());
+    distribution.runs_of_unit[node][unit] = static_cast<std::uint32_t>(runs[unit].size());
+  }
+}
+
+/// What each node has of what each unit has.
+std::vector<std::size_t> by_owner(const Regions& regions, const std::vector<std::size_t>& of_unit) {
+  std::vector<std::size_t> of_node(regions.node_count());
+  for (std::uint32_t unit = 0; unit < of_unit.size(); ++unit) {
+    of_node[nodes::index_of(regions.owner_at(unit))] += of_unit[unit];
+  }
+  return of_node;
+}
+
 core::DatabasePart outline_for(const core::Database& database, const core::RenderSettings& settings) {
   return core::outline_of(database, settings.skips.empty_regions ? core::outline_bytes_max(database) : 0);
 }
@@ -42,7 +82,7 @@ double duplication_of(std::uint64_t copies, const core::Database& database) {
 std::vector<Share> Distribution::shares() const {
   std::vector<Share> shares;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    shares.push_back({parts[i].record_bytes, primaries[i].size(), outline.bytes.size()});
+    shares.push_back({parts[i].record_bytes, primaries[i].size(), outline.bytes.size(), page_bytes});
   }
   return shares;
 }
@@ -57,13 +97,27 @@ double Distribution::duplication(const core::Database& database) const {
 
 Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Regions& regions,
                         const std::stop_token& stop, bool deals_primaries) {
-  Distribution distribution{regions, {}, {}, outline_for(database, settings)};
+  Distribution distribution{.regions = regions,
+                            .parts = {},
+                            .primaries = {},
+                            .pages = {},
+                            .runs_of_unit = {},
+                            .outline = outline_for(database, settings)};
+  distribution.page_bytes = regions.are_moving() ? database.page_size() : 0;
   for (const std::vector<std::uint32_t>& indices : regions.by_node()) {
-    distribution.parts.push_back(core::extract(database, boxes_of(regions, indices)));
+    const std::vector<core::Region> boxes = boxes_of(regions, indices);
+    distribution.pages.push_back(regions.are_moving() ? pages_of(database, boxes) : std::vector<std::uint32_t>());
+    distribution.parts.push_back(regions.are_moving() ? part_in_pages(database, boxes, distribution.pages.back(), true)
+                                                      : core::extract(database, boxes));
     mark_empty(distribution.regions, indices, distribution.parts.back(), settings);
   }
-  distribution.primaries = deal_primaries(settings, distribution.regions, settings.first_pass(),
-                                          core::PixelMask(settings.camera.pixel_count(), !deals_primaries), stop);
+  const core::PixelMask done(settings.camera.pixel_count(), !deals_primaries);
+  if (regions.are_moving()) {
+    deal_by_unit(distribution, deal_primaries(settings, distribution.regions.by_unit(), settings.first_pass(), done, stop));
+  } else {
+    distribution.primaries = deal_primaries(settings, distribution.regions, settings.first_pass(), done, stop);
+    distribution.runs_of_unit.resize(regions.node_count());
+  }
   return distribution;
 }
 
@@ -71,11 +125,14 @@ MeasuredParts measure_parts(const core::Database& database, const core::RenderSe
   MeasuredParts parts;
   std::uint64_t copies = 0;
   for (const std::vector<std::uint32_t>& indices : regions.by_node()) {
-    const core::DatabasePart part = core::measure_part(database, boxes_of(regions, indices));
+    const std::vector<core::Region> boxes = boxes_of(regions, indices);
+    const core::DatabasePart part = regions.are_moving() ? part_in_pages(database, boxes, pages_of(database, boxes), false)
+                                                         : core::measure_part(database, boxes);
     mark_empty(regions, indices, part, settings);
     parts.record_bytes.push_back(part.record_bytes);
     copies += part.primitive_copies;
   }
+  parts.page_bytes = regions.are_moving() ? database.page_size() : 0;
   parts.duplication = duplication_of(copies, database);
   parts.outline_bytes = outline_for(database, settings).bytes.size();
   return parts;
@@ -84,12 +141,17 @@ MeasuredParts measure_parts(const core::Database& database, const core::RenderSe
 std::vector<std::vector<Share>> measure_shares(const core::RenderSettings& settings, std::span<const Regions> partitions,
                                                std::span<const MeasuredParts> parts, const std::stop_token& stop,
                                                bool deals_primaries) {
-  const auto runs = count_primary_runs(settings, partitions, settings.first_pass(),
-                                       core::PixelMask(settings.camera.pixel_count(), !deals_primaries), stop);
+  std::vector<Regions> dealt;
+  for (const Regions& partition : partitions) {
+    dealt.push_back(partition.are_moving() ? partition.by_unit() : partition);
+  }
+  auto runs = count_primary_runs(settings, dealt, settings.first_pass(),
+                                 core::PixelMask(settings.camera.pixel_count(), !deals_primaries), stop);
   std::vector<std::vector<Share>> shares(partitions.size());
   for (std::size_t i = 0; i < partitions.size(); ++i) {
+    runs[i] = partitions[i].are_moving() ? by_owner(partitions[i], runs[i]) : std::move(runs[i]);
     for (std::uint32_t node = 0; node < partitions[i].node_count(); ++node) {
-      shares[i].push_back({parts[i].record_bytes[node], runs[i][node], parts[i].outline_bytes});
+      shares[i].push_back({parts[i].record_bytes[node], runs[i][node], parts[i].outline_bytes, parts[i].page_bytes});
     }
   }
   return shares;

@@ -30,6 +30,10 @@ struct Distribution {
   Regions regions;
   std::vector<core::DatabasePart> parts;
   std::vector<std::vector<PrimaryRun>> primaries;
+  std::vector<std::vector<std::uint32_t>> pages;  ///< by node, where regions move: which the parts consist of
+  /// By node and unit, where regions move: how many of the node's runs are a unit's, for they follow each other unit by unit.
+  std::vector<std::vector<std::uint32_t>> runs_of_unit;
+  std::size_t page_bytes = 0;  ///< theirs
   core::DatabasePart outline;  ///< for every node; none (core/build/outline.h) if rays are to ask every region
 
   std::vector<Share> shares() const;
@@ -52,6 +56,7 @@ Distribution distribute(const core::Database& database, const core::RenderSettin
 /// What distribute() would deal as parts, by node.
 struct MeasuredParts {
   std::vector<std::size_t> record_bytes;
+  std::size_t page_bytes = 0;  ///< as that of Distribution
   std::size_t outline_bytes = 0;
   double duplication = 1;  ///< as that of Distribution
 };

@@ -42,6 +42,7 @@ struct NodeState {
   bool has_gathered = false;       ///< rays in open or queued packets
   bool is_unacknowledged = false;  ///< an announcement is to be taken back or acknowledged
   bool is_unanswered = false;      ///< some owner has been asked for a place and has not granted it yet
+  bool is_moving_units = false;    ///< a unit is to be asked for, or a transfer is under way (hand_over.h)
 };
 
 /// In the order of precedence.
@@ -79,7 +80,7 @@ constexpr Task next_task(const NodeState& state) {
 /// wait for a credit, or for leave to start, is not.
 constexpr bool is_passive(const NodeState& state) {
   return next_task(state) == Task::rest && !state.has_primaries && !state.has_gathered && !state.is_unacknowledged &&
-         !state.is_unanswered;
+         !state.is_unanswered && !state.is_moving_units;
 }
 
 /// Where a packet of rays goes.

@@ -215,7 +215,7 @@ std::span<std::byte> Gather::packet_in(std::uint16_t slot) const {
 
 void Gather::transmit(NodeId owner, std::uint16_t slot, bool overflows) {
   const std::uint16_t count = slots_[slot].count;
-  const RayPacketHeader header{count, static_cast<std::uint16_t>(nodes::index_of(owner))};
+  const RayPacketHeader header{count, static_cast<std::uint16_t>(nodes::index_of(owner)), rays_left_};
   const std::span<std::byte> packet = packet_in(slot).first(ray_packet_bytes(count, tested_objects_));
   std::memcpy(packet.data(), &header, sizeof(header));
   node_->send_reserved(overflows ? host_ : owner, ray_channel, number_of(overflows ? Kind::overflow : Kind::rays), packet);

@@ -91,6 +91,8 @@ class Gather {
   /// Rays here, queued ones included.
   std::uint32_t size() const { return size_; }
   const Counters& counters() const { return counters_; }
+  /// Packets tell from now on that so many rays are left.
+  void tell(std::uint32_t rays_left) { rays_left_ = rays_left; }
   /// By owner; of rays gathered, the packets of those sent.
   std::vector<PairCounters> pairs() const;
 
@@ -145,6 +147,7 @@ class Gather {
   std::uint32_t asked_ = 0;              ///< owners
   std::optional<nodes::NodeId> closed_;  ///< whose open packet is closed
   Counters counters_;
+  std::uint32_t rays_left_ = 0;  ///< to be told
 };
 
 }  // namespace dmpc::dataflow

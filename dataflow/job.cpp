@@ -13,7 +13,7 @@ namespace {
 struct PlanFigures {
   std::size_t node_memory_max_bytes;
   std::size_t node_mailbox_bytes, host_mailbox_bytes;
-  std::uint32_t ray_batch, ray_credits, ray_places, host_credits, queue_packets, rays_a_task, film_credits;
+  std::uint32_t ray_batch, ray_credits, ray_places, host_credits, queue_packets, rays_a_task, film_credits, spare_frames;
 
   bool operator==(const PlanFigures&) const = default;
 };
@@ -28,7 +28,8 @@ PlanFigures figures_of(const Plan& plan) {
           plan.host_credits,
           plan.queue_packets,
           plan.rays_a_task,
-          plan.film_credits};
+          plan.film_credits,
+          plan.spare_frames};
 }
 
 void put(nodes::FlatWriter& flat, const PlanRequest& request) {

@@ -17,9 +17,15 @@
 //   stop                   host -> node          control   small  once a run
 //   primaries              host -> node          film      bulk   the host's credits for dealing to that node
 //   primaries_taken        node -> host          control   small  the packet of primaries whose credit it gives back
+//   unit_ask               node -> node          control   small  itself: a node asks one at a time
+//   unit_refusal           node -> asker         control   small  the question
+//   unit_page              giver -> asker        units     bulk   the question, then the acknowledgement of the page before
+//   unit_primaries         giver -> asker        units     bulk   the acknowledgement of the last page, or of the one before
+//   unit_acknowledgement   taker -> giver        control   small  the page, or the primary rays
+//   unit_moved             receiver -> sender    control   small  the ray packets whose credits are given back with it
 //
 // Requests and unused credits exist only where owners' places are shared (flow_control.h). An unused credit counts as a packet of
-// rays for the proof of the end, so none is under way then.
+// rays for the proof of the end, so none is under way then. Packets of units exist only where regions move.
 //
 // Primaries exist only where the host deals primary rays after the start (PlanRequest::is_dealt()): those of later passes, and
 // those of the first in a run that is kept or goes on. A packet of them counts as one of rays for the proof of the end. Finish
@@ -65,20 +71,46 @@ enum class Kind : nodes::PacketKind {
   primaries,
   primaries_taken,
   ask,
-  unused
+  unused,
+  unit_ask,
+  unit_refusal,
+  unit_page,
+  unit_primaries,
+  unit_acknowledgement,
+  unit_moved
 };
 constexpr nodes::PacketKind number_of(Kind kind) { return static_cast<nodes::PacketKind>(kind); }
-static_assert(number_of(Kind::unused) < nodes::packet_kind_count);
-inline constexpr std::array<const char*, 16> kind_names = {
-    "rays",  "overflow", "forwarded", "credits", "hold",      "hold_acknowledgement", "film", "film_acknowledgement",
-    "token", "finish",   "done",      "stop",    "primaries", "primaries_taken",      "ask",  "unused"};
+static_assert(number_of(Kind::unit_moved) < nodes::packet_kind_count);
+inline constexpr std::array<const char*, 22> kind_names = {"rays",
+                                                           "overflow",
+                                                           "forwarded",
+                                                           "credits",
+                                                           "hold",
+                                                           "hold_acknowledgement",
+                                                           "film",
+                                                           "film_acknowledgement",
+                                                           "token",
+                                                           "finish",
+                                                           "done",
+                                                           "stop",
+                                                           "primaries",
+                                                           "primaries_taken",
+                                                           "ask",
+                                                           "unused",
+                                                           "unit_ask",
+                                                           "unit_refusal",
+                                                           "unit_page",
+                                                           "unit_primaries",
+                                                           "unit_acknowledgement",
+                                                           "unit_moved"};
 /// The packet's name, for reports.
 constexpr const char* name_of(Kind kind) { return kind_names[number_of(kind)]; }
 
 inline constexpr nodes::Channel ray_channel = 0;
 inline constexpr nodes::Channel film_channel = 1;
 inline constexpr nodes::Channel control_channel = 2;
-static_assert(control_channel < nodes::channel_count);
+inline constexpr nodes::Channel unit_channel = 3;
+static_assert(unit_channel < nodes::channel_count);
 
 /// What fits so many bytes is the default length of a packet of film; of rays on threads twice as many.
 inline constexpr std::size_t packet_bytes = 1_KiB;
@@ -122,8 +154,8 @@ inline RayMessage message_of(const core::Ray& ray, const core::Passage& passage,
 /// Stands before `count` rays.
 struct RayPacketHeader {
   std::uint16_t count = 0;
-  std::uint16_t owner = 0;  ///< for whom they are, by whatever way
-  std::uint32_t padding = 0;
+  std::uint16_t owner = 0;      ///< for whom they are, by whatever way
+  std::uint32_t rays_left = 0;  ///< where regions move: primary rays of the sender's units that have not started
 };
 static_assert(sizeof(RayPacketHeader) == 8 && std::is_trivially_copyable_v<RayPacketHeader>);
 
@@ -222,6 +254,41 @@ struct PrimariesTaken {
   std::uint32_t count = 0;
 };
 
+/// The sender is idle, and has room for so many pages, and runs of primary rays.
+struct UnitAsk {
+  std::uint32_t free_frames = 0, free_runs = 0;
+};
+
+struct UnitRefusal {
+  std::uint32_t padding = 0;
+};
+
+/// Stands before a page that a unit's rays need.
+struct UnitPageHeader {
+  std::uint32_t unit = 0, version = 0;
+  std::uint32_t page = 0;     ///< its number in the database
+  std::uint32_t is_last = 0;  ///< 1: the receiver answers for the unit from now on
+};
+static_assert(std::is_trivially_copyable_v<UnitPageHeader>);
+
+/// Primary rays that enter the grid in a unit that the receiver answers for.
+struct UnitPrimaryRays {
+  std::uint32_t unit = 0;
+  std::uint32_t is_last = 0;  ///< 1: nothing more comes of the unit
+  DealtPrimaries dealt;
+};
+static_assert(std::is_trivially_copyable_v<UnitPrimaryRays> && sizeof(UnitPrimaryRays) > nodes::small_payload_bytes);
+
+/// The page, or the primary rays, have come.
+struct UnitAcknowledgement {
+  std::uint32_t padding = 0;
+};
+
+/// Who took a unit for which rays came to one that no longer answers for it.
+struct UnitMoved {
+  std::uint32_t unit = 0, version = 0, owner = 0;
+};
+
 /// Every node is done.
 struct Stop {
   std::uint32_t padding = 0;
@@ -231,6 +298,8 @@ template <class T>
 inline constexpr bool is_small_packet = std::is_trivially_copyable_v<T> && sizeof(T) <= nodes::small_payload_bytes;
 static_assert(is_small_packet<Credits> && is_small_packet<Ask> && is_small_packet<FilmAcknowledgement> && is_small_packet<Token>);
 static_assert(is_small_packet<PrimariesTaken> && is_small_packet<Hold> && is_small_packet<HoldAcknowledgement>);
+static_assert(is_small_packet<UnitAsk> && is_small_packet<UnitRefusal> && is_small_packet<UnitAcknowledgement>);
+static_assert(is_small_packet<UnitMoved>);
 static_assert(is_small_packet<Finish> && is_small_packet<Done> && is_small_packet<Stop>);
 
 /// Sends a small packet for which the protocol keeps a place in the target's mailbox (the table above).

@@ -44,10 +44,20 @@ constexpr std::uint32_t default_bundle_queue_packets = 256;
 constexpr std::uint32_t default_shared_queue_packets = 128;
 constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 
+/// Small packets of units that may be in a node's mailbox.
+std::uint32_t unit_slots_of(const Plan& plan) {
+  const std::uint32_t others = plan.node_count() - 1;
+  return others                                                     // UnitAsk: one from each other node
+         + 1                                                        // UnitRefusal of this node's question
+         + 1                                                        // UnitAcknowledgement of this node's page
+         + others * (plan.shares_places() ? 1 : plan.ray_credits);  // UnitMoved, beside each packet of credits
+}
+
 /// What a node's mailbox must be able to hold, whoever sends when; the mailbox itself adds the slot of the packet being received.
 nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   const std::uint32_t others = plan.node_count() - 1;
   const std::uint32_t dealt = plan.dealing_credits();
+  const std::uint32_t moving = plan.is_moving() ? 1 : 0;
   return {.small_slots = others * plan.ray_credits              // credits back from each other node, at least one a packet
                          + (plan.shares_places() ? others : 0)  // requests for places: one from each other node
                          + (plan.shares_places() ? others : 0)  // grants: one for each of this node's requests
@@ -57,12 +67,15 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
                          + plan.film_credits                    // acknowledgements: one for each film packet of this node's
                          + 1                                    // the token
                          + 1                                    // Finish
-                         + 1,                                   // Stop
-          .bulk_slots = others * plan.ray_credits               // rays: each other node's credits for this one
-                        + plan.ray_places                       // rays, or credits unused: the places that others share
-                        + plan.host_credits                     // forwarded rays: the host's
-                        + dealt,                                // primary rays dealt after the start
-          .bulk_payload_bytes = std::max(plan.packet_bytes(), dealt > 0 ? sizeof(DealtPrimaries) : 0)};
+                         + 1                                    // Stop
+                         + moving * unit_slots_of(plan),
+          .bulk_slots = others * plan.ray_credits  // rays: each other node's credits for this one
+                        + plan.ray_places          // rays, or credits unused: the places that others share
+                        + plan.host_credits        // forwarded rays: the host's
+                        + dealt                    // primary rays dealt after the start
+                        + moving,                  // UnitPage or UnitPrimaryRays: the answer to this node's question
+          .bulk_payload_bytes = std::max({plan.packet_bytes(), dealt > 0 ? sizeof(DealtPrimaries) : 0, plan.unit_packet_bytes(),
+                                          plan.is_moving() ? sizeof(UnitPrimaryRays) : 0})};
 }
 
 nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
@@ -90,6 +103,7 @@ void plan_chaos(Plan& plan, const nodes::Chaos& chaos) {
 struct Bounds {
   std::uint32_t ray_batch = 1, ray_credits = 1, ray_places = 0, queue_packets = 0;
   bool bundles = false;
+  std::uint32_t spare_frames = 0;
   bool joins_nodes() const { return ray_credits > 0 || ray_places > 0; }
 };
 
@@ -103,6 +117,7 @@ Plan plan_with(const PlanRequest& request, const Bounds& bounds) {
   plan.host_credits = std::max(1U, bounds.ray_credits);
   plan.queue_packets = !bounds.joins_nodes() || request.node_count() == 1 ? 0 : bounds.queue_packets;
   plan.rays_a_task = bounds.bundles ? BundleTask::rays_max : RayTask::rays_max;
+  plan.spare_frames = bounds.spare_frames;
   plan.film_credits = nodes::patient_credits(request.node_count(), request.computer.machine.has_value());
   plan.node_mailbox = node_mailbox_of(plan);
   plan.host_mailbox = host_mailbox_of(plan);
@@ -169,13 +184,23 @@ std::uint32_t default_batch(const PlanRequest& request) {
                  request.rays.tested_objects);
 }
 
+/// As much as a node has of its own, on average: so any node may come to twice the mean.
+std::uint32_t default_spare_frames(const PlanRequest& request) {
+  std::size_t pages = 0;
+  for (const Share& share : request.shares) {
+    pages += request.is_moving() ? share.part_bytes / share.page_bytes : 0;
+  }
+  return static_cast<std::uint32_t>(core::ceil_divide<std::size_t>(pages, request.node_count()));
+}
+
 Bounds wanted(const PlanRequest& request) {
   const bool shares = shares_places(request);
   return {.ray_batch = request.rays.ray_batch.value_or(default_batch(request)),
           .ray_credits = shares ? 0 : request.rays.ray_credits.value_or(default_credits(request)),
           .ray_places = shares ? request.rays.ray_places.value_or(default_ray_places) : 0,
           .queue_packets = request.rays.queue_packets.value_or(default_queue(request)),
-          .bundles = request.bundles};
+          .bundles = request.bundles,
+          .spare_frames = default_spare_frames(request)};
 }
 
 /// With the least of what the request leaves open.
@@ -187,14 +212,16 @@ Plan smallest_plan(const PlanRequest& request) {
                              .queue_packets = request.rays.queue_packets.value_or(0)});
 }
 
-/// Gives up queued packets first, then credits or places, then bundles, then the length of packets, as far as the request leaves
-/// them open and the memory asks.
+/// Gives up queued packets first, then room for units, then credits or places, then bundles, then the length of packets, as far
+/// as the request leaves them open and the memory asks.
 Plan fitting_plan(const PlanRequest& request, std::size_t memory_bytes) {
   Bounds bounds = wanted(request);
   Plan plan = plan_with(request, bounds);
   while (plan.node_memory_max_bytes() > memory_bytes) {
     if (!request.rays.queue_packets && bounds.queue_packets > 0) {
       --bounds.queue_packets;
+    } else if (bounds.spare_frames > 0) {
+      --bounds.spare_frames;
     } else if (!request.rays.ray_credits && bounds.ray_credits > 1) {
       --bounds.ray_credits;
     } else if (!request.rays.ray_places && bounds.ray_places > 1) {
@@ -233,6 +260,7 @@ void note_reductions(Plan& plan) {
   };
   const Plan unbounded = plan_with(request, wanted(request));
   note("packets of rays that wait for credits", unbounded.queue_packets, plan.queue_packets);
+  note("pages of units that a node may take", unbounded.spare_frames, plan.spare_frames);
   note("credits for rays", unbounded.ray_credits, plan.ray_credits);
   note("places for packets of rays", unbounded.ray_places, plan.ray_places);
   note("rays that walk together", unbounded.rays_a_task, plan.rays_a_task);
@@ -250,6 +278,27 @@ nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
   plan[Category::queues] += nodes::credit_table_bytes(node_count() + 1) + held_bytes;
   plan[Category::reserve] += request.computer.stack_reserve_bytes;
   return plan;
+}
+
+std::size_t Plan::unit_packet_bytes() const {
+  return is_moving() ? sizeof(UnitPageHeader) + request.shares.front().page_bytes : 0;
+}
+
+UnitPages::Capacity Plan::pages_of_node(std::uint32_t index) const {
+  const Share& share = request.shares[index];
+  return {.page_bytes = share.page_bytes,
+          .frames = is_moving() ? static_cast<std::uint32_t>(share.part_bytes / share.page_bytes) + spare_frames : 0};
+}
+
+UnitPrimaries::Capacity Plan::primaries_of_node(std::uint32_t index) const {
+  std::size_t runs = 0;
+  for (const Share& share : request.shares) {
+    runs += share.primary_runs;
+  }
+  const std::size_t mean = core::ceil_divide<std::size_t>(runs, node_count());
+  return is_moving() ? UnitPrimaries::Capacity{.units = request.rays.balance.regions_a_node,
+                                               .runs = std::max(request.shares[index].primary_runs, mean)}
+                     : UnitPrimaries::Capacity{};
 }
 
 std::uint32_t Plan::largest_node() const {

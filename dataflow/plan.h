@@ -12,6 +12,8 @@
 #include "dataflow/packets.h"
 #include "dataflow/ray_options.h"
 #include "dataflow/regions/regions.h"
+#include "dataflow/unit_pages.h"
+#include "dataflow/unit_primaries.h"
 #include "nodes/computer_request.h"
 #include "nodes/local_memory.h"
 #include "nodes/runner.h"
@@ -23,6 +25,7 @@ struct Share {
   std::size_t part_bytes = 0;     ///< its part of the database, records alone
   std::size_t primary_runs = 0;   ///< entries of its list of primary rays
   std::size_t outline_bytes = 0;  ///< of the whole database's outline, with what may be read behind it
+  std::size_t page_bytes = 0;     ///< where regions move: the size of the pages that the part consists of
 };
 
 /// What a plan is made from. `optional` without a value means: choose.
@@ -37,6 +40,8 @@ struct PlanRequest {
   bool is_dealt_on_the_way = false;  ///< the host deals the primary rays of the first pass as nodes have room for them
   bool bundles = false;              ///< rays walk together, where the memory has room for that
   std::uint32_t node_count() const { return static_cast<std::uint32_t>(shares.size()); }
+  /// Regions are units that nodes hand over.
+  bool is_moving() const { return !shares.empty() && shares.front().page_bytes > 0; }
   /// The host deals primary rays after the start, for which nodes have room.
   bool is_dealt() const { return is_dealt_on_the_way || refinement.is_wanted(); }
 };
@@ -55,6 +60,7 @@ struct Plan {
   std::uint32_t queue_packets = 0;  ///< full packets that may wait at their sender for credits
   std::uint32_t rays_a_task = 1;    ///< rays that a node traces at a time, at most: more than one where they walk in bundles
   std::uint32_t film_credits = 1;   ///< film packets from each node for the host
+  std::uint32_t spare_frames = 0;   ///< pages of units that a node has room to take
   std::size_t held_bytes = 0;       ///< room at each node and the host for packets that chaos holds back
   nodes::MailboxCapacity node_mailbox, host_mailbox;
   std::vector<std::string> notes;  ///< sentences to print, such as what was reduced
@@ -66,6 +72,17 @@ struct Plan {
   std::uint32_t tested_objects() const { return request.rays.tested_objects; }
   /// A full packet of rays.
   std::size_t packet_bytes() const { return ray_packet_bytes(ray_batch, tested_objects()); }
+
+  bool is_moving() const { return request.is_moving(); }
+  /// Units in all, if regions move.
+  std::uint32_t unit_count() const { return is_moving() ? node_count() * request.rays.balance.regions_a_node : 0; }
+  /// Of a page of a unit with its header.
+  std::size_t unit_packet_bytes() const;
+  /// The primary rays that node `index` has room for by unit, if regions move: a node that takes a unit may have had fewer of its
+  /// own than the mean.
+  UnitPrimaries::Capacity primaries_of_node(std::uint32_t index) const;
+  /// The pages that node `index` has room for, if regions move.
+  UnitPages::Capacity pages_of_node(std::uint32_t index) const;
 
   /// Packets of primary rays that the host may have under way to each node.
   std::uint32_t dealing_credits() const;

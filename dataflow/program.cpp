@@ -18,7 +18,7 @@ using nodes::LocalMemory;
 
 /// Copies `value`, which has no default, into local memory.
 template <class T>
-const T* keep(LocalMemory& memory, const T& value) {
+T* keep(LocalMemory& memory, const T& value) {
   static_assert(std::is_trivially_copyable_v<T>);
   const std::span<std::byte> bytes = memory.allocate<std::byte>(Category::constants, sizeof(T));
   return std::construct_at(reinterpret_cast<T*>(bytes.data()), value);
@@ -98,13 +98,19 @@ RayProgram<RaysTask>::RayProgram(nodes::Node& node, const Plan& plan, const Node
       return_batch_(return_batch(plan.ray_credits)),
       return_batch_host_(return_batch(plan.host_credits)),
       constants_(keep(node.memory(), Constants{settings_for(deal), deal.regions, deal.outline.header})),
-      part_(keep_records(node.memory(), Category::home_pages, deal.records)),
-      records_(part_),
+      part_(keep_records(node.memory(), Category::home_pages,
+                         plan.is_moving() ? nodes::ByteSource(std::span<const std::byte>()) : deal.records)),
+      pages_(node.memory(), plan.pages_of_node(nodes::index_of(node.id()))),
+      records_(part_, plan.is_moving() ? &pages_ : nullptr),
       surroundings_{constants_->regions, constants_->outline,
                     core::LocalRecords(keep_records(node.memory(), Category::constants, std::span(deal.outline.bytes))),
                     deal.settings.skips},
       tracer_(records_, deal.header, deal.settings.skips, constants_->regions, node.id()),
-      primaries_(node.memory(), deal.primaries, deal.settings.first_samples(), plan.request.is_dealt()),
+      primaries_(node.memory(), plan.is_moving() ? std::span<const PrimaryRun>() : deal.primaries, deal.settings.first_samples(),
+                 plan.request.is_dealt()),
+      unit_primaries_(node.memory(), plan.primaries_of_node(nodes::index_of(node.id())),
+                      plan.is_moving() ? deal.primaries : std::span<const PrimaryRun>(), deal.runs_of_unit,
+                      deal.settings.first_samples()),
       backlog_(node.memory(), backlog_capacity(plan)),
       places_(node.memory(), plan.node_count(), plan.ray_places),
       shares_places_(plan.shares_places()),
@@ -112,7 +118,11 @@ RayProgram<RaysTask>::RayProgram(nodes::Node& node, const Plan& plan, const Node
       task_(make_task<RaysTask>(node, plan)),
       gather_(node, gather_capacity(plan)),
       film_(node, plan.node_count(), plan.film_credits),
+      movement_(node, plan, {&constants_->settings.header, &constants_->regions, &pages_, &unit_primaries_}),
       backpressure_(plan.node_count() - 1, plan.queue_packets, !plan.request.rays.without_backpressure) {
+  if (plan.is_moving()) {
+    pages_.begin_with(deal.pages, deal.records);
+  }
   core::expect(RaysTask::rays_max == plan.rays_a_task, "a node's task is that of the plan");
 }
 
@@ -120,8 +130,14 @@ void NodeProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::ui
   const Share& share = plan.request.shares[index];
   memory[Category::constants] +=
       LocalMemory::bytes_for<std::byte>(sizeof(Constants)) + LocalMemory::bytes_for<std::byte>(share.outline_bytes);
-  memory[Category::home_pages] += LocalMemory::bytes_for<std::byte>(share.part_bytes + core::overread_bytes);
-  Primaries::add_needs(memory, share.primary_runs, plan.request.is_dealt());
+  if (plan.is_moving()) {
+    UnitPages::add_needs(memory, plan.pages_of_node(index));
+    UnitPrimaries::add_needs(memory, plan.primaries_of_node(index));
+    Movement::add_needs(memory, plan);
+  } else {
+    memory[Category::home_pages] += LocalMemory::bytes_for<std::byte>(share.part_bytes + core::overread_bytes);
+  }
+  Primaries::add_needs(memory, plan.is_moving() ? 0 : share.primary_runs, plan.request.is_dealt());
   RayQueue::add_needs(memory, backlog_capacity(plan));
   Places::add_needs(memory, plan.node_count(), plan.ray_places);
   (plan.rays_a_task > 1 ? BundleTask::add_needs : RayTask::add_needs)(memory, plan.request.depth_max);
@@ -160,6 +176,14 @@ void RayProgram<RaysTask>::receive(const nodes::Packet& packet) {
       return;
     case Kind::primaries:
       return receive_primaries(packet.as<DealtPrimaries>());
+    case Kind::unit_ask:
+    case Kind::unit_refusal:
+    case Kind::unit_page:
+    case Kind::unit_primaries:
+    case Kind::unit_acknowledgement:
+      return receive_movement(packet);
+    case Kind::unit_moved:
+      return movement_.take_news(packet.as<UnitMoved>());
     case Kind::stop:
       core::expect(done_ && !stopped_, "the host stops only nodes that are done, and once");
       core::expect(places_.free() == places_.count() && places_.asking() == 0, "every shared place has become free again");
@@ -170,12 +194,22 @@ void RayProgram<RaysTask>::receive(const nodes::Packet& packet) {
   }
 }
 
+/// What may set this node going counts as a packet of rays for the proof of the end.
+template <class RaysTask>
+void RayProgram<RaysTask>::receive_movement(const nodes::Packet& packet) {
+  termination_.ray_packet_received();
+  if (movement_.receive(packet)) {
+    termination_.ray_packet_sent();
+  }
+}
+
 /// A packet with rays has come: this pass has not ended, or the next has begun.
 template <class RaysTask>
 void RayProgram<RaysTask>::wake() {
   core::expect(!finishing_ || done_, "no ray comes after the end");
   finishing_ = false;
   termination_.ray_packet_received();
+  movement_.rays_came();
 }
 
 template <class RaysTask>
@@ -194,10 +228,16 @@ void RayProgram<RaysTask>::receive_rays(const nodes::Packet& packet) {
                "a packet of rays is as long as it says");
   core::expect(nodes::NodeId{header.owner} == node_->id(), "rays come to their owner");
   const std::uint32_t sender = account_of(packet.source);
+  if (movement_.is_on() && packet.source != host_) {
+    movement_.take_rays_left(packet.source, header.rays_left);
+  }
   backlog_.accept_packet(sender, header.count);
   for (std::uint32_t i = 0; i < header.count; ++i) {
     const RayMessage message = ray_in(packet.payload, i, tested_objects_);
     backlog_.put(sender, message);
+    if (is_others(message) && packet.source != host_) {
+      movement_.is_behind(packet.source, constants_->regions.region_index_of(message.cell));
+    }
     ++counters_.in[static_cast<std::size_t>(message.ray.kind)];
   }
 }
@@ -211,17 +251,18 @@ void RayProgram<RaysTask>::take_credits(nodes::NodeId receiver, std::uint32_t co
 
 template <class RaysTask>
 NodeState RayProgram<RaysTask>::state() const {
-  const bool has_work = !task_.is_idle() || !backlog_.empty();
+  const bool has_work = !task_.is_idle() || !backlog_.empty(), has_primaries = this->has_primaries();
   return {.must_announce = backpressure_.is_due(gather_.queued()),
           .packet_waits = packet_waits(),
           .is_tracing = !task_.is_idle(),
           .has_backlog = !backlog_.empty(),
-          .has_primaries = !primaries_.empty(),
+          .has_primaries = has_primaries,
           .admits_primaries = backpressure_.admits_primaries(gather_.queued()),
           .can_flush = !has_work && gather_.can_flush(),  // looks at every owner
           .has_gathered = !gather_.empty(),
           .is_unacknowledged = !backpressure_.is_settled(),
-          .is_unanswered = gather_.is_unanswered()};
+          .is_unanswered = gather_.is_unanswered(),
+          .is_moving_units = !movement_.is_settled() || (!has_work && !has_primaries && movement_.wants_to_ask())};
 }
 
 template <class RaysTask>
@@ -234,6 +275,9 @@ bool RayProgram<RaysTask>::work() {
     perform_metered(task);
   } else {
     perform(task);
+  }
+  if (movement_.is_on()) {
+    gather_.tell(movement_.rays_left());
   }
   const Task next = next_task(state());
   if (next == Task::rest) {
@@ -314,7 +358,7 @@ void RayProgram<RaysTask>::take_received() {
   std::uint32_t sender = 0;
   const RayMessage first = backlog_.take(sender);
   take_up(first, sender);
-  for (std::uint32_t i = 1; i < RaysTask::rays_max && backlog_.has_alike(first.ray); ++i) {
+  for (std::uint32_t i = 1; i < RaysTask::rays_max && !packet_waits() && backlog_.has_alike(first.ray); ++i) {
     const RayMessage message = backlog_.take_alike(first.ray, sender);
     take_up(message, sender);
   }
@@ -328,14 +372,24 @@ void RayProgram<RaysTask>::take_up(const RayMessage& message, std::uint32_t send
   newest_.depth = message.ray.depth;
   if (message.is_confirmed != 0) {
     shade_at_finder(message);
+  } else if (is_others(message)) {
+    movement_.sent_on();
+    dispatch(constants_->regions.owner_of(message.cell), message);
   } else {
     task_.enter(message);
   }
 }
 
+/// The unit that it enters has moved on, and the sender did not know.
+template <class RaysTask>
+bool RayProgram<RaysTask>::is_others(const RayMessage& message) const {
+  return movement_.is_on() && message.is_confirmed == 0 &&
+         !movement_.answers_for(constants_->regions.region_index_of(message.cell));
+}
+
 template <class RaysTask>
 void RayProgram<RaysTask>::start_primaries() {
-  for (std::uint32_t i = 0; i < RaysTask::rays_max && !primaries_.empty() && !packet_waits(); ++i) {
+  for (std::uint32_t i = 0; i < RaysTask::rays_max && has_primaries() && !packet_waits(); ++i) {
     start_primary();
   }
   trace();
@@ -343,8 +397,9 @@ void RayProgram<RaysTask>::start_primaries() {
 
 template <class RaysTask>
 void RayProgram<RaysTask>::start_primary() {
-  const std::uint64_t number = primaries_.take();
-  const core::SampleRange& samples = primaries_.samples();
+  const bool is_of_unit = primaries_.empty();
+  const std::uint64_t number = is_of_unit ? unit_primaries_.take() : primaries_.take();
+  const core::SampleRange& samples = is_of_unit ? unit_primaries_.samples() : primaries_.samples();
   if (const std::uint32_t count = primaries_.packets_worked_off(); count > 0) {
     send_control(*node_, host_, Kind::primaries_taken, PrimariesTaken{count});
   }
@@ -513,6 +568,7 @@ void RayProgram<RaysTask>::give_back(std::uint32_t sender, bool rests) {
   if (returns_credits(owed, target == host_ ? return_batch_host_ : return_batch_, rests)) {
     backlog_.gave_back(sender, owed);
     send_control(*node_, target, Kind::credits, Credits{owed});
+    tell_news(target);
   }
 }
 
@@ -526,6 +582,15 @@ template <class RaysTask>
 void RayProgram<RaysTask>::grant_places() {
   while (const std::optional<nodes::NodeId> sender = places_.grant()) {
     send_control(*node_, *sender, Kind::credits, Credits{1});
+    tell_news(*sender);
+  }
+}
+
+/// With credits, so that there is room for it.
+template <class RaysTask>
+void RayProgram<RaysTask>::tell_news(nodes::NodeId sender) {
+  if (movement_.is_on() && sender != host_) {
+    movement_.tell_news(sender);
   }
 }
 
@@ -535,6 +600,10 @@ void RayProgram<RaysTask>::rest() {
   ++counters_.rests;
   for (std::uint32_t sender = 0; sender < backlog_.sender_count(); ++sender) {
     give_back(sender, true);
+  }
+  if (!has_primaries() && movement_.wants_to_ask()) {
+    movement_.ask();
+    termination_.ray_packet_sent();
   }
   if (is_passive(state())) {
     be_passive();
@@ -576,8 +645,8 @@ nodes::Levels RayProgram<RaysTask>::levels() const {
 
 template <class RaysTask>
 std::string RayProgram<RaysTask>::describe() const {
-  return std::to_string(primaries_.left()) + " primary rays not started, " + std::to_string(backlog_.size()) +
-         " rays in the backlog, " +
+  return std::to_string(primaries_.left() + unit_primaries_.left()) + " primary rays not started, " +
+         std::to_string(backlog_.size()) + " rays in the backlog, " +
          (task_.is_idle()                         ? "none"
           : task_.has_rays() || task_.has_ended() ? "rays"
                                                   : "hits") +
@@ -601,6 +670,7 @@ ProgramReport RayProgram<RaysTask>::report() const {
                        .rays = counters_,
                        .gather = gather_.counters(),
                        .film = film_.counters(),
+                       .movement = movement_.counters(),
                        .backlog_high_water = backlog_.high_water(),
                        .pairs = gather_.pairs()};
   report.rays.holds = backpressure_.count();

@@ -30,6 +30,7 @@
 #include "dataflow/film_gather.h"
 #include "dataflow/flow_control.h"
 #include "dataflow/gather.h"
+#include "dataflow/movement.h"
 #include "dataflow/next_stop.h"
 #include "dataflow/places.h"
 #include "dataflow/plan.h"
@@ -38,6 +39,8 @@
 #include "dataflow/ray_task.h"
 #include "dataflow/regions/regions.h"
 #include "dataflow/termination.h"
+#include "dataflow/unit_pages.h"
+#include "dataflow/unit_primaries.h"
 #include "nodes/byte_source.h"
 #include "nodes/node.h"
 #include "nodes/program.h"
@@ -62,6 +65,7 @@ struct ProgramReport {
   RayCounters rays;
   Gather::Counters gather;
   FilmGather::Counters film;
+  MovementCounters movement;
   std::uint32_t backlog_high_water = 0;  ///< the most rays in the backlog at once
   std::vector<PairCounters> pairs;       ///< by owner
 };
@@ -73,7 +77,9 @@ struct NodeDeal {
   std::span<const PrimaryRun> primaries;
   const core::RenderSettings& settings;  ///< the whole picture's
   const Regions& regions;
-  const core::DatabasePart& outline;  ///< of the whole database
+  const core::DatabasePart& outline;                 ///< of the whole database
+  std::span<const std::uint32_t> pages = {};         ///< where regions move: the numbers of those that the part consists of
+  std::span<const std::uint32_t> runs_of_unit = {};  ///< where regions move: how many of the runs are each unit's, in turn
 };
 
 /// What all node programs of dataflow are, whatever their rays share.
@@ -85,7 +91,7 @@ class NodeProgram : public nodes::Program {
   virtual ProgramReport report() const = 0;
 
  protected:
-  /// What never changes, in local memory.
+  /// What never changes but for whose the regions are, in local memory.
   struct Constants {
     core::RenderSettings settings;  ///< header: the part's
     Regions regions;
@@ -129,6 +135,8 @@ class RayProgram final : public NodeProgram {
   void send_waiting();
   void take_received();
   void take_up(const RayMessage& message, std::uint32_t sender);
+  bool is_others(const RayMessage& message) const;
+  bool has_primaries() const { return !primaries_.empty() || !unit_primaries_.empty(); }
   void start_primaries();
   void start_primary();
   void leave_background(std::uint32_t pixel, std::uint32_t sample);
@@ -144,6 +152,8 @@ class RayProgram final : public NodeProgram {
   void count_claim(core::RayKind kind);
   void end_miss(const core::Ray& ray);
   void dispatch(nodes::NodeId owner, const RayMessage& message);
+  void receive_movement(const nodes::Packet& packet);
+  void tell_news(nodes::NodeId sender);
   void give_back(std::uint32_t sender, bool rests);
   std::uint32_t account_of(nodes::NodeId sender) const;
   void grant_places();
@@ -155,12 +165,14 @@ class RayProgram final : public NodeProgram {
   nodes::Node* node_;
   nodes::NodeId host_;
   std::uint32_t return_batch_, return_batch_host_;
-  const Constants* constants_;
+  Constants* constants_;
   std::span<std::byte> part_;
-  core::LocalRecords records_;
+  UnitPages pages_;
+  PartRecords records_;
   Surroundings surroundings_;
   PartTracer tracer_;
   Primaries primaries_;
+  UnitPrimaries unit_primaries_;  ///< where regions move: those dealt before the start
   RayQueue backlog_;
   Places places_;
   bool shares_places_;
@@ -168,6 +180,7 @@ class RayProgram final : public NodeProgram {
   RaysTask task_;
   Gather gather_;
   FilmGather film_;
+  Movement movement_;
   Backpressure backpressure_;
   Termination termination_ = Termination::member();
   core::Operations operations_;

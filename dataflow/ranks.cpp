@@ -23,13 +23,17 @@ struct Dealt {
   core::DatabaseHeader header;
   std::size_t record_bytes = 0;
   std::vector<PrimaryRun> primaries;
+  std::vector<std::uint32_t> pages, runs_of_unit;  ///< where regions move
 };
 
-std::string dealt_bytes(const core::DatabasePart& part, const std::vector<PrimaryRun>& primaries) {
+std::string dealt_bytes(const Distribution& distribution, std::uint32_t node) {
+  const core::DatabasePart& part = distribution.parts[node];
   nodes::FlatWriter flat;
   flat.put(part.header);
   flat.put(std::size_t{part.bytes.size()});
-  flat.put_all(primaries);
+  flat.put_all(distribution.primaries[node]);
+  flat.put_all(distribution.pages[node]);
+  flat.put_all(distribution.runs_of_unit[node]);
   return flat.take();
 }
 
@@ -37,7 +41,9 @@ Dealt dealt_from(std::string_view bytes) {
   nodes::FlatReader flat(bytes);
   const auto header = flat.take<core::DatabaseHeader>();
   const auto record_bytes = flat.take<std::size_t>();
-  return {header, record_bytes, flat.take_all<PrimaryRun>()};
+  auto primaries = flat.take_all<PrimaryRun>();
+  auto pages = flat.take_all<std::uint32_t>();
+  return {header, record_bytes, std::move(primaries), std::move(pages), flat.take_all<std::uint32_t>()};
 }
 
 }  // namespace
@@ -52,7 +58,7 @@ void hand_out(const Plan& plan, const Distribution& distribution, const core::Re
     const std::uint32_t rank = nodes::rank_of(node, plan.node_count(), links.rank_count());
     if (rank != 0) {
       const core::DatabasePart& part = distribution.parts[node];
-      const std::string dealt = dealt_bytes(part, distribution.primaries[node]);
+      const std::string dealt = dealt_bytes(distribution, node);
       streams.write_counted(rank, std::as_bytes(std::span(dealt)));
       streams.write_piece(rank, part.bytes, 0, part.bytes.size());
     }
@@ -67,7 +73,7 @@ nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop) {
     const Dealt dealt = dealt_from(nodes::read_counted(stream));
     return make_node_program(node, job.plan,
                              NodeDeal{dealt.header, nodes::ByteSource(stream, dealt.record_bytes), dealt.primaries, job.settings,
-                                      job.regions, job.outline});
+                                      job.regions, job.outline, dealt.pages, dealt.runs_of_unit});
   };
   const auto runner = nodes::make_runner(specifications_without_host(job.plan, make_program), job.plan.request.computer);
   stream.say_ready();

@@ -46,7 +46,7 @@ void RayTask::resume_hit(const RayMessage& message) {
 }
 
 void RayTask::trace(PartTracer& tracer, const core::DatabaseHeader& header, core::Operations& operations) {
-  const bool is_here = stage_ == Stage::entered ? tracer.enter(entered_cell_) : begin(tracer, header);
+  const bool is_here = stage_ == Stage::entered ? tracer.enter_taken_up(entered_cell_) : begin(tracer, header);
   core::expect(is_here || stage_ != Stage::entered, "a ray enters a region of the node's");
   if (is_here) {
     traced_ =

@@ -43,7 +43,7 @@ Balanced regions_for(std::uint32_t node_count, const ColumnLoads& loads, const c
   if (Bsp* const bsp = balanced.regions.bsp(); bsp != nullptr && options.rays.topology) {
     map_onto(*bsp, *options.rays.topology, axes_facing(settings.camera));
   }
-  const bool is_predicted = options.rays.balance.balance == Balance::subsampled;
+  const bool is_predicted = options.rays.balance.is_by_load();
   balanced.predicted = is_predicted ? by_node(balanced.regions, balanced.predicted) : std::vector<double>();
   return balanced;
 }
@@ -113,6 +113,7 @@ std::string told_by(nodes::Runner& runner, std::size_t index, const Plan& plan) 
   told.put(program.rays);
   told.put(program.gather);
   told.put(program.film);
+  told.put(program.movement);
   told.put(program.backlog_high_water);
   told.put_all(program.pairs);
   told.put(nodes::figures_of(node));
@@ -125,6 +126,7 @@ NodeReport report_from(nodes::FlatReader& told) {
   report.program.rays = told.take<RayCounters>();
   report.program.gather = told.take<Gather::Counters>();
   report.program.film = told.take<FilmGather::Counters>();
+  report.program.movement = told.take<MovementCounters>();
   report.program.backlog_high_water = told.take<std::uint32_t>();
   report.program.pairs = told.take_all<PairCounters>();
   static_cast<nodes::NodeFigures&>(report) = told.take<nodes::NodeFigures>();
@@ -168,6 +170,15 @@ void check_rays(const Report& report) {
       "every primary ray was shot");
 }
 
+/// Every unit that was handed over was taken, and each is one node's.
+void check_units(const Report& report) {
+  const MovementCounters sum = report.movement();
+  core::expect(sum.units_given == sum.units_taken, "every unit that was handed over was taken");
+  core::expect(sum.primaries_given == sum.primaries_taken, "every primary ray that was handed over was taken");
+  core::expect(sum.asks == sum.refusals + sum.units_taken, "every question was answered, by a unit or a refusal");
+  core::expect(sum.units == report.plan.unit_count(), "every unit is one node's");
+}
+
 void check_packets(const Report& report) {
   const TrafficByKind sent = report.sent(), received = report.received();
   for (std::size_t kind = 0; kind < sent.size(); ++kind) {
@@ -192,6 +203,7 @@ void fill(Report& report, nodes::Runner& runner, const Distribution& distributio
   report.refinement = host.refinement().result();
   if (report.end == nodes::RunEnd::finished) {
     check_rays(report);
+    check_units(report);
     check_packets(report);
     core::expect(gathered.are_credits_back, "every credit has come back, and every packet of primary rays was worked off");
     report.virtual_time = runner.virtual_report();
@@ -220,6 +232,14 @@ Gather::Counters Report::gathers() const {
   Gather::Counters sum;
   for (const NodeReport& node : nodes) {
     sum += node.program.gather;
+  }
+  return sum;
+}
+
+MovementCounters Report::movement() const {
+  MovementCounters sum;
+  for (const NodeReport& node : nodes) {
+    sum += node.program.movement;
   }
   return sum;
 }
@@ -358,10 +378,11 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
                                                         const core::FineDetail* detail) {
   const MakeProgram make_program = [&](std::uint32_t index, nodes::Node& node) {
     const core::DatabasePart& part = distribution.parts[index];
-    return make_node_program(node, plan,
-                             NodeDeal{part.header, std::span(part.bytes), distribution.primaries[index], settings,
-                                      distribution.regions, distribution.outline},
-                             nodes::meter_for(options.watching, options.computer, node.id()));
+    return make_node_program(
+        node, plan,
+        NodeDeal{part.header, std::span(part.bytes), distribution.primaries[index], settings, distribution.regions,
+                 distribution.outline, distribution.pages[index], distribution.runs_of_unit[index]},
+        nodes::meter_for(options.watching, options.computer, node.id()));
   };
   std::vector<nodes::NodeSpecification> specifications = specifications_without_host(plan, make_program);
   const auto deal = [&settings, &distribution, stop](const core::Pass& pass, const core::PixelMask& done) {

@@ -67,6 +67,7 @@ struct Report {
   core::Operations operations() const;  ///< summed over the nodes
   RayCounters rays() const;
   Gather::Counters gathers() const;
+  MovementCounters movement() const;
   /// The work that each node has done, in picoseconds by measured_prices: to be held against `predicted`.
   std::vector<double> work() const;
   /// Rays from a node (row) to an owner (column), whichever way they took, row by row.

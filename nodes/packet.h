@@ -14,7 +14,7 @@ namespace dmpc::nodes {
 
 /// A node program's own numbering of its packets, below packet_kind_count.
 using PacketKind = std::uint8_t;
-inline constexpr std::size_t packet_kind_count = 16;
+inline constexpr std::size_t packet_kind_count = 24;
 
 struct PacketHeader {
   std::uint32_t bytes = 0;   ///< of the payload, what lasts included

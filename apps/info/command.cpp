@@ -34,11 +34,11 @@ std::uint64_t peak_bytes() {
 void settle(const OptionSet& options, InfoOptions& info) {
   StrategyOptions run;
   run.pages = info.pages;
-  run.rays.balance.balance = info.balance.balance;
+  run.rays.balance = info.balance;
   settle_system(options, *info.system, run, info.database);
   settle_database(options, run.strategy, info.database);
   info.pages = run.pages;
-  info.balance.balance = run.strategy == Strategy::dataflow ? run.rays.balance.balance : info.balance.balance;
+  info.balance = run.strategy == Strategy::dataflow ? run.rays.balance : info.balance;
 }
 
 /// A forecast of what needs the subject alone, with progress on a terminal.
@@ -81,7 +81,9 @@ void add_options(OptionSet options, InfoOptions& info) {
       "  dmpc info tetra-9 --system=pixel-machine\n"
       "  dmpc info model.glb --nodes=8,64 --page-size=4KiB\n"
       "  dmpc info tetra-9 --nodes=16 --balance=subsampled --format=json > tetra.json\n"
-      "Nothing is rendered, unless --balance=subsampled asks for the regions that render would make: that takes as long as\n"
+      "Nothing is rendered, unless --balance=subsampled or moving asks for the regions that render would make: that takes as "
+      "long "
+      "as\n"
       "the picture of every 8x8th pixel.");
 }
 

@@ -37,24 +37,30 @@ class Forecaster {
     if (database_.forest_page_count() > 0) {
       computers_.back().forest = with_pages(svm::Strategy::forest, node_count);
     }
-    stopwatch_.lap();
-    partitions_.push_back(regions(node_count));
-    parts_.push_back(dataflow::measure_parts(database_, settings_, partitions_.back()));
-    region_seconds_ += stopwatch_.lap();
+    if (can_share_out(node_count)) {
+      stopwatch_.lap();
+      partitions_.push_back(regions(node_count));
+      parts_.push_back(dataflow::measure_parts(database_, settings_, partitions_.back()));
+      region_seconds_ += stopwatch_.lap();
+    }
   }
 
   /// All computers added. The primary rays are dealt to all at one go.
   Forecast result() {
     stopwatch_.lap();
     const auto shares = dataflow::measure_shares(settings_, partitions_, parts_);
-    for (std::size_t i = 0; i < computers_.size(); ++i) {
-      computers_[i].dataflow = with_rays(shares[i]);
-      computers_[i].dataflow_copies = parts_[i].duplication;
+    std::size_t next = 0;
+    for (ComputerForecast& computer : computers_) {
+      if (can_share_out(computer.nodes)) {
+        computer.dataflow = with_rays(shares[next]);
+        computer.dataflow_copies = parts_[next].duplication;
+        ++next;
+      }
     }
     return {.computers = computers_,
             .balance = balance_.balance,
             .cuts = balance_.bsp.order,
-            .regions_a_node = balance_.balance == dataflow::Balance::scattered ? balance_.regions_a_node : 1,
+            .regions_a_node = balance_.has_several_regions() ? balance_.regions_a_node : 1,
             .homes = pages_.homes,
             .region_seconds = region_seconds_ + stopwatch_.lap()};
   }
@@ -68,10 +74,11 @@ class Forecaster {
     return forecast_of(svm::plan_of(strategy, database_, settings_, options), node_count);
   }
   MemoryForecast with_rays(const std::vector<dataflow::Share>& shares) const {
-    return forecast_of(dataflow::make_plan(dataflow::plan_request(shares, settings_, {})),
+    return forecast_of(dataflow::make_plan(dataflow::plan_request(shares, settings_, {.rays = {.balance = balance_}})),
                        static_cast<std::uint32_t>(shares.size()));
   }
 
+  bool can_share_out(std::uint32_t node_count) const { return dataflow::can_share_out(loads_.lattice, node_count, balance_); }
   /// From the loads known already; on their nodes, since some primary rays are dealt to nodes by number.
   dataflow::Regions regions(std::uint32_t node_count) const {
     dataflow::Regions regions = dataflow::share_out(loads_, node_count, balance_).regions;
@@ -89,8 +96,8 @@ class Forecaster {
   dataflow::ColumnLoads loads_;
   double region_seconds_;
   std::vector<ComputerForecast> computers_;
-  std::vector<dataflow::Regions> partitions_;   ///< by computer
-  std::vector<dataflow::MeasuredParts> parts_;  ///< likewise
+  std::vector<dataflow::Regions> partitions_;   ///< of those computers that dataflow goes on
+  std::vector<dataflow::MeasuredParts> parts_;  ///< of the same
 };
 
 }  // namespace

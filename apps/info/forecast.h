@@ -24,9 +24,10 @@ struct MemoryForecast {
 /// A computer of so many nodes.
 struct ComputerForecast {
   std::uint32_t nodes = 1;
-  MemoryForecast svm, replicated, dataflow;
-  std::optional<MemoryForecast> forest;  ///< nothing unless the database is one tree
-  double dataflow_copies = 1;            ///< of a primitive, over all regions
+  MemoryForecast svm, replicated;
+  std::optional<MemoryForecast> dataflow;  ///< nothing for more nodes than its regions are for
+  std::optional<MemoryForecast> forest;    ///< nothing unless the database is one tree
+  double dataflow_copies = 1;              ///< of a primitive, over all regions
 };
 
 struct Forecast {

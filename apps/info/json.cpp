@@ -104,11 +104,12 @@ Json memory_json(const MemoryForecast& memory, std::uint32_t node_count) {
 Json computers_json(const Forecast& forecast) {
   Json result = Json::array();
   for (const ComputerForecast& computer : forecast.computers) {
+    const auto& rays = computer.dataflow;
     result.push_back({{"nodes", computer.nodes},
                       {"svm", memory_json(computer.svm, computer.nodes)},
                       {"replicated", memory_json(computer.replicated, computer.nodes)},
-                      {"dataflow", memory_json(computer.dataflow, computer.nodes)},
-                      {"dataflow_copies", computer.dataflow_copies},
+                      {"dataflow", rays ? memory_json(*rays, computer.nodes) : Json()},
+                      {"dataflow_copies", rays ? Json(computer.dataflow_copies) : Json()},
                       {"forest", computer.forest ? memory_json(*computer.forest, computer.nodes) : Json()}});
   }
   return result;

@@ -175,7 +175,7 @@ Table memory_table(const Forecast& forecast) {
   table.add_note(
       "copies: of a primitive by dataflow, whose regions are made by --balance=" + std::string(name_of(forecast.balance)) +
       (forecast.cuts == dataflow::CutOrder::longer_axis ? "" : " --cuts=" + std::string(name_of(forecast.cuts))) +
-      (forecast.balance == dataflow::Balance::scattered ? " --regions=" + std::to_string(forecast.regions_a_node) : "") +
+      (forecast.regions_a_node > 1 ? " --regions=" + std::to_string(forecast.regions_a_node) : "") +
       (forecast.balance == dataflow::Balance::equal_size
            ? "; those of render's own choice may need several times as much: --balance=subsampled tells"
            : ""));
@@ -187,7 +187,7 @@ Table memory_table(const Forecast& forecast) {
     std::vector<Cell> row = {std::uint64_t{computer.nodes}};
     add_cells(row, computer.svm);
     add_cells(row, computer.dataflow);
-    row.emplace_back(fixed(computer.dataflow_copies, 2));
+    row.emplace_back(computer.dataflow ? fixed(computer.dataflow_copies, 2) : "");
     add_cells(row, computer.replicated);
     if (has_forest) {
       add_cells(row, computer.forest);

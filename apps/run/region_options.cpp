@@ -17,16 +17,22 @@ constexpr std::int64_t subsample_max = 65536;
 
 const char* name_of(dataflow::Balance balance) {
   using dataflow::Balance;
-  return balance == Balance::subsampled ? "subsampled" : balance == Balance::equal_size ? "equal-size" : "scattered";
+  return balance == Balance::subsampled   ? "subsampled"
+         : balance == Balance::equal_size ? "equal-size"
+         : balance == Balance::scattered  ? "scattered"
+                                          : "moving";
 }
 
 void add_balance_option(OptionSet options, dataflow::Balance& balance) {
   using dataflow::Balance;
   options.add_choice<Balance>(
       "--balance", balance,
-      {{"subsampled", Balance::subsampled}, {"equal-size", Balance::equal_size}, {"scattered", Balance::scattered}},
+      {{"subsampled", Balance::subsampled},
+       {"equal-size", Balance::equal_size},
+       {"scattered", Balance::scattered},
+       {"moving", Balance::moving}},
       "Regions of about equal load, by a subsampled picture, or of equal size, or scattered: a lattice of many regions a node, "
-      "neighbours on different nodes");
+      "neighbours on different nodes; or moving: subsampled, of several units that nodes hand over while rays travel");
 }
 
 const char* name_of(dataflow::CutOrder order) { return order == dataflow::CutOrder::longer_axis ? "longer-side" : "alternating"; }
@@ -39,7 +45,7 @@ void add_cuts_option(OptionSet options, dataflow::CutOrder& order) {
 
 void add_scattered_option(OptionSet options, dataflow::BalanceOptions& balance) {
   options.add_number("--regions", balance.regions_a_node, 1, dataflow::Scattered::regions_max, "1",
-                     "Regions a node (--balance=scattered)");
+                     "Regions a node (--balance=scattered), or units of a node's region (--balance=moving)");
 }
 
 void add_region_options(OptionSet options, dataflow::BalanceOptions& balance) {
@@ -52,12 +58,16 @@ void add_region_options(OptionSet options, dataflow::BalanceOptions& balance) {
 void check_regions(const OptionSet& options, const dataflow::BalanceOptions& balance) {
   using dataflow::Balance;
   for (const char* const option : {"--subsample", "--balance-grid"}) {
-    if (options.is_given(option) && balance.balance != Balance::subsampled) {
-      throw core::UsageError(std::string(option) + " goes with --balance=subsampled: regions of equal size ask for no load");
+    if (options.is_given(option) && !balance.is_by_load()) {
+      throw core::UsageError(std::string(option) +
+                             " goes with --balance=subsampled or moving: regions of equal size ask for no load");
     }
   }
-  if (options.is_given("--regions") && balance.balance != Balance::scattered) {
-    throw core::UsageError("--regions goes with --balance=scattered: else a node has one region");
+  if (options.is_given("--regions") && !balance.has_several_regions()) {
+    throw core::UsageError("--regions goes with --balance=scattered or moving: else a node has one region");
+  }
+  if (balance.balance == Balance::moving && balance.regions_a_node < 2) {
+    throw core::UsageError("--balance=moving needs --regions=K, from 2 units a node on, such as 16");
   }
   if (options.is_given("--cuts") && balance.balance == Balance::scattered) {
     throw core::UsageError("--cuts does not go with --balance=scattered: a lattice is not cut box by box");

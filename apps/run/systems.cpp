@@ -9,7 +9,7 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::array<SystemDescription, 9> descriptions = {{
+constexpr std::array<SystemDescription, 10> descriptions = {{
     {System::replicated, "replicated", "every node has the whole scene and renders its part of the picture"},
     {System::replicated_extents, "replicated-extents", "the same with one tree of boxes for the scene"},
     {System::svm, "svm", "a shared virtual memory (Badouel, Bouatouch, Priol 1994): pages travel from node to node"},
@@ -25,6 +25,9 @@ constexpr std::array<SystemDescription, 9> descriptions = {{
      "after Kobayashi and others (1988): rays travel between regions of equal size, 16 a node, neighbours on different nodes"},
     {System::subsampled, "subsampled",
      "Badouel, Bouatouch, Priol (1994): rays travel between regions of equal work, by a small picture"},
+    {System::moving, "moving",
+     "after Dippe and Swensen (1984), Nemoto and Omachi (1986): the same, but idle nodes take units of busy ones' regions, with "
+     "their rays to come, while rays travel; 16 units a node"},
 }};
 
 std::string text_of_value(std::uint32_t value) { return std::to_string(value); }
@@ -74,6 +77,10 @@ void for_each_setting(System system, StrategyOptions& run, DatabaseOptions& data
     case System::subsampled:
       is(Strategy::dataflow, core::Structure::grid);
       return visit("--balance", run.rays.balance.balance, dataflow::Balance::subsampled);
+    case System::moving:
+      is(Strategy::dataflow, core::Structure::grid);
+      visit("--balance", run.rays.balance.balance, dataflow::Balance::moving);
+      return visit("--regions", run.rays.balance.regions_a_node, std::uint32_t{16});
   }
 }
 

@@ -21,7 +21,8 @@ enum class System : std::uint8_t {
   forest,
   equal_size,
   scattered,
-  subsampled
+  subsampled,
+  moving
 };
 
 struct SystemDescription {

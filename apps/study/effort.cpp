@@ -57,7 +57,7 @@ struct Plan {
 std::size_t bytes_of(const PlannedRun& run, const Subject& subject) {
   const Forecast one = forecast(subject.database, subject.settings, {run.node_count}, {.balance = dataflow::Balance::equal_size});
   const ComputerForecast& computer = one.computers.front();
-  return run.strategy == Strategy::dataflow     ? computer.dataflow.all_bytes
+  return run.strategy == Strategy::dataflow     ? computer.dataflow->all_bytes
          : run.strategy == Strategy::replicated ? computer.replicated.all_bytes
          : run.strategy == Strategy::forest     ? computer.forest->all_bytes
                                                 : computer.svm.all_bytes;

@@ -68,13 +68,15 @@ bool is_other_than_host_home(System system) { return is_distributed(system) && !
 bool asks(System system) { return system == System::forest; }
 bool is_subsampled(System system) { return system == System::subsampled; }
 bool is_equal_size(System system) { return system == System::equal_size; }
+bool is_moving(System system) { return system == System::moving; }
 
-constexpr std::array<Expectation, 5> expectations = {
+constexpr std::array<Expectation, 6> expectations = {
     {{"whole copies are the fastest, where memory allows them", is_ample, is_replicated, is_distributed},
      {"with ample memory pages are the fastest of what travels", is_ample, is_svm, is_other_than_svm},
      {"with 1 to 5 % of the database beside its part a node does better by questions than by pages", is_scarce, asks, is_svm},
      {"whatever the memory, the host is the slowest home", is_any, is_other_than_host_home, has_host_home},
-     {"regions by a subsampled picture are faster than regions of equal size", is_ample, is_subsampled, is_equal_size}}};
+     {"regions by a subsampled picture are faster than regions of equal size", is_ample, is_subsampled, is_equal_size},
+     {"where hits crowd, regions that move while rays travel are faster than those that stay", is_ample, is_moving, is_subsampled}}};
 
 std::string time_text(const Round::Entry& entry) {
   return std::string(name_of(entry.system)) + " " + rounded(entry.seconds) + " s";

@@ -11,6 +11,7 @@
 #include "core/base/units.h"
 #include "core/build/address_map.h"
 #include "core/build/record_writer.h"
+#include "core/build/region_records.h"
 #include "core/build/texture_records.h"
 #include "core/record/directory.h"
 #include "core/record/texture_layout.h"
@@ -109,23 +110,12 @@ class Extractor {
     return {0, among_.size()};
   }
 
-  /// Whether a child's box, borders included, touches a region.
-  bool touches(const Brick& brick, std::size_t child, const Region& region) const {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (place_of(brick, axis, child) > plane_at(whole_.frame, axis, region.high[axis]) ||
-          place_of(brick, axis + 3, child) < plane_at(whole_.frame, axis, region.low[axis])) {
-        return false;
-      }
-    }
-    return true;
-  }
-
   /// Those that a child's box touches; let_go() of them before those from which they were chosen.
   Those touched(const Brick& brick, std::size_t child, const Those& those) {
     const std::size_t first = among_.size();
     for (std::size_t i = 0; i < those.count; ++i) {
       const std::uint32_t region = among_[those.first + i];
-      if (touches(brick, child, regions_[region])) {
+      if (touches(whole_.frame, brick, child, regions_[region])) {
         among_.push_back(region);
       }
     }

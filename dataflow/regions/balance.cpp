@@ -18,6 +18,9 @@ void check(const BalanceOptions& options) {
   if (options.regions_a_node < 1) {
     throw core::UsageError("a node has a region or more");
   }
+  if (options.balance == Balance::moving && options.regions_a_node < 2) {
+    throw core::UsageError("a node whose region moves has 2 units of it or more, not 1");
+  }
 }
 
 }  // namespace
@@ -49,10 +52,9 @@ ColumnLoads column_loads(const core::Database& database, const core::RenderSetti
   check(options);
   const core::Camera& camera = settings.camera;
   const ColumnLattice lattice(core::grid_size(settings.header.frame), axes_facing(camera), options.columns_per_side);
-  return options.balance != Balance::subsampled
-             ? ColumnLoads(lattice)
-             : measure_loads(database, settings, lattice,
-                             core::subsampled_pixels(camera.width(), camera.height(), options.subsample), stop);
+  return !options.is_by_load() ? ColumnLoads(lattice)
+                               : measure_loads(database, settings, lattice,
+                                               core::subsampled_pixels(camera.width(), camera.height(), options.subsample), stop);
 }
 
 Balanced share_out(const ColumnLoads& loads, std::uint32_t node_count, const BalanceOptions& options) {
@@ -64,13 +66,14 @@ Balanced share_out(const ColumnLoads& loads, std::uint32_t node_count, const Bal
   if (options.balance == Balance::equal_size) {
     return {equal_size_bsp(lattice.grid_size(), lattice.axes(), node_count, options.bsp), std::vector<double>(node_count, 0.0)};
   }
-  const Bsp bsp = build_bsp(loads, node_count, options.bsp);
+  const Bsp bsp = options.balance == Balance::moving ? build_units(loads, node_count, options.regions_a_node, options.bsp)
+                                                     : build_bsp(loads, node_count, options.bsp);
   return {bsp, loads_of_regions(bsp, loads)};
 }
 
 bool can_share_out(const ColumnLattice& lattice, std::uint32_t node_count, const BalanceOptions& options) {
   const std::uint64_t region_count = std::uint64_t{node_count} * options.regions_a_node;
-  return node_count <= region_count_max &&
+  return node_count <= region_count_max && (options.balance != Balance::moving || region_count <= region_count_max) &&
          (options.balance != Balance::scattered ||
           (region_count <= Scattered::regions_max &&
            scattered_shape({lattice.size(0), lattice.size(1)}, node_count, options.regions_a_node)));

@@ -20,7 +20,8 @@ namespace dmpc::dataflow {
 enum class Balance : std::uint8_t {
   subsampled,  ///< regions of about equal predicted load
   equal_size,  ///< the naive split
-  scattered    ///< a regular lattice, many regions a node, neighbours on different nodes
+  scattered,   ///< a regular lattice, many regions a node, neighbours on different nodes
+  moving       ///< subsampled regions, each of many units, which nodes hand over to others while rays travel
 };
 
 struct BalanceOptions {
@@ -28,7 +29,12 @@ struct BalanceOptions {
   int subsample = 8;                    ///< one pixel of every subsample x subsample is traced; at least 1
   std::int32_t columns_per_side = 256;  ///< of the lattice that the loads are counted on; at least 1
   BspOptions bsp = {};                  ///< unless scattered
-  std::uint32_t regions_a_node = 1;     ///< scattered: from 1 on; else one is all that there is
+  std::uint32_t regions_a_node = 1;     ///< scattered: from 1 on; moving: units, from 2 on; else one is all that there is
+
+  /// A node may have more than one.
+  bool has_several_regions() const { return balance == Balance::scattered || balance == Balance::moving; }
+  /// Loads are measured for it.
+  bool is_by_load() const { return balance == Balance::subsampled || balance == Balance::moving; }
 };
 
 /// Regions, and what was known when they were made.

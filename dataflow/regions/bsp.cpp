@@ -66,7 +66,7 @@ Rectangle rectangle_of(const core::Region& region, const CutAxes& axes) {
 std::uint32_t Bsp::region_index_of(const core::Corner& cell) const {
   std::uint32_t first = 0, count = region_count_;
   while (count > 1) {
-    const std::uint32_t low_count = count / 2;
+    const std::uint32_t low_count = low_count_of(count);
     const Cut cut = cuts_[first + low_count - 1];
     const bool is_low = cell[cut.axis()] < cut.at();
     first += is_low ? 0 : low_count;
@@ -81,6 +81,24 @@ core::Region Bsp::region_at(std::uint32_t index) const {
   return region;
 }
 
+Bsp::Block Bsp::block_around(std::uint32_t index) const {
+  Block block{{{}, grid_size_}, 0, region_count_};
+  while (!owns(owner_at(index), block)) {
+    const std::uint32_t low_count = low_count_of(block.count);
+    const Cut& cut = cuts_[block.first + low_count - 1];
+    const bool is_high = index >= block.first + low_count;
+    (is_high ? block.box.low : block.box.high)[cut.axis()] = cut.at();
+    block.first += is_high ? low_count : 0;
+    block.count = is_high ? block.count - low_count : low_count;
+  }
+  return block;
+}
+
+bool Bsp::owns(nodes::NodeId node, const Block& block) const {
+  const auto first = owner_.begin() + block.first;
+  return std::all_of(first, first + block.count, [node](std::uint16_t owner) { return owner == nodes::index_of(node); });
+}
+
 std::uint32_t Bsp::region_index_of(nodes::NodeId node) const {
   const auto end = owner_.begin() + region_count_;
   const auto found = std::find(owner_.begin(), end, nodes::index_of(node));
@@ -89,24 +107,59 @@ std::uint32_t Bsp::region_index_of(nodes::NodeId node) const {
 }
 
 void Bsp::assign(std::span<const std::uint32_t> node_of_region) {
-  core::expect(node_of_region.size() == region_count_, "every region is given to a node");
-  std::vector<bool> taken(region_count_, false);
+  const std::uint32_t each = units_each_;
+  core::expect(node_of_region.size() == node_count_, "every node's regions are given to a node");
+  std::vector<bool> taken(node_count_, false);
   for (std::uint32_t region = 0; region < region_count_; ++region) {
-    const std::uint32_t node = node_of_region[region];
-    core::expect(node < region_count_ && !taken[node], "every node owns one region");
+    const std::uint32_t node = node_of_region[region / each];
+    core::expect(node < node_count_ && (region % each > 0 || !taken[node]), "every node owns as many regions");
     taken[node] = true;
     owner_[region] = static_cast<std::uint16_t>(node);
   }
+}
+
+Bsp Bsp::without_units() const {
+  Bsp whole(grid_size_);
+  whole.region_count_ = whole.node_count_ = node_count_;
+  for (std::uint32_t node = 0; node < node_count_; ++node) {
+    whole.owner_[node] = static_cast<std::uint16_t>(node);
+    if (node + 1 < node_count_) {
+      whole.cuts_[node] = cuts_[(node + 1) * units_each_ - 1];
+    }
+  }
+  return whole;
+}
+
+Bsp Bsp::by_unit() const {
+  Bsp units = *this;
+  units.node_count_ = region_count_;
+  std::vector<bool> is_holding(node_count_, false);
+  for (std::uint32_t unit = 0; unit < region_count_; ++unit) {
+    is_holding[owner_[unit]] = is_holding[owner_[unit]] || !is_empty(unit);
+  }
+  units.empty_ = {};
+  for (std::uint32_t unit = 0; unit < region_count_; ++unit) {
+    units.owner_[unit] = static_cast<std::uint16_t>(unit);
+    if (!is_holding[owner_[unit]]) {
+      units.mark_empty(unit);
+    }
+  }
+  return units;
 }
 
 /// Cuts one box after the other, the larger share of the regions always on the high side.
 class BspBuilder {
  public:
   /// `loads` are those of the lattice's columns; null if there is none anywhere.
-  BspBuilder(const ColumnLattice& lattice, const ColumnLoads* loads, std::uint32_t region_count, const BspOptions& options)
+  BspBuilder(const ColumnLattice& lattice, const ColumnLoads* loads, std::uint32_t region_count, const BspOptions& options,
+             std::uint32_t units_a_node = 1)
       : lattice_(lattice), options_(options), bsp_(lattice.grid_size()) {
     bsp_.region_count_ = region_count;
-    std::iota(bsp_.owner_.begin(), bsp_.owner_.end(), static_cast<std::uint16_t>(0));
+    bsp_.node_count_ = region_count / units_a_node;
+    bsp_.units_each_ = units_a_node;
+    for (std::uint32_t region = 0; region < bsp_.owner_.size(); ++region) {
+      bsp_.owner_[region] = static_cast<std::uint16_t>(region / units_a_node);
+    }
     for (std::size_t along = 0; along < 2; ++along) {
       for (std::int32_t i = 0; i <= lattice.count(along); ++i) {
         lines_[along].push_back(lattice.line(along, i));
@@ -142,8 +195,9 @@ class BspBuilder {
     if (count == 1) {
       return;
     }
-    const std::uint32_t low_count = count / 2;
-    const Place place = choose(box, low_count, count - low_count, depth);
+    const std::uint32_t low_count = bsp_.low_count_of(count);
+    const std::uint32_t together = count > bsp_.units_each_ ? bsp_.units_each_ : 1;  // as if nodes had one region
+    const Place place = choose(box, low_count / together, (count - low_count) / together, depth);
     bsp_.cuts_[first + low_count - 1] = {place.at, lattice_.axes()[place.along]};
     Rectangle low = box, high = box;
     low.high[place.along] = high.low[place.along] = place.at;
@@ -238,6 +292,17 @@ void check_region_count(std::uint32_t region_count) {
 Bsp build_bsp(const ColumnLoads& loads, std::uint32_t region_count, const BspOptions& options) {
   check_region_count(region_count);
   return BspBuilder(loads.lattice, &loads, region_count, options).build();
+}
+
+Bsp build_units(const ColumnLoads& loads, std::uint32_t node_count, std::uint32_t units_a_node, const BspOptions& options) {
+  core::expect(units_a_node >= 1, "a node has a unit or more");
+  check_region_count(node_count);
+  if (std::uint64_t{node_count} * units_a_node > region_count_max) {
+    throw core::UsageError("space can be cut into at most " + std::to_string(region_count_max) + " units, not into " +
+                           std::to_string(units_a_node) + " for each of " + std::to_string(node_count) +
+                           " nodes: ask for fewer of either");
+  }
+  return BspBuilder(loads.lattice, &loads, node_count * units_a_node, options, units_a_node).build();
 }
 
 Bsp equal_size_bsp(const core::Corner& grid_size, const CutAxes& axes, std::uint32_t region_count, const BspOptions& options) {

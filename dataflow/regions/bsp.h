@@ -37,26 +37,37 @@ struct BspOptions {
 };
 
 /// The regions of a run and their owners: every finest cell of the grid lies in exactly one region, and every region has one
-/// node.
+/// node. Unless it is of units (build_units()), every node has one region.
 ///
 /// Invariants: regions are numbered 0 .. region_count() - 1 from the low side of every cut to the high side. A box of n regions
 /// is cut into floor(n / 2) and ceil(n / 2), so the tree's form follows from the count alone, and the cut between regions i and i
-/// + 1, at whatever depth, is kept at index i. Immutable but for assign() and mark_empty(); as plain bytes copyable to every
-/// node.
+/// + 1, at whatever depth, is kept at index i. Of units a box of n nodes' is cut so, and a node's own into halves in turn.
+/// Immutable but for assign(), give_to() and mark_empty(); as plain bytes copyable to every node.
 class Bsp {
  public:
   /// One region: the grid of `grid_size` finest cells, owned by node 0.
   explicit Bsp(const core::Corner& grid_size) : grid_size_(grid_size) {}
 
   std::uint32_t region_count() const { return region_count_; }
-  /// Each has one region.
-  std::uint32_t node_count() const { return region_count_; }
+  std::uint32_t node_count() const { return node_count_; }
+  /// A node has several regions, and may hand them over to others.
+  bool is_of_units() const { return node_count_ < region_count_; }
   /// In finest cells.
   const core::Corner& grid_size() const { return grid_size_; }
   /// Which region holds a finest cell of the grid: at most ceil(log2(region_count())) comparisons.
   std::uint32_t region_index_of(const core::Corner& cell) const;
   /// The box of region `index`, in finest cells; empty only if there are more regions than finest columns to share.
   core::Region region_at(std::uint32_t index) const;
+
+  /// Regions with successive numbers that make up a box.
+  struct Block {
+    core::Region box;
+    std::uint32_t first = 0, count = 0;
+  };
+  /// The largest block around region `index` that a cut or the grid's border ends, and whose regions are all of its owner.
+  Block block_around(std::uint32_t index) const;
+  /// All of the block's regions are `node`'s.
+  bool owns(nodes::NodeId node, const Block& block) const;
 
   /// A plane between regions, in four bytes.
   class Cut {
@@ -95,12 +106,26 @@ class Bsp {
 
   /// Gives region i to node node_of_region[i]; expects a permutation of 0 .. region_count() - 1. Before, region i is node i's.
   void assign(std::span<const std::uint32_t> node_of_region);
+  /// The same regions before they were cut into units: one a node, numbered by node.
+  Bsp without_units() const;
+  /// The same units, as if each were the region of a node of its number. Known to hold nothing are those alone whose owner holds
+  /// nothing at all: rays start where they would if nodes had one region, which is what loads are measured by.
+  Bsp by_unit() const;
+  /// From now on region `index` is `node`'s.
+  void give_to(std::uint32_t index, nodes::NodeId node) { owner_[index] = static_cast<std::uint16_t>(nodes::index_of(node)); }
 
  private:
   friend class BspBuilder;
 
+  /// How many of a box's `count` regions are on the low side of its cut.
+  std::uint32_t low_count_of(std::uint32_t count) const {
+    return count > units_each_ ? count / units_each_ / 2 * units_each_ : count / 2;
+  }
+
   core::Corner grid_size_;
   std::uint32_t region_count_ = 1;
+  std::uint32_t node_count_ = 1;
+  std::uint32_t units_each_ = 1;
   std::array<Cut, region_count_max - 1> cuts_{};
   std::array<std::uint16_t, region_count_max> owner_{};
   std::array<std::uint64_t, region_count_max / 64> empty_{};  ///< a bit a region
@@ -112,7 +137,7 @@ void Bsp::for_each_cut(std::uint32_t index, Visit visit) const {
   core::expect(index < region_count_, "a region has a number below the count");
   std::uint32_t first = 0, count = region_count_;
   while (count > 1) {
-    const std::uint32_t low_count = count / 2;
+    const std::uint32_t low_count = low_count_of(count);
     const bool is_high = index >= first + low_count;
     visit(cuts_[first + low_count - 1], is_high);
     first += is_high ? low_count : 0;
@@ -123,6 +148,9 @@ void Bsp::for_each_cut(std::uint32_t index, Visit visit) const {
 /// Regions of about equal load. Throws core::UsageError unless 1 <= region_count <= region_count_max. Columns without load count
 /// a little by their area, so that loads of zero throughout give regions of equal size.
 Bsp build_bsp(const ColumnLoads& loads, std::uint32_t region_count, const BspOptions& options = {});
+/// The same regions of `node_count` nodes, each cut into `units_a_node` of about equal load, which are all its node's: numbers i
+/// units_a_node and on those of region i.
+Bsp build_units(const ColumnLoads& loads, std::uint32_t node_count, std::uint32_t units_a_node, const BspOptions& options = {});
 
 /// The naive split: regions of equal size whatever lies in them.
 Bsp equal_size_bsp(const core::Corner& grid_size, const CutAxes& axes, std::uint32_t region_count,

@@ -197,8 +197,9 @@ Mapping gray_mapping(const Bsp& bsp) {
 }
 
 void map_onto(Bsp& bsp, nodes::TopologyKind kind, const CutAxes& axes) {
-  const std::vector<Flow> flows = flows_of(boundaries_of(bsp, axes));
-  bsp.assign(map_regions(bsp, flows, nodes::Topology(kind, bsp.region_count())));
+  const Bsp whole = bsp.without_units();
+  const std::vector<Flow> flows = flows_of(boundaries_of(whole, axes));
+  bsp.assign(map_regions(whole, flows, nodes::Topology(kind, whole.region_count())));
 }
 
 Mapping identity_mapping(std::uint32_t region_count) {

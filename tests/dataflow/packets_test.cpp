@@ -93,7 +93,7 @@ TEST_CASE("packets of rays and film are bulk, however short, and those of contro
 
 TEST_CASE("every kind of packet has a number and a name of its own") {
   std::set<std::string> names;
-  for (nodes::PacketKind number = 0; number <= dataflow::number_of(Kind::unused); ++number) {
+  for (nodes::PacketKind number = 0; number <= dataflow::number_of(Kind::unit_moved); ++number) {
     names.insert(dataflow::name_of(Kind{number}));
   }
   CHECK(names.size() == dataflow::kind_names.size());

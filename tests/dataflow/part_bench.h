@@ -6,6 +6,7 @@
 #include "core/build/extract.h"
 #include "dataflow/ray_task.h"
 #include "dataflow/regions/balance.h"
+#include "dataflow/unit_pages.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"
 
@@ -31,7 +32,7 @@ template <class Task>
 struct PartBench {
   explicit PartBench(const core::Region& region, std::uint32_t depth_max = 5)
       : part(core::extract(part_subject().database(), region)),
-        records(part.bytes),
+        records(part.bytes, nullptr),
         tracer(records, part.header, {}),
         settings{part.header, part_subject().settings().camera, part_subject().settings().shade},
         memory(needs(depth_max)),
@@ -43,7 +44,7 @@ struct PartBench {
   }
 
   core::DatabasePart part;
-  core::LocalRecords records;
+  dataflow::PartRecords records;
   dataflow::PartTracer tracer;
   core::RenderSettings settings;
   nodes::LocalMemory memory;

@@ -25,6 +25,16 @@ PlanRequest request_with(std::uint32_t nodes, std::size_t part_bytes) {
   return request;
 }
 
+/// Nodes whose regions move, of four units each, with so many pages of 1 KiB.
+PlanRequest moving_request(std::initializer_list<std::size_t> pages) {
+  PlanRequest request{.width = 64, .height = 64};
+  request.rays.balance = {.balance = dataflow::Balance::moving, .regions_a_node = 4};
+  for (const std::size_t count : pages) {
+    request.shares.push_back({.part_bytes = count * 1_KiB, .primary_runs = 10, .page_bytes = 1_KiB});
+  }
+  return request;
+}
+
 std::string error_of(const PlanRequest& request, const dataflow::OtherNodeCount& other = {}) {
   try {
     make_plan(request, other);
@@ -91,6 +101,49 @@ TEST_CASE("where memory is scarce rays walk alone before packets get shorter, an
   const std::vector<std::string> notes = make_plan(request).notes;
   CHECK(std::any_of(notes.begin(), notes.end(),
                     [](const std::string& note) { return note.starts_with("rays that walk together reduced from 16 to 1"); }));
+}
+
+TEST_CASE("nodes whose regions move have room for as many pages again as they have on average, and for others' primary rays") {
+  PlanRequest request = moving_request({20, 40, 60});
+  request.shares[0].primary_runs = 4;
+  const Plan plan = make_plan(request);
+  CHECK(plan.is_moving());
+  CHECK(plan.unit_count() == 12);
+  CHECK(plan.spare_frames == 40);
+  CHECK(plan.pages_of_node(0).frames == 60);
+  CHECK(plan.pages_of_node(2).frames == 100);
+  CHECK(plan.primaries_of_node(0).runs == 8);
+  CHECK(plan.primaries_of_node(1).runs == 10);
+  const Plan still = make_plan(request_with(3, 40_KiB));
+  CHECK_FALSE(still.is_moving());
+  CHECK(still.unit_count() == 0);
+  CHECK(still.spare_frames == 0);
+  CHECK(plan.node_mailbox.bulk_slots == still.node_mailbox.bulk_slots + 1);
+  CHECK(plan.node_mailbox.small_slots == still.node_mailbox.small_slots + 2 + 1 + 1 + 2 * plan.ray_credits);
+}
+
+TEST_CASE("scarce memory costs queued packets before room for units, that before credits, and the smallest has none") {
+  PlanRequest request = moving_request({20, 40, 60});
+  const std::size_t smallest = dataflow::smallest_node_memory_bytes(request);
+  std::uint32_t spare = 40;
+  for (std::size_t memory = make_plan(request).node_memory_max_bytes(); memory >= smallest; memory -= 1_KiB) {
+    request.computer.node_memory_bytes = memory;
+    const Plan plan = make_plan(request);
+    CHECK(plan.node_memory_max_bytes() <= memory);
+    CHECK((plan.spare_frames == 40 || plan.queue_packets == 0));
+    CHECK((plan.spare_frames == 0 || plan.ray_credits == 4));
+    CHECK(plan.spare_frames <= spare);
+    spare = plan.spare_frames;
+  }
+  CHECK(spare == 0);
+  request.computer.node_memory_bytes = smallest;
+  const Plan plan = make_plan(request);
+  CHECK(plan.node_memory_max_bytes() == smallest);
+  CHECK(std::any_of(plan.notes.begin(), plan.notes.end(), [](const std::string& note) {
+    return note.starts_with("pages of units that a node may take reduced from 40 to 0");
+  }));
+  request.computer.node_memory_bytes = smallest - 1;
+  CHECK(error_of(request).find("node_memory_bytes=" + nodes::size_text(smallest)) != std::string::npos);
 }
 
 TEST_CASE("the smallest memory that is named works, and one byte less does not") {

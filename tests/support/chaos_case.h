@@ -97,12 +97,15 @@ class ChaosCase {
   }
 
  private:
-  /// Some cases have several regions a node, by draws of their own.
+  /// Some cases have several regions a node, that stay or move, by draws of their own.
   void scatter(dataflow::BalanceOptions& balance) const {
     nodes::ChaosStream draws(core::mix(seed_ ^ 0x5ca77e2ed));
     if (draws.chance(30)) {
       balance.balance = dataflow::Balance::scattered;
       balance.regions_a_node = 1 + draws.below(16);
+    } else if (draws.chance(30)) {
+      balance.balance = dataflow::Balance::moving;
+      balance.regions_a_node = 2 + draws.below(12);
     }
   }
 

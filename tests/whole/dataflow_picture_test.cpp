@@ -204,6 +204,31 @@ TEST_CASE("dataflow: with the least memory that is named several regions a node 
   CHECK_THROWS_AS(run(subject, options), core::RoomError);
 }
 
+TEST_CASE("dataflow: regions that move, on any nodes, alone or in bundles, give the picture of mirrors and glass") {
+  const std::array<Subject, 2> subjects = along_both_axes(mirrors_and_glass(), {scaled_edge(20), scaled_edge(20)});
+  for (const std::uint32_t nodes : {1U, 2U, 5U, 8U}) {
+    for (const std::uint32_t units : {2U, 4U, 16U}) {
+      for (const bool bundles : {true, false}) {
+        CAPTURE(units);
+        CAPTURE(bundles);
+        RunOptions options{.computer = {.node_count = nodes}};
+        options.rays.balance = {.balance = Balance::moving, .regions_a_node = units};
+        const dataflow::Report report = check(subjects[units == 4 ? 1 : 0], options, {.bundles = bundles});
+        CHECK(report.movement().units == nodes * units);
+      }
+    }
+  }
+}
+
+TEST_CASE("dataflow: regions that move give the picture of samples that are refined, and with empty regions asked") {
+  const Subject refined(mirrors_and_glass(), {scaled_edge(16), scaled_edge(16), 2, {.error = 0.02, .samples_max = 8}});
+  for (const bool skips : {true, false}) {
+    RunOptions options{.computer = {.node_count = 5, .machine = nodes::Machine{}}};
+    options.rays.balance = {.balance = Balance::moving, .regions_a_node = 6};
+    check(refined, options, {.empty_regions = skips});
+  }
+}
+
 TEST_CASE("dataflow: the parts of many regions a node take less than those of as many nodes with one each") {
   const Subject subject(built_in("teapot-4"), {8, 8});
   const auto part_bytes = [&](std::uint32_t nodes, std::uint32_t regions) {

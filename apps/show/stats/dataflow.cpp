@@ -18,6 +18,7 @@ struct Travel {
   std::uint64_t rays_shot = 0;
   dataflow::RayCounters rays;
   dataflow::Gather::Counters gather;
+  dataflow::MovementCounters movement;
   TrafficByKind sent;
   std::uint32_t backlog_max = 0;
 };
@@ -30,7 +31,28 @@ double ratio(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-Json travel_json(const Travel& travel, std::uint32_t ray_batch) {
+/// Nothing where regions do not move.
+Json movement_json(const dataflow::MovementCounters& movement, const TrafficByKind& sent, bool is_moving) {
+  if (!is_moving) {
+    return {};
+  }
+  std::uint64_t bytes = 0;
+  for (const dataflow::Kind kind : {dataflow::Kind::unit_page, dataflow::Kind::unit_primaries}) {
+    bytes += sent[dataflow::number_of(kind)].bytes;
+  }
+  return {{"units", movement.units},
+          {"units_given", movement.units_given},
+          {"units_taken", movement.units_taken},
+          {"asks", movement.asks},
+          {"refusals", movement.refusals},
+          {"pages_sent", movement.pages_sent},
+          {"primary_rays_given", movement.primaries_given},
+          {"primary_rays_taken", movement.primaries_taken},
+          {"rays_sent_on", movement.rays_sent_on},
+          {"bytes", bytes}};
+}
+
+Json travel_json(const Travel& travel, const dataflow::Plan& plan) {
   const dataflow::Gather::Counters& gather = travel.gather;
   return {{"rays_in", rays_json(travel.rays.in)},
           {"rays_out", rays_json(travel.rays.out)},
@@ -38,7 +60,7 @@ Json travel_json(const Travel& travel, std::uint32_t ray_batch) {
           {"packets", gather.packets},
           {"packets_flushed", gather.packets_flushed},
           {"packets_queued", gather.packets_queued},
-          {"mean_fill", gather.mean_fill(ray_batch)},
+          {"mean_fill", gather.mean_fill(plan.ray_batch)},
           {"bytes", dataflow::ray_traffic(travel.sent).bytes},
           {"overflow",
            {{"rays", gather.rays_overflowed},
@@ -46,17 +68,19 @@ Json travel_json(const Travel& travel, std::uint32_t ray_batch) {
             {"share", ratio(gather.rays_overflowed, gather.rays)}}},
           {"hits_sent_back", travel.rays.hits_sent_back},
           {"tests_avoided", travel.rays.tests_avoided},
+          {"movement", movement_json(travel.movement, travel.sent, plan.is_moving())},
           {"queue_max", gather.queue_high_water},
           {"backlog_max", travel.backlog_max}};
 }
 
 Travel travel_of(const dataflow::NodeReport& node) {
   const dataflow::ProgramReport& program = node.program;
-  return {sum_of(program.operations.rays), program.rays, program.gather, node.counters.sent, program.backlog_high_water};
+  return {sum_of(program.operations.rays), program.rays, program.gather, program.movement, node.counters.sent,
+          program.backlog_high_water};
 }
 
 Travel travel_of(const dataflow::Report& report) {
-  Travel all{sum_of(report.operations().rays), report.rays(), report.gathers(), report.sent(), 0};
+  Travel all{sum_of(report.operations().rays), report.rays(), report.gathers(), report.movement(), report.sent(), 0};
   for (const dataflow::NodeReport& node : report.nodes) {
     all.backlog_max = std::max(all.backlog_max, node.program.backlog_high_water);
   }
@@ -116,11 +140,11 @@ Json mapping_json(const dataflow::Report& report, nodes::TopologyKind topology) 
 }
 
 Json options_json(const dataflow::RayOptions& rays, const dataflow::Plan& plan) {
-  const bool subsampled = rays.balance.balance == dataflow::Balance::subsampled;
+  const bool subsampled = rays.balance.is_by_load();
   const bool scattered = rays.balance.balance == dataflow::Balance::scattered;
   return {{"balance", name_of(rays.balance.balance)},
           {"cuts", scattered ? Json() : Json(name_of(rays.balance.bsp.order))},
-          {"regions_a_node", scattered ? rays.balance.regions_a_node : 1},
+          {"regions_a_node", rays.balance.has_several_regions() ? rays.balance.regions_a_node : 1},
           {"subsample", subsampled ? Json(rays.balance.subsample) : Json()},
           {"balance_grid", subsampled ? Json(rays.balance.columns_per_side) : Json()},
           {"ray_batch", plan.ray_batch},
@@ -143,7 +167,7 @@ StrategyStats strategy_stats(const RenderOptions& options, const dataflow::Repor
   const std::vector<double> work = report.work();
   StrategyStats stats{
       .options = options_json(options.rays, plan),
-      .all = {{"travel", travel_json(travel_of(report), plan.ray_batch)},
+      .all = {{"travel", travel_json(travel_of(report), plan)},
               {"load", loads_json(work, report.predicted)},
               {"regions", regions_json(report)},
               {"mapping", mapping_json(report, *options.rays.topology)},
@@ -154,7 +178,7 @@ StrategyStats strategy_stats(const RenderOptions& options, const dataflow::Repor
   for (std::size_t i = 0; i < report.nodes.size(); ++i) {
     const dataflow::NodeReport& node = report.nodes[i];
     stats.nodes.push_back(
-        {{"travel", travel_json(travel_of(node), plan.ray_batch)},
+        {{"travel", travel_json(travel_of(node), plan)},
          {"load", {{"work_ps", work[i]}, {"predicted_ps", report.predicted.empty() ? Json() : Json(report.predicted[i])}}},
          {"region", region_json(node)}});
   }

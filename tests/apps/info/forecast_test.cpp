@@ -22,7 +22,7 @@ ComputerForecast forecast_for(const RenderOptions& options) {
 }
 
 const MemoryForecast& part_of(const ComputerForecast& forecast, Strategy strategy) {
-  return strategy == Strategy::svm ? forecast.svm : strategy == Strategy::replicated ? forecast.replicated : forecast.dataflow;
+  return strategy == Strategy::svm ? forecast.svm : strategy == Strategy::replicated ? forecast.replicated : *forecast.dataflow;
 }
 
 /// Why a render is refused, if it is for want of room.
@@ -76,6 +76,31 @@ TEST_CASE("without a bound a render takes what is forecast") {
   }
 }
 
+TEST_CASE("regions that move take what is forecast, room for units that come included, and with less are refused") {
+  RenderOptions options = small(Strategy::dataflow);
+  options.rays.balance = {.balance = Balance::moving, .regions_a_node = 4};
+  const MemoryForecast memory = *forecast_for(options).dataflow;
+  const Rendered rendered(options);
+  std::size_t largest = 0;
+  for (const NodeAccount& node : account_of(*rendered.report).nodes) {
+    largest = std::max(largest, node.memory_planned.total());
+  }
+  CHECK(memory.usual_bytes == largest);
+  CHECK(refusal(options, memory.least_bytes).empty());
+  CHECK(contains(refusal(options, memory.least_bytes - 1),
+                 "the smallest that works is --node-memory=" + nodes::size_text(memory.least_bytes)));
+}
+
+TEST_CASE("of regions that move there is a forecast for as many nodes as there may be units") {
+  const RenderOptions options = small();
+  const Subject subject = build_subject(load_scene(options.picture), options.picture);
+  const Forecast found =
+      forecast(subject.database, subject.settings, {256, 512}, {.balance = Balance::moving, .regions_a_node = 16});
+  CHECK(found.computers[0].dataflow);
+  CHECK_FALSE(found.computers[1].dataflow);
+  CHECK(found.regions_a_node == 16);
+}
+
 TEST_CASE("what two pixels take is forecast to the byte") {
   RenderOptions options = small(Strategy::svm);
   options.picture.resolution = {2, 1};
@@ -100,7 +125,7 @@ TEST_CASE("every computer is forecast, up to the largest") {
   CHECK(found.computers[0].dataflow_copies == 1);
   CHECK(found.computers[1].dataflow_copies > 1);
   CHECK(found.computers[2].dataflow_copies > found.computers[1].dataflow_copies);
-  CHECK(found.computers[2].dataflow.all_bytes > found.computers[1].dataflow.all_bytes);
+  CHECK(found.computers[2].dataflow->all_bytes > found.computers[1].dataflow->all_bytes);
   CHECK(found.balance == Balance::equal_size);
   CHECK(found.region_seconds > 0);
 }

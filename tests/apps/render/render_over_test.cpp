@@ -81,8 +81,9 @@ std::vector<std::string> small_with(std::initializer_list<const char*> more) {
 
 TEST_CASE("every strategy and its systems render over ranks what they do in one process, and the first rank alone prints") {
   const std::string picture = picture_of(small);
-  for (const char* const how : {"--strategy=svm", "--strategy=replicated", "--strategy=dataflow", "--strategy=forest",
-                                "--system=pixel-machine", "--system=green-paddon", "--system=scattered", "--count-pages"}) {
+  for (const char* const how :
+       {"--strategy=svm", "--strategy=replicated", "--strategy=dataflow", "--strategy=forest", "--system=pixel-machine",
+        "--system=green-paddon", "--system=scattered", "--system=moving", "--count-pages"}) {
     for (const std::uint32_t ranks : {1U, 2U, 5U}) {
       CAPTURE(how);
       CAPTURE(ranks);

@@ -247,6 +247,14 @@ TEST_CASE("every option of dataflow reaches its field") {
   const dataflow::BalanceOptions scattered = render({"--strategy=dataflow", "--balance=scattered", "--regions=4"}).rays.balance;
   CHECK(scattered.balance == dataflow::Balance::scattered);
   CHECK(scattered.regions_a_node == 4);
+  const dataflow::BalanceOptions moving =
+      render({"--strategy=dataflow", "--balance=moving", "--regions=4", "--subsample=4"}).rays.balance;
+  CHECK(moving.balance == dataflow::Balance::moving);
+  CHECK(moving.regions_a_node == 4);
+  CHECK(moving.subsample == 4);
+  CHECK_THROWS_WITH_AS(render({"--strategy=dataflow", "--balance=moving"}), doctest::Contains("from 2 units a node on"),
+                       core::UsageError);
+  CHECK_THROWS_AS(render({"--strategy=dataflow", "--balance=moving", "--regions=1"}), core::UsageError);
   CHECK_THROWS_AS(render({"--strategy=dataflow", "--regions=4"}), core::UsageError);
   CHECK_THROWS_AS(render({"--strategy=dataflow", "--balance=scattered", "--cuts=alternating"}), core::UsageError);
   CHECK_THROWS_AS(render({"--strategy=dataflow", "--balance=scattered", "--subsample=4"}), core::UsageError);
@@ -437,7 +445,7 @@ TEST_CASE("the help of render names every option and its default") {
                                  "--grid-axes",
                                  "world|screen [world]",
                                  "--balance",
-                                 "subsampled|equal-size|scattered [subsampled]",
+                                 "subsampled|equal-size|scattered|moving [subsampled]",
                                  "longer-side|alternating [longer-side]",
                                  "--subsample",
                                  "--balance-grid",

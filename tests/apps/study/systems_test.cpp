@@ -129,6 +129,11 @@ TEST_CASE("expectations are held against the figures") {
   const std::vector<std::string> not_held = verdicts_of(times({{"svm", "5%", 2}, {"forest", "5%", 3}}));
   REQUIRE(not_held.size() == 1);
   CHECK(not_held[0].ends_with("Not held on 4 nodes, memory 5%: forest 3 s, svm 2 s."));
+  const std::vector<std::string> moving = verdicts_of(times({{"moving", "auto", 2}, {"subsampled", "auto", 3}}));
+  REQUIRE(moving.size() == 1);
+  CHECK(moving[0] ==
+        "Expected: where hits crowd, regions that move while rays travel are faster than those that stay. Held on 4 nodes, "
+        "memory auto: moving 2 s, subsampled 3 s.");
   CHECK(verdicts_of(times({})).empty());
 }
 

@@ -202,6 +202,76 @@ TEST_CASE("regions are given to every node once, or refused") {
   CHECK_THROWS_AS(bsp.assign(std::vector<std::uint32_t>{0, 1, 3}), core::InternalError);
 }
 
+TEST_CASE("units share out the regions that nodes would have without them") {
+  for (const std::uint32_t nodes : {1U, 3U, 8U}) {
+    for (const std::uint32_t units : {2U, 5U, 16U}) {
+      CAPTURE(nodes);
+      CAPTURE(units);
+      const Bsp bsp = build_bsp(hill(), nodes), cut = dataflow::build_units(hill(), nodes, units);
+      CHECK(cut.is_of_units());
+      CHECK(cut.node_count() == nodes);
+      CHECK(cut.region_count() == nodes * units);
+      CHECK(cut.without_units().region_count() == nodes);
+      std::vector<std::int64_t> volumes(nodes);
+      for (std::uint32_t unit = 0; unit < cut.region_count(); ++unit) {
+        CHECK(cut.owner_at(unit) == nodes::NodeId{unit / units});
+        volumes[unit / units] += volume(cut.region_at(unit));
+      }
+      for (std::uint32_t node = 0; node < nodes; ++node) {
+        CHECK(cut.without_units().region_at(node) == bsp.region_at(node));
+        CHECK(volumes[node] == volume(bsp.region_at(node)));
+      }
+    }
+  }
+}
+
+TEST_CASE("units that are given to another node are that one's, and by unit each is a node's of its own") {
+  Bsp bsp = dataflow::build_units(hill(), 3, 4);
+  const core::Corner cell = bsp.region_at(5).low;
+  bsp.give_to(5, nodes::NodeId{2});
+  CHECK(bsp.owner_of(cell) == nodes::NodeId{2});
+  const Bsp by_unit = bsp.by_unit();
+  CHECK(by_unit.node_count() == 12);
+  CHECK_FALSE(by_unit.is_of_units());
+  for (std::uint32_t unit = 0; unit < 12; ++unit) {
+    CHECK(by_unit.region_at(unit) == bsp.region_at(unit));
+    CHECK(by_unit.owner_at(unit) == nodes::NodeId{unit});
+  }
+}
+
+TEST_CASE("by unit those hold nothing whose owner holds nothing") {
+  Bsp bsp = dataflow::build_units(hill(), 2, 2);
+  for (const std::uint32_t unit : {0U, 2U, 3U}) {
+    bsp.mark_empty(unit);
+  }
+  const Bsp by_unit = bsp.by_unit();
+  CHECK_FALSE(by_unit.is_empty(0));
+  CHECK_FALSE(by_unit.is_empty(1));
+  CHECK(by_unit.is_empty(2));
+  CHECK(by_unit.is_empty(3));
+}
+
+TEST_CASE("rays walk in the largest block of a node's units that cuts end") {
+  Bsp bsp = dataflow::build_units(hill(), 2, 4);
+  CHECK(bsp.block_around(1).count == 4);
+  CHECK(bsp.block_around(1).box == bsp.without_units().region_at(0));
+  bsp.give_to(3, nodes::NodeId{1});
+  CHECK(bsp.block_around(1).count == 2);
+  CHECK(bsp.block_around(2).count == 1);
+  CHECK(bsp.block_around(2).box == bsp.region_at(2));
+  CHECK(bsp.block_around(3).count == 1);
+  bsp.give_to(2, nodes::NodeId{1});
+  CHECK(bsp.block_around(2).count == 2);
+  CHECK_FALSE(bsp.owns(nodes::NodeId{0}, bsp.block_around(2)));
+}
+
+TEST_CASE("units are as many as may be, or refused with what there may be") {
+  CHECK(dataflow::build_units(hill(), 64, 16).region_count() == dataflow::region_count_max);
+  CHECK_THROWS_WITH_AS(dataflow::build_units(hill(), 128, 16),
+                       "space can be cut into at most 1024 units, not into 16 for each of 128 nodes: ask for fewer of either",
+                       core::UsageError);
+}
+
 TEST_CASE("the connectivity graph of four quarters is a ring") {
   const Bsp bsp = dataflow::equal_size_bsp({64, 64, 64}, {0, 1}, 4);
   const std::vector<Boundary> expected{{0, 1, 32}, {0, 2, 32}, {1, 3, 32}, {2, 3, 32}};

@@ -88,6 +88,11 @@ std::vector<Kind> all_kinds() {
                      return changed(small(Strategy::dataflow),
                                     [](RenderOptions& options) { options.rays.balance.balance = dataflow::Balance::scattered; });
                    }});
+  kinds.push_back({"moving regions", [] {
+                     return changed(small(Strategy::dataflow), [](RenderOptions& options) {
+                       options.rays.balance = {.balance = dataflow::Balance::moving, .regions_a_node = 4};
+                     });
+                   }});
   kinds.push_back({"shared places", [] {
                      return changed(small(Strategy::dataflow), [](RenderOptions& options) { options.computer.node_count = 130; });
                    }});

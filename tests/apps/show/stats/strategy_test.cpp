@@ -110,6 +110,24 @@ TEST_CASE("regions that are scattered have a count and no order of cuts, and tog
   CHECK(share == doctest::Approx(1));
 }
 
+TEST_CASE("regions that move tell of their units, asks and bytes, others of none") {
+  RenderOptions options = small(Strategy::dataflow);
+  CHECK(stats_of(options).all["travel"]["movement"].is_null());
+  options.rays.balance = {.balance = dataflow::Balance::moving, .regions_a_node = 4};
+  const StrategyStats stats = stats_of(options);
+  CHECK(stats.options["balance"] == "moving");
+  CHECK(stats.options["cuts"] == "longer-side");
+  CHECK(stats.options["subsample"] == 8);
+  CHECK(at(stats.all, "/travel/movement/units") == 4 * stats.nodes.size());
+  for (const char* const figure : {"units", "units_given", "units_taken", "asks", "refusals", "pages_sent", "primary_rays_given",
+                                   "primary_rays_taken", "rays_sent_on", "bytes"}) {
+    const std::string place = std::string("/travel/movement/") + figure;
+    CAPTURE(place);
+    CHECK(at(stats.all, place.c_str()) == sum_over_nodes(stats, place.c_str()));
+  }
+  CHECK(at(stats.all, "/travel/movement/units_given") == at(stats.all, "/travel/movement/units_taken"));
+}
+
 TEST_CASE("without credits all rays go by way of the host, which keeps them") {
   RenderOptions options = small(Strategy::dataflow);
   options.rays.ray_credits = 0;
