@@ -60,9 +60,10 @@ void hand_out(const Plan& plan, const Distribution& distribution, const core::Re
   streams.finish();
 }
 
-nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop) {
+nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const nodes::Following& following) {
   nodes::StreamFromHost stream(links);
   const Job job = job_from(nodes::read_counted(stream), links);
+  following.check_room(nodes::rank_memory(job.plan, &links, links.rank()));
   const MakeProgram make_program = [&](std::uint32_t, nodes::Node& node) {
     const Dealt dealt = dealt_from(nodes::read_counted(stream));
     return make_node_program(node, job.plan,
@@ -74,6 +75,7 @@ nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop) {
   nodes::Followed followed{.bytes_received = stream.bytes_read()};
   followed.end = runner->run(std::move(stop));
   gather_reports(*runner, job.plan);
+  runner->gather_ranks({});
   return followed;
 }
 

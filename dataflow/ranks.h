@@ -7,6 +7,7 @@
 #include "dataflow/distribution.h"
 #include "dataflow/plan.h"
 #include "nodes/ranks/followed.h"
+#include "nodes/ranks/following.h"
 #include "nodes/ranks/rank_links.h"
 
 namespace dmpc::dataflow {
@@ -17,6 +18,6 @@ void hand_out(const Plan& plan, const Distribution& distribution, const core::Re
 
 /// What another rank does while rank 0 renders by run_prepared(). No more of the scene is in its memory than its nodes' parts.
 /// Throws nodes::Dismissed if rank 0 ends instead, and as run_prepared() does.
-nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop);
+nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const nodes::Following& following = {});
 
 }  // namespace dmpc::dataflow

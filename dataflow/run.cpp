@@ -175,11 +175,15 @@ void check_packets(const Report& report) {
   }
   core::expect(sent[number_of(Kind::film)].packets == sent[number_of(Kind::film_acknowledgement)].packets,
                "every film packet was acknowledged");
+  nodes::expect_nothing_lost(report.ranks);
 }
 
 void fill(Report& report, nodes::Runner& runner, const Distribution& distribution) {
   const std::uint32_t node_count = report.plan.node_count();
   GatheredReports gathered = gather_reports(runner, report.plan);
+  if (nodes::RankLinks* const ranks = report.plan.request.computer.ranks) {
+    report.ranks = nodes::rank_figures(report.plan, *ranks, runner.gather_ranks({}));
+  }
   const std::vector<std::vector<std::uint32_t>> regions = distribution.regions.by_node();
   report.nodes = std::move(gathered.nodes);
   for (std::uint32_t i = 0; i < node_count; ++i) {

@@ -33,9 +33,10 @@ void hand_out(const Plan& plan, const core::RenderSettings& settings, const core
   streams.finish();
 }
 
-nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop) {
+nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const nodes::Following& following) {
   nodes::StreamFromHost stream(links);
   const std::unique_ptr<Job> job = job_from(nodes::read_counted(stream), links);
+  following.check_room(nodes::rank_memory(job->plan, &links, links.rank()));
   const nodes::ByteSource pages(stream, job->plan.pages().database_bytes());
   const nodes::Watching nobody;
   const MakeProgram make_program = maker_of(job->plan, job->settings, pages, nobody);
@@ -44,6 +45,7 @@ nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop) {
   nodes::Followed followed{.bytes_received = stream.bytes_read()};
   followed.end = runner->run(std::move(stop));
   gather_reports(*runner, job->plan);
+  runner->gather_ranks({});
   return followed;
 }
 

@@ -6,6 +6,7 @@
 #include "core/build/database.h"
 #include "core/picture/pixel_task.h"
 #include "nodes/ranks/followed.h"
+#include "nodes/ranks/following.h"
 #include "nodes/ranks/rank_links.h"
 #include "svm/plan.h"
 
@@ -17,6 +18,6 @@ void hand_out(const Plan& plan, const core::RenderSettings& settings, const core
 
 /// What another rank does while rank 0 renders by run_svm(), run_replicated() or run_forest(). No more of the scene is in its
 /// memory than its nodes' pages. Throws nodes::Dismissed if rank 0 ends instead, and as run_svm() does.
-nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop);
+nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const nodes::Following& following = {});
 
 }  // namespace dmpc::svm

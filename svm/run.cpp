@@ -103,6 +103,7 @@ void check_conservation(const Report& report) {
   core::expect(work.pixels_rendered == report.pixels_done, "every pixel was rendered once a pass");
   core::expect(packets_of(report.sent(), Kind::film_sums) == packets_of(report.host.received, Kind::film_sums),
                "every film packet sent was received");
+  nodes::expect_nothing_lost(report.ranks);
 }
 
 /// Serving a page, or passing the request for it on, installs none and runs no pixel: a node may be interrupted for it at any
@@ -264,6 +265,9 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
   report.end = runner->run(std::move(stop));
   const std::uint32_t host_index = plan.request.computer.node_count;
   report.nodes = gather_reports(*runner, plan);
+  if (options.computer.ranks != nullptr) {
+    report.ranks = nodes::rank_figures(plan, *options.computer.ranks, runner->gather_ranks({}));
+  }
   report.host = runner->node(host_index).counters();
   const auto& host = dynamic_cast<const HostProgram&>(runner->program(host_index));
   report.host_deposits_saturated = host.deposits_saturated();

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "apps/line/exit_status.h"
+#include "apps/run/computer_room.h"
 #include "apps/run/option_words.h"
 #include "apps/system/interrupt.h"
 #include "core/base/expect.h"
@@ -11,6 +12,7 @@
 #include "dataflow/ranks.h"
 #include "nodes/ranks/dismissal.h"
 #include "nodes/ranks/failure.h"
+#include "nodes/ranks/following.h"
 #include "nodes/runner.h"
 #include "svm/packets.h"
 #include "svm/ranks.h"
@@ -54,11 +56,12 @@ int lead(nodes::RankLinks& links, const RenderOnRanks& render) {
 
 /// Any other rank. Rank 0 knows of what fails in a run, and is told of what fails before.
 int follow(nodes::RankLinks& links, Strategy strategy, const std::stop_token& stop) {
+  const nodes::Following following{.check_room = [](const nodes::RankMemory& memory) { check_room(memory); }};
   try {
     if (strategy == Strategy::dataflow) {
-      dataflow::follow(links, stop);
+      dataflow::follow(links, stop, following);
     } else {
-      svm::follow(links, stop);
+      svm::follow(links, stop, following);
     }
   } catch (const nodes::Dismissed& dismissed) {
     return dismissed.status;

@@ -23,6 +23,10 @@ enum class Item : std::uint8_t {
   report,    ///< a part of what a node has to say after it
   reported,  ///< no more of that comes from the sender
 
+  rank_traffic,   ///< RankTraffic, of the sender, after the reports
+  rank_report,    ///< a part of what the sender has to say after the run, beside its nodes
+  rank_reported,  ///< no more of that comes from it
+
   stream,       ///< from rank 0, before the run: a part of what a rank's nodes are made from
   stream_read,  ///< to rank 0: how many bytes of that have been read
   ready,        ///< to rank 0: all nodes are made

@@ -17,13 +17,12 @@
 #include "nodes/ranks/failure.h"
 #include "nodes/ranks/frame.h"
 #include "nodes/ranks/nap.h"
+#include "nodes/ranks/outbox.h"
 #include "nodes/threads/node_threads.h"
 
 namespace dmpc::nodes {
 namespace {
 
-/// Before a packet in the outbox.
-using TargetIndex = std::uint32_t;
 /// Of a communicating thread that always has something to do, from one look at who is silent to the next.
 constexpr std::uint32_t turns_a_look = 256;
 
@@ -36,16 +35,11 @@ std::vector<bool> here(std::size_t peer_count, const RankLinks& links) {
   return is_here;
 }
 
-/// A packet under way has a place in its target's mailbox. So what is under way to nodes elsewhere, all of which may wait here,
-/// has as many as their mailboxes have together. Bytes are set aside when they are first written: of these places few ever are.
 MailboxCapacity outbox_of(std::span<const NodeSpecification> specifications, const std::vector<bool>& is_here) {
-  MailboxCapacity outbox{.small_front_bytes = sizeof(TargetIndex)};
+  MailboxCapacity outbox = empty_outbox();
   for (std::size_t index = 0; index < specifications.size(); ++index) {
     if (!is_here[index]) {
-      const MailboxCapacity& mailbox = specifications[index].mailbox;
-      outbox.small_slots += mailbox.small_slots;
-      outbox.bulk_slots += mailbox.bulk_slots;
-      outbox.bulk_payload_bytes = std::max(outbox.bulk_payload_bytes, mailbox.bulk_payload_bytes + sizeof(TargetIndex));
+      add_target(outbox, specifications[index].mailbox);
     }
   }
   return outbox;
@@ -108,7 +102,8 @@ struct RanksRunner::Implementation {
         nodes(specifications, chaos, observer, &outlet),
         waves(to.rank_count()),
         last_words(to.rank_count()),
-        reports(specifications.size()) {
+        reports(specifications.size()),
+        rank_reports(to.rank_count()) {
     core::expect(node_count >= to.rank_count(), "each rank has a node");
     core::expect(frame_bytes_for(payload_bytes_max(specifications)) <= to.frame_bytes(), "every packet fits a frame");
   }
@@ -121,6 +116,7 @@ struct RanksRunner::Implementation {
       try {
         start_with_others();
         communicate_until([this] { return is_closed(); });
+        close_account();
         return judge();
       } catch (const LostRank&) {
         nodes.fail(std::current_exception());
@@ -187,6 +183,14 @@ struct RanksRunner::Implementation {
         return append(reports.at(header.target));
       case Item::reported:
         ++ranks_reported;
+        return;
+      case Item::rank_traffic:
+        rank_reports[rank].traffic = value_of<RankTraffic>(bytes);
+        return;
+      case Item::rank_report:
+        return append(rank_reports[rank].told);
+      case Item::rank_reported:
+        ++ranks_told;
         return;
       case Item::start:
         may_start = true;
@@ -272,6 +276,26 @@ struct RanksRunner::Implementation {
     return told;
   }
 
+  /// A rank may be here while rank 0 still gathers from others what their nodes say: hence words of other kinds.
+  std::vector<RankReport> gather_ranks(const std::string& told) {
+    if (links.rank() == 0) {
+      communicate_until([this] { return ranks_told + 1 == links.rank_count(); });
+      rank_reports.front() = {traffic, told};
+      return std::move(rank_reports);
+    }
+    links.say(0, Item::rank_traffic, bytes_of(traffic));
+    links.say(0, Item::rank_report, std::as_bytes(std::span(told)));
+    links.say(0, Item::rank_reported, {});
+    communicate_until([this] { return links.has_said_all(); });
+    return {};
+  }
+
+  void close_account() {
+    traffic.frames_sent = links.frames_sent();
+    traffic.bytes_sent = links.bytes_sent();
+    traffic.waves = waves.waves();
+  }
+
   void rest() {
     const std::chrono::nanoseconds time = nap.next();
     if (time == time.zero()) {
@@ -335,9 +359,10 @@ struct RanksRunner::Implementation {
   Outlet outlet;
   NodeThreads nodes;
   CountingWaves waves;
-  std::vector<LastWord> last_words;  ///< of other ranks, as far as they have come
-  std::vector<std::string> reports;  ///< of other ranks' nodes, by node
-  std::uint32_t ranks_reported = 0;
+  std::vector<LastWord> last_words;      ///< of other ranks, as far as they have come
+  std::vector<std::string> reports;      ///< of other ranks' nodes, by node
+  std::vector<RankReport> rank_reports;  ///< of other ranks themselves
+  std::uint32_t ranks_reported = 0, ranks_told = 0;
   RankTraffic traffic;
   Nap nap;
   bool is_run = false, may_start = false, has_started = false, is_closing = false;
@@ -355,12 +380,7 @@ Program& RanksRunner::program(std::size_t index) { return *implementation_->node
 bool RanksRunner::is_here(std::size_t index) const { return implementation_->nodes.is_here(index); }
 std::vector<std::string> RanksRunner::gather(const Tell& tell) { return implementation_->gather(tell); }
 
-RankTraffic RanksRunner::traffic() const {
-  RankTraffic traffic = implementation_->traffic;
-  traffic.frames_sent = implementation_->links.frames_sent();
-  traffic.waves = implementation_->waves.waves();
-  traffic.network_bytes = implementation_->outbox_capacity.bytes() + implementation_->links.room_bytes();
-  return traffic;
-}
+std::vector<RankReport> RanksRunner::gather_ranks(const std::string& told) { return implementation_->gather_ranks(told); }
+RankTraffic RanksRunner::traffic() const { return implementation_->traffic; }
 
 }  // namespace dmpc::nodes

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "core/base/expect.h"
 #include "tests/support/loopback_ranks.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace {
 
@@ -92,6 +94,29 @@ TEST_CASE("every strategy and its systems render over ranks what they do in one 
       CHECK((picture_over(ranks, line) == picture));
     }
   }
+}
+
+TEST_CASE("closing lines and counters tell of the ranks") {
+  const tests::TemporaryFolder folder;
+  auto line = small_with({"--runner=mpi", "--strategy=svm"});
+  line.insert(line.end(), {"--stats=" + (folder / "stats.json").string(), "-o", (folder / "picture.png").string()});
+  const auto results = render_over(3, options_of(line));
+  REQUIRE(results[0].value);
+  CHECK(tests::contains(results[0].value->printed, "\nranks    3, up to "));
+  CHECK(tests::contains(results[0].value->printed, " of network memory: outbox "));
+  const auto stats = nlohmann::json::parse(tests::file_text(folder / "stats.json"));
+  REQUIRE(stats["ranks"].size() == 3);
+  std::uint64_t sent = 0, received = 0, nodes = 0;
+  for (const auto& rank : stats["ranks"]) {
+    sent += rank["packets"]["sent"].get<std::uint64_t>();
+    received += rank["packets"]["received"].get<std::uint64_t>();
+    nodes += rank["nodes"].get<std::uint64_t>();
+    CHECK(rank["network_memory"]["total"] > rank["network_memory"]["outbox"]);
+  }
+  CHECK(nodes == 5);
+  CHECK(sent > 0);
+  CHECK(sent == received);
+  CHECK(stats["ranks"][2]["name"] == "rank 2");
 }
 
 TEST_CASE("frames that are late change no picture") {

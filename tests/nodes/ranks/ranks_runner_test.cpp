@@ -243,6 +243,31 @@ TEST_CASE("what nodes have to say after a run comes to rank 0, however long it i
   CHECK(results[1].value->at(4).empty());
 }
 
+TEST_CASE("after the nodes each rank speaks for itself, and rank 0 hears what went between them") {
+  const auto results = on_ranks(3, {.late_looks_max = 30}, [&](Fabric& fabric) {
+    RankLinks links(fabric);
+    RanksRunner runner(equal_nodes(6, TokenRound::mailbox, making<TokenRound>(5U)), links);
+    CHECK(runner.run({}) == RunEnd::finished);
+    static_cast<void>(runner.gather([](std::size_t index) { return std::string(index * 10'000, 'a'); }));
+    return runner.gather_ranks(std::string(fabric.rank() * 50'000, static_cast<char>('0' + fabric.rank())));
+  });
+  for (const auto& result : results) {
+    REQUIRE(result.failure_text() == "");
+  }
+  CHECK(results[1].value->empty());
+  const std::vector<RankReport>& heard = *results[0].value;
+  REQUIRE(heard.size() == 3);
+  for (std::uint32_t rank = 0; rank < 3; ++rank) {
+    CAPTURE(rank);
+    CHECK(heard[rank].told == std::string(rank * 50'000, static_cast<char>('0' + rank)));
+    CHECK(heard[rank].traffic.packets_sent == 5);  // a rank's last node, or the host's neighbour, passes the token on
+    CHECK(heard[rank].traffic.packets_received == 5);
+    CHECK(heard[rank].traffic.frames_sent > 5);
+    CHECK(heard[rank].traffic.bytes_sent > 5 * (sizeof(FrameNumber) + sizeof(ItemHeader)));
+    CHECK(heard[rank].traffic.waves > 1);
+  }
+}
+
 TEST_CASE("a packet that fits no frame is refused before the run") {
   const auto results = on_ranks(2, {}, [&](Fabric& fabric) {
     RankLinks links(fabric);
