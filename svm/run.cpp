@@ -114,7 +114,7 @@ constexpr std::uint32_t interrupt_kinds = 1U << number_of(Kind::page_request) | 
 Report run_with_grid(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
                      const RunOptions& options, std::stop_token stop) {
   if (options.computer.ranks != nullptr) {
-    hand_out(plan, settings, database, *options.computer.ranks);
+    hand_out(plan, settings, database, options.watching.elsewhere.order, *options.computer.ranks);
   }
   return run_programs(plan, maker_of(plan, settings, database.bytes(), options.watching, options.pages.reference_logs), options,
                       std::move(stop));
@@ -266,7 +266,9 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
   const std::uint32_t host_index = plan.request.computer.node_count;
   report.nodes = gather_reports(*runner, plan);
   if (options.computer.ranks != nullptr) {
-    report.ranks = nodes::rank_figures(plan, *options.computer.ranks, runner->gather_ranks({}));
+    const std::vector<nodes::RankReport> told = runner->gather_ranks({});
+    report.ranks = nodes::rank_figures(plan, *options.computer.ranks, told);
+    nodes::add_seen(options.watching, told);
   }
   report.host = runner->node(host_index).counters();
   const auto& host = dynamic_cast<const HostProgram&>(runner->program(host_index));

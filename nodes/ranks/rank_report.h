@@ -5,6 +5,8 @@
 #include <string>
 #include <type_traits>
 
+#include "nodes/ranks/clock_drift.h"
+
 namespace dmpc::nodes {
 
 /// What went between a rank and others.
@@ -17,6 +19,7 @@ static_assert(std::is_trivially_copyable_v<RankTraffic>, "it travels as bytes to
 
 struct RankReport {
   RankTraffic traffic;
+  ClockDrift clock;  ///< of an observed run
   std::string told;  ///< what whoever called there had to say
 };
 

@@ -11,6 +11,7 @@
 
 #include "core/base/expect.h"
 #include "nodes/processors.h"
+#include "nodes/ranks/clock_drift.h"
 #include "nodes/ranks/counting_waves.h"
 #include "nodes/ranks/dismissal.h"
 #include "nodes/ranks/exchange.h"
@@ -18,6 +19,7 @@
 #include "nodes/ranks/frame.h"
 #include "nodes/ranks/nap.h"
 #include "nodes/ranks/outbox.h"
+#include "nodes/threads/clock.h"
 #include "nodes/threads/node_threads.h"
 
 namespace dmpc::nodes {
@@ -100,6 +102,7 @@ struct RanksRunner::Implementation {
         outbox(outbox_capacity, outbox_memory),
         outlet{is_here, outbox},
         nodes(specifications, chaos, observer, &outlet),
+        compares_clocks(observer != nullptr && to.rank() == 0),
         waves(to.rank_count()),
         last_words(to.rank_count()),
         reports(specifications.size()),
@@ -117,7 +120,11 @@ struct RanksRunner::Implementation {
         start_with_others();
         communicate_until([this] { return is_closed(); });
         close_account();
-        return judge();
+        const RunEnd end = judge();
+        if (compares_clocks && end == RunEnd::finished) {
+          read_clocks_again();
+        }
+        return end;
       } catch (const LostRank&) {
         nodes.fail(std::current_exception());
         nodes.join();
@@ -139,11 +146,50 @@ struct RanksRunner::Implementation {
       return;
     }
     if (links.rank() == 0) {
-      links.say_to_all(Item::start, {});
+      if (compares_clocks) {
+        clocks_before = read_clocks();
+      }
+      start_ns = nanoseconds(CLOCK_MONOTONIC);
+      for (std::uint32_t rank = 1; rank < links.rank_count(); ++rank) {
+        const auto offset_ns = static_cast<std::uint64_t>(compares_clocks ? clocks_before[rank].offset_ns() : 0);
+        links.say(rank, Item::start, bytes_of(start_ns + offset_ns));
+      }
     } else {
       Exchange(links).turn_until([this] { return may_start; }, [this](auto&&... item) { receive(item...); });
+      start_ns = std::min(start_ns, nanoseconds(CLOCK_MONOTONIC));  // as far as the clocks go wrong, it may be to come
     }
-    nodes.start();
+    nodes.start(start_ns);
+  }
+
+  /// Of each other rank the shortest of several round trips. They answer while they wait for the start, or for clocks_read.
+  std::vector<ClockAnswer> read_clocks() {
+    std::vector<ClockAnswer> shortest(links.rank_count());
+    for (std::uint32_t rank = 1; rank < links.rank_count(); ++rank) {
+      for (int question = 0; question < clock_questions; ++question) {
+        const ClockAnswer next = ask_clock(rank);
+        if (question == 0 || next.round_trip_ns() < shortest[rank].round_trip_ns()) {
+          shortest[rank] = next;
+        }
+      }
+    }
+    return shortest;
+  }
+
+  ClockAnswer ask_clock(std::uint32_t rank) {
+    heard.reset();
+    const std::uint64_t asked_ns = nanoseconds(CLOCK_MONOTONIC);
+    links.say(rank, Item::clock_asked, {});
+    Exchange(links).turn_until([this] { return heard.has_value(); }, [this](auto&&... item) { receive(item...); });
+    heard->asked_ns = asked_ns;
+    return *heard;
+  }
+
+  void read_clocks_again() {
+    if (links.rank() == 0) {
+      clocks_after = read_clocks();
+      links.say_to_all(Item::clocks_read, {});
+    }
+    communicate_until([this] { return links.rank() == 0 ? links.has_said_all() : are_clocks_read; });
   }
 
   template <class IsDone>
@@ -192,7 +238,17 @@ struct RanksRunner::Implementation {
       case Item::rank_reported:
         ++ranks_told;
         return;
+      case Item::clock_asked:
+        compares_clocks = true;  // before the start, hence after the run, too
+        return links.say(rank, Item::clock_told, bytes_of(nanoseconds(CLOCK_MONOTONIC)));
+      case Item::clock_told:
+        heard = {.told_ns = value_of<std::uint64_t>(bytes), .heard_ns = nanoseconds(CLOCK_MONOTONIC)};
+        return;
+      case Item::clocks_read:
+        are_clocks_read = true;
+        return;
       case Item::start:
+        start_ns = value_of<std::uint64_t>(bytes);
         may_start = true;
         return;
       case Item::failure:
@@ -280,7 +336,10 @@ struct RanksRunner::Implementation {
   std::vector<RankReport> gather_ranks(const std::string& told) {
     if (links.rank() == 0) {
       communicate_until([this] { return ranks_told + 1 == links.rank_count(); });
-      rank_reports.front() = {traffic, told};
+      rank_reports.front() = {traffic, {}, told};
+      for (std::size_t rank = 1; rank < clocks_after.size(); ++rank) {
+        rank_reports[rank].clock = ClockDrift(clocks_before[rank], clocks_after[rank], start_ns);
+      }
       return std::move(rank_reports);
     }
     links.say(0, Item::rank_traffic, bytes_of(traffic));
@@ -358,6 +417,7 @@ struct RanksRunner::Implementation {
   Mailbox outbox;
   Outlet outlet;
   NodeThreads nodes;
+  bool compares_clocks;
   CountingWaves waves;
   std::vector<LastWord> last_words;      ///< of other ranks, as far as they have come
   std::vector<std::string> reports;      ///< of other ranks' nodes, by node
@@ -365,7 +425,10 @@ struct RanksRunner::Implementation {
   std::uint32_t ranks_reported = 0, ranks_told = 0;
   RankTraffic traffic;
   Nap nap;
-  bool is_run = false, may_start = false, has_started = false, is_closing = false;
+  std::uint64_t start_ns = 0;                            ///< of the run, by this rank's clock
+  std::vector<ClockAnswer> clocks_before, clocks_after;  ///< the run, by rank: what rank 0 knows of others' clocks
+  std::optional<ClockAnswer> heard;                      ///< to the last question
+  bool is_run = false, may_start = false, has_started = false, is_closing = false, are_clocks_read = false;
 };
 
 RanksRunner::RanksRunner(std::span<const NodeSpecification> specifications, RankLinks& links, const std::optional<Chaos>& chaos,

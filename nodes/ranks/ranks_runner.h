@@ -22,8 +22,9 @@ namespace dmpc::nodes {
 class RanksRunner final : public Runner {
  public:
   /// All ranks are given equal specifications, of all nodes, then the host; of those that are elsewhere no program is made. There
-  /// are at least as many nodes as ranks, and every packet fits a frame. `links` and `observer` outlive this. An observer is told
-  /// of this rank's nodes.
+  /// are at least as many nodes as ranks, and every packet fits a frame. `links` and `observer` outlive this. An observer, of
+  /// whom rank 0 has one if any rank has, is told of this rank's nodes, by its own clock, which is set to that of rank 0 before
+  /// the start and compared with it again after a regular end.
   RanksRunner(std::span<const NodeSpecification> specifications, RankLinks& links,
               const std::optional<Chaos>& chaos = std::nullopt, Observer* observer = nullptr);
   ~RanksRunner() override;

@@ -251,13 +251,14 @@ TEST_CASE("a rank that has no room ends all before anything is rendered, and is 
         nodes::dismiss(links, 4);
         return 4;
       }
-      const auto check_room = [&](const nodes::RankMemory& memory) {
+      svm::Following following;
+      following.check_room = [&](const nodes::RankMemory& memory) {
         if (fabric.rank() == 2) {
           throw core::RoomError("no room for " + std::to_string(memory.node_count) + " nodes");
         }
       };
       try {
-        follow(links, {}, nodes::Following{.check_room = check_room});
+        follow(links, {}, following);
       } catch (const nodes::Dismissed& dismissed) {
         return dismissed.status;
       } catch (...) {

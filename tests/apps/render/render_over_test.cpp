@@ -119,6 +119,27 @@ TEST_CASE("closing lines and counters tell of the ranks") {
   CHECK(stats["ranks"][2]["name"] == "rank 2");
 }
 
+TEST_CASE("heat maps, a trace and a page are written by the first rank, and the picture is the same") {
+  const std::string picture = picture_of(small);
+  for (const char* const strategy : {"--strategy=svm", "--strategy=dataflow", "--strategy=forest", "--strategy=replicated"}) {
+    CAPTURE(strategy);
+    const tests::TemporaryFolder folder;
+    auto line = small_with({strategy});
+    line.insert(line.end(),
+                {"--heatmap=rays:" + (folder.path() / "heat.exr").string(), "--trace=" + (folder.path() / "trace.json").string(),
+                 "--report=" + (folder.path() / "page.html").string(), "--stats=" + (folder.path() / "stats.json").string()});
+    CHECK((picture_over(3, line, {.seed = 1, .late_looks_max = 5}) == picture));
+    CHECK(folder.entry_count() == 4);
+    const auto stats = nlohmann::json::parse(tests::file_text(folder / "stats.json"));
+    CHECK(stats["heat_maps"][0]["sum"] == stats["rays"]["total"]);
+    CHECK(stats["ranks"][0]["clock_error"] == 0);
+    CHECK(stats["ranks"][2]["clock_error"] > 0);
+    const auto trace = nlohmann::json::parse(tests::file_text(folder / "trace.json"));
+    CHECK(trace["traceEvents"].size() > 100);
+    CHECK(tests::contains(tests::file_text(folder / "page.html"), "</html>"));
+  }
+}
+
 TEST_CASE("frames that are late change no picture") {
   const std::string picture = picture_of(small);
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
@@ -179,10 +200,7 @@ TEST_CASE("fewer nodes than ranks are refused on all of them, before anything is
 }
 
 TEST_CASE("what ranks cannot do is refused with the line") {
-  for (const char* const option : {"--machine=hdr", "--heatmap=rays:rays.png", "--trace=trace.json", "--report=page.html"}) {
-    CAPTURE(option);
-    CHECK_THROWS_AS(options_of({"balls-1", "--runner=mpi", option, "-o", "picture.png"}), core::UsageError);
-  }
+  CHECK_THROWS_AS(options_of({"balls-1", "--runner=mpi", "--machine=hdr", "-o", "picture.png"}), core::UsageError);
   CHECK_THROWS_AS(options_of({"balls-1", "--runner=mpi", "--strategy=replicated", "--tracer=embree", "-o", "picture.png"}),
                   core::UsageError);
 }
