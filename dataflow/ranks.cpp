@@ -48,11 +48,13 @@ Dealt dealt_from(std::string_view bytes) {
 
 }  // namespace
 
-void hand_out(const Plan& plan, const Distribution& distribution, const core::RenderSettings& settings, nodes::RankLinks& links) {
+void hand_out(const Plan& plan, const Distribution& distribution, const core::RenderSettings& settings,
+              const std::string& watch_order, nodes::RankLinks& links) {
   nodes::StreamsToRanks streams(links);
   const std::string job = job_bytes(plan, settings, distribution.regions, distribution.outline);
   for (std::uint32_t rank = 1; rank < links.rank_count(); ++rank) {
     streams.write_counted(rank, std::as_bytes(std::span(job)));
+    streams.write_counted(rank, std::as_bytes(std::span(watch_order)));
   }
   for (std::uint32_t node = 0; node < plan.node_count(); ++node) {
     const std::uint32_t rank = nodes::rank_of(node, plan.node_count(), links.rank_count());
@@ -66,20 +68,26 @@ void hand_out(const Plan& plan, const Distribution& distribution, const core::Re
   streams.finish();
 }
 
-nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop) {
+nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const nodes::Following& following) {
   nodes::StreamFromHost stream(links);
   const Job job = job_from(nodes::read_counted(stream), links);
+  following.check_room(nodes::rank_memory(job.plan, &links, links.rank()));
+  const std::string order = nodes::read_counted(stream);
+  const nodes::Watching watching = order.empty() ? nodes::Watching() : following.watch(order);
   const MakeProgram make_program = [&](std::uint32_t, nodes::Node& node) {
     const Dealt dealt = dealt_from(nodes::read_counted(stream));
     return make_node_program(node, job.plan,
                              NodeDeal{dealt.header, nodes::ByteSource(stream, dealt.record_bytes), dealt.primaries, job.settings,
-                                      job.regions, job.outline, dealt.pages, dealt.runs_of_unit});
+                                      job.regions, job.outline, dealt.pages, dealt.runs_of_unit},
+                             nodes::meter_for(watching, job.plan.request.computer, node.id()));
   };
-  const auto runner = nodes::make_runner(specifications_without_host(job.plan, make_program), job.plan.request.computer);
+  const auto runner =
+      nodes::make_runner(specifications_without_host(job.plan, make_program), job.plan.request.computer, watching.observer);
   stream.say_ready();
   nodes::Followed followed{.bytes_received = stream.bytes_read()};
   followed.end = runner->run(std::move(stop));
   gather_reports(*runner, job.plan);
+  runner->gather_ranks(order.empty() ? std::string() : following.seen());
   return followed;
 }
 

@@ -2,21 +2,24 @@
 #pragma once
 
 #include <stop_token>
+#include <string>
 
 #include "core/picture/pixel_task.h"
 #include "dataflow/distribution.h"
 #include "dataflow/plan.h"
 #include "nodes/ranks/followed.h"
+#include "nodes/ranks/following.h"
 #include "nodes/ranks/rank_links.h"
 
 namespace dmpc::dataflow {
 
-/// On rank 0, before its own nodes are made: sends each other rank its job and, node by node, what they are dealt. Returns when
-/// all have their nodes. Throws what fails on another rank.
-void hand_out(const Plan& plan, const Distribution& distribution, const core::RenderSettings& settings, nodes::RankLinks& links);
+/// On rank 0, before its own nodes are made: sends each other rank its job, what is to be watched there and, node by node, what
+/// they are dealt. Returns when all have their nodes. Throws what fails on another rank.
+void hand_out(const Plan& plan, const Distribution& distribution, const core::RenderSettings& settings,
+              const std::string& watch_order, nodes::RankLinks& links);
 
 /// What another rank does while rank 0 renders by run_prepared(). No more of the scene is in its memory than its nodes' parts.
 /// Throws nodes::Dismissed if rank 0 ends instead, and as run_prepared() does.
-nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop);
+nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const nodes::Following& following = {});
 
 }  // namespace dmpc::dataflow

@@ -186,11 +186,17 @@ void check_packets(const Report& report) {
   }
   core::expect(sent[number_of(Kind::film)].packets == sent[number_of(Kind::film_acknowledgement)].packets,
                "every film packet was acknowledged");
+  nodes::expect_nothing_lost(report.ranks);
 }
 
-void fill(Report& report, nodes::Runner& runner, const Distribution& distribution) {
+void fill(Report& report, nodes::Runner& runner, const Distribution& distribution, const nodes::Watching& watching) {
   const std::uint32_t node_count = report.plan.node_count();
   GatheredReports gathered = gather_reports(runner, report.plan);
+  if (nodes::RankLinks* const ranks = report.plan.request.computer.ranks) {
+    const std::vector<nodes::RankReport> told = runner.gather_ranks({});
+    report.ranks = nodes::rank_figures(report.plan, *ranks, told);
+    nodes::add_seen(watching, told);
+  }
   const std::vector<std::vector<std::uint32_t>> regions = distribution.regions.by_node();
   report.nodes = std::move(gathered.nodes);
   for (std::uint32_t i = 0; i < node_count; ++i) {
@@ -333,7 +339,7 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
   core::expect(options.watching.heat == nullptr || options.watching.heat->pixel_count() == report.film.pixels().size(),
                "a heat map is of the picture's size");
   if (options.computer.ranks != nullptr) {
-    hand_out(report.plan, prepared.distribution, settings, *options.computer.ranks);
+    hand_out(report.plan, prepared.distribution, settings, options.watching.elsewhere.order, *options.computer.ranks);
   }
   const auto runner = nodes::make_runner(
       specifications_of(report.plan, prepared.distribution, settings, report.film, options, stop, &prepared.detail),
@@ -342,7 +348,7 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
     options.watching.distributed();
   }
   report.end = runner->run(std::move(stop));
-  fill(report, *runner, prepared.distribution);
+  fill(report, *runner, prepared.distribution, options.watching);
   return report;
 }
 

@@ -24,6 +24,7 @@
 #include "nodes/computer_request.h"
 #include "nodes/counters.h"
 #include "nodes/node_figures.h"
+#include "nodes/ranks/rank_figures.h"
 #include "nodes/runner.h"
 #include "nodes/watch/watching.h"
 
@@ -63,6 +64,7 @@ struct Report {
   HostCounters host_rays;
   core::RefinementResult refinement;
   std::optional<nodes::VirtualReport> virtual_time;  ///< of a modelled machine
+  std::vector<nodes::RankFigures> ranks;             ///< where there are several, or could be
 
   core::Operations operations() const;  ///< summed over the nodes
   RayCounters rays() const;

@@ -32,6 +32,11 @@ class FlatWriter {
       put(value);
     }
   }
+  /// How many there are, then these.
+  void put_bytes(std::string_view bytes) {
+    put(std::size_t{bytes.size()});
+    bytes_.append(bytes);
+  }
   std::string take() { return std::move(bytes_); }
 
  private:
@@ -69,6 +74,14 @@ class FlatReader {
     for (T& value : values) {
       value = take<T>();
     }
+  }
+  /// Of what is read.
+  std::string_view take_bytes() {
+    const auto count = take<std::size_t>();
+    core::expect(count <= bytes_.size(), "flat bytes hold what is taken out of them");
+    const std::string_view taken = bytes_.substr(0, count);
+    bytes_.remove_prefix(count);
+    return taken;
   }
   bool is_at_end() const { return bytes_.empty(); }
 

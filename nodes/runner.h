@@ -17,6 +17,7 @@
 #include "nodes/observer.h"
 #include "nodes/patience.h"
 #include "nodes/program.h"
+#include "nodes/ranks/rank_report.h"
 #include "nodes/virtual/virtual_times.h"
 
 namespace dmpc::nodes {
@@ -65,6 +66,9 @@ class Runner {
   /// After run(): calls tell(index) for each node and the host where it is. What all have said, by index; on a rank that is not
   /// the host's, only what was said there.
   virtual std::vector<std::string> gather(const Tell& tell) = 0;
+  /// After gather(), where there are ranks, on all of them: what each has to say of itself, by number; on those without the host
+  /// nothing.
+  virtual std::vector<RankReport> gather_ranks(const std::string& /*told*/) { return {}; }
   /// After a regular end; nothing from a runner without a clock of its own.
   virtual std::optional<VirtualReport> virtual_report() const { return std::nullopt; }
 };

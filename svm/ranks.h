@@ -1,22 +1,34 @@
 // A run on several ranks: what rank 0, which alone has the scene, sends the others, and what they make of it.
 #pragma once
 
+#include <functional>
 #include <stop_token>
+#include <string>
+#include <vector>
 
 #include "core/build/database.h"
 #include "core/picture/pixel_task.h"
 #include "nodes/ranks/followed.h"
+#include "nodes/ranks/following.h"
 #include "nodes/ranks/rank_links.h"
 #include "svm/plan.h"
+#include "svm/watch/reference_log.h"
 
 namespace dmpc::svm {
 
-/// On rank 0, before its own nodes are made: sends each other rank its job and, node by node, the pages that its programs keep.
-/// Returns when all have their nodes. Throws what fails on another rank.
-void hand_out(const Plan& plan, const core::RenderSettings& settings, const core::Database& database, nodes::RankLinks& links);
+/// On rank 0, before its own nodes are made: sends each other rank its job, what is to be watched there and, node by node, the
+/// pages that its programs keep. Returns when all have their nodes. Throws what fails on another rank.
+void hand_out(const Plan& plan, const core::RenderSettings& settings, const core::Database& database,
+              const std::string& watch_order, nodes::RankLinks& links);
+
+/// What a rank brings to a run of these strategies.
+struct Following : nodes::Following {
+  /// Called after watch(): where references are to be noted, by node; nothing if nobody wants to know.
+  std::function<std::vector<ReferenceLog>*()> reference_logs = [] { return nullptr; };
+};
 
 /// What another rank does while rank 0 renders by run_svm(), run_replicated() or run_forest(). No more of the scene is in its
 /// memory than its nodes' pages. Throws nodes::Dismissed if rank 0 ends instead, and as run_svm() does.
-nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop);
+nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const Following& following = {});
 
 }  // namespace dmpc::svm

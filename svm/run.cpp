@@ -103,6 +103,7 @@ void check_conservation(const Report& report) {
   core::expect(work.pixels_rendered == report.pixels_done, "every pixel was rendered once a pass");
   core::expect(packets_of(report.sent(), Kind::film_sums) == packets_of(report.host.received, Kind::film_sums),
                "every film packet sent was received");
+  nodes::expect_nothing_lost(report.ranks);
 }
 
 /// Serving a page, or passing the request for it on, installs none and runs no pixel: a node may be interrupted for it at any
@@ -113,7 +114,7 @@ constexpr std::uint32_t interrupt_kinds = 1U << number_of(Kind::page_request) | 
 Report run_with_grid(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
                      const RunOptions& options, std::stop_token stop) {
   if (options.computer.ranks != nullptr) {
-    hand_out(plan, settings, database, *options.computer.ranks);
+    hand_out(plan, settings, database, options.watching.elsewhere.order, *options.computer.ranks);
   }
   return run_programs(plan, maker_of(plan, settings, database.bytes(), options.watching, options.pages.reference_logs), options,
                       std::move(stop));
@@ -264,6 +265,11 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
   report.end = runner->run(std::move(stop));
   const std::uint32_t host_index = plan.request.computer.node_count;
   report.nodes = gather_reports(*runner, plan);
+  if (options.computer.ranks != nullptr) {
+    const std::vector<nodes::RankReport> told = runner->gather_ranks({});
+    report.ranks = nodes::rank_figures(plan, *options.computer.ranks, told);
+    nodes::add_seen(options.watching, told);
+  }
   report.host = runner->node(host_index).counters();
   const auto& host = dynamic_cast<const HostProgram&>(runner->program(host_index));
   report.host_deposits_saturated = host.deposits_saturated();

@@ -22,6 +22,7 @@
 #include "nodes/computer_request.h"
 #include "nodes/counters.h"
 #include "nodes/node_figures.h"
+#include "nodes/ranks/rank_figures.h"
 #include "nodes/runner.h"
 #include "nodes/watch/meter.h"
 #include "nodes/watch/watching.h"
@@ -63,6 +64,7 @@ struct Report {
   std::uint64_t items_dealt = 0;                     ///< work items that the host gave
   std::uint64_t host_pages_served = 0;               ///< replies of the host to requests for pages
   core::RefinementResult refinement;
+  std::vector<nodes::RankFigures> ranks;  ///< where there are several, or could be
 
   core::Operations operations() const;  ///< summed over the nodes
   PageCounters pages() const;

@@ -86,6 +86,7 @@ class MpiFabric final : public nodes::Fabric {
   std::uint32_t rank_count() const override { return static_cast<std::uint32_t>(names_.size()); }
   std::string name_of(std::uint32_t rank) const override { return names_.at(rank); }
   std::size_t frame_bytes() const override { return frame_bytes_; }
+  std::size_t arrival_bytes() const override { return arrivals_.size(); }
 
   std::span<std::byte> room(std::uint32_t rank) override {
     Way& way = ways_[rank];

@@ -75,12 +75,8 @@ Loaded load(const RenderOptions& options, const OutputSet<RenderRecord>& outputs
   return {std::move(subject), digest};
 }
 
-/// Where the nodes' meters write; nothing if nobody wants to know.
-std::optional<nodes::HeatMap> make_heat_map(const RenderOptions& options, const core::Camera& camera) {
-  if (options.heat_maps.empty()) {
-    return std::nullopt;
-  }
-  return nodes::HeatMap(static_cast<std::uint32_t>(camera.width() * camera.height()), kinds_of(options.heat_maps));
+WatchOrder watch_order_for(const RenderOptions& options, const Subject& subject) {
+  return watch_order(options, static_cast<std::uint32_t>(subject.database.page_count()), subject.settings.camera.pixel_count());
 }
 
 /// Who looks on; nothing if nobody wants to or listens.
@@ -234,13 +230,11 @@ int render(RenderOptions options, Interrupt& interrupt, std::ostream& output, Fi
   std::optional<Checkpoints> checkpoints;
   Loaded loaded = apart(options, [&] { return load(options, outputs, files, checkpoints, interrupt, seconds); });
   Subject& subject = loaded.subject;
-  std::optional<nodes::HeatMap> heat = make_heat_map(options, subject.settings.camera);
-  Onlookers onlookers(options, static_cast<std::uint32_t>(subject.database.page_count()));
+  Onlookers onlookers(watch_order_for(options, subject));
   const std::unique_ptr<Preview> preview =
       make_preview(options, subject.settings.camera, checkpoints ? checkpoints->start() : nullptr, interrupt.token());
-  const nodes::Watching watching{.heat = heat ? &*heat : nullptr, .observer = onlookers.observer(), .distributed = [&subject] {
-                                   subject.database.forget_records();  // the nodes have theirs
-                                 }};
+  nodes::Watching watching = onlookers.watching();
+  watching.distributed = [&subject] { subject.database.forget_records(); };  // the nodes have theirs
   options.pages.reference_logs = onlookers.reference_logs();
   const core::Continuation continuation = continuation_of(checkpoints ? &*checkpoints : nullptr, preview.get(), interrupt);
   const ReadyRun run = apart(options, [&] {
@@ -262,7 +256,7 @@ int render(RenderOptions options, Interrupt& interrupt, std::ostream& output, Fi
     }
     Sights sights;
     attempts.make([&] { sights = take_sights(options, onlookers); });
-    write_others({options, subject.database, report, seconds, heat ? &*heat : nullptr, sights.trace ? &*sights.trace : nullptr,
+    write_others({options, subject.database, report, seconds, onlookers.heat(), sights.trace ? &*sights.trace : nullptr,
                   sights.view ? &*sights.view : nullptr, sights.references.empty() ? nullptr : &sights.references,
                   checkpoints ? checkpoints->samples_found_done() : 0, loaded.scene_digest},
                  outputs, files, interrupt, attempts, output);

@@ -1,14 +1,36 @@
 #include "apps/render/onlookers.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
+
+#include "core/base/expect.h"
+#include "nodes/flat_bytes.h"
 
 namespace dmpc::apps {
 
 namespace {
 
-/// References of one node, however many there are.
-constexpr std::size_t references_least = 1024;
+/// Those of the nodes that are here.
+void put_logs(nodes::FlatWriter& flat, const std::vector<svm::ReferenceLog>& logs) {
+  for (std::uint32_t index = 0; index < logs.size(); ++index) {
+    const bool is_here = !logs[index].pages().empty();
+    flat.put(is_here);
+    if (is_here) {
+      logs[index].put(flat);
+    }
+  }
+}
+
+void take_logs(nodes::FlatReader& flat, std::vector<svm::ReferenceLog>& logs) {
+  for (svm::ReferenceLog& log : logs) {
+    if (flat.take<bool>()) {
+      core::expect(log.pages().empty(), "a node is on one rank");
+      log.take(flat);
+    }
+  }
+}
 
 }  // namespace
 
@@ -16,32 +38,76 @@ double MissEstimate::misses(std::uint32_t cache_pages) const {
   return static_cast<double>(curve.misses(cache_pages / every)) * every;
 }
 
-Onlookers::Onlookers(const RenderOptions& options, std::uint32_t page_count, std::size_t references_max) {
-  const std::uint32_t node_count = options.computer.node_count;
+Onlookers::Onlookers(const WatchOrder& order) : order_(order) {
   std::vector<nodes::Observer*> members;
-  if (options.trace.path) {
-    recorder_ = std::make_unique<nodes::TraceRecorder>(node_count + 1, trace_choice(options.trace, node_count));
+  if (!order.heat_kinds.empty()) {
+    heat_.emplace(order.pixel_count, order.heat_kinds);
+  }
+  if (order.trace) {
+    recorder_ = std::make_unique<nodes::TraceRecorder>(order.node_count + 1, *order.trace);
     members.push_back(recorder_.get());
   }
-  if (options.report) {
-    profile_ = std::make_unique<nodes::ActivityProfile>(node_count + 1);
+  if (order.has_profile) {
+    profile_ = std::make_unique<nodes::ActivityProfile>(order.node_count + 1);
     members.push_back(profile_.get());
   }
-  if (options.report && options.strategy == Strategy::svm) {
-    fetches_ = std::make_unique<svm::FetchWatch>(node_count, page_count, svm::fetch_sample_max, options.pages.homes);
+  if (order.fetches) {
+    fetches_ = std::make_unique<svm::FetchWatch>(order.node_count, order.page_count, svm::fetch_sample_max, *order.fetches);
     members.push_back(fetches_.get());
   }
-  keeps_references_ = options.references.has_value();
-  if (keeps_references_) {
-    reference_logs_.resize(node_count);
-  } else if (options.report && options.strategy == Strategy::svm && !counts_pages(options)) {
-    reference_logs_.assign(node_count, svm::ReferenceLog(std::max(references_least, references_max / node_count)));
+  if (order.references_max) {
+    reference_logs_.assign(order.node_count, svm::ReferenceLog(*order.references_max));
   }
   if (members.size() == 1) {
     observer_ = members.front();
   } else if (!members.empty()) {
     observer_ = &group_.emplace(std::move(members));
   }
+}
+
+nodes::Watching Onlookers::watching() {
+  nodes::Watching watching{.heat = heat_ ? &*heat_ : nullptr, .observer = observer_};
+  if (!order_.is_empty()) {
+    watching.elsewhere = {.order = bytes_of(order_),
+                          .add = [this](std::string_view seen, const nodes::ClockDrift& clock) { add(seen, clock); }};
+  }
+  return watching;
+}
+
+std::string Onlookers::seen() const {
+  nodes::FlatWriter flat;
+  if (heat_) {
+    flat.put_bytes(heat_->bytes());
+  }
+  if (recorder_) {
+    flat.put_bytes(recorder_->bytes());
+  }
+  if (profile_) {
+    flat.put_bytes(profile_->bytes());
+  }
+  if (fetches_) {
+    flat.put_bytes(fetches_->bytes());
+  }
+  put_logs(flat, reference_logs_);
+  return flat.take();
+}
+
+void Onlookers::add(std::string_view seen, const nodes::ClockDrift& clock) {
+  nodes::FlatReader flat(seen);
+  if (heat_) {
+    heat_->add(flat.take_bytes());
+  }
+  if (recorder_) {
+    recorder_->add(flat.take_bytes(), clock);
+  }
+  if (profile_) {
+    profile_->add(flat.take_bytes());
+  }
+  if (fetches_) {
+    fetches_->add(flat.take_bytes(), clock);
+  }
+  take_logs(flat, reference_logs_);
+  core::expect(flat.is_at_end(), "all that was seen was asked for");
 }
 
 Sights Onlookers::take() {
@@ -58,7 +124,7 @@ Sights Onlookers::take() {
   if (sights.view && !reference_logs_.empty()) {
     sights.view->misses = estimate_misses();
   }
-  if (keeps_references_) {
+  if (order_.has_all_references) {
     sights.references = std::move(reference_logs_);
   }
   return sights;

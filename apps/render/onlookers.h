@@ -1,52 +1,62 @@
-// Who looks on at a render, as its options ask for.
+// Who looks on at a render, or at a rank's part of it.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
-#include "apps/run/render_options.h"
+#include "apps/render/watch_order.h"
 #include "apps/run/run_view.h"
+#include "nodes/ranks/clock_drift.h"
+#include "nodes/watch/heat_map.h"
 #include "nodes/watch/observer_group.h"
 #include "nodes/watch/trace.h"
+#include "nodes/watch/watching.h"
 #include "svm/watch/reference_log.h"
 
 namespace dmpc::apps {
 
-/// What they have seen, as far as somebody wants to know it.
+/// What they have seen, as far as somebody wants to know it, but for the heat map.
 struct Sights {
   std::optional<nodes::Trace> trace;          ///< for --trace
   std::optional<RunView> view;                ///< for --report
   std::vector<svm::ReferenceLog> references;  ///< for --references, one a node
 };
 
-/// Instruments beside one run, whose memory is no node's. Thread safety: as an Observer; take() when the run is over.
+/// Instruments beside one run, whose memory is no node's. Thread safety: as an Observer; seen(), add() and take() when the run is
+/// over.
 class Onlookers {
  public:
-  /// `page_count`: of the database. `references_max`: of all nodes together that are kept, about,
-  /// unless a file is to have all.
-  Onlookers(const RenderOptions& options, std::uint32_t page_count, std::size_t references_max = std::size_t{1} << 22U);
+  explicit Onlookers(const WatchOrder& order);
   Onlookers(const Onlookers&) = delete;
   Onlookers& operator=(const Onlookers&) = delete;
 
-  /// For the run; nullptr if nobody looks on.
-  nodes::Observer* observer() const { return observer_; }
+  /// For the run, where nobody has a pointer who wants to know nothing. On ranks, on rank 0, others are given the same order.
+  nodes::Watching watching();
   /// For the run; nullptr if nobody wants to know the references.
   std::vector<svm::ReferenceLog>* reference_logs() { return reference_logs_.empty() ? nullptr : &reference_logs_; }
 
-  /// What was seen; call it once.
+  /// All that was seen here, for add() of rank 0's.
+  std::string seen() const;
+  /// Adds what was seen on another rank.
+  void add(std::string_view seen, const nodes::ClockDrift& clock);
+
+  /// Nothing if nobody wants to know it.
+  const nodes::HeatMap* heat() const { return heat_ ? &*heat_ : nullptr; }
+  /// What else was seen; call it once.
   Sights take();
 
  private:
   MissEstimate estimate_misses();
 
+  WatchOrder order_;
+  std::optional<nodes::HeatMap> heat_;
   std::unique_ptr<nodes::TraceRecorder> recorder_;
   std::unique_ptr<nodes::ActivityProfile> profile_;
   std::unique_ptr<svm::FetchWatch> fetches_;
   std::vector<svm::ReferenceLog> reference_logs_;
-  bool keeps_references_ = false;
   std::optional<nodes::ObserverGroup> group_;
   nodes::Observer* observer_ = nullptr;
 };

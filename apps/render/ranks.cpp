@@ -2,8 +2,13 @@
 
 #include <exception>
 #include <new>
+#include <optional>
+#include <string_view>
 
 #include "apps/line/exit_status.h"
+#include "apps/render/onlookers.h"
+#include "apps/render/watch_order.h"
+#include "apps/run/computer_room.h"
 #include "apps/run/option_words.h"
 #include "apps/system/interrupt.h"
 #include "core/base/expect.h"
@@ -11,6 +16,7 @@
 #include "dataflow/ranks.h"
 #include "nodes/ranks/dismissal.h"
 #include "nodes/ranks/failure.h"
+#include "nodes/ranks/following.h"
 #include "nodes/runner.h"
 #include "svm/packets.h"
 #include "svm/ranks.h"
@@ -52,13 +58,25 @@ int lead(nodes::RankLinks& links, const RenderOnRanks& render) {
   }
 }
 
+/// What another rank has for its part of a run, in which `onlookers` are as soon as rank 0 has said what they are to see.
+svm::Following following_for(std::optional<Onlookers>& onlookers) {
+  svm::Following following;
+  following.check_room = [](const nodes::RankMemory& memory) { check_room(memory); };
+  following.watch = [&onlookers](std::string_view order) { return onlookers.emplace(watch_order_from(order)).watching(); };
+  following.seen = [&onlookers] { return onlookers->seen(); };
+  following.reference_logs = [&onlookers] { return onlookers->reference_logs(); };
+  return following;
+}
+
 /// Any other rank. Rank 0 knows of what fails in a run, and is told of what fails before.
 int follow(nodes::RankLinks& links, Strategy strategy, const std::stop_token& stop) {
+  std::optional<Onlookers> onlookers;
+  const svm::Following following = following_for(onlookers);
   try {
     if (strategy == Strategy::dataflow) {
-      dataflow::follow(links, stop);
+      dataflow::follow(links, stop, following);
     } else {
-      svm::follow(links, stop);
+      svm::follow(links, stop, following);
     }
   } catch (const nodes::Dismissed& dismissed) {
     return dismissed.status;

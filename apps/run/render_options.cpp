@@ -90,12 +90,8 @@ constexpr Conflict conflicts[] = {
     {"--machine", RunnerKind::mpi, "what ranks run on is no model"},
     {"--no-contention", RunnerKind::mpi, "what ranks run on is no model"},
     {"--memory-port", RunnerKind::mpi, "what ranks run on is no model"},
-    {"--heatmap", RunnerKind::mpi, "nodes are watched in one process"},
-    {"--trace", RunnerKind::mpi, "nodes are watched in one process"},
-    {"--report", RunnerKind::mpi, "nodes are watched in one process"},
     {"--idle", RunnerKind::threads, "the nodes of one process wake each other"},
     {"--idle", RunnerKind::virtual_time, "nobody waits in virtual time"},
-    {"--references", RunnerKind::mpi, "nodes are watched in one process"},
     {"--topology", RunnerKind::virtual_time, "the machine has a topology of its own, onto which regions are mapped"},
 };
 

@@ -54,7 +54,8 @@ Account account_of_strategy(const StrategyReport& report) {
                   .kind_names = kind_names(report),
                   .virtual_time = report.virtual_time,
                   .waits = waits_of(report),
-                  .refinement = report.refinement};
+                  .refinement = report.refinement,
+                  .ranks = report.ranks};
   for (const auto& node : report.nodes) {
     account.nodes.push_back({node.program.operations, node.counters, node.memory_planned, node.memory_used});
   }

@@ -14,6 +14,7 @@
 #include "core/trace/operations.h"
 #include "dataflow/run.h"
 #include "nodes/counters.h"
+#include "nodes/ranks/rank_figures.h"
 #include "svm/run.h"
 
 namespace dmpc::apps {
@@ -44,6 +45,7 @@ struct Account {
   const std::optional<nodes::VirtualReport>& virtual_time;    ///< of a modelled machine
   WaitKinds waits;                                            ///< what the waits for these packets are
   core::RefinementResult refinement;
+  const std::vector<nodes::RankFigures>& ranks;  ///< where there are several, or could be
 };
 
 /// Thread-safe, as long as nobody changes the report.

@@ -3,15 +3,14 @@
 #include <memory>
 #include <utility>
 
-#include "apps/line/number_text.h"
 #include "apps/machine/machine_file.h"
 #include "apps/oracle/oracle.h"
+#include "apps/run/computer_room.h"
 #include "apps/run/option_words.h"
-#include "apps/system/memory_room.h"
 #include "core/base/expect.h"
 #include "core/record/records.h"
 #include "nodes/ranks/rank_links.h"
-#include "nodes/ranks/ranks_runner.h"
+#include "nodes/ranks/rank_memory.h"
 
 namespace dmpc::apps {
 
@@ -32,19 +31,33 @@ svm::Report run_with_embree(const core::Database& database, const core::RenderSe
   });
 }
 
-/// The nodes' memories are touched before a run begins. This is rank 0 if there are several.
+/// Here, which is rank 0 if there are several: the others look for themselves.
 template <class Plan>
-void check_room(const Plan& plan, const nodes::ComputerRequest& computer) {
-  const std::uint32_t rank_count = computer.ranks == nullptr ? 1 : computer.ranks->rank_count();
-  std::uint64_t bytes = plan.host_memory().total();
-  std::uint32_t nodes_here = 0;
-  for (std::uint32_t node = 0; node < computer.node_count; ++node) {
-    if (nodes::rank_of(node, computer.node_count, rank_count) == 0) {
-      bytes += plan.node_memory(node).total();
-      ++nodes_here;
-    }
+void check_room_for(const Plan& plan) {
+  check_room(nodes::rank_memory(plan, plan.request.computer.ranks, 0));
+}
+
+/// Of the rank that has most.
+template <class Plan>
+nodes::NetworkMemory network_memory_max(const Plan& plan, const nodes::RankLinks& links) {
+  nodes::NetworkMemory most;
+  for (std::uint32_t rank = 0; rank < links.rank_count(); ++rank) {
+    const nodes::NetworkMemory network = nodes::rank_memory(plan, &links, rank).network;
+    most = network.total() > most.total() ? network : most;
   }
-  check_memory_room(bytes, counted(nodes_here, "node") + " and the host");
+  return most;
+}
+
+/// The plan's, and what each rank sets aside beside it.
+template <class Plan>
+std::vector<std::string> notes_of(const Plan& plan) {
+  std::vector<std::string> notes = plan.notes;
+  const nodes::RankLinks* const links = plan.request.computer.ranks;
+  if (links != nullptr && links->rank_count() > 1) {
+    notes.push_back(std::to_string(links->rank_count()) + " ranks, each with its nodes' memories and up to " +
+                    network_text(network_memory_max(plan, *links)));
+  }
+  return notes;
 }
 
 svm::Strategy page_strategy(Strategy strategy) {
@@ -84,8 +97,8 @@ ReadyRun ready_with_pages(const StrategyOptions& options, const core::Database& 
     return run_with_pages(strategy, database, settings, watched, std::move(stop));
   };
   const svm::Plan plan = with_options_named([&] { return svm::plan_of(strategy, database, settings, run); });
-  check_room(plan, run.computer);
-  return {plan.notes, start};
+  check_room_for(plan);
+  return {notes_of(plan), start};
 }
 
 ReadyRun ready_with_rays(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
@@ -94,7 +107,7 @@ ReadyRun ready_with_rays(const StrategyOptions& options, const core::Database& d
       .computer = options.computer, .rays = options.rays, .watching = watching, .continuation = continuation};
   const auto prepared =
       std::make_shared<dataflow::Prepared>(with_options_named([&] { return dataflow::prepare(database, settings, run, stop); }));
-  check_room(prepared->plan, run.computer);
+  check_room_for(prepared->plan);
   if (watching.distributed) {
     watching.distributed();
     run.watching.distributed = [prepared] { prepared->distribution.forget_records(); };
@@ -104,7 +117,7 @@ ReadyRun ready_with_rays(const StrategyOptions& options, const core::Database& d
     watched.watching.progress = progress;
     return dataflow::run_prepared(*prepared, settings, watched, std::move(stop_run));
   };
-  return {prepared->plan.notes, start};
+  return {notes_of(prepared->plan), start};
 }
 
 }  // namespace

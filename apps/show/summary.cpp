@@ -7,6 +7,7 @@
 #include "apps/line/number_text.h"
 #include "apps/line/shown_text.h"
 #include "apps/machine/machines.h"
+#include "apps/run/computer_room.h"
 #include "apps/run/ray_hops.h"
 #include "apps/run/time_parts.h"
 #include "nodes/size_text.h"
@@ -35,6 +36,25 @@ std::string memory_text(const Account& account) {
     }
   }
   return text;
+}
+
+/// A whole line of the ranks and what went between them, or nothing.
+std::string ranks_line(const Account& account) {
+  if (account.ranks.empty()) {
+    return "";
+  }
+  const auto fullest = std::max_element(account.ranks.begin(), account.ranks.end(), [](const auto& a, const auto& b) {
+    return a.memory.network.total() < b.memory.network.total();
+  });
+  std::uint64_t packets = 0, frames = 0, bytes = 0;
+  for (const nodes::RankFigures& rank : account.ranks) {
+    packets += rank.traffic.packets_sent;
+    frames += rank.traffic.frames_sent;
+    bytes += rank.traffic.bytes_sent;
+  }
+  return "ranks    " + grouped(account.ranks.size()) + ", up to " + network_text(fullest->memory.network) +
+         (account.ranks.size() == 1 ? "" : " each") + "; between them " + counted(packets, "packet") + " in " +
+         counted(frames, "frame") + ", " + bytes_text(bytes) + "\n";
 }
 
 /// Walks from record to record: each ray's, and one more in every region that it travels to.
@@ -167,8 +187,8 @@ void print_summary(std::ostream& output, const RenderRecord& record) {
          << counted(record.database.header().primitive_count, "primitive") << " in "
          << counted(record.database.page_count(), "page") << " of " << nodes::size_text(record.database.page_size())
          << "\ncomputer " << counted(account.nodes.size(), "node") << ", " << name_of(record.options.strategy) << ", "
-         << special.computer << "\nmemory   " << memory_text(account) << "\nrays     "
-         << rays_text(account.operations, walks, record.seconds.render) << '\n'
+         << special.computer << "\nmemory   " << memory_text(account) << '\n'
+         << ranks_line(account) << "rays     " << rays_text(account.operations, walks, record.seconds.render) << '\n'
          << sampling_line(record.options, account) << special.figures << virtual_lines(account, record.options.computer.machine)
          << "time     " << time_text(record.seconds) << "\npicture  " << shown(record.options.image.string()) << ", "
          << account.film.width() << "x" << account.film.height() << ", film " << hash_text(account.film.hash()) << '\n';

@@ -41,6 +41,8 @@ class Fabric {
 
   /// The longest frame, the same on all ranks.
   virtual std::size_t frame_bytes() const = 0;
+  /// What each rank sets aside for frames that have come.
+  virtual std::size_t arrival_bytes() const = 0;
   /// Where the next frame to another rank is put together, frame_bytes() long; the same until it is sent. Empty while two are
   /// under way.
   virtual std::span<std::byte> room(std::uint32_t rank) = 0;

@@ -13,6 +13,8 @@ class Loopback::End final : public Fabric {
   std::string name_of(std::uint32_t rank) const override { return "rank " + std::to_string(rank); }
 
   std::size_t frame_bytes() const override { return of_->frame_bytes_; }
+  /// Frames are read where they were written.
+  std::size_t arrival_bytes() const override { return 0; }
 
   std::span<std::byte> room(std::uint32_t rank) override {
     Lane& lane = of_->lane(rank_, rank);

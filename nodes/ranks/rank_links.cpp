@@ -83,4 +83,12 @@ std::uint64_t RankLinks::frames_sent() const {
   return sum;
 }
 
+std::uint64_t RankLinks::bytes_sent() const {
+  std::uint64_t sum = 0;
+  for (const RankWay& way : ways_) {
+    sum += way.bytes();
+  }
+  return sum;
+}
+
 }  // namespace dmpc::nodes

@@ -67,10 +67,13 @@ class RankLinks {
   /// Shows others that this rank lives; throws LostRank if one has been silent for too long.
   void look_after();
 
-  /// Frames sent so far.
+  /// Frames sent so far, and their bytes.
   std::uint64_t frames_sent() const;
+  std::uint64_t bytes_sent() const;
   /// What is set aside for frames that are sent.
   std::size_t room_bytes() const { return 2 * frame_bytes() * (rank_count() - 1); }
+  /// And for those that have come.
+  std::size_t arrival_bytes() const { return fabric_->arrival_bytes(); }
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -49,8 +49,9 @@ class RankWay {
   }
 
   bool has_said_all() const { return words_.empty() && !frame_.is_begun(); }
-  /// Frames sent so far.
+  /// Frames sent so far, and their bytes.
   std::uint64_t frames() const { return number_; }
+  std::uint64_t bytes() const { return bytes_; }
 
  private:
   struct Word {
@@ -80,6 +81,7 @@ class RankWay {
       return false;
     }
     fabric_->send(rank_, frame_.used_bytes());
+    bytes_ += frame_.used_bytes();
     frame_ = {};
     ++number_;
     return true;
@@ -89,6 +91,7 @@ class RankWay {
   std::uint32_t rank_;
   FrameWriter frame_;
   FrameNumber number_ = 0;
+  std::uint64_t bytes_ = 0;
   std::deque<Word> words_;
 };
 

@@ -11,20 +11,21 @@
 
 #include "core/base/expect.h"
 #include "nodes/processors.h"
+#include "nodes/ranks/clock_drift.h"
 #include "nodes/ranks/counting_waves.h"
 #include "nodes/ranks/dismissal.h"
 #include "nodes/ranks/exchange.h"
 #include "nodes/ranks/failure.h"
 #include "nodes/ranks/frame.h"
 #include "nodes/ranks/nap.h"
+#include "nodes/ranks/outbox.h"
+#include "nodes/threads/clock.h"
 #include "nodes/threads/node_threads.h"
 #include "nodes/threads/promptness.h"
 
 namespace dmpc::nodes {
 namespace {
 
-/// Before a packet in the outbox.
-using TargetIndex = std::uint32_t;
 /// Of a communicating thread that always has something to do, from one look at who is silent to the next.
 constexpr std::uint32_t turns_a_look = 256;
 
@@ -37,16 +38,11 @@ std::vector<bool> here(std::size_t peer_count, const RankLinks& links) {
   return is_here;
 }
 
-/// A packet under way has a place in its target's mailbox. So what is under way to nodes elsewhere, all of which may wait here,
-/// has as many as their mailboxes have together. Bytes are set aside when they are first written: of these places few ever are.
 MailboxCapacity outbox_of(std::span<const NodeSpecification> specifications, const std::vector<bool>& is_here) {
-  MailboxCapacity outbox{.small_front_bytes = sizeof(TargetIndex)};
+  MailboxCapacity outbox = empty_outbox();
   for (std::size_t index = 0; index < specifications.size(); ++index) {
     if (!is_here[index]) {
-      const MailboxCapacity& mailbox = specifications[index].mailbox;
-      outbox.small_slots += mailbox.small_slots;
-      outbox.bulk_slots += mailbox.bulk_slots;
-      outbox.bulk_payload_bytes = std::max(outbox.bulk_payload_bytes, mailbox.bulk_payload_bytes + sizeof(TargetIndex));
+      add_target(outbox, specifications[index].mailbox);
     }
   }
   return outbox;
@@ -107,9 +103,11 @@ struct RanksRunner::Implementation {
         outbox(outbox_capacity, outbox_memory),
         outlet{is_here, outbox},
         nodes(specifications, chaos, observer, &outlet),
+        compares_clocks(observer != nullptr && to.rank() == 0),
         waves(to.rank_count()),
         last_words(to.rank_count()),
         reports(specifications.size()),
+        rank_reports(to.rank_count()),
         nap(to.idle()) {
     core::expect(node_count >= to.rank_count(), "each rank has a node");
     core::expect(frame_bytes_for(payload_bytes_max(specifications)) <= to.frame_bytes(), "every packet fits a frame");
@@ -124,7 +122,12 @@ struct RanksRunner::Implementation {
       try {
         start_with_others();
         communicate_until([this] { return is_closed(); });
-        return judge();
+        close_account();
+        const RunEnd end = judge();
+        if (compares_clocks && end == RunEnd::finished) {
+          read_clocks_again();
+        }
+        return end;
       } catch (const LostRank&) {
         nodes.fail(std::current_exception());
         nodes.join();
@@ -146,11 +149,50 @@ struct RanksRunner::Implementation {
       return;
     }
     if (links.rank() == 0) {
-      links.say_to_all(Item::start, {});
+      if (compares_clocks) {
+        clocks_before = read_clocks();
+      }
+      start_ns = nanoseconds(CLOCK_MONOTONIC);
+      for (std::uint32_t rank = 1; rank < links.rank_count(); ++rank) {
+        const auto offset_ns = static_cast<std::uint64_t>(compares_clocks ? clocks_before[rank].offset_ns() : 0);
+        links.say(rank, Item::start, bytes_of(start_ns + offset_ns));
+      }
     } else {
       Exchange(links).turn_until([this] { return may_start; }, [this](auto&&... item) { receive(item...); });
+      start_ns = std::min(start_ns, nanoseconds(CLOCK_MONOTONIC));  // as far as the clocks go wrong, it may be to come
     }
-    nodes.start();
+    nodes.start(start_ns);
+  }
+
+  /// Of each other rank the shortest of several round trips. They answer while they wait for the start, or for clocks_read.
+  std::vector<ClockAnswer> read_clocks() {
+    std::vector<ClockAnswer> shortest(links.rank_count());
+    for (std::uint32_t rank = 1; rank < links.rank_count(); ++rank) {
+      for (int question = 0; question < clock_questions; ++question) {
+        const ClockAnswer next = ask_clock(rank);
+        if (question == 0 || next.round_trip_ns() < shortest[rank].round_trip_ns()) {
+          shortest[rank] = next;
+        }
+      }
+    }
+    return shortest;
+  }
+
+  ClockAnswer ask_clock(std::uint32_t rank) {
+    heard.reset();
+    const std::uint64_t asked_ns = nanoseconds(CLOCK_MONOTONIC);
+    links.say(rank, Item::clock_asked, {});
+    Exchange(links).turn_until([this] { return heard.has_value(); }, [this](auto&&... item) { receive(item...); });
+    heard->asked_ns = asked_ns;
+    return *heard;
+  }
+
+  void read_clocks_again() {
+    if (links.rank() == 0) {
+      clocks_after = read_clocks();
+      links.say_to_all(Item::clocks_read, {});
+    }
+    communicate_until([this] { return links.rank() == 0 ? links.has_said_all() : are_clocks_read; });
   }
 
   template <class IsDone>
@@ -191,7 +233,25 @@ struct RanksRunner::Implementation {
       case Item::reported:
         ++ranks_reported;
         return;
+      case Item::rank_traffic:
+        rank_reports[rank].traffic = value_of<RankTraffic>(bytes);
+        return;
+      case Item::rank_report:
+        return append(rank_reports[rank].told);
+      case Item::rank_reported:
+        ++ranks_told;
+        return;
+      case Item::clock_asked:
+        compares_clocks = true;  // before the start, hence after the run, too
+        return links.say(rank, Item::clock_told, bytes_of(nanoseconds(CLOCK_MONOTONIC)));
+      case Item::clock_told:
+        heard = {.told_ns = value_of<std::uint64_t>(bytes), .heard_ns = nanoseconds(CLOCK_MONOTONIC)};
+        return;
+      case Item::clocks_read:
+        are_clocks_read = true;
+        return;
       case Item::start:
+        start_ns = value_of<std::uint64_t>(bytes);
         may_start = true;
         return;
       case Item::failure:
@@ -275,6 +335,29 @@ struct RanksRunner::Implementation {
     return told;
   }
 
+  /// A rank may be here while rank 0 still gathers from others what their nodes say: hence words of other kinds.
+  std::vector<RankReport> gather_ranks(const std::string& told) {
+    if (links.rank() == 0) {
+      communicate_until([this] { return ranks_told + 1 == links.rank_count(); });
+      rank_reports.front() = {traffic, {}, told};
+      for (std::size_t rank = 1; rank < clocks_after.size(); ++rank) {
+        rank_reports[rank].clock = ClockDrift(clocks_before[rank], clocks_after[rank], start_ns);
+      }
+      return std::move(rank_reports);
+    }
+    links.say(0, Item::rank_traffic, bytes_of(traffic));
+    links.say(0, Item::rank_report, std::as_bytes(std::span(told)));
+    links.say(0, Item::rank_reported, {});
+    communicate_until([this] { return links.has_said_all(); });
+    return {};
+  }
+
+  void close_account() {
+    traffic.frames_sent = links.frames_sent();
+    traffic.bytes_sent = links.bytes_sent();
+    traffic.waves = waves.waves();
+  }
+
   void rest() {
     const std::chrono::nanoseconds time = nap.next();
     if (time == time.zero()) {
@@ -337,13 +420,18 @@ struct RanksRunner::Implementation {
   Mailbox outbox;
   Outlet outlet;
   NodeThreads nodes;
+  bool compares_clocks;
   CountingWaves waves;
-  std::vector<LastWord> last_words;  ///< of other ranks, as far as they have come
-  std::vector<std::string> reports;  ///< of other ranks' nodes, by node
-  std::uint32_t ranks_reported = 0;
+  std::vector<LastWord> last_words;      ///< of other ranks, as far as they have come
+  std::vector<std::string> reports;      ///< of other ranks' nodes, by node
+  std::vector<RankReport> rank_reports;  ///< of other ranks themselves
+  std::uint32_t ranks_reported = 0, ranks_told = 0;
   RankTraffic traffic;
   Nap nap;
-  bool is_run = false, may_start = false, has_started = false, is_closing = false;
+  std::uint64_t start_ns = 0;                            ///< of the run, by this rank's clock
+  std::vector<ClockAnswer> clocks_before, clocks_after;  ///< the run, by rank: what rank 0 knows of others' clocks
+  std::optional<ClockAnswer> heard;                      ///< to the last question
+  bool is_run = false, may_start = false, has_started = false, is_closing = false, are_clocks_read = false;
 };
 
 RanksRunner::RanksRunner(std::span<const NodeSpecification> specifications, RankLinks& links, const std::optional<Chaos>& chaos,
@@ -358,12 +446,7 @@ Program& RanksRunner::program(std::size_t index) { return *implementation_->node
 bool RanksRunner::is_here(std::size_t index) const { return implementation_->nodes.is_here(index); }
 std::vector<std::string> RanksRunner::gather(const Tell& tell) { return implementation_->gather(tell); }
 
-RankTraffic RanksRunner::traffic() const {
-  RankTraffic traffic = implementation_->traffic;
-  traffic.frames_sent = implementation_->links.frames_sent();
-  traffic.waves = implementation_->waves.waves();
-  traffic.network_bytes = implementation_->outbox_capacity.bytes() + implementation_->links.room_bytes();
-  return traffic;
-}
+std::vector<RankReport> RanksRunner::gather_ranks(const std::string& told) { return implementation_->gather_ranks(told); }
+RankTraffic RanksRunner::traffic() const { return implementation_->traffic; }
 
 }  // namespace dmpc::nodes

@@ -12,31 +12,19 @@
 #include <vector>
 
 #include "nodes/chaos.h"
+#include "nodes/ranks/placement.h"
 #include "nodes/ranks/rank_links.h"
 #include "nodes/runner.h"
 
 namespace dmpc::nodes {
 
-/// The rank of a node, or of the host, whose index is node_count: blocks keep neighbours together, the host is on rank 0. Each
-/// rank has a node where there are at least as many nodes as ranks.
-constexpr std::uint32_t rank_of(std::uint32_t index, std::uint32_t node_count, std::uint32_t rank_count) {
-  return index == node_count ? 0 : static_cast<std::uint32_t>(std::uint64_t{index} * rank_count / node_count);
-}
-
-/// What went between this rank and others.
-struct RankTraffic {
-  std::uint64_t packets_sent = 0, packets_received = 0;
-  std::uint64_t frames_sent = 0;
-  std::uint64_t waves = 0;        ///< that were counted until all stood still
-  std::size_t network_bytes = 0;  ///< set aside for the outbox and for frames that are sent; no node's memory
-};
-
 /// As Runner, but that node() and program() have this rank's nodes alone. The calling thread is the one that communicates.
 class RanksRunner final : public Runner {
  public:
   /// All ranks are given equal specifications, of all nodes, then the host; of those that are elsewhere no program is made. There
-  /// are at least as many nodes as ranks, and every packet fits a frame. `links` and `observer` outlive this. An observer is told
-  /// of this rank's nodes.
+  /// are at least as many nodes as ranks, and every packet fits a frame. `links` and `observer` outlive this. An observer, of
+  /// whom rank 0 has one if any rank has, is told of this rank's nodes, by its own clock, which is set to that of rank 0 before
+  /// the start and compared with it again after a regular end.
   RanksRunner(std::span<const NodeSpecification> specifications, RankLinks& links,
               const std::optional<Chaos>& chaos = std::nullopt, Observer* observer = nullptr);
   ~RanksRunner() override;
@@ -51,7 +39,9 @@ class RanksRunner final : public Runner {
   bool is_here(std::size_t index) const override;
   /// To be called on all ranks, or on none.
   std::vector<std::string> gather(const Tell& tell) override;
-  /// After run().
+  /// Likewise, after gather().
+  std::vector<RankReport> gather_ranks(const std::string& told) override;
+  /// After run(): until all were told how it had ended.
   RankTraffic traffic() const;
 
  private:

@@ -104,8 +104,8 @@ void NodeThreads::hand_over(ThreadProcessor& source) {
   source.waiting_count = source.quanta_waited = 0;
 }
 
-void NodeThreads::start() {
-  start_ns_ = nanoseconds(CLOCK_MONOTONIC);
+void NodeThreads::start(std::uint64_t start_ns) {
+  start_ns_ = start_ns;
   try {
     start_threads();
   } catch (const core::RoomError&) {

@@ -47,8 +47,8 @@ class NodeThreads final : public Network {
 
   void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) override;
 
-  /// Starts them; what keeps one from starting is a failure.
-  void start();
+  /// Starts them; what keeps one from starting is a failure. `start_ns`: when the run began, by CLOCK_MONOTONIC.
+  void start(std::uint64_t start_ns);
   /// Waits until all have left.
   void join();
 

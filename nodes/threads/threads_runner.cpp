@@ -45,7 +45,7 @@ RunEnd ThreadsRunner::run(std::stop_token stop) {
   NodeThreads& nodes = implementation_->nodes;
   {
     const std::stop_callback on_stop(std::move(stop), [&nodes] { nodes.end(Ending::interrupted); });
-    nodes.start();
+    nodes.start(nanoseconds(CLOCK_MONOTONIC));
     nodes.join();
   }
   return implementation_->judge();

@@ -4,6 +4,7 @@
 
 #include "core/base/expect.h"
 #include "nodes/atomics.h"
+#include "nodes/flat_bytes.h"
 #include "nodes/watch/trace.h"
 
 namespace dmpc::nodes {
@@ -85,6 +86,28 @@ void ActivityProfile::ended(const Span& span, const Program& /*program*/) {
   }
   if (span.own_ns > 0) {
     log.add(work_of(span), span.begin_ns, span.end_ns, span.own_ns);
+  }
+}
+
+std::string ActivityProfile::bytes() const {
+  FlatWriter flat;
+  for (std::uint32_t index = 0; index < logs_.size(); ++index) {
+    if (!logs_[index]->steps.empty()) {
+      flat.put(index);
+      flat.put(logs_[index]->step_ns);
+      flat.put_all(logs_[index]->steps);
+    }
+  }
+  return flat.take();
+}
+
+void ActivityProfile::add(std::string_view bytes) {
+  FlatReader flat(bytes);
+  while (!flat.is_at_end()) {
+    Log& log = *logs_.at(flat.take<std::uint32_t>());
+    core::expect(log.steps.empty(), "a node is on one rank");
+    log.step_ns = flat.take<std::uint64_t>();
+    log.steps = flat.take_all<WorkTimes>();
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -46,6 +47,11 @@ class ActivityProfile final : public Observer {
   void sent(const Passing&) override {}
   void received(const Passing&) override {}
   void worked(const Worked&) override {}
+
+  /// What was seen of nodes, for add() of the profile of another rank.
+  std::string bytes() const;
+  /// Takes over what was seen of nodes that are on another rank; its clock is near enough to this one's for steps.
+  void add(std::string_view bytes);
 
   /// What was seen, all nodes in steps of the same length. Call it once.
   ActivitySteps take();

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -44,6 +45,11 @@ class HeatMap {
   /// By pixel; empty if the kind is not recorded.
   std::span<const std::uint64_t> values(HeatKind kind) const { return values_[static_cast<std::size_t>(kind)]; }
   std::uint64_t sum(HeatKind kind) const;
+
+  /// All numbers, for add() of a map of the same pixels and kinds.
+  std::string bytes() const;
+  /// Adds what others, on another rank, have written to theirs; of depth and node the larger number stays.
+  void add(std::string_view bytes);
 
  private:
   /// Where the pixel's number stands; nullptr if the kind is not recorded.

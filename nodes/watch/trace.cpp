@@ -11,6 +11,7 @@
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
 #include "nodes/atomics.h"
+#include "nodes/flat_bytes.h"
 #include "nodes/program.h"
 
 namespace dmpc::nodes {
@@ -105,6 +106,47 @@ struct alignas(cache_line_bytes) TraceRecorder::Log {
   TraceSpan current;                ///< of the call under way: what it has worked on
   bool is_last_call_wanted = true;  ///< but for interrupts
   std::uint64_t lost_from_ns = std::numeric_limits<std::uint64_t>::max();
+
+  bool is_empty() const {
+    return node.spans.empty() && node.levels.empty() && sent.kept.empty() && received.kept.empty() &&
+           lost_from_ns == std::numeric_limits<std::uint64_t>::max();
+  }
+  void put(FlatWriter& flat) const {
+    flat.put_all(node.spans);
+    flat.put(node.level_names.size());
+    for (const std::string& name : node.level_names) {
+      flat.put_bytes(name);
+    }
+    flat.put_all(node.levels);
+    flat.put_all(sent.kept);
+    flat.put_all(received.kept);
+    flat.put(lost_from_ns);
+  }
+  void take(FlatReader& flat) {
+    node.spans = flat.take_all<TraceSpan>();
+    for (auto left = flat.take<std::size_t>(); left > 0; --left) {
+      node.level_names.emplace_back(flat.take_bytes());
+    }
+    node.levels = flat.take_all<TraceLevel>();
+    sent.kept = flat.take_all<End>();
+    received.kept = flat.take_all<End>();
+    lost_from_ns = flat.take<std::uint64_t>();
+  }
+  /// From the clock of the node's rank to that of rank 0.
+  void correct(const ClockDrift& clock) {
+    for (TraceSpan& span : node.spans) {
+      span.begin_ns = clock.corrected(span.begin_ns);
+      span.end_ns = std::max(span.begin_ns, clock.corrected(span.end_ns));
+    }
+    for (TraceLevel& level : node.levels) {
+      level.time_ns = clock.corrected(level.time_ns);
+    }
+    for (Ends* const ends : {&sent, &received}) {
+      for (End& end : ends->kept) {
+        end.time_ns = clock.corrected(end.time_ns);
+      }
+    }
+  }
 };
 
 namespace {
@@ -234,7 +276,7 @@ void TraceRecorder::note_levels(Log& log, const Program& program, std::uint64_t 
   std::uint32_t number = 0;
   for (const Level& level : program.levels()) {
     if (is_first) {
-      log.node.level_names.push_back(level.name);
+      log.node.level_names.emplace_back(level.name);
     }
     if ((std::exchange(log.levels[number], level.value) != level.value || is_first) && admit(log, time_ns)) {
       log.node.levels.push_back({time_ns, level.value, number});
@@ -305,12 +347,56 @@ std::vector<TraceMessage> TraceRecorder::join() const {
   return messages;
 }
 
+std::string TraceRecorder::bytes() const {
+  FlatWriter flat;
+  flat.put(events_lost());
+  for (std::uint32_t index = 0; index < logs_.size(); ++index) {
+    if (!logs_[index]->is_empty()) {
+      flat.put(index);
+      logs_[index]->put(flat);
+    }
+  }
+  return flat.take();
+}
+
+void TraceRecorder::add(std::string_view bytes, const ClockDrift& clock) {
+  FlatReader flat(bytes);
+  lost_elsewhere_ += flat.take<std::uint64_t>();
+  while (!flat.is_at_end()) {
+    Log& log = *logs_.at(flat.take<std::uint32_t>());
+    core::expect(log.is_empty(), "a node is on one rank");
+    log.take(flat);
+    log.correct(clock);
+  }
+}
+
+/// Here.
+std::uint64_t TraceRecorder::events_lost() const {
+  const std::uint64_t events = events_.load(std::memory_order_relaxed);
+  return events - std::min(events, choice_.events_max);
+}
+
+namespace {
+
+/// No message comes before it is sent: clocks of several ranks, set by each other, may say so.
+void move_early(Trace& trace) {
+  for (TraceMessage& message : trace.messages) {
+    if (message.received_ns < message.sent_ns) {
+      ++trace.messages_moved;
+      trace.moved_ns_max = std::max(trace.moved_ns_max, message.sent_ns - message.received_ns);
+      message.received_ns = message.sent_ns;
+    }
+  }
+}
+
+}  // namespace
+
 Trace TraceRecorder::take() {
   Trace trace{.messages = join()};
+  move_early(trace);
   std::stable_sort(trace.messages.begin(), trace.messages.end(),
                    [](const TraceMessage& a, const TraceMessage& b) { return a.sent_ns < b.sent_ns; });
-  const std::uint64_t events = events_.load(std::memory_order_relaxed);
-  trace.events_lost = events - std::min(events, choice_.events_max);
+  trace.events_lost = events_lost() + lost_elsewhere_;
   trace.lost_from_ns = choice_.to_ns;
   for (const auto& log : logs_) {
     trace.lost_from_ns = std::min(trace.lost_from_ns, log->lost_from_ns);

@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "nodes/observer.h"
+#include "nodes/ranks/clock_drift.h"
 
 namespace dmpc::nodes {
 
@@ -71,7 +73,7 @@ struct TraceLevel {
 /// What one node did, in order of time.
 struct TraceNode {
   std::vector<TraceSpan> spans;  ///< what begins first comes first, and what lies within it behind it
-  std::vector<std::string_view> level_names;
+  std::vector<std::string> level_names;
   std::vector<TraceLevel> levels;  ///< only where they change
 };
 
@@ -80,6 +82,9 @@ struct Trace {
   std::vector<TraceMessage> messages;
   std::uint64_t events_lost = 0;   ///< beyond TraceChoice::events_max
   std::uint64_t lost_from_ns = 0;  ///< since when, if there are any
+  /// On ranks, whose clocks are not quite alike: messages that seemed to be received before they were sent, and by how much at
+  /// most. They are received when they are sent.
+  std::uint64_t messages_moved = 0, moved_ns_max = 0;
 };
 
 /// Records. Thread safety: as an Observer; take() when the run is over.
@@ -93,6 +98,11 @@ class TraceRecorder final : public Observer {
   void sent(const Passing& packet) override;
   void received(const Passing& packet) override;
   void worked(const Worked& worked) override;
+
+  /// What the nodes have told, for add() of the recorder of another rank, which has the same choice.
+  std::string bytes() const;
+  /// Takes over what nodes have told that are on another rank, in times of this one.
+  void add(std::string_view bytes, const ClockDrift& clock);
 
   /// What was recorded; call it once.
   Trace take();
@@ -114,10 +124,12 @@ class TraceRecorder final : public Observer {
   void note_levels(Log& log, const Program& program, std::uint64_t time_ns);
   void note_end(Log& log, Ends& ends, const Passing& packet, std::uint64_t time_ns);
   std::vector<TraceMessage> join() const;
+  std::uint64_t events_lost() const;
 
   TraceChoice choice_;
   std::vector<std::unique_ptr<Log>> logs_;
   std::atomic<std::uint64_t> events_{0};
+  std::uint64_t lost_elsewhere_ = 0;  ///< events, on other ranks
 };
 
 }  // namespace dmpc::nodes

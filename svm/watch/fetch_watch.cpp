@@ -10,6 +10,7 @@
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
 #include "nodes/atomics.h"
+#include "nodes/flat_bytes.h"
 #include "svm/packets.h"
 #include "svm/share.h"
 
@@ -64,6 +65,20 @@ class Ends {
     }
   }
   std::uint32_t every() const { return share_.every(); }
+  bool is_empty() const { return closed_.empty() && share_.every() == 1; }
+  /// Those that are over.
+  void put(nodes::FlatWriter& flat) const {
+    flat.put(share_.every());
+    flat.put_all(closed_);
+  }
+  void take(nodes::FlatReader& flat, const nodes::ClockDrift& clock) {
+    share_.shrink_to(flat.take<std::uint32_t>());
+    closed_ = flat.take_all<End>();
+    for (End& end : closed_) {
+      std::transform(end.time_ns.begin(), end.time_ns.end(), end.time_ns.begin(),
+                     [&](std::uint64_t time_ns) { return clock.corrected(time_ns); });
+    }
+  }
   /// Those of one of `every`.
   std::vector<End> take(std::uint32_t every) {
     thin_out(every);
@@ -139,14 +154,48 @@ Fetch joined(const End& asker, const End& home) {
       .links_ns = asker.links_ns + home.links_ns};
 }
 
+/// By number of who or what is counted.
+using Counts = std::map<std::uint32_t, std::uint64_t>;
+
+void put_counts(nodes::FlatWriter& flat, const Counts& counts) {
+  flat.put(counts.size());
+  for (const auto& [number, count] : counts) {
+    flat.put(number);
+    flat.put(count);
+  }
+}
+
+Counts take_counts(nodes::FlatReader& flat) {
+  Counts counts;
+  for (auto left = flat.take<std::size_t>(); left > 0; --left) {
+    const auto number = flat.take<std::uint32_t>();
+    counts[number] = flat.take<std::uint64_t>();
+  }
+  return counts;
+}
+
 }  // namespace
 
 /// What one node has seen, on cache lines of its own.
 struct alignas(nodes::cache_line_bytes) FetchWatch::Log {
-  std::vector<std::uint32_t> asked, taken;                   ///< by who is asked, and by who replies
-  std::vector<std::uint32_t> requested, replied;             ///< by asker
-  std::map<std::uint32_t, std::uint64_t> by_page, by_asker;  ///< requests that are not passed on
+  std::vector<std::uint32_t> asked, taken;        ///< by who is asked, and by who replies
+  std::vector<std::uint32_t> requested, replied;  ///< by asker
+  Counts by_page, by_asker;                       ///< requests that are not passed on
   Ends as_asker, as_home;
+
+  bool is_empty() const { return by_page.empty() && as_asker.is_empty() && as_home.is_empty(); }
+  void put(nodes::FlatWriter& flat) const {
+    put_counts(flat, by_page);
+    put_counts(flat, by_asker);
+    as_asker.put(flat);
+    as_home.put(flat);
+  }
+  void take(nodes::FlatReader& flat, const nodes::ClockDrift& clock) {
+    by_page = take_counts(flat);
+    by_asker = take_counts(flat);
+    as_asker.take(flat, clock);
+    as_home.take(flat, clock);
+  }
 
   void count(std::uint32_t asker, std::uint32_t page, int change) {
     by_page[page] += static_cast<std::uint64_t>(change);
@@ -218,6 +267,26 @@ void FetchWatch::received(const nodes::Passing& packet) {
       end->links_ns = times.links_ns;
       log.as_asker.close(name, log_max_);
     }
+  }
+}
+
+std::string FetchWatch::bytes() const {
+  nodes::FlatWriter flat;
+  for (std::uint32_t index = 0; index < logs_.size(); ++index) {
+    if (!logs_[index]->is_empty()) {
+      flat.put(index);
+      logs_[index]->put(flat);
+    }
+  }
+  return flat.take();
+}
+
+void FetchWatch::add(std::string_view bytes, const nodes::ClockDrift& clock) {
+  nodes::FlatReader flat(bytes);
+  while (!flat.is_at_end()) {
+    Log& log = *logs_.at(flat.take<std::uint32_t>());
+    core::expect(log.is_empty(), "a node is on one rank");
+    log.take(flat, clock);
   }
 }
 

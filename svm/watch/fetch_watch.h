@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "nodes/observer.h"
+#include "nodes/ranks/clock_drift.h"
 #include "svm/home.h"
 
 namespace dmpc::svm {
@@ -71,6 +73,11 @@ class FetchWatch final : public nodes::Observer {
   void sent(const nodes::Passing& packet) override;
   void received(const nodes::Passing& packet) override;
   void worked(const nodes::Worked&) override {}
+
+  /// What was seen of nodes, for add() of the watch of another rank.
+  std::string bytes() const;
+  /// Takes over what was seen of nodes that are on another rank, in times of this one.
+  void add(std::string_view bytes, const nodes::ClockDrift& clock);
 
   /// What was seen; call it once.
   Fetches take();

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "nodes/flat_bytes.h"
 #include "svm/page.h"
 #include "svm/share.h"
 
@@ -41,6 +42,17 @@ class ReferenceLog {
     share_.shrink_to(every);
     std::erase_if(pages_, [this](PageId page) { return !share_.has(index_of(page)); });
     pages_.erase(std::unique(pages_.begin(), pages_.end()), pages_.end());
+  }
+
+  /// For take() of another.
+  void put(nodes::FlatWriter& flat) const {
+    flat.put(share_.every());
+    flat.put_all(pages_);
+  }
+  /// What another has kept, in place of nothing.
+  void take(nodes::FlatReader& flat) {
+    share_.shrink_to(flat.take<std::uint32_t>());
+    pages_ = flat.take_all<PageId>();
   }
 
  private:

@@ -2,7 +2,9 @@
 #include <doctest/doctest.h>
 
 #include <cstdint>
+#include <exception>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -13,6 +15,7 @@
 #include "dataflow/ranks.h"
 #include "nodes/byte_source.h"
 #include "nodes/ranks/dismissal.h"
+#include "nodes/ranks/failure.h"
 #include "nodes/ranks/rank_links.h"
 #include "nodes/ranks/ranks_runner.h"
 #include "svm/ranks.h"
@@ -64,13 +67,18 @@ auto on_ranks(std::uint32_t rank_count, std::uint32_t node_count, const Render& 
   return OnRanks<Report>{std::move(*results.front().value->report), std::move(bytes_received)};
 }
 
+constexpr auto follow_pages = [](nodes::RankLinks& links, std::stop_token stop) { return svm::follow(links, std::move(stop)); };
+constexpr auto follow_rays = [](nodes::RankLinks& links, std::stop_token stop) {
+  return dataflow::follow(links, std::move(stop));
+};
+
 template <class Render>
 auto pages_on_ranks(std::uint32_t rank_count, std::uint32_t node_count, const Render& render) {
-  return on_ranks(rank_count, node_count, render, svm::follow);
+  return on_ranks(rank_count, node_count, render, follow_pages);
 }
 template <class Render>
 auto rays_on_ranks(std::uint32_t rank_count, std::uint32_t node_count, const Render& render) {
-  return on_ranks(rank_count, node_count, render, dataflow::follow);
+  return on_ranks(rank_count, node_count, render, follow_rays);
 }
 
 Subject subject_of(const core::Scene& scene) {
@@ -200,6 +208,73 @@ TEST_CASE("a rank is sent the parts of its nodes' regions, and with strategy rep
   }
 }
 
+TEST_CASE("what each rank sets aside and what went between them is told, the same for what is sent and what is received") {
+  const Subject subject = subject_of(tests::mirrors_and_glass());
+  constexpr std::uint32_t nodes = 7;
+  const auto check_ranks = [&](const auto& report, std::uint32_t ranks) {
+    REQUIRE(report.ranks.size() == ranks);
+    std::uint32_t nodes_seen = 0;
+    std::uint64_t packets = 0;
+    for (std::uint32_t rank = 0; rank < ranks; ++rank) {
+      CHECK(report.ranks[rank].name == "rank " + std::to_string(rank));
+      CHECK(report.ranks[rank].memory.has_host == (rank == 0));
+      CHECK((report.ranks[rank].memory.network.outbox_bytes > 10'000) == (ranks > 1));
+      nodes_seen += report.ranks[rank].memory.node_count;
+      packets += report.ranks[rank].traffic.packets_sent;
+    }
+    CHECK(nodes_seen == nodes);
+    CHECK((packets > 0) == (ranks > 1));
+  };
+  for (const std::uint32_t ranks : rank_counts) {
+    CAPTURE(ranks);
+    check_ranks(pages_on_ranks(ranks, nodes,
+                               [&](const nodes::ComputerRequest& computer) { return run_svm(subject, {.computer = computer}); })
+                    .report,
+                ranks);
+    check_ranks(
+        rays_on_ranks(ranks, nodes,
+                      [&](const nodes::ComputerRequest& computer) { return run_dataflow(subject, {.computer = computer}); })
+            .report,
+        ranks);
+  }
+  CHECK(run_svm(subject, {}).ranks.empty());
+}
+
+TEST_CASE("a rank that has no room ends all before anything is rendered, and is named") {
+  const Subject subject(tests::mirrors_and_glass(), {.width = 4, .height = 4});
+  const auto check_refusal = [&](const auto& render, const auto& follow) {
+    const auto results = tests::on_ranks(3, {}, [&](nodes::Fabric& fabric) {
+      nodes::RankLinks links(fabric);
+      if (fabric.rank() == 0) {
+        CHECK_THROWS_WITH_AS(render(nodes::ComputerRequest{.node_count = 7, .ranks = &links}), "rank 2: no room for 2 nodes",
+                             core::RoomError);
+        nodes::dismiss(links, 4);
+        return 4;
+      }
+      svm::Following following;
+      following.check_room = [&](const nodes::RankMemory& memory) {
+        if (fabric.rank() == 2) {
+          throw core::RoomError("no room for " + std::to_string(memory.node_count) + " nodes");
+        }
+      };
+      try {
+        follow(links, {}, following);
+      } catch (const nodes::Dismissed& dismissed) {
+        return dismissed.status;
+      } catch (...) {
+        nodes::say_failure(links, nodes::failure_of(std::current_exception()));
+      }
+      return nodes::wait_for_dismissal(links);
+    });
+    for (const auto& result : results) {
+      CHECK(result.value == 4);
+    }
+  };
+  check_refusal([&](const nodes::ComputerRequest& computer) { return run_svm(subject, {.computer = computer}); }, svm::follow);
+  check_refusal([&](const nodes::ComputerRequest& computer) { return run_dataflow(subject, {.computer = computer}); },
+                dataflow::follow);
+}
+
 TEST_CASE("fewer nodes than ranks are refused by every strategy's plan, and the other ranks are dismissed") {
   const Subject subject(tests::mirrors_and_glass(), {.width = 4, .height = 4});
   const std::string sentence = "node_count=3: expected at least one node for each of the 4 ranks";
@@ -223,9 +298,9 @@ TEST_CASE("fewer nodes than ranks are refused by every strategy's plan, and the 
       CHECK(result.value == 2);
     }
   };
-  check_refusal([&](const nodes::ComputerRequest& computer) { return run_svm(subject, {.computer = computer}); }, svm::follow);
+  check_refusal([&](const nodes::ComputerRequest& computer) { return run_svm(subject, {.computer = computer}); }, follow_pages);
   check_refusal([&](const nodes::ComputerRequest& computer) { return run_dataflow(subject, {.computer = computer}); },
-                dataflow::follow);
+                follow_rays);
 }
 
 }  // namespace

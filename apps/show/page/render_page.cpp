@@ -22,9 +22,10 @@ namespace dmpc::apps::html {
 
 namespace {
 
-std::string runner_text(const RenderOptions& options) {
+std::string runner_text(const RenderOptions& options, const Account& account) {
+  const std::string where = account.ranks.empty() ? "" : " on " + counted(account.ranks.size(), "rank");
   return options.computer.machine ? "virtual, in the time of a modelled " + options.computer.machine->name
-                                  : "threads, one a node, by the wall clock";
+                                  : "threads" + where + ", one a node, by the wall clock";
 }
 
 /// By which another run is known to be the same.
@@ -42,7 +43,7 @@ Facts facts_of(const RenderRecord& record, const Account& account) {
       {"Scene", options.picture.scene + ", " + counted(record.database.header().primitive_count, "primitive")},
       {"Database", counted(record.database.page_count(), "page") + " of " + nodes::size_text(record.database.page_size())},
       {"Computer", computer_text(record)},
-      {"Runner", runner_text(options)},
+      {"Runner", runner_text(options, account)},
       {"Memory of the fullest node", bytes_text(account.node_memory_max_bytes)},
       {"Rays shot", grouped(account.operations.ray_count())},
       {"Packets sent", grouped(nodes::total(account.sent).packets) + ", " +
@@ -169,6 +170,9 @@ void add_traffic(Page& page, const Account& account) {
   page.begin_section("Traffic");
   page.add_conclusion(traffic_conclusion(account));
   page.add_table(packet_table(account));
+  if (!account.ranks.empty()) {
+    page.add_table(rank_table(account));
+  }
   if (!account.virtual_time) {
     return;
   }

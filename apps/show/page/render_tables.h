@@ -27,6 +27,9 @@ Plot memory_plot(const Account& account);
 /// A row for each kind of packet that was sent.
 Table packet_table(const Account& account);
 
+/// A row for each rank: its nodes, what is set aside beside their memories, and what went between it and others.
+Table rank_table(const Account& account);
+
 /// A row for each of the busiest links of a modelled machine.
 Table link_table(const nodes::VirtualReport& report);
 Plot link_plot();

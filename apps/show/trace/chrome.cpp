@@ -194,7 +194,7 @@ class ChromeWriter {
   void write_level(std::uint32_t node, const nodes::TraceLevel& level) {
     begin("C", node);
     add("ts", thousandths(level.time_ns));
-    add("name", quoted(std::string(view_.trace.nodes[node].level_names[level.number])));
+    add("name", quoted(view_.trace.nodes[node].level_names[level.number]));
     add("args", "{" + key("value", std::to_string(level.value)) + "}");
     end();
   }

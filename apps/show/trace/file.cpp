@@ -36,6 +36,24 @@ std::string nodes_text(const std::optional<TraceNodes>& nodes) {
   return !nodes ? "all" : !nodes->has_host ? text : text.empty() ? "host" : text + ", host";
 }
 
+std::string microseconds(std::uint64_t time_ns) { return thousandths(time_ns) + " us"; }
+
+/// How far times of different ranks may be compared.
+std::string clocks_text(const std::vector<nodes::RankFigures>& ranks, const nodes::Trace& trace) {
+  std::uint64_t error_ns = 0;
+  for (const nodes::RankFigures& rank : ranks) {
+    error_ns = std::max(error_ns, rank.clock.error_ns());
+  }
+  std::string text = "of " + counted(ranks.size(), "rank") +
+                     ", compared with that of rank 0 before and after the run: wrong by " + microseconds(error_ns) + " at most";
+  if (trace.messages_moved > 0) {
+    text += "; of " + counted(trace.messages.size(), "message") + " " + std::to_string(trace.messages_moved) +
+            " seemed to be received up to " + microseconds(trace.moved_ns_max) +
+            " before they were sent, and are shown as received when they were sent";
+  }
+  return text;
+}
+
 TraceView view_of(const RenderRecord& record) {
   const RenderOptions& options = record.options;
   const Account account = account_of(record.report);
@@ -52,6 +70,9 @@ TraceView view_of(const RenderRecord& record) {
     view.remarks.push_back({"machine", options.computer.machine->name});
     view.remarks.push_back({"machine_digest", hash_text(account.virtual_time->machine_digest)});
     view.remarks.push_back({"run_hash", hash_text(account.virtual_time->run_hash(account.film.hash()))});
+  }
+  if (account.ranks.size() > 1) {
+    view.remarks.push_back({"clocks", clocks_text(account.ranks, *record.trace)});
   }
   view.remarks.push_back({"window_ms", window_text(options.trace.window)});
   view.remarks.push_back({"recorded_nodes", nodes_text(options.trace.nodes)});

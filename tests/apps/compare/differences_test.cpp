@@ -56,13 +56,15 @@ TEST_CASE("the largest whole numbers are told apart") {
   CHECK(differing(R"("seed": 18446744073709551615)", R"("seed": 18446744073709551614)") == Names{"seed"});
 }
 
-TEST_CASE("what hangs on this computer's clock, the version and names of files are left out") {
+TEST_CASE("what hangs on this computer's clock, the version and names of files and computers are left out") {
   CHECK(
       differing(R"("program": "a", "seconds": {"load": 1}, "nodes": [{"seconds": {"busy": 1}}], "host": {"seconds": {"wall": 1}},
                      "heat_maps": [{"file": "a", "clock": "processor time", "sum": 1}])",
                 R"("program": "b", "seconds": {"load": 2}, "nodes": [{"seconds": {"busy": 2}}], "host": {"seconds": {"wall": 2}},
                      "heat_maps": [{"file": "b", "clock": "processor time", "sum": 2}])")
           .empty());
+  CHECK(differing(R"("ranks": [{"name": "rank 0 on host a", "clock_error": 1, "nodes": 2}])",
+                  R"("ranks": [{"name": "rank 0 on host b", "clock_error": 2, "nodes": 3}])") == Names{"ranks.0.nodes"});
   CHECK(differing(R"("virtual_seconds": {"total": 1}, "heat_maps": [{"clock": "virtual time", "sum": 1}])",
                   R"("virtual_seconds": {"total": 2}, "heat_maps": [{"clock": "virtual time", "sum": 2}])") ==
         Names{"virtual_seconds.total", "heat_maps.0.sum"});

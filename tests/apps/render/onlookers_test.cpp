@@ -29,9 +29,11 @@ std::uint64_t busy_ns(const nodes::ActivitySteps& steps) {
 }  // namespace
 
 TEST_CASE("nobody looks on unless somebody wants to know") {
-  const Onlookers nobody(small(), 10);
-  CHECK(nobody.observer() == nullptr);
-  Sights nothing = Onlookers(small(), 10).take();
+  Onlookers nobody(watch_order(small(), 10, 20));
+  CHECK(nobody.watching().observer == nullptr);
+  CHECK(nobody.watching().heat == nullptr);
+  CHECK(nobody.watching().elsewhere.order.empty());
+  Sights nothing = nobody.take();
   CHECK_FALSE(nothing.trace);
   CHECK_FALSE(nothing.view);
 }
@@ -39,9 +41,9 @@ TEST_CASE("nobody looks on unless somebody wants to know") {
 TEST_CASE("a trace and a page can be asked for at a time") {
   RenderOptions options = small();
   options.trace.path = "trace.json";
-  CHECK_FALSE(Onlookers(options, 10).take().view);
+  CHECK_FALSE(Onlookers(watch_order(options, 10, 20)).take().view);
   options.report = "page.html";
-  const Sights both = Onlookers(options, 10).take();
+  const Sights both = Onlookers(watch_order(options, 10, 20)).take();
   CHECK(both.trace);
   CHECK(both.view);
 }

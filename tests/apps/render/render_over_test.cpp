@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "core/base/expect.h"
 #include "tests/support/loopback_ranks.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace {
 
@@ -95,6 +97,50 @@ TEST_CASE("every strategy and its systems render over ranks what they do in one 
   }
 }
 
+TEST_CASE("closing lines and counters tell of the ranks") {
+  const tests::TemporaryFolder folder;
+  auto line = small_with({"--runner=mpi", "--strategy=svm"});
+  line.insert(line.end(), {"--stats=" + (folder / "stats.json").string(), "-o", (folder / "picture.png").string()});
+  const auto results = render_over(3, options_of(line));
+  REQUIRE(results[0].value);
+  CHECK(tests::contains(results[0].value->printed, "\nranks    3, up to "));
+  CHECK(tests::contains(results[0].value->printed, " of network memory: outbox "));
+  const auto stats = nlohmann::json::parse(tests::file_text(folder / "stats.json"));
+  REQUIRE(stats["ranks"].size() == 3);
+  std::uint64_t sent = 0, received = 0, nodes = 0;
+  for (const auto& rank : stats["ranks"]) {
+    sent += rank["packets"]["sent"].get<std::uint64_t>();
+    received += rank["packets"]["received"].get<std::uint64_t>();
+    nodes += rank["nodes"].get<std::uint64_t>();
+    CHECK(rank["network_memory"]["total"] > rank["network_memory"]["outbox"]);
+  }
+  CHECK(nodes == 5);
+  CHECK(sent > 0);
+  CHECK(sent == received);
+  CHECK(stats["ranks"][2]["name"] == "rank 2");
+}
+
+TEST_CASE("heat maps, a trace and a page are written by the first rank, and the picture is the same") {
+  const std::string picture = picture_of(small);
+  for (const char* const strategy : {"--strategy=svm", "--strategy=dataflow", "--strategy=forest", "--strategy=replicated"}) {
+    CAPTURE(strategy);
+    const tests::TemporaryFolder folder;
+    auto line = small_with({strategy});
+    line.insert(line.end(),
+                {"--heatmap=rays:" + (folder.path() / "heat.exr").string(), "--trace=" + (folder.path() / "trace.json").string(),
+                 "--report=" + (folder.path() / "page.html").string(), "--stats=" + (folder.path() / "stats.json").string()});
+    CHECK((picture_over(3, line, {.seed = 1, .late_looks_max = 5}) == picture));
+    CHECK(folder.entry_count() == 4);
+    const auto stats = nlohmann::json::parse(tests::file_text(folder / "stats.json"));
+    CHECK(stats["heat_maps"][0]["sum"] == stats["rays"]["total"]);
+    CHECK(stats["ranks"][0]["clock_error"] == 0);
+    CHECK(stats["ranks"][2]["clock_error"] > 0);
+    const auto trace = nlohmann::json::parse(tests::file_text(folder / "trace.json"));
+    CHECK(trace["traceEvents"].size() > 100);
+    CHECK(tests::contains(tests::file_text(folder / "page.html"), "</html>"));
+  }
+}
+
 TEST_CASE("frames that are late change no picture") {
   const std::string picture = picture_of(small);
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
@@ -155,10 +201,7 @@ TEST_CASE("fewer nodes than ranks are refused on all of them, before anything is
 }
 
 TEST_CASE("what ranks cannot do is refused with the line") {
-  for (const char* const option : {"--machine=hdr", "--heatmap=rays:rays.png", "--trace=trace.json", "--report=page.html"}) {
-    CAPTURE(option);
-    CHECK_THROWS_AS(options_of({"balls-1", "--runner=mpi", option, "-o", "picture.png"}), core::UsageError);
-  }
+  CHECK_THROWS_AS(options_of({"balls-1", "--runner=mpi", "--machine=hdr", "-o", "picture.png"}), core::UsageError);
   CHECK_THROWS_AS(options_of({"balls-1", "--runner=mpi", "--strategy=replicated", "--tracer=embree", "-o", "picture.png"}),
                   core::UsageError);
 }

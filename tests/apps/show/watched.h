@@ -1,4 +1,4 @@
-// Small renders with all that looks on for a page.
+// Small renders with all that looks on for a page, and for what else their options ask for.
 #pragma once
 
 #include <cstddef>
@@ -17,10 +17,14 @@ struct Watched {
     options.report = "page.html";
     Subject subject = build_subject(load_scene(options.picture), options.picture, options.database);
     database = std::move(subject.database);
-    Onlookers onlookers(options, static_cast<std::uint32_t>(database.page_count()), references_max);
+    Onlookers onlookers(watch_order(options, static_cast<std::uint32_t>(database.page_count()),
+                                    subject.settings.camera.pixel_count(), references_max));
     options.pages.reference_logs = onlookers.reference_logs();
-    report = make_ready(options, database, subject.settings, {}, {.observer = onlookers.observer()}).start({}, {});
+    report = make_ready(options, database, subject.settings, {}, onlookers.watching()).start({}, {});
     sights = onlookers.take();
+    if (onlookers.heat() != nullptr) {
+      heat = *onlookers.heat();
+    }
   }
   RenderRecord record() const {
     return {.options = options, .database = database, .report = *report, .seconds = {}, .view = &*sights.view};
@@ -31,6 +35,7 @@ struct Watched {
   core::Database database;
   std::optional<Report> report;
   Sights sights;
+  std::optional<nodes::HeatMap> heat;  ///< if options.heat_maps ask for one
 };
 
 /// With caches so small that pages are fetched.

@@ -72,6 +72,22 @@ TEST_CASE("too little memory of nodes is an error that names what would do") {
   check_said_once({"render", "tetra-6", "--nodes=4", "--node-memory=1KiB"}, 4, "memory");
 }
 
+TEST_CASE("a computer without room for its nodes ends all before the run, and is named with its rank") {
+  const TemporaryFolder folder;
+  std::vector<std::string> command =
+      mpirun(1, {"render", "tetra-3", "--nodes=2", "--node-memory=600MiB", "--runner=mpi", "-o", folder / "a.png"});
+  const std::vector<std::string> line(command.end() - 7, command.end());
+  command.insert(command.end(), {":", "-n", "1", "/bin/sh", "-c", "ulimit -d 500000; exec \"$0\" \"$@\""});
+  command.insert(command.end(), line.begin(), line.end());
+  const Ended ended = end_of(command);
+  CHECK(ended.status == 4);
+  CHECK_MESSAGE(contains(ended.errors, "dmpc: rank 1 on host "), ended.errors);
+  CHECK_MESSAGE(contains(ended.errors, ": this computer has no room for 1 node, with what lies between ranks: they take "),
+                ended.errors);
+  CHECK_MESSAGE(contains(ended.errors, "(ulimit -d)"), ended.errors);
+  CHECK(folder.entry_count() == 0);
+}
+
 TEST_CASE("a process that is killed ends all, and the picture goes on from what was kept, on another number of ranks") {
   const TemporaryFolder folder;
   const std::string kept = folder / "kept", stats = "--stats=" + (folder / "s.json").string();

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <numeric>
@@ -10,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "nodes/threads/clock.h"
 #include "tests/nodes/toy_machine.h"
 #include "tests/nodes/toy_programs.h"
 #include "tests/support/loopback_ranks.h"
@@ -241,6 +244,70 @@ TEST_CASE("what nodes have to say after a run comes to rank 0, however long it i
   }
   CHECK(results[1].value->at(2) == text(2));
   CHECK(results[1].value->at(4).empty());
+}
+
+TEST_CASE("after the nodes each rank speaks for itself, and rank 0 hears what went between them") {
+  const auto results = on_ranks(3, {.late_looks_max = 30}, [&](Fabric& fabric) {
+    RankLinks links(fabric);
+    RanksRunner runner(equal_nodes(6, TokenRound::mailbox, making<TokenRound>(5U)), links);
+    CHECK(runner.run({}) == RunEnd::finished);
+    static_cast<void>(runner.gather([](std::size_t index) { return std::string(index * 10'000, 'a'); }));
+    return runner.gather_ranks(std::string(fabric.rank() * 50'000, static_cast<char>('0' + fabric.rank())));
+  });
+  for (const auto& result : results) {
+    REQUIRE(result.failure_text() == "");
+  }
+  CHECK(results[1].value->empty());
+  const std::vector<RankReport>& heard = *results[0].value;
+  REQUIRE(heard.size() == 3);
+  for (std::uint32_t rank = 0; rank < 3; ++rank) {
+    CAPTURE(rank);
+    CHECK(heard[rank].told == std::string(rank * 50'000, static_cast<char>('0' + rank)));
+    CHECK(heard[rank].traffic.packets_sent == 5);  // a rank's last node, or the host's neighbour, passes the token on
+    CHECK(heard[rank].traffic.packets_received == 5);
+    CHECK(heard[rank].traffic.frames_sent > 5);
+    CHECK(heard[rank].traffic.bytes_sent > 5 * (sizeof(FrameNumber) + sizeof(ItemHeader)));
+    CHECK(heard[rank].traffic.waves > 1);
+  }
+}
+
+TEST_CASE("where somebody looks on, each rank's clock is set to that of rank 0, and compared with it after the run") {
+  class Sees final : public Observer {
+   public:
+    void ended(const Span& span, const Program& /*program*/) override { last_ns = std::max(last_ns.load(), span.end_ns); }
+    void sent(const Passing& /*packet*/) override {}
+    void received(const Passing& packet) override { last_ns = std::max(last_ns.load(), packet.times.received_ns); }
+    void worked(const Worked& /*worked*/) override {}
+
+    std::atomic<std::uint64_t> last_ns{0};
+  };
+  struct Heard {
+    std::vector<RankReport> reports;
+    std::uint64_t last_ns;
+  };
+  const std::uint64_t begin_ns = nanoseconds(CLOCK_MONOTONIC);
+  const auto results = on_ranks(3, {.late_looks_max = 9}, [&](Fabric& fabric) {
+    Sees observer;
+    RankLinks links(fabric);
+    RanksRunner runner(equal_nodes(6, TokenRound::mailbox, making<TokenRound>(5U)), links, std::nullopt, &observer);
+    CHECK(runner.run({}) == RunEnd::finished);
+    static_cast<void>(runner.gather([](std::size_t) { return std::string(); }));
+    return Heard{runner.gather_ranks({}), observer.last_ns};
+  });
+  const std::uint64_t length_ns = nanoseconds(CLOCK_MONOTONIC) - begin_ns;
+  for (const auto& result : results) {
+    REQUIRE(result.failure_text() == "");
+    CHECK(result.value->last_ns > 0);
+    CHECK(result.value->last_ns < length_ns);  // by a clock that was not set it would be some other number
+  }
+  const std::vector<RankReport>& reports = results[0].value->reports;
+  CHECK(reports[0].clock.error_ns() == 0);
+  for (const std::size_t rank : {1U, 2U}) {
+    CHECK(reports[rank].clock.error_ns() > 0);
+    CHECK(reports[rank].clock.error_ns() < length_ns);
+    // All of them read one clock here.
+    CHECK(std::abs(reports[rank].clock.gained_ns()) <= static_cast<std::int64_t>(2 * reports[rank].clock.error_ns()));
+  }
 }
 
 TEST_CASE("a packet that fits no frame is refused before the run") {

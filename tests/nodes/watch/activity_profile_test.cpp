@@ -109,4 +109,16 @@ TEST_CASE("a span counts as what it was charged for, or as messages or pages of 
   CHECK(work_told(Activity::take_over, {}) == Work::messages);
 }
 
+TEST_CASE("what a profile on another rank has seen is taken over, in steps of one length for all") {
+  ProfiledNodes here(4), elsewhere(4);
+  here.span(0, 0, 1024, 1000);
+  elsewhere.span(1, 0, 4 * 2048, 800);  // too long for steps of 1024 ns
+  here.profile.add(elsewhere.profile.bytes());
+  const ActivitySteps steps = here.profile.take();
+  CHECK(steps.step_ns == 2048);
+  CHECK(sum_of_steps(steps, 0) == 1000);
+  CHECK(sum_of_steps(steps, 1) == 800);
+  CHECK(steps.nodes[1].at(3)[static_cast<std::size_t>(Work::control)] == 200);
+}
+
 }  // namespace dmpc::nodes

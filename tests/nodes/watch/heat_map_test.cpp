@@ -58,4 +58,32 @@ TEST_CASE("nothing is lost when threads add to one pixel, and the highest of all
   CHECK(map.values(HeatKind::depth)[0] == 2 * rounds - 1);
 }
 
+TEST_CASE("what was written to another map is added, but of depth and node the larger number stays") {
+  constexpr std::array kinds{HeatKind::faults, HeatKind::depth, HeatKind::node, HeatKind::time};
+  HeatMap here(3, kinds), elsewhere(3, kinds);
+  here.add(HeatKind::faults, 0, 5);
+  here.raise(HeatKind::depth, 1, 4);
+  here.set(HeatKind::node, 1, 2);
+  elsewhere.add(HeatKind::faults, 0, 7);
+  elsewhere.add(HeatKind::time, 2, 1'000'000'000'000);
+  elsewhere.raise(HeatKind::depth, 1, 3);
+  elsewhere.raise(HeatKind::depth, 2, 1);
+  elsewhere.set(HeatKind::node, 2, 9);
+  here.add(elsewhere.bytes());
+  const auto values = [&](HeatKind kind) {
+    return std::vector<std::uint64_t>(here.values(kind).begin(), here.values(kind).end());
+  };
+  CHECK(values(HeatKind::faults) == std::vector<std::uint64_t>{12, 0, 0});
+  CHECK(values(HeatKind::depth) == std::vector<std::uint64_t>{0, 4, 1});
+  CHECK(values(HeatKind::node) == std::vector<std::uint64_t>{0, 2, 9});
+  CHECK(values(HeatKind::time) == std::vector<std::uint64_t>{0, 0, 1'000'000'000'000});
+}
+
+TEST_CASE("a map of other pixels or kinds is not added") {
+  HeatMap map(2, std::array{HeatKind::rays});
+  CHECK_THROWS_AS(map.add(HeatMap(3, std::array{HeatKind::rays}).bytes()), core::InternalError);
+  CHECK_THROWS_AS(map.add(HeatMap(2, std::array{HeatKind::depth}).bytes()), core::InternalError);
+  CHECK_THROWS_AS(map.add(HeatMap(2, std::array{HeatKind::rays, HeatKind::time}).bytes()), core::InternalError);
+}
+
 }  // namespace dmpc::nodes

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/expect.h"
 #include "core/base/sampling.h"
 #include "nodes/program.h"
 
@@ -161,7 +162,7 @@ TEST_CASE("a level is written where it changes") {
   scene.span(0, 2, 3, Activity::send);
   scene.span(0, 3, 4, Activity::receive);
   const TraceNode node = scene.recorder.take().nodes[0];
-  CHECK(node.level_names == std::vector<std::string_view>{"height", "depth"});
+  CHECK(node.level_names == std::vector<std::string>{"height", "depth"});
   REQUIRE(node.levels.size() == 3);
   CHECK(node.levels[0].value == 0);
   CHECK(node.levels[1].value == 7);
@@ -312,6 +313,84 @@ TEST_CASE("a full trace keeps what came first and counts the rest") {
   CHECK(trace.nodes[1].spans.empty());
   CHECK(trace.events_lost == 4);
   CHECK(trace.lost_from_ns == 2);
+}
+
+TEST_CASE("what a recorder on another rank has kept is taken over, with both ends of each message") {
+  Scene here, elsewhere;
+  elsewhere.gauge.height = 3;
+  here.sends(0, 1, 10, 4);
+  here.span(0, 5, 20, Activity::work, 4);
+  elsewhere.receives(1, 0, 30, 7);
+  elsewhere.span(1, 25, 40, Activity::receive, 7);
+  here.recorder.add(elsewhere.recorder.bytes(), {});
+  const Trace trace = here.recorder.take();
+  REQUIRE(trace.messages.size() == 1);
+  CHECK(trace.messages[0].sent_ns == 10);
+  CHECK(trace.messages[0].received_ns == 30);
+  CHECK(trace.messages[0].sent_call == 4);
+  CHECK(trace.messages[0].received_call == 7);
+  CHECK(trace.messages[0].first_word == 77);
+  CHECK(trace.messages_moved == 0);
+  REQUIRE(trace.nodes[1].spans.size() == 1);
+  CHECK(trace.nodes[1].spans[0].begin_ns == 25);
+  CHECK(trace.nodes[1].spans[0].end_ns == 40);
+  CHECK(trace.nodes[1].level_names == std::vector<std::string>{"height", "depth"});
+  REQUIRE(trace.nodes[1].levels.size() == 2);
+  CHECK(trace.nodes[1].levels[0].value == 3);
+  CHECK(trace.nodes[2].spans.empty());
+}
+
+TEST_CASE("times of another rank are corrected by its clock, which gains") {
+  Scene here, elsewhere;
+  elsewhere.span(1, 0, 1'010'000);
+  elsewhere.sends(1, 2, 505'000);
+  here.receives(2, 1, 600'000);
+  // 1 % faster: set at the start, 10 us ahead 1 ms later.
+  here.recorder.add(elsewhere.recorder.bytes(),
+                    ClockDrift({5'000'000, 70, 5'000'000}, {6'000'000, 70 + 1'010'000, 6'000'000}, 5'000'000));
+  const Trace trace = here.recorder.take();
+  CHECK(trace.nodes[1].spans.at(0).begin_ns == 0);
+  CHECK(trace.nodes[1].spans.at(0).end_ns == 1'000'000);
+  CHECK(trace.nodes[1].levels.at(0).time_ns == 1'000'000);
+  CHECK(trace.messages.at(0).sent_ns == 500'000);
+}
+
+TEST_CASE("a message that another rank's clock has received too early is received when it is sent, and counted") {
+  Scene here, elsewhere;
+  for (const std::uint64_t sent : {100, 200, 300}) {
+    here.sends(0, 1, sent);
+  }
+  for (const std::uint64_t received : {90, 250, 260}) {
+    elsewhere.receives(1, 0, received);
+  }
+  here.recorder.add(elsewhere.recorder.bytes(), {});
+  const Trace trace = here.recorder.take();
+  CHECK(trace.messages_moved == 2);
+  CHECK(trace.moved_ns_max == 40);
+  CHECK(trace.messages.at(0).received_ns == 100);
+  CHECK(trace.messages.at(1).received_ns == 250);
+  CHECK(trace.messages.at(2).received_ns == 300);
+}
+
+TEST_CASE("what a full recorder on another rank has lost is counted with what is lost here") {
+  Scene here({.events_max = 2}), elsewhere({.events_max = 2});
+  for (std::uint64_t time = 0; time < 50; time += 10) {
+    here.span(0, time + 5, time + 6);
+    elsewhere.span(1, time, time + 1);
+  }
+  here.recorder.add(elsewhere.recorder.bytes(), {});
+  const Trace trace = here.recorder.take();
+  CHECK(trace.nodes[0].spans.size() + trace.nodes[0].levels.size() == 2);
+  CHECK(trace.nodes[1].spans.size() + trace.nodes[1].levels.size() == 2);
+  CHECK(trace.events_lost == 2 * (5 + 2 - 2));  // quanta, and the two levels that are written once
+  CHECK(trace.lost_from_ns < 20);
+}
+
+TEST_CASE("a node that has told something on two ranks is an error") {
+  Scene here, elsewhere;
+  here.span(1, 0, 1);
+  elsewhere.span(1, 2, 3);
+  CHECK_THROWS_AS(here.recorder.add(elsewhere.recorder.bytes(), {}), core::InternalError);
 }
 
 }  // namespace dmpc::nodes

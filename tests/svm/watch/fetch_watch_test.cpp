@@ -170,4 +170,33 @@ TEST_CASE("a fetch that did not end is counted, but not shown") {
   CHECK(fetches.sample.empty());
 }
 
+TEST_CASE("fetches between ranks are those of one watch, at whichever ends they were seen") {
+  WatchedNodes together, first, second;
+  const auto fetch = [](WatchedNodes& asker, WatchedNodes& home, std::uint32_t node, std::uint32_t page, std::uint64_t time_ns) {
+    asker.asks(node, page, {.sending_ns = time_ns, .left_ns = time_ns});
+    home.is_asked(node, page, {.received_ns = time_ns + 10});
+    home.serves(node, page, {.left_ns = time_ns + 30});
+    asker.takes(node, page, {.received_ns = time_ns + 60});
+  };
+  for (std::uint64_t i = 0; i < 5; ++i) {
+    fetch(together, together, 0, 1, 100 * i);  // node 0 is on one rank, nodes 1 and 2 on another
+    fetch(together, together, 1, 3, 100 * i);
+    fetch(together, together, 2, 7, 100 * i);
+    fetch(first, second, 0, 1, 100 * i);
+    fetch(second, first, 1, 3, 100 * i);
+    fetch(second, second, 2, 7, 100 * i);
+  }
+  first.watch.add(second.watch.bytes(), {});
+  const Fetches expected = together.watch.take(), found = first.watch.take();
+  CHECK(found.by_pair == expected.by_pair);
+  CHECK(found.by_page == expected.by_page);
+  REQUIRE(found.sample.size() == 15);
+  for (std::size_t i = 0; i < found.sample.size(); ++i) {
+    CHECK(found.sample[i].asker == expected.sample[i].asker);
+    CHECK(found.sample[i].home == expected.sample[i].home);
+    CHECK(found.sample[i].page == expected.sample[i].page);
+    CHECK(found.sample[i].part_ns == expected.sample[i].part_ns);
+  }
+}
+
 }  // namespace dmpc::svm

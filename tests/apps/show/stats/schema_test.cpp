@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "apps/run/systems.h"
+#include "nodes/ranks/loopback.h"
+#include "nodes/ranks/rank_links.h"
 #include "tests/apps/show/rendered.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/shell.h"
@@ -98,6 +100,11 @@ std::vector<Kind> all_kinds() {
                    }});
   kinds.push_back(
       {"a system by name", [] { return changed(small(), [](RenderOptions& options) { options.system = System::svm; }); }});
+  kinds.push_back({"a rank", [] {
+                     static nodes::Loopback loopback(1);
+                     static nodes::RankLinks links(loopback.rank(0));
+                     return changed(small(), [](RenderOptions& options) { options.computer.ranks = &links; });
+                   }});
   return kinds;
 }
 

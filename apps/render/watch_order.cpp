@@ -1,0 +1,92 @@
+#include "apps/render/watch_order.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/base/expect.h"
+#include "nodes/flat_bytes.h"
+#include "nodes/ranks/rank_links.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+/// References of one node, however many there are.
+constexpr std::size_t references_least = 1024;
+
+std::uint32_t rank_count_of(const RenderOptions& options) {
+  return options.computer.ranks == nullptr ? 1 : options.computer.ranks->rank_count();
+}
+
+}  // namespace
+
+WatchOrder watch_order(const RenderOptions& options, std::uint32_t page_count, std::uint32_t pixel_count,
+                       std::size_t references_max) {
+  const std::uint32_t node_count = options.computer.node_count;
+  WatchOrder order{.node_count = node_count,
+                   .page_count = page_count,
+                   .pixel_count = pixel_count,
+                   .heat_kinds = kinds_of(options.heat_maps),
+                   .has_profile = options.report.has_value()};
+  if (options.trace.path) {
+    order.trace = trace_choice(options.trace, node_count);
+    order.trace->events_max /= rank_count_of(options);
+  }
+  if (options.report && options.strategy == Strategy::svm) {
+    order.fetches = options.pages.homes;
+    if (!counts_pages(options)) {
+      order.references_max = std::max(references_least, references_max / node_count);
+    }
+  }
+  if (options.references) {
+    order.references_max = std::numeric_limits<std::size_t>::max();
+    order.has_all_references = true;
+  }
+  return order;
+}
+
+std::string bytes_of(const WatchOrder& order) {
+  nodes::FlatWriter flat;
+  flat.put(order.node_count);
+  flat.put(order.page_count);
+  flat.put(order.pixel_count);
+  flat.put_all(order.heat_kinds);
+  flat.put(order.trace.has_value());
+  if (order.trace) {
+    flat.put(order.trace->from_ns);
+    flat.put(order.trace->to_ns);
+    flat.put_all(order.trace->nodes);
+    flat.put(order.trace->every);
+    flat.put(order.trace->events_max);
+  }
+  flat.put(order.has_profile);
+  flat.put(order.fetches);
+  flat.put(order.references_max);
+  flat.put(order.has_all_references);
+  return flat.take();
+}
+
+WatchOrder watch_order_from(std::string_view bytes) {
+  nodes::FlatReader flat(bytes);
+  WatchOrder order;
+  order.node_count = flat.take<std::uint32_t>();
+  order.page_count = flat.take<std::uint32_t>();
+  order.pixel_count = flat.take<std::uint32_t>();
+  order.heat_kinds = flat.take_all<nodes::HeatKind>();
+  if (flat.take<bool>()) {
+    nodes::TraceChoice& trace = order.trace.emplace();
+    trace.from_ns = flat.take<std::uint64_t>();
+    trace.to_ns = flat.take<std::uint64_t>();
+    trace.nodes = flat.take_all<bool>();
+    trace.every = flat.take<std::uint32_t>();
+    trace.events_max = flat.take<std::uint64_t>();
+  }
+  order.has_profile = flat.take<bool>();
+  order.fetches = flat.take<std::optional<svm::PageHomes>>();
+  order.references_max = flat.take<std::optional<std::size_t>>();
+  order.has_all_references = flat.take<bool>();
+  core::expect(flat.is_at_end(), "an order is read to its end");
+  return order;
+}
+
+}  // namespace dmpc::apps

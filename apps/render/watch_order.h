@@ -1,0 +1,41 @@
+// What is to be seen of a render: what rank 0 asks of those who look on at its nodes, and tells the other ranks.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/run/render_options.h"
+#include "nodes/watch/heat_map.h"
+#include "nodes/watch/trace.h"
+#include "svm/home.h"
+
+namespace dmpc::apps {
+
+/// About so many references are kept, of all nodes together.
+inline constexpr std::size_t references_usual = std::size_t{1} << 22U;
+
+struct WatchOrder {
+  std::uint32_t node_count = 0, page_count = 0, pixel_count = 0;  ///< of computer, database and picture
+  std::vector<nodes::HeatKind> heat_kinds = {};                   ///< empty: no heat map
+  std::optional<nodes::TraceChoice> trace = {};                   ///< of one rank: a share of the events
+  bool has_profile = false;
+  std::optional<svm::PageHomes> fetches = {};      ///< where pages are at home that are fetched
+  std::optional<std::size_t> references_max = {};  ///< of one node
+  bool has_all_references = false;                 ///< for a file: none is left out
+
+  bool is_empty() const { return heat_kinds.empty() && !trace && !has_profile && !fetches && !references_max; }
+};
+
+/// What the options ask for. `references_max`: of all nodes together that are kept, about.
+WatchOrder watch_order(const RenderOptions& options, std::uint32_t page_count, std::uint32_t pixel_count,
+                       std::size_t references_max = references_usual);
+
+/// As bytes, and from them.
+std::string bytes_of(const WatchOrder& order);
+WatchOrder watch_order_from(std::string_view bytes);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,52 @@
+// What is known of each rank when a run is over.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/expect.h"
+#include "nodes/ranks/rank_links.h"
+#include "nodes/ranks/rank_memory.h"
+#include "nodes/ranks/rank_report.h"
+#include "nodes/watch/watching.h"
+
+namespace dmpc::nodes {
+
+/// Of one rank.
+struct RankFigures {
+  std::string name;  ///< "rank 2 on host b"
+  RankMemory memory;
+  RankTraffic traffic;
+  ClockDrift clock;  ///< of an observed run
+};
+
+/// Of all ranks, by number: of the plan that they have followed, and what has come from each.
+template <class Plan>
+std::vector<RankFigures> rank_figures(const Plan& plan, const RankLinks& links, const std::vector<RankReport>& reports) {
+  std::vector<RankFigures> figures;
+  for (std::uint32_t rank = 0; rank < reports.size(); ++rank) {
+    figures.push_back({links.name_of(rank), rank_memory(plan, &links, rank), reports[rank].traffic, reports[rank].clock});
+  }
+  return figures;
+}
+
+/// Lets `watching` add what was seen on the other ranks.
+inline void add_seen(const Watching& watching, const std::vector<RankReport>& reports) {
+  for (std::size_t rank = 1; rank < reports.size() && !watching.elsewhere.order.empty(); ++rank) {
+    watching.elsewhere.add(reports[rank].told, reports[rank].clock);
+  }
+}
+
+/// After a regular end.
+inline void expect_nothing_lost(const std::vector<RankFigures>& ranks) {
+  std::uint64_t sent = 0, received = 0;
+  for (const RankFigures& rank : ranks) {
+    sent += rank.traffic.packets_sent;
+    received += rank.traffic.packets_received;
+  }
+  core::expect(sent == received, "every packet that was sent to another rank was received there");
+}
+
+}  // namespace dmpc::nodes

@@ -1,0 +1,26 @@
+// What comes from each rank when a run is over.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <type_traits>
+
+#include "nodes/ranks/clock_drift.h"
+
+namespace dmpc::nodes {
+
+/// What went between a rank and others.
+struct RankTraffic {
+  std::uint64_t packets_sent = 0, packets_received = 0;  ///< of nodes
+  std::uint64_t frames_sent = 0, bytes_sent = 0;         ///< of frames; those before the run count, too
+  std::uint64_t waves = 0;                               ///< that were counted until all stood still
+};
+static_assert(std::is_trivially_copyable_v<RankTraffic>, "it travels as bytes to rank 0");
+
+struct RankReport {
+  RankTraffic traffic;
+  ClockDrift clock;  ///< of an observed run
+  std::string told;  ///< what whoever called there had to say
+};
+
+}  // namespace dmpc::nodes

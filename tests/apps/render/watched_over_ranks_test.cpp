@@ -1,0 +1,223 @@
+// Who looks on at a render over ranks sees what is to be seen in one process: several ranks in one, by the loopback fabric.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "apps/render/ranks.h"
+#include "apps/run/heat_options.h"
+#include "apps/show/page/render_page.h"
+#include "apps/show/trace/file.h"
+#include "tests/apps/show/watched.h"
+#include "tests/support/loopback_ranks.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+using nodes::HeatKind;
+
+constexpr std::uint32_t rank_counts[] = {1, 2, 3};
+
+/// Renders over ranks with all that looks on, and calls look(watched) on rank 0.
+template <class Look>
+void watch_over(std::uint32_t rank_count, const RenderOptions& options, const Look& look) {
+  CAPTURE(rank_count);
+  const auto render_here = [&](nodes::Fabric& fabric) {
+    const auto render = [&](nodes::RankLinks& links) {
+      RenderOptions here = options;
+      here.computer.ranks = &links;
+      look(Watched(here));
+      return 0;
+    };
+    return render_as_rank(fabric, options, render, {});
+  };
+  for (const auto& result : tests::on_ranks(rank_count, {}, render_here, nodes::frame_bytes_for(payload_bytes_max(options)))) {
+    CHECK(result.failure_text() == "");
+    CHECK(result.value == 0);
+  }
+}
+
+RenderOptions heated(Strategy strategy, std::initializer_list<const char*> kinds) {
+  RenderOptions options = strategy == Strategy::svm ? starved(small()) : small(strategy);
+  options.computer.node_count = 5;
+  for (const char* const kind : kinds) {
+    options.heat_maps.push_back(parse_heat_request(std::string(kind) + ":heat.exr"));
+  }
+  return options;
+}
+
+std::vector<std::uint64_t> values(const Watched& watched, HeatKind kind) {
+  const auto values = watched.heat->values(kind);
+  return {values.begin(), values.end()};
+}
+
+std::uint64_t quanta_of(const Account& account) {
+  std::uint64_t quanta = account.host.quanta;
+  for (const NodeAccount& node : account.nodes) {
+    quanta += node.counters.quanta;
+  }
+  return quanta;
+}
+
+RenderOptions traced(Strategy strategy) {
+  RenderOptions options = strategy == Strategy::svm ? starved(small()) : small(strategy);
+  options.computer.node_count = 5;
+  options.trace.path = "trace.json";
+  return options;
+}
+
+std::uint64_t count_of(const nodes::Trace& trace, nodes::Activity activity) {
+  std::uint64_t count = 0;
+  for (const nodes::TraceNode& node : trace.nodes) {
+    count += static_cast<std::uint64_t>(
+        std::count_if(node.spans.begin(), node.spans.end(), [&](const auto& span) { return span.activity == activity; }));
+  }
+  return count;
+}
+
+std::uint64_t clock_error_ns(const Watched& watched) {
+  std::uint64_t error_ns = 0;
+  for (const nodes::RankFigures& rank : account_of(*watched.report).ranks) {
+    error_ns = std::max(error_ns, rank.clock.error_ns());
+  }
+  return error_ns;
+}
+
+}  // namespace
+
+TEST_CASE("heat that another run repeats is the same over ranks, for every strategy") {
+  for (const Strategy strategy : {Strategy::svm, Strategy::replicated, Strategy::dataflow, Strategy::forest}) {
+    CAPTURE(name_of(strategy));
+    const bool paged = strategy == Strategy::svm;
+    const RenderOptions options =
+        paged ? heated(strategy, {"rays", "depth", "references", "pages"}) : heated(strategy, {"rays", "depth"});
+    const Watched alone(options);
+    for (const std::uint32_t ranks : rank_counts) {
+      watch_over(ranks, options, [&](const Watched& watched) {
+        for (const HeatKind kind : kinds_of(options.heat_maps)) {
+          CAPTURE(name_of(kind));
+          CHECK(values(watched, kind) == values(alone, kind));
+        }
+        CHECK(watched.heat->sum(HeatKind::rays) == account_of(*watched.report).operations.ray_count());
+      });
+    }
+  }
+}
+
+TEST_CASE("where pixels stay and wait alone, faults and nodes of pixels are the same over ranks, too, and add up") {
+  RenderOptions options = heated(Strategy::svm, {"faults", "node", "time"});
+  options.pages.work_item_side = 0;
+  options.pages.in_flight = 1;
+  const Watched alone(options);
+  for (const std::uint32_t ranks : rank_counts) {
+    watch_over(ranks, options, [&](const Watched& watched) {
+      CHECK(values(watched, HeatKind::faults) == values(alone, HeatKind::faults));
+      CHECK(values(watched, HeatKind::node) == values(alone, HeatKind::node));
+      CHECK(watched.heat->sum(HeatKind::faults) == std::get<svm::Report>(*watched.report).pages().faults);
+      CHECK(watched.heat->sum(HeatKind::time) > 0);
+    });
+  }
+}
+
+TEST_CASE("a trace over ranks has every quantum and every packet, and none is received before it is sent") {
+  for (const Strategy strategy : {Strategy::svm, Strategy::dataflow}) {
+    for (const std::uint32_t ranks : rank_counts) {
+      watch_over(ranks, traced(strategy), [&](const Watched& watched) {
+        const nodes::Trace& trace = *watched.sights.trace;
+        const Account account = account_of(*watched.report);
+        REQUIRE(trace.nodes.size() == 6);
+        CHECK(trace.events_lost == 0);
+        CHECK(count_of(trace, nodes::Activity::work) == quanta_of(account));
+        CHECK(count_of(trace, nodes::Activity::receive) == nodes::total(account.sent).packets);
+        CHECK(trace.messages.size() == nodes::total(account.sent).packets);
+        CHECK(trace.moved_ns_max <= 2 * clock_error_ns(watched));
+        for (const nodes::TraceMessage& message : trace.messages) {
+          REQUIRE(message.sent_ns <= message.received_ns);
+        }
+        for (const nodes::TraceNode& node : trace.nodes) {
+          CHECK_FALSE(node.level_names.empty());
+        }
+      });
+    }
+  }
+}
+
+TEST_CASE("a trace over ranks says how far its clocks may be compared, one of a single process does not") {
+  const auto text = [](const Watched& watched) {
+    RenderRecord record = watched.record();
+    record.trace = &*watched.sights.trace;
+    std::ostringstream stream;
+    write_trace(record, stream);
+    return stream.str();
+  };
+  const std::string words = "\"clocks\":\"of 3 ranks, compared with that of rank 0 before and after the run: wrong by ";
+  watch_over(3, traced(Strategy::svm), [&](const Watched& watched) { CHECK(contains(text(watched), words)); });
+  CHECK_FALSE(contains(text(Watched(traced(Strategy::svm))), "\"clocks\""));
+}
+
+TEST_CASE("over ranks no more events are kept than were asked for, and the rest is counted") {
+  RenderOptions options = traced(Strategy::svm);
+  options.trace.events_max = 90;
+  watch_over(3, options, [&](const Watched& watched) {
+    const nodes::Trace& trace = *watched.sights.trace;
+    std::uint64_t kept = 0;
+    for (const nodes::TraceNode& node : trace.nodes) {
+      kept += node.spans.size() + node.levels.size();
+    }
+    CHECK(kept > 0);
+    CHECK(kept + 2 * trace.messages.size() <= 90);
+    CHECK(trace.events_lost > 100);
+  });
+}
+
+TEST_CASE("of some pixels and nodes a trace over ranks has what follows from them on others") {
+  RenderOptions options = traced(Strategy::dataflow);
+  options.trace.every = 4;
+  watch_over(3, options, [&](const Watched& watched) {
+    const nodes::Trace& trace = *watched.sights.trace;
+    CHECK(count_of(trace, nodes::Activity::work) > 0);
+    CHECK(count_of(trace, nodes::Activity::work) < quanta_of(account_of(*watched.report)));
+    const auto leaves_its_rank = [](const nodes::TraceMessage& message) {
+      return nodes::rank_of(index_of(message.source), 5, 3) != nodes::rank_of(index_of(message.target), 5, 3);
+    };
+    CHECK(std::any_of(trace.messages.begin(), trace.messages.end(), leaves_its_rank));
+  });
+  options.trace.every = 1;
+  options.trace.nodes = parse_trace_nodes("1,4");
+  watch_over(3, options, [&](const Watched& watched) {
+    const nodes::Trace& trace = *watched.sights.trace;
+    CHECK_FALSE(trace.nodes[1].spans.empty());
+    CHECK_FALSE(trace.nodes[4].spans.empty());
+    CHECK(trace.nodes[2].spans.empty());
+  });
+}
+
+TEST_CASE("a page over ranks has every fetch, reference and activity of all nodes") {
+  RenderOptions options = starved(small());
+  options.computer.node_count = 5;
+  options.pages.work_item_side = 0;  // else the clock would say which node renders what
+  options.pages.in_flight = 1;
+  for (const std::uint32_t ranks : rank_counts) {
+    watch_over(ranks, options, [&](const Watched& watched) {
+      const svm::PageCounters pages = std::get<svm::Report>(*watched.report).pages();
+      const svm::Fetches& fetches = *watched.view().fetches;
+      CHECK(pages.faults > 20);
+      CHECK(std::accumulate(fetches.by_pair.begin(), fetches.by_pair.end(), std::uint64_t{0}) == pages.faults);
+      CHECK(std::accumulate(fetches.by_page.begin(), fetches.by_page.end(), std::uint64_t{0}) == pages.faults);
+      CHECK(fetches.sample.size() == pages.faults);
+      REQUIRE(watched.view().misses);
+      CHECK(watched.view().misses->misses(4) == static_cast<double>(pages.faults));
+      REQUIRE(watched.view().steps.nodes.size() == 6);
+      for (std::size_t node = 0; node < 5; ++node) {
+        CHECK_FALSE(watched.view().steps.nodes[node].empty());
+      }
+    });
+  }
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,96 @@
+// Who looks on at several processes sees all of them, on one clock.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/mpi/launched/mpirun.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
+
+namespace dmpc::tests {
+
+namespace {
+
+using Json = nlohmann::json;
+
+const std::vector<std::string> render = {"render",           "balls-2", "--resolution=32x24", "--nodes=5", "--cache-pages=3",
+                                         "--page-size=512B", "--quiet"};
+
+std::vector<std::string> with_outputs(const TemporaryFolder& folder) {
+  std::vector<std::string> line = render;
+  line.insert(line.end(),
+              {"--runner=mpi", "--trace=" + (folder / "trace.json").string(),
+               "--heatmap=references:" + (folder / "heat.exr").string(), "--report=" + (folder / "page.html").string(),
+               "--stats=" + (folder / "stats.json").string(), "-o", (folder / "a.exr").string()});
+  return line;
+}
+
+Json json_in(const std::filesystem::path& file) { return Json::parse(file_text(file)); }
+
+/// Messages whose beginning and end stand in the file, in that order of time.
+std::size_t messages_in_order(const Json& trace) {
+  std::map<std::uint64_t, double> sent_us;
+  std::size_t count = 0;
+  for (const Json& event : trace["traceEvents"]) {
+    if (event["ph"] == "s") {
+      sent_us[event["id"].get<std::uint64_t>()] = event["ts"].get<double>();
+    } else if (event["ph"] == "f") {
+      const auto sent = sent_us.find(event["id"].get<std::uint64_t>());
+      count += sent != sent_us.end() && sent->second <= event["ts"].get<double>() ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+double last_us(const Json& trace) {
+  double last = 0;
+  for (const Json& event : trace["traceEvents"]) {
+    last = std::max(last, event.value("ts", 0.0));
+  }
+  return last;
+}
+
+void check_watched(const TemporaryFolder& folder, std::size_t rank_count) {
+  const Json stats = json_in(folder / "stats.json"), trace = json_in(folder / "trace.json");
+  REQUIRE(stats["ranks"].size() == rank_count);
+  CHECK(stats["heat_maps"][0]["sum"] == stats["pages"]["references"]);
+  CHECK(messages_in_order(trace) == stats["packets"]["sent"].get<std::size_t>());
+  CHECK(contains(file_text(folder / "page.html"), "</html>"));
+}
+
+/// Whether a process may be given a clock of its own here.
+bool may_set_clocks() { return end_of({"/usr/bin/unshare", "--time", "--monotonic", "5000", "--fork", "/bin/true"}).status == 0; }
+
+}  // namespace
+
+TEST_CASE("a trace, heat and a page have the nodes of all processes, over shared memory and TCP") {
+  for (const std::string& way : {shared_memory, tcp}) {
+    CAPTURE(way);
+    const TemporaryFolder folder;
+    const Ended ended = end_of(mpirun(3, with_outputs(folder), way));
+    REQUIRE_MESSAGE(ended.status == 0, ended.errors);
+    check_watched(folder, 3);
+  }
+}
+
+TEST_CASE("a process whose clock shows another time tells its times by that of rank 0") {
+  if (!may_set_clocks()) {
+    MESSAGE("skipped: no process may have a clock of its own here (unshare --time)");
+    return;
+  }
+  const TemporaryFolder folder;
+  const std::vector<std::string> line = with_outputs(folder);
+  std::vector<std::string> command = mpirun(1, line);
+  command.insert(command.end(), {":", "-n", "1", "/usr/bin/unshare", "--time", "--monotonic", "5000", "--fork", DMPC_PROGRAM});
+  command.insert(command.end(), line.begin(), line.end());
+  const Ended ended = end_of(command);
+  REQUIRE_MESSAGE(ended.status == 0, ended.errors);
+  check_watched(folder, 2);
+  CHECK(last_us(json_in(folder / "trace.json")) < 2'000e6);
+}
+
+}  // namespace dmpc::tests
