@@ -24,7 +24,7 @@ using Index = std::size_t;
 /// The payload of a packet that is small: several of them lie in the place of one that is longer.
 inline constexpr std::size_t small_bytes_max = 56;
 /// The most packets that a program declares.
-inline constexpr std::size_t packets_max = 16;
+inline constexpr std::size_t packets_max = 24;
 /// The most operations that a program declares.
 inline constexpr std::size_t operations_max = 12;
 

@@ -220,4 +220,19 @@ TEST_CASE("a page over ranks has every fetch, reference and activity of all node
   }
 }
 
+TEST_CASE("over ranks a file of references has those of every node, and all of them") {
+  RenderOptions options = starved(small());
+  options.computer.node_count = 5;
+  options.references = "references.csv";
+  for (const std::uint32_t rank_count : rank_counts) {
+    watch_over(rank_count, options, [&](const Watched& watched) {
+      REQUIRE(watched.sights.references.size() == 5);
+      for (const svm::ReferenceLog& log : watched.sights.references) {
+        CHECK(log.every() == 1);
+        CHECK_FALSE(log.pages().empty());
+      }
+    });
+  }
+}
+
 }  // namespace dmpc::apps

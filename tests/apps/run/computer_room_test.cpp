@@ -8,13 +8,13 @@ namespace dmpc::apps {
 
 namespace {
 
-constexpr nodes::RankMemory small{.node_count = 2, .has_host = true, .nodes_bytes = 600};
+constexpr nodes::RankMemory small_rank{.node_count = 2, .has_host = true, .nodes_bytes = 600};
 const MemoryRoom room{1000, "this computer's memory"};
 
 }  // namespace
 
 TEST_CASE("what fits to the last byte has room") {
-  nodes::RankMemory memory = small;
+  nodes::RankMemory memory = small_rank;
   memory.network.outbox_bytes = 400;
   CHECK_NOTHROW(check_room(memory, room));
   memory.network.stream_bytes = 1;
@@ -23,7 +23,7 @@ TEST_CASE("what fits to the last byte has room") {
 
 TEST_CASE("what has no room is named: nodes, the host where it is, and what lies between ranks") {
   const MemoryRoom none{10, "this computer's memory"};
-  CHECK_THROWS_WITH_AS(check_room(small, none),
+  CHECK_THROWS_WITH_AS(check_room(small_rank, none),
                        "this computer has no room for 2 nodes and the host: they take 600 B of memory together, and this "
                        "computer's memory is 10 B; ask for fewer nodes (--nodes) or less memory a node (--node-memory)",
                        core::RoomError);

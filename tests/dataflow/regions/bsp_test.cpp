@@ -267,7 +267,7 @@ TEST_CASE("rays walk in the largest block of a node's units that cuts end") {
 
 TEST_CASE("units are as many as may be, or refused with what there may be") {
   CHECK(dataflow::build_units(hill(), 256, 16).region_count() == dataflow::region_count_max);
-  CHECK_THROWS_WITH_AS(dataflow::build_units(hill(), 128, 16),
+  CHECK_THROWS_WITH_AS(dataflow::build_units(hill(), 512, 16),
                        "space can be cut into at most 4096 units, not into 16 for each of 512 nodes: ask for fewer of either",
                        core::UsageError);
 }
