@@ -44,10 +44,10 @@ const std::map<std::string, Names> rooms = {
 /// Rooms of other layers, and the files of their floor, by how they begin, that look down into them.
 const std::map<std::string, Names> looked_into_by = {
     {"nodes/threads", {"nodes/runner.cpp"}},
-    {"nodes/ranks", {"nodes/runner.cpp"}},
+    {"nodes/ranks", {"nodes/runner."}},
     {"nodes/virtual", {"nodes/runner."}},
     {"nodes/watch", {}},
-    {"svm/watch", {"svm/run.", "svm/run_tasks.", "svm/plan.", "svm/make_programs."}},
+    {"svm/watch", {"svm/run.", "svm/run_tasks.", "svm/ranks.", "svm/plan.", "svm/make_programs."}},
     {"dataflow/regions", {"dataflow/"}},
 };
 
@@ -73,7 +73,8 @@ const std::vector<Foreign> foreign = {
     {"nlohmann/",
      {"apps/show/stats/", "apps/machine/machine_file.", "apps/table/table.cpp", "apps/compare/report.cpp", "apps/figures/",
       "apps/oracle/accurate/reference_file.cpp", "apps/foreign/gltf/", "apps/info/json.cpp", "apps/computer/stats.cpp",
-      "apps/formats/landscape/gltf.cpp", "apps/study/scale/figures.cpp", "apps/show/trace/chrome.cpp", "tests/apps/"}},
+      "apps/formats/landscape/gltf.cpp", "apps/study/scale/figures.cpp", "apps/show/trace/chrome.cpp", "tests/apps/",
+      "tests/mpi/launched/"}},
     {"oneapi/",
      {"apps/check/inspection.cpp", "apps/system/side_by_side.cpp", "apps/oracle/accurate/picture.cpp",
       "tests/apps/oracle/accurate/"}},

@@ -133,7 +133,7 @@ TEST_CASE("a program has as many packets and operations as the computer counts, 
   CHECK_NOTHROW(ProgramPlan(needs, computer_of(2)));
   Needs more = needs;
   more.packets.push_back({.name = "one more", .senders = from_each_other()});
-  check_refused(more, "17 packets are declared: a program has at most 16");
+  check_refused(more, "25 packets are declared: a program has at most 24");
   more = needs;
   more.operations.push_back({"one more", 1});
   check_refused(more, "13 operations are declared: a program has at most 12");

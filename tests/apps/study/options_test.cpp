@@ -69,7 +69,7 @@ TEST_CASE("node counts are taken in the order given, equal ones too") {
 }
 
 TEST_CASE("anything but node counts in range with commas between them is refused") {
-  for (const std::string text : {",", "4,", ",4", "4,,8", "0", "1025", "-1", "+4", "4;8", "4 8", "4.5", "x", "99999999999"}) {
+  for (const std::string text : {",", "4,", ",4", "4,,8", "0", "4097", "-1", "+4", "4;8", "4 8", "4.5", "x", "99999999999"}) {
     CAPTURE(text);
     CHECK(usage_complaint({"study", "balance", "teapot-12", "--nodes=" + text}).find("with commas between") != std::string::npos);
   }

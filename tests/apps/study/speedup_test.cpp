@@ -104,7 +104,7 @@ TEST_CASE("replicated fits nowhere if it does not fit one node") {
 
 TEST_CASE("a study of speedup that an error ends has the rows before it") {
   StudySubject subject("balls-1");
-  const SpeedupStudy study = study_of(Strategy::dataflow, {1, 2, 1025, 4});
+  const SpeedupStudy study = study_of(Strategy::dataflow, {1, 2, 4097, 4});
   Table table("", study.columns());
   CHECK_THROWS_AS(study.measure(subject.runs, table), core::UsageError);
   CHECK(table.rows().size() == 2);

@@ -76,7 +76,7 @@ TEST_CASE("a computer without room for its nodes ends all before the run, and is
   const TemporaryFolder folder;
   std::vector<std::string> command =
       mpirun(1, {"render", "tetra-3", "--nodes=2", "--node-memory=600MiB", "--runner=mpi", "-o", folder / "a.png"});
-  const std::vector<std::string> line(command.end() - 7, command.end());
+  const std::vector<std::string> line(command.end() - 8, command.end());
   command.insert(command.end(), {":", "-n", "1", "/bin/sh", "-c", "ulimit -d 500000; exec \"$0\" \"$@\""});
   command.insert(command.end(), line.begin(), line.end());
   const Ended ended = end_of(command);

@@ -180,7 +180,7 @@ TEST_CASE("options of the study of scale are taken, and wrong ones refused") {
   CHECK(scale_options({}).settings.families == Words{"tetra", "mount"});
   CHECK(scale_options({"--cache=64KiB"}).settings.cache_bytes == 65536);
   CHECK(scale_options({"--nodes=8,1,3,8,1"}).settings.node_counts == std::vector<std::uint32_t>{1, 3, 8});
-  for (const char* word : {"--sizes=x", "--parts=all", "--methods=svm", "--cache=100", "--nodes=0", "--nodes=1025",
+  for (const char* word : {"--sizes=x", "--parts=all", "--methods=svm", "--cache=100", "--nodes=0", "--nodes=4097",
                            "--size-nodes=0", "--repeat=0", "--resolution=9", "--format=xml", "--cache=0", "--cache=1025GiB"}) {
     CAPTURE(std::string(word));
     CHECK_THROWS_AS(scale_options({word}), core::UsageError);
