@@ -85,7 +85,7 @@ TEST_CASE("where the order of references is fixed, the estimate is what the run 
 
 TEST_CASE("a run with more references than are kept ends, by threads and in virtual time, and its estimate is of a share") {
   for (RenderOptions options : {starved(small()), starved(modelled())}) {
-    options.picture.resolution = {80, 60};
+    options.picture.resolution = {40, 30};
     options.computer.node_count = 2;
     const Watched watched(options, 1);
     const MissEstimate& estimate = *watched.view().misses;

@@ -74,15 +74,15 @@ TEST_CASE("too little memory of nodes is an error that names what would do") {
 
 TEST_CASE("a computer without room for its nodes ends all before the run, and is named with its rank") {
   const TemporaryFolder folder;
-  std::vector<std::string> command =
-      mpirun(1, {"render", "tetra-3", "--nodes=2", "--node-memory=600MiB", "--runner=mpi", "-o", folder / "a.png"});
-  const std::vector<std::string> line(command.end() - 8, command.end());
+  std::vector<std::string> command = mpirun(
+      1, {"render", "tetra-3", "--nodes=20", "--strategy=dataflow", "--ray-queue=16384", "--runner=mpi", "-o", folder / "a.png"});
+  const std::vector<std::string> line(command.end() - 9, command.end());
   command.insert(command.end(), {":", "-n", "1", "/bin/sh", "-c", "ulimit -d 500000; exec \"$0\" \"$@\""});
   command.insert(command.end(), line.begin(), line.end());
   const Ended ended = end_of(command);
   CHECK(ended.status == 4);
   CHECK_MESSAGE(contains(ended.errors, "dmpc: rank 1 on host "), ended.errors);
-  CHECK_MESSAGE(contains(ended.errors, ": this computer has no room for 1 node, with what lies between ranks: they take "),
+  CHECK_MESSAGE(contains(ended.errors, ": this computer has no room for 10 nodes, with what lies between ranks: they take "),
                 ended.errors);
   CHECK_MESSAGE(contains(ended.errors, "(ulimit -d)"), ended.errors);
   CHECK(folder.entry_count() == 0);
