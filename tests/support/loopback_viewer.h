@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -64,6 +65,18 @@ class LoopbackListener {
   std::string bytes_;
   std::jthread reader_;
 };
+
+/// Without a last packet that its sender has not ended, since it went away without a word.
+inline std::string whole_packets(const std::string& bytes) {
+  std::size_t end = 0;
+  for (std::uint32_t length = 0; end + sizeof(length) <= bytes.size(); end += length) {
+    std::memcpy(&length, bytes.data() + end, sizeof(length));
+    if (length == 0 || end + length > bytes.size()) {
+      break;
+    }
+  }
+  return bytes.substr(0, end);
+}
 
 /// What a viewer shows after these bytes. A packet that is not as documented is an internal error.
 class ShownPicture {
