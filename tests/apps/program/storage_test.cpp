@@ -38,7 +38,7 @@ namespace fs = std::filesystem;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr std::uint64_t storage_seeds_by_default = 20;
 #else
-constexpr std::uint64_t storage_seeds_by_default = 170;
+constexpr std::uint64_t storage_seeds_by_default = 60;
 #endif
 
 /// What is said on stderr while it lives.
