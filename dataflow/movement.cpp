@@ -17,6 +17,8 @@ MovementCounters& MovementCounters::operator+=(const MovementCounters& more) {
   units_given += more.units_given;
   units_taken += more.units_taken;
   pages_sent += more.pages_sent;
+  pages_installed += more.pages_installed;
+  records_walked += more.records_walked;
   primaries_given += more.primaries_given;
   primaries_taken += more.primaries_taken;
   asks += more.asks;
@@ -105,7 +107,10 @@ std::optional<std::uint32_t> Movement::unit_to_give() const {
 /// A unit is worth its pages if it has as many primary rays.
 void Movement::take_ask(nodes::NodeId asker, const UnitAsk& ask) {
   const std::optional<std::uint32_t> unit = unit_to_give();
-  const std::uint32_t pages = unit ? units_.pages->mark(*units_.header, units_.regions->region_at(*unit)) : 0;
+  const UnitPages::Marked marked =
+      unit ? units_.pages->mark(*units_.header, units_.regions->region_at(*unit)) : UnitPages::Marked{};
+  counters_.records_walked += marked.records;
+  const std::uint32_t pages = marked.pages;
   if (pages == 0 || pages > ask.free_frames || pages > units_.primaries->left_of(*unit) ||
       units_.primaries->runs_of(*unit) > ask.free_runs) {
     return send_control(*node_, asker, Kind::unit_refusal, UnitRefusal{});
@@ -159,7 +164,9 @@ void Movement::take_page(const nodes::Packet& packet) {
   core::expect(!hand_over_.is_settled(), "a page comes to a node that has asked");
   UnitPageHeader header;
   std::memcpy(&header, packet.payload.data(), sizeof(header));
+  const std::uint32_t pages_before = units_.pages->page_count();
   units_.pages->add(header.page, packet.payload.subspan(sizeof(header)));
+  counters_.pages_installed += units_.pages->page_count() - pages_before;
   if (header.is_last != 0) {
     core::expect(is_news(version_[header.unit], header.version), "a unit is taken once from each that gives it");
     units_.regions->give_to(header.unit, node_->id());

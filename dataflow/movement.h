@@ -18,6 +18,7 @@
 #include "dataflow/regions/regions.h"
 #include "dataflow/unit_pages.h"
 #include "dataflow/unit_primaries.h"
+#include "nodes/charge.h"
 #include "nodes/node.h"
 
 namespace dmpc::dataflow {
@@ -25,7 +26,8 @@ namespace dmpc::dataflow {
 /// What a node counts of moving regions; all 0 where they do not move.
 struct MovementCounters {
   std::uint64_t units_given = 0, units_taken = 0;
-  std::uint64_t pages_sent = 0;
+  std::uint64_t pages_sent = 0, pages_installed = 0;
+  std::uint64_t records_walked = 0;                        ///< to find the pages of units that were asked for
   std::uint64_t primaries_given = 0, primaries_taken = 0;  ///< rays that had not started, with units
   std::uint64_t asks = 0, refusals = 0;                    ///< of this node, and how many of these were refused
   std::uint64_t rays_sent_on = 0;                          ///< that came though another answered for their unit by then
@@ -74,6 +76,11 @@ class Movement {
   void take_news(const UnitMoved& moved);
 
   MovementCounters counters() const;
+  /// What it costs beside messages: pages put into frames, and records that were read to find a unit's pages.
+  void add_charges(nodes::Charges& charges) const {
+    charges[nodes::Charge::page_install] += counters_.pages_installed;
+    charges[nodes::Charge::brick_read] += counters_.records_walked;
+  }
 
  private:
   static constexpr std::uint32_t none = 0xffffffffU;

@@ -567,8 +567,8 @@ void RayProgram<RaysTask>::give_back(std::uint32_t sender, bool rests) {
   const nodes::NodeId target = shares_places_ ? host_ : nodes::NodeId{sender};
   if (returns_credits(owed, target == host_ ? return_batch_host_ : return_batch_, rests)) {
     backlog_.gave_back(sender, owed);
-    send_control(*node_, target, Kind::credits, Credits{owed});
     tell_news(target);
+    send_control(*node_, target, Kind::credits, Credits{owed});
   }
 }
 
@@ -581,12 +581,12 @@ std::uint32_t RayProgram<RaysTask>::account_of(nodes::NodeId sender) const {
 template <class RaysTask>
 void RayProgram<RaysTask>::grant_places() {
   while (const std::optional<nodes::NodeId> sender = places_.grant()) {
-    send_control(*node_, *sender, Kind::credits, Credits{1});
     tell_news(*sender);
+    send_control(*node_, *sender, Kind::credits, Credits{1});
   }
 }
 
-/// With credits, so that there is room for it.
+/// Ahead of credits, so that there is room for it: it has been taken before the credits let more of it arise.
 template <class RaysTask>
 void RayProgram<RaysTask>::tell_news(nodes::NodeId sender) {
   if (movement_.is_on() && sender != host_) {
@@ -635,6 +635,7 @@ nodes::Charges RayProgram<RaysTask>::charges() const {
   nodes::Charges charges = nodes::charges_of(operations_);
   const auto add_up = [](const auto& by_kind) { return std::accumulate(by_kind.begin(), by_kind.end(), std::uint64_t{0}); };
   charges[nodes::Charge::ray_packing] = add_up(counters_.in) + add_up(counters_.out);
+  movement_.add_charges(charges);
   return charges;
 }
 

@@ -55,19 +55,20 @@ void UnitPages::enter(std::uint32_t page) {
   slot_[place] = ++count_;
 }
 
-std::uint32_t UnitPages::mark(const core::DatabaseHeader& header, const core::Region& region) {
+UnitPages::Marked UnitPages::mark(const core::DatabaseHeader& header, const core::Region& region) {
   std::fill(marks_.begin(), marks_.end(), 0);
-  std::uint32_t count = 0;
+  Marked marked;
   core::for_each_record_of(*this, header, region, [&](core::Address address) {
     const auto page = static_cast<std::uint32_t>(core::byte_offset(address) / page_bytes_);
     const std::uint32_t entry = slot_[place_of(page)];
     core::expect(entry != 0, "a node has every page of its units");
     std::uint64_t& word = marks_[(entry - 1) / 64];
     const std::uint64_t bit = std::uint64_t{1} << ((entry - 1) % 64);
-    count += (word & bit) == 0 ? 1 : 0;
+    ++marked.records;
+    marked.pages += (word & bit) == 0 ? 1 : 0;
     word |= bit;
   });
-  return count;
+  return marked;
 }
 
 std::uint32_t UnitPages::next_marked(std::uint32_t from) const {

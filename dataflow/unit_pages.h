@@ -66,8 +66,12 @@ class UnitPages {
     return page == nullptr ? nothing.data() : page + offset % page_bytes_;
   }
 
-  /// Marks the pages that rays in `region` need, all of which are here, and says how many they are.
-  std::uint32_t mark(const core::DatabaseHeader& header, const core::Region& region);
+  struct Marked {
+    std::uint32_t pages = 0;
+    std::uint64_t records = 0;  ///< that were read to find them
+  };
+  /// Marks the pages that rays in `region` need, all of which are here.
+  Marked mark(const core::DatabaseHeader& header, const core::Region& region);
   /// The frame of the first page from frame `from` on that is marked. Requires that there is one.
   std::uint32_t next_marked(std::uint32_t from) const;
   std::uint32_t page_at(std::uint32_t frame) const { return page_[frame]; }

@@ -1,5 +1,6 @@
 #include "apps/render/ranks.h"
 
+#include <algorithm>
 #include <exception>
 #include <new>
 #include <optional>
@@ -92,10 +93,13 @@ int follow(nodes::RankLinks& links, Strategy strategy, const std::stop_token& st
 }  // namespace
 
 std::size_t payload_bytes_max(const RenderOptions& options) {
-  if (options.strategy == Strategy::dataflow) {
-    return dataflow::ray_packet_bytes(options.rays.ray_batch.value_or(1), options.rays.tested_objects);
+  const std::size_t page_bytes = options.database.build.page_size_bytes;
+  if (options.strategy != Strategy::dataflow) {
+    return sizeof(svm::PageReplyHeader) + page_bytes;
   }
-  return sizeof(svm::PageReplyHeader) + options.database.build.page_size_bytes;
+  const std::size_t ray_bytes = dataflow::ray_packet_bytes(options.rays.ray_batch.value_or(1), options.rays.tested_objects);
+  const bool is_moving = options.rays.balance.balance == dataflow::Balance::moving;
+  return std::max(ray_bytes, is_moving ? sizeof(dataflow::UnitPageHeader) + page_bytes : 0);
 }
 
 void check_nodes_on_ranks(const RenderOptions& options, std::uint32_t rank_count) {

@@ -30,7 +30,7 @@ WatchOrder watch_order(const RenderOptions& options, std::uint32_t page_count, s
                    .has_profile = options.report.has_value()};
   if (options.trace.path) {
     order.trace = trace_choice(options.trace, node_count);
-    order.trace->events_max /= rank_count_of(options);
+    order.trace->events_max = std::max<std::uint64_t>(1, order.trace->events_max / rank_count_of(options));
   }
   if (options.report && options.strategy == Strategy::svm) {
     order.fetches = options.pages.homes;

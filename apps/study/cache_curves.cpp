@@ -1,6 +1,7 @@
 #include "apps/study/cache_curves.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "apps/line/number_text.h"
@@ -30,8 +31,10 @@ std::vector<Replacement> other_policies() {
 Faults faults_of(CacheCurves::NodeReferences references, std::uint32_t node, const std::vector<std::uint32_t>& sizes,
                  const std::function<void()>& check) {
   const svm::Optimum optimum(references);
+  const auto pages = static_cast<std::uint32_t>(std::max<std::size_t>(1, std::set(references.begin(), references.end()).size()));
   Faults faults;
-  for (const std::uint32_t size : sizes) {
+  for (const std::uint32_t asked : sizes) {
+    const std::uint32_t size = std::min(asked, pages);  // whoever has room for all pages takes each in once
     std::vector<std::uint64_t>& row = faults.emplace_back();
     for (const Replacement policy : other_policies()) {
       check();

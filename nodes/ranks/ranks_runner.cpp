@@ -158,11 +158,14 @@ struct RanksRunner::Implementation {
         links.say(rank, Item::start, bytes_of(start_ns + offset_ns));
       }
     } else {
-      Exchange(links).turn_until([this] { return may_start; }, [this](auto&&... item) { receive(item...); });
+      Exchange(links).turn_until([this] { return may_start || has_failed(); }, [this](auto&&... item) { receive(item...); });
       start_ns = std::min(start_ns, nanoseconds(CLOCK_MONOTONIC));  // as far as the clocks go wrong, it may be to come
     }
     nodes.start(start_ns);
   }
+
+  /// Here or, as is said, elsewhere: what others wait for before the start may never come.
+  bool has_failed() const { return nodes.ending() == Ending::failed; }
 
   /// Of each other rank the shortest of several round trips. They answer while they wait for the start, or for clocks_read.
   std::vector<ClockAnswer> read_clocks() {
@@ -178,13 +181,15 @@ struct RanksRunner::Implementation {
     return shortest;
   }
 
+  /// Nothing of use once a rank has failed, which may never answer.
   ClockAnswer ask_clock(std::uint32_t rank) {
     heard.reset();
     const std::uint64_t asked_ns = nanoseconds(CLOCK_MONOTONIC);
     links.say(rank, Item::clock_asked, {});
-    Exchange(links).turn_until([this] { return heard.has_value(); }, [this](auto&&... item) { receive(item...); });
-    heard->asked_ns = asked_ns;
-    return *heard;
+    Exchange(links).turn_until([this] { return heard || has_failed(); }, [this](auto&&... item) { receive(item...); });
+    ClockAnswer answer = heard.value_or(ClockAnswer{});
+    answer.asked_ns = asked_ns;
+    return answer;
   }
 
   void read_clocks_again() {

@@ -3,11 +3,13 @@
 
 #include <doctest/doctest.h>
 
+#include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <numeric>
 
 #include "dataflow/run.h"
 #include "nodes/chaos.h"
+#include "nodes/charge.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"
 
@@ -117,16 +119,41 @@ TEST_CASE("units are handed over on disturbed computers, and the film stays") {
   CHECK(sent_on > 0);
 }
 
-TEST_CASE("places that are shared, rays by the host alone, and packets of one ray do with units that move") {
-  for (const auto& [credits, places] : {std::pair<std::optional<std::uint32_t>, std::optional<std::uint32_t>>{0, std::nullopt},
-                                        {1, std::nullopt},
-                                        {std::nullopt, 1}}) {
-    dataflow::RunOptions options = modelled(6, 5);
+TEST_CASE("units move where packets have one ray and nodes one credit, or one place that they share") {
+  for (const bool are_shared : {false, true}) {
+    dataflow::RunOptions options = modelled(8, 8);
     options.rays.ray_batch = 1;
-    options.rays.ray_credits = credits;
-    options.rays.ray_places = places;
-    CHECK(render(options).movement().units == 30);
+    (are_shared ? options.rays.ray_places : options.rays.ray_credits) = 1;
+    CHECK(render(options).movement().units_given > 0);
   }
+}
+
+TEST_CASE("where all rays go by way of the host nobody hears who has primary rays, and units stay where they are") {
+  dataflow::RunOptions options = modelled(8, 8);
+  options.rays.ray_credits = 0;
+  const dataflow::MovementCounters movement = render(options).movement();
+  CHECK(movement.units == 64);
+  CHECK(movement.asks == 0);
+}
+
+TEST_CASE("a modelled machine takes its time for units' pages, and for the records read to find them") {
+  const auto computing_ns_with = [](nodes::Charge charge, dataflow::MovementCounters& movement) {
+    dataflow::RunOptions options = modelled(8, 8);
+    options.computer.machine->cost_ps[static_cast<std::size_t>(charge)] = 1'000'000;
+    const dataflow::Report report = render(options);
+    movement = report.movement();
+    REQUIRE(report.virtual_time);
+    return std::accumulate(report.virtual_time->nodes.begin(), report.virtual_time->nodes.end(), std::uint64_t{0},
+                           [](std::uint64_t sum, const nodes::VirtualTimes& node) { return sum + node.computing_ns; });
+  };
+  dataflow::MovementCounters movement;
+  const std::uint64_t installing_ns = computing_ns_with(nodes::Charge::page_install, movement);
+  CHECK(installing_ns == 1000 * movement.pages_installed);
+  CHECK(movement.pages_installed > 0);
+  CHECK(movement.pages_installed <= movement.pages_sent);
+  const std::uint64_t reading_ns = computing_ns_with(nodes::Charge::brick_read, movement);
+  CHECK(reading_ns > 1000 * movement.records_walked);
+  CHECK(movement.records_walked >= movement.pages_sent);
 }
 
 }  // namespace dmpc::tests

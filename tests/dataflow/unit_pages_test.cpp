@@ -98,7 +98,7 @@ TEST_CASE("the pages of a unit are marked, each once, and are those that its ray
   std::vector<std::uint32_t> all(gears().page_count());
   std::iota(all.begin(), all.end(), 0U);
   UnitPagesBench bench(all, 0);
-  const std::uint32_t count = bench.pages.mark(gears().header(), half(true));
+  const std::uint32_t count = bench.pages.mark(gears().header(), half(true)).pages;
   std::vector<std::uint32_t> marked;
   for (std::uint32_t frame = 0; marked.size() < count; ++frame) {
     frame = bench.pages.next_marked(frame);
@@ -107,7 +107,7 @@ TEST_CASE("the pages of a unit are marked, each once, and are those that its ray
   const std::vector<std::uint32_t> needed = dataflow::pages_of(gears(), std::vector{half(true)});
   CHECK(std::includes(needed.begin(), needed.end(), marked.begin(), marked.end()));
   CHECK(needed.size() <= marked.size() + 2);
-  CHECK(count == bench.pages.mark(gears().header(), half(true)));
+  CHECK(count == bench.pages.mark(gears().header(), half(true)).pages);
 }
 
 TEST_CASE("a node without units has no pages, and takes no memory for them") {

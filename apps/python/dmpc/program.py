@@ -41,12 +41,29 @@ def path():
     return found
 
 
+def is_several(value):
+    """Whether it is a list, an array or whatever else has elements; text is one value, and so is a path."""
+    return hasattr(value, "__iter__") and not isinstance(value, (str, bytes, os.PathLike))
+
+
+def several(value):
+    return list(value) if is_several(value) else [value]
+
+
+def check_scene(scene, options):
+    """Raises a UsageError for what would be an option in a scene's place, or would print help and render nothing."""
+    if str(scene).startswith("-"):
+        raise UsageError(f"{scene}: expected a scene's name or file; options are named arguments, such as nodes=8")
+    if "help" in options:
+        raise UsageError("help: no option of what is called from Python; `dmpc render --help` prints what there are")
+
+
 def words(options):
     """Options as dmpc's words: node_memory="4MiB" is --node-memory=4MiB, True a flag, a list several times the option."""
     line = []
     for name, value in options.items():
         option = "--" + name.replace("_", "-")
-        for each in value if isinstance(value, (list, tuple)) else [value]:
+        for each in several(value):
             if each is True:
                 line.append(option)
             elif each is not None and each is not False:

@@ -71,11 +71,12 @@ def _shown(value):
 
 
 def render(scene, *, heat=(), **options):
-    """Renders `scene` and returns a Render. `heat` are kinds of heat maps, such as "faults"; the rest are options of `dmpc
+    """Renders `scene` and returns a Render. `heat` is a kind of heat map, such as "faults", or several; the rest are options of `dmpc
     render`: nodes=8, strategy="dataflow", count_pages=True. Raises a program.Error with what dmpc says."""
+    program.check_scene(scene, options)
     with tempfile.TemporaryDirectory(prefix="dmpc-") as folder:
         film, stats = pathlib.Path(folder, "film.exr"), pathlib.Path(folder, "stats.json")
-        maps = {kind: pathlib.Path(folder, f"heat-{number}.exr") for number, kind in enumerate(heat)}
+        maps = {kind: pathlib.Path(folder, f"heat-{number}.exr") for number, kind in enumerate(program.several(heat))}
         asked = ["render", str(scene), *program.words(options), *(f"--heatmap={kind}:{path}" for kind, path in maps.items())]
         program.run([*asked, "--quiet", f"--stats={stats}", f"--output={film}"])
         counters = json.loads(stats.read_bytes())

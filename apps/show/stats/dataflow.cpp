@@ -46,6 +46,8 @@ Json movement_json(const dataflow::MovementCounters& movement, const TrafficByKi
           {"asks", movement.asks},
           {"refusals", movement.refusals},
           {"pages_sent", movement.pages_sent},
+          {"pages_installed", movement.pages_installed},
+          {"records_walked", movement.records_walked},
           {"primary_rays_given", movement.primaries_given},
           {"primary_rays_taken", movement.primaries_taken},
           {"rays_sent_on", movement.rays_sent_on},

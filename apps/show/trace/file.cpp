@@ -107,7 +107,7 @@ std::string loss_note(const nodes::Trace& trace, const TraceOptions& options) {
 std::string empty_note(const nodes::Trace& trace) {
   const bool is_empty = trace.messages.empty() && std::all_of(trace.nodes.begin(), trace.nodes.end(),
                                                               [](const nodes::TraceNode& node) { return node.spans.empty(); });
-  return is_empty ? "the trace is empty: nothing of what it was to record happened in this run" : "";
+  return is_empty && trace.events_lost == 0 ? "the trace is empty: nothing of what it was to record happened in this run" : "";
 }
 
 }  // namespace dmpc::apps

@@ -66,7 +66,7 @@ std::function<void()> finish_of(const std::function<SweepResult()>& measure, con
   }
 }
 
-bool is_timed_by_the_wall(const SweepRun& run) { return run.options.runner.kind == RunnerKind::threads; }
+bool is_timed_by_the_wall(const SweepRun& run) { return run.options.runner.kind != RunnerKind::virtual_time; }
 
 }  // namespace
 

@@ -61,6 +61,9 @@ const OptionDescription& find_option(const std::string& name, const std::string&
 void check_values(const VariedOption& variation, const std::string& text) {
   std::set<std::string> seen;
   for (const std::string& value : variation.values) {
+    if (value.empty()) {
+      throw core::UsageError("--vary=" + text + ": a value is missing; expected values with commas between");
+    }
     if (variation.is_flag && value != "on" && value != "off") {
       throw core::UsageError("--vary=" + text + ": " + variation.option + " is a flag; expected on, off or on,off");
     }
@@ -146,7 +149,7 @@ VariedOption parse_variation(const std::string& text) {
   if (colon == std::string::npos) {
     throw core::UsageError("--vary=" + text + ": the values are missing; expected " + name + ":VALUE,VALUE,...");
   }
-  VariedOption variation{"--" + name, option.value.empty(), words_between_commas(text.substr(colon + 1), "--vary=" + name)};
+  VariedOption variation{"--" + name, option.value.empty(), words_between(text.substr(colon + 1), ',')};
   check_values(variation, text);
   return variation;
 }

@@ -59,6 +59,9 @@ class RenderTest(unittest.TestCase):
         self.assertNotIn("<b>", render._repr_html_())
         self.assertIn("page faults", repr(render))
 
+    def test_one_heat_map_needs_no_list(self):
+        self.assertEqual(list(dmpc.render("balls-1", **SMALL, heat="rays").heat), ["rays"])
+
     def test_a_picture_on_a_screen_is_curved_and_what_is_too_bright_is_white(self):
         self.assertEqual(list(pictures.srgb(numpy.array([-1, 0, 0.5, 1, 2, numpy.nan]))), [0, 0, 188, 255, 255, 0])
 
@@ -74,6 +77,13 @@ class FailureTest(unittest.TestCase):
         with self.assertRaisesRegex(dmpc.UsageError, "Did you mean faults"):
             dmpc.sweep("balls-1", nodes=[1, 2], columns=["fautls"])
         self.assertTrue(issubclass(dmpc.RoomError, dmpc.Error))
+
+    def test_what_would_render_nothing_is_refused(self):
+        for call in (dmpc.render, dmpc.sweep):
+            with self.assertRaisesRegex(dmpc.UsageError, "--version: expected a scene"):
+                call("--version")
+            with self.assertRaisesRegex(dmpc.UsageError, "help: no option"):
+                call("balls-1", help=True)
 
     def test_a_program_that_is_not_there_is_told_with_what_to_do(self):
         os.environ["DMPC"] = "/none/dmpc"
@@ -101,6 +111,11 @@ class SweepTest(unittest.TestCase):
         self.assertEqual(list(frame["page-size"]), [1024, 4096, 1024, 4096])
         self.assertEqual(list(frame["pages.faults"][:2]), [0, 0])
         self.assertEqual(frame.attrs["units"]["page-size"], "bytes")
+
+    def test_an_array_varies_and_one_column_needs_no_list(self):
+        frame = dmpc.sweep("balls-1", resolution="8x8", runner="virtual", nodes=numpy.array([1, 2]), columns="pages.faults")
+        self.assertEqual(list(frame["nodes"]), [1, 2])
+        self.assertEqual(list(frame.columns), ["nodes", "pages.faults"])
 
     def test_truths_vary_a_flag_and_runs_are_kept(self):
         with tempfile.TemporaryDirectory() as folder:

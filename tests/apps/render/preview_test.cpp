@@ -17,6 +17,7 @@ namespace dmpc::apps {
 
 using tests::LoopbackListener;
 using tests::ShownPicture;
+using tests::whole_packets;
 
 namespace {
 

@@ -12,6 +12,7 @@
 
 #include "apps/commands.h"
 #include "apps/line/exit_status.h"
+#include "apps/line/words.h"
 #include "apps/render/command.h"
 #include "apps/render/ranks.h"
 #include "core/base/expect.h"
@@ -85,11 +86,14 @@ TEST_CASE("every strategy and its systems render over ranks what they do in one 
   const std::string picture = picture_of(small);
   for (const char* const how :
        {"--strategy=svm", "--strategy=replicated", "--strategy=dataflow", "--strategy=forest", "--system=pixel-machine",
-        "--system=green-paddon", "--system=scattered", "--system=moving", "--count-pages"}) {
+        "--system=green-paddon", "--system=scattered", "--system=moving", "--system=moving --page-size=64KiB", "--count-pages"}) {
     for (const std::uint32_t ranks : {1U, 2U, 5U}) {
       CAPTURE(how);
       CAPTURE(ranks);
-      std::vector<std::string> line = small_with({how});
+      std::vector<std::string> line = small;
+      for (const std::string& word : apps::words_between(how, ' ')) {
+        line.push_back(word);
+      }
       const tests::TemporaryFolder folder;
       line.push_back("--stats=" + (folder.path() / "stats.json").string());
       CHECK((picture_over(ranks, line) == picture));

@@ -7,11 +7,13 @@
 #include <chrono>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <stop_token>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "nodes/observer.h"
 #include "nodes/threads/clock.h"
 #include "tests/nodes/toy_machine.h"
 #include "tests/nodes/toy_programs.h"
@@ -201,6 +203,30 @@ TEST_CASE("a frame that is lost is found out, whichever it is") {
                                 {.seed = frame, .late_looks_max = 4, .loss = LoopbackTrouble::Loss{1, 2, frame}});
     for (const RankResult<RankRun>& result : results) {
       CHECK(result.failure_text().find("a frame from rank 1 to rank 2 is lost") != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("a frame that is lost while ranks compare their clocks is found out, whichever it is and between whom") {
+  class Onlooker final : public Observer {
+    void ended(const Span& /*span*/, const Program& /*program*/) override {}
+    void sent(const Passing& /*passing*/) override {}
+    void received(const Passing& /*passing*/) override {}
+    void worked(const Worked& /*worked*/) override {}
+  };
+  for (const auto& [from, to] : {std::pair{0U, 1U}, {1U, 0U}, {2U, 0U}}) {
+    for (std::uint64_t frame = 0; frame < 4; ++frame) {
+      CAPTURE(from);
+      CAPTURE(to);
+      CAPTURE(frame);
+      const auto results = on_ranks(3, {.seed = frame, .loss = LoopbackTrouble::Loss{from, to, frame}}, [](Fabric& fabric) {
+        RankLinks links(fabric);
+        Onlooker onlooker;
+        return RanksRunner(equal_nodes(7, Asker::mailbox(7, 2), making<Asker>(20U, 2U)), links, std::nullopt, &onlooker).run({});
+      });
+      for (const RankResult<RunEnd>& result : results) {
+        CHECK(result.failure_text().find(" is lost") != std::string::npos);
+      }
     }
   }
 }

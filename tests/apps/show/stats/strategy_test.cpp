@@ -119,8 +119,8 @@ TEST_CASE("regions that move tell of their units, asks and bytes, others of none
   CHECK(stats.options["cuts"] == "longer-side");
   CHECK(stats.options["subsample"] == 8);
   CHECK(at(stats.all, "/travel/movement/units") == 4 * stats.nodes.size());
-  for (const char* const figure : {"units", "units_given", "units_taken", "asks", "refusals", "pages_sent", "primary_rays_given",
-                                   "primary_rays_taken", "rays_sent_on", "bytes"}) {
+  for (const char* const figure : {"units", "units_given", "units_taken", "asks", "refusals", "pages_sent", "pages_installed",
+                                   "records_walked", "primary_rays_given", "primary_rays_taken", "rays_sent_on", "bytes"}) {
     const std::string place = std::string("/travel/movement/") + figure;
     CAPTURE(place);
     CHECK(at(stats.all, place.c_str()) == sum_over_nodes(stats, place.c_str()));

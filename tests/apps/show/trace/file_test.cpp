@@ -30,7 +30,7 @@ TEST_CASE("a scene's name may be anything, and a trace's file is whole") {
   CHECK(contains(traced.text(".paje"), "# scene: a \xff b\n"));
 }
 
-TEST_CASE("a trace of nothing is called empty, and one of an activity or a message is not") {
+TEST_CASE("a trace of nothing is called empty, and one of an activity or a message, or that had no room for them, is not") {
   nodes::Trace trace{.nodes = std::vector<nodes::TraceNode>(2)};
   CHECK(contains(empty_note(trace), "the trace is empty"));
   trace.messages.emplace_back();
@@ -38,6 +38,7 @@ TEST_CASE("a trace of nothing is called empty, and one of an activity or a messa
   trace.messages.clear();
   trace.nodes[1].spans.emplace_back();
   CHECK(empty_note(trace).empty());
+  CHECK(empty_note({.events_lost = 1}).empty());
 }
 
 TEST_CASE("what was lost is said with its count and its time") {

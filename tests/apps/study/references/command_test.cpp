@@ -46,6 +46,11 @@ TEST_CASE("each node has a cache of its own, and faults are those of all") {
   CHECK(output.find("\n1,33.333333333333336,66.66666666666667,4,4,4,4,4,4,4,4\n") != std::string::npos);
 }
 
+TEST_CASE("a cache larger than all memory costs none for pages that there are not, and takes each page in once") {
+  const std::string output = output_of("node,page\n0,1\n0,2\n0,1\n2,7\n", {2'147'483'647});
+  CHECK(output.find(",75,3,3,3,3,3,3,3,3\n") != std::string::npos);
+}
+
 TEST_CASE("without sizes there are those from one page to all") {
   const std::string output = output_of("page\n1\n2\n3\n1\n", {});
   CHECK(output.find("\n1,") != std::string::npos);

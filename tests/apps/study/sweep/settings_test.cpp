@@ -69,7 +69,8 @@ TEST_CASE("how something is rendered can vary, and what is written where cannot"
 TEST_CASE("a variation that is none says what is expected") {
   CHECK_THROWS_WITH_AS(parse_variation("page-sise:1KiB"), doctest::Contains("Did you mean page-size?"), core::UsageError);
   CHECK_THROWS_WITH_AS(parse_variation("nodes"), doctest::Contains("expected nodes:VALUE,VALUE,..."), core::UsageError);
-  CHECK_THROWS_WITH_AS(parse_variation("nodes:"), doctest::Contains("a word is missing"), core::UsageError);
+  CHECK_THROWS_WITH_AS(parse_variation("nodes:"), doctest::Contains("--vary=nodes:: a value is missing"), core::UsageError);
+  CHECK_THROWS_WITH_AS(parse_variation("nodes:1,"), doctest::Contains("a value is missing"), core::UsageError);
   CHECK_THROWS_WITH_AS(parse_variation(":1"), doctest::Contains("an option's name is missing"), core::UsageError);
   CHECK_THROWS_WITH_AS(parse_variation("nodes:2,2"), doctest::Contains("2 is there twice"), core::UsageError);
   CHECK_THROWS_WITH_AS(parse_variation("count-pages:yes"), doctest::Contains("expected on, off or on,off"), core::UsageError);
