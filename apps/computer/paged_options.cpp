@@ -8,7 +8,7 @@
 #include "apps/line/option_values.h"
 #include "core/base/expect.h"
 #include "svm/page.h"
-#include "svm/page_capacity.h"
+#include "svm/plan.h"
 #include "svm/replacement.h"
 
 namespace dmpc::apps {
@@ -16,9 +16,9 @@ namespace {
 
 using nodes::Charge;
 
-constexpr std::array<Charge, task_operations_max> free_charges = {Charge::ray_setup,   Charge::cell_step, Charge::brick_read,
+constexpr std::array<Charge, task_operations_max> free_charges = {Charge::ray_setup,     Charge::cell_step,   Charge::brick_read,
                                                                   Charge::triangle_test, Charge::sphere_test, Charge::cone_test,
-                                                                  Charge::shading,     Charge::ray_packing};
+                                                                  Charge::shading,       Charge::ray_packing};
 constexpr Charge page_charges[] = {Charge::home_lookup, Charge::cached_lookup, Charge::page_install};
 
 std::size_t page_size_of(const std::string& text) {
@@ -57,7 +57,7 @@ void add_options(OptionSet options, PagedOptions& paged, const std::vector<Numbe
   add_page_group(options, paged.tasks);
   add_closer_look(options, paged.program);
   options.add_path("--references", "FILE.csv", paged.references,
-                   "Write which pages each node looked up in the last run, one task after the other, for dmpc study cache");
+                   "Write which pages each node looked up in the last run, one task after the other, for dmpc study references");
   options.check_in_the_end([options, &paged] {
     check_references(options, paged);
     paged.tasks.in_flight = paged.references ? 1 : paged.tasks.in_flight;

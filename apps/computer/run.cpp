@@ -18,6 +18,7 @@
 #include "apps/system/output_set.h"
 #include "apps/system/stopwatch.h"
 #include "nodes/runner.h"
+#include "nodes/standstill.h"
 #include "nodes/watch/trace.h"
 
 namespace dmpc::apps {
@@ -81,6 +82,19 @@ void take_programs(ProgramRecord& record, nodes::Runner& runner, const AnyApplic
   record.result = application.result(own);
 }
 
+/// Whether it came to its end. If all stand still, throws what each node says, and who waits for whom.
+bool run_to_end(nodes::Runner& runner, const ProgramPlan& plan, const Interrupt& interrupt) {
+  try {
+    return runner.run(interrupt.token()) == nodes::RunEnd::finished;
+  } catch (const nodes::StandstillError& error) {
+    std::vector<std::vector<Unanswered>> awaited;
+    for (std::uint32_t node = 0; node < plan.node_count(); ++node) {
+      awaited.push_back(static_cast<const HostedProgram&>(runner.program(node)).node().awaited());
+    }
+    throw nodes::StandstillError(error.what() + circle_text(awaited));
+  }
+}
+
 int run_program(const std::string& name, ProgramOptions& options, const AnyApplication& application, Interrupt& interrupt) {
   const OutputSet<ProgramRecord> outputs = outputs_of(options);
   check_outputs(inputs_of(options), outputs.names());
@@ -93,7 +107,7 @@ int run_program(const std::string& name, ProgramOptions& options, const AnyAppli
   const auto runner = nodes::make_runner(specifications(plan, application), options.computer, recorder ? &*recorder : nullptr);
   ProgramRecord record{.name = name, .options = options, .plan = plan};
   Stopwatch stopwatch;
-  if (runner->run(interrupt.token()) == nodes::RunEnd::interrupted) {
+  if (!run_to_end(*runner, plan, interrupt)) {
     throw Interrupted{};
   }
   record.wall_seconds = stopwatch.lap();
@@ -119,9 +133,8 @@ int run_any(int count, const char* const* words, const AnyApplication& applicati
       count, words,
       {.description = application.description,
        .declare = [&](apps::OptionSet set) { apps::add_options(set, options, application.options); },
-       .act = [&](const std::string& name, apps::Interrupt& interrupt) {
-         return apps::run_program(name, options, application, interrupt);
-       }});
+       .act = [&](const std::string& name,
+                  apps::Interrupt& interrupt) { return apps::run_program(name, options, application, interrupt); }});
 }
 
 }  // namespace dmpc
