@@ -91,10 +91,10 @@ std::string circle_text(const std::vector<std::vector<Unanswered>>& awaited) {
   if (circle.empty()) {
     return "";
   }
-  std::string text = "\nin a circle node " + std::to_string(circle.front().node);
+  std::string text = "\nin a circle: node " + std::to_string(circle.front().node);
   for (std::size_t i = 0; i < std::min(circle.size(), circle_named_max); ++i) {
-    const Unanswered& next = awaited[circle[i].node][circle[i].place];
-    text += (i == 0 ? " waits for '" : ", that for '") + next.answer + "' of node " + std::to_string(next.node);
+    const std::uint32_t next = awaited[circle[i].node][circle[i].place].node;
+    text += (i == 0 ? " waits for node " : ", that for node ") + std::to_string(next);
   }
   return circle.size() > circle_named_max ? text + ", and so on, " + std::to_string(circle.size()) + " nodes in all" : text;
 }

@@ -101,7 +101,7 @@ int main(int count, char** words) {
   const auto needs = [&ring](std::uint32_t) -> dmpc::Needs {
     std::vector<dmpc::PacketNeed> packets;
     for (std::uint32_t lane = 1; lane <= ring.lanes; ++lane) {
-      const std::string name = " of lane " + std::to_string(lane);
+      const std::string name = " in lane " + std::to_string(lane);
       packets.push_back({.name = "item" + name, .senders = dmpc::from_previous(ring.places)});
       packets.push_back({.name = "taken" + name, .answers = "item" + name});
     }

@@ -1,11 +1,14 @@
 // The examples as who has installed dmpc builds and runs them, with what their heads say of them.
 #include <doctest/doctest.h>
 
+#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace dmpc::tests {
 
@@ -14,6 +17,15 @@ namespace {
 using Words = std::vector<std::string>;
 
 bool has(const Said& said, const std::string& part) { return said.output.find(part) != std::string::npos; }
+
+/// What dmpc itself says of the picture that image_parallel renders.
+std::string film_of_rings(const std::filesystem::path& folder) {
+  const std::string stats = folder / "rings.json";
+  REQUIRE(
+      run({DMPC_PROGRAM, "render", "rings-3-t1", "--resolution=64x64", "--stats=" + stats, "-o", folder / "rings.exr"}).status ==
+      0);
+  return nlohmann::json::parse(file_text(stats))["film_hash"];
+}
 
 }  // namespace
 
@@ -60,14 +72,21 @@ TEST_CASE("the examples are built from an installed prefix with all warnings, an
   };
   CHECK(has(passed({}), "256 items have come\n16 nodes of hdr: 436 us"));
   CHECK(has(passed({"--places=2"}), "16 nodes of hdr: 235 us"));
-  CHECK(passed({"--lanes=1", "--places=2"}).errors.find("in a circle node 0 waits for 'taken of lane 1' of node 1, that for") !=
-        std::string::npos);
+  CHECK(passed({"--lanes=1", "--places=2"}).errors.find("in a circle: node 0 waits for node 1, that for") != std::string::npos);
+  const auto rendered = [&](const std::string& kept) {
+    return run({build + "/image_parallel", "--runner=virtual", "--machine=hdr", "--kept=" + kept});
+  };
+  const std::string film = "film " + film_of_rings(folder.path());
+  CHECK(has(rendered("4"), film + "; 113668 pages asked for\n8 nodes of hdr: 61.1 ms"));
+  CHECK(has(rendered("64"), film + "; 31789 pages asked for\n8 nodes of hdr: 19.0 ms"));
+  CHECK(has(rendered("256"), film + "; 6066 pages asked for\n8 nodes of hdr: 5.03 ms"));
   for (int seed = 1; seed <= 4; ++seed) {
     INFO("seed ", seed);
     CHECK(has(run({build + "/ring_product", "--size=64", "--chaos=" + std::to_string(seed)}), "as expected"));
     CHECK(has(run({build + "/page_rank", "--vertices=2000", "--cache-pages=2", "--chaos=" + std::to_string(seed)}),
               "as in one memory"));
     CHECK(has(run({build + "/passing_ring", "--chaos=" + std::to_string(seed)}), "128 items have come"));
+    CHECK(has(run({build + "/image_parallel", "--nodes=3", "--chaos=" + std::to_string(seed)}), film));
     CHECK(has(run({build + "/sample_sort", "--keys=1000", "--chaos=" + std::to_string(seed)}), "8000 keys, sorted"));
   }
 }

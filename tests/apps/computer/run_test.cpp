@@ -73,11 +73,9 @@ TEST_CASE("nodes that stand still are found out, with what each says of itself, 
   for (const std::string runner : {"threads", "virtual"}) {
     const Ran ran = run_with(asker(10, Fault::answers_nothing, 3), {"--nodes=3", "--runner=" + runner});
     CHECK(ran.status == 3);
-    for (const std::string line :
-         {"node 0: 3 asked; waits for 3 'square' of node 1; owes 3 'square' to node 2\n",
-          "node 1: 3 asked; waits for 3 'square' of node 2; owes 3 'square' to node 0\n",
-          "in a circle node 0 waits for 'square' of node 1, that for 'square' of node 2, that for 'square' of "
-          "node 0\n"}) {
+    for (const std::string line : {"node 0: 3 asked; waits for 3 'square' of node 1; owes 3 'square' to node 2\n",
+                                   "node 1: 3 asked; waits for 3 'square' of node 2; owes 3 'square' to node 0\n",
+                                   "in a circle: node 0 waits for node 1, that for node 2, that for node 0\n"}) {
       CHECK_MESSAGE(says(ran, line), ran.errors);
     }
   }

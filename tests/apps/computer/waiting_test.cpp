@@ -25,8 +25,8 @@ TEST_CASE("what a node waits for and what it owes is said, of many nodes of the 
 
 TEST_CASE("a circle is found wherever it begins, and told from its least node on") {
   CHECK(circle_text({}).empty());
-  CHECK(circle_text(Awaited{{answer_of(0)}}) == "\nin a circle node 0 waits for 'yes' of node 0");
-  const std::string of_two = "\nin a circle node 1 waits for 'yes' of node 2, that for 'yes' of node 1";
+  CHECK(circle_text(Awaited{{answer_of(0)}}) == "\nin a circle: node 0 waits for node 0");
+  const std::string of_two = "\nin a circle: node 1 waits for node 2, that for node 1";
   CHECK(circle_text(Awaited{{answer_of(2)}, {answer_of(2)}, {answer_of(1)}}) == of_two);
   CHECK(circle_text(Awaited{{answer_of(3)}, {answer_of(3), answer_of(2)}, {answer_of(3), answer_of(1)}, {}}) == of_two);
 }
@@ -42,8 +42,8 @@ TEST_CASE("of a long circle the beginning is told, and how many there are") {
     ring[node] = {answer_of((node + 1) % 40)};
   }
   const std::string text = circle_text(ring);
-  CHECK(text.starts_with("\nin a circle node 0 waits for 'yes' of node 1, that for 'yes' of node 2, "));
-  CHECK(text.ends_with("'yes' of node 16, and so on, 40 nodes in all"));
+  CHECK(text.starts_with("\nin a circle: node 0 waits for node 1, that for node 2, "));
+  CHECK(text.ends_with("that for node 16, and so on, 40 nodes in all"));
 }
 
 }  // namespace dmpc::apps
