@@ -13,7 +13,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// Whatever a task does is computing.
+/// What a node does without an operation of its tasks.
 constexpr std::array<const char*, span_names.size()> task_activity_names = {
     "compute", "compute", "install page", "compute", "compute", "compute", "serve page", "send packets", "take packet"};
 
@@ -77,7 +77,15 @@ std::string summary(const PagedRecord& record) {
 
 void write_trace(const PagedRecord& record, std::ostream& output) {
   core::expect(record.trace.has_value(), "a trace that is written was recorded");
-  write_view({.trace = *record.trace, .kind_names = svm::kind_names, .has_pages = true, .activity_names = task_activity_names},
+  std::array<const char*, nodes::charge_count> operation_names{};
+  for (Index i = 0; i < record.operations.size(); ++i) {
+    operation_names[static_cast<std::size_t>(charge_of(i))] = record.operations[i].name.c_str();
+  }
+  write_view({.trace = *record.trace,
+              .kind_names = svm::kind_names,
+              .has_pages = true,
+              .activity_names = task_activity_names,
+              .operation_names = operation_names},
              record.name, record.options.program, output);
 }
 

@@ -12,7 +12,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// A program's own operations have no names in a trace yet: all of them are computing.
+/// What a program does without an operation of its own.
 constexpr std::array<const char*, span_names.size()> activity_names = {
     "compute", "compute", "compute", "compute", "compute", "compute", "serve", "send packets", "take packet"};
 
@@ -79,8 +79,13 @@ void write_trace(const ProgramRecord& record, std::ostream& output) {
   for (const PacketNeed& packet : record.plan.needs().packets) {
     kind_names.push_back(packet.name.c_str());
   }
-  write_view({.trace = *record.trace, .kind_names = kind_names, .activity_names = activity_names}, record.name, record.options,
-             output);
+  std::vector<const char*> operation_names;
+  for (const OperationNeed& operation : record.plan.needs().operations) {
+    operation_names.push_back(operation.name.c_str());
+  }
+  write_view(
+      {.trace = *record.trace, .kind_names = kind_names, .activity_names = activity_names, .operation_names = operation_names},
+      record.name, record.options, output);
 }
 
 void write_view(TraceView view, const std::string& name, const ProgramOptions& options, std::ostream& output) {

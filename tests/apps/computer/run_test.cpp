@@ -117,13 +117,14 @@ TEST_CASE("counters add up: by packet, by node and by piece of memory") {
   CHECK(received == 60);
 }
 
-TEST_CASE("a trace calls packets as the program does, and its doings computing") {
+TEST_CASE("a trace calls packets and operations as the program does, and what has none computing") {
   const TemporaryFolder folder;
   for (const std::string name : {"trace.json", "trace.paje"}) {
     const std::string file = folder / name;
     REQUIRE(run_with(asker(10), {"--nodes=2", "--runner=virtual", "--trace=" + file}).status == 0);
     const std::string text = file_text(file);
     CHECK(text.find("question") != std::string::npos);
+    CHECK(count(text, "multiplication") >= (name == "trace.json" ? 20 : 1));
     CHECK(text.find("compute") != std::string::npos);
     CHECK(text.find("shade") == std::string::npos);
   }
