@@ -71,8 +71,8 @@ Scene::Scene(const std::string& name, std::uint32_t width, std::uint32_t height,
   }
   const core::Scene scene = scene_of(name);
   core::Database database = core::build_database(scene, {.page_size_bytes = page_bytes});
-  core::RenderSettings settings = settings_of(scene, database, static_cast<int>(width), static_cast<int>(height));
-  data_ = std::make_shared<const Data>(Data{std::move(database), std::move(settings)});
+  const core::RenderSettings settings = settings_of(scene, database, static_cast<int>(width), static_cast<int>(height));
+  data_ = std::make_shared<const Data>(Data{std::move(database), settings});
 }
 
 std::uint32_t Scene::pixel_count() const { return data_->settings.camera.pixel_count(); }

@@ -10,11 +10,15 @@ namespace {
 constexpr std::size_t waiting_named_max = 3;
 constexpr std::size_t circle_named_max = 16;
 
+std::string text_of(const Unanswered& one, const std::string& preposition) {
+  return std::to_string(one.count) + " '" + one.answer + "' " + preposition + " node " + std::to_string(one.node);
+}
+
 std::string list_text(const std::vector<Unanswered>& list, const std::string& verb, const std::string& preposition) {
   std::string text;
   for (std::size_t i = 0; i < std::min(list.size(), waiting_named_max); ++i) {
-    text += (i == 0 ? "; " + verb + " " : ", ") + std::to_string(list[i].count) + " '" + list[i].answer + "' " + preposition +
-            " node " + std::to_string(list[i].node);
+    text += i == 0 ? "; " + verb + " " : ", ";
+    text += text_of(list[i], preposition);
   }
   return list.size() > waiting_named_max ? text + " and " + std::to_string(list.size() - waiting_named_max) + " more" : text;
 }
@@ -94,7 +98,8 @@ std::string circle_text(const std::vector<std::vector<Unanswered>>& awaited) {
   std::string text = "\nin a circle: node " + std::to_string(circle.front().node);
   for (std::size_t i = 0; i < std::min(circle.size(), circle_named_max); ++i) {
     const std::uint32_t next = awaited[circle[i].node][circle[i].place].node;
-    text += (i == 0 ? " waits for node " : ", that for node ") + std::to_string(next);
+    text += i == 0 ? " waits for node " : ", that for node ";
+    text += std::to_string(next);
   }
   return circle.size() > circle_named_max ? text + ", and so on, " + std::to_string(circle.size()) + " nodes in all" : text;
 }

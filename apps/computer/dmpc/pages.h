@@ -1,5 +1,5 @@
-// Tasks over pages, for the emulated computer: data that fit no node are spread over all of them in pages, and tasks read them from
-// wherever they run. The whole interface, beside the words of <dmpc/computer.h>.
+// Tasks over pages, for the emulated computer: data that fit no node are spread over all of them in pages, and tasks read them
+// from wherever they run. The whole interface, beside the words of <dmpc/computer.h>.
 //
 // A task never waits: where its page is not at its node, it says so, others go on, and it is called again when the page has come.
 #pragma once
@@ -14,6 +14,7 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace dmpc {
