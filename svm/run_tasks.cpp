@@ -1,12 +1,17 @@
 #include "svm/run_tasks.h"
 
-#include <string>
+#include <memory>
 #include <utility>
 
+#include "core/base/expect.h"
 #include "svm/packets.h"
+#include "svm/task_program.h"
 
 namespace dmpc::svm {
 namespace {
+
+/// Makes the program of node `index`.
+using MakeTaskProgram = std::function<std::unique_ptr<AnyTaskProgram>(std::uint32_t index, nodes::Node& node)>;
 
 class IdleHost final : public nodes::Program {
  public:
@@ -49,9 +54,21 @@ PageCounters TaskFigures::all_pages() const {
   return sum;
 }
 
-TaskFigures run_task_programs(const TaskPlan& plan, const TaskOptions& options, const MakeTaskProgram& make,
-                              const TaskWatching& watching, std::stop_token stop,
-                              const std::function<void(std::uint32_t, std::span<const std::byte>)>& results) {
+TaskFigures run_tasks_of_kind(const TaskKinds& kinds, std::span<const std::byte> database, std::uint32_t count,
+                              const TaskOptions& options, const TaskWatching& watching, std::stop_token stop,
+                              const TakeResults& take) {
+  const TaskPlan plan(options, database.size(), count, kinds.plain.sizes);
+  core::expect(watching.reference_logs == nullptr || watching.reference_logs->size() == plan.node_count(),
+               "each node has a log of its references");
+  const nodes::ByteSource source(database);
+  const auto make = [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<AnyTaskProgram> {
+    if (watching.reference_logs == nullptr) {
+      return std::make_unique<TaskProgram<Pager>>(node, plan, source, kinds.plain);
+    }
+    auto program = std::make_unique<TaskProgram<RecordingPager>>(node, plan, source, kinds.recording);
+    program->records().record_into((*watching.reference_logs)[index]);
+    return program;
+  };
   const auto runner = nodes::make_runner(task_specifications(plan, make), options.computer, watching.observer);
   TaskFigures figures;
   figures.end = runner->run(std::move(stop));
@@ -59,7 +76,8 @@ TaskFigures run_task_programs(const TaskPlan& plan, const TaskOptions& options, 
     const auto& program = dynamic_cast<const AnyTaskProgram&>(runner->program(index));
     figures.pages.push_back(program.report().pages);
     figures.counters.push_back(runner->node(index).counters());
-    results(index, program.results());
+    figures.charges.push_back(program.charges());
+    take(plan.first_task(index), program.results());
   }
   if (figures.end == nodes::RunEnd::finished) {
     check_pages(figures);

@@ -5,35 +5,20 @@
 // cache of one page, and the last node always moves.
 #pragma once
 
-#include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
-#include <type_traits>
 
 #include "core/base/expect.h"
 #include "core/picture/pixel_task.h"
 #include "nodes/node.h"
 #include "svm/node_program.h"
 #include "svm/packets.h"
-#include "svm/pager.h"
+#include "svm/task_kind.h"
 #include "svm/task_plan.h"
 
 namespace dmpc::svm {
-
-/// A task: a value without pointers of its own, made again and again. start(number) makes it that one of all; run() reads records
-/// by records.find() and answers `more` after a bounded time, `finished`, or `absent` if find() had nothing: then absent() is the
-/// address, and run() is called again when it is there, and asks for it again. What it does beside look-ups it adds to the
-/// charges. result() is asked for once it is finished.
-template <class Task>
-concept PagedTask = std::default_initializable<Task> && std::is_trivially_copyable_v<Task> &&
-    std::default_initializable<typename Task::Result> && std::is_trivially_copyable_v<typename Task::Result> &&
-    requires(Task task, const Task& finished, Pager& records, nodes::Charges& charges, std::uint32_t number) {
-  task.start(number);
-  { task.run(records, charges) } -> std::same_as<core::TaskState>;
-  { finished.absent() } -> std::same_as<core::Address>;
-  { finished.result() } -> std::same_as<typename Task::Result>;
-};
 
 /// What a task's program tells, whatever the task.
 class AnyTaskProgram : public NodeProgram {
@@ -43,32 +28,26 @@ class AnyTaskProgram : public NodeProgram {
 };
 
 /// `Records` is Pager or RecordingPager.
-template <class Records, PagedTask Task>
+template <class Records>
 class TaskProgram final : public AnyTaskProgram {
-  using Result = typename Task::Result;
-
-  /// A task under way.
-  struct Place {
-    Task task;
-    std::uint32_t number = 0;
-  };
-
  public:
-  TaskProgram(nodes::Node& node, const TaskPlan& plan, const nodes::ByteSource& database)
+  /// `kind`, which outlives this, is the plan's.
+  TaskProgram(nodes::Node& node, const TaskPlan& plan, const nodes::ByteSource& database, const TaskKind<Records>& kind)
       : records_(node, plan.pages(), database),
+        kind_(kind),
         next_(plan.first_task(nodes::index_of(node.id()))),
         first_(next_),
-        tasks_(node.memory().allocate<Place>(nodes::Category::ray_stacks, plan.in_flight())),
+        count_(plan.tasks_at(nodes::index_of(node.id()))),
+        tasks_(node.memory().allocate<std::byte>(nodes::Category::ray_stacks, plan.in_flight() * kind.sizes.task_bytes)),
+        numbers_(node.memory().allocate<std::uint32_t>(nodes::Category::queues, plan.in_flight())),
         runnable_(node.memory().allocate<std::uint32_t>(nodes::Category::queues, plan.in_flight())),
         free_(node.memory().allocate<std::uint32_t>(nodes::Category::queues, plan.in_flight())),
-        results_(node.memory().allocate<Result>(nodes::Category::film_tiles, plan.tasks_at(nodes::index_of(node.id())))) {
+        results_(node.memory().allocate<std::byte>(nodes::Category::film_tiles, count_ * kind.sizes.result_bytes)) {
     for (std::uint32_t place = 0; place < free_.size(); ++place) {
       free_[free_count_++] = static_cast<std::uint32_t>(free_.size()) - 1 - place;
     }
   }
 
-  /// What a plan is to know of it.
-  static constexpr TaskPlan::Sizes sizes() { return {.task_bytes = sizeof(Place), .result_bytes = sizeof(Result)}; }
   Records& records() { return records_; }
 
   void receive(const nodes::Packet& packet) override {
@@ -94,7 +73,7 @@ class TaskProgram final : public AnyTaskProgram {
     return runnable_count_ > 0 || can_start();
   }
 
-  bool finished() const override { return done_ == results_.size(); }
+  bool finished() const override { return done_ == count_; }
 
   nodes::Charges charges() const override {
     nodes::Charges charges = charges_;
@@ -110,46 +89,50 @@ class TaskProgram final : public AnyTaskProgram {
   }
 
   std::string describe() const override {
-    return std::to_string(done_) + " of " + std::to_string(results_.size()) + " tasks done, " +
+    return std::to_string(done_) + " of " + std::to_string(count_) + " tasks done, " +
            std::to_string(records_.faults()) + " pages awaited";
   }
 
   ProgramReport report() const override { return {.operations = {}, .pages = records_.counters(), .work = {}}; }
-  std::span<const std::byte> results() const override { return std::as_bytes(results_); }
+  std::span<const std::byte> results() const override { return results_; }
 
  private:
-  bool can_start() const { return free_count_ > 0 && next_ - first_ < results_.size(); }
+  bool can_start() const { return free_count_ > 0 && next_ - first_ < count_; }
 
   void start() {
     const std::uint32_t place = free_[--free_count_];
-    tasks_[place].number = next_++;
-    tasks_[place].task.start(tasks_[place].number);
+    numbers_[place] = next_++;
+    kind_.start(task_at(place), numbers_[place]);
     runnable_[runnable_count_++] = place;
   }
 
   void run(std::uint32_t place) {
-    Task& task = tasks_[place].task;
-    switch (task.run(records_, charges_)) {
+    core::Address absent = core::no_address;
+    switch (kind_.run(task_at(place), records_, charges_, absent)) {
       case core::TaskState::more:
         runnable_[runnable_count_++] = place;
         return;
       case core::TaskState::absent:
-        return records_.park(place, task.absent());
+        return records_.park(place, absent);
       case core::TaskState::finished:
-        results_[tasks_[place].number - first_] = task.result();
+        kind_.put_result(task_at(place), &results_[(numbers_[place] - first_) * kind_.sizes.result_bytes]);
         free_[free_count_++] = place;
         ++done_;
         return;
     }
   }
 
+  std::byte* task_at(std::uint32_t place) const { return &tasks_[place * kind_.sizes.task_bytes]; }
+
   Records records_;
-  std::uint32_t next_, first_;  ///< tasks of this node: the next to start, and the first of all
+  const TaskKind<Records>& kind_;
+  std::uint32_t next_, first_, count_;  ///< tasks of this node: the next to start, the first of all, and how many there are
   std::uint32_t done_ = 0;
-  std::span<Place> tasks_;
+  std::span<std::byte> tasks_;         ///< those under way
+  std::span<std::uint32_t> numbers_;   ///< by place: of the task there
   std::span<std::uint32_t> runnable_, free_;
   std::uint32_t runnable_count_ = 0, free_count_ = 0;
-  std::span<Result> results_;
+  std::span<std::byte> results_;
   nodes::Charges charges_;
 };
 

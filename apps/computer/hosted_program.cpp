@@ -87,6 +87,31 @@ void HostedNode::take_note(const nodes::Packet& packet) {
   }
 }
 
+std::vector<Unanswered> HostedNode::awaited() const {
+  std::vector<Unanswered> all;
+  for (std::uint32_t target = 0; target < node_count(); ++target) {
+    for (Index packet = 0; packet < plan_.needs().packets.size(); ++packet) {
+      const auto answer = plan_.answer_of(packet);
+      if (const std::uint32_t count = plan_.credits(id(), target, packet) - rights(target, packet); answer && count > 0) {
+        all.push_back({target, plan_.needs().packets[*answer].name, count});
+      }
+    }
+  }
+  return all;
+}
+
+std::vector<Unanswered> HostedNode::owed() const {
+  std::vector<Unanswered> all;
+  for (std::uint32_t target = 0; target < node_count(); ++target) {
+    for (Index packet = 0; packet < plan_.needs().packets.size(); ++packet) {
+      if (plan_.request_of(packet) && rights(target, packet) > 0) {
+        all.push_back({target, plan_.needs().packets[packet].name, rights(target, packet)});
+      }
+    }
+  }
+  return all;
+}
+
 std::byte* HostedNode::allocate_bytes(Index memory, std::size_t bytes) {
   const std::vector<MemoryNeed>& needs = plan_.needs().memory;
   if (memory >= needs.size()) {

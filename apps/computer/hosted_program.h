@@ -10,6 +10,7 @@
 
 #include "apps/computer/dmpc/computer.h"
 #include "apps/computer/plan.h"
+#include "apps/computer/waiting.h"
 #include "nodes/node.h"
 #include "nodes/program.h"
 
@@ -31,6 +32,9 @@ class HostedNode final : public Node {
   /// A packet has come: of an answer the right to send its request once more, of a request the duty to answer it.
   void take_note(const nodes::Packet& packet);
   const nodes::Charges& charges() const { return charges_; }
+  /// Answers that are to come from others, and that it owes them.
+  std::vector<Unanswered> awaited() const;
+  std::vector<Unanswered> owed() const;
   /// What is allocated of each piece of memory.
   const std::vector<std::size_t>& used_bytes() const { return used_bytes_; }
 
@@ -58,7 +62,7 @@ class HostedProgram final : public nodes::Program {
   bool work() override { return program_->work(); }
   bool finished() const override { return program_->finished(); }
   nodes::Charges charges() const override { return node_.charges(); }
-  std::string describe() const override { return program_->describe(); }
+  std::string describe() const override { return program_->describe() + waiting_text(node_.awaited(), node_.owed()); }
 
   const dmpc::Program& program() const { return *program_; }
   const HostedNode& node() const { return node_; }

@@ -27,7 +27,7 @@ OptionSet::Choices<nodes::TopologyKind> topologies() {
   return choices;
 }
 
-void add_computer_options(OptionSet& options, ProgramOptions& program) {
+void add_computer_group(OptionSet& options, ProgramOptions& program) {
   options.begin_group("The computer");
   options.add_number("--nodes", program.computer.node_count, 1, program_nodes_max, "8", "Nodes, each with a memory of its own");
   options.add_text(
@@ -62,16 +62,14 @@ void check_runner(const OptionSet& options, const ProgramOptions& program) {
   }
 }
 
-/// How many times as long as a core of today this machine takes for arithmetic: for the tests of a triangle, floating-point
-/// multiplications and additions for the most part.
-double slowdown_of(const nodes::Machine& machine) {
-  constexpr auto arithmetic = static_cast<std::size_t>(nodes::Charge::triangle_test);
-  return static_cast<double>(machine.cost_ps[arithmetic]) / static_cast<double>(operation_costs_ps(1)[arithmetic]);
-}
-
 }  // namespace
 
 void add_options(OptionSet options, ProgramOptions& program, const std::vector<NumberOption>& own) {
+  add_computer_options(options, program, own);
+  add_closer_look(options, program);
+}
+
+void add_computer_options(OptionSet options, ProgramOptions& program, const std::vector<NumberOption>& own) {
   if (!own.empty()) {
     options.begin_group("The program");
   }
@@ -79,7 +77,10 @@ void add_options(OptionSet options, ProgramOptions& program, const std::vector<N
     core::expect(option.value != nullptr, "an option has a value to be set");
     options.add_number(option.name, *option.value, option.least, option.most, std::to_string(*option.value), option.description);
   }
-  add_computer_options(options, program);
+  add_computer_group(options, program);
+}
+
+void add_closer_look(OptionSet options, ProgramOptions& program) {
   options.begin_group("Looking closer");
   options.add_path("--stats", "FILE.json", program.stats, "Write all counters");
   options.add_path("--trace", "FILE", program.trace,
@@ -94,22 +95,39 @@ void add_options(OptionSet options, ProgramOptions& program, const std::vector<N
   });
 }
 
-void choose_machine(ProgramOptions& options, const std::vector<OperationNeed>& operations) {
+/// By the tests of a triangle: floating-point multiplications and additions for the most part.
+double slowdown_of(const nodes::Machine& machine) {
+  constexpr auto arithmetic = static_cast<std::size_t>(nodes::Charge::triangle_test);
+  return static_cast<double>(machine.cost_ps[arithmetic]) / static_cast<double>(operation_costs_ps(1)[arithmetic]);
+}
+
+std::uint64_t price_ps(const OperationNeed& operation, double slowdown) {
+  return static_cast<std::uint64_t>(std::llround(operation.nanoseconds * 1000 * slowdown));
+}
+
+std::optional<nodes::Machine> asked_machine(const ProgramOptions& options) {
   if (!options.is_modelled) {
-    return;
+    return std::nullopt;
   }
   nodes::Machine machine = load_machine(options.machine_name).machine;
-  const double slowdown = slowdown_of(machine);
-  machine.cost_ps = {};
-  for (Index i = 0; i < operations.size(); ++i) {
-    machine.cost_ps.at(i) = static_cast<std::uint64_t>(std::llround(operations[i].nanoseconds * 1000 * slowdown));
-  }
   if (options.topology && *options.topology != machine.topology) {
     machine.topology = *options.topology;
     machine.uplinks = 1;
     machine.name += " as " + std::string(name_of(machine.topology));
   }
-  options.computer.machine = std::move(machine);
+  return machine;
+}
+
+void choose_machine(ProgramOptions& options, const std::vector<OperationNeed>& operations) {
+  options.computer.machine = asked_machine(options);
+  if (options.computer.machine) {
+    nodes::Machine& machine = *options.computer.machine;
+    const double slowdown = slowdown_of(machine);
+    machine.cost_ps = {};
+    for (Index i = 0; i < operations.size(); ++i) {
+      machine.cost_ps.at(i) = price_ps(operations[i], slowdown);
+    }
+  }
 }
 
 }  // namespace dmpc::apps

@@ -1,9 +1,11 @@
 // The options of a program of somebody's own: those of the computer, as `dmpc render` has them, and the program's.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/computer/dmpc/computer.h"
 #include "apps/line/command_line.h"
@@ -24,9 +26,19 @@ struct ProgramOptions {
 
 /// Declares them, and which go together.
 void add_options(OptionSet options, ProgramOptions& program, const std::vector<NumberOption>& own);
+/// Its parts: the program's own and the computer's, and, once others are declared, what is written of a run.
+void add_computer_options(OptionSet options, ProgramOptions& program, const std::vector<NumberOption>& own);
+void add_closer_look(OptionSet options, ProgramOptions& program);
 
-/// Reads the machine that is to be modelled, if one is, and gives it the program's operations. Throws core::InputError as
-/// load_machine() does.
+/// How many times as long as a core of today a machine takes for arithmetic.
+double slowdown_of(const nodes::Machine& machine);
+/// On a machine that is so much slower, in picoseconds.
+std::uint64_t price_ps(const OperationNeed& operation, double slowdown);
+
+/// Reads the machine that is to be modelled, if one is, and gives it the program's operations in place of a renderer's. Throws
+/// core::InputError as load_machine() does.
 void choose_machine(ProgramOptions& options, const std::vector<OperationNeed>& operations);
+/// The same without prices: nothing on threads.
+std::optional<nodes::Machine> asked_machine(const ProgramOptions& options);
 
 }  // namespace dmpc::apps

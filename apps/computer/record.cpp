@@ -12,7 +12,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// A program's own operations have no names in a trace yet: all of them are computing.
+/// What a program does without an operation of its own.
 constexpr std::array<const char*, span_names.size()> activity_names = {
     "compute", "compute", "compute", "compute", "compute", "compute", "serve", "send packets", "take packet"};
 
@@ -24,13 +24,12 @@ std::size_t memory_max_bytes(const ProgramRecord& record) {
   return most;
 }
 
-/// Of all nodes' time.
-double computing_percent(const nodes::VirtualReport& report, std::uint32_t node_count) {
-  std::uint64_t computing_ns = 0;
+std::uint64_t computing_ns(const nodes::VirtualReport& report, std::uint32_t node_count) {
+  std::uint64_t sum = 0;
   for (std::uint32_t node = 0; node < node_count; ++node) {
-    computing_ns += report.nodes[node].computing_ns;
+    sum += report.nodes[node].computing_ns;
   }
-  return percent_of(static_cast<double>(computing_ns), static_cast<double>(report.total_ns) * node_count);
+  return sum;
 }
 
 }  // namespace
@@ -53,19 +52,22 @@ nodes::Traffic sent(const ProgramRecord& record) {
   return sum;
 }
 
-std::string computer_text(const ProgramRecord& record) {
-  const nodes::Machine* const machine = record.options.computer.model();
-  return counted(record.plan.node_count(), "node") + (machine == nullptr ? " on threads" : " of " + machine->name);
+std::string computer_text(const ProgramOptions& options) {
+  const nodes::Machine* const machine = options.computer.model();
+  return counted(options.computer.node_count, "node") + (machine == nullptr ? " on threads" : " of " + machine->name);
+}
+
+std::string virtual_time_text(std::uint64_t total_ns, std::uint64_t computing_ns, std::uint32_t node_count) {
+  const double share = percent_of(static_cast<double>(computing_ns), static_cast<double>(total_ns) * node_count);
+  return amount_text(static_cast<double>(total_ns), "ns") + " of virtual time, " + percent_text(share) + " of it computing";
 }
 
 std::string summary(const ProgramRecord& record) {
-  std::string text = computer_text(record) + ": ";
-  if (record.virtual_time) {
-    text += amount_text(static_cast<double>(record.virtual_time->total_ns), "ns") + " of virtual time, " +
-            percent_text(computing_percent(*record.virtual_time, record.plan.node_count())) + " of it computing";
-  } else {
-    text += seconds_text(record.wall_seconds);
-  }
+  const std::uint32_t node_count = record.plan.node_count();
+  std::string text = computer_text(record.options) + ": ";
+  text += record.virtual_time
+              ? virtual_time_text(record.virtual_time->total_ns, computing_ns(*record.virtual_time, node_count), node_count)
+              : seconds_text(record.wall_seconds);
   const nodes::Traffic traffic = sent(record);
   return text + "; " + counted(traffic.packets, "packet") + ", " + bytes_text(traffic.bytes) + "; " +
          bytes_text(memory_max_bytes(record)) + " of memory a node\n";
@@ -77,16 +79,22 @@ void write_trace(const ProgramRecord& record, std::ostream& output) {
   for (const PacketNeed& packet : record.plan.needs().packets) {
     kind_names.push_back(packet.name.c_str());
   }
-  const TraceView view{
-      .trace = *record.trace,
-      .kind_names = kind_names,
-      .clock = record.virtual_time ? "virtual time" : "wall clock",
-      .remarks = {{"program", record.name},
-                  {"computer", computer_text(record)},
-                  {"lost", record.trace->events_lost == 0 ? "nothing"
-                                                          : counted(record.trace->events_lost, "event") + ": the trace is full"}},
-      .activity_names = activity_names};
-  record.options.trace->extension() == ".paje" ? write_paje(view, output) : write_chrome(view, output);
+  std::vector<const char*> operation_names;
+  for (const OperationNeed& operation : record.plan.needs().operations) {
+    operation_names.push_back(operation.name.c_str());
+  }
+  write_view(
+      {.trace = *record.trace, .kind_names = kind_names, .activity_names = activity_names, .operation_names = operation_names},
+      record.name, record.options, output);
+}
+
+void write_view(TraceView view, const std::string& name, const ProgramOptions& options, std::ostream& output) {
+  view.clock = options.is_modelled ? "virtual time" : "wall clock";
+  view.remarks = {
+      {"program", name},
+      {"computer", computer_text(options)},
+      {"lost", view.trace.events_lost == 0 ? "nothing" : counted(view.trace.events_lost, "event") + ": the trace is full"}};
+  options.trace->extension() == ".paje" ? write_paje(view, output) : write_chrome(view, output);
 }
 
 }  // namespace dmpc::apps

@@ -9,6 +9,7 @@
 #include "apps/computer/hosted_program.h"
 #include "apps/computer/options.h"
 #include "apps/computer/plan.h"
+#include "apps/show/trace/view.h"
 #include "nodes/runner.h"
 #include "nodes/watch/trace.h"
 
@@ -32,7 +33,10 @@ nodes::Traffic sent(const ProgramRecord& record, Index packet);
 nodes::Traffic sent(const ProgramRecord& record);
 
 /// "8 nodes" or "8 nodes of ipsc2".
-std::string computer_text(const ProgramRecord& record);
+std::string computer_text(const ProgramOptions& options);
+
+/// "83.5 us of virtual time, 12.0 % of it computing", of so many nodes together.
+std::string virtual_time_text(std::uint64_t total_ns, std::uint64_t computing_ns, std::uint32_t node_count);
 
 /// How long it took, what travelled and what a node takes, a line or two.
 std::string summary(const ProgramRecord& record);
@@ -42,5 +46,7 @@ std::string stats_json(const ProgramRecord& record);
 
 /// Writes the trace in the format that its file's ending says.
 void write_trace(const ProgramRecord& record, std::ostream& output);
+/// The same of any program's; what is said of the run is added to `view`.
+void write_view(TraceView view, const std::string& name, const ProgramOptions& options, std::ostream& output);
 
 }  // namespace dmpc::apps

@@ -1,29 +1,24 @@
-// From a program's command line to its exit status.
-#include <exception>
-#include <filesystem>
+// Runs a program that declares its packets: from its options to what came of it.
 #include <iostream>
-#include <new>
+#include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "apps/computer/dmpc/computer.h"
 #include "apps/computer/hosted_program.h"
 #include "apps/computer/options.h"
 #include "apps/computer/plan.h"
+#include "apps/computer/program_main.h"
 #include "apps/computer/record.h"
-#include "apps/line/command_line.h"
-#include "apps/line/exit_status.h"
 #include "apps/line/number_text.h"
-#include "apps/machine/machines.h"
 #include "apps/system/attempts.h"
 #include "apps/system/interrupt.h"
 #include "apps/system/memory_room.h"
 #include "apps/system/output_set.h"
 #include "apps/system/stopwatch.h"
-#include "core/base/expect.h"
 #include "nodes/runner.h"
+#include "nodes/standstill.h"
 #include "nodes/watch/trace.h"
 
 namespace dmpc::apps {
@@ -39,11 +34,6 @@ OutputSet<ProgramRecord> outputs_of(const ProgramOptions& options) {
     outputs.add("--trace", *options.trace, check_output_path, write_trace);
   }
   return outputs;
-}
-
-std::vector<NamedFile> inputs_of(const ProgramOptions& options) {
-  const bool reads_file = options.is_modelled && find_machine_preset(options.machine_name) == nullptr;
-  return reads_file ? std::vector<NamedFile>{{"--machine", options.machine_name}} : std::vector<NamedFile>();
 }
 
 std::vector<nodes::NodeSpecification> specifications(const ProgramPlan& plan, const AnyApplication& application) {
@@ -92,6 +82,19 @@ void take_programs(ProgramRecord& record, nodes::Runner& runner, const AnyApplic
   record.result = application.result(own);
 }
 
+/// Whether it came to its end. If all stand still, throws what each node says, and who waits for whom.
+bool run_to_end(nodes::Runner& runner, const ProgramPlan& plan, const Interrupt& interrupt) {
+  try {
+    return runner.run(interrupt.token()) == nodes::RunEnd::finished;
+  } catch (const nodes::StandstillError& error) {
+    std::vector<std::vector<Unanswered>> awaited;
+    for (std::uint32_t node = 0; node < plan.node_count(); ++node) {
+      awaited.push_back(static_cast<const HostedProgram&>(runner.program(node)).node().awaited());
+    }
+    throw nodes::StandstillError(error.what() + circle_text(awaited));
+  }
+}
+
 int run_program(const std::string& name, ProgramOptions& options, const AnyApplication& application, Interrupt& interrupt) {
   const OutputSet<ProgramRecord> outputs = outputs_of(options);
   check_outputs(inputs_of(options), outputs.names());
@@ -104,7 +107,7 @@ int run_program(const std::string& name, ProgramOptions& options, const AnyAppli
   const auto runner = nodes::make_runner(specifications(plan, application), options.computer, recorder ? &*recorder : nullptr);
   ProgramRecord record{.name = name, .options = options, .plan = plan};
   Stopwatch stopwatch;
-  if (runner->run(interrupt.token()) == nodes::RunEnd::interrupted) {
+  if (!run_to_end(*runner, plan, interrupt)) {
     throw Interrupted{};
   }
   record.wall_seconds = stopwatch.lap();
@@ -115,55 +118,8 @@ int run_program(const std::string& name, ProgramOptions& options, const AnyAppli
   }
   Attempts attempts(std::cerr);
   outputs.write(record, attempts);
-  attempts.make([&] {
-    std::cout << record.result << (record.result.empty() || record.result.ends_with('\n') ? "" : "\n")
-              << (options.quiet ? "" : summary(record));
-    finish_output(std::cout, "what the program came to");
-  });
+  attempts.make([&] { print_result(record.result, summary(record), options); });
   return attempts.status();
-}
-
-/// What to do, from the line; nothing if help was printed.
-int read_and_run(const std::string& name, std::vector<std::string> words, const AnyApplication& application,
-                 Interrupt& interrupt) {
-  CommandLine line(application.description, DMPC_VERSION, "", name);
-  ProgramOptions options;
-  add_options(line.own_options(), options, application.options);
-  const auto read = line.parse(words);
-  if (const HelpText* const help = std::get_if<HelpText>(&read)) {
-    std::cout << help->text;
-    finish_output(std::cout, "the help");
-    return 0;
-  }
-  return run_program(name, options, application, interrupt);
-}
-
-int complain(const std::string& name, const std::string& message, int status) {
-  std::cerr << name << ": " << message << std::endl;
-  return status;
-}
-
-int status_of_run(const std::string& name, const std::vector<std::string>& words, const AnyApplication& application) {
-  Interrupt interrupt;
-  try {
-    return read_and_run(name, words, application, interrupt);
-  } catch (const Interrupted&) {
-    return complain(name, std::string("interrupted, ") + interrupt.consequence(), interrupted_status);
-  } catch (const core::RoomError& error) {
-    return complain(name, error.what(), no_room_status);
-  } catch (const core::InputError& error) {
-    return complain(name, error.what(), input_status);
-  } catch (const core::UsageError& error) {
-    return complain(name, error.what(), usage_status);
-  } catch (const dmpc::UsageError& error) {
-    return complain(name, error.what(), usage_status);
-  } catch (const ProgramError& error) {
-    return complain(name, std::string("the program: ") + error.what(), internal_status);
-  } catch (const std::bad_alloc&) {
-    return complain(name, "there is no more memory: ask for fewer nodes", no_room_status);
-  } catch (const std::exception& error) {
-    return complain(name, error.what(), internal_status);
-  }
 }
 
 }  // namespace
@@ -172,8 +128,13 @@ int status_of_run(const std::string& name, const std::vector<std::string>& words
 namespace dmpc {
 
 int run_any(int count, const char* const* words, const AnyApplication& application) {
-  const std::string name = count > 0 ? std::filesystem::path(words[0]).filename().string() : "program";
-  return apps::status_of_run(name, {words + (count > 0 ? 1 : 0), words + count}, application);
+  apps::ProgramOptions options;
+  return apps::run_main(
+      count, words,
+      {.description = application.description,
+       .declare = [&](apps::OptionSet set) { apps::add_options(set, options, application.options); },
+       .act = [&](const std::string& name,
+                  apps::Interrupt& interrupt) { return apps::run_program(name, options, application, interrupt); }});
 }
 
 }  // namespace dmpc

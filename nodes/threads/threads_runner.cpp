@@ -6,6 +6,7 @@
 
 #include "core/base/expect.h"
 #include "nodes/processors.h"
+#include "nodes/standstill.h"
 #include "nodes/threads/node_threads.h"
 
 namespace dmpc::nodes {
@@ -19,7 +20,7 @@ struct ThreadsRunner::Implementation {
       case Ending::failed:
         std::rethrow_exception(nodes.failure());
       case Ending::stalled:
-        throw core::InternalError(stall_text(disturbance) + nodes.describe());
+        throw StandstillError(stall_text(disturbance) + nodes.describe());
       case Ending::interrupted:
         return RunEnd::interrupted;
       default:

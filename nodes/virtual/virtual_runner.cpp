@@ -8,6 +8,7 @@
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
 #include "nodes/processors.h"
+#include "nodes/standstill.h"
 #include "nodes/virtual/event_queue.h"
 #include "nodes/virtual/links.h"
 #include "nodes/virtual/virtual_processor.h"
@@ -289,7 +290,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   void finish() {
     const auto& all = computer.processors;
     if (!all_finished(all)) {
-      throw core::InternalError("nothing is under way, no node has work, and the run is unfinished:" + describe(all));
+      throw StandstillError("nothing is under way, no node has work, and the run is unfinished:" + describe(all));
     }
     expect_nothing_lost();
     result.total_ns = events.now_ns();

@@ -32,6 +32,15 @@ std::uint32_t first_word_of(std::span<const std::byte> payload) {
   return word;
 }
 
+std::uint16_t charged_between(const Charges& before, const Charges& after) {
+  static_assert(charge_count <= 16);
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < charge_count; ++i) {
+    bits |= after.count[i] != before.count[i] ? 1U << i : 0U;
+  }
+  return static_cast<std::uint16_t>(bits);
+}
+
 /// What begins first, and of what begins at one time what was called first.
 bool is_before(const TraceSpan& a, const TraceSpan& b) {
   return std::tuple(a.begin_ns, a.call, a.activity) < std::tuple(b.begin_ns, b.call, b.activity);
@@ -229,6 +238,7 @@ TraceSpan TraceRecorder::cut(Log& log, const Span& span) const {
   made.call = span.call;
   made.activity = span.activity;
   made.doing = doing_between(span.before, span.after);
+  made.charged = charged_between(span.before, span.after);
   made.packet = span.packet;
   made.is_chosen = made.is_chosen || choice_.every == 1;
   return made;

@@ -49,8 +49,9 @@ struct TraceSpan {
   Activity activity = Activity::work;
   Doing doing = Doing::other;
   PacketKind packet = 0;
-  bool is_cut = false;     ///< it began before the window, or ends after it
-  bool is_chosen = false;  ///< for its pixel, or because all are
+  std::uint16_t charged = 0;  ///< a bit for each Charge that it was charged
+  bool is_cut = false;        ///< it began before the window, or ends after it
+  bool is_chosen = false;     ///< for its pixel, or because all are
 };
 
 /// A packet from node to node, both of whose ends were recorded.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/expect.h"
+#include "svm/task_program.h"
 #include "svm/watch/miss_curve.h"
 #include "svm/watch/policy_misses.h"
 #include "tests/svm/page_rank.h"
@@ -168,15 +169,15 @@ TEST_CASE("what is out of range is refused with what would do, and a memory that
 
 TEST_CASE("a plan's memory is what a node takes, to the byte") {
   const RankPages pages(graph(), rank_page_bytes);
-  using Ranks = TaskProgram<Pager, RankTask>;
-  const TaskPlan plan(small_computer(3), pages.bytes().size(), rank_vertices, Ranks::sizes());
+  const TaskKind<Pager> ranks = task_kind<Pager, RankTask>();
+  const TaskPlan plan(small_computer(3), pages.bytes().size(), rank_vertices, ranks.sizes);
   for (std::uint32_t index = 0; index < 3; ++index) {
     nodes::MemoryPlan without_mailbox = plan.node_memory(index);
     without_mailbox[nodes::Category::mailbox] = 0;
     tests::Post post;
     nodes::LocalMemory memory(without_mailbox);
     nodes::Node node(nodes::NodeId{index}, 4, memory, post);
-    const Ranks program(node, plan, pages.bytes());
+    const TaskProgram<Pager> program(node, plan, pages.bytes(), ranks);
     CHECK(memory.used().total() == without_mailbox.total());
   }
 }

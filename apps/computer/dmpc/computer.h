@@ -73,9 +73,9 @@ struct MemoryNeed {
 
 /// What a program takes of the computer. Mailboxes, credits and the plan of every node's memory are derived from it.
 struct Needs {
-  std::vector<PacketNeed> packets;
-  std::vector<OperationNeed> operations;
-  std::vector<MemoryNeed> memory;  ///< of each node
+  std::vector<PacketNeed> packets = {};
+  std::vector<OperationNeed> operations = {};
+  std::vector<MemoryNeed> memory = {};  ///< of each node
 };
 
 /// A received packet: valid only during the call of Program::receive().

@@ -148,7 +148,7 @@ class ChromeWriter {
     begin("X", node);
     add("ts", thousandths(span.begin_ns));
     add("dur", thousandths(span.end_ns - span.begin_ns));
-    add("name", quoted(view_.text_of(name_of(span))));
+    add("name", json_of(span_texts_[view_.text_number(span)]));
     add("cat", quoted("node"));
     add("args", "{" + arguments_of(span) + "}");
     end();
@@ -200,6 +200,7 @@ class ChromeWriter {
   }
 
   const TraceView& view_;
+  const std::vector<const char*> span_texts_ = view_.span_texts();
   std::ostream& output_;
   std::vector<PageWait> waits_;
   bool is_first_ = true;

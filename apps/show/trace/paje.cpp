@@ -84,8 +84,11 @@ class PajeWriter {
 
   void define_types() {
     output_ << "0 M 0 \"computer, " << view_.clock << "\"\n0 N M \"node\"\n1 S N \"activity\"\n3 L M N N \"message\"\n";
-    for (std::size_t name = 0; name < span_names.size(); ++name) {
-      output_ << "4 s" << name << " S \"" << view_.text_of(static_cast<SpanName>(name)) << "\" \"" << colors[name] << "\"\n";
+    const std::vector<const char*> texts = view_.span_texts();
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      if (texts[i] != nullptr) {
+        output_ << "4 s" << i << " S \"" << texts[i] << "\" \"" << colors[i % std::size(colors)] << "\"\n";
+      }
     }
     for (std::size_t kind = 0; kind < view_.kind_names.size(); ++kind) {
       output_ << "4 k" << kind << " L \"" << view_.kind_names[kind] << "\" \"0.5 0.5 0.5\"\n";
@@ -138,7 +141,7 @@ class PajeWriter {
     const bool begins = item.moment == TraceMoment::span_begin;
     output_ << (begins ? "7 " : "8 ") << decimal_seconds(item.time_ns) << " S " << alias(item.node);
     if (begins) {
-      output_ << " s" << static_cast<std::size_t>(name_of(span));
+      output_ << " s" << view_.text_number(span);
     }
     output_ << '\n';
   }

@@ -38,6 +38,22 @@ SpanName name_of(const nodes::TraceSpan& span) {
   }
 }
 
+std::vector<const char*> TraceView::span_texts() const {
+  std::vector<const char*> texts(activity_names.begin(), activity_names.end());
+  texts.insert(texts.end(), operation_names.begin(), operation_names.end());
+  return texts;
+}
+
+std::size_t TraceView::text_number(const nodes::TraceSpan& span) const {
+  const bool is_call = span.activity != Activity::send && span.activity != Activity::take_over;
+  for (std::size_t i = 0; is_call && i < operation_names.size(); ++i) {
+    if (operation_names[i] != nullptr && (span.charged >> i & 1U) != 0) {
+      return activity_names.size() + i;
+    }
+  }
+  return static_cast<std::size_t>(name_of(span));
+}
+
 std::vector<PageWait> page_waits(const TraceView& view) {
   std::vector<PageWait> waits;
   if (!view.has_pages) {

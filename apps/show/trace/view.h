@@ -29,8 +29,13 @@ struct TraceView {
   std::vector<std::pair<std::string, std::string>> remarks;
   /// By SpanName, where a program calls its doings otherwise than a renderer.
   std::span<const char* const> activity_names = span_names;
+  /// By Charge, of a program that has operations of its own; nullptr: it has not this one.
+  std::span<const char* const> operation_names = {};
 
-  const char* text_of(SpanName name) const { return activity_names[static_cast<std::size_t>(name)]; }
+  /// All that a span may be called: by SpanName, then by Charge.
+  std::vector<const char*> span_texts() const;
+  /// Which of them: of what does operations of the program's own the first of these.
+  std::size_t text_number(const nodes::TraceSpan& span) const;
 };
 
 /// "node 3", or "host" for the last.

@@ -2,13 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <iostream>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "apps/computer/dmpc/computer.h"
+#include "tests/apps/computer/ran.h"
 
 namespace dmpc::tests {
 
@@ -106,25 +105,10 @@ inline Application<Asker> asker(std::uint32_t questions, Fault fault = Fault::no
               }};
 }
 
-struct Ran {
-  int status = 0;
-  std::string output, errors;
-};
-
 /// As if the words were typed behind the program's name.
 template <class P>
 Ran run_with(const Application<P>& application, const std::vector<std::string>& words) {
-  std::vector<const char*> all = {"/somewhere/asker"};
-  for (const std::string& word : words) {
-    all.push_back(word.c_str());
-  }
-  std::ostringstream output, errors;
-  std::streambuf* const out = std::cout.rdbuf(output.rdbuf());
-  std::streambuf* const err = std::cerr.rdbuf(errors.rdbuf());
-  const int status = run(static_cast<int>(all.size()), all.data(), application);
-  std::cout.rdbuf(out);
-  std::cerr.rdbuf(err);
-  return {status, output.str(), errors.str()};
+  return ran("/somewhere/asker", words, [&](int count, const char* const* all) { return run(count, all, application); });
 }
 
 }  // namespace dmpc::tests

@@ -1,16 +1,31 @@
 // The examples as who has installed dmpc builds and runs them, with what their heads say of them.
 #include <doctest/doctest.h>
 
+#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace dmpc::tests {
 
 namespace {
 
+using Words = std::vector<std::string>;
+
 bool has(const Said& said, const std::string& part) { return said.output.find(part) != std::string::npos; }
+
+/// What dmpc itself says of the picture that image_parallel renders.
+std::string film_of_rings(const std::filesystem::path& folder) {
+  const std::string stats = folder / "rings.json";
+  REQUIRE(
+      run({DMPC_PROGRAM, "render", "rings-3-t1", "--resolution=64x64", "--stats=" + stats, "-o", folder / "rings.exr"}).status ==
+      0);
+  return nlohmann::json::parse(file_text(stats))["film_hash"];
+}
 
 }  // namespace
 
@@ -38,9 +53,40 @@ TEST_CASE("the examples are built from an installed prefix with all warnings, an
   CHECK(has(sorted("1", "65536"), "sorted; the fullest node has 100 % of its share\n1 node of gigabit: 4.46 ms"));
   CHECK(has(sorted("16", "4096"), "16 nodes of gigabit: 1.06 ms"));
   CHECK(has(sorted("64", "1024"), "64 nodes of gigabit: 2.16 ms"));
+  const auto ranked = [&](const std::string& cache_pages, const std::string& replacement = "lru") {
+    return run({build + "/page_rank", "--runner=virtual", "--machine=hdr", "--cache-pages=" + cache_pages,
+                "--replacement=" + replacement});
+  };
+  CHECK(has(ranked("16"), "as in one memory\n8 nodes of hdr: 66.1 ms"));
+  CHECK(has(ranked("16"), "31.0 % of them faults"));
+  CHECK(has(ranked("64"), "8 nodes of hdr: 24.5 ms"));
+  CHECK(has(ranked("64"), "11.6 % of them faults"));
+  CHECK(has(ranked("128"), "1.2 % of them faults"));
+  CHECK(has(ranked("128", "fifo"), "2.9 % of them faults"));
+  CHECK(has(ranked("256"), "8 nodes of hdr: 2.54 ms"));
+  CHECK(has(ranked("256"), "0.6 % of them faults"));
+  const auto passed = [&](const Words& words) {
+    Words all = {build + "/passing_ring", "--runner=virtual", "--machine=hdr", "--nodes=16"};
+    all.insert(all.end(), words.begin(), words.end());
+    return run(all);
+  };
+  CHECK(has(passed({}), "256 items have come\n16 nodes of hdr: 436 us"));
+  CHECK(has(passed({"--places=2"}), "16 nodes of hdr: 235 us"));
+  CHECK(passed({"--lanes=1", "--places=2"}).errors.find("in a circle: node 0 waits for node 1, that for") != std::string::npos);
+  const auto rendered = [&](const std::string& kept) {
+    return run({build + "/image_parallel", "--runner=virtual", "--machine=hdr", "--kept=" + kept});
+  };
+  const std::string film = "film " + film_of_rings(folder.path());
+  CHECK(has(rendered("4"), film + "; 113668 pages asked for\n8 nodes of hdr: 61.1 ms"));
+  CHECK(has(rendered("64"), film + "; 31789 pages asked for\n8 nodes of hdr: 19.0 ms"));
+  CHECK(has(rendered("256"), film + "; 6066 pages asked for\n8 nodes of hdr: 5.03 ms"));
   for (int seed = 1; seed <= 4; ++seed) {
     INFO("seed ", seed);
     CHECK(has(run({build + "/ring_product", "--size=64", "--chaos=" + std::to_string(seed)}), "as expected"));
+    CHECK(has(run({build + "/page_rank", "--vertices=2000", "--cache-pages=2", "--chaos=" + std::to_string(seed)}),
+              "as in one memory"));
+    CHECK(has(run({build + "/passing_ring", "--chaos=" + std::to_string(seed)}), "128 items have come"));
+    CHECK(has(run({build + "/image_parallel", "--nodes=3", "--chaos=" + std::to_string(seed)}), film));
     CHECK(has(run({build + "/sample_sort", "--keys=1000", "--chaos=" + std::to_string(seed)}), "8000 keys, sorted"));
   }
 }

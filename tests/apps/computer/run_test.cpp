@@ -15,7 +15,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-bool says(const Ran& ran, const std::string& part) { return ran.errors.find(part) != std::string::npos; }
+bool says(const Ran& ran, const std::string& part) { return ran.complains(part); }
 
 nlohmann::json stats_of(const Application<Asker>& application, Words words) {
   const TemporaryFolder folder;
@@ -69,11 +69,15 @@ TEST_CASE("what a program does that it has not declared ends the run, and is sai
   }
 }
 
-TEST_CASE("nodes that stand still are found out, with what each says of itself") {
+TEST_CASE("nodes that stand still are found out, with what each says of itself, who waits for whom, and in which circle") {
   for (const std::string runner : {"threads", "virtual"}) {
-    const Ran ran = run_with(asker(10, Fault::answers_nothing, 3), {"--nodes=2", "--runner=" + runner});
+    const Ran ran = run_with(asker(10, Fault::answers_nothing, 3), {"--nodes=3", "--runner=" + runner});
     CHECK(ran.status == 3);
-    CHECK_MESSAGE(count(ran.errors, "3 asked") == 2, ran.errors);
+    for (const std::string line : {"node 0: 3 asked; waits for 3 'square' of node 1; owes 3 'square' to node 2\n",
+                                   "node 1: 3 asked; waits for 3 'square' of node 2; owes 3 'square' to node 0\n",
+                                   "in a circle: node 0 waits for node 1, that for node 2, that for node 0\n"}) {
+      CHECK_MESSAGE(says(ran, line), ran.errors);
+    }
   }
 }
 
@@ -113,13 +117,14 @@ TEST_CASE("counters add up: by packet, by node and by piece of memory") {
   CHECK(received == 60);
 }
 
-TEST_CASE("a trace calls packets as the program does, and its doings computing") {
+TEST_CASE("a trace calls packets and operations as the program does, and what has none computing") {
   const TemporaryFolder folder;
   for (const std::string name : {"trace.json", "trace.paje"}) {
     const std::string file = folder / name;
     REQUIRE(run_with(asker(10), {"--nodes=2", "--runner=virtual", "--trace=" + file}).status == 0);
     const std::string text = file_text(file);
     CHECK(text.find("question") != std::string::npos);
+    CHECK(count(text, "multiplication") >= (name == "trace.json" ? 20 : 1));
     CHECK(text.find("compute") != std::string::npos);
     CHECK(text.find("shade") == std::string::npos);
   }

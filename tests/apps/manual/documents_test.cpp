@@ -29,6 +29,16 @@ Texts words_in(const std::string& text) {
   return words;
 }
 
+/// With those that follow it, as far as each ends with a backslash.
+std::string whole_line(const Texts& lines, std::size_t index) {
+  std::string line = lines[index];
+  while (line.ends_with('\\') && ++index < lines.size()) {
+    line.back() = ' ';
+    line += lines[index];
+  }
+  return line;
+}
+
 /// The words behind "dmpc" or "apps/dmpc" of a line that is a command; nothing of any other.
 Texts typed_words(const std::string& line) {
   for (const std::string beginning : {"    dmpc ", "    apps/dmpc "}) {
@@ -66,9 +76,9 @@ Texts all_options() {
 
 /// Those of our scripts, of CMake and of what else documents have the reader type.
 bool is_foreign(const std::string& option) {
-  static const Texts foreign = {"--preset", "--prefix", "--install", "--component", "--build", "--test-case",
-                                "--format", "--tidy",   "--only",    "--seeds",     "--calls", "--minutes",
-                                "--replay", "--shrink", "--keep",    "--clang",     "--mpi"};
+  static const Texts foreign = {"--preset", "--prefix", "--install", "--component", "--build",   "--test-case", "--format",
+                                "--tidy",   "--only",   "--seeds",   "--calls",     "--minutes", "--replay",    "--shrink",
+                                "--keep",   "--clang",  "--mpi",     "--lanes",     "--places"};
   return std::find(foreign.begin(), foreign.end(), option) != foreign.end();
 }
 
@@ -136,7 +146,7 @@ std::string fault_of(const std::string& line) {
 TEST_CASE("every command and option in a document is one that dmpc takes") {
   for (const tests::Document& document : tests::all_documents(DMPC_SOURCE_DIR)) {
     for (std::size_t i = 0; i < document.lines.size(); ++i) {
-      const std::string fault = fault_of(document.lines[i]);
+      const std::string fault = fault_of(whole_line(document.lines, i));
       CHECK_MESSAGE(fault.empty(), document.path.string(), ":", i + 1, ": ", fault);
     }
   }
@@ -145,6 +155,8 @@ TEST_CASE("every command and option in a document is one that dmpc takes") {
 TEST_CASE("a command or option in a document that dmpc does not take is found") {
   CHECK(fault_of("    dmpc render teapot-12 --nodes=8 -o teapot.png").empty());
   CHECK(fault_of("    dmpc paint teapot-12") != "");
+  CHECK(whole_line({"    dmpc info a \\", "        --nodes=8 \\", "    --bogus", "x"}, 0) ==
+        "    dmpc info a          --nodes=8      --bogus");
   CHECK(fault_of("    dmpc render teapot-12 --colour=red -o teapot.png") == "no command has --colour");
   CHECK(fault_of("    dmpc study traffic teapot-12 --resume") != "");
   CHECK(fault_of("With `--bogus` nothing is as it was.") == "no command has --bogus");

@@ -1,0 +1,92 @@
+#include "apps/computer/paged_record.h"
+
+#include <algorithm>
+#include <array>
+
+#include "apps/computer/record.h"
+#include "apps/line/number_text.h"
+#include "apps/show/trace/view.h"
+#include "core/base/expect.h"
+#include "core/base/sampling.h"
+#include "svm/packets.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// What a node does without an operation of its tasks.
+constexpr std::array<const char*, span_names.size()> task_activity_names = {
+    "compute", "compute", "install page", "compute", "compute", "compute", "serve page", "send packets", "take packet"};
+
+void add_traffic(nodes::Traffic& sum, const nodes::Traffic& more) {
+  sum.packets += more.packets;
+  sum.bytes += more.bytes;
+}
+
+void add_charges(nodes::Charges& sum, const nodes::Charges& more) {
+  for (std::size_t i = 0; i < nodes::charge_count; ++i) {
+    sum.count[i] += more.count[i];
+  }
+}
+
+}  // namespace
+
+void PagedRecord::add(const svm::TaskFigures& figures, const svm::TaskPlan& plan, std::uint32_t tasks) {
+  nodes.resize(plan.node_count());
+  for (std::uint32_t index = 0; index < plan.node_count(); ++index) {
+    PagedNode& node = nodes[index];
+    node.pages += figures.pages[index];
+    add_charges(node.charges, figures.charges[index]);
+    add_traffic(node.requests, figures.counters[index].sent[number_of(svm::Kind::page_request)]);
+    add_traffic(node.replies, figures.counters[index].sent[number_of(svm::Kind::page_reply)]);
+    node.computing_ns += figures.virtual_time ? figures.virtual_time->nodes[index].computing_ns : 0;
+    node.memory_bytes = std::max(node.memory_bytes, plan.node_memory(index).total());
+  }
+  if (figures.virtual_time) {
+    virtual_ns = virtual_ns.value_or(0) + figures.virtual_time->total_ns;
+    run_hash = figures.virtual_time->run_hash(run_hash.value_or(0));
+  }
+  ++run_count;
+  task_count += tasks;
+  page_count = plan.pages().page_count;
+  cache_pages = plan.pages().cache.frame_count;
+}
+
+PagedNode PagedRecord::sum() const {
+  PagedNode sum;
+  for (const PagedNode& node : nodes) {
+    sum.pages += node.pages;
+    add_charges(sum.charges, node.charges);
+    add_traffic(sum.requests, node.requests);
+    add_traffic(sum.replies, node.replies);
+    sum.computing_ns += node.computing_ns;
+    sum.memory_bytes = std::max(sum.memory_bytes, node.memory_bytes);
+  }
+  return sum;
+}
+
+std::string summary(const PagedRecord& record) {
+  const PagedNode sum = record.sum();
+  const double missed = percent_of(static_cast<double>(sum.pages.faults), static_cast<double>(sum.pages.references));
+  return computer_text(record.options.program) + ": " +
+         (record.virtual_ns ? virtual_time_text(*record.virtual_ns, sum.computing_ns, record.options.program.computer.node_count)
+                            : seconds_text(record.wall_seconds)) +
+         "; " + counted(sum.pages.references, "look-up") + ", " + percent_text(missed) + " of them faults; " +
+         counted(record.page_count, "page") + ", " + grouped(record.cache_pages) + " in a cache; " +
+         bytes_text(sum.memory_bytes) + " of memory a node\n";
+}
+
+void write_trace(const PagedRecord& record, std::ostream& output) {
+  core::expect(record.trace.has_value(), "a trace that is written was recorded");
+  std::array<const char*, nodes::charge_count> operation_names{};
+  for (Index i = 0; i < record.operations.size(); ++i) {
+    operation_names[static_cast<std::size_t>(charge_of(i))] = record.operations[i].name.c_str();
+  }
+  write_view({.trace = *record.trace,
+              .kind_names = svm::kind_names,
+              .has_pages = true,
+              .activity_names = task_activity_names,
+              .operation_names = operation_names},
+             record.name, record.options.program, output);
+}
+
+}  // namespace dmpc::apps

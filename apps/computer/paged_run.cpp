@@ -1,0 +1,207 @@
+// Runs a program of tasks over pages: from its options to what came of it.
+#include <algorithm>
+#include <cstring>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/computer/dmpc/pages.h"
+#include "apps/computer/paged_options.h"
+#include "apps/computer/paged_record.h"
+#include "apps/computer/program_main.h"
+#include "apps/line/number_text.h"
+#include "apps/run/option_words.h"
+#include "apps/show/references/reference_file.h"
+#include "apps/system/attempts.h"
+#include "apps/system/memory_room.h"
+#include "apps/system/output_set.h"
+#include "apps/system/stopwatch.h"
+#include "core/base/units.h"
+#include "nodes/watch/trace.h"
+#include "svm/run_tasks.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// What a task can name.
+struct PagesBounds {
+  std::size_t data_bytes = 0;  ///< to the end of the last page
+  std::size_t operation_count = 0;
+};
+
+/// A node's pager as a task sees it, for the time of a step.
+template <class Records>
+class PagesOf final : public Pages {
+ public:
+  PagesOf(Records& records, nodes::Charges& charges, const PagesBounds& bounds)
+      : records_(records), charges_(charges), bounds_(bounds) {}
+
+  const std::byte* find(std::uint64_t offset) override {
+    if (offset % find_alignment != 0 || offset >= bounds_.data_bytes) {
+      throw ProgramError("the place " + std::to_string(offset) + " is looked up: expected a multiple of 8 within " +
+                         std::to_string(bounds_.data_bytes) + " bytes");
+    }
+    const core::Address address{static_cast<std::uint32_t>(offset / core::record_alignment)};
+    const std::byte* const place = records_.find(address);
+    absent_ = place == nullptr ? address : absent_;
+    return place;
+  }
+  void charge(Index operation, std::uint64_t count) override {
+    if (operation >= bounds_.operation_count) {
+      throw ProgramError("operation " + std::to_string(operation) + " is charged: " + std::to_string(bounds_.operation_count) +
+                         " are declared");
+    }
+    charges_[charge_of(operation)] += count;
+  }
+  /// The last place that was not here.
+  core::Address absent() const {
+    if (absent_ == core::no_address) {
+      throw ProgramError("a task says that a page is absent, but all that it looked up was there");
+    }
+    return absent_;
+  }
+
+ private:
+  Records& records_;
+  nodes::Charges& charges_;
+  const PagesBounds& bounds_;
+  core::Address absent_ = core::no_address;
+};
+static_assert(find_alignment == core::record_alignment);
+
+core::TaskState state_of(Step step) {
+  return step == Step::finished ? core::TaskState::finished
+         : step == Step::more   ? core::TaskState::more
+                                : core::TaskState::absent;
+}
+
+template <class Records>
+svm::TaskKind<Records> kind_of(const AnyTask& task, const PagesBounds& bounds) {
+  return {.sizes = {.task_bytes = core::round_up(task.task_bytes, std::size_t{64}), .result_bytes = task.result_bytes},
+          .start = task.make,
+          .run =
+              [&task, bounds](std::byte* place, Records& records, nodes::Charges& charges, core::Address& absent) {
+                PagesOf<Records> pages(records, charges, bounds);
+                const Step step = task.run(place, pages);
+                absent = step == Step::absent ? pages.absent() : absent;
+                return state_of(step);
+              },
+          .put_result = task.put_result};
+}
+
+class AskedComputer final : public PagedComputer {
+ public:
+  AskedComputer(const PagedOptions& options, PagedRecord& record, const Interrupt& interrupt)
+      : options_(options), record_(record), interrupt_(interrupt) {}
+
+  std::uint32_t node_count() const override { return options_.tasks.computer.node_count; }
+  std::size_t page_bytes() const override { return options_.tasks.page_size_bytes; }
+
+ private:
+  void run_any(std::span<const std::byte> data, std::uint32_t count, const AnyTask& task, std::byte* results) override {
+    const std::vector<std::byte> whole_pages = padded(data);
+    const PagesBounds bounds = {whole_pages.size(), record_.operations.size()};
+    const svm::TaskKinds kinds = {kind_of<svm::Pager>(task, bounds), kind_of<svm::RecordingPager>(task, bounds)};
+    with_options_named([&] { run_kinds(kinds, whole_pages, count, results); });
+  }
+
+  std::vector<std::byte> padded(std::span<const std::byte> data) const {
+    std::vector<std::byte> whole_pages(data.begin(), data.end());
+    whole_pages.resize(core::round_up(std::max<std::size_t>(data.size(), 1), page_bytes()));
+    return whole_pages;
+  }
+
+  void run_kinds(const svm::TaskKinds& kinds, std::span<const std::byte> data, std::uint32_t count, std::byte* results) {
+    const svm::TaskPlan plan(options_.tasks, data.size(), count, kinds.plain.sizes);
+    check_room(plan);
+    std::optional<nodes::TraceRecorder> recorder;
+    if (options_.program.trace) {
+      recorder.emplace(plan.node_count() + 1, nodes::TraceChoice{});
+    }
+    record_.references.assign(options_.references ? plan.node_count() : 0, {});
+    const svm::TaskWatching watching = {.observer = recorder ? &*recorder : nullptr,
+                                        .reference_logs = options_.references ? &record_.references : nullptr};
+    const auto take = [&](std::uint32_t first, std::span<const std::byte> bytes) {
+      if (!bytes.empty()) {
+        std::memcpy(results + first * kinds.plain.sizes.result_bytes, bytes.data(), bytes.size());
+      }
+    };
+    Stopwatch stopwatch;
+    const svm::TaskFigures figures =
+        svm::run_tasks_of_kind(kinds, data, count, options_.tasks, watching, interrupt_.token(), take);
+    if (figures.end == nodes::RunEnd::interrupted) {
+      throw Interrupted{};
+    }
+    record_.wall_seconds += stopwatch.lap();
+    record_.add(figures, plan, count);
+    if (recorder) {
+      record_.trace = recorder->take();
+    }
+  }
+
+  static void check_room(const svm::TaskPlan& plan) {
+    std::uint64_t bytes = plan.host_memory().total();
+    for (std::uint32_t node = 0; node < plan.node_count(); ++node) {
+      bytes += plan.node_memory(node).total();
+    }
+    check_memory_room(bytes, counted(plan.node_count(), "node"));
+  }
+
+  const PagedOptions& options_;
+  PagedRecord& record_;
+  const Interrupt& interrupt_;
+};
+
+OutputSet<PagedRecord> outputs_of(const PagedOptions& options) {
+  OutputSet<PagedRecord> outputs;
+  if (options.program.stats) {
+    outputs.add("--stats", *options.program.stats, check_output_path,
+                [](const PagedRecord& record, std::ostream& stream) { stream << stats_json(record); });
+  }
+  if (options.references) {
+    outputs.add("--references", *options.references, check_output_path, [](const PagedRecord& record, std::ostream& stream) {
+      write_references(stream, record.references, record.options.tasks.page_size_bytes);
+    });
+  }
+  if (options.program.trace) {
+    outputs.add("--trace", *options.program.trace, check_output_path,
+                [](const PagedRecord& record, std::ostream& stream) { write_trace(record, stream); });
+  }
+  return outputs;
+}
+
+int act_on_pages(const std::string& name, PagedOptions& options, const PagedApplication& application, Interrupt& interrupt) {
+  const OutputSet<PagedRecord> outputs = outputs_of(options);
+  check_outputs(inputs_of(options.program), outputs.names());
+  choose_machine(options, application.operations);
+  options.tasks.computer = options.program.computer;
+  PagedRecord record{.name = name, .options = options, .operations = application.operations};
+  AskedComputer computer(options, record, interrupt);
+  record.result = application.act(computer);
+  if (record.run_count == 0) {
+    throw ProgramError("no tasks were run");
+  }
+  Attempts attempts(std::cerr);
+  outputs.write(record, attempts);
+  attempts.make([&] { print_result(record.result, summary(record), options.program); });
+  return attempts.status();
+}
+
+}  // namespace
+}  // namespace dmpc::apps
+
+namespace dmpc {
+
+int run_tasks(int count, const char* const* words, const PagedApplication& application) {
+  apps::PagedOptions options;
+  return apps::run_main(
+      count, words,
+      {.description = application.description,
+       .declare = [&](apps::OptionSet set) { apps::add_options(set, options, application.options); },
+       .act = [&](const std::string& name,
+                  apps::Interrupt& interrupt) { return apps::act_on_pages(name, options, application, interrupt); }});
+}
+
+}  // namespace dmpc

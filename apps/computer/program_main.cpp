@@ -1,0 +1,79 @@
+#include "apps/computer/program_main.h"
+
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <new>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "apps/line/exit_status.h"
+#include "apps/machine/machines.h"
+#include "apps/system/memory_room.h"
+#include "apps/system/output_set.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// What to do, from the line; nothing if help was printed.
+int read_and_act(const std::string& name, const std::vector<std::string>& words, const ProgramMain& program,
+                 Interrupt& interrupt) {
+  CommandLine line(program.description, DMPC_VERSION, "", name);
+  program.declare(line.own_options());
+  const auto read = line.parse(words);
+  if (const HelpText* const help = std::get_if<HelpText>(&read)) {
+    std::cout << help->text;
+    finish_output(std::cout, "the help");
+    return 0;
+  }
+  return program.act(name, interrupt);
+}
+
+int complain(const std::string& name, const std::string& message, int status) {
+  std::cerr << name << ": " << message << std::endl;
+  return status;
+}
+
+int status_of(const std::string& name, const std::vector<std::string>& words, const ProgramMain& program) {
+  Interrupt interrupt;
+  try {
+    return read_and_act(name, words, program, interrupt);
+  } catch (const Interrupted&) {
+    return complain(name, std::string("interrupted, ") + interrupt.consequence(), interrupted_status);
+  } catch (const core::RoomError& error) {
+    return complain(name, error.what(), no_room_status);
+  } catch (const core::InputError& error) {
+    return complain(name, error.what(), input_status);
+  } catch (const core::UsageError& error) {
+    return complain(name, error.what(), usage_status);
+  } catch (const dmpc::UsageError& error) {
+    return complain(name, error.what(), usage_status);
+  } catch (const ProgramError& error) {
+    return complain(name, std::string("the program: ") + error.what(), internal_status);
+  } catch (const std::bad_alloc&) {
+    return complain(name, "there is no more memory: ask for fewer nodes", no_room_status);
+  } catch (const std::exception& error) {
+    return complain(name, error.what(), internal_status);
+  }
+}
+
+}  // namespace
+
+int run_main(int count, const char* const* words, const ProgramMain& program) {
+  const std::string name = count > 0 ? std::filesystem::path(words[0]).filename().string() : "program";
+  return status_of(name, {words + (count > 0 ? 1 : 0), words + count}, program);
+}
+
+std::vector<NamedFile> inputs_of(const ProgramOptions& options) {
+  const bool reads_file = options.is_modelled && find_machine_preset(options.machine_name) == nullptr;
+  return reads_file ? std::vector<NamedFile>{{"--machine", options.machine_name}} : std::vector<NamedFile>();
+}
+
+void print_result(const std::string& result, const std::string& summary, const ProgramOptions& options) {
+  std::cout << result << (result.empty() || result.ends_with('\n') ? "" : "\n") << (options.quiet ? "" : summary);
+  finish_output(std::cout, "what the program came to");
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,30 @@
+// From a program's command line to its exit status, whatever it does in between.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "apps/computer/options.h"
+#include "apps/line/command_line.h"
+#include "apps/system/distinct_files.h"
+#include "apps/system/interrupt.h"
+
+namespace dmpc::apps {
+
+struct ProgramMain {
+  std::string description;
+  std::function<void(OptionSet options)> declare;  ///< its options
+  /// What it does once they are read; returns the exit status. `name` is the program's.
+  std::function<int(const std::string& name, Interrupt& interrupt)> act;
+};
+
+/// Call it once, from main().
+int run_main(int count, const char* const* words, const ProgramMain& program);
+
+/// The files that a program reads.
+std::vector<NamedFile> inputs_of(const ProgramOptions& options);
+
+/// Prints what a program came to and, unless asked not to, its closing lines.
+void print_result(const std::string& result, const std::string& summary, const ProgramOptions& options);
+
+}  // namespace dmpc::apps
