@@ -118,10 +118,10 @@ std::byte* HostedNode::allocate_bytes(Index memory, std::size_t bytes) {
     throw ProgramError("memory " + std::to_string(memory) + " is asked for: " + std::to_string(needs.size()) +
                        " pieces are declared");
   }
-  if (bytes > bytes_of<std::byte>(needs[memory].bytes) - used_bytes_[memory]) {
-    throw ProgramError(with_name("the memory", needs[memory].name) + " has " +
-                       std::to_string(needs[memory].bytes - used_bytes_[memory]) + " of " + std::to_string(needs[memory].bytes) +
-                       " bytes left: " + std::to_string(bytes) + " are asked for");
+  const std::size_t declared = bytes_of<std::byte>(needs[memory].bytes), left = declared - used_bytes_[memory];
+  if (bytes > left) {
+    throw ProgramError(with_name("the memory", needs[memory].name) + " has " + std::to_string(left) + " of " +
+                       std::to_string(declared) + " bytes left: " + std::to_string(bytes) + " are asked for");
   }
   if (node_.memory().sealed()) {
     throw ProgramError(with_name("the memory", needs[memory].name) + " is asked for after the start");

@@ -24,8 +24,8 @@ void add_options(OptionSet options, PagedOptions& paged, const std::vector<Numbe
 /// What the computer below calls a program's operation, between those of pages.
 nodes::Charge charge_of(Index operation);
 
-/// Reads the machine that is to be modelled, if one is. Look-ups and installs of pages keep its prices. Throws core::InputError as
-/// load_machine() does, core::UsageError for too many operations.
+/// Reads the machine that is to be modelled, if one is. Look-ups and installs of pages keep its prices. Throws core::InputError
+/// as load_machine() does, core::UsageError for too many operations.
 void choose_machine(PagedOptions& options, const std::vector<OperationNeed>& operations);
 
 }  // namespace dmpc::apps

@@ -183,7 +183,7 @@ int act_on_pages(const std::string& name, PagedOptions& options, const PagedAppl
   if (record.run_count == 0) {
     throw ProgramError("no tasks were run");
   }
-  Attempts attempts(std::cerr);
+  Attempts attempts(std::cerr, name);
   outputs.write(record, attempts);
   attempts.make([&] { print_result(record.result, summary(record), options.program); });
   return attempts.status();

@@ -19,6 +19,10 @@ using nodes::Category;
 static_assert(small_bytes_max == nodes::small_payload_bytes && packets_max == nodes::packet_kind_count &&
               operations_max == nodes::charge_count);
 
+/// No computer has more for a node; sums of all that a run needs stay below 2^64.
+constexpr std::size_t packet_bytes_max = std::size_t{1} << 30, memory_bytes_max = std::size_t{1} << 40,
+                      node_bytes_max = std::size_t{1} << 44;
+
 std::string quoted(const std::string& name) { return "'" + name + "'"; }
 
 template <class Need>
@@ -48,6 +52,7 @@ ProgramPlan::ProgramPlan(Needs needs, const nodes::ComputerRequest& computer)
       requests_(needs_.packets.size()),
       mailboxes_(node_count_) {
   check_names();
+  check_sizes();
   match_answers();
   count_places();
   check_memory(computer);
@@ -63,6 +68,21 @@ void ProgramPlan::check_names() const {
     if (!(operation.nanoseconds >= 0 && operation.nanoseconds <= 1e6)) {
       throw core::UsageError("the operation " + quoted(operation.name) + " takes " + shortest(operation.nanoseconds) +
                              " ns: expected 0 to 1,000,000");
+    }
+  }
+}
+
+void ProgramPlan::check_sizes() const {
+  for (const PacketNeed& packet : needs_.packets) {
+    if (packet.bytes_max > packet_bytes_max) {
+      throw core::UsageError("the packet " + quoted(packet.name) + " has up to " + std::to_string(packet.bytes_max) +
+                             " bytes: expected at most " + std::to_string(packet_bytes_max));
+    }
+  }
+  for (const MemoryNeed& memory : needs_.memory) {
+    if (memory.bytes > memory_bytes_max) {
+      throw core::UsageError("the memory " + quoted(memory.name) + " has " + std::to_string(memory.bytes) +
+                             " bytes: expected at most " + std::to_string(memory_bytes_max));
     }
   }
 }
@@ -163,6 +183,9 @@ void ProgramPlan::check_memory(const nodes::ComputerRequest& computer) const {
   std::size_t most = 0;
   for (std::uint32_t node = 0; node < node_count_; ++node) {
     most = std::max(most, memory(node).total());
+  }
+  if (most > node_bytes_max) {
+    throw core::RoomError("a node takes " + std::to_string(most) + " bytes: ask for other nodes, or declare less");
   }
   if (computer.node_memory_bytes && most > *computer.node_memory_bytes) {
     throw core::RoomError("--node-memory=" + std::to_string(*computer.node_memory_bytes) + ": a node takes " +

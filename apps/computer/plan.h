@@ -40,6 +40,7 @@ class ProgramPlan {
 
  private:
   void check_names() const;
+  void check_sizes() const;
   void match_answers();
   void count_places();
   std::uint32_t places(std::uint32_t source, std::uint32_t target, Index packet) const;

@@ -56,6 +56,8 @@ int status_of(const std::string& name, const std::vector<std::string>& words, co
     return complain(name, "there is no more memory: ask for fewer nodes", no_room_status);
   } catch (const std::exception& error) {
     return complain(name, error.what(), internal_status);
+  } catch (...) {
+    return complain(name, "the program: what it threw is no std::exception", internal_status);
   }
 }
 

@@ -98,6 +98,9 @@ bool run_to_end(nodes::Runner& runner, const ProgramPlan& plan, const Interrupt&
 int run_program(const std::string& name, ProgramOptions& options, const AnyApplication& application, Interrupt& interrupt) {
   const OutputSet<ProgramRecord> outputs = outputs_of(options);
   check_outputs(inputs_of(options), outputs.names());
+  if (!application.needs) {
+    throw ProgramError("it declares no needs: Application::needs is a function of the number of nodes");
+  }
   const ProgramPlan plan(application.needs(options.computer.node_count), options.computer);
   choose_machine(options, plan.needs().operations);
   std::optional<nodes::TraceRecorder> recorder;
@@ -116,7 +119,7 @@ int run_program(const std::string& name, ProgramOptions& options, const AnyAppli
   if (recorder) {
     record.trace = recorder->take();
   }
-  Attempts attempts(std::cerr);
+  Attempts attempts(std::cerr, name);
   outputs.write(record, attempts);
   attempts.make([&] { print_result(record.result, summary(record), options); });
   return attempts.status();

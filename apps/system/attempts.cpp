@@ -25,7 +25,7 @@ bool Attempts::make(const std::function<void()>& step) {
 }
 
 void Attempts::say(const std::exception& error, int status) {
-  messages_ << "dmpc: " << error.what() << std::endl;
+  messages_ << name_ << ": " << error.what() << std::endl;
   status_ = status_ == 0 ? status : status_;
 }
 

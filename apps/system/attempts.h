@@ -4,14 +4,16 @@
 #include <exception>
 #include <functional>
 #include <iosfwd>
+#include <string>
+#include <utility>
 
 namespace dmpc::apps {
 
 /// Not thread-safe.
 class Attempts {
  public:
-  /// What fails for bad input, or for want of room, is said on `messages`, which outlives it, a line each.
-  explicit Attempts(std::ostream& messages) : messages_(messages) {}
+  /// What fails for bad input, or for want of room, is said on `messages`, which outlives it, a line each, by the program's name.
+  explicit Attempts(std::ostream& messages, std::string name = "dmpc") : messages_(messages), name_(std::move(name)) {}
 
   /// Calls `step`; whether it came to its end. An Interrupted passes; a broken pipe, of which nobody reads, is not said.
   bool make(const std::function<void()>& step);
@@ -24,6 +26,7 @@ class Attempts {
   void say(const std::exception& error, int status);
 
   std::ostream& messages_;
+  std::string name_;
   int status_ = 0;
   std::exception_ptr unsaid_;
 };

@@ -28,10 +28,11 @@ inline constexpr std::size_t packets_max = 24;
 /// The most operations that a program declares.
 inline constexpr std::size_t operations_max = 12;
 
-/// What `count` values take of a node's memory: for Memory::bytes.
+/// What `count` values take of a node's memory: for MemoryNeed::bytes. More than can be addressed is the most that can.
 template <class T>
 constexpr std::size_t bytes_of(std::size_t count) {
-  return (count * sizeof(T) + 63) / 64 * 64;
+  constexpr std::size_t most = SIZE_MAX / 64 * 64;
+  return count > most / sizeof(T) ? most : (count * sizeof(T) + 63) / 64 * 64;
 }
 
 /// How many packets of a kind `source` may have under way to `target`, of `node_count` nodes. Called before the start, for all

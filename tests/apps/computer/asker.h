@@ -22,8 +22,10 @@ enum class Fault : std::uint8_t {
   names_no_node,
   charges_nothing_declared,
   allocates_too_much,
+  allocates_all_there_could_be,
   allocates_late,
-  takes_for_other
+  takes_for_other,
+  throws_a_number
 };
 
 enum AskerPackets : Index { question, square };
@@ -35,6 +37,9 @@ class Asker final : public Program {
       : node_(node), fault_(fault), questions_(questions), sums_(node.allocate<std::uint64_t>(0, 2)) {
     if (fault == Fault::allocates_too_much) {
       node.allocate<std::byte>(0, 1);
+    }
+    if (fault == Fault::allocates_all_there_could_be) {
+      node.allocate<double>(0, std::size_t{1} << 61);
     }
   }
 
@@ -56,6 +61,9 @@ class Asker final : public Program {
   }
 
   bool work() override {
+    if (fault_ == Fault::throws_a_number) {
+      throw 42;
+    }
     if (fault_ == Fault::allocates_late) {
       node_.allocate<std::byte>(1, 1);
     }
@@ -92,7 +100,7 @@ inline Application<Asker> asker(std::uint32_t questions, Fault fault = Fault::no
             return {
                 .packets = {{.name = "question", .senders = from_previous(may_ask)}, {.name = "square", .answers = "question"}},
                 .operations = {{"multiplication", 100}},
-                .memory = {{"sums", bytes_of<std::uint64_t>(2)}, {"late", 64}}};
+                .memory = {{"sums", sizeof(std::uint64_t) * 2}, {"late", 64}}};
           },
           .make = [questions, fault](Node& node) { return std::make_unique<Asker>(node, questions, fault); },
           .result =

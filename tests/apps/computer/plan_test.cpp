@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "core/base/expect.h"
@@ -77,6 +79,31 @@ TEST_CASE("a node's memory is the sum of its parts, and one that is too small is
   computer.node_memory_bytes = needed - 1;
   CHECK_THROWS_WITH_AS(ProgramPlan(ring_needs(), computer),
                        doctest::Contains(("a node takes " + std::to_string(needed) + " bytes").c_str()), core::RoomError);
+}
+
+TEST_CASE("what is declared beyond the memory of any computer is refused by its name, and no sum of it wraps") {
+  for (const std::size_t bytes : {(std::size_t{1} << 30) + 1, SIZE_MAX - 200, SIZE_MAX}) {
+    Needs needs = ring_needs();
+    needs.packets[0].bytes_max = bytes;
+    check_refused(needs, "the packet 'block' has up to ");
+  }
+  for (const std::size_t bytes : {(std::size_t{1} << 40) + 1, SIZE_MAX - 30, SIZE_MAX}) {
+    Needs needs = ring_needs();
+    needs.memory[1].bytes = bytes;
+    check_refused(needs, "the memory 'more' has ");
+  }
+  Needs needs = ring_needs();
+  needs.packets[0].bytes_max = std::size_t{1} << 30;
+  needs.packets[0].senders = from_each_other(16'000);
+  CHECK_THROWS_AS(ProgramPlan(needs, computer_of(1024)), core::RoomError);
+}
+
+TEST_CASE("bytes of more values than can be addressed are the most that can") {
+  CHECK(bytes_of<double>(0) == 0);
+  CHECK(bytes_of<double>(9) == 128);
+  CHECK(bytes_of<double>(SIZE_MAX / 8) == SIZE_MAX - 63);
+  CHECK(bytes_of<double>(std::size_t{1} << 61) == SIZE_MAX - 63);
+  CHECK(bytes_of<char>(SIZE_MAX) == SIZE_MAX - 63);
 }
 
 TEST_CASE("chaos takes credits that come back, never the last one, and none that does not") {

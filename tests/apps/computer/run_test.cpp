@@ -56,8 +56,10 @@ TEST_CASE("what a program does that it has not declared ends the run, and is sai
       {Fault::names_no_node, "to node 2: there are 2 packets and 2 nodes"},
       {Fault::charges_nothing_declared, "operation 1 is charged: 1 are declared"},
       {Fault::allocates_too_much, "the memory 'sums' has 0 of 64 bytes left: 64 are asked for"},
+      {Fault::allocates_all_there_could_be, "the memory 'sums' has 0 of 64 bytes left: 18446744073709551552 are asked for"},
       {Fault::allocates_late, "the memory 'late' is asked for after the start"},
-      {Fault::takes_for_other, "a packet of 4 bytes is copied to 1 values of 8"}};
+      {Fault::takes_for_other, "a packet of 4 bytes is copied to 1 values of 8"},
+      {Fault::throws_a_number, "what it threw is no std::exception"}};
   for (const auto& [fault, message] : faults) {
     for (const std::string runner : {"threads", "virtual"}) {
       const Ran ran = run_with(asker(10, fault), {"--nodes=2", "--runner=" + runner});
@@ -67,6 +69,14 @@ TEST_CASE("what a program does that it has not declared ends the run, and is sai
       CHECK(ran.output.empty());
     }
   }
+}
+
+TEST_CASE("a program without needs is told to declare them, and its name stands before what it says") {
+  Application<Asker> program = asker(1);
+  program.needs = {};
+  const Ran ran = run_with(program, {"--nodes=2"});
+  CHECK(ran.status == 3);
+  CHECK(says(ran, "asker: the program: it declares no needs"));
 }
 
 TEST_CASE("nodes that stand still are found out, with what each says of itself, who waits for whom, and in which circle") {
