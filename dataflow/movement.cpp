@@ -32,6 +32,7 @@ Movement::Movement(nodes::Node& node, const Plan& plan, const Units& units)
     : node_(&node),
       units_(units),
       version_(node.memory().allocate<std::uint32_t>(Category::page_table, plan.unit_count())),
+      pages_of_(node.memory().allocate<std::uint32_t>(Category::page_table, plan.unit_count())),
       rays_told_(node.memory().allocate<std::uint32_t>(Category::page_table, plan.is_moving() ? plan.node_count() : 0)),
       stale_(node.memory().allocate<std::uint32_t>(Category::page_table, plan.is_moving() ? plan.node_count() : 0)),
       packet_(node.memory().allocate<std::byte>(Category::queues, plan.unit_packet_bytes())) {
@@ -41,7 +42,7 @@ Movement::Movement(nodes::Node& node, const Plan& plan, const Units& units)
 void Movement::add_needs(nodes::MemoryPlan& memory, const Plan& plan) {
   const std::size_t nodes = plan.is_moving() ? plan.node_count() : 0;
   memory[Category::page_table] +=
-      LocalMemory::bytes_for<std::uint32_t>(plan.unit_count()) + 2 * LocalMemory::bytes_for<std::uint32_t>(nodes);
+      2 * LocalMemory::bytes_for<std::uint32_t>(plan.unit_count()) + 2 * LocalMemory::bytes_for<std::uint32_t>(nodes);
   memory[Category::queues] += LocalMemory::bytes_for<std::byte>(plan.unit_packet_bytes());
 }
 
@@ -104,21 +105,36 @@ std::optional<std::uint32_t> Movement::unit_to_give() const {
   return primaries.left_of(unit) <= primaries.left() / 2 ? std::optional(unit) : std::nullopt;
 }
 
-/// A unit is worth its pages if it has as many primary rays.
+/// A walk through its records, once for many questions.
+void Movement::mark(std::uint32_t unit) {
+  if (marked_ != unit) {
+    const UnitPages::Marked marked = units_.pages->mark(*units_.header, units_.regions->region_at(unit));
+    counters_.records_walked += marked.records;
+    pages_of_[unit] = marked.pages;
+    marked_ = unit;
+  }
+}
+
+/// It has as many primary rays as pages, and the asker room for both.
+bool Movement::is_worth_giving(std::uint32_t unit, const UnitAsk& ask) {
+  if (pages_of_[unit] == 0) {
+    mark(unit);
+  }
+  const std::uint32_t pages = pages_of_[unit];
+  return pages > 0 && pages <= ask.free_frames && pages <= units_.primaries->left_of(unit) &&
+         units_.primaries->runs_of(unit) <= ask.free_runs;
+}
+
 void Movement::take_ask(nodes::NodeId asker, const UnitAsk& ask) {
   const std::optional<std::uint32_t> unit = unit_to_give();
-  const UnitPages::Marked marked =
-      unit ? units_.pages->mark(*units_.header, units_.regions->region_at(*unit)) : UnitPages::Marked{};
-  counters_.records_walked += marked.records;
-  const std::uint32_t pages = marked.pages;
-  if (pages == 0 || pages > ask.free_frames || pages > units_.primaries->left_of(*unit) ||
-      units_.primaries->runs_of(*unit) > ask.free_runs) {
+  if (!unit || !is_worth_giving(*unit, ask)) {
     return send_control(*node_, asker, Kind::unit_refusal, UnitRefusal{});
   }
+  mark(*unit);
   hand_over_.give();
   taker_ = asker;
   unit_ = *unit;
-  pages_left_ = pages;
+  pages_left_ = pages_of_[*unit];
   next_frame_ = 0;
   are_primaries_left_ = true;
   send_page();

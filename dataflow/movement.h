@@ -87,6 +87,8 @@ class Movement {
 
   std::optional<nodes::NodeId> partner() const;
   std::optional<std::uint32_t> unit_to_give() const;
+  bool is_worth_giving(std::uint32_t unit, const UnitAsk& ask);
+  void mark(std::uint32_t unit);
   void take_ask(nodes::NodeId asker, const UnitAsk& ask);
   void take_refusal();
   void take_page(const nodes::Packet& packet);
@@ -100,9 +102,11 @@ class Movement {
   Units units_;
   HandOver hand_over_;
   std::span<std::uint32_t> version_;    ///< by unit: how often it had been taken when the owner that is known took it
+  std::span<std::uint32_t> pages_of_;   ///< by unit: its pages, once they were looked for
   std::span<std::uint32_t> rays_told_;  ///< primary rays left, by node
   std::span<std::uint32_t> stale_;      ///< by sending node: a unit to tell of, or none
   std::span<std::byte> packet_;         ///< where a page and its header are put together
+  std::uint32_t marked_ = none;         ///< the unit whose pages are marked
   nodes::NodeId taker_{};               ///< here and below: of the unit that is being given
   std::uint32_t unit_ = none, pages_left_ = 0, next_frame_ = 0;
   bool are_primaries_left_ = false;  ///< to be sent behind the last page
