@@ -21,6 +21,7 @@
 #include "apps/ranks/mpi_library.h"
 #include "apps/system/module.h"
 #include "core/base/expect.h"
+#include "core/base/usual_arithmetic.h"
 #include "nodes/ranks/fabric.h"
 #include "nodes/ranks/nap.h"
 
@@ -174,6 +175,7 @@ std::string version() {
 void start() {
   int given = MPI_THREAD_SINGLE;
   check(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given), "start");
+  core::use_usual_arithmetic();  // it has loaded what it is made of
   check(MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN), "report errors");
   if (given < MPI_THREAD_FUNNELED) {
     throw nodes::LostRank(version() + " allows no threads beside the one that calls it: use one that was built with threads");
