@@ -168,8 +168,12 @@ std::string version() {
   std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> text{};
   int length = 0;
   MPI_Get_library_version(text.data(), &length);
-  const std::string whole(text.data(), static_cast<std::size_t>(length));
-  return whole.substr(0, whole.find_first_of(",\n"));
+  std::string first(text.data(), static_cast<std::size_t>(length));
+  first.erase(std::min(first.find_first_of(",\n"), first.size()));
+  if (const std::size_t word = first.find(" Version:\t"); word != std::string::npos) {  // MPICH has a table of it
+    first.replace(word, std::string(" Version:\t").size(), " ");
+  }
+  return first;
 }
 
 void start() {
