@@ -9,6 +9,7 @@
 #include "apps/foreign/asked_files.h"
 #include "apps/foreign/sandbox.h"
 #include "core/base/expect.h"
+#include "core/base/usual_arithmetic.h"
 
 namespace dmpc::apps {
 namespace {
@@ -19,6 +20,7 @@ constexpr int failed_status = 70;
 
 void get_ready(Line& line) {
   tie_to_parent();
+  core::use_usual_arithmetic();
   ::dup2(STDOUT_FILENO, STDERR_FILENO);  // what libraries say of a file may be what the file has them say
   const std::optional<Message> message = line.receive(false);
   if (!message || message->saying != Saying::limits) {

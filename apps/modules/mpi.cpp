@@ -21,6 +21,7 @@
 #include "apps/ranks/mpi_library.h"
 #include "apps/system/module.h"
 #include "core/base/expect.h"
+#include "core/base/usual_arithmetic.h"
 #include "nodes/ranks/fabric.h"
 #include "nodes/ranks/nap.h"
 
@@ -167,13 +168,18 @@ std::string version() {
   std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> text{};
   int length = 0;
   MPI_Get_library_version(text.data(), &length);
-  const std::string whole(text.data(), static_cast<std::size_t>(length));
-  return whole.substr(0, whole.find_first_of(",\n"));
+  std::string first(text.data(), static_cast<std::size_t>(length));
+  first.erase(std::min(first.find_first_of(",\n"), first.size()));
+  if (const std::size_t word = first.find(" Version:\t"); word != std::string::npos) {  // MPICH has a table of it
+    first.replace(word, std::string(" Version:\t").size(), " ");
+  }
+  return first;
 }
 
 void start() {
   int given = MPI_THREAD_SINGLE;
   check(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given), "start");
+  core::use_usual_arithmetic();  // it has loaded what it is made of
   check(MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN), "report errors");
   if (given < MPI_THREAD_FUNNELED) {
     throw nodes::LostRank(version() + " allows no threads beside the one that calls it: use one that was built with threads");

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdlib>
@@ -25,6 +26,9 @@ constexpr std::array<Sign, 3> signs = {{{"mpirun", "OMPI_COMM_WORLD_SIZE", "OMPI
                                         {"mpiexec", "PMI_SIZE", "PMI_RANK"},
                                         {"srun", "SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}}};
 
+/// By which srun tells MPI of its ranks: PMIx; PMI, or what speaks it.
+constexpr std::array<const char*, 3> signs_of_pmi = {"PMIX_RANK", "PMI_RANK", "PMI_FD"};
+
 /// mpirun ends all processes as soon as one has ended with an error: the first is to have said it by then.
 constexpr useconds_t time_to_say_it_us = 500'000;
 
@@ -35,13 +39,17 @@ std::optional<std::uint32_t> number(const char* text) {
   return error == std::errc() && end == digits.data() + digits.size() ? std::optional(value) : std::nullopt;
 }
 
+bool has_pmi(const Variable& variable) {
+  return std::any_of(signs_of_pmi.begin(), signs_of_pmi.end(), [&](const char* sign) { return variable(sign) != nullptr; });
+}
+
 }  // namespace
 
 std::optional<Launcher> launcher(const Variable& variable) {
   for (const Sign& sign : signs) {
     const auto rank_count = number(variable(sign.rank_count)), rank = number(variable(sign.rank));
     if (rank_count && rank) {
-      return Launcher{sign.launcher, *rank, *rank_count};
+      return Launcher{sign.launcher, *rank, *rank_count, &sign != &signs.back() || has_pmi(variable)};
     }
   }
   return std::nullopt;

@@ -34,17 +34,31 @@ bool finish(std::chrono::milliseconds patience) {
   return is_finished;
 }
 
-/// A launcher of another MPI, or without one, starts processes that know nothing of each other.
-void expect_all_known(const MpiLibrary& library) {
+std::string advice_on_srun(const std::string& mpi) {
+  return "start it by srun --mpi=" + std::string(mpi.starts_with("MPICH") ? "pmi2" : "pmix") +
+         " (srun --mpi=list says what there is)";
+}
+
+/// A launcher of another MPI, or without one, starts processes that know nothing of each other: each knows but `rank_count`.
+void expect_all_known(const MpiLibrary& library, std::uint32_t rank_count) {
   const std::optional<Launcher> launched = launcher();
-  const std::uint32_t rank_count = library.rank_count();
   if (!launched || launched->rank_count <= rank_count) {
     return;
   }
-  const std::string advice = launched->name == "srun" ? "start it by srun --mpi=pmix (srun --mpi=list says what there is)"
+  const std::string advice = launched->name == "srun" ? advice_on_srun(library.version())
                                                       : "start it by the " + launched->name + " of " + library.version();
   throw core::UsageError(launched->name + " has started " + std::to_string(launched->rank_count) + " processes, of which MPI (" +
                          library.version() + ") knows " + std::to_string(rank_count) + ": " + advice);
+}
+
+/// Open MPI would end each process itself, and say at length how it was not built. Others may know of ranks by libraries of
+/// Slurm's.
+void expect_to_be_told(const MpiLibrary& library) {
+  const std::optional<Launcher> launched = launcher();
+  if (launched && !launched->tells_mpi && library.version().starts_with("Open MPI")) {
+    leave_errors_to_first();
+    expect_all_known(library, 1);
+  }
 }
 
 /// Of those that were started together.
@@ -85,11 +99,12 @@ nodes::Fabric& RankGroup::connect(std::size_t payload_bytes_max) {
 
 int run_as_rank(const std::function<int(RankGroup&)>& run) {
   const MpiLibrary& library = mpi_library();
+  expect_to_be_told(library);
   library.start();
   started = &library;
   const bool says_errors = is_first(library);
   try {
-    expect_all_known(library);
+    expect_all_known(library, library.rank_count());
     RankGroup group(library);
     const int status = run(group);
     return finish(patience_at_the_end) ? status : throw nodes::LostRank("not all ranks have come to the end");

@@ -11,6 +11,7 @@
 #include "apps/system/companion_path.h"
 #include "apps/system/last_words.h"
 #include "apps/system/shortage.h"
+#include "core/base/usual_arithmetic.h"
 
 #if defined(__SANITIZE_ADDRESS__)
 namespace {
@@ -47,13 +48,15 @@ void check_thread_room(const std::string& what, std::size_t count) {
   over.count_down();
 }
 
-/// Its libraries may start threads as they are loaded.
+/// Its libraries may start threads as they are loaded, and change the arithmetic.
 void* load(const std::string& path) {
   const LoadsLibrary loads_library;
 #if defined(__SANITIZE_ADDRESS__)
   is_any_opened = true;
 #endif
-  return ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  void* const library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  core::use_usual_arithmetic();
+  return library;
 }
 
 }  // namespace

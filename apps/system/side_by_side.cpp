@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/usual_arithmetic.h"
+
 namespace dmpc::apps {
 
 namespace {
@@ -33,12 +35,14 @@ void side_by_side(std::size_t count, const std::function<Finish(std::size_t)>& w
   tbb::parallel_pipeline(most, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, deal) &
                                    tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel,
                                                                               [&](std::size_t piece) {
+                                                                                core::use_usual_arithmetic();
                                                                                 finishes[piece % most] = work(piece);
                                                                                 return piece;
                                                                               }) &
                                    tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, [&](std::size_t piece) {
                                      std::exchange(finishes[piece % most], nullptr)();
                                    }));
+  core::use_usual_arithmetic();  // at its first use oneTBB loads libraries
 }
 
 }  // namespace dmpc::apps

@@ -6,9 +6,12 @@
 
 #include <csignal>
 
+#include "core/base/usual_arithmetic.h"
+
 namespace dmpc::apps {
 
 void settle_in() {
+  core::use_usual_arithmetic();
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {

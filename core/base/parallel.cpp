@@ -5,6 +5,8 @@
 #ifndef DMPC_SERIAL_BUILD
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+
+#include "core/base/usual_arithmetic.h"
 #endif
 
 namespace dmpc::core {
@@ -26,8 +28,15 @@ struct Parallel::Arena {
   }
   explicit Arena(int concurrency) : threads(concurrency) {}
 
+  /// At its first use oneTBB starts threads and loads libraries.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& part) {
-    threads.execute([&] { tbb::parallel_for(std::size_t{0}, count, part); });
+    threads.execute([&] {
+      tbb::parallel_for(std::size_t{0}, count, [&part](std::size_t i) {
+        use_usual_arithmetic();
+        part(i);
+      });
+    });
+    use_usual_arithmetic();
   }
 
   tbb::task_arena threads;

@@ -7,6 +7,7 @@
 #include <future>
 #include <span>
 
+#include "core/base/usual_arithmetic.h"
 #include "nodes/ranks/frame.h"
 #include "nodes/ranks/rank_links.h"
 
@@ -17,7 +18,10 @@ namespace dmpc::nodes {
 template <class Work>
 auto with_life_signs(RankLinks& links, const Work& work) {
   constexpr std::chrono::milliseconds look{10};
-  auto result = std::async(std::launch::async, work);
+  auto result = std::async(std::launch::async, [&work] {
+    core::use_usual_arithmetic();
+    return work();
+  });
   while (result.wait_for(look) != std::future_status::ready) {
     while (links.take([](std::uint32_t, const ItemHeader&, std::span<const std::byte>) {})) {
     }

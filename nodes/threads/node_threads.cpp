@@ -3,11 +3,11 @@
 #include <sched.h>
 
 #include <algorithm>
-#include <cfenv>
 #include <thread>
 #include <utility>
 
 #include "core/base/expect.h"
+#include "core/base/usual_arithmetic.h"
 #include "nodes/processors.h"
 #include "nodes/threads/clock.h"
 
@@ -141,7 +141,7 @@ void NodeThreads::enter(void* start) {
 }
 
 void NodeThreads::run_node(ThreadProcessor& self) {
-  std::fesetenv(FE_DFL_ENV);  // a library may have made threads flush to zero as it was loaded, which they inherit
+  core::use_usual_arithmetic();
   NodeCounters& counters = self.node.counters();
   const std::uint64_t start_ns = nanoseconds(CLOCK_MONOTONIC);
   try {

@@ -64,7 +64,7 @@ const std::vector<Foreign> foreign = {
     {"mpi.h", {"apps/modules/mpi.cpp"}},
     {"gmpxx.h", {"apps/oracle/exact.cpp"}},
     {"png.h", {"apps/picture/png_file.cpp"}},
-    {"dlfcn.h", {"apps/system/module.cpp", "tests/failing_allocation/"}},
+    {"dlfcn.h", {"apps/system/module.cpp", "tests/failing_allocation/", "tests/foreign_arithmetic/"}},
     {"assimp/", {"apps/foreign/", "tests/apps/foreign/"}},
     {"meshoptimizer.h", {"apps/foreign/gltf/meshopt.cpp", "tests/apps/foreign/"}},
     {"draco/", {"apps/foreign/gltf/draco.cpp", "tests/apps/foreign/"}},

@@ -63,6 +63,17 @@ TEST_CASE("mpirun, which may use srun to get elsewhere, counts before it") {
                              {"OMPI_COMM_WORLD_RANK", "5"}})) == "mpirun 5/6");
 }
 
+TEST_CASE("srun may leave MPI without a word of its ranks") {
+  const Variables alone = {{"SLURM_STEP_NUM_TASKS", "8"}, {"SLURM_PROCID", "0"}};
+  CHECK_FALSE(launcher_of(alone)->tells_mpi);
+  for (const char* const sign : {"PMIX_RANK", "PMI_RANK", "PMI_FD"}) {
+    Variables told = alone;
+    told[sign] = "0";
+    CHECK(launcher_of(told)->tells_mpi);
+  }
+  CHECK(launcher_of({{"OMPI_COMM_WORLD_SIZE", "3"}, {"OMPI_COMM_WORLD_RANK", "1"}})->tells_mpi);
+}
+
 TEST_CASE("what is no number, or half of it, is no sign of a launcher") {
   CHECK(text_of(launcher_of({{"PMI_SIZE", "many"}, {"PMI_RANK", "0"}})) == "none");
   CHECK(text_of(launcher_of({{"PMI_SIZE", "3x"}, {"PMI_RANK", "0"}})) == "none");

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "tests/mpi/launched/mpirun.h"
+#include "tests/support/film_in.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -88,6 +89,18 @@ TEST_CASE("a computer without room for its nodes ends all before the run, and is
   CHECK(folder.entry_count() == 0);
 }
 
+TEST_CASE("srun that tells MPI nothing of its ranks is said by the first of them, and none renders") {
+  const TemporaryFolder folder;
+  for (const std::string rank : {"0", "2"}) {
+    const Ended ended = end_of({"/usr/bin/env", "SLURM_STEP_NUM_TASKS=3", "SLURM_PROCID=" + rank, DMPC_PROGRAM, "render",
+                                "tetra-1", "--runner=mpi", "-o", folder / "a.png"});
+    CHECK(ended.status == 2);
+    CHECK_MESSAGE(contains(ended.errors, "dmpc: srun has started 3 processes, of which MPI (") == (rank == "0"), ended.errors);
+    CHECK(contains(ended.errors, " knows 1: start it by srun --mpi=pmi") == (rank == "0"));
+    CHECK(folder.entry_count() == 0);
+  }
+}
+
 TEST_CASE("a process that is killed ends all, and the picture goes on from what was kept, on another number of ranks") {
   const TemporaryFolder folder;
   const std::string kept = folder / "kept", stats = "--stats=" + (folder / "s.json").string();
@@ -111,13 +124,12 @@ TEST_CASE("a process that is killed ends all, and the picture goes on from what 
   }
   const Ended resumed = end_of(mpirun(2, with({"--runner=mpi", "--nodes=4", "--resume", stats})));
   CHECK_MESSAGE(resumed.status == 0, resumed.errors);
-  const std::string after = file_text(folder / "s.json");
+  const std::string film = film_in(folder / "s.json");
   std::vector<std::string> alone = {DMPC_PROGRAM};
   const std::vector<std::string> whole = with({"--nodes=2", stats});
   alone.insert(alone.end(), whole.begin(), whole.end());
   CHECK(end_of(alone).status == 0);
-  const auto film_in = [](const std::string& text) { return text.substr(text.find("\"film_hash\""), 32); };
-  CHECK(film_in(after) == film_in(file_text(folder / "s.json")));
+  CHECK(film == film_in(folder / "s.json"));
 }
 
 }  // namespace dmpc::tests

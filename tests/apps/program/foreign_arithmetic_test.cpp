@@ -1,0 +1,59 @@
+// dmpc beside a library that changes the arithmetic of every thread: pictures and databases keep their bits.
+#ifdef DMPC_FOREIGN_ARITHMETIC
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/support/child_process.h"
+#include "tests/support/film_in.h"
+#include "tests/support/temporary_folder.h"
+
+namespace dmpc::tests {
+
+namespace {
+
+struct Rendered {
+  std::string film, picture;
+  bool operator==(const Rendered&) const = default;
+};
+
+Rendered render_after(const std::vector<std::string>& before, const std::vector<std::string>& options) {
+  const TemporaryFolder folder;
+  std::vector<std::string> line = {"/usr/bin/env"};
+  line.insert(line.end(), before.begin(), before.end());
+  line.insert(line.end(), {DMPC_PROGRAM, "render", "--quiet", "--resolution=48x48", "--stats=" + (folder / "s.json").string(),
+                           "-o", folder / "a.png"});
+  line.insert(line.end(), options.begin(), options.end());
+  ChildProcess process(line);
+  CHECK(process.status() == 0);
+  CHECK(process.errors().empty());
+  return {film_in(folder / "s.json"), file_text(folder / "a.png")};
+}
+
+void check_kept_beside_it(const std::vector<std::string>& options) {
+  CAPTURE(options[0]);
+  CAPTURE(options[1]);
+  CHECK(render_after({"LD_PRELOAD=" DMPC_FOREIGN_ARITHMETIC}, options) == render_after({}, options));
+}
+
+}  // namespace
+
+TEST_CASE("a mesh is read alike beside a library that flushes to zero and rounds down") {
+  const TemporaryFolder folder;
+  write_text(folder / "a.obj", "v 0.1 0.3 0.7\nv 2.1 0.3 0.1\nv 0.7 1.9 0.3\nv 0.3 0.7 1.1\nf 1 2 3\nf 1 3 4\n");
+  check_kept_beside_it({folder / "a.obj", "--up=z"});
+}
+
+TEST_CASE("a library that flushes to zero and rounds down in every thread changes no picture") {
+  check_kept_beside_it({"mount-5", "--strategy=svm"});
+  check_kept_beside_it({"rings-3-t1", "--strategy=dataflow"});
+  check_kept_beside_it({"balls-3", "--strategy=forest"});
+  check_kept_beside_it({"tree-6", "--strategy=replicated"});
+  check_kept_beside_it({"gears-2", "--runner=virtual"});
+}
+
+}  // namespace dmpc::tests
+
+#endif
