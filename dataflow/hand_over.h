@@ -13,8 +13,8 @@
 // for another that waits. A node asks only once for all packets of rays that it has received meanwhile, and once for a unit that
 // it has taken, whose primary rays were started before, by either. So asking ends.
 // Why the end is still proved (termination.h): a node that is about to ask is not passive, and every question, refusal, page,
-// packet of primary rays and acknowledgement counts as a packet of rays, since it may make who receives it want to ask. A transfer has one of them under way
-// all the time. News of takers does not count: it makes nobody ask.
+// packet of primary rays and acknowledgement counts as a packet of rays, since it may make who receives it want to ask. A
+// transfer has one of them under way all the time. News of takers does not count: it makes nobody ask.
 #pragma once
 
 #include <cstdint>

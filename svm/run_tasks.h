@@ -73,8 +73,7 @@ TaskReport<typename Task::Result> run_tasks(std::span<const std::byte> database,
     }
   };
   const TaskKinds kinds = {task_kind<Pager, Task>(), task_kind<RecordingPager, Task>()};
-  static_cast<TaskFigures&>(report) =
-      run_tasks_of_kind(kinds, database, count, options, watching, std::move(stop), take);
+  static_cast<TaskFigures&>(report) = run_tasks_of_kind(kinds, database, count, options, watching, std::move(stop), take);
   return report;
 }
 

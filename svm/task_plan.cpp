@@ -89,7 +89,8 @@ nodes::MemoryPlan TaskPlan::node_memory(std::uint32_t node) const {
   plan[Category::mailbox] = mailbox_.bytes();
   Pager::add_needs(plan, pages_, node);
   plan[Category::ray_stacks] += LocalMemory::bytes_for<std::byte>(in_flight_ * sizes_.task_bytes);
-  plan[Category::queues] += 3 * LocalMemory::bytes_for<std::uint32_t>(in_flight_);  // numbers of tasks, those runnable, free places
+  plan[Category::queues] +=
+      3 * LocalMemory::bytes_for<std::uint32_t>(in_flight_);  // numbers of tasks, those runnable, free places
   plan[Category::film_tiles] += LocalMemory::bytes_for<std::byte>(tasks_at(node) * sizes_.result_bytes);
   return plan;
 }

@@ -89,8 +89,8 @@ class TaskProgram final : public AnyTaskProgram {
   }
 
   std::string describe() const override {
-    return std::to_string(done_) + " of " + std::to_string(count_) + " tasks done, " +
-           std::to_string(records_.faults()) + " pages awaited";
+    return std::to_string(done_) + " of " + std::to_string(count_) + " tasks done, " + std::to_string(records_.faults()) +
+           " pages awaited";
   }
 
   ProgramReport report() const override { return {.operations = {}, .pages = records_.counters(), .work = {}}; }
@@ -128,8 +128,8 @@ class TaskProgram final : public AnyTaskProgram {
   const TaskKind<Records>& kind_;
   std::uint32_t next_, first_, count_;  ///< tasks of this node: the next to start, the first of all, and how many there are
   std::uint32_t done_ = 0;
-  std::span<std::byte> tasks_;         ///< those under way
-  std::span<std::uint32_t> numbers_;   ///< by place: of the task there
+  std::span<std::byte> tasks_;        ///< those under way
+  std::span<std::uint32_t> numbers_;  ///< by place: of the task there
   std::span<std::uint32_t> runnable_, free_;
   std::uint32_t runnable_count_ = 0, free_count_ = 0;
   std::span<std::byte> results_;

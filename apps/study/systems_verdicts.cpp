@@ -76,7 +76,8 @@ constexpr std::array<Expectation, 6> expectations = {
      {"with 1 to 5 % of the database beside its part a node does better by questions than by pages", is_scarce, asks, is_svm},
      {"whatever the memory, the host is the slowest home", is_any, is_other_than_host_home, has_host_home},
      {"regions by a subsampled picture are faster than regions of equal size", is_ample, is_subsampled, is_equal_size},
-     {"where hits crowd, regions that move while rays travel are faster than those that stay", is_ample, is_moving, is_subsampled}}};
+     {"where hits crowd, regions that move while rays travel are faster than those that stay", is_ample, is_moving,
+      is_subsampled}}};
 
 std::string time_text(const Round::Entry& entry) {
   return std::string(name_of(entry.system)) + " " + rounded(entry.seconds) + " s";
