@@ -40,6 +40,7 @@ void side_by_side(std::size_t count, const std::function<Finish(std::size_t)>& w
                                                                                 return piece;
                                                                               }) &
                                    tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, [&](std::size_t piece) {
+                                     core::use_usual_arithmetic();
                                      std::exchange(finishes[piece % most], nullptr)();
                                    }));
   core::use_usual_arithmetic();  // at its first use oneTBB loads libraries

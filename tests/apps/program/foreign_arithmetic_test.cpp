@@ -52,6 +52,17 @@ TEST_CASE("a library that flushes to zero and rounds down in every thread change
   check_kept_beside_it({"balls-3", "--strategy=forest"});
   check_kept_beside_it({"tree-6", "--strategy=replicated"});
   check_kept_beside_it({"gears-2", "--runner=virtual"});
+  check_kept_beside_it({"shells-2", "--tracer=embree", "--strategy=replicated"});
+}
+
+TEST_CASE("a library that flushes to zero and rounds down changes no table of a study, whose runs go side by side") {
+  const auto table = [](const std::string& surroundings) {
+    ChildProcess process(
+        {"/usr/bin/env", surroundings, DMPC_PROGRAM, "study", "systems", "balls-2", "--resolution=32x32", "--quiet"});
+    CHECK(process.status() == 0);
+    return process.output();
+  };
+  CHECK(table("LD_PRELOAD=" DMPC_FOREIGN_ARITHMETIC) == table("LD_PRELOAD="));
 }
 
 }  // namespace dmpc::tests

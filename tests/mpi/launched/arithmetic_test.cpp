@@ -15,26 +15,57 @@ namespace dmpc::tests {
 
 namespace {
 
-/// `given` are options of mpirun.
-std::string film_of_three_ranks(const std::string& strategy, const std::vector<std::string>& given) {
-  const TemporaryFolder folder;
-  std::vector<std::string> command =
-      mpirun(3, {"render", "rings-2-t1", "--resolution=48x48", "--nodes=4", "--quiet", "--runner=mpi", "--strategy=" + strategy,
-                 "--stats=" + (folder / "s.json").string(), "-o", folder / "a.png"});
-  command.insert(std::find(command.begin(), command.end(), "mpirun") + 1, given.begin(), given.end());
-  const Ended ended = end_of(command);
-  CHECK_MESSAGE(ended.status == 0, ended.errors);
-  CHECK(ended.errors.empty());
-  return film_in(folder / "s.json");
-}
+/// The film that a command makes of these spirals, whose generator rounds.
+class ThreeRanks {
+ public:
+  explicit ThreeRanks(const std::string& strategy)
+      : render_({"render", "shells-2", "--resolution=48x48", "--nodes=4", "--quiet", "--runner=mpi", "--strategy=" + strategy,
+                 "--stats=" + (folder_ / "s.json").string(), "-o", folder_ / "a.png"}) {}
+
+  std::string film() const { return film_of(mpirun(3, render_)); }
+  /// With `given` as options of mpirun for all ranks.
+  std::string film_with(const std::vector<std::string>& given) const {
+    std::vector<std::string> command = mpirun(3, render_);
+    command.insert(std::find(command.begin(), command.end(), "mpirun") + 1, given.begin(), given.end());
+    return film_of(command);
+  }
+  /// With `given` for rank 2 alone.
+  std::string film_with_on_last(const std::vector<std::string>& given) const {
+    std::vector<std::string> command = mpirun(2, render_);
+    command.insert(command.end(), {":", "-n", "1"});
+    command.insert(command.end(), given.begin(), given.end());
+    command.emplace_back(DMPC_PROGRAM);
+    command.insert(command.end(), render_.begin(), render_.end());
+    return film_of(command);
+  }
+
+ private:
+  std::string film_of(const std::vector<std::string>& command) const {
+    const Ended ended = end_of(command);
+    REQUIRE_MESSAGE(ended.status == 0, ended.errors);
+    CHECK(ended.errors.empty());
+    return film_in(folder_ / "s.json");
+  }
+
+  TemporaryFolder folder_;
+  std::vector<std::string> render_;
+};
+
+const std::vector<std::string> beside_it = {"-x", "LD_PRELOAD=" DMPC_FOREIGN_ARITHMETIC};
 
 }  // namespace
 
 TEST_CASE("a library that flushes to zero and rounds down in every thread of every rank changes no picture") {
-  for (const char* const strategy : {"svm", "dataflow"}) {
+  for (const std::string strategy : {"svm", "dataflow"}) {
     CAPTURE(strategy);
-    CHECK(film_of_three_ranks(strategy, {"-x", "LD_PRELOAD=" DMPC_FOREIGN_ARITHMETIC}) == film_of_three_ranks(strategy, {}));
+    const ThreeRanks ranks(strategy);
+    CHECK(ranks.film_with(beside_it) == ranks.film());
   }
+}
+
+TEST_CASE("a rank beside a library that flushes to zero and rounds down goes with others") {
+  const ThreeRanks ranks("svm");
+  CHECK(ranks.film_with_on_last(beside_it) == ranks.film());
 }
 
 }  // namespace dmpc::tests
