@@ -1,9 +1,9 @@
 // Where a node's program has what it keeps of the scene from: bytes that are here, or that come from another rank.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <string>
 
@@ -49,7 +49,7 @@ class ByteSource {
   void copy(std::size_t offset_bytes, std::span<std::byte> into) const {
     if (stream_ == nullptr) {
       const std::span<const std::byte> piece = whole_.subspan(offset_bytes, into.size());
-      std::memcpy(into.data(), piece.data(), piece.size());
+      std::copy(piece.begin(), piece.end(), into.begin());  // of nothing, too, which memcpy() does not take
       return;
     }
     PieceHeader header;

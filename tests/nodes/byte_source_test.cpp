@@ -43,6 +43,11 @@ std::vector<std::byte> piece_of(const ByteSource& source, std::size_t offset, st
   return piece;
 }
 
+TEST_CASE("nothing is a piece of nothing") {
+  ByteSource(std::span<const std::byte>()).copy(0, {});
+  CHECK(ByteSource(std::span<const std::byte>()).size_bytes() == 0);
+}
+
 TEST_CASE("a piece is the same of bytes that are here and of a stream") {
   WrittenBytes stream;
   stream.write_piece(3, 2);
