@@ -18,6 +18,7 @@
 #include "core/record/records.h"
 #include "nodes/charge.h"
 #include "nodes/watch/operation_charges.h"
+#include "svm/page.h"
 
 namespace dmpc {
 namespace {
@@ -63,8 +64,7 @@ struct Scene::Data {
 };
 
 Scene::Scene(const std::string& name, std::uint32_t width, std::uint32_t height, std::size_t page_bytes) {
-  if (!std::has_single_bit(page_bytes) || page_bytes < 512 || page_bytes > 65536 || width < 1 || height < 1 || width > 65536 ||
-      height > 65536) {
+  if (!svm::is_page_size(page_bytes) || width < 1 || height < 1 || width > 65536 || height > 65536) {
     throw UsageError("pages of " + std::to_string(page_bytes) + " bytes, " + std::to_string(width) + "x" +
                      std::to_string(height) +
                      " pixels: expected a power of two from 512 B to 64 KiB, and 1 to 65536 pixels a side");

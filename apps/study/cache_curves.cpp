@@ -1,7 +1,6 @@
 #include "apps/study/cache_curves.h"
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include "apps/line/number_text.h"
@@ -28,13 +27,14 @@ std::vector<Replacement> other_policies() {
   return policies;
 }
 
-Faults faults_of(CacheCurves::NodeReferences references, std::uint32_t node, const std::vector<std::uint32_t>& sizes,
-                 const std::function<void()>& check) {
+/// `distinct_pages`: of the references.
+Faults faults_of(CacheCurves::NodeReferences references, std::uint32_t distinct_pages, std::uint32_t node,
+                 const std::vector<std::uint32_t>& sizes, const std::function<void()>& check) {
   const svm::Optimum optimum(references);
-  const auto pages = static_cast<std::uint32_t>(std::max<std::size_t>(1, std::set(references.begin(), references.end()).size()));
   Faults faults;
   for (const std::uint32_t asked : sizes) {
-    const std::uint32_t size = std::min(asked, pages);  // whoever has room for all pages takes each in once
+    const std::uint32_t size =
+        std::min(asked, std::max(1U, distinct_pages));  // whoever has room for all pages takes each in once
     std::vector<std::uint64_t>& row = faults.emplace_back();
     for (const Replacement policy : other_policies()) {
       check();
@@ -61,8 +61,9 @@ CacheCurves::CacheCurves(const std::vector<NodeReferences>& nodes, std::uint64_t
       reference_count_(reference_count),
       faults_(sizes_.size(), std::vector<std::uint64_t>(other_policies().size() + 1)) {
   side_by_side(nodes.size(), [&](std::size_t node) -> std::function<void()> {
-    return [this, faults = faults_of(nodes[node], static_cast<std::uint32_t>(node), sizes_, check),
-            lru = svm::MissCurve(nodes[node])] {
+    svm::MissCurve lru(nodes[node]);
+    Faults faults = faults_of(nodes[node], lru.distinct_pages(), static_cast<std::uint32_t>(node), sizes_, check);
+    return [this, faults = std::move(faults), lru = std::move(lru)] {
       lru_ += lru;
       add(faults, faults_);
     };

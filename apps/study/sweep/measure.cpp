@@ -66,14 +66,12 @@ std::function<void()> finish_of(const std::function<SweepResult()>& measure, con
   }
 }
 
-bool is_timed_by_the_wall(const SweepRun& run) { return run.options.runner.kind != RunnerKind::virtual_time; }
-
 }  // namespace
 
 void measure_sweep(const SweepSettings& settings, const std::vector<SweepRun>& runs, const OpenedFiles& scene,
                    const Interrupt& interrupt, const std::function<void(SweepResult)>& take) {
   const SweepBench bench(settings, scene, interrupt);
-  if (std::any_of(runs.begin(), runs.end(), is_timed_by_the_wall)) {
+  if (std::any_of(runs.begin(), runs.end(), [](const SweepRun& run) { return is_timed_by_the_wall(run.options); })) {
     for (std::size_t i = 0; i < runs.size(); ++i) {
       take(bench.measure(runs[i], i));
     }

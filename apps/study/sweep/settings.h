@@ -45,6 +45,9 @@ struct SweepRun {
   RenderOptions options;            ///< what these words mean, settled
 };
 
+/// What it takes is wall-clock time, so nothing else should run beside it.
+inline bool is_timed_by_the_wall(const RenderOptions& options) { return options.runner.kind != RunnerKind::virtual_time; }
+
 /// The words with which `run` writes its counters and its picture.
 std::vector<std::string> render_words(const SweepRun& run, const std::string& stats, const std::string& picture);
 

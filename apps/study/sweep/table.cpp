@@ -205,7 +205,7 @@ std::vector<std::string> figures_of(const SweepSettings& settings, const std::ve
     }
   };
   add("virtual_seconds.total", any(runs, [](const RenderOptions& run) { return run.runner.kind == RunnerKind::virtual_time; }));
-  add("seconds.render", any(runs, [](const RenderOptions& run) { return run.runner.kind != RunnerKind::virtual_time; }));
+  add("seconds.render", any(runs, is_timed_by_the_wall));
   add("rays.total", true);
   add("packets.sent", true);
   add("packets.bytes", true);
