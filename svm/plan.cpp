@@ -26,6 +26,8 @@ using nodes::size_text;
 
 /// A node whose task waits for a page has others to go on with.
 constexpr std::uint32_t default_tasks = 16, default_bundles = 4;
+/// Between ranks a page takes several times as long, by way of two threads that communicate.
+constexpr std::uint32_t default_bundles_on_ranks = 16;
 constexpr std::uint32_t auto_cache_pages_min = 64;
 /// Longer film packets would save nothing worth the memory of their mailbox slots.
 constexpr std::size_t film_packet_max_bytes = 4096;
@@ -272,10 +274,18 @@ void check(const PlanRequest& request) {
                "what is gone on with is of the same picture");
 }
 
+/// Our choice of tasks; where memory is bounded, frames are worth more than further ones.
+std::uint32_t chosen_tasks(const PlanRequest& request) {
+  if (request.strategy == Strategy::replicated) {
+    return 1;
+  }
+  const bool may_be_more = pages_travel(request) && request.computer.ranks != nullptr && !request.computer.node_memory_bytes;
+  return !request.bundles ? default_tasks : may_be_more ? default_bundles_on_ranks : default_bundles;
+}
+
 /// What the user asked for, or our choice, as far as there are pixels, before the memory is looked at.
 std::uint32_t wanted_in_flight(const PlanRequest& request) {
-  const std::uint32_t tasks = request.strategy == Strategy::replicated ? 1 : request.bundles ? default_bundles : default_tasks;
-  const std::uint32_t asked = request.pages.in_flight.value_or(tasks * (request.bundles ? bundle_pixels : 1));
+  const std::uint32_t asked = request.pages.in_flight.value_or(chosen_tasks(request) * (request.bundles ? bundle_pixels : 1));
   const auto wanted = static_cast<std::uint32_t>(std::min<std::uint64_t>(asked, node_pixels_max(request)));
   return wanted - wanted % pixels_a_task(request, wanted);
 }

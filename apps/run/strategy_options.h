@@ -57,7 +57,7 @@ void check_homes(const OptionSet& options, svm::PageHomes homes);
 /// Declares the options of svm and replicated but --count-pages, in a group of their own. `in_flight_default` is what help says
 /// of the default of --in-flight; as it stands here it covers every runner.
 void add_page_options(OptionSet options, svm::PageOptions& pages,
-                      const std::string& in_flight_default = "64, replicated 16, runner virtual 1");
+                      const std::string& in_flight_default = "64, replicated 16, runner virtual 1, mpi up to 256");
 /// Declares the options of dataflow but --topology in a group of their own.
 void add_ray_options(OptionSet options, dataflow::RayOptions& rays);
 
