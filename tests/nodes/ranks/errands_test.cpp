@@ -88,7 +88,11 @@ TEST_CASE("when looking after fails, errands fail so, those that wait and those 
     is_over = true;
     return 0;
   };
-  CHECK(complaint_of([&] { errands.while_working(work, [] { throw std::runtime_error("lost"); }); }) == "lost");
+  const auto look_after = [] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // the first errand waits meanwhile
+    throw std::runtime_error("lost");
+  };
+  CHECK(complaint_of([&] { errands.while_working(work, look_after); }) == "lost");
   CHECK(is_over);
   CHECK(first == "lost");
   CHECK(second == "lost");
