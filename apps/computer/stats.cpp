@@ -32,10 +32,7 @@ Json operations_json(const ProgramRecord& record, const nodes::Charges& charges)
 nodes::Charges charges_of_all(const ProgramRecord& record) {
   nodes::Charges sum;
   for (const HostedProgram* program : record.programs) {
-    const nodes::Charges charges = program->charges();
-    for (Index i = 0; i < nodes::charge_count; ++i) {
-      sum.count[i] += charges.count[i];
-    }
+    sum += program->charges();
   }
   return sum;
 }
