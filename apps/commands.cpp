@@ -41,7 +41,7 @@
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
 #include "core/families/scenes.h"
-#include "nodes/watch/heat_map.h"
+#include "core/picture/heat_kind.h"
 
 namespace dmpc::apps {
 
@@ -217,7 +217,7 @@ class Commands {
     for (const ChoiceList& list : all_choices()) {
       kinds.words.push_back(list.kind);
     }
-    for (const std::string_view heat : nodes::heat_kind_names) {
+    for (const std::string_view heat : core::heat_kind_names) {
       heats.words.push_back(std::string(heat) + ":");
     }
     for (const MachineDescription& preset : machine_presets()) {

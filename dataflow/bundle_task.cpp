@@ -3,20 +3,20 @@
 #include <utility>
 
 #include "core/base/expect.h"
+#include "core/picture/memory_use.h"
 #include "core/trace/traversal.h"
 
 namespace dmpc::dataflow {
 
-using nodes::Category;
 using nodes::LocalMemory;
 
 BundleTask::BundleTask(LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max)
     : self_(self),
-      flights_(memory.allocate<Flights>(Category::ray_stacks, 1).data()),
-      stack_(memory.allocate<core::BundleHit>(Category::ray_stacks, depth_max)) {}
+      flights_(memory.allocate<Flights>(core::MemoryUse::ray_stacks, 1).data()),
+      stack_(memory.allocate<core::BundleHit>(core::MemoryUse::ray_stacks, depth_max)) {}
 
 void BundleTask::add_needs(nodes::MemoryPlan& plan, std::uint32_t depth_max) {
-  plan[Category::ray_stacks] += LocalMemory::bytes_for<Flights>(1) + LocalMemory::bytes_for<core::BundleHit>(depth_max);
+  plan[core::MemoryUse::ray_stacks] += LocalMemory::bytes_for<Flights>(1) + LocalMemory::bytes_for<core::BundleHit>(depth_max);
 }
 
 void BundleTask::shoot(const core::Ray& ray) {

@@ -6,6 +6,7 @@
 
 #include "core/base/expect.h"
 #include "core/base/units.h"
+#include "core/picture/memory_use.h"
 
 namespace dmpc::dataflow {
 namespace {
@@ -33,7 +34,7 @@ HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, 
       undealt_(plan.node_count(), plan.request.is_dealt_on_the_way ? run_rays_max : ~std::uint64_t{0}),
       kept_(plan.node_count(), plan.tested_objects()),
       packet_(node.memory().allocate<std::byte>(Category::queues, plan.packet_bytes())),
-      has_light_(node.memory().allocate<std::uint64_t>(Category::film_tiles, light_words(plan))),
+      has_light_(node.memory().allocate<std::uint64_t>(core::MemoryUse::film_tiles, light_words(plan))),
       node_count_(plan.node_count()),
       ray_batch_(plan.ray_batch),
       tested_objects_(plan.tested_objects()),
@@ -72,7 +73,7 @@ void HostProgram::deal_pass(const core::PixelMask& done) {
 
 void HostProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan) {
   memory[Category::queues] += LocalMemory::bytes_for<std::byte>(plan.packet_bytes());
-  memory[Category::film_tiles] += LocalMemory::bytes_for<std::uint64_t>(light_words(plan));
+  memory[core::MemoryUse::film_tiles] += LocalMemory::bytes_for<std::uint64_t>(light_words(plan));
 }
 
 void HostProgram::receive(const nodes::Packet& packet) {

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/base/expect.h"
+#include "core/picture/memory_use.h"
 
 namespace dmpc::dataflow {
 namespace {
@@ -31,17 +32,17 @@ MovementCounters& MovementCounters::operator+=(const MovementCounters& more) {
 Movement::Movement(nodes::Node& node, const Plan& plan, const Units& units)
     : node_(&node),
       units_(units),
-      version_(node.memory().allocate<std::uint32_t>(Category::page_table, plan.unit_count())),
-      pages_of_(node.memory().allocate<std::uint32_t>(Category::page_table, plan.unit_count())),
-      rays_told_(node.memory().allocate<std::uint32_t>(Category::page_table, plan.is_moving() ? plan.node_count() : 0)),
-      stale_(node.memory().allocate<std::uint32_t>(Category::page_table, plan.is_moving() ? plan.node_count() : 0)),
+      version_(node.memory().allocate<std::uint32_t>(core::MemoryUse::page_table, plan.unit_count())),
+      pages_of_(node.memory().allocate<std::uint32_t>(core::MemoryUse::page_table, plan.unit_count())),
+      rays_told_(node.memory().allocate<std::uint32_t>(core::MemoryUse::page_table, plan.is_moving() ? plan.node_count() : 0)),
+      stale_(node.memory().allocate<std::uint32_t>(core::MemoryUse::page_table, plan.is_moving() ? plan.node_count() : 0)),
       packet_(node.memory().allocate<std::byte>(Category::queues, plan.unit_packet_bytes())) {
   std::fill(stale_.begin(), stale_.end(), none);
 }
 
 void Movement::add_needs(nodes::MemoryPlan& memory, const Plan& plan) {
   const std::size_t nodes = plan.is_moving() ? plan.node_count() : 0;
-  memory[Category::page_table] +=
+  memory[core::MemoryUse::page_table] +=
       2 * LocalMemory::bytes_for<std::uint32_t>(plan.unit_count()) + 2 * LocalMemory::bytes_for<std::uint32_t>(nodes);
   memory[Category::queues] += LocalMemory::bytes_for<std::byte>(plan.unit_packet_bytes());
 }
@@ -180,9 +181,8 @@ void Movement::take_page(const nodes::Packet& packet) {
   core::expect(!hand_over_.is_settled(), "a page comes to a node that has asked");
   UnitPageHeader header;
   std::memcpy(&header, packet.payload.data(), sizeof(header));
-  const std::uint32_t pages_before = units_.pages->page_count();
-  units_.pages->add(header.page, packet.payload.subspan(sizeof(header)));
-  counters_.pages_installed += units_.pages->page_count() - pages_before;
+  const bool is_new = units_.pages->add(header.page, packet.payload.subspan(sizeof(header)));
+  counters_.pages_installed += is_new ? 1 : 0;
   if (header.is_last != 0) {
     core::expect(is_news(version_[header.unit], header.version), "a unit is taken once from each that gives it");
     units_.regions->give_to(header.unit, node_->id());

@@ -12,6 +12,7 @@
 #include <span>
 
 #include "core/record/record.h"
+#include "core/trace/charge.h"
 #include "dataflow/hand_over.h"
 #include "dataflow/packets.h"
 #include "dataflow/plan.h"
@@ -78,8 +79,8 @@ class Movement {
   MovementCounters counters() const;
   /// What it costs beside messages: pages put into frames, and records that were read to find a unit's pages.
   void add_charges(nodes::Charges& charges) const {
-    charges[nodes::Charge::page_install] += counters_.pages_installed;
-    charges[nodes::Charge::brick_read] += counters_.records_walked;
+    charges[core::Charge::page_install] += counters_.pages_installed;
+    charges[core::Charge::brick_read] += counters_.records_walked;
   }
 
  private:

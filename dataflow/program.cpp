@@ -6,9 +6,11 @@
 #include <numeric>
 
 #include "core/base/expect.h"
+#include "core/picture/heat_kind.h"
+#include "core/picture/memory_use.h"
+#include "core/trace/charge.h"
 #include "core/trace/traversal.h"
 #include "dataflow/packets.h"
-#include "nodes/watch/operation_charges.h"
 
 namespace dmpc::dataflow {
 namespace {
@@ -20,7 +22,7 @@ using nodes::LocalMemory;
 template <class T>
 T* keep(LocalMemory& memory, const T& value) {
   static_assert(std::is_trivially_copyable_v<T>);
-  const std::span<std::byte> bytes = memory.allocate<std::byte>(Category::constants, sizeof(T));
+  const std::span<std::byte> bytes = memory.allocate<std::byte>(core::MemoryUse::constants, sizeof(T));
   return std::construct_at(reinterpret_cast<T*>(bytes.data()), value);
 }
 
@@ -98,12 +100,12 @@ RayProgram<RaysTask>::RayProgram(nodes::Node& node, const Plan& plan, const Node
       return_batch_(return_batch(plan.ray_credits)),
       return_batch_host_(return_batch(plan.host_credits)),
       constants_(keep(node.memory(), Constants{settings_for(deal), deal.regions, deal.outline.header})),
-      part_(keep_records(node.memory(), Category::home_pages,
+      part_(keep_records(node.memory(), core::MemoryUse::home_pages,
                          plan.is_moving() ? nodes::ByteSource(std::span<const std::byte>()) : deal.records)),
       pages_(node.memory(), plan.pages_of_node(nodes::index_of(node.id()))),
       records_(part_, plan.is_moving() ? &pages_ : nullptr),
       surroundings_{constants_->regions, constants_->outline,
-                    core::LocalRecords(keep_records(node.memory(), Category::constants, std::span(deal.outline.bytes))),
+                    core::LocalRecords(keep_records(node.memory(), core::MemoryUse::constants, std::span(deal.outline.bytes))),
                     deal.settings.skips},
       tracer_(records_, deal.header, deal.settings.skips, constants_->regions, node.id()),
       primaries_(node.memory(), plan.is_moving() ? std::span<const PrimaryRun>() : deal.primaries, deal.settings.first_samples(),
@@ -128,14 +130,14 @@ RayProgram<RaysTask>::RayProgram(nodes::Node& node, const Plan& plan, const Node
 
 void NodeProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index) {
   const Share& share = plan.request.shares[index];
-  memory[Category::constants] +=
+  memory[core::MemoryUse::constants] +=
       LocalMemory::bytes_for<std::byte>(sizeof(Constants)) + LocalMemory::bytes_for<std::byte>(share.outline_bytes);
   if (plan.is_moving()) {
     UnitPages::add_needs(memory, plan.pages_of_node(index));
     UnitPrimaries::add_needs(memory, plan.primaries_of_node(index));
     Movement::add_needs(memory, plan);
   } else {
-    memory[Category::home_pages] += LocalMemory::bytes_for<std::byte>(share.part_bytes + core::overread_bytes);
+    memory[core::MemoryUse::home_pages] += LocalMemory::bytes_for<std::byte>(share.part_bytes + core::overread_bytes);
   }
   Primaries::add_needs(memory, plan.is_moving() ? 0 : share.primary_runs, plan.request.is_dealt());
   RayQueue::add_needs(memory, backlog_capacity(plan));
@@ -631,10 +633,17 @@ void RayProgram<RaysTask>::settle() {
 }
 
 template <class RaysTask>
+nodes::HeatTotals RayProgram<RaysTask>::totals() const {
+  nodes::HeatTotals totals{.charges = charges()};
+  totals[core::HeatKind::rays] = operations_.ray_count();
+  return totals;
+}
+
+template <class RaysTask>
 nodes::Charges RayProgram<RaysTask>::charges() const {
-  nodes::Charges charges = nodes::charges_of(operations_);
+  nodes::Charges charges{core::charges_of(operations_)};
   const auto add_up = [](const auto& by_kind) { return std::accumulate(by_kind.begin(), by_kind.end(), std::uint64_t{0}); };
-  charges[nodes::Charge::ray_packing] = add_up(counters_.in) + add_up(counters_.out);
+  charges[core::Charge::ray_packing] = add_up(counters_.in) + add_up(counters_.out);
   movement_.add_charges(charges);
   return charges;
 }

@@ -126,7 +126,7 @@ class RayProgram final : public NodeProgram {
   bool puts_off(Task task);
   void perform(Task task);
   void perform_metered(Task task);
-  nodes::HeatTotals totals() const { return {.rays = operations_.ray_count(), .charges = charges()}; }
+  nodes::HeatTotals totals() const;
   void wake();
   void receive_primaries(const DealtPrimaries& dealt);
   void receive_rays(const nodes::Packet& packet);

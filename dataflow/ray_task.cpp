@@ -1,21 +1,21 @@
 #include "dataflow/ray_task.h"
 
 #include "core/base/expect.h"
+#include "core/picture/memory_use.h"
 #include "core/trace/traversal.h"
 
 namespace dmpc::dataflow {
 
-using nodes::Category;
 using nodes::LocalMemory;
 
 RayTask::RayTask(LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max, std::uint32_t tested_objects)
     : self_(self),
       tested_(tested_objects),
-      flight_(memory.allocate<Flight>(Category::ray_stacks, 1).data()),
-      stack_(memory.allocate<core::HitState>(Category::ray_stacks, depth_max)) {}
+      flight_(memory.allocate<Flight>(core::MemoryUse::ray_stacks, 1).data()),
+      stack_(memory.allocate<core::HitState>(core::MemoryUse::ray_stacks, depth_max)) {}
 
 void RayTask::add_needs(nodes::MemoryPlan& plan, std::uint32_t depth_max) {
-  plan[Category::ray_stacks] += LocalMemory::bytes_for<Flight>(1) + LocalMemory::bytes_for<core::HitState>(depth_max);
+  plan[core::MemoryUse::ray_stacks] += LocalMemory::bytes_for<Flight>(1) + LocalMemory::bytes_for<core::HitState>(depth_max);
 }
 
 void RayTask::shoot(const core::Ray& ray) {

@@ -14,7 +14,7 @@
 namespace dmpc::dataflow {
 namespace {
 
-using TrafficByKind = std::array<nodes::Traffic, nodes::packet_kind_count>;
+using nodes::TrafficByKind;
 
 /// What is told pixel by pixel needs rays that walk alone; and the nodes of a modelled machine compute as those of the article
 /// did.
@@ -139,13 +139,6 @@ void report_share(NodeReport& report, const Distribution& distribution, std::uin
   report.primitive_copies = distribution.parts[index].primitive_copies;
   for (const PrimaryRun& run : distribution.primaries[index]) {
     report.primary_rays += run.count;
-  }
-}
-
-void add(TrafficByKind& sum, const TrafficByKind& more) {
-  for (std::size_t kind = 0; kind < sum.size(); ++kind) {
-    sum[kind].packets += more[kind].packets;
-    sum[kind].bytes += more[kind].bytes;
   }
 }
 
@@ -275,18 +268,18 @@ double Report::messages_per_ray() const {
 
 double Report::mean_fill() const { return gathers().mean_fill(plan.ray_batch); }
 
-std::array<nodes::Traffic, nodes::packet_kind_count> Report::sent() const {
+TrafficByKind Report::sent() const {
   TrafficByKind sum = host.sent;
   for (const NodeReport& node : nodes) {
-    add(sum, node.counters.sent);
+    sum += node.counters.sent;
   }
   return sum;
 }
 
-std::array<nodes::Traffic, nodes::packet_kind_count> Report::received() const {
+TrafficByKind Report::received() const {
   TrafficByKind sum = host.received;
   for (const NodeReport& node : nodes) {
-    add(sum, node.counters.received);
+    sum += node.counters.received;
   }
   return sum;
 }
@@ -294,8 +287,7 @@ std::array<nodes::Traffic, nodes::packet_kind_count> Report::received() const {
 nodes::Traffic ray_traffic(const TrafficByKind& by_kind) {
   nodes::Traffic sum;
   for (const Kind kind : {Kind::rays, Kind::overflow, Kind::forwarded}) {
-    sum.packets += by_kind[number_of(kind)].packets;
-    sum.bytes += by_kind[number_of(kind)].bytes;
+    sum += by_kind[number_of(kind)];
   }
   return sum;
 }
@@ -336,7 +328,7 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
                 .regions = prepared.distribution.regions,
                 .predicted = prepared.predicted,
                 .duplication = prepared.duplication};
-  core::expect(options.watching.heat == nullptr || options.watching.heat->pixel_count() == report.film.pixels().size(),
+  core::expect(options.watching.heat == nullptr || options.watching.heat->item_count() == report.film.pixels().size(),
                "a heat map is of the picture's size");
   if (options.computer.ranks != nullptr) {
     hand_out(report.plan, prepared.distribution, settings, options.watching.elsewhere.order, *options.computer.ranks);

@@ -79,12 +79,12 @@ struct Report {
   /// Mean rays in a packet over those in a full one, in (0, 1]; 1 without packets.
   double mean_fill() const;
   /// Packets and bytes sent by all nodes and the host, by Kind's number.
-  std::array<nodes::Traffic, nodes::packet_kind_count> sent() const;
-  std::array<nodes::Traffic, nodes::packet_kind_count> received() const;
+  nodes::TrafficByKind sent() const;
+  nodes::TrafficByKind received() const;
 };
 
 /// What of this traffic is packets with rays, by whatever way: those by way of the host count twice, as they come and as they go.
-nodes::Traffic ray_traffic(const std::array<nodes::Traffic, nodes::packet_kind_count>& by_kind);
+nodes::Traffic ray_traffic(const nodes::TrafficByKind& by_kind);
 
 /// All that is settled before a run.
 struct Prepared {

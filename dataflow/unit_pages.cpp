@@ -30,14 +30,15 @@ std::vector<std::uint32_t> pages_of(const core::Database& database, std::span<co
   return pages;
 }
 
-void UnitPages::add(std::uint32_t page, std::span<const std::byte> bytes) {
+bool UnitPages::add(std::uint32_t page, std::span<const std::byte> bytes) {
   core::expect(bytes.size() == page_bytes_, "a page has a page's bytes");
   if (find_page(page) != nullptr) {
-    return;
+    return false;
   }
   core::expect(free_frames() > 0, "a page that comes has a frame");
   std::copy(bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(count_ * page_bytes_));
   enter(page);
+  return true;
 }
 
 void UnitPages::begin_with(std::span<const std::uint32_t> pages, const nodes::ByteSource& records) {

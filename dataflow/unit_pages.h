@@ -14,6 +14,7 @@
 #include "core/base/expect.h"
 #include "core/build/database.h"
 #include "core/build/region_records.h"
+#include "core/picture/memory_use.h"
 #include "core/record/records.h"
 #include "nodes/byte_source.h"
 #include "nodes/local_memory.h"
@@ -33,15 +34,15 @@ class UnitPages {
 
   UnitPages(nodes::LocalMemory& memory, const Capacity& capacity)
       : page_bytes_(capacity.page_bytes),
-        bytes_(memory.allocate<std::byte>(nodes::Category::home_pages, frame_bytes(capacity))),
-        page_(memory.allocate<std::uint32_t>(nodes::Category::page_table, capacity.frames)),
-        slot_(memory.allocate<std::uint32_t>(nodes::Category::page_table, slots_of(capacity))),
-        marks_(memory.allocate<std::uint64_t>(nodes::Category::page_table, words_of(capacity))) {}
+        bytes_(memory.allocate<std::byte>(core::MemoryUse::home_pages, frame_bytes(capacity))),
+        page_(memory.allocate<std::uint32_t>(core::MemoryUse::page_table, capacity.frames)),
+        slot_(memory.allocate<std::uint32_t>(core::MemoryUse::page_table, slots_of(capacity))),
+        marks_(memory.allocate<std::uint64_t>(core::MemoryUse::page_table, words_of(capacity))) {}
   /// Adds to `plan` exactly what the constructor takes.
   static void add_needs(nodes::MemoryPlan& plan, const Capacity& capacity) {
     using nodes::LocalMemory;
-    plan[nodes::Category::home_pages] += LocalMemory::bytes_for<std::byte>(frame_bytes(capacity));
-    plan[nodes::Category::page_table] += LocalMemory::bytes_for<std::uint32_t>(capacity.frames) +
+    plan[core::MemoryUse::home_pages] += LocalMemory::bytes_for<std::byte>(frame_bytes(capacity));
+    plan[core::MemoryUse::page_table] += LocalMemory::bytes_for<std::uint32_t>(capacity.frames) +
                                          LocalMemory::bytes_for<std::uint32_t>(slots_of(capacity)) +
                                          LocalMemory::bytes_for<std::uint64_t>(words_of(capacity));
   }
@@ -52,8 +53,8 @@ class UnitPages {
 
   /// Takes in the pages with these numbers, whose bytes follow each other in `records`. Call it before add().
   void begin_with(std::span<const std::uint32_t> pages, const nodes::ByteSource& records);
-  /// Takes a page in, unless it is here. Requires a free frame.
-  void add(std::uint32_t page, std::span<const std::byte> bytes);
+  /// Takes a page in, for which it requires a free frame, unless it is here. Says whether it did.
+  [[nodiscard]] bool add(std::uint32_t page, std::span<const std::byte> bytes);
   /// The page's first byte; nullptr if it is not here.
   const std::byte* find_page(std::uint32_t page) const {
     const std::uint32_t frame = slot_.empty() ? 0 : slot_[place_of(page)];

@@ -1,4 +1,4 @@
-// Where a node's program has what it keeps of the scene from: bytes that are here, or that come from another rank.
+// Where a node's program has what it keeps during the run from: bytes that are here, or that come from another rank.
 #pragma once
 
 #include <algorithm>

@@ -11,7 +11,7 @@
 
 namespace dmpc::nodes {
 
-/// How badly a computer behaves. Any values are legal: the picture and the laws of conservation survive all of them.
+/// How badly a computer behaves. Any values are legal: what a run comes to and the laws of conservation survive all of them.
 struct Chaos {
   std::uint64_t seed = 0;
   std::uint32_t held_percent = 50;      ///< of the packets are held back, 0 to 100

@@ -2,11 +2,17 @@
 
 namespace dmpc::nodes {
 
-Traffic total(const std::array<Traffic, packet_kind_count>& traffic) {
+TrafficByKind& operator+=(TrafficByKind& sum, const TrafficByKind& more) {
+  for (std::size_t kind = 0; kind < sum.size(); ++kind) {
+    sum[kind] += more[kind];
+  }
+  return sum;
+}
+
+Traffic total(const TrafficByKind& traffic) {
   Traffic sum;
   for (const Traffic& kind : traffic) {
-    sum.packets += kind.packets;
-    sum.bytes += kind.bytes;
+    sum += kind;
   }
   return sum;
 }

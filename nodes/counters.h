@@ -18,12 +18,22 @@ struct Traffic {
     ++packets;
     bytes += sizeof(PacketHeader) + payload_bytes;
   }
+  Traffic& operator+=(const Traffic& more) {
+    packets += more.packets;
+    bytes += more.bytes;
+    return *this;
+  }
 };
+
+/// By kind of packet.
+using TrafficByKind = std::array<Traffic, packet_kind_count>;
+/// Sums kind by kind.
+TrafficByKind& operator+=(TrafficByKind& sum, const TrafficByKind& more);
 
 /// One node's account of a run. Belongs to the node's thread while the run is going.
 struct NodeCounters {
-  std::array<Traffic, packet_kind_count> sent{};
-  std::array<Traffic, packet_kind_count> received{};
+  TrafficByKind sent{};
+  TrafficByKind received{};
   std::uint64_t refused = 0;    ///< try_send without credit
   std::uint64_t quanta = 0;     ///< calls of work()
   std::uint64_t held = 0;       ///< packets that chaos held back
@@ -35,6 +45,6 @@ struct NodeCounters {
 };
 
 /// The sum over all kinds.
-Traffic total(const std::array<Traffic, packet_kind_count>& traffic);
+Traffic total(const TrafficByKind& traffic);
 
 }  // namespace dmpc::nodes

@@ -1,4 +1,4 @@
-// Room in a node's memory for pieces of bytes that never change and outlive the run, such as parts of the scene.
+// Room in a node's memory for pieces of bytes that never change and outlive the run.
 #pragma once
 
 #include <algorithm>

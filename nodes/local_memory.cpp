@@ -46,12 +46,6 @@ std::byte* reserve_zero(std::size_t bytes) {
 
 }  // namespace
 
-const char* name_of(Category category) {
-  static constexpr std::array<const char*, category_count> names = {
-      "home pages", "cache frames", "page table", "ray stacks", "mailbox", "queues", "film tiles", "constants", "reserve"};
-  return names.at(static_cast<std::size_t>(category));
-}
-
 std::size_t MemoryPlan::total() const {
   std::size_t sum = 0;
   for (const std::size_t category_bytes : bytes) {

@@ -10,36 +10,53 @@
 #include <type_traits>
 
 #include "core/base/expect.h"
+#include "nodes/programs_name.h"
 
 namespace dmpc::nodes {
 
-/// What a node's bytes are for.
-enum class Category : std::uint8_t {
-  home_pages,
-  cache_frames,
-  page_table,
-  ray_stacks,
-  mailbox,
-  queues,
-  film_tiles,
-  constants,
-  reserve,
-};
+/// How many categories a node's bytes have.
 inline constexpr std::size_t category_count = 9;
 
-/// The category in words, for messages and tables: "home pages".
-const char* name_of(Category category);
+/// What a node's bytes are for: the computer's own, or something of which its program alone knows the meaning.
+class Category {
+ public:
+  enum Own : std::uint8_t {
+    mailbox,
+    queues,  ///< packets that wait, and the table of credits
+    reserve  ///< the thread's stack
+  };
+
+  // Implicit: whoever names a use of bytes, the computer's or a program's, has named the category.
+  constexpr Category(Own own) : number_(own) {}
+  /// A program numbers its uses from 0 on; there is room for category_count - 3.
+  template <ProgramsName Use>
+  constexpr Category(Use use) : number_(own_count + static_cast<std::size_t>(use)) {}
+
+  /// Among all of a node's.
+  constexpr std::size_t number() const { return number_; }
+  constexpr bool operator==(const Category&) const = default;
+
+ private:
+  static constexpr std::size_t own_count = 3;
+  std::size_t number_;
+};
 
 /// Bytes by category: what a program will need, known before anything is allocated.
 struct MemoryPlan {
-  std::array<std::size_t, category_count> bytes{};
+  std::array<std::size_t, category_count> bytes{};  ///< by Category::number()
   std::size_t lasting_bytes = 0;  ///< of all of them, room for LastingPieces, which a modelled machine's nodes do not fill
 
   /// Bytes of one category.
-  std::size_t& operator[](Category category) { return bytes[static_cast<std::size_t>(category)]; }
-  std::size_t operator[](Category category) const { return bytes[static_cast<std::size_t>(category)]; }
+  std::size_t& operator[](Category category) { return bytes[index_of(category)]; }
+  std::size_t operator[](Category category) const { return bytes[index_of(category)]; }
   /// Bytes of all categories.
   std::size_t total() const;
+
+ private:
+  static std::size_t index_of(Category category) {
+    core::expect(category.number() < category_count, "a program has no more uses of bytes than there is room for");
+    return category.number();
+  }
 };
 
 /// How a memory keeps bytes that never change and outlive the run: as copies, or, where the nodes are modelled, by their places.

@@ -34,7 +34,7 @@ struct Machine {
   MessageCost short_message, long_message;
   std::uint64_t hop_ns = 0;                           ///< for each link that a message passes
   std::uint64_t service_ns = 0;                       ///< of an interrupt, beside receiving and sending
-  std::array<std::uint64_t, charge_count> cost_ps{};  ///< of an operation, by Charge
+  std::array<std::uint64_t, charge_count> cost_ps{};  ///< of an operation, by its class
   bool has_contention = true;                         ///< a link carries one message at a time
   /// A node, however many links it has, sends one message at a time and receives one at a time. Without contention of no effect.
   bool has_memory_port = false;

@@ -37,6 +37,9 @@ struct Span {
   std::uint64_t begin_ns = 0, end_ns = 0;
   std::uint64_t own_ns = 0;  ///< what it takes by itself, without interrupts and packets that came meanwhile
   Charges before, after;     ///< operations charged until its begin and its end; equal but for calls of the program
+
+  /// The classes of the operations that it was charged.
+  ChargeBits charged() const { return charged_between(before, after); }
 };
 
 /// Where a message was when. What does not apply is 0.
@@ -67,8 +70,8 @@ struct Passing {
 /// What a call of a program has worked on. There may be several in a call, or none.
 struct Worked {
   NodeId node{};
-  std::uint32_t pixel = 0;
-  std::uint32_t depth = 1;  ///< of the ray worked on last
+  std::uint32_t item = 0;   ///< by the program's numbering
+  std::uint32_t depth = 1;  ///< how deep in it the call got last, by the program's reckoning
 };
 
 /// Looks on. What a call sends, receives and works on is told before its span, which is told when it ends. Thread safety: what

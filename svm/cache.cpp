@@ -1,12 +1,12 @@
 #include "svm/cache.h"
 
 #include "core/base/expect.h"
+#include "core/picture/memory_use.h"
 #include "core/record/records.h"
 
 namespace dmpc::svm {
 namespace {
 
-using nodes::Category;
 using nodes::LocalMemory;
 
 std::size_t frame_bytes(const CacheShape& shape) {
@@ -16,19 +16,19 @@ std::size_t frame_bytes(const CacheShape& shape) {
 }  // namespace
 
 void Cache::add_needs(nodes::MemoryPlan& plan, const CacheShape& shape) {
-  nodes::LastingPieces::add_needs(plan, Category::cache_frames, frame_bytes(shape));
+  nodes::LastingPieces::add_needs(plan, core::MemoryUse::cache_frames, frame_bytes(shape));
   PageTable::add_needs(plan, shape.frame_count);
-  plan[Category::page_table] += LocalMemory::bytes_for<std::uint64_t>(shape.frame_count);
-  plan[Category::page_table] += LocalMemory::bytes_for<PageId>(shape.frame_count);
+  plan[core::MemoryUse::page_table] += LocalMemory::bytes_for<std::uint64_t>(shape.frame_count);
+  plan[core::MemoryUse::page_table] += LocalMemory::bytes_for<PageId>(shape.frame_count);
   kind_of(shape.replacement).add_needs(plan, shape.frame_count);
 }
 
 Cache::Cache(LocalMemory& memory, const CacheShape& shape, std::uint32_t seed)
     : hears_hits_(kind_of(shape.replacement).hears_hits),
-      frames_(memory, Category::cache_frames, frame_bytes(shape), shape.page_size_bytes),
+      frames_(memory, core::MemoryUse::cache_frames, frame_bytes(shape), shape.page_size_bytes),
       table_(memory, shape.frame_count),
-      stamps_(memory.allocate<std::uint64_t>(Category::page_table, shape.frame_count)),
-      pages_(memory.allocate<PageId>(Category::page_table, shape.frame_count)),
+      stamps_(memory.allocate<std::uint64_t>(core::MemoryUse::page_table, shape.frame_count)),
+      pages_(memory.allocate<PageId>(core::MemoryUse::page_table, shape.frame_count)),
       policy_(kind_of(shape.replacement).make({memory, stamps_, pages_, seed})) {}
 
 PageId Cache::install(PageId page, std::span<const std::byte> bytes) {

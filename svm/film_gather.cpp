@@ -4,10 +4,10 @@
 #include <cstring>
 
 #include "core/base/expect.h"
+#include "core/picture/memory_use.h"
 
 namespace dmpc::svm {
 
-using nodes::Category;
 using nodes::LocalMemory;
 
 /// A packet that is being gathered, and behind it the pixels in flight, which may all finish before it can leave; and the
@@ -17,14 +17,14 @@ std::size_t FilmGather::room_bytes(const FilmCapacity& capacity) {
 }
 
 void FilmGather::add_needs(nodes::MemoryPlan& plan, const FilmCapacity& capacity) {
-  plan[Category::film_tiles] += LocalMemory::bytes_for<std::byte>(room_bytes(capacity));
+  plan[core::MemoryUse::film_tiles] += LocalMemory::bytes_for<std::byte>(room_bytes(capacity));
 }
 
 FilmGather::FilmGather(nodes::Node& node, const FilmCapacity& capacity)
     : node_(&node),
       host_(capacity.host),
       packet_entries_(capacity.packet_entries),
-      room_(node.memory().allocate<std::byte>(Category::film_tiles, room_bytes(capacity))) {
+      room_(node.memory().allocate<std::byte>(core::MemoryUse::film_tiles, room_bytes(capacity))) {
   node.grant(host_, bulk_channel, capacity.credits);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/expect.h"
+#include "core/picture/memory_use.h"
 
 namespace dmpc::svm {
 namespace {
@@ -63,7 +64,7 @@ std::size_t question_packet_bytes(std::uint32_t questions) {
 }
 
 void Forest::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index) {
-  nodes::LastingPieces::add_needs(memory, Category::home_pages, capacity.forest_bytes() + core::overread_bytes);
+  nodes::LastingPieces::add_needs(memory, core::MemoryUse::home_pages, capacity.forest_bytes() + core::overread_bytes);
   HomePages::add_needs(memory, capacity, index);
   memory[Category::queues] +=
       LocalMemory::bytes_for<Question>(capacity.in_flight) + LocalMemory::bytes_for<Queue>(capacity.node_count) +
@@ -72,7 +73,7 @@ void Forest::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, 
 
 Forest::Forest(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
     : geometry_(capacity.page_size_bytes()),
-      forest_(nodes::kept(node.memory(), Category::home_pages, database, capacity.forest_bytes(), core::overread_bytes)),
+      forest_(nodes::kept(node.memory(), core::MemoryUse::home_pages, database, capacity.forest_bytes(), core::overread_bytes)),
       homes_(node, capacity, database),
       self_(nodes::index_of(node.id())),
       node_(&node),

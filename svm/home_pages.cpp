@@ -1,6 +1,7 @@
 #include "svm/home_pages.h"
 
 #include "core/base/expect.h"
+#include "core/picture/memory_use.h"
 #include "core/record/records.h"
 #include "svm/packets.h"
 
@@ -18,14 +19,14 @@ HomePages::HomePages(nodes::Node& node, const PageCapacity& capacity, const node
       self_(nodes::index_of(node.id())),
       first_page_(capacity.forest_pages),
       count_(capacity.pages_at(self_)),
-      pages_(node.memory(), nodes::Category::home_pages, room_bytes(capacity, self_), capacity.page_size_bytes()) {
+      pages_(node.memory(), core::MemoryUse::home_pages, room_bytes(capacity, self_), capacity.page_size_bytes()) {
   core::expect(database.size_bytes() == capacity.database_bytes(), "the plan is the database's");
   std::size_t slot = 0;
   for_each_page(capacity, self_, [&](std::size_t offset_bytes) { pages_.put(slot++, database, offset_bytes); });
 }
 
 void HomePages::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index) {
-  nodes::LastingPieces::add_needs(memory, nodes::Category::home_pages, room_bytes(capacity, index));
+  nodes::LastingPieces::add_needs(memory, core::MemoryUse::home_pages, room_bytes(capacity, index));
 }
 
 void grant_requests(nodes::Node& node, const PageCapacity& capacity) {

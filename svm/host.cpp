@@ -6,6 +6,7 @@
 
 #include "core/base/expect.h"
 #include "core/base/units.h"
+#include "core/picture/memory_use.h"
 
 namespace dmpc::svm {
 namespace {
@@ -21,7 +22,7 @@ HostProgram::HostProgram(nodes::Node& node, const HostShape& shape, core::Film& 
       progress_(std::move(progress)),
       continuation_(continuation),
       refinement_(shape.refinement, shape.first_samples, film.width(), film.height(), shape.detail),
-      arrived_(node.memory().allocate<std::uint64_t>(nodes::Category::film_tiles, words_for(shape.pixel_count()))),
+      arrived_(node.memory().allocate<std::uint64_t>(core::MemoryUse::film_tiles, words_for(shape.pixel_count()))),
       pixels_sent_(shape.refinement.is_wanted() ? shape.node_count : 0),
       node_count_(shape.node_count),
       worker_count_(shape.worker_count),
@@ -47,7 +48,7 @@ HostProgram::HostProgram(nodes::Node& node, const HostShape& shape, core::Film& 
 }
 
 void HostProgram::add_needs(nodes::MemoryPlan& plan, const HostShape& shape) {
-  plan[nodes::Category::film_tiles] += nodes::LocalMemory::bytes_for<std::uint64_t>(words_for(shape.pixel_count()));
+  plan[core::MemoryUse::film_tiles] += nodes::LocalMemory::bytes_for<std::uint64_t>(words_for(shape.pixel_count()));
   if (shape.pages) {
     HomePages::add_needs(plan, *shape.pages, shape.node_count);
     PageServer::add_needs(plan, *shape.pages, shape.node_count);

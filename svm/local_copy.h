@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/base/expect.h"
+#include "core/picture/memory_use.h"
 #include "core/record/records.h"
 #include "nodes/lasting_pieces.h"
 #include "nodes/node.h"
@@ -21,12 +22,12 @@ class LocalCopy {
 
   /// Puts `database` into the node's local memory.
   LocalCopy(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
-      : bytes_(nodes::kept(node.memory(), nodes::Category::home_pages, database, database.size_bytes(), core::overread_bytes)) {
+      : bytes_(nodes::kept(node.memory(), core::MemoryUse::home_pages, database, database.size_bytes(), core::overread_bytes)) {
     core::expect(database.size_bytes() == capacity.database_bytes(), "the plan is the database's");
   }
   /// Adds to `plan` exactly what the constructor takes.
   static void add_needs(nodes::MemoryPlan& plan, std::size_t database_bytes) {
-    nodes::LastingPieces::add_needs(plan, nodes::Category::home_pages, database_bytes + core::overread_bytes);
+    nodes::LastingPieces::add_needs(plan, core::MemoryUse::home_pages, database_bytes + core::overread_bytes);
   }
 
   const std::byte* find(core::Address address) const { return bytes_.data() + core::byte_offset(address); }

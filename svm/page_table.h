@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/base/expect.h"
+#include "core/picture/memory_use.h"
 #include "nodes/local_memory.h"
 #include "svm/page.h"
 
@@ -22,10 +23,10 @@ class PageTable {
   /// For up to `page_count` pages.
   PageTable(nodes::LocalMemory& memory, std::uint32_t page_count)
       : hash_shift_(32U - static_cast<std::uint32_t>(std::countr_zero(size_for(page_count)))),
-        entries_(memory.allocate<Entry>(nodes::Category::page_table, size_for(page_count))) {}
+        entries_(memory.allocate<Entry>(core::MemoryUse::page_table, size_for(page_count))) {}
   /// Adds to `plan` exactly what the constructor takes.
   static void add_needs(nodes::MemoryPlan& plan, std::uint32_t page_count) {
-    plan[nodes::Category::page_table] += nodes::LocalMemory::bytes_for<Entry>(size_for(page_count));
+    plan[core::MemoryUse::page_table] += nodes::LocalMemory::bytes_for<Entry>(size_for(page_count));
   }
 
   /// nowhere if the page is not in the table.

@@ -3,12 +3,12 @@
 #include <cstring>
 
 #include "core/base/expect.h"
+#include "core/picture/memory_use.h"
 #include "svm/packets.h"
 
 namespace dmpc::svm {
 namespace {
 
-using nodes::Category;
 using nodes::LocalMemory;
 
 }  // namespace
@@ -16,7 +16,7 @@ using nodes::LocalMemory;
 void Pager::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index) {
   HomePages::add_needs(memory, capacity, index);
   PageServer::add_needs(memory, capacity, index);
-  memory[Category::page_table] += LocalMemory::bytes_for<Translation>(translation_count);
+  memory[core::MemoryUse::page_table] += LocalMemory::bytes_for<Translation>(translation_count);
   Cache::add_needs(memory, capacity.resident_shape());
   Cache::add_needs(memory, capacity.cache);
   Faults::add_needs(memory, capacity.in_flight, capacity.faults_max);
@@ -24,7 +24,7 @@ void Pager::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, s
 
 Pager::Pager(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
     : geometry_(capacity.page_size_bytes()),
-      translations_(node.memory().allocate<Translation>(Category::page_table, translation_count)),
+      translations_(node.memory().allocate<Translation>(core::MemoryUse::page_table, translation_count)),
       homes_(node, capacity, database),
       resident_(node.memory(), capacity.resident_shape(), 0),
       cache_(node.memory(), capacity.cache, nodes::index_of(node.id())),

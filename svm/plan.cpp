@@ -5,6 +5,7 @@
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "core/picture/bundle_task.h"
+#include "core/picture/memory_use.h"
 #include "nodes/lasting_pieces.h"
 #include "nodes/runner.h"
 #include "nodes/size_text.h"
@@ -448,7 +449,7 @@ nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
   }
   FilmGather::add_needs(plan, film());
   WorkSource::add_needs(plan, work(), index);
-  nodes::LastingPieces::add_needs(plan, Category::constants, sizeof(core::RenderSettings));
+  nodes::LastingPieces::add_needs(plan, core::MemoryUse::constants, sizeof(core::RenderSettings));
   plan[Category::mailbox] += node_mailbox.bytes();
   plan[Category::queues] += nodes::credit_table_bytes(request.computer.node_count + 1) + held_bytes;
   plan[Category::reserve] += request.computer.stack_reserve_bytes;

@@ -22,12 +22,14 @@
 #include <utility>
 
 #include "core/base/expect.h"
+#include "core/picture/heat_kind.h"
+#include "core/picture/memory_use.h"
 #include "core/picture/pixel_task.h"
+#include "core/trace/charge.h"
 #include "nodes/byte_source.h"
 #include "nodes/lasting_pieces.h"
 #include "nodes/node.h"
 #include "nodes/watch/meter.h"
-#include "nodes/watch/operation_charges.h"
 #include "svm/faults.h"
 #include "svm/film_gather.h"
 #include "svm/node_program.h"
@@ -110,15 +112,15 @@ class ControlProgram final : public NodeProgram {
   bool finished() const override { return stopped_; }
 
   nodes::Charges charges() const override {
-    nodes::Charges charges = nodes::charges_of(operations_);
+    nodes::Charges charges{core::charges_of(operations_)};
     const PageCounters pages = records_.counters();
-    charges[nodes::Charge::home_lookup] = pages.home_hits;
-    charges[nodes::Charge::cached_lookup] = pages.references - pages.home_hits;
-    charges[nodes::Charge::page_install] = pages.faults - pending_faults();
+    charges[core::Charge::home_lookup] = pages.home_hits;
+    charges[core::Charge::cached_lookup] = pages.references - pages.home_hits;
+    charges[core::Charge::page_install] = pages.faults - pending_faults();
     if constexpr (questions_travel) {
       const QuestionCounters& questions = records_.questions();
-      charges[nodes::Charge::ray_setup] += questions.rays_answered;
-      charges[nodes::Charge::ray_packing] =
+      charges[core::Charge::ray_setup] += questions.rays_answered;
+      charges[core::Charge::ray_packing] =
           questions.rays_asked + questions.records_asked + questions.rays_answered + questions.records_answered;
     }
     return charges;
@@ -159,7 +161,7 @@ class ControlProgram final : public NodeProgram {
   static const core::RenderSettings& kept(nodes::Node& node, const core::RenderSettings& settings) {
     static_assert(std::is_trivially_copyable_v<core::RenderSettings>);
     return *reinterpret_cast<const core::RenderSettings*>(
-        nodes::kept(node.memory(), nodes::Category::constants, std::as_bytes(std::span(&settings, 1))).data());
+        nodes::kept(node.memory(), core::MemoryUse::constants, std::as_bytes(std::span(&settings, 1))).data());
   }
 
   static constexpr bool questions_travel = requires(Records & records) { records.flush(); };
@@ -225,7 +227,12 @@ class ControlProgram final : public NodeProgram {
   // Out of line, so that a quantum without a meter is no longer for it.
   [[gnu::noinline]] nodes::HeatTotals heat_totals() const {
     const PageCounters pages = records_.counters();
-    return {operations_.ray_count(), pages.references, pages.faults, pages.distinct_pages, charges()};
+    nodes::HeatTotals totals{.charges = charges()};
+    totals[core::HeatKind::rays] = operations_.ray_count();
+    totals[core::HeatKind::references] = pages.references;
+    totals[core::HeatKind::faults] = pages.faults;
+    totals[core::HeatKind::pages] = pages.distinct_pages;
+    return totals;
   }
 
   void finish(std::uint32_t slot) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/base/expect.h"
+#include "core/picture/heat_kind.h"
 #include "nodes/flat_bytes.h"
 #include "nodes/ranks/life_signs.h"
 #include "svm/host.h"
@@ -17,7 +18,7 @@ namespace {
 PageOptions pages_of(const RunOptions& options) {
   const nodes::HeatMap* const heat = options.watching.heat;
   PageOptions pages = options.pages;
-  pages.count_pages = pages.count_pages || (heat != nullptr && heat->has(nodes::HeatKind::pages));
+  pages.count_pages = pages.count_pages || (heat != nullptr && heat->has(core::HeatKind::pages));
   return pages;
 }
 
@@ -59,9 +60,7 @@ NodeReport report_from(const std::string& told) {
   return {{reader.take<nodes::NodeFigures>()}, program};
 }
 
-std::uint64_t packets_of(const std::array<nodes::Traffic, nodes::packet_kind_count>& traffic, Kind kind) {
-  return traffic[number_of(kind)].packets;
-}
+std::uint64_t packets_of(const nodes::TrafficByKind& traffic, Kind kind) { return traffic[number_of(kind)].packets; }
 
 /// For pages, passed on or not.
 std::uint64_t requests_received(const nodes::NodeCounters& counters) {
@@ -166,13 +165,10 @@ QuestionCounters Report::questions() const {
   return sum;
 }
 
-std::array<nodes::Traffic, nodes::packet_kind_count> Report::sent() const {
-  std::array<nodes::Traffic, nodes::packet_kind_count> sum = host.sent;
+nodes::TrafficByKind Report::sent() const {
+  nodes::TrafficByKind sum = host.sent;
   for (const NodeReport& node : nodes) {
-    for (std::size_t kind = 0; kind < sum.size(); ++kind) {
-      sum[kind].packets += node.counters.sent[kind].packets;
-      sum[kind].bytes += node.counters.sent[kind].bytes;
-    }
+    sum += node.counters.sent;
   }
   return sum;
 }
@@ -225,7 +221,7 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
                 .host = {}};
   report.plan.request.detail = nullptr;  // it is the run's, and so is the database
   report.plan.request.database = {};
-  core::expect(options.watching.heat == nullptr || options.watching.heat->pixel_count() == report.film.pixels().size(),
+  core::expect(options.watching.heat == nullptr || options.watching.heat->item_count() == report.film.pixels().size(),
                "a heat map is of the picture's size");
   const auto runner =
       nodes::make_runner(specifications_of(plan, make_program, report.film, options.watching.progress, options.continuation),

@@ -71,7 +71,7 @@ struct Report {
   WorkCounters work() const;
   QuestionCounters questions() const;
   /// Packets and bytes sent by all nodes and the host, by Kind's number.
-  std::array<nodes::Traffic, nodes::packet_kind_count> sent() const;
+  nodes::TrafficByKind sent() const;
 };
 
 /// The plan that a run with these options will follow, for messages before the run. Throws as make_plan() does.

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/base/expect.h"
+#include "core/picture/memory_use.h"
 #include "core/picture/shade.h"
 #include "nodes/local_memory.h"
 
@@ -18,10 +19,10 @@ class Slots {
 
  public:
   Slots(nodes::LocalMemory& memory, std::uint32_t count, std::uint32_t depth_max)
-      : tasks_(memory.allocate<Slot>(nodes::Category::ray_stacks, count)),
+      : tasks_(memory.allocate<Slot>(core::MemoryUse::ray_stacks, count)),
         runnable_(memory.allocate<std::uint32_t>(nodes::Category::queues, count)),
         free_(memory.allocate<std::uint32_t>(nodes::Category::queues, count)) {
-    const std::span<Hits> stacks = memory.allocate<Hits>(nodes::Category::ray_stacks, std::size_t{count} * depth_max);
+    const std::span<Hits> stacks = memory.allocate<Hits>(core::MemoryUse::ray_stacks, std::size_t{count} * depth_max);
     for (std::uint32_t slot = 0; slot < count; ++slot) {
       tasks_[slot].task = Task(stacks.subspan(std::size_t{slot} * depth_max, depth_max));
       free_[free_count_++] = count - 1 - slot;
@@ -31,8 +32,8 @@ class Slots {
   static void add_needs(nodes::MemoryPlan& plan, std::uint32_t count, std::uint32_t depth_max) {
     using nodes::Category;
     using nodes::LocalMemory;
-    plan[Category::ray_stacks] += LocalMemory::bytes_for<Slot>(count);
-    plan[Category::ray_stacks] += LocalMemory::bytes_for<Hits>(std::size_t{count} * depth_max);
+    plan[core::MemoryUse::ray_stacks] += LocalMemory::bytes_for<Slot>(count);
+    plan[core::MemoryUse::ray_stacks] += LocalMemory::bytes_for<Hits>(std::size_t{count} * depth_max);
     plan[Category::queues] += 2 * LocalMemory::bytes_for<std::uint32_t>(count);
   }
 

@@ -5,6 +5,7 @@
 
 #include "core/base/expect.h"
 #include "core/base/units.h"
+#include "core/picture/memory_use.h"
 #include "nodes/node.h"
 #include "nodes/runner.h"
 #include "nodes/size_text.h"
@@ -87,10 +88,10 @@ nodes::MemoryPlan TaskPlan::node_memory(std::uint32_t node) const {
   nodes::MemoryPlan plan = host_memory();
   plan[Category::mailbox] = mailbox_.bytes();
   Pager::add_needs(plan, pages_, node);
-  plan[Category::ray_stacks] += LocalMemory::bytes_for<std::byte>(in_flight_ * sizes_.task_bytes);
+  plan[core::MemoryUse::ray_stacks] += LocalMemory::bytes_for<std::byte>(in_flight_ * sizes_.task_bytes);
   plan[Category::queues] +=
       3 * LocalMemory::bytes_for<std::uint32_t>(in_flight_);  // numbers of tasks, those runnable, free places
-  plan[Category::film_tiles] += LocalMemory::bytes_for<std::byte>(tasks_at(node) * sizes_.result_bytes);
+  plan[core::MemoryUse::film_tiles] += LocalMemory::bytes_for<std::byte>(tasks_at(node) * sizes_.result_bytes);
   return plan;
 }
 

@@ -11,7 +11,9 @@
 #include <string>
 
 #include "core/base/expect.h"
+#include "core/picture/memory_use.h"
 #include "core/picture/pixel_task.h"
+#include "core/trace/charge.h"
 #include "nodes/node.h"
 #include "svm/node_program.h"
 #include "svm/packets.h"
@@ -38,11 +40,11 @@ class TaskProgram final : public AnyTaskProgram {
         next_(plan.first_task(nodes::index_of(node.id()))),
         first_(next_),
         count_(plan.tasks_at(nodes::index_of(node.id()))),
-        tasks_(node.memory().allocate<std::byte>(nodes::Category::ray_stacks, plan.in_flight() * kind.sizes.task_bytes)),
+        tasks_(node.memory().allocate<std::byte>(core::MemoryUse::ray_stacks, plan.in_flight() * kind.sizes.task_bytes)),
         numbers_(node.memory().allocate<std::uint32_t>(nodes::Category::queues, plan.in_flight())),
         runnable_(node.memory().allocate<std::uint32_t>(nodes::Category::queues, plan.in_flight())),
         free_(node.memory().allocate<std::uint32_t>(nodes::Category::queues, plan.in_flight())),
-        results_(node.memory().allocate<std::byte>(nodes::Category::film_tiles, count_ * kind.sizes.result_bytes)) {
+        results_(node.memory().allocate<std::byte>(core::MemoryUse::film_tiles, count_ * kind.sizes.result_bytes)) {
     for (std::uint32_t place = 0; place < free_.size(); ++place) {
       free_[free_count_++] = static_cast<std::uint32_t>(free_.size()) - 1 - place;
     }
@@ -78,9 +80,9 @@ class TaskProgram final : public AnyTaskProgram {
   nodes::Charges charges() const override {
     nodes::Charges charges = charges_;
     const PageCounters pages = records_.counters();
-    charges[nodes::Charge::home_lookup] += pages.home_hits;
-    charges[nodes::Charge::cached_lookup] += pages.references - pages.home_hits;
-    charges[nodes::Charge::page_install] += pages.faults - records_.faults();
+    charges[core::Charge::home_lookup] += pages.home_hits;
+    charges[core::Charge::cached_lookup] += pages.references - pages.home_hits;
+    charges[core::Charge::page_install] += pages.faults - records_.faults();
     return charges;
   }
 

@@ -127,7 +127,7 @@ std::byte* HostedNode::allocate_bytes(Index memory, std::size_t bytes) {
     throw ProgramError(with_name("the memory", needs[memory].name) + " is asked for after the start");
   }
   used_bytes_[memory] += bytes;
-  return node_.memory().allocate<std::byte>(nodes::Category::constants, bytes).data();
+  return node_.memory().allocate<std::byte>(ProgramMemory::declared, bytes).data();
 }
 
 HostedProgram::HostedProgram(nodes::Node& node, const ProgramPlan& plan, const Make& make)

@@ -8,7 +8,7 @@
 #include "apps/machine/machine_file.h"
 #include "apps/machine/machines.h"
 #include "core/base/expect.h"
-#include "nodes/charge.h"
+#include "core/trace/charge.h"
 
 namespace dmpc::apps {
 namespace {
@@ -111,7 +111,7 @@ void add_closer_look(OptionSet options, ProgramOptions& program) {
 
 /// By the tests of a triangle: floating-point multiplications and additions for the most part.
 double slowdown_of(const nodes::Machine& machine) {
-  constexpr auto arithmetic = static_cast<std::size_t>(nodes::Charge::triangle_test);
+  constexpr auto arithmetic = static_cast<std::size_t>(core::Charge::triangle_test);
   return static_cast<double>(machine.cost_ps[arithmetic]) / static_cast<double>(operation_costs_ps(1)[arithmetic]);
 }
 

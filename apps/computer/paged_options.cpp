@@ -7,6 +7,7 @@
 #include "apps/computer/dmpc/pages.h"
 #include "apps/line/option_values.h"
 #include "core/base/expect.h"
+#include "core/trace/charge.h"
 #include "svm/page.h"
 #include "svm/plan.h"
 #include "svm/replacement.h"
@@ -14,7 +15,7 @@
 namespace dmpc::apps {
 namespace {
 
-using nodes::Charge;
+using core::Charge;
 
 constexpr std::array<Charge, task_operations_max> free_charges = {Charge::ray_setup,     Charge::cell_step,   Charge::brick_read,
                                                                   Charge::triangle_test, Charge::sphere_test, Charge::cone_test,
@@ -64,7 +65,7 @@ void add_options(OptionSet options, PagedOptions& paged, const std::vector<Numbe
   });
 }
 
-nodes::Charge charge_of(Index operation) { return free_charges.at(operation); }
+core::Charge charge_of(Index operation) { return free_charges.at(operation); }
 
 void choose_machine(PagedOptions& options, const std::vector<OperationNeed>& operations) {
   if (operations.size() > task_operations_max) {

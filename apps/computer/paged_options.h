@@ -7,7 +7,7 @@
 
 #include "apps/computer/dmpc/computer.h"
 #include "apps/computer/options.h"
-#include "nodes/charge.h"
+#include "core/trace/charge.h"
 #include "svm/task_plan.h"
 
 namespace dmpc::apps {
@@ -22,7 +22,7 @@ struct PagedOptions {
 void add_options(OptionSet options, PagedOptions& paged, const std::vector<NumberOption>& own);
 
 /// What the computer below calls a program's operation, between those of pages.
-nodes::Charge charge_of(Index operation);
+core::Charge charge_of(Index operation);
 
 /// Reads the machine that is to be modelled, if one is. Look-ups and installs of pages keep its prices. Throws core::InputError
 /// as load_machine() does, core::UsageError for too many operations.

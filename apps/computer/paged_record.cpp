@@ -17,17 +17,6 @@ namespace {
 constexpr std::array<const char*, span_names.size()> task_activity_names = {
     "compute", "compute", "install page", "compute", "compute", "compute", "serve page", "send packets", "take packet"};
 
-void add_traffic(nodes::Traffic& sum, const nodes::Traffic& more) {
-  sum.packets += more.packets;
-  sum.bytes += more.bytes;
-}
-
-void add_charges(nodes::Charges& sum, const nodes::Charges& more) {
-  for (std::size_t i = 0; i < nodes::charge_count; ++i) {
-    sum.count[i] += more.count[i];
-  }
-}
-
 }  // namespace
 
 void PagedRecord::add(const svm::TaskFigures& figures, const svm::TaskPlan& plan, std::uint32_t tasks) {
@@ -35,9 +24,9 @@ void PagedRecord::add(const svm::TaskFigures& figures, const svm::TaskPlan& plan
   for (std::uint32_t index = 0; index < plan.node_count(); ++index) {
     PagedNode& node = nodes[index];
     node.pages += figures.pages[index];
-    add_charges(node.charges, figures.charges[index]);
-    add_traffic(node.requests, figures.counters[index].sent[number_of(svm::Kind::page_request)]);
-    add_traffic(node.replies, figures.counters[index].sent[number_of(svm::Kind::page_reply)]);
+    node.charges += figures.charges[index];
+    node.requests += figures.counters[index].sent[number_of(svm::Kind::page_request)];
+    node.replies += figures.counters[index].sent[number_of(svm::Kind::page_reply)];
     node.computing_ns += figures.virtual_time ? figures.virtual_time->nodes[index].computing_ns : 0;
     node.memory_bytes = std::max(node.memory_bytes, plan.node_memory(index).total());
   }
@@ -56,9 +45,9 @@ PagedNode PagedRecord::sum() const {
   PagedNode sum;
   for (const PagedNode& node : nodes) {
     sum.pages += node.pages;
-    add_charges(sum.charges, node.charges);
-    add_traffic(sum.requests, node.requests);
-    add_traffic(sum.replies, node.replies);
+    sum.charges += node.charges;
+    sum.requests += node.requests;
+    sum.replies += node.replies;
     sum.computing_ns += node.computing_ns;
     sum.memory_bytes = std::max(sum.memory_bytes, node.memory_bytes);
   }

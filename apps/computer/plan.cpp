@@ -192,7 +192,7 @@ nodes::MemoryPlan ProgramPlan::memory(std::uint32_t node) const {
   plan[Category::mailbox] = mailboxes_[node].bytes();
   plan[Category::queues] += nodes::LocalMemory::bytes_for<std::uint16_t>(table_size());
   for (const MemoryNeed& need : needs_.memory) {
-    plan[Category::constants] += core::round_up(need.bytes, nodes::LocalMemory::alignment);
+    plan[ProgramMemory::declared] += core::round_up(need.bytes, nodes::LocalMemory::alignment);
   }
   return plan;
 }

@@ -13,6 +13,9 @@
 
 namespace dmpc::apps {
 
+/// What a program's nodes spend memory on, beside what the computer takes.
+enum class ProgramMemory : std::uint8_t { declared };
+
 /// A computer for a program. Immutable; everything is checked when it is made.
 class ProgramPlan {
  public:

@@ -37,8 +37,7 @@ std::uint64_t computing_ns(const nodes::VirtualReport& report, std::uint32_t nod
 nodes::Traffic sent(const ProgramRecord& record, Index packet) {
   nodes::Traffic sum;
   for (const ProgramNode& node : record.nodes) {
-    sum.packets += node.counters.sent[packet].packets;
-    sum.bytes += node.counters.sent[packet].bytes;
+    sum += node.counters.sent[packet];
   }
   return sum;
 }
@@ -46,8 +45,7 @@ nodes::Traffic sent(const ProgramRecord& record, Index packet) {
 nodes::Traffic sent(const ProgramRecord& record) {
   nodes::Traffic sum;
   for (Index packet = 0; packet < record.plan.needs().packets.size(); ++packet) {
-    sum.packets += sent(record, packet).packets;
-    sum.bytes += sent(record, packet).bytes;
+    sum += sent(record, packet);
   }
   return sum;
 }

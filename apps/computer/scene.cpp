@@ -16,14 +16,14 @@
 #include "core/picture/film.h"
 #include "core/picture/pixel_task.h"
 #include "core/record/records.h"
+#include "core/trace/charge.h"
 #include "nodes/charge.h"
-#include "nodes/watch/operation_charges.h"
 #include "svm/page.h"
 
 namespace dmpc {
 namespace {
 
-using nodes::Charge;
+using core::Charge;
 
 constexpr std::array<Charge, scene_operation_count> scene_charges = {
     Charge::ray_setup,   Charge::cell_step, Charge::brick_read, Charge::triangle_test,
@@ -85,7 +85,7 @@ std::vector<OperationNeed> scene_operations() {
   std::vector<OperationNeed> operations;
   for (const Charge charge : scene_charges) {
     const auto index = static_cast<std::size_t>(charge);
-    operations.push_back({std::string(nodes::charge_names[index]), static_cast<double>(prices_ps[index]) / 1000});
+    operations.push_back({std::string(core::charge_names[index]), static_cast<double>(prices_ps[index]) / 1000});
   }
   return operations;
 }
@@ -97,7 +97,7 @@ struct PixelTask::State {
 
   /// Those that have come since the last call.
   void charge(Pages& pages) {
-    const nodes::Charges all = nodes::charges_of(operations);
+    const nodes::Charges all{core::charges_of(operations)};
     for (Index i = 0; i < scene_charges.size(); ++i) {
       const std::uint64_t count = all[scene_charges[i]] - charged[scene_charges[i]];
       if (count > 0) {

@@ -33,9 +33,7 @@ Json operations_json(const ProgramRecord& record, const nodes::Charges& charges)
 nodes::Charges charges_of_all(const ProgramRecord& record) {
   nodes::Charges sum;
   for (const ProgramNode& node : record.nodes) {
-    for (Index i = 0; i < nodes::charge_count; ++i) {
-      sum.count[i] += node.charges.count[i];
-    }
+    sum += node.charges;
   }
   return sum;
 }

@@ -9,9 +9,9 @@
 #include "apps/run/strategy_options.h"
 #include "apps/run/systems.h"
 #include "core/families/scenes.h"
+#include "core/picture/heat_kind.h"
 #include "core/trace/skips.h"
 #include "nodes/topology.h"
-#include "nodes/watch/heat_map.h"
 #include "svm/replacement.h"
 
 namespace dmpc::apps {
@@ -75,17 +75,17 @@ ChoiceList topologies() {
 }
 
 ChoiceList heat_maps() {
-  constexpr std::array<const char*, nodes::heat_kind_names.size()> meanings = {"requests for pages that its rays began (svm)",
-                                                                               "look-ups of pages (svm)",
-                                                                               "different pages looked up (svm)",
-                                                                               "rays shot",
-                                                                               "time of computing",
-                                                                               "the node that the pixel belongs to",
-                                                                               "how deep its rays go; 1: primary rays alone",
-                                                                               "light samples"};
+  constexpr std::array<const char*, core::heat_kind_names.size()> meanings = {"requests for pages that its rays began (svm)",
+                                                                              "look-ups of pages (svm)",
+                                                                              "different pages looked up (svm)",
+                                                                              "rays shot",
+                                                                              "time of computing",
+                                                                              "the node that the pixel belongs to",
+                                                                              "how deep its rays go; 1: primary rays alone",
+                                                                              "light samples"};
   ChoiceList all{"heatmaps", "--heatmap=", {}};
   for (std::size_t i = 0; i < meanings.size(); ++i) {
-    all.entries.push_back({std::string(nodes::heat_kind_names[i]), meanings[i]});
+    all.entries.push_back({std::string(core::heat_kind_names[i]), meanings[i]});
   }
   return all;
 }

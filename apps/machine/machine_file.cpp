@@ -11,6 +11,7 @@
 #include "apps/system/text_input.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
+#include "core/trace/charge.h"
 #include "nodes/topology.h"
 
 namespace dmpc::apps {
@@ -38,7 +39,7 @@ Json message_json(const nodes::MessageCost& cost) {
 Json operations_json(const nodes::Machine& machine) {
   Json costs;
   for (std::size_t i = 0; i < nodes::charge_count; ++i) {
-    costs[std::string(nodes::charge_names[i])] = machine.cost_ps[i];
+    costs[std::string(core::charge_names[i])] = machine.cost_ps[i];
   }
   return costs;
 }
@@ -152,7 +153,7 @@ nodes::MessageCost message_of(const Fields& fields) {
 std::array<std::uint64_t, nodes::charge_count> operations_of(const Fields& fields) {
   std::array<std::uint64_t, nodes::charge_count> costs_ps{};
   for (std::size_t i = 0; i < nodes::charge_count; ++i) {
-    costs_ps[i] = fields.number(nodes::charge_names[i], operation_ps_max);
+    costs_ps[i] = fields.number(core::charge_names[i], operation_ps_max);
   }
   return costs_ps;
 }
@@ -199,7 +200,7 @@ void check_format(const Fields& fields) {
 MachineDescription description_of(const Fields& fields) {
   check_format(fields);
   const Keys message_keys = {"send_ns", "latency_ns", "receive_ns", "byte_ps"};
-  const Keys operation_keys(nodes::charge_names.begin(), nodes::charge_names.end());
+  const Keys operation_keys(core::charge_names.begin(), core::charge_names.end());
   return {.machine = {.name = machine_name_in(fields),
                       .topology = topology_of(fields),
                       .uplinks = uplinks_of(fields),

@@ -19,7 +19,7 @@ namespace dmpc::apps {
 ///   short_message, long_message   send_ns, latency_ns, receive_ns, byte_ps
 ///   hop_ns             for each link
 ///   service_ns         of an interrupt, beside receiving and sending
-///   operation_ps       by the names of nodes::Charge
+///   operation_ps       by the names of core::Charge
 ///   has_contention     whether a link carries one message at a time
 ///   has_memory_port    whether a node sends one message at a time and receives one at a time, over whatever links; goes with
 ///                      has_contention only

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
+#include "core/trace/charge.h"
 #include "dataflow/regions/work.h"
 
 namespace dmpc::apps {
 namespace {
 
-using nodes::Charge;
+using core::Charge;
 using nodes::MessageCost;
 using nodes::Switching;
 using nodes::TopologyKind;

@@ -38,7 +38,7 @@ std::string machine_preset_names();
 std::string name_with_links(const nodes::Machine& machine);
 
 /// What the operations cost on a processor that takes `slowdown` times as long as the core on which dataflow/regions/work.cpp's
-/// prices were measured, in picoseconds by nodes::Charge. Thread-safe.
+/// prices were measured, in picoseconds by core::Charge. Thread-safe.
 std::array<std::uint64_t, nodes::charge_count> operation_costs_ps(std::uint64_t slowdown);
 
 }  // namespace dmpc::apps

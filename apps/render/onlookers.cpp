@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "apps/run/work.h"
 #include "core/base/expect.h"
 #include "nodes/flat_bytes.h"
 
@@ -24,7 +25,7 @@ Onlookers::Onlookers(const WatchOrder& order) : order_(order) {
     members.push_back(recorder_.get());
   }
   if (order.has_profile) {
-    profile_ = std::make_unique<nodes::ActivityProfile>(order.node_count + 1);
+    profile_ = std::make_unique<nodes::ActivityProfile>(order.node_count + 1, work_of);
     members.push_back(profile_.get());
   }
   if (order.fetches) {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/base/expect.h"
+#include "core/picture/heat_kind.h"
 #include "nodes/flat_bytes.h"
 #include "nodes/ranks/rank_links.h"
 
@@ -72,7 +73,7 @@ WatchOrder watch_order_from(std::string_view bytes) {
   order.node_count = flat.take<std::uint32_t>();
   order.page_count = flat.take<std::uint32_t>();
   order.pixel_count = flat.take<std::uint32_t>();
-  order.heat_kinds = flat.take_all<nodes::HeatKind>();
+  order.heat_kinds = flat.take_all<core::HeatKind>();
   if (flat.take<bool>()) {
     nodes::TraceChoice& trace = order.trace.emplace();
     trace.from_ns = flat.take<std::uint64_t>();

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "apps/run/render_options.h"
-#include "nodes/watch/heat_map.h"
+#include "core/picture/heat_kind.h"
 #include "nodes/watch/trace.h"
 #include "svm/home.h"
 
@@ -20,7 +20,7 @@ inline constexpr std::size_t references_usual = std::size_t{1} << 22U;
 
 struct WatchOrder {
   std::uint32_t node_count = 0, page_count = 0, pixel_count = 0;  ///< of computer, database and picture
-  std::vector<nodes::HeatKind> heat_kinds = {};                   ///< empty: no heat map
+  std::vector<core::HeatKind> heat_kinds = {};                    ///< empty: no heat map
   std::optional<nodes::TraceChoice> trace = {};                   ///< of one rank: a share of the events
   bool has_profile = false;
   std::optional<svm::PageHomes> fetches = {};      ///< where pages are at home that are fetched

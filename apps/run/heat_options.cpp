@@ -4,17 +4,18 @@
 
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
+#include "core/picture/heat_kind.h"
 
 namespace dmpc::apps {
 
 namespace {
 
+using core::HeatKind;
 using core::UsageError;
-using nodes::HeatKind;
 
 std::string all_kinds() {
   std::string text;
-  for (const std::string_view name : nodes::heat_kind_names) {
+  for (const std::string_view name : core::heat_kind_names) {
     text += (text.empty() ? "" : "|") + std::string(name);
   }
   return text;
@@ -22,7 +23,7 @@ std::string all_kinds() {
 
 /// " Did you mean faults?"; empty if no kind is near.
 std::string kind_meant(const std::string& typed) {
-  const std::vector<std::string> names(nodes::heat_kind_names.begin(), nodes::heat_kind_names.end());
+  const std::vector<std::string> names(core::heat_kind_names.begin(), core::heat_kind_names.end());
   return core::did_you_mean(typed, names);
 }
 
@@ -38,7 +39,7 @@ const char* reason_without_pages(Strategy strategy) {
 
 HeatRequest parse_heat_request(const std::string& text) {
   const std::size_t colon = text.find(':');
-  const auto& names = nodes::heat_kind_names;
+  const auto& names = core::heat_kind_names;
   const auto name = std::find(names.begin(), names.end(), text.substr(0, colon));
   if (colon == std::string::npos || name == names.end()) {
     const std::string meant = name == names.end() ? kind_meant(text.substr(0, colon)) : "";
@@ -70,7 +71,7 @@ void check_heat(const std::vector<HeatRequest>& requests, Strategy strategy) {
   }
   for (const HeatRequest& request : requests) {
     if (strategy != Strategy::svm && is_of_pages(request.kind)) {
-      throw UsageError("--heatmap=" + std::string(nodes::name_of(request.kind)) + ":" + request.path.string() +
+      throw UsageError("--heatmap=" + std::string(core::name_of(request.kind)) + ":" + request.path.string() +
                        " goes with --strategy=svm: with --strategy=" + name_of(strategy) + " " + reason_without_pages(strategy));
     }
   }

@@ -8,13 +8,13 @@
 
 #include "apps/line/command_line.h"
 #include "apps/run/strategy_options.h"
-#include "nodes/watch/heat_map.h"
+#include "core/picture/heat_kind.h"
 
 namespace dmpc::apps {
 
 /// One heat map to be written: to an EXR file the numbers, to a PNG file colours and a legend.
 struct HeatRequest {
-  nodes::HeatKind kind;
+  core::HeatKind kind;
   std::filesystem::path path;
 };
 
@@ -34,6 +34,6 @@ void add_heat_option(OptionSet options, std::vector<HeatRequest>& requests);
 void check_heat(const std::vector<HeatRequest>& requests, Strategy strategy);
 
 /// The kinds of all requests.
-std::vector<nodes::HeatKind> kinds_of(const std::vector<HeatRequest>& requests);
+std::vector<core::HeatKind> kinds_of(const std::vector<HeatRequest>& requests);
 
 }  // namespace dmpc::apps

@@ -8,9 +8,9 @@
 #include "apps/run/viewer_address.h"
 #include "apps/table/table_options.h"
 #include "core/base/expect.h"
+#include "core/picture/heat_kind.h"
 #include "dataflow/packets.h"
 #include "dataflow/plan.h"
-#include "nodes/watch/heat_map.h"
 #include "svm/plan.h"
 
 namespace dmpc::apps {
@@ -152,7 +152,7 @@ void check(const OptionSet& options, const RenderOptions& render) {
 bool counts_pages(const RenderOptions& render) {
   return render.pages.count_pages ||
          std::any_of(render.heat_maps.begin(), render.heat_maps.end(),
-                     [](const HeatRequest& request) { return request.kind == nodes::HeatKind::pages; });
+                     [](const HeatRequest& request) { return request.kind == core::HeatKind::pages; });
 }
 
 void add_options(OptionSet options, RenderOptions& render) {

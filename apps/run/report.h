@@ -34,16 +34,16 @@ struct NodeAccount {
 struct Account {
   const core::Film& film;
   nodes::RunEnd end;
-  std::size_t node_memory_max_bytes;                          ///< what the fullest node takes
-  const std::optional<nodes::Chaos>& chaos;                   ///< that disturbed the run
-  std::vector<NodeAccount> nodes;                             ///< by number
-  core::Operations operations;                                ///< summed over them
-  const nodes::NodeCounters& host;                            ///< of the host
-  std::uint64_t host_deposits_saturated;                      ///< pixels whose sums saturated on the host's film
-  std::array<nodes::Traffic, nodes::packet_kind_count> sent;  ///< by all nodes and the host, by kind
-  std::span<const char* const> kind_names;                    ///< of the strategy's packets
-  const std::optional<nodes::VirtualReport>& virtual_time;    ///< of a modelled machine
-  WaitKinds waits;                                            ///< what the waits for these packets are
+  std::size_t node_memory_max_bytes;                        ///< what the fullest node takes
+  const std::optional<nodes::Chaos>& chaos;                 ///< that disturbed the run
+  std::vector<NodeAccount> nodes;                           ///< by number
+  core::Operations operations;                              ///< summed over them
+  const nodes::NodeCounters& host;                          ///< of the host
+  std::uint64_t host_deposits_saturated;                    ///< pixels whose sums saturated on the host's film
+  nodes::TrafficByKind sent;                                ///< by all nodes and the host, by kind
+  std::span<const char* const> kind_names;                  ///< of the strategy's packets
+  const std::optional<nodes::VirtualReport>& virtual_time;  ///< of a modelled machine
+  WaitKinds waits;                                          ///< what the waits for these packets are
   core::RefinementResult refinement;
   const std::vector<nodes::RankFigures>& ranks;  ///< where there are several, or could be
 };

@@ -8,6 +8,7 @@
 #include "apps/line/shown_text.h"
 #include "apps/machine/machines.h"
 #include "apps/run/computer_room.h"
+#include "apps/run/memory_categories.h"
 #include "apps/run/ray_hops.h"
 #include "apps/run/time_parts.h"
 #include "nodes/size_text.h"
@@ -28,10 +29,10 @@ std::string memory_text(const Account& account) {
   });
   std::string text = bytes_text(fullest->memory_planned.total()) + " a node:";
   const char* separator = " ";
-  for (std::size_t index = 0; index < nodes::category_count; ++index) {
-    const std::size_t bytes = fullest->memory_planned.bytes[index];
+  for (const auto& [category, name] : memory_categories) {
+    const std::size_t bytes = fullest->memory_planned[category];
     if (bytes > 0) {
-      text += separator + std::string(nodes::name_of(static_cast<nodes::Category>(index))) + " " + bytes_text(bytes);
+      text += separator + std::string(name) + " " + bytes_text(bytes);
       separator = ", ";
     }
   }

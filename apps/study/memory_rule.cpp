@@ -7,6 +7,7 @@
 #include "apps/line/number_text.h"
 #include "apps/line/option_values.h"
 #include "core/base/expect.h"
+#include "core/picture/memory_use.h"
 #include "nodes/size_text.h"
 
 namespace dmpc::apps {
@@ -62,7 +63,7 @@ bool MemoryRule::allows(std::size_t held, const core::Database& database, std::u
 }
 
 std::size_t held_bytes(const nodes::MemoryPlan& plan) {
-  return plan[nodes::Category::home_pages] + plan[nodes::Category::cache_frames];
+  return plan[core::MemoryUse::home_pages] + plan[core::MemoryUse::cache_frames];
 }
 
 std::vector<MemoryRule> parse_memory_rules(const std::string& text) {

@@ -9,7 +9,7 @@ namespace dmpc::nodes {
 
 struct Followed {
   RunEnd end = RunEnd::finished;
-  std::uint64_t bytes_received = 0;  ///< all that it was told before the run: a job, and what its nodes keep of the scene
+  std::uint64_t bytes_received = 0;  ///< all that it was told before the run: a job, and what its nodes keep during the run
 };
 
 }  // namespace dmpc::nodes

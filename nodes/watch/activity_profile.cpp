@@ -1,38 +1,17 @@
 #include "nodes/watch/activity_profile.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/expect.h"
 #include "nodes/atomics.h"
 #include "nodes/flat_bytes.h"
-#include "nodes/watch/trace.h"
 
 namespace dmpc::nodes {
 
 namespace {
 
 constexpr std::uint64_t first_step_ns = 1024;
-
-Work work_of(const Span& span) {
-  if (span.activity == Activity::send || span.activity == Activity::take_over) {
-    return Work::messages;
-  }
-  if (span.activity == Activity::serve) {
-    return Work::paging;
-  }
-  switch (doing_between(span.before, span.after)) {
-    case Doing::trace:
-      return Work::tracing;
-    case Doing::shade:
-      return Work::shading;
-    case Doing::install:
-      return Work::paging;
-    case Doing::pack:
-      return Work::packing;
-    default:
-      return Work::control;
-  }
-}
 
 }  // namespace
 
@@ -56,7 +35,7 @@ struct alignas(cache_line_bytes) ActivityProfile::Log {
   }
 
   /// `own_ns` spread over the time from begin to end, rounded so that nothing is lost.
-  void add(Work work, std::uint64_t begin_ns, std::uint64_t end_ns, std::uint64_t own_ns) {
+  void add(std::size_t work, std::uint64_t begin_ns, std::uint64_t end_ns, std::uint64_t own_ns) {
     const std::size_t last = end_ns > begin_ns ? (end_ns - 1) / step_ns : begin_ns / step_ns;
     steps.resize(std::max(steps.size(), last + 1));
     std::uint64_t given_ns = 0;
@@ -64,13 +43,14 @@ struct alignas(cache_line_bytes) ActivityProfile::Log {
       const std::uint64_t until_ns = std::min(end_ns, (step + 1) * step_ns);
       const double share = step == last ? 1 : static_cast<double>(until_ns - begin_ns) / static_cast<double>(end_ns - begin_ns);
       const std::uint64_t due_ns = step == last ? own_ns : static_cast<std::uint64_t>(share * static_cast<double>(own_ns));
-      steps[step][static_cast<std::size_t>(work)] += due_ns - given_ns;
+      steps[step].at(work) += due_ns - given_ns;
       given_ns = due_ns;
     }
   }
 };
 
-ActivityProfile::ActivityProfile(std::uint32_t peer_count, std::size_t step_count_max) : step_count_max_(step_count_max) {
+ActivityProfile::ActivityProfile(std::uint32_t peer_count, WorkOf work_of, std::size_t step_count_max)
+    : work_of_(std::move(work_of)), step_count_max_(step_count_max) {
   core::expect(step_count_max >= 2 && step_count_max % 2 == 0, "steps can be joined in pairs");
   for (std::uint32_t i = 0; i < peer_count; ++i) {
     logs_.push_back(std::make_unique<Log>());
@@ -85,7 +65,7 @@ void ActivityProfile::ended(const Span& span, const Program& /*program*/) {
     log.double_steps();
   }
   if (span.own_ns > 0) {
-    log.add(work_of(span), span.begin_ns, span.end_ns, span.own_ns);
+    log.add(work_of_(span), span.begin_ns, span.end_ns, span.own_ns);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -14,19 +15,13 @@
 
 namespace dmpc::nodes {
 
-/// What a node is busy with.
-enum class Work : std::uint8_t {
-  tracing,   ///< rays, and what their hits look like
-  shading,   ///< hits, and the rays that they shoot
-  paging,    ///< installing pages and serving them to others
-  packing,   ///< rays into packets and out of them
-  messages,  ///< sending and taking over packets (modelled machines)
-  control    ///< what has no price
-};
-inline constexpr std::array<std::string_view, 6> work_names = {"tracing", "shading", "paging", "packing", "messages", "control"};
+/// How many kinds of work there are. Who makes a profile says which a span counts as.
+inline constexpr std::size_t work_count = 6;
+/// The number of a kind. Called by several threads at a time.
+using WorkOf = std::function<std::size_t(const Span& span)>;
 
-/// Nanoseconds by Work.
-using WorkTimes = std::array<std::uint64_t, work_names.size()>;
+/// Nanoseconds by kind of work.
+using WorkTimes = std::array<std::uint64_t, work_count>;
 
 /// Steps of equal length from the start of the run.
 struct ActivitySteps {
@@ -40,7 +35,7 @@ struct ActivitySteps {
 class ActivityProfile final : public Observer {
  public:
   /// `peer_count` = nodes + host. A run has up to `step_count_max` steps, which is even, of a length that doubles as it goes on.
-  explicit ActivityProfile(std::uint32_t peer_count, std::size_t step_count_max = 128);
+  ActivityProfile(std::uint32_t peer_count, WorkOf work_of, std::size_t step_count_max = 128);
   ~ActivityProfile() override;
 
   void ended(const Span& span, const Program& program) override;
@@ -59,6 +54,7 @@ class ActivityProfile final : public Observer {
  private:
   struct Log;
 
+  WorkOf work_of_;
   std::size_t step_count_max_;
   std::vector<std::unique_ptr<Log>> logs_;
 };

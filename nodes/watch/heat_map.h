@@ -1,4 +1,5 @@
-// What each pixel cost, of each kind that is asked for: an instrument beside the computer, whose memory is no node's.
+// What each item of a program's work cost, of each kind that is asked for: an instrument beside the computer, whose memory is no
+// node's.
 #pragma once
 
 #include <array>
@@ -9,54 +10,79 @@
 #include <string_view>
 #include <vector>
 
+#include "nodes/programs_name.h"
+
 namespace dmpc::nodes {
 
-/// What can be shown of a pixel.
-enum class HeatKind : std::uint8_t {
-  faults,      ///< requests for pages that its rays began
-  references,  ///< look-ups of a page, each counted once
-  pages,       ///< different pages looked up
-  rays,        ///< rays shot
-  time,        ///< picoseconds of computing
-  node,        ///< number of the node that the pixel belongs to
-  depth,       ///< of its deepest ray; 1: a primary ray
-  samples      ///< light samples on the film
-};
-inline constexpr std::array<std::string_view, 8> heat_kind_names = {"faults", "references", "pages", "rays",
-                                                                    "time",   "node",       "depth", "samples"};
-constexpr std::string_view name_of(HeatKind kind) { return heat_kind_names[static_cast<std::size_t>(kind)]; }
+/// How many kinds of numbers a map can have.
+inline constexpr std::size_t heat_kind_count = 8;
 
-/// A number for each pixel and kind recorded; of other kinds nothing is kept. Thread safety: several nodes may write at a time,
-/// even to one pixel; read when none does.
+/// A kind, by the numbering of whoever makes the map.
+class HeatNumber {
+ public:
+  explicit constexpr HeatNumber(std::size_t value) : value_(value) {}
+  // Implicit: whoever names a kind has named its number.
+  template <ProgramsName Kind>
+  constexpr HeatNumber(Kind kind) : value_(static_cast<std::size_t>(kind)) {}
+
+  constexpr std::size_t value() const { return value_; }
+
+ private:
+  std::size_t value_;
+};
+
+/// Kinds that can be recorded. The computer knows what three of them mean, and the program counts the others.
+template <class Kind>
+concept HeatKinds = ProgramsName<Kind> && requires {
+  Kind::time;   // picoseconds of computing
+  Kind::node;   // number of the node that the item belongs to
+  Kind::depth;  // of the deepest Worked
+};
+
+/// A number for each item and kind recorded; of other kinds nothing is kept. Thread safety: several nodes may write at a time,
+/// even to one item; read when none does.
 class HeatMap {
  public:
   /// All zero. A kind may stand twice.
-  HeatMap(std::uint32_t pixel_count, std::span<const HeatKind> kinds);
+  template <class Kinds>
+  requires HeatKinds<typename Kinds::value_type> HeatMap(std::uint32_t item_count, const Kinds& kinds)
+      : item_count_(item_count),
+        time_(Kinds::value_type::time),
+        node_(Kinds::value_type::node),
+        depth_(Kinds::value_type::depth) {
+    for (const HeatNumber kind : kinds) {
+      values_.at(kind.value()).resize(item_count);
+    }
+  }
 
-  bool has(HeatKind kind) const { return !values(kind).empty(); }
-  std::uint32_t pixel_count() const { return pixel_count_; }
+  bool has(HeatNumber kind) const { return !values(kind).empty(); }
+  std::uint32_t item_count() const { return item_count_; }
+  HeatNumber time() const { return time_; }
+  HeatNumber node() const { return node_; }
+  HeatNumber depth() const { return depth_; }
 
-  // Of a kind that is not recorded these do nothing. They require pixel < pixel_count().
-  void add(HeatKind kind, std::uint32_t pixel, std::uint64_t amount);
+  // Of a kind that is not recorded these do nothing. They require item < item_count().
+  void add(HeatNumber kind, std::uint32_t item, std::uint64_t amount);
   /// To `value` at least.
-  void raise(HeatKind kind, std::uint32_t pixel, std::uint64_t value);
-  void set(HeatKind kind, std::uint32_t pixel, std::uint64_t value);
+  void raise(HeatNumber kind, std::uint32_t item, std::uint64_t value);
+  void set(HeatNumber kind, std::uint32_t item, std::uint64_t value);
 
-  /// By pixel; empty if the kind is not recorded.
-  std::span<const std::uint64_t> values(HeatKind kind) const { return values_[static_cast<std::size_t>(kind)]; }
-  std::uint64_t sum(HeatKind kind) const;
+  /// By item; empty if the kind is not recorded.
+  std::span<const std::uint64_t> values(HeatNumber kind) const { return values_.at(kind.value()); }
+  std::uint64_t sum(HeatNumber kind) const;
 
-  /// All numbers, for add() of a map of the same pixels and kinds.
+  /// All numbers, for add() of a map of the same items and kinds.
   std::string bytes() const;
   /// Adds what others, on another rank, have written to theirs; of depth and node the larger number stays.
   void add(std::string_view bytes);
 
  private:
-  /// Where the pixel's number stands; nullptr if the kind is not recorded.
-  std::uint64_t* place(HeatKind kind, std::uint32_t pixel);
+  /// Where the item's number stands; nullptr if the kind is not recorded.
+  std::uint64_t* place(HeatNumber kind, std::uint32_t item);
 
-  std::uint32_t pixel_count_;
-  std::array<std::vector<std::uint64_t>, heat_kind_names.size()> values_;
+  std::uint32_t item_count_;
+  HeatNumber time_, node_, depth_;
+  std::array<std::vector<std::uint64_t>, heat_kind_count> values_;  ///< by kind
 };
 
 }  // namespace dmpc::nodes

@@ -1,6 +1,7 @@
-// Puts what a node counts while it works on a pixel onto that pixel of a heat map.
+// Puts what a node counts while it works on an item onto that item of a heat map.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "nodes/charge.h"
@@ -12,8 +13,10 @@ namespace dmpc::nodes {
 
 /// What a node has counted since the start, as far as heat maps show it.
 struct HeatTotals {
-  std::uint64_t rays = 0, references = 0, faults = 0, pages = 0;
+  std::array<std::uint64_t, heat_kind_count> counts{};  ///< by kind; 0 of those that the computer knows
   Charges charges = {};
+
+  std::uint64_t& operator[](HeatNumber kind) { return counts.at(kind.value()); }
 };
 
 /// One node's. Time is what a machine's model asks for the operations charged, or without one the processor's time of the calling
@@ -23,13 +26,13 @@ class HeatMeter {
   /// `map` and `machine` outlive the meter; without a machine the node is a thread.
   HeatMeter(HeatMap& map, NodeId self, const Machine* machine) : map_(&map), self_(self), machine_(machine) {}
 
-  /// What is counted and computed from now on is for one pixel.
+  /// What is counted and computed from now on is for one item.
   void begin(const HeatTotals& totals);
-  /// It was for this one, and a ray of this depth was the newest. What follows, up to the next begin() if there is one, is for
-  /// the pixel of the next end().
-  void end(std::uint32_t pixel, std::uint32_t depth, const HeatTotals& totals);
-  /// The pixel belongs to this node.
-  void claim(std::uint32_t pixel) { map_->set(HeatKind::node, pixel, index_of(self_)); }
+  /// It was for this one, and the call got so deep in it last. What follows, up to the next begin() if there is one, is for
+  /// the item of the next end().
+  void end(std::uint32_t item, std::uint32_t depth, const HeatTotals& totals);
+  /// The item belongs to this node.
+  void claim(std::uint32_t item) { map_->set(map_->node(), item, index_of(self_)); }
 
  private:
   std::uint64_t clock_ps() const;

@@ -1,4 +1,4 @@
-// What programs tell of the pixels that they work on, asked for twice a quantum.
+// What programs tell of the items that they work on, asked for twice a quantum.
 #pragma once
 
 #include <cstdint>
@@ -22,26 +22,26 @@ class Meter {
     }
   }
 
-  /// What is counted and computed from now on is for one pixel.
+  /// What is counted and computed from now on is for one item.
   void begin(const HeatTotals& totals) {
     if (heat_) {
       heat_->begin(totals);
     }
   }
-  /// It was for this one, and a ray of this depth was the newest. What follows, up to the next begin() if there is one, is for
-  /// the pixel of the next end().
-  void end(std::uint32_t pixel, std::uint32_t depth, const HeatTotals& totals) {
+  /// It was for this one, and the call got so deep in it last. What follows, up to the next begin() if there is one, is for
+  /// the item of the next end().
+  void end(std::uint32_t item, std::uint32_t depth, const HeatTotals& totals) {
     if (heat_) {
-      heat_->end(pixel, depth, totals);
+      heat_->end(item, depth, totals);
     }
     if (observer_ != nullptr) {
-      observer_->worked({self_, pixel, depth});
+      observer_->worked({self_, item, depth});
     }
   }
-  /// The pixel belongs to this node.
-  void claim(std::uint32_t pixel) {
+  /// The item belongs to this node.
+  void claim(std::uint32_t item) {
     if (heat_) {
-      heat_->claim(pixel);
+      heat_->claim(item);
     }
   }
 

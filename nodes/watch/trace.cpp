@@ -32,15 +32,6 @@ std::uint32_t first_word_of(std::span<const std::byte> payload) {
   return word;
 }
 
-std::uint16_t charged_between(const Charges& before, const Charges& after) {
-  static_assert(charge_count <= 16);
-  std::uint32_t bits = 0;
-  for (std::size_t i = 0; i < charge_count; ++i) {
-    bits |= after.count[i] != before.count[i] ? 1U << i : 0U;
-  }
-  return static_cast<std::uint16_t>(bits);
-}
-
 /// What begins first, and of what begins at one time what was called first.
 bool is_before(const TraceSpan& a, const TraceSpan& b) {
   return std::tuple(a.begin_ns, a.call, a.activity) < std::tuple(b.begin_ns, b.call, b.activity);
@@ -49,7 +40,7 @@ bool is_before(const TraceSpan& a, const TraceSpan& b) {
 /// Of each node, the numbers of some of its program's calls.
 using Calls = std::vector<std::unordered_set<std::uint32_t>>;
 
-/// Calls for a pixel that was not chosen are not among the spans, nor are their messages' ends kept.
+/// Calls for an item that was not chosen are not among the spans, nor are their messages' ends kept.
 void split_calls(const std::vector<TraceNode>& nodes, Calls& chosen, Calls& undecided) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     for (const TraceSpan& span : nodes[i].spans) {
@@ -103,7 +94,7 @@ struct TraceRecorder::End {
 /// Those that one node has told, either of what it sent or of what it received.
 struct TraceRecorder::Ends {
   std::vector<End> kept;
-  std::vector<End> undecided;  ///< of calls under way, whose pixels are not known yet
+  std::vector<End> undecided;  ///< of calls under way, whose items are not known yet
   Ordinals count;
 };
 
@@ -165,23 +156,9 @@ bool is_own_call(Activity activity) { return activity == Activity::work || activ
 
 }  // namespace
 
-Doing doing_between(const Charges& before, const Charges& after) {
-  const auto any = [&](std::initializer_list<Charge> charges) {
-    return std::any_of(charges.begin(), charges.end(), [&](Charge charge) { return after[charge] != before[charge]; });
-  };
-  if (any({Charge::shading, Charge::tile_read})) {
-    return Doing::shade;
-  }
-  if (any({Charge::ray_setup, Charge::cell_step, Charge::brick_read, Charge::triangle_test, Charge::sphere_test,
-           Charge::cone_test, Charge::home_lookup, Charge::cached_lookup})) {
-    return Doing::trace;
-  }
-  return any({Charge::page_install}) ? Doing::install : any({Charge::ray_packing}) ? Doing::pack : Doing::other;
-}
-
 TraceRecorder::TraceRecorder(std::uint32_t peer_count, const TraceChoice& choice) : choice_(choice) {
   core::expect(choice.nodes.empty() || choice.nodes.size() == peer_count, "a choice of nodes has all of them and the host");
-  core::expect(choice.every > 0, "one of at least one pixel is recorded");
+  core::expect(choice.every > 0, "one of at least one item is recorded");
   for (std::uint32_t i = 0; i < peer_count; ++i) {
     logs_.push_back(std::make_unique<Log>());
   }
@@ -189,7 +166,7 @@ TraceRecorder::TraceRecorder(std::uint32_t peer_count, const TraceChoice& choice
 
 TraceRecorder::~TraceRecorder() = default;
 
-bool TraceRecorder::is_chosen_pixel(std::uint32_t pixel) const { return core::mix(pixel) % choice_.every == 0; }
+bool TraceRecorder::is_chosen_item(std::uint32_t item) const { return core::mix(item) % choice_.every == 0; }
 
 /// Whether there is room for an event more.
 bool TraceRecorder::admit(Log& log, std::uint64_t time_ns) {
@@ -202,9 +179,9 @@ bool TraceRecorder::admit(Log& log, std::uint64_t time_ns) {
 
 void TraceRecorder::worked(const Worked& worked) {
   Log& log = *logs_[index_of(worked.node)];
-  const bool is_chosen = is_chosen_pixel(worked.pixel);
-  if (log.current.pixel == TraceSpan::no_pixel || (is_chosen && !log.current.is_chosen)) {
-    log.current.pixel = worked.pixel;
+  const bool is_chosen = is_chosen_item(worked.item);
+  if (log.current.item == TraceSpan::no_item || (is_chosen && !log.current.is_chosen)) {
+    log.current.item = worked.item;
     log.current.depth = worked.depth;
     log.current.is_chosen = is_chosen;
   }
@@ -237,8 +214,7 @@ TraceSpan TraceRecorder::cut(Log& log, const Span& span) const {
   made.own_ns = span.own_ns;
   made.call = span.call;
   made.activity = span.activity;
-  made.doing = doing_between(span.before, span.after);
-  made.charged = charged_between(span.before, span.after);
+  made.charged = span.charged();
   made.packet = span.packet;
   made.is_chosen = made.is_chosen || choice_.every == 1;
   return made;
@@ -249,7 +225,7 @@ bool TraceRecorder::decide(Log& log, const TraceSpan& span) {
   if (span.activity == Activity::send || span.activity == Activity::take_over) {
     return span.activity == Activity::send ? log.is_last_call_wanted : span.is_chosen;
   }
-  const bool is_wanted = span.is_chosen || (span.activity != Activity::work && span.pixel == TraceSpan::no_pixel);
+  const bool is_wanted = span.is_chosen || (span.activity != Activity::work && span.item == TraceSpan::no_item);
   if (is_own_call(span.activity)) {
     log.is_last_call_wanted = is_wanted;
   }

@@ -21,37 +21,26 @@ struct TraceChoice {
   std::uint64_t from_ns = 0;                                        ///< a window of time: what begins or ends in it
   std::uint64_t to_ns = std::numeric_limits<std::uint64_t>::max();  ///< not included
   std::vector<bool> nodes;                                          ///< by number, the host last; empty: all
-  /// One of so many pixels, chosen by a hash of its number: the calls that work on it, and what follows from the messages that
+  /// One of so many items, chosen by a hash of its number: the calls that work on it, and what follows from the messages that
   /// these send; levels only after such calls. 1: everything.
   std::uint32_t every = 1;
   std::uint64_t events_max = 1'000'000;  ///< spans, ends of messages and levels that are kept
 };
 
-/// What a call of a program was for, from the operations that it was charged.
-enum class Doing : std::uint8_t {
-  trace,    ///< rays
-  shade,    ///< a hit, and perhaps rays too
-  install,  ///< a page, and nothing else
-  pack,     ///< rays into packets or out of them, and nothing else
-  other     ///< whatever has no price
-};
-Doing doing_between(const Charges& before, const Charges& after);
-
 /// A Span, cut where the window ends.
 struct TraceSpan {
-  static constexpr std::uint32_t no_pixel = 0xffffffffU;
+  static constexpr std::uint32_t no_item = 0xffffffffU;
 
   std::uint64_t begin_ns = 0, end_ns = 0;
   std::uint64_t own_ns = 0;  ///< as a Span's, of the whole
   std::uint32_t call = 0;
-  std::uint32_t pixel = no_pixel;  ///< that was worked on, of several the first chosen
-  std::uint32_t depth = 0;         ///< of its ray
+  std::uint32_t item = no_item;  ///< that was worked on, of several the first chosen
+  std::uint32_t depth = 0;       ///< of a Worked
   Activity activity = Activity::work;
-  Doing doing = Doing::other;
   PacketKind packet = 0;
-  std::uint16_t charged = 0;  ///< a bit for each Charge that it was charged
-  bool is_cut = false;        ///< it began before the window, or ends after it
-  bool is_chosen = false;     ///< for its pixel, or because all are
+  ChargeBits charged = 0;
+  bool is_cut = false;     ///< it began before the window, or ends after it
+  bool is_chosen = false;  ///< for its item, or because all are
 };
 
 /// A packet from node to node, both of whose ends were recorded.
@@ -59,7 +48,7 @@ struct TraceMessage {
   NodeId source{}, target{};
   PacketKind kind = 0;
   std::uint32_t bytes = 0;       ///< of the payload
-  std::uint32_t first_word = 0;  ///< of the payload: of a page's request or reply its number
+  std::uint32_t first_word = 0;  ///< of the payload: what many protocols say first, a number
   std::uint32_t sent_call = 0, received_call = 0;
   std::uint64_t sent_ns = 0, received_ns = 0;
 };
@@ -114,7 +103,7 @@ class TraceRecorder final : public Observer {
   struct Ends;
 
   bool is_chosen_node(NodeId node) const { return choice_.nodes.empty() || choice_.nodes[index_of(node)]; }
-  bool is_chosen_pixel(std::uint32_t pixel) const;
+  bool is_chosen_item(std::uint32_t item) const;
   bool decide(Log& log, const TraceSpan& span);
   void settle(Log& log, Ends& ends, std::uint32_t call, bool is_wanted);
   void keep(Log& log, Ends& ends, const End& end);

@@ -12,8 +12,8 @@
 
 namespace dmpc::nodes {
 
-/// Called on the host's thread whenever pixels arrive: (pixels that are done, or where light comes ray by ray that have some,
-/// pixels in all) of the pass. If it throws, the run ends with that.
+/// Called on the host's thread whenever results arrive: (items that are done, or where results come in parts that have some,
+/// items in all) of the pass. If it throws, the run ends with that.
 using Progress = std::function<void(std::uint32_t, std::uint32_t)>;
 
 /// Whoever looks on at the nodes of other ranks, as rank 0 says.
@@ -27,15 +27,15 @@ struct WatchingElsewhere {
 /// All of them outlive the run, and none changes what it does.
 struct Watching {
   Progress progress = {};
-  /// What each pixel takes is added to it, of the kinds that it records but `samples`. Of the size of the picture.
+  /// What each item takes is added to it, of the kinds that nodes count. It has as many items as the program's work.
   HeatMap* heat = nullptr;
   Observer* observer = nullptr;  ///< sees the run happen
-  /// Called on the calling thread when the nodes hold the database, which is not read again, before any node starts; by svm and
-  /// replicated not on a modelled machine, whose nodes refer to it. A run that has it starts at most once.
+  /// Called on the calling thread when the nodes hold all data, which are not read again, before any node starts; not where nodes
+  /// of a modelled machine refer to them (LastingPieces). A run that has it starts at most once.
   std::function<void()> distributed = {};
   WatchingElsewhere elsewhere = {};  ///< on ranks, where those above see rank 0's nodes alone
 
-  /// Whether what is done is told pixel by pixel: by nodes with a Meter.
+  /// Whether what is done is told item by item: by nodes with a Meter.
   bool is_metered() const { return heat != nullptr || observer != nullptr; }
 };
 

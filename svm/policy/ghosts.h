@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "core/picture/memory_use.h"
 #include "nodes/local_memory.h"
 #include "svm/page.h"
 #include "svm/page_table.h"
@@ -20,8 +21,8 @@ class Ghosts {
   Ghosts(nodes::LocalMemory& memory, std::uint32_t capacity)
       : lists_(memory, capacity),
         table_(memory, capacity),
-        pages_(memory.allocate<PageId>(nodes::Category::page_table, capacity)),
-        free_(memory.allocate<std::uint32_t>(nodes::Category::page_table, capacity)) {
+        pages_(memory.allocate<PageId>(core::MemoryUse::page_table, capacity)),
+        free_(memory.allocate<std::uint32_t>(core::MemoryUse::page_table, capacity)) {
     for (; free_count_ < capacity; ++free_count_) {
       free_[free_count_] = free_count_;
     }
@@ -30,8 +31,8 @@ class Ghosts {
   static void add_needs(nodes::MemoryPlan& plan, std::uint32_t capacity) {
     IndexLists::add_needs(plan, capacity);
     PageTable::add_needs(plan, capacity);
-    plan[nodes::Category::page_table] += nodes::LocalMemory::bytes_for<PageId>(capacity);
-    plan[nodes::Category::page_table] += nodes::LocalMemory::bytes_for<std::uint32_t>(capacity);
+    plan[core::MemoryUse::page_table] += nodes::LocalMemory::bytes_for<PageId>(capacity);
+    plan[core::MemoryUse::page_table] += nodes::LocalMemory::bytes_for<std::uint32_t>(capacity);
   }
 
   /// The list that it was in, if it was remembered; it is no longer.

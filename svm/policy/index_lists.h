@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/expect.h"
+#include "core/picture/memory_use.h"
 #include "nodes/local_memory.h"
 
 namespace dmpc::svm {
@@ -16,10 +17,10 @@ namespace dmpc::svm {
 class IndexLists {
  public:
   IndexLists(nodes::LocalMemory& memory, std::uint32_t count)
-      : links_(memory.allocate<Link>(nodes::Category::page_table, count)) {}
+      : links_(memory.allocate<Link>(core::MemoryUse::page_table, count)) {}
   /// Adds to `plan` exactly what the constructor takes.
   static void add_needs(nodes::MemoryPlan& plan, std::uint32_t count) {
-    plan[nodes::Category::page_table] += nodes::LocalMemory::bytes_for<Link>(count);
+    plan[core::MemoryUse::page_table] += nodes::LocalMemory::bytes_for<Link>(count);
   }
 
   /// `index` is in neither list.

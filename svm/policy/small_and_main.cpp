@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/picture/memory_use.h"
+
 namespace dmpc::svm {
 namespace {
 
@@ -18,7 +20,7 @@ std::uint32_t SmallAndMain::ghost_capacity(std::uint32_t frame_count) {
 void SmallAndMain::add_needs(nodes::MemoryPlan& plan, std::uint32_t frame_count) {
   IndexLists::add_needs(plan, frame_count);
   Ghosts::add_needs(plan, ghost_capacity(frame_count));
-  plan[nodes::Category::page_table] += nodes::LocalMemory::bytes_for<std::uint8_t>(frame_count);
+  plan[core::MemoryUse::page_table] += nodes::LocalMemory::bytes_for<std::uint8_t>(frame_count);
 }
 
 SmallAndMain::SmallAndMain(const PolicySite& site)
@@ -27,7 +29,7 @@ SmallAndMain::SmallAndMain(const PolicySite& site)
       main_max_(site.frame_count() - std::min(site.frame_count(), small_max_)),
       frames_(site.memory, site.frame_count()),
       ghosts_(site.memory, ghost_capacity(site.frame_count())),
-      hits_(site.memory.allocate<std::uint8_t>(nodes::Category::page_table, site.frame_count())) {}
+      hits_(site.memory.allocate<std::uint8_t>(core::MemoryUse::page_table, site.frame_count())) {}
 
 void SmallAndMain::hit(PageId /*page*/, std::uint32_t frame) {
   hits_[frame] = static_cast<std::uint8_t>(std::min<unsigned>(hits_[frame] + 1U, hits_max));

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "core/base/sampling.h"
+#include "core/picture/memory_use.h"
 
 namespace dmpc::svm {
 namespace {
 
-using nodes::Category;
 using nodes::LocalMemory;
 
 /// More would make a search dearer, fewer would make searches more frequent.
@@ -22,12 +22,12 @@ std::size_t LeastRecentlyUsed::candidate_capacity(std::uint32_t frame_count) {
 }
 
 void LeastRecentlyUsed::add_needs(nodes::MemoryPlan& plan, std::uint32_t frame_count) {
-  plan[Category::page_table] += LocalMemory::bytes_for<Candidate>(candidate_capacity(frame_count));
+  plan[core::MemoryUse::page_table] += LocalMemory::bytes_for<Candidate>(candidate_capacity(frame_count));
 }
 
 LeastRecentlyUsed::LeastRecentlyUsed(const PolicySite& site)
     : stamps_(site.stamps),
-      candidates_(site.memory.allocate<Candidate>(Category::page_table, candidate_capacity(site.frame_count()))) {}
+      candidates_(site.memory.allocate<Candidate>(core::MemoryUse::page_table, candidate_capacity(site.frame_count()))) {}
 
 std::uint32_t LeastRecentlyUsed::victim(PageId /*incoming*/) {
   while (true) {

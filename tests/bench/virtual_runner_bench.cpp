@@ -29,7 +29,7 @@ class Relay final : public tests::ToyProgram {
   }
   bool work() override {
     if (tokens_ > 0 && left_ > 0) {
-      ++charges_[nodes::Charge::ray_setup];
+      ++charges_.count[0];
       const nodes::NodeId next{(index() + 1) % node_count};
       node().grant(next, 0);
       node().send_reserved(next, 0, tests::ping, tokens_a_node - left_);

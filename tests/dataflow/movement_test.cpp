@@ -1,5 +1,6 @@
 // Units that are handed over while rays travel: whoever has them by then, the film stays.
 #include "dataflow/movement.h"
+#include "core/trace/charge.h"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +10,6 @@
 
 #include "dataflow/run.h"
 #include "nodes/chaos.h"
-#include "nodes/charge.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"
 
@@ -137,7 +137,7 @@ TEST_CASE("where all rays go by way of the host nobody hears who has primary ray
 }
 
 TEST_CASE("a modelled machine takes its time for units' pages, and for the records read to find them") {
-  const auto computing_ns_with = [](nodes::Charge charge, dataflow::MovementCounters& movement) {
+  const auto computing_ns_with = [](core::Charge charge, dataflow::MovementCounters& movement) {
     dataflow::RunOptions options = modelled(8, 8);
     options.computer.machine->cost_ps[static_cast<std::size_t>(charge)] = 1'000'000;
     const dataflow::Report report = render(options);
@@ -147,11 +147,11 @@ TEST_CASE("a modelled machine takes its time for units' pages, and for the recor
                            [](std::uint64_t sum, const nodes::VirtualTimes& node) { return sum + node.computing_ns; });
   };
   dataflow::MovementCounters movement;
-  const std::uint64_t installing_ns = computing_ns_with(nodes::Charge::page_install, movement);
+  const std::uint64_t installing_ns = computing_ns_with(core::Charge::page_install, movement);
   CHECK(installing_ns == 1000 * movement.pages_installed);
   CHECK(movement.pages_installed > 0);
   CHECK(movement.pages_installed <= movement.pages_sent);
-  const std::uint64_t reading_ns = computing_ns_with(nodes::Charge::brick_read, movement);
+  const std::uint64_t reading_ns = computing_ns_with(core::Charge::brick_read, movement);
   CHECK(reading_ns > 1000 * movement.records_walked);
   CHECK(movement.records_walked >= movement.pages_sent);
 }

@@ -7,6 +7,7 @@
 
 #include "core/base/expect.h"
 #include "core/base/units.h"
+#include "core/picture/memory_use.h"
 #include "dataflow/bundle_task.h"
 #include "dataflow/packets.h"
 #include "nodes/size_text.h"
@@ -75,9 +76,9 @@ TEST_CASE("bundles have packets of 4 KiB, few nodes more credits, and each node 
     const nodes::MemoryPlan more = plan.node_memory(0), less = alone.node_memory(0);
     nodes::MemoryPlan task;
     dataflow::BundleTask::add_needs(task, request.depth_max);
-    CHECK(more[nodes::Category::ray_stacks] == task[nodes::Category::ray_stacks]);
-    CHECK(more[nodes::Category::ray_stacks] > less[nodes::Category::ray_stacks]);
-    CHECK(more[nodes::Category::ray_stacks] < 32_KiB);
+    CHECK(more[core::MemoryUse::ray_stacks] == task[core::MemoryUse::ray_stacks]);
+    CHECK(more[core::MemoryUse::ray_stacks] > less[core::MemoryUse::ray_stacks]);
+    CHECK(more[core::MemoryUse::ray_stacks] < 32_KiB);
   }
 }
 
@@ -318,6 +319,6 @@ TEST_CASE("each node is given its own share and no more") {
   const Plan plan = make_plan(request);
   CHECK(plan.largest_node() == 2);
   const nodes::MemoryPlan small = plan.node_memory(0), large = plan.node_memory(2);
-  CHECK(large[nodes::Category::home_pages] - small[nodes::Category::home_pages] == 62976);  // whole cache lines
+  CHECK(large[core::MemoryUse::home_pages] - small[core::MemoryUse::home_pages] == 62976);  // whole cache lines
   CHECK(large[nodes::Category::mailbox] == small[nodes::Category::mailbox]);
 }

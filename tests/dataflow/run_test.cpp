@@ -1,5 +1,6 @@
 // What a run reports, where it can be worked out by hand or from its nodes' own counts.
 #include "dataflow/run.h"
+#include "core/picture/heat_kind.h"
 
 #include <doctest/doctest.h>
 
@@ -258,7 +259,7 @@ TEST_CASE("rays walk in bundles on threads, unless single ones are watched or th
   const auto rays_a_task = [&](const RunOptions& options, const core::Skips& skips = {}) {
     return run_dataflow(subject.database(), subject.settings(skips), options, {}).plan.rays_a_task;
   };
-  constexpr std::array kinds{nodes::HeatKind::rays};
+  constexpr std::array kinds{core::HeatKind::rays};
   nodes::HeatMap heat(64, kinds);
   CHECK(rays_a_task({.computer = {.node_count = 2}}) == 16);
   CHECK(rays_a_task({.computer = {.node_count = 2}}, {.bundles = false}) == 1);

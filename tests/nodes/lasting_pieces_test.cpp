@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <span>
 
@@ -13,15 +14,18 @@ namespace {
 
 constexpr std::size_t piece_bytes = 64;
 
+/// Of a program.
+enum class PieceUse : std::uint8_t { pieces };
+
 /// Room for three pieces.
 struct Room {
   static MemoryPlan plan() {
     MemoryPlan plan;
-    LastingPieces::add_needs(plan, Category::home_pages, 3 * piece_bytes);
+    LastingPieces::add_needs(plan, PieceUse::pieces, 3 * piece_bytes);
     return plan;
   }
 
-  explicit Room(Lasting lasting) : memory(plan(), lasting), pieces(memory, Category::home_pages, 3 * piece_bytes, piece_bytes) {}
+  explicit Room(Lasting lasting) : memory(plan(), lasting), pieces(memory, PieceUse::pieces, 3 * piece_bytes, piece_bytes) {}
 
   LocalMemory memory;
   LastingPieces pieces;
@@ -64,23 +68,23 @@ TEST_CASE("a piece of another size is refused, wherever it would be kept") {
 TEST_CASE("of the real computer no room is asked for pieces that are referred to") {
   constexpr std::size_t petabyte = std::size_t{1} << 50U;
   MemoryPlan plan;
-  LastingPieces::add_needs(plan, Category::cache_frames, petabyte);
+  LastingPieces::add_needs(plan, PieceUse::pieces, petabyte);
   plan[Category::queues] = 64;
   LocalMemory memory(plan, Lasting::is_referred_to);
-  const LastingPieces pieces(memory, Category::cache_frames, petabyte, petabyte);
-  CHECK(memory.used()[Category::cache_frames] == petabyte);
+  const LastingPieces pieces(memory, PieceUse::pieces, petabyte, petabyte);
+  CHECK(memory.used()[PieceUse::pieces] == petabyte);
   CHECK(memory.allocate<std::byte>(Category::queues, 64).size() == 64);
-  CHECK_THROWS_AS(LastingPieces(memory, Category::cache_frames, 64, 64), core::InternalError);
+  CHECK_THROWS_AS(LastingPieces(memory, PieceUse::pieces, 64, 64), core::InternalError);
 }
 
 TEST_CASE("one piece is kept with what must be readable behind it") {
   const auto bytes = numbers();
   for (const Lasting lasting : {Lasting::is_copied, Lasting::is_referred_to}) {
     LocalMemory memory(Room::plan(), lasting);
-    const auto there = kept(memory, Category::home_pages, std::span(bytes).first(piece_bytes), 32);
+    const auto there = kept(memory, PieceUse::pieces, std::span(bytes).first(piece_bytes), 32);
     CHECK(there.size() == piece_bytes);
     CHECK((there.data() == bytes.data()) == (lasting == Lasting::is_referred_to));
-    CHECK(memory.used()[Category::home_pages] == 2 * piece_bytes);
+    CHECK(memory.used()[PieceUse::pieces] == 2 * piece_bytes);
   }
 }
 

@@ -18,6 +18,9 @@
 namespace dmpc::nodes {
 namespace {
 
+/// Of a program.
+enum class OwnUse : std::uint8_t { first = 0, last = 5, too_much = 6 };
+
 MemoryPlan queues_of(std::size_t bytes) {
   MemoryPlan plan;
   plan[Category::queues] = bytes;
@@ -27,15 +30,23 @@ MemoryPlan queues_of(std::size_t bytes) {
 TEST_CASE("a plan's total is the sum of its categories") {
   MemoryPlan plan;
   CHECK(plan.total() == 0);
-  plan[Category::home_pages] = 4096;
+  plan[OwnUse::first] = 4096;
   plan[Category::reserve] = 100;
   CHECK(plan.total() == 4196);
 }
 
-TEST_CASE("every category has a name of its own") {
-  for (std::size_t i = 0; i + 1 < category_count; ++i) {
-    CHECK(std::string(name_of(static_cast<Category>(i))) != name_of(static_cast<Category>(i + 1)));
-  }
+TEST_CASE("a program's categories are none of the computer's, and as many as there is room for") {
+  MemoryPlan plan;
+  plan[Category::mailbox] = 1;
+  plan[Category::queues] = 2;
+  plan[Category::reserve] = 4;
+  plan[OwnUse::first] = 8;
+  plan[OwnUse::last] = 16;
+  CHECK(plan.total() == 31);
+  CHECK(plan[Category::reserve] == 4);
+  CHECK(plan[OwnUse::first] == 8);
+  CHECK(plan.bytes.back() == 16);
+  CHECK_THROWS_AS(plan[OwnUse::too_much] = 1, core::InternalError);
 }
 
 TEST_CASE("a memory of nothing hands out nothing") {

@@ -4,19 +4,24 @@
 
 #include <cstdint>
 #include <set>
-#include <string_view>
 #include <vector>
 
 namespace dmpc::tests {
 
-using nodes::Charge;
+namespace {
+
+/// Of operations, as a program names them.
+enum class Class : std::uint8_t { first, second, third };
+
+}  // namespace
+
 using nodes::Charges;
 using nodes::Machine;
 
 TEST_CASE("a machine that is told nothing costs nothing") {
   const Machine machine;
   Charges done;
-  done[Charge::shading] = 1000;
+  done[Class::third] = 1000;
   CHECK(machine.price_ps({}, done) == 0);
   CHECK(machine.cost_of_message(1'000'000).byte_ps == 0);
   CHECK(machine.has_contention);
@@ -48,18 +53,18 @@ TEST_CASE("every operation since the last look has its price, and none before") 
 
 TEST_CASE("an hour of operations is priced without overflow") {
   Machine machine;
-  machine.cost_ps[static_cast<std::size_t>(Charge::cell_step)] = 1'000'000'000;  // a millisecond
+  machine.cost_ps[static_cast<std::size_t>(Class::second)] = 1'000'000'000;  // a millisecond
   Charges done;
-  done[Charge::cell_step] = 3'600'000;
+  done[Class::second] = 3'600'000;
   CHECK(machine.price_ps({}, done) == 3'600'000'000'000'000);
 }
 
 TEST_CASE("what has been done may cost more than 64 bits hold: the difference is priced right") {
   Machine machine;
-  machine.cost_ps[static_cast<std::size_t>(Charge::cell_step)] = 1'000'000'000'000;
+  machine.cost_ps[static_cast<std::size_t>(Class::second)] = 1'000'000'000'000;
   Charges before, after;
-  before[Charge::cell_step] = 18'446'744;
-  after[Charge::cell_step] = 18'446'746;
+  before[Class::second] = 18'446'744;
+  after[Class::second] = 18'446'746;
   CHECK(machine.price_ps(after) < machine.price_ps(before));
   CHECK(machine.price_ps(before, after) == 2'000'000'000'000);
 }
@@ -103,11 +108,17 @@ TEST_CASE("every figure and switch of a machine changes its digest, and its name
   CHECK(Machine{.name = "another"}.digest() == Machine().digest());
 }
 
-TEST_CASE("each class of operations has a name of its own") {
-  const std::set<std::string_view> names(nodes::charge_names.begin(), nodes::charge_names.end());
-  CHECK(names.size() == nodes::charge_count);
-  CHECK(names.count("") == 0);
-  CHECK(nodes::charge_names[static_cast<std::size_t>(Charge::tile_read)] == "tile_read");
+TEST_CASE("what was charged is summed class by class, and what is new is found") {
+  Charges sum, before;
+  sum[Class::third] = before[Class::third] = 5;
+  sum += Charges{};
+  CHECK(charged_between(before, sum) == 0);
+  sum += {.count = {1, 0, 2}};
+  CHECK(sum.count[0] == 1);
+  CHECK(sum[Class::third] == 7);
+  CHECK(charged_between(before, sum) == 0b101);
+  before.count.back() = 1;
+  CHECK(charged_between({}, before) == (0b100 | 1U << (nodes::charge_count - 1)));
 }
 
 }  // namespace dmpc::tests

@@ -79,7 +79,7 @@ TEST_CASE("an observer sees a quantum, its sending, and the taking over of what 
   CHECK(work.begin_ns == 0);
   CHECK(work.end_ns == 2000);
   CHECK(work.own_ns == 2000);
-  CHECK(work.after[Charge::ray_setup] - work.before[Charge::ray_setup] == 2);
+  CHECK(work.after.count[0] - work.before.count[0] == 2);
   CHECK(scribe.spans[0][1].activity == Activity::send);
   CHECK(scribe.spans[0][1].end_ns == 2003);
   CHECK(scribe.spans[0][1].call == work.call);

@@ -81,7 +81,7 @@ class ScriptedProgram final : public ToyProgram {
 
  private:
   void perform(const Act& act) {
-    charges_[nodes::Charge::ray_setup] += act.operations;
+    charges_.count[0] += act.operations;
     for (const Letter& letter : act.letters) {
       std::vector<std::byte> payload(letter.bytes - sizeof(nodes::PacketHeader));
       std::memcpy(payload.data(), &letters_to_[letter.target], sizeof(std::uint32_t));
@@ -104,7 +104,7 @@ inline nodes::Machine toy_model(nodes::TopologyKind topology = nodes::TopologyKi
   machine.long_message = {.send_ns = 11, .latency_ns = 500, .receive_ns = 13, .byte_ps = 3000};
   machine.hop_ns = 100;
   machine.service_ns = 100'000;
-  machine.cost_ps[static_cast<std::size_t>(nodes::Charge::ray_setup)] = 1'000'000;
+  machine.cost_ps[0] = 1'000'000;
   return machine;
 }
 

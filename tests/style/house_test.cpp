@@ -76,18 +76,21 @@ bool calls(const Lines& lines, const std::string& layer, const std::string& room
   });
 }
 
-/// Sources of nodes, but for those that the plan of the house excepts, in which one of the strategies' words stands.
-Faults strategies_words_in_nodes(const fs::path& root) {
-  static const std::regex words(R"(\b([Pp]ages?|[Rr]ays?|[Pp]ixels?)\b)");
-  static const std::regex excepted(R"(.*/(watch/.*|observer\.h|charge\.h|local_memory\.(h|cpp)))");
+/// Words of programs in a line, alone or in a name: in `ray_setup`, not in `array`.
+Faults programs_words(const std::string& line) {
+  static const std::regex words(
+      "(?:^|[^A-Za-z])((?:page|ray|pixel|triangle|film|picture|scene|shading|voxel|brick)s?)(?![A-Za-z])", std::regex::icase);
+  return found_in(line, words);
+}
+
+/// Sources of nodes in which one of these stands.
+Faults programs_words_in_nodes(const fs::path& root) {
   Faults faults;
   for (const std::string& file : sources_below(root, "nodes")) {
-    if (!std::regex_match(file, excepted)) {
-      const Lines lines = lines_of(root / file);
-      for (std::size_t i = 0; i < lines.size(); ++i) {
-        for (const std::string& word : found_in(lines[i], words)) {
-          faults.push_back(file + ":" + std::to_string(i + 1) + ": " + word);
-        }
+    const Lines lines = lines_of(root / file);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      for (const std::string& word : programs_words(lines[i])) {
+        faults.push_back(file + ":" + std::to_string(i + 1) + ": " + word);
       }
     }
   }
@@ -138,10 +141,12 @@ TEST_CASE("every room is on the plan of the house, or in its layer's README") {
   CHECK(calls({"`core/cellar/rats.h`"}, "core", "cellar"));
 }
 
-TEST_CASE("nodes speaks of pages, rays and pixels only where the plan of the house says so") {
-  for (const std::string& fault : strategies_words_in_nodes(DMPC_SOURCE_DIR)) {
+TEST_CASE("nodes speaks of no pages, rays or pictures") {
+  for (const std::string& fault : programs_words_in_nodes(DMPC_SOURCE_DIR)) {
     FAIL_CHECK(fault);
   }
+  CHECK(programs_words("ray_setup, ///< a Pixel's rays") == Faults{"ray", "Pixel", "rays"});
+  CHECK(programs_words("std::array<Packet> package; // a filmy bricklayer").empty());
 }
 
 }  // namespace dmpc::tests

@@ -148,8 +148,16 @@ bool may_look_into(std::string_view file, std::string_view header) {
                      [&](const std::string& beginning) { return begins_with(file, beginning); });
 }
 
+/// The computer takes of ray tracing what has nothing to do with it.
+bool is_too_much_for_nodes(std::string_view file, std::string_view header) {
+  return first_folder(file) == "nodes" && first_folder(header) == "core" && room_of(header) != "base";
+}
+
 bool may_include(std::string_view file, std::string_view header) {
   const std::string folder = first_folder(header);
+  if (is_too_much_for_nodes(file, header)) {
+    return false;
+  }
   if (folder == first_folder(file) && folder != "tests") {
     return may_look_into(file, header);
   }
@@ -247,6 +255,14 @@ TEST_CASE("an upward include is found, with file and line") {
   CHECK(violations_in("core/record/ray.h", "#include <svm/page.h>") == Names{"core/record/ray.h:1: svm/page.h"});
   CHECK(violations_in("nodes/node.h", "  #  include \"apps/commands.h\"").size() == 1);
   CHECK(violations_in("svm/run.cpp", "#include \"tests/support/small_machine.h\"").size() == 1);
+}
+
+TEST_CASE("nodes uses of core nothing but its base") {
+  CHECK(violations_in("nodes/charge.h", "\n#include \"core/trace/operations.h\"\n") ==
+        Names{"nodes/charge.h:2: core/trace/operations.h"});
+  CHECK(violations_in("nodes/watch/heat_map.cpp", "#include \"core/picture/heat_kind.h\"").size() == 1);
+  CHECK(violations_in("nodes/node.h", "#include \"core/base/expect.h\"").empty());
+  CHECK(violations_in("svm/pager.h", "#include \"core/picture/memory_use.h\"").empty());
 }
 
 TEST_CASE("a room uses only those below it") {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/expect.h"
+#include "core/picture/memory_use.h"
 #include "svm/packets.h"
 #include "tests/support/small_machine.h"
 
@@ -84,7 +85,7 @@ TEST_CASE("a host that is home to all pages replies with the one that is asked f
   LoneNode lone(plan, 2);
   core::Film film(3, 1);
   svm::HostProgram host(lone.node, plan.host(), film, {});
-  CHECK(lone.memory.used()[nodes::Category::home_pages] == lone.memory.plan()[nodes::Category::home_pages]);
+  CHECK(lone.memory.used()[core::MemoryUse::home_pages] == lone.memory.plan()[core::MemoryUse::home_pages]);
   for (const std::uint32_t page : {5U, 0U, 5U}) {
     host.receive(parcel_of(1, Kind::page_request, svm::PageRequest{svm::PageId{page}}).packet());
     const Parcel& parcel = lone.post.parcels.back();

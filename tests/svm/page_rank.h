@@ -12,6 +12,7 @@
 
 #include "core/picture/pixel_task.h"
 #include "core/record/record.h"
+#include "core/trace/charge.h"
 #include "nodes/charge.h"
 #include "tests/support/small_machine.h"
 
@@ -97,7 +98,7 @@ class RankTask {
         take_bound(word);
       } else if (has_source_) {
         sum_ += std::bit_cast<double>(word);
-        charges[nodes::Charge::cell_step] += 1;
+        charges[core::Charge::cell_step] += 1;
         has_source_ = false;
         ++edges;
       } else {

@@ -7,6 +7,7 @@
 
 #include "core/base/expect.h"
 #include "core/base/units.h"
+#include "core/picture/memory_use.h"
 #include "nodes/size_text.h"
 
 using namespace dmpc;
@@ -202,7 +203,7 @@ TEST_CASE("a cache larger than all pages that are not at home is reduced, and th
 
 TEST_CASE("home pages differ by one page between nodes, and node 0 takes the most") {
   const svm::Plan plan = make_plan(request_with(3, 100));
-  const auto home_bytes = [&](std::uint32_t node) { return plan.node_memory(node)[nodes::Category::home_pages]; };
+  const auto home_bytes = [&](std::uint32_t node) { return plan.node_memory(node)[core::MemoryUse::home_pages]; };
   CHECK(home_bytes(0) == home_bytes(1) + 1024);
   CHECK(home_bytes(1) == home_bytes(2));
   CHECK(plan.node_memory_max_bytes() == plan.node_memory(0).total());
@@ -292,8 +293,8 @@ TEST_CASE("a node of replicated keeps no room for pages of others") {
   const svm::Plan plan = make_plan(request);
   CHECK(plan.node_mailbox.bulk_slots == 0);
   CHECK(plan.frames == 0);
-  CHECK(plan.node_memory(0)[nodes::Category::cache_frames] == 0);
-  CHECK(plan.node_memory(4)[nodes::Category::home_pages] >= 100 * 1024);
+  CHECK(plan.node_memory(0)[core::MemoryUse::cache_frames] == 0);
+  CHECK(plan.node_memory(4)[core::MemoryUse::home_pages] >= 100 * 1024);
 }
 
 TEST_CASE("request credits shrink as the nodes grow in number, but each home keeps one") {
@@ -389,10 +390,10 @@ TEST_CASE("where the host is home, a node has nothing of the scene but its cache
   const svm::Plan host = make_plan(request);
   CHECK(host.faults_max() == spread.faults_max());
   const std::size_t page_bytes = request.page_size_bytes;
-  CHECK(host.node_memory(0)[nodes::Category::home_pages] + 100 * page_bytes ==
-        spread.node_memory(0)[nodes::Category::home_pages]);
-  CHECK(host.node_memory(0)[nodes::Category::cache_frames] == spread.node_memory(0)[nodes::Category::cache_frames]);
-  CHECK(host.host_memory()[nodes::Category::home_pages] == spread.node_memory(0)[nodes::Category::home_pages] + 300 * page_bytes);
+  CHECK(host.node_memory(0)[core::MemoryUse::home_pages] + 100 * page_bytes ==
+        spread.node_memory(0)[core::MemoryUse::home_pages]);
+  CHECK(host.node_memory(0)[core::MemoryUse::cache_frames] == spread.node_memory(0)[core::MemoryUse::cache_frames]);
+  CHECK(host.host_memory()[core::MemoryUse::home_pages] == spread.node_memory(0)[core::MemoryUse::home_pages] + 300 * page_bytes);
   CHECK(host.node_mailbox.small_slots == spread.node_mailbox.small_slots - 3 * spread.request_credits);
   CHECK(host.host_mailbox.small_slots == spread.host_mailbox.small_slots + 4 * host.request_credits);
 }

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "core/picture/memory_use.h"
 #include "svm/local_copy.h"
 #include "svm/pager.h"
 #include "svm/run.h"
@@ -163,9 +164,9 @@ TEST_CASE("a node uses exactly the memory of its plan, in every category") {
       for (const svm::NodeReport& node : run_on_threads(request).nodes) {
         if (node.memory_used.bytes != node.memory_planned.bytes) {
           // A fake task is smaller than a real one, for which memory is planned.
-          CHECK(node.memory_used[nodes::Category::ray_stacks] < node.memory_planned[nodes::Category::ray_stacks]);
+          CHECK(node.memory_used[core::MemoryUse::ray_stacks] < node.memory_planned[core::MemoryUse::ray_stacks]);
           CHECK(node.memory_planned.total() - node.memory_used.total() ==
-                node.memory_planned[nodes::Category::ray_stacks] - node.memory_used[nodes::Category::ray_stacks]);
+                node.memory_planned[core::MemoryUse::ray_stacks] - node.memory_used[core::MemoryUse::ray_stacks]);
         }
       }
     }

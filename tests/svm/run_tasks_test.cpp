@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/expect.h"
+#include "core/trace/charge.h"
 #include "svm/task_program.h"
 #include "svm/watch/miss_curve.h"
 #include "svm/watch/policy_misses.h"
@@ -46,7 +47,7 @@ TaskReport<double> ranked(const TaskOptions& options, const TaskWatching& watchi
 nodes::Machine slow_network() {
   nodes::Machine machine;
   machine.short_message = machine.long_message = {.send_ns = 100, .latency_ns = 1000, .receive_ns = 100, .byte_ps = 1000};
-  machine.cost_ps[static_cast<std::size_t>(nodes::Charge::cell_step)] = 5000;
+  machine.cost_ps[static_cast<std::size_t>(core::Charge::cell_step)] = 5000;
   return machine;
 }
 

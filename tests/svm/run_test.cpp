@@ -6,6 +6,7 @@
 #include <array>
 #include <stop_token>
 
+#include "core/picture/heat_kind.h"
 #include "svm/watch/miss_curve.h"
 #include "svm/watch/optimum.h"
 #include "tests/support/built_scene.h"
@@ -392,7 +393,7 @@ TEST_CASE("heat maps, references, distinct pages and modelled machines have rays
   CHECK(bundles({.computer = {.node_count = 2}, .pages = {.in_flight = 15}}) == 1);
   CHECK(bundles({.computer = {.node_count = 2}, .pages = {.count_pages = true}}) == 1);
   CHECK(bundles({.computer = {.node_count = 2, .machine = nodes::Machine{}}, .pages = {.in_flight = 64}}) == 1);
-  constexpr std::array kinds{nodes::HeatKind::references};
+  constexpr std::array kinds{core::HeatKind::references};
   nodes::HeatMap heat(256, kinds);
   CHECK(bundles({.computer = {.node_count = 2}, .watching = {.heat = &heat}}) == 1);
 }

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "core/trace/charge.h"
 #include "dataflow/run.h"
-#include "nodes/watch/operation_charges.h"
 #include "svm/run.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"
@@ -77,7 +77,7 @@ TEST_CASE("in virtual time a ray of the background is charged no setup and no st
   core::Operations operations;
   operations.rays = {5, 0, 0, 0};
   operations.skipped.background = 3;
-  CHECK(nodes::charges_of(operations)[nodes::Charge::ray_setup] == 2);
+  CHECK(nodes::Charges{core::charges_of(operations)}[core::Charge::ray_setup] == 2);
   const Subject subject(built_in("tetra-3"), {.width = 48, .height = 40, .knows_background = true});
   const core::RenderSettings skipping = subject.settings(), tracing = without_skip(subject);
   nodes::Machine machine{.name = "slow steps"};

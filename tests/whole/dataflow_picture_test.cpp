@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/picture/memory_use.h"
 #include "dataflow/run.h"
 #include "tests/support/border_scene.h"
 #include "tests/support/pairwise.h"
@@ -266,9 +267,9 @@ TEST_CASE("dataflow: a thousand lights need no more memory for rays and give the
   const Subject subject(thousand_lights(), {6, 6});
   for (const std::uint32_t nodes : {2U, 7U}) {
     const dataflow::Report report = check(subject, {.computer = {.node_count = nodes}});
-    CHECK(report.nodes[0].memory_planned[nodes::Category::ray_stacks] < 32768);
+    CHECK(report.nodes[0].memory_planned[core::MemoryUse::ray_stacks] < 32768);
     const dataflow::Report alone = check(subject, {.computer = {.node_count = nodes}}, {.bundles = false});
-    CHECK(alone.nodes[0].memory_planned[nodes::Category::ray_stacks] < 4096);
+    CHECK(alone.nodes[0].memory_planned[core::MemoryUse::ray_stacks] < 4096);
   }
 }
 

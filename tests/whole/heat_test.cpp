@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/picture/heat_kind.h"
+#include "core/trace/charge.h"
 #include "nodes/watch/heat_map.h"
 #include "tests/support/priced_machine.h"
 #include "tests/support/small_scenes.h"
@@ -17,7 +19,7 @@
 namespace dmpc::tests {
 namespace {
 
-using nodes::HeatKind;
+using core::HeatKind;
 using nodes::HeatMap;
 using Values = std::vector<std::uint64_t>;
 
@@ -133,7 +135,7 @@ TEST_CASE("where rays travel the pixels' virtual times are all computing but unp
   }
   CHECK(unpacked > 0);
   CHECK(map.sum(HeatKind::rays) == report.operations().ray_count());
-  const std::uint64_t packing_ps = options.computer.machine->cost_ps[static_cast<std::size_t>(nodes::Charge::ray_packing)];
+  const std::uint64_t packing_ps = options.computer.machine->cost_ps[static_cast<std::size_t>(core::Charge::ray_packing)];
   check_time(map.sum(HeatKind::time) + unpacked * packing_ps, computing_ns(*report.virtual_time), 3);
 }
 

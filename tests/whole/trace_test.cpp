@@ -145,7 +145,7 @@ std::uint64_t count_of(const Trace& trace, const std::set<std::uint32_t>& pixels
   std::uint64_t count = 0;
   for (const nodes::TraceNode& node : trace.nodes) {
     for (const TraceSpan& span : node.spans) {
-      count += span.activity == Activity::work && pixels.contains(span.pixel) ? 1 : 0;
+      count += span.activity == Activity::work && pixels.contains(span.item) ? 1 : 0;
     }
   }
   return count;
@@ -220,11 +220,11 @@ TEST_CASE("a trace of one pixel in so many has the quanta that work on these pix
     std::set<std::uint32_t> pixels;
     for (const nodes::TraceNode& node : some.nodes) {
       for (const TraceSpan& span : node.spans) {
-        CHECK((span.activity != Activity::work || span.pixel != TraceSpan::no_pixel));
-        pixels.insert(span.pixel);
+        CHECK((span.activity != Activity::work || span.item != TraceSpan::no_item));
+        pixels.insert(span.item);
       }
     }
-    pixels.erase(TraceSpan::no_pixel);
+    pixels.erase(TraceSpan::no_item);
     CHECK(pixels.size() > 4);
     CHECK(pixels.size() < 32);
     CHECK(count_of(all, pixels) == count_of(some, pixels));

@@ -7,8 +7,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/trace/charge.h"
 #include "dataflow/run.h"
-#include "nodes/watch/operation_charges.h"
 #include "svm/run.h"
 #include "tests/support/references.h"
 #include "tests/support/small_scenes.h"
@@ -287,8 +287,8 @@ TEST_CASE("virtual time: one node alone computes what its operations cost") {
   const Subject subject(mirrors_and_glass(), {16, 16});
   const nodes::Machine machine = slow_network();
   const svm::Report report = run_svm(subject, {.computer = {.node_count = 1, .machine = machine}});
-  nodes::Charges charges = nodes::charges_of(report.operations());
-  charges[nodes::Charge::home_lookup] = report.pages().home_hits;
+  nodes::Charges charges{core::charges_of(report.operations())};
+  charges[core::Charge::home_lookup] = report.pages().home_hits;
   CHECK(report.virtual_time->nodes[0].computing_ns == machine.price_ps({}, charges) / 1000);
 }
 

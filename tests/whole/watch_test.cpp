@@ -33,7 +33,8 @@ std::uint64_t sum_over(const std::vector<std::uint64_t>& counts) {
 /// Runs with all onlookers, and holds what they saw against what was counted.
 void check_watched(const Subject& subject, svm::RunOptions options, svm::PageHomes homes) {
   const auto page_count = static_cast<std::uint32_t>(subject.database().page_count());
-  nodes::ActivityProfile profile(watchers_nodes + 1);
+  nodes::ActivityProfile profile(watchers_nodes + 1,
+                                 [](const nodes::Span& span) { return static_cast<std::size_t>(span.activity); });
   svm::FetchWatch watch(watchers_nodes, page_count, svm::fetch_sample_max, homes);
   nodes::ObserverGroup group({&profile, &watch});
   std::vector<svm::ReferenceLog> logs(watchers_nodes, svm::ReferenceLog(1000));

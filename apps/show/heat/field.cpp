@@ -6,12 +6,13 @@
 #include <variant>
 
 #include "core/base/expect.h"
+#include "core/picture/heat_kind.h"
 
 namespace dmpc::apps {
 
 namespace {
 
-using nodes::HeatKind;
+using core::HeatKind;
 
 constexpr double picoseconds_in_us = 1e6;
 

@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "apps/run/render_record.h"
+#include "core/picture/heat_kind.h"
 #include "nodes/watch/heat_map.h"
 
 namespace dmpc::apps {
 
 /// A number for each pixel, row by row from the top left.
 struct HeatField {
-  nodes::HeatKind kind;
+  core::HeatKind kind;
   int width = 0, height = 0;
   std::vector<double> values;
   std::string meaning;         ///< what the numbers count, in words
@@ -29,6 +30,6 @@ struct HeatField {
 /// Repeatable are rays, depth and samples, which are the same for every strategy and number of nodes, too; references and pages,
 /// the same for every number of nodes; all in virtual time; with threads, faults and node where no pixel changes its node and
 /// (faults) one at a time is under way on it, or where there is one node; and dataflow's node.
-HeatField heat_field(nodes::HeatKind kind, const RenderRecord& record);
+HeatField heat_field(core::HeatKind kind, const RenderRecord& record);
 
 }  // namespace dmpc::apps

@@ -13,7 +13,7 @@ namespace dmpc::apps {
 namespace {
 
 Channel channel_of(const HeatField& field, const RenderRecord& record) {
-  Channel channel{.width = field.width, .height = field.height, .name = std::string(nodes::name_of(field.kind))};
+  Channel channel{.width = field.width, .height = field.height, .name = std::string(core::name_of(field.kind))};
   channel.values.assign(field.values.begin(), field.values.end());
   channel.remarks = {{"dmpc:meaning", field.meaning},
                      {"dmpc:unit", field.unit},

@@ -7,6 +7,7 @@
 #include "apps/line/scale.h"
 #include "apps/picture/color_map.h"
 #include "apps/picture/glyphs.h"
+#include "core/picture/heat_kind.h"
 
 namespace dmpc::apps {
 
@@ -24,8 +25,8 @@ constexpr int number_gap = 8;
 
 /// A mean of numbers that are names would mean nothing.
 std::string mean_of(const HeatField& field) {
-  return field.kind == nodes::HeatKind::node ? ""
-                                             : ", mean " + legend_number(field.sum() / static_cast<double>(field.values.size()));
+  return field.kind == core::HeatKind::node ? ""
+                                            : ", mean " + legend_number(field.sum() / static_cast<double>(field.values.size()));
 }
 
 std::string name_of(const NumberScale& scale, const HeatField& field) {
@@ -33,8 +34,8 @@ std::string name_of(const NumberScale& scale, const HeatField& field) {
 }
 
 std::array<std::string, 3> lines_of(const HeatField& field, const NumberScale& scale, const std::string& source) {
-  return {std::string(nodes::name_of(field.kind)) + ": " + field.meaning + ", " +
-              (field.clock.empty() ? "" : field.clock + ", ") + "unit " + field.unit,
+  return {std::string(core::name_of(field.kind)) + ": " + field.meaning + ", " + (field.clock.empty() ? "" : field.clock + ", ") +
+              "unit " + field.unit,
           "least " + legend_number(field.least()) + ", largest " + legend_number(field.largest()) + mean_of(field) + ", " +
               name_of(scale, field),
           source};

@@ -10,6 +10,8 @@
 
 #include "apps/line/amount.h"
 #include "apps/line/number_text.h"
+#include "apps/run/memory_categories.h"
+#include "core/picture/heat_kind.h"
 
 namespace dmpc::apps::html {
 
@@ -266,18 +268,21 @@ std::string memory_conclusion(const Account& account, std::size_t database_bytes
   const std::vector<double> used = by_node(account, [&](std::size_t node) { return account.nodes[node].memory_used.total(); });
   const std::size_t fullest = largest_at(used);
   const nodes::MemoryPlan& memory = account.nodes[fullest].memory_used;
-  const std::vector<double> parts(memory.bytes.begin(), memory.bytes.end());
+  std::vector<double> parts;
+  for (const NamedCategory& part : memory_categories) {
+    parts.push_back(static_cast<double>(memory[part.category]));
+  }
   const std::size_t part = largest_at(parts);
   return "The fullest node, " + node_text(fullest) + ", used " + bytes_text(memory.total()) + ", " +
-         share_text(share_of(parts[part], used[fullest])) + " of it for " + nodes::name_of(static_cast<nodes::Category>(part)) +
+         share_text(share_of(parts[part], used[fullest])) + " of it for " + memory_categories.at(part).name +
          "; the database has " + bytes_text(database_bytes) + ".";
 }
 
 std::string heat_conclusion(const HeatField& field) {
-  if (field.kind == nodes::HeatKind::node || field.kind == nodes::HeatKind::depth || field.sum() == 0) {
+  if (field.kind == core::HeatKind::node || field.kind == core::HeatKind::depth || field.sum() == 0) {
     return "";
   }
-  return "The tenth of the pixels with the most " + std::string(nodes::name_of(field.kind)) + " had " +
+  return "The tenth of the pixels with the most " + std::string(core::name_of(field.kind)) + " had " +
          share_text(top_tenth_share(field.values)) + " of all.";
 }
 

@@ -16,6 +16,7 @@
 #include "apps/show/page/page.h"
 #include "apps/show/page/render_tables.h"
 #include "apps/show/page/view_tables.h"
+#include "core/picture/heat_kind.h"
 #include "nodes/size_text.h"
 
 namespace dmpc::apps::html {
@@ -64,10 +65,10 @@ void add_pictures(Page& page, const RenderRecord& record, const Account& account
     return;
   }
   page.begin_section("What each pixel took");
-  for (std::size_t number = 0; number < nodes::heat_kind_names.size(); ++number) {
-    if (const auto kind = static_cast<nodes::HeatKind>(number); record.heat->has(kind)) {
+  for (std::size_t number = 0; number < core::heat_kind_names.size(); ++number) {
+    if (const auto kind = static_cast<core::HeatKind>(number); record.heat->has(kind)) {
       const HeatField field = heat_field(kind, record);
-      const std::string name(nodes::name_of(kind));
+      const std::string name(core::name_of(kind));
       page.add_conclusion(heat_conclusion(field));
       page.add_picture(heat_picture(field, record.options.picture.scene + ", " + computer_text(record)), "Heat map of " + name,
                        name + ": " + field.meaning + ", least " + amount_text(field.least(), field.unit) + ", largest " +

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <numeric>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 #include <variant>
 
 #include "apps/line/number_text.h"
+#include "apps/run/memory_categories.h"
 #include "apps/run/time_parts.h"
 
 namespace dmpc::apps::html {
@@ -118,22 +120,20 @@ void add_shares(Table& table, const std::string& name, std::span<const std::uint
 }
 
 /// Categories of which any node has some bytes.
-std::vector<nodes::Category> categories_of(const Account& account) {
-  std::vector<nodes::Category> categories;
-  for (std::size_t i = 0; i < nodes::category_count; ++i) {
-    const auto category = static_cast<nodes::Category>(i);
-    if (std::any_of(account.nodes.begin(), account.nodes.end(),
-                    [&](const NodeAccount& node) { return node.memory_used[category] > 0; })) {
-      categories.push_back(category);
-    }
-  }
+std::vector<NamedCategory> categories_of(const Account& account) {
+  std::vector<NamedCategory> categories;
+  std::copy_if(memory_categories.begin(), memory_categories.end(), std::back_inserter(categories),
+               [&](const NamedCategory& named) {
+                 return std::any_of(account.nodes.begin(), account.nodes.end(),
+                                    [&](const NodeAccount& node) { return node.memory_used[named.category] > 0; });
+               });
   return categories;
 }
 
 std::vector<Column> memory_columns(const Account& account) {
   std::vector<Column> columns = {{"node", "", 0}};
-  for (const nodes::Category category : categories_of(account)) {
-    columns.push_back({nodes::name_of(category), "KiB", 1});
+  for (const NamedCategory& named : categories_of(account)) {
+    columns.push_back({named.name, "KiB", 1});
   }
   return columns;
 }
@@ -203,7 +203,7 @@ Plot loss_plot(const Account& account) {
 }
 
 Table memory_table(const Account& account) {
-  const std::vector<nodes::Category> categories = categories_of(account);
+  const std::vector<NamedCategory> categories = categories_of(account);
   std::vector<Column> columns = memory_columns(account);
   columns.push_back({"used", "KiB", 1});
   columns.push_back({"planned", "KiB", 1});
@@ -211,8 +211,8 @@ Table memory_table(const Account& account) {
   for (std::size_t i = 0; i < account.nodes.size(); ++i) {
     const NodeAccount& node = account.nodes[i];
     std::vector<Cell> row = {std::uint64_t{i}};
-    for (const nodes::Category category : categories) {
-      row.emplace_back(kibibytes(node.memory_used[category]));
+    for (const NamedCategory& named : categories) {
+      row.emplace_back(kibibytes(node.memory_used[named.category]));
     }
     row.emplace_back(kibibytes(node.memory_used.total()));
     row.emplace_back(kibibytes(node.memory_planned.total()));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/line/number_text.h"
+#include "apps/run/work.h"
 #include "apps/table/geometric_sizes.h"
 
 namespace dmpc::apps::html {
@@ -115,14 +116,14 @@ double total_fetches(const Fetches& fetches) {
 Table step_table(const nodes::ActivitySteps& steps) {
   const int digits = steps.step_ns < 10'000 ? 3 : steps.step_ns < 100'000 ? 2 : steps.step_ns < 1'000'000 ? 1 : 0;
   std::vector<Column> columns = {{"since the start", "ms", digits}};
-  for (const std::string_view name : nodes::work_names) {
+  for (const std::string_view name : work_names) {
     columns.push_back({std::string(name), "%", 1});
   }
   Table table("What the nodes were busy with over time", std::move(columns));
   const double whole_ns = static_cast<double>(steps.step_ns) * static_cast<double>(node_count_of(steps));
   for (std::size_t step = 0; step < step_count_of(steps); ++step) {
     std::vector<Cell> row = {static_cast<double>(step * steps.step_ns) / 1e6};
-    for (std::size_t work = 0; work < nodes::work_names.size(); ++work) {
+    for (std::size_t work = 0; work < work_names.size(); ++work) {
       std::uint64_t sum_ns = 0;
       for (std::size_t node = 0; node < node_count_of(steps); ++node) {
         sum_ns += steps.nodes[node][step][work];
@@ -140,7 +141,7 @@ Table step_table(const nodes::ActivitySteps& steps) {
 Plot step_plot(const nodes::ActivitySteps& steps) {
   Plot plot = curves("steps", "What the nodes were busy with over time", "since the start", {.label = "since the start"},
                      {.label = "of the nodes' time (%)", .least = 0}, {});
-  for (const std::string_view name : nodes::work_names) {
+  for (const std::string_view name : work_names) {
     plot.series.push_back({std::string(name), std::string(name), {}, PlotMark::bars, plot.series.size()});
   }
   plot.bar_width = static_cast<double>(steps.step_ns) / 1e6;

@@ -11,7 +11,7 @@ namespace dmpc::apps {
 
 namespace {
 
-using TrafficByKind = std::array<nodes::Traffic, nodes::packet_kind_count>;
+using nodes::TrafficByKind;
 
 /// What the rays of one node, or of all, did on their way.
 struct Travel {

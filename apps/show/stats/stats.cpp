@@ -11,6 +11,7 @@
 #include "apps/line/json_format.h"
 #include "apps/line/number_text.h"
 #include "apps/machine/machine_file.h"
+#include "apps/run/memory_categories.h"
 #include "apps/show/heat/field.h"
 #include "apps/show/stats/ranks.h"
 #include "apps/show/stats/strategy.h"
@@ -140,8 +141,8 @@ Json all_packets_json(const Account& account, std::uint64_t packets_overflowed) 
 
 Json memory_json(const nodes::MemoryPlan& memory) {
   Json result;
-  for (std::size_t index = 0; index < nodes::category_count; ++index) {
-    result[key_of(nodes::name_of(static_cast<nodes::Category>(index)))] = memory.bytes[index];
+  for (const auto& [category, name] : memory_categories) {
+    result[key_of(name)] = memory[category];
   }
   result["total"] = memory.total();
   return result;
@@ -264,7 +265,7 @@ Json heat_maps_json(const RenderRecord& record) {
   Json result;
   for (const HeatRequest& request : record.options.heat_maps) {
     const HeatField field = heat_field(request.kind, record);
-    result.push_back({{"kind", nodes::name_of(field.kind)},
+    result.push_back({{"kind", core::name_of(field.kind)},
                       {"file", request.path.string()},
                       {"unit", field.unit},
                       {"clock", field.clock.empty() ? Json() : Json(field.clock)},

@@ -160,9 +160,9 @@ class ChromeWriter {
     if (span.activity != nodes::Activity::work && span.activity != nodes::Activity::send) {
       add("packet", quoted(view_.kind_names[span.packet]));
     }
-    if (span.pixel != nodes::TraceSpan::no_pixel) {
-      add("x", std::to_string(span.pixel % view_.width));
-      add("y", std::to_string(span.pixel / view_.width));
+    if (span.item != nodes::TraceSpan::no_item) {
+      add("x", std::to_string(span.item % view_.width));
+      add("y", std::to_string(span.item / view_.width));
       add("depth", std::to_string(span.depth));
     }
     if (span.is_cut) {

@@ -2,12 +2,12 @@
 
 #include <map>
 
+#include "apps/run/work.h"
 #include "svm/packets.h"
 
 namespace dmpc::apps {
 
 using nodes::Activity;
-using nodes::Doing;
 
 std::string node_name(const TraceView& view, std::size_t index) {
   return index + 1 == view.trace.nodes.size() ? "host" : "node " + std::to_string(index);
@@ -24,7 +24,7 @@ SpanName name_of(const nodes::TraceSpan& span) {
     default:
       break;
   }
-  switch (span.doing) {
+  switch (doing_of(span.charged)) {
     case Doing::trace:
       return SpanName::trace;
     case Doing::shade:

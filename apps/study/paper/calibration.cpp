@@ -5,13 +5,13 @@
 #include <string>
 
 #include "apps/study/paper/tables.h"
-#include "nodes/charge.h"
+#include "core/trace/charge.h"
 
 namespace dmpc::apps {
 namespace {
 
-constexpr auto lookup_number = static_cast<std::size_t>(nodes::Charge::cached_lookup);
-constexpr auto step_number = static_cast<std::size_t>(nodes::Charge::cell_step);
+constexpr auto lookup_number = static_cast<std::size_t>(core::Charge::cached_lookup);
+constexpr auto step_number = static_cast<std::size_t>(core::Charge::cell_step);
 
 std::uint64_t times(std::uint64_t price, double factor) {
   return static_cast<std::uint64_t>(std::llround(static_cast<double>(price) * factor));

@@ -5,6 +5,7 @@
 
 #include "apps/machine/machines.h"
 #include "core/base/expect.h"
+#include "core/trace/charge.h"
 
 namespace dmpc::apps {
 namespace {
@@ -133,9 +134,9 @@ void add_ray_ways(Catalogue& catalogue) {
 
 /// A machine whose hardware finds cached pages, as fast as those at home, and puts them into frames.
 nodes::Machine with_shared_memory(nodes::Machine machine) {
-  const auto price = [&](nodes::Charge charge) -> auto& { return machine.cost_ps[static_cast<std::size_t>(charge)]; };
-  price(nodes::Charge::cached_lookup) = price(nodes::Charge::home_lookup);
-  price(nodes::Charge::page_install) = 0;
+  const auto price = [&](core::Charge charge) -> auto& { return machine.cost_ps[static_cast<std::size_t>(charge)]; };
+  price(core::Charge::cached_lookup) = price(core::Charge::home_lookup);
+  price(core::Charge::page_install) = 0;
   return machine;
 }
 
@@ -191,7 +192,7 @@ Catalogue catalogue_of(std::uint32_t resolution) {
   faster.machine = preset("ipsc860");
   catalogue.faster_machine = catalogue.add(faster);
   PaperRun dearer = catalogue.runs[catalogue.timed[calibration_row][1]];
-  dearer.machine.cost_ps[static_cast<std::size_t>(nodes::Charge::cached_lookup)] *= 2;
+  dearer.machine.cost_ps[static_cast<std::size_t>(core::Charge::cached_lookup)] *= 2;
   catalogue.dearer_cache = catalogue.add(dearer);
   catalogue.run_count_without_variations = catalogue.runs.size();
   return catalogue;

@@ -8,12 +8,12 @@
 
 #include "apps/line/number_text.h"
 #include "apps/study/paper/tables.h"
-#include "nodes/charge.h"
+#include "core/trace/charge.h"
 
 namespace dmpc::apps {
 namespace {
 
-using nodes::Charge;
+using core::Charge;
 using nodes::Machine;
 using nodes::MessageCost;
 

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "apps/machine/machines.h"
+#include "core/trace/charge.h"
 
 namespace dmpc::apps {
 
@@ -12,7 +13,7 @@ TEST_CASE("a machine takes as many times as long for a program's operations as f
     options.runner = RunnerKind::virtual_time;
     options.machine_name = preset.machine.name;
     choose_machine(options, {{"cheap", 1}, {"dear", 40}, {"free", 0}});
-    const auto tested = static_cast<std::size_t>(nodes::Charge::triangle_test);
+    const auto tested = static_cast<std::size_t>(core::Charge::triangle_test);
     const double slowdown =
         static_cast<double>(preset.machine.cost_ps[tested]) / static_cast<double>(operation_costs_ps(1)[tested]);
     const nodes::Machine& machine = *options.computer.machine;

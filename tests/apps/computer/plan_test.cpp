@@ -72,7 +72,7 @@ TEST_CASE("one to all and all to one") {
 TEST_CASE("a node's memory is the sum of its parts, and one that is too small is refused with what would do") {
   nodes::ComputerRequest computer = computer_of(4);
   const ProgramPlan plan(ring_needs(), computer);
-  CHECK(plan.memory(2)[nodes::Category::constants] == 128 + 64);
+  CHECK(plan.memory(2)[ProgramMemory::declared] == 128 + 64);
   const std::size_t needed = plan.memory(2).total();
   computer.node_memory_bytes = needed;
   CHECK_NOTHROW(ProgramPlan(ring_needs(), computer));

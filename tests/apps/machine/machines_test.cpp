@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "core/trace/charge.h"
 #include "dataflow/regions/work.h"
 
 namespace dmpc::apps {
 
 namespace {
 
-using nodes::Charge;
+using core::Charge;
 
 const nodes::Machine& machine(std::string_view name) {
   const MachineDescription* const preset = find_machine_preset(name);

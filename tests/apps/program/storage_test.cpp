@@ -24,6 +24,7 @@
 #include "apps/render/checkpoint_file.h"
 #include "apps/render/command.h"
 #include "core/base/expect.h"
+#include "core/picture/heat_kind.h"
 #include "tests/support/environment.h"
 #include "tests/support/simulated_files.h"
 #include "tests/support/temporary_folder.h"
@@ -72,7 +73,7 @@ apps::RenderOptions storage_options(const TemporaryFolder& folder, std::uint64_t
   options.runner.kind = apps::RunnerKind::virtual_time;
   options.runner.machine_name = "ipsc2";
   if (seed % 4 == 1) {
-    options.heat_maps = {{nodes::HeatKind::rays, folder / "picture/h.png"}, {nodes::HeatKind::time, folder / "picture/h.exr"}};
+    options.heat_maps = {{core::HeatKind::rays, folder / "picture/h.png"}, {core::HeatKind::time, folder / "picture/h.exr"}};
   }
   if (seed % 4 == 2) {
     options.trace.path = folder / (seed % 8 == 2 ? "picture/t.json" : "picture/t.paje");

@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "apps/run/work.h"
 #include "tests/apps/show/watched.h"
 
 namespace dmpc::apps {
@@ -20,7 +21,7 @@ std::uint64_t busy_ns(const nodes::ActivitySteps& steps) {
   std::uint64_t sum = 0;
   for (const auto& node : steps.nodes) {
     for (const nodes::WorkTimes& times : node) {
-      sum += sum_of_numbers(times) - times[static_cast<std::size_t>(nodes::Work::messages)];
+      sum += sum_of_numbers(times) - times[static_cast<std::size_t>(Work::messages)];
     }
   }
   return sum;

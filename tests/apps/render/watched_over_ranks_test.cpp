@@ -12,6 +12,7 @@
 #include "apps/run/heat_options.h"
 #include "apps/show/page/render_page.h"
 #include "apps/show/trace/file.h"
+#include "core/picture/heat_kind.h"
 #include "tests/apps/show/watched.h"
 #include "tests/support/loopback_ranks.h"
 
@@ -19,7 +20,7 @@ namespace dmpc::apps {
 
 namespace {
 
-using nodes::HeatKind;
+using core::HeatKind;
 
 constexpr std::uint32_t rank_counts[] = {1, 2, 3};
 

@@ -8,12 +8,13 @@
 #include "apps/commands.h"
 #include "apps/run/render_options.h"
 #include "core/base/expect.h"
+#include "core/picture/heat_kind.h"
 #include "tests/support/text.h"
 #include "tests/support/usage.h"
 
 namespace dmpc::apps {
 
-using nodes::HeatKind;
+using core::HeatKind;
 using tests::contains;
 using tests::render_usage_complaint;
 
@@ -30,7 +31,7 @@ RenderOptions render(const std::vector<std::string>& more) {
 TEST_CASE("heat maps may be asked for several times, of every kind") {
   CHECK(render({}).heat_maps.empty());
   std::vector<std::string> arguments;
-  for (const std::string_view kind : nodes::heat_kind_names) {
+  for (const std::string_view kind : core::heat_kind_names) {
     arguments.push_back("--heatmap=" + std::string(kind) + ":" + std::string(kind) + ".png");
   }
   arguments.push_back("--heatmap=rays:C:a b.exr");

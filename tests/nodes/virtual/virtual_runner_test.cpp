@@ -332,7 +332,7 @@ TEST_CASE("each cost of a machine changes the run's hash") {
       [](Machine& machine) { ++machine.hop_ns; },
       [](Machine& machine) { ++machine.service_ns; },
       [](Machine& machine) { ++machine.short_bytes_max; },
-      [](Machine& machine) { machine.cost_ps[static_cast<std::size_t>(Charge::ray_setup)] += 1000; },
+      [](Machine& machine) { machine.cost_ps[0] += 1000; },
       [](Machine& machine) { machine.has_contention = false; },
       [](Machine& machine) { machine.has_memory_port = true; },
       [](Machine& machine) { machine.topology = TopologyKind::fat_tree; }};

@@ -339,7 +339,7 @@ TEST_CASE("receiving costs a busy node at the arrival, and the packet is receive
 
 TEST_CASE("rates are summed in picoseconds: what is less than a nanosecond is not lost") {
   Machine machine = toy_model();
-  machine.cost_ps[static_cast<std::size_t>(Charge::ray_setup)] = 300;
+  machine.cost_ps[0] = 300;
   for (const std::uint64_t quanta : {1U, 3U, 4U, 100U}) {
     const ScriptedRun run = run_scripts({{.quanta = std::vector<Act>(quanta, Act{1})}, {}}, machine);
     CHECK(run.report.nodes[0].computing_ns == quanta * 300 / 1000);

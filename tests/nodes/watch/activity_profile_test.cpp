@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include <initializer_list>
+#include <cstddef>
 #include <string>
 
 #include "nodes/program.h"
@@ -20,17 +20,19 @@ class SilentProgram final : public Program {
   std::string describe() const override { return ""; }
 };
 
+/// Kinds of work.
+constexpr std::size_t other = 1, received = work_count - 1;
+
+std::size_t work_of_span(const Span& span) { return span.activity == Activity::receive ? received : other; }
+
 /// Two nodes and a host that tell a profile what the test says.
 struct ProfiledNodes {
-  explicit ProfiledNodes(std::size_t step_count_max = 128) : profile(3, step_count_max) {}
+  explicit ProfiledNodes(std::size_t step_count_max = 128) : profile(3, work_of_span, step_count_max) {}
 
   void span(std::uint32_t node, std::uint64_t begin_ns, std::uint64_t end_ns, std::uint64_t own_ns,
-            Activity activity = Activity::work, std::initializer_list<Charge> charges = {}) {
-    Span told{.node = NodeId{node}, .activity = activity, .begin_ns = begin_ns, .end_ns = end_ns, .own_ns = own_ns};
-    for (const Charge charge : charges) {
-      ++told.after[charge];
-    }
-    profile.ended(told, program);
+            Activity activity = Activity::work) {
+    profile.ended({.node = NodeId{node}, .activity = activity, .begin_ns = begin_ns, .end_ns = end_ns, .own_ns = own_ns},
+                  program);
   }
 
   ActivityProfile profile;
@@ -47,18 +49,6 @@ std::uint64_t sum_of_steps(const ActivitySteps& steps, std::size_t node) {
   return sum_ns;
 }
 
-/// What a span of this kind counts as.
-Work work_told(Activity activity, std::initializer_list<Charge> charges) {
-  ProfiledNodes told;
-  told.span(0, 0, 10, 10, activity, charges);
-  const WorkTimes times = told.profile.take().nodes[0].at(0);
-  std::size_t work = 0;
-  while (times.at(work) == 0) {
-    ++work;
-  }
-  return static_cast<Work>(work);
-}
-
 }  // namespace
 
 TEST_CASE("a profile of nothing has no steps") {
@@ -73,10 +63,9 @@ TEST_CASE("a span is spread over the steps in which it lies") {
   const ActivitySteps steps = told.profile.take();
   CHECK(steps.step_ns == 1024);
   REQUIRE(steps.nodes[0].size() == 3);
-  const auto control = static_cast<std::size_t>(Work::control);
-  CHECK(steps.nodes[0][0][control] == 250);
-  CHECK(steps.nodes[0][1][control] == 500);
-  CHECK(steps.nodes[0][2][control] == 250);
+  CHECK(steps.nodes[0][0][other] == 250);
+  CHECK(steps.nodes[0][1][other] == 500);
+  CHECK(steps.nodes[0][2][other] == 250);
   CHECK(sum_of_steps(steps, 1) == 0);
   CHECK(steps.nodes[1].size() == 3);
 }
@@ -98,15 +87,18 @@ TEST_CASE("a longer run has longer steps, and loses nothing by them") {
   CHECK(sum_of_steps(steps, 2) == 7);
 }
 
-TEST_CASE("a span counts as what it was charged for, or as messages or pages of its kind") {
-  CHECK(work_told(Activity::work, {Charge::cell_step}) == Work::tracing);
-  CHECK(work_told(Activity::work, {Charge::shading, Charge::cell_step}) == Work::shading);
-  CHECK(work_told(Activity::receive, {Charge::page_install}) == Work::paging);
-  CHECK(work_told(Activity::receive, {Charge::ray_packing}) == Work::packing);
-  CHECK(work_told(Activity::receive, {}) == Work::control);
-  CHECK(work_told(Activity::serve, {}) == Work::paging);
-  CHECK(work_told(Activity::send, {}) == Work::messages);
-  CHECK(work_told(Activity::take_over, {}) == Work::messages);
+TEST_CASE("a span counts as whoever made the profile says") {
+  ProfiledNodes told;
+  told.span(0, 0, 10, 10, Activity::receive);
+  told.span(0, 10, 15, 5, Activity::work);
+  const WorkTimes times = told.profile.take().nodes[0].at(0);
+  CHECK(times[received] == 10);
+  CHECK(times[other] == 5);
+}
+
+TEST_CASE("work of a kind that there is not is an error") {
+  ActivityProfile profile(1, [](const Span&) { return work_count; });
+  CHECK_THROWS(profile.ended({.end_ns = 1, .own_ns = 1}, SilentProgram()));
 }
 
 TEST_CASE("what a profile on another rank has seen is taken over, in steps of one length for all") {
@@ -118,7 +110,7 @@ TEST_CASE("what a profile on another rank has seen is taken over, in steps of on
   CHECK(steps.step_ns == 2048);
   CHECK(sum_of_steps(steps, 0) == 1000);
   CHECK(sum_of_steps(steps, 1) == 800);
-  CHECK(steps.nodes[1].at(3)[static_cast<std::size_t>(Work::control)] == 200);
+  CHECK(steps.nodes[1].at(3)[other] == 200);
 }
 
 }  // namespace dmpc::nodes

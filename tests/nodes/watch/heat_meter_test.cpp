@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "nodes/threads/clock.h"
+#include "tests/nodes/watch/toy_kind.h"
 
 namespace dmpc::nodes {
 
 namespace {
 
-constexpr std::array all_kinds = {HeatKind::faults, HeatKind::references, HeatKind::pages, HeatKind::rays,
-                                  HeatKind::time,   HeatKind::node,       HeatKind::depth};
+constexpr std::array all_kinds = {ToyKind::bites, ToyKind::crumbs, ToyKind::drops, ToyKind::steps,
+                                  ToyKind::time,  ToyKind::node,   ToyKind::depth};
 
 /// Every operation takes a nanosecond.
 Machine priced() {
@@ -23,38 +24,40 @@ Machine priced() {
   return machine;
 }
 
-/// So many of each, and shadings.
-HeatTotals totals(std::uint64_t count, std::uint64_t shadings) {
-  HeatTotals totals{.rays = count, .references = 10 * count, .faults = 100 * count, .pages = 1000 * count};
-  totals.charges[Charge::shading] = shadings;
+/// So many of each, and operations.
+HeatTotals totals(std::uint64_t count, std::uint64_t operations) {
+  HeatTotals totals;
+  totals[ToyKind::steps] = count;
+  totals[ToyKind::crumbs] = 10 * count;
+  totals[ToyKind::bites] = 100 * count;
+  totals[ToyKind::drops] = 1000 * count;
+  totals.charges.count[6] = operations;
   return totals;
 }
 
-std::vector<std::uint64_t> values(const HeatMap& map, HeatKind kind) {
-  return {map.values(kind).begin(), map.values(kind).end()};
-}
+std::vector<std::uint64_t> values(const HeatMap& map, ToyKind kind) { return {map.values(kind).begin(), map.values(kind).end()}; }
 
 using Values = std::vector<std::uint64_t>;
 
 }  // namespace
 
-TEST_CASE("what is counted between begin and end is the pixel's") {
+TEST_CASE("what is counted between begin and end is the item's") {
   const Machine machine = priced();
   HeatMap map(3, all_kinds);
   HeatMeter meter(map, NodeId{4}, &machine);
   meter.begin(totals(5, 50));
   meter.end(2, 3, totals(7, 51));
   meter.claim(2);
-  CHECK(values(map, HeatKind::rays) == Values{0, 0, 2});
-  CHECK(values(map, HeatKind::references) == Values{0, 0, 20});
-  CHECK(values(map, HeatKind::faults) == Values{0, 0, 200});
-  CHECK(values(map, HeatKind::pages) == Values{0, 0, 2000});
-  CHECK(values(map, HeatKind::time) == Values{0, 0, 1000});
-  CHECK(values(map, HeatKind::depth) == Values{0, 0, 3});
-  CHECK(values(map, HeatKind::node) == Values{0, 0, 4});
+  CHECK(values(map, ToyKind::steps) == Values{0, 0, 2});
+  CHECK(values(map, ToyKind::crumbs) == Values{0, 0, 20});
+  CHECK(values(map, ToyKind::bites) == Values{0, 0, 200});
+  CHECK(values(map, ToyKind::drops) == Values{0, 0, 2000});
+  CHECK(values(map, ToyKind::time) == Values{0, 0, 1000});
+  CHECK(values(map, ToyKind::depth) == Values{0, 0, 3});
+  CHECK(values(map, ToyKind::node) == Values{0, 0, 4});
 }
 
-TEST_CASE("an end begins the next pixel's share, and a begin leaves out what came before") {
+TEST_CASE("an end begins the next item's share, and a begin leaves out what came before") {
   const Machine machine = priced();
   HeatMap map(2, all_kinds);
   HeatMeter meter(map, NodeId{0}, &machine);
@@ -63,9 +66,9 @@ TEST_CASE("an end begins the next pixel's share, and a begin leaves out what cam
   meter.end(1, 5, totals(3, 3));
   meter.begin(totals(10, 10));
   meter.end(1, 2, totals(11, 12));
-  CHECK(values(map, HeatKind::rays) == Values{1, 3});
-  CHECK(values(map, HeatKind::time) == Values{1000, 4000});
-  CHECK(values(map, HeatKind::depth) == Values{1, 5});
+  CHECK(values(map, ToyKind::steps) == Values{1, 3});
+  CHECK(values(map, ToyKind::time) == Values{1000, 4000});
+  CHECK(values(map, ToyKind::depth) == Values{1, 5});
 }
 
 TEST_CASE("without a machine the time is the processor's") {
@@ -76,7 +79,7 @@ TEST_CASE("without a machine the time is the processor's") {
   while (nanoseconds(CLOCK_THREAD_CPUTIME_ID) < before_ns + 1'000'000) {
   }
   meter.end(0, 1, totals(1, 1'000'000'000));
-  const std::uint64_t time_ps = map.values(HeatKind::time)[0];
+  const std::uint64_t time_ps = map.values(ToyKind::time)[0];
   CHECK(time_ps > 0);
   CHECK(time_ps <= (nanoseconds(CLOCK_THREAD_CPUTIME_ID) - before_ns) * 1000);
 }

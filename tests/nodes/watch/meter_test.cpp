@@ -5,6 +5,8 @@
 #include <array>
 #include <vector>
 
+#include "tests/nodes/watch/toy_kind.h"
+
 namespace dmpc::nodes {
 
 namespace {
@@ -19,10 +21,16 @@ class Listener final : public Observer {
   std::vector<Worked> heard;
 };
 
+HeatTotals steps(std::uint64_t count) {
+  HeatTotals totals;
+  totals[ToyKind::steps] = count;
+  return totals;
+}
+
 }  // namespace
 
 TEST_CASE("a meter that nobody wants is not wanted") {
-  HeatMap map(1, {});
+  HeatMap map(1, std::array<ToyKind, 0>{});
   Listener listener;
   CHECK_FALSE(Watching().is_metered());
   CHECK(Watching{.heat = &map}.is_metered());
@@ -30,21 +38,21 @@ TEST_CASE("a meter that nobody wants is not wanted") {
 }
 
 TEST_CASE("a meter tells the heat map and the observer, whichever there is") {
-  constexpr std::array kinds = {HeatKind::rays, HeatKind::node};
+  constexpr std::array kinds = {ToyKind::steps, ToyKind::node};
   HeatMap map(3, kinds);
   Listener listener;
   for (const Watching& watching :
        {Watching{.heat = &map, .observer = &listener}, Watching{.heat = &map}, Watching{.observer = &listener}}) {
     Meter meter(watching, nullptr, NodeId{5});
-    meter.begin({.rays = 10});
-    meter.end(2, 4, {.rays = 13});
+    meter.begin(steps(10));
+    meter.end(2, 4, steps(13));
     meter.claim(2);
   }
-  CHECK(map.sum(HeatKind::rays) == 6);
-  CHECK(map.values(HeatKind::node)[2] == 5);
+  CHECK(map.sum(ToyKind::steps) == 6);
+  CHECK(map.values(ToyKind::node)[2] == 5);
   REQUIRE(listener.heard.size() == 2);
   CHECK(listener.heard[0].node == NodeId{5});
-  CHECK(listener.heard[0].pixel == 2);
+  CHECK(listener.heard[0].item == 2);
   CHECK(listener.heard[0].depth == 4);
 }
 

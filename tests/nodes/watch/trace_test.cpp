@@ -28,8 +28,8 @@ class Gauge final : public Program {
 };
 
 /// Two nodes and a host that tell a recorder what the test says.
-struct Scene {
-  explicit Scene(const TraceChoice& choice = {}) : recorder(3, choice) {}
+struct Told {
+  explicit Told(const TraceChoice& choice = {}) : recorder(3, choice) {}
 
   void span(std::uint32_t node, std::uint64_t begin_ns, std::uint64_t end_ns, Activity activity = Activity::work,
             std::uint32_t call = 0) {
@@ -58,90 +58,81 @@ struct Scene {
   std::array<std::uint32_t, 2> words = {77, 5};
 };
 
-/// The first pixel that is chosen as one of four, or that is not.
-std::uint32_t pixel(bool is_chosen) {
-  std::uint32_t pixel = 0;
-  while ((core::mix(pixel) % 4 == 0) != is_chosen) {
-    ++pixel;
+/// The first item that is chosen as one of four, or that is not.
+std::uint32_t item(bool is_chosen) {
+  std::uint32_t item = 0;
+  while ((core::mix(item) % 4 == 0) != is_chosen) {
+    ++item;
   }
-  return pixel;
-}
-
-Doing doing(std::initializer_list<Charge> charges) {
-  Charges before, after;
-  before[Charge::shading] = after[Charge::shading] = 3;
-  for (const Charge charge : charges) {
-    after[charge] += 2;
-  }
-  return doing_between(before, after);
+  return item;
 }
 
 }  // namespace
 
 TEST_CASE("nothing told is a trace of nothing") {
-  const Trace trace = Scene().recorder.take();
+  const Trace trace = Told().recorder.take();
   CHECK(trace.nodes.size() == 3);
   CHECK(trace.messages.empty());
   CHECK(trace.events_lost == 0);
 }
 
-TEST_CASE("what a call was for follows from what it was charged") {
-  CHECK(doing({}) == Doing::other);
-  CHECK(doing({Charge::ray_packing}) == Doing::pack);
-  CHECK(doing({Charge::page_install}) == Doing::install);
-  CHECK(doing({Charge::page_install, Charge::cell_step}) == Doing::trace);
-  CHECK(doing({Charge::ray_setup, Charge::ray_packing}) == Doing::trace);
-  CHECK(doing({Charge::shading, Charge::cell_step}) == Doing::shade);
-  CHECK(doing({Charge::tile_read}) == Doing::shade);
+TEST_CASE("a span has a bit for each class of operations that it was charged") {
+  Told told;
+  Span span{.node = NodeId{0}};
+  span.before.count[3] = span.after.count[3] = 7;
+  span.after.count[0] = 2;
+  span.after.count[5] = 1;
+  told.recorder.ended(span, told.gauge);
+  CHECK(told.recorder.take().nodes[0].spans.at(0).charged == 0b100001);
 }
 
 TEST_CASE("what begins first comes first, and an interrupt behind what it interrupts") {
-  Scene scene;
-  scene.span(0, 5, 8, Activity::serve, 2);
-  scene.span(0, 5, 20, Activity::work, 1);
-  scene.span(0, 0, 5, Activity::take_over);
-  const std::vector<TraceSpan> spans = scene.recorder.take().nodes[0].spans;
+  Told told;
+  told.span(0, 5, 8, Activity::serve, 2);
+  told.span(0, 5, 20, Activity::work, 1);
+  told.span(0, 0, 5, Activity::take_over);
+  const std::vector<TraceSpan> spans = told.recorder.take().nodes[0].spans;
   REQUIRE(spans.size() == 3);
   CHECK(spans[0].activity == Activity::take_over);
   CHECK(spans[1].activity == Activity::work);
   CHECK(spans[2].activity == Activity::serve);
 }
 
-TEST_CASE("a call has the pixel that it worked on, and an interrupt leaves it alone") {
-  Scene scene;
-  scene.recorder.worked({NodeId{1}, 42, 3});
-  scene.span(1, 2, 3, Activity::serve, 2);
-  scene.span(1, 0, 9, Activity::work, 1);
-  scene.span(1, 9, 10, Activity::work, 3);
-  const std::vector<TraceSpan> spans = scene.recorder.take().nodes[1].spans;
-  CHECK(spans[0].pixel == 42);
+TEST_CASE("a call has the item that it worked on, and an interrupt leaves it alone") {
+  Told told;
+  told.recorder.worked({NodeId{1}, 42, 3});
+  told.span(1, 2, 3, Activity::serve, 2);
+  told.span(1, 0, 9, Activity::work, 1);
+  told.span(1, 9, 10, Activity::work, 3);
+  const std::vector<TraceSpan> spans = told.recorder.take().nodes[1].spans;
+  CHECK(spans[0].item == 42);
   CHECK(spans[0].depth == 3);
-  CHECK(spans[1].pixel == TraceSpan::no_pixel);
-  CHECK(spans[2].pixel == TraceSpan::no_pixel);
+  CHECK(spans[1].item == TraceSpan::no_item);
+  CHECK(spans[2].item == TraceSpan::no_item);
 }
 
 TEST_CASE("a message is as long as its payload, an end that lasts and is not copied included") {
-  Scene scene;
+  Told told;
   for (const std::size_t lasting_bytes : {0U, 512U}) {
-    scene.recorder.sent({.node = NodeId{0}, .peer = NodeId{1}, .payload = scene.payload(), .lasting_bytes = lasting_bytes});
-    scene.recorder.received({.node = NodeId{1}, .peer = NodeId{0}, .payload = scene.payload(), .lasting_bytes = lasting_bytes});
+    told.recorder.sent({.node = NodeId{0}, .peer = NodeId{1}, .payload = told.payload(), .lasting_bytes = lasting_bytes});
+    told.recorder.received({.node = NodeId{1}, .peer = NodeId{0}, .payload = told.payload(), .lasting_bytes = lasting_bytes});
   }
-  const std::vector<TraceMessage> messages = scene.recorder.take().messages;
+  const std::vector<TraceMessage> messages = told.recorder.take().messages;
   REQUIRE(messages.size() == 2);
   CHECK(messages[0].bytes == 8);
   CHECK(messages[1].bytes == 520);
 }
 
 TEST_CASE("of one kind between two nodes the n-th packet received is the n-th sent") {
-  Scene scene;
-  scene.sends(0, 1, 10, 1);
-  scene.sends(0, 1, 20, 2, 9);
-  scene.sends(0, 1, 30, 3);
-  scene.sends(1, 0, 15, 1);
-  scene.receives(1, 0, 25, 4, 9);
-  scene.receives(1, 0, 26, 5);
-  scene.receives(1, 0, 40, 6);
-  const std::vector<TraceMessage> messages = scene.recorder.take().messages;
+  Told told;
+  told.sends(0, 1, 10, 1);
+  told.sends(0, 1, 20, 2, 9);
+  told.sends(0, 1, 30, 3);
+  told.sends(1, 0, 15, 1);
+  told.receives(1, 0, 25, 4, 9);
+  told.receives(1, 0, 26, 5);
+  told.receives(1, 0, 40, 6);
+  const std::vector<TraceMessage> messages = told.recorder.take().messages;
   REQUIRE(messages.size() == 3);  // the one from node 1 was not received
   CHECK(messages[0].sent_ns == 10);
   CHECK(messages[0].received_ns == 26);
@@ -155,13 +146,13 @@ TEST_CASE("of one kind between two nodes the n-th packet received is the n-th se
 }
 
 TEST_CASE("a level is written where it changes") {
-  Scene scene;
-  scene.span(0, 0, 1);
-  scene.span(0, 1, 2);
-  scene.gauge.height = 3;
-  scene.span(0, 2, 3, Activity::send);
-  scene.span(0, 3, 4, Activity::receive);
-  const TraceNode node = scene.recorder.take().nodes[0];
+  Told told;
+  told.span(0, 0, 1);
+  told.span(0, 1, 2);
+  told.gauge.height = 3;
+  told.span(0, 2, 3, Activity::send);
+  told.span(0, 3, 4, Activity::receive);
+  const TraceNode node = told.recorder.take().nodes[0];
   CHECK(node.level_names == std::vector<std::string>{"height", "depth"});
   REQUIRE(node.levels.size() == 3);
   CHECK(node.levels[0].value == 0);
@@ -171,19 +162,19 @@ TEST_CASE("a level is written where it changes") {
 }
 
 TEST_CASE("a window cuts what lies across its edges and leaves out what lies beyond") {
-  Scene scene({.from_ns = 10, .to_ns = 20});
-  scene.span(0, 0, 10);
-  scene.span(0, 5, 15);
-  scene.span(0, 15, 18);
-  scene.span(0, 19, 30);
-  scene.span(0, 20, 25);
-  scene.sends(0, 1, 9);
-  scene.sends(0, 1, 10);
-  scene.sends(0, 1, 19);
-  scene.receives(1, 0, 11);
-  scene.receives(1, 0, 12);
-  scene.receives(1, 0, 20);
-  const Trace trace = scene.recorder.take();
+  Told told({.from_ns = 10, .to_ns = 20});
+  told.span(0, 0, 10);
+  told.span(0, 5, 15);
+  told.span(0, 15, 18);
+  told.span(0, 19, 30);
+  told.span(0, 20, 25);
+  told.sends(0, 1, 9);
+  told.sends(0, 1, 10);
+  told.sends(0, 1, 19);
+  told.receives(1, 0, 11);
+  told.receives(1, 0, 12);
+  told.receives(1, 0, 20);
+  const Trace trace = told.recorder.take();
   const std::vector<TraceSpan>& spans = trace.nodes[0].spans;
   REQUIRE(spans.size() == 3);
   CHECK(spans[0].begin_ns == 10);
@@ -199,13 +190,13 @@ TEST_CASE("a window cuts what lies across its edges and leaves out what lies bey
 }
 
 TEST_CASE("of some nodes there is what they do, and the messages between them") {
-  Scene scene({.nodes = {true, false, true}});
+  Told told({.nodes = {true, false, true}});
   for (std::uint32_t node = 0; node < 3; ++node) {
-    scene.span(node, 0, 1);
-    scene.sends(node, (node + 1) % 3, 1);
-    scene.receives((node + 1) % 3, node, 2);
+    told.span(node, 0, 1);
+    told.sends(node, (node + 1) % 3, 1);
+    told.receives((node + 1) % 3, node, 2);
   }
-  const Trace trace = scene.recorder.take();
+  const Trace trace = told.recorder.take();
   CHECK(trace.nodes[0].spans.size() == 1);
   CHECK(trace.nodes[1].spans.empty());
   CHECK(trace.nodes[1].levels.empty());
@@ -215,100 +206,100 @@ TEST_CASE("of some nodes there is what they do, and the messages between them") 
   CHECK(trace.messages[0].target == NodeId{0});
 }
 
-TEST_CASE("of one pixel in four there is its call, what serves that, and the answer") {
-  Scene scene({.every = 4});
-  scene.recorder.worked({NodeId{0}, pixel(false), 1});
-  scene.recorder.worked({NodeId{0}, pixel(true), 1});
-  scene.sends(0, 1, 10, 1);
-  scene.span(0, 0, 10, Activity::work, 1);
-  scene.span(0, 10, 11, Activity::send, 1);
-  scene.receives(1, 0, 15, 8);
-  scene.sends(1, 0, 16, 8);
-  scene.span(1, 15, 17, Activity::serve, 8);
-  scene.receives(0, 1, 20, 2);
-  scene.span(0, 20, 21, Activity::receive, 2);
-  const Trace trace = scene.recorder.take();
+TEST_CASE("of one item in four there is its call, what serves that, and the answer") {
+  Told told({.every = 4});
+  told.recorder.worked({NodeId{0}, item(false), 1});
+  told.recorder.worked({NodeId{0}, item(true), 1});
+  told.sends(0, 1, 10, 1);
+  told.span(0, 0, 10, Activity::work, 1);
+  told.span(0, 10, 11, Activity::send, 1);
+  told.receives(1, 0, 15, 8);
+  told.sends(1, 0, 16, 8);
+  told.span(1, 15, 17, Activity::serve, 8);
+  told.receives(0, 1, 20, 2);
+  told.span(0, 20, 21, Activity::receive, 2);
+  const Trace trace = told.recorder.take();
   CHECK(trace.nodes[0].spans.size() == 3);
-  CHECK(trace.nodes[0].spans[0].pixel == pixel(true));
+  CHECK(trace.nodes[0].spans[0].item == item(true));
   CHECK(trace.nodes[1].spans.size() == 1);
   CHECK(trace.messages.size() == 2);
 }
 
-TEST_CASE("what follows from a chosen pixel is found where no time passes, too") {
-  Scene scene({.every = 4});
-  scene.recorder.worked({NodeId{1}, pixel(true), 1});
-  scene.sends(1, 0, 10, 1);
-  scene.span(1, 10, 10, Activity::work, 1);
-  scene.receives(0, 1, 10, 1);
-  scene.sends(0, 2, 10, 1);
-  scene.span(0, 10, 10, Activity::receive, 1);
-  scene.receives(2, 0, 10, 1);
-  scene.span(2, 10, 10, Activity::receive, 1);
-  const Trace trace = scene.recorder.take();
+TEST_CASE("what follows from a chosen item is found where no time passes, too") {
+  Told told({.every = 4});
+  told.recorder.worked({NodeId{1}, item(true), 1});
+  told.sends(1, 0, 10, 1);
+  told.span(1, 10, 10, Activity::work, 1);
+  told.receives(0, 1, 10, 1);
+  told.sends(0, 2, 10, 1);
+  told.span(0, 10, 10, Activity::receive, 1);
+  told.receives(2, 0, 10, 1);
+  told.span(2, 10, 10, Activity::receive, 1);
+  const Trace trace = told.recorder.take();
   CHECK(trace.messages.size() == 2);
   CHECK(trace.nodes[2].spans.size() == 1);
 }
 
-TEST_CASE("of one pixel in four there is nothing that the others bring about") {
-  Scene scene({.every = 4});
-  scene.recorder.worked({NodeId{0}, pixel(false), 1});
-  scene.sends(0, 1, 10, 1);
-  scene.span(0, 0, 10, Activity::work, 1);
-  scene.span(0, 10, 11, Activity::send, 1);
-  scene.receives(1, 0, 15, 8);
-  scene.sends(1, 0, 16, 8);
-  scene.span(1, 15, 17, Activity::serve, 8);
-  scene.span(1, 20, 21, Activity::work, 9);  // on no pixel
-  scene.span(1, 21, 22, Activity::take_over, 9);
-  const Trace trace = scene.recorder.take();
+TEST_CASE("of one item in four there is nothing that the others bring about") {
+  Told told({.every = 4});
+  told.recorder.worked({NodeId{0}, item(false), 1});
+  told.sends(0, 1, 10, 1);
+  told.span(0, 0, 10, Activity::work, 1);
+  told.span(0, 10, 11, Activity::send, 1);
+  told.receives(1, 0, 15, 8);
+  told.sends(1, 0, 16, 8);
+  told.span(1, 15, 17, Activity::serve, 8);
+  told.span(1, 20, 21, Activity::work, 9);  // on no item
+  told.span(1, 21, 22, Activity::take_over, 9);
+  const Trace trace = told.recorder.take();
   CHECK(trace.nodes[0].spans.empty());
   CHECK(trace.nodes[1].spans.empty());
   CHECK(trace.messages.empty());
 }
 
-TEST_CASE("of one pixel in four what the others do takes no room") {
-  Scene scene({.every = 4, .events_max = 6});
+TEST_CASE("of one item in four what the others do takes no room") {
+  Told told({.every = 4, .events_max = 6});
   for (std::uint32_t call = 1; call < 9; ++call) {
-    scene.gauge.height = call;
-    scene.recorder.worked({NodeId{0}, pixel(call == 8), 1});
-    scene.receives(0, 2, 10 * call, call);
-    scene.sends(0, 1, 10 * call, call);
-    scene.span(0, 10 * call, 10 * call + 1, call % 2 == 0 ? Activity::work : Activity::receive, call);
-    scene.span(0, 10 * call + 1, 10 * call + 2, Activity::send, call);
+    told.gauge.height = call;
+    told.recorder.worked({NodeId{0}, item(call == 8), 1});
+    told.receives(0, 2, 10 * call, call);
+    told.sends(0, 1, 10 * call, call);
+    told.span(0, 10 * call, 10 * call + 1, call % 2 == 0 ? Activity::work : Activity::receive, call);
+    told.span(0, 10 * call + 1, 10 * call + 2, Activity::send, call);
   }
-  const Trace trace = scene.recorder.take();  // of the last call: two ends, two levels, two spans
+  const Trace trace = told.recorder.take();  // of the last call: two ends, two levels, two spans
   CHECK(trace.events_lost == 0);
   CHECK(trace.nodes[0].spans.size() == 2);
   CHECK(trace.nodes[0].levels.size() == 2);
 }
 
-TEST_CASE("of one pixel in four a call that is interrupted keeps its message, and so does the interrupt") {
-  Scene scene({.every = 4});
-  scene.recorder.worked({NodeId{2}, pixel(true), 1});
-  scene.sends(2, 0, 1, 1);
-  scene.span(2, 0, 2, Activity::work, 1);
-  scene.recorder.worked({NodeId{0}, pixel(true), 1});
-  scene.receives(0, 2, 5, 4);
-  scene.sends(0, 2, 6, 4);
-  scene.span(0, 5, 6, Activity::serve, 4);
-  scene.sends(0, 1, 9, 3);
-  scene.span(0, 0, 9, Activity::work, 3);
-  scene.receives(1, 0, 20, 1);
-  scene.span(1, 20, 21, Activity::receive, 1);
-  scene.receives(2, 0, 20, 2);
-  scene.span(2, 20, 21, Activity::receive, 2);
-  const Trace trace = scene.recorder.take();
+TEST_CASE("of one item in four a call that is interrupted keeps its message, and so does the interrupt") {
+  Told told({.every = 4});
+  told.recorder.worked({NodeId{2}, item(true), 1});
+  told.sends(2, 0, 1, 1);
+  told.span(2, 0, 2, Activity::work, 1);
+  told.recorder.worked({NodeId{0}, item(true), 1});
+  told.receives(0, 2, 5, 4);
+  told.sends(0, 2, 6, 4);
+  told.span(0, 5, 6, Activity::serve, 4);
+  told.sends(0, 1, 9, 3);
+  told.span(0, 0, 9, Activity::work, 3);
+  told.receives(1, 0, 20, 1);
+  told.span(1, 20, 21, Activity::receive, 1);
+  told.receives(2, 0, 20, 2);
+  told.span(2, 20, 21, Activity::receive, 2);
+  const Trace trace = told.recorder.take();
   CHECK(trace.messages.size() == 3);
   CHECK(trace.nodes[0].spans.size() == 2);
 }
 
 TEST_CASE("a full trace keeps what came first and counts the rest") {
-  Scene scene({.events_max = 4});
-  scene.span(0, 0, 1);  // and two levels
-  scene.span(0, 1, 2);
-  scene.span(0, 2, 3);
-  scene.span(1, 5, 6);  // and two levels
-  const Trace trace = scene.recorder.take();
+  Told told({.events_max = 4});
+  told.span(0, 0, 1);  // and two levels
+  told.span(0, 1, 2);
+  told.span(0, 2, 3);
+  told.span(1, 5, 6);  // and two levels
+  const Trace trace = told.recorder.take();
   CHECK(trace.nodes[0].spans.size() == 2);
   CHECK(trace.nodes[1].spans.empty());
   CHECK(trace.events_lost == 4);
@@ -316,7 +307,7 @@ TEST_CASE("a full trace keeps what came first and counts the rest") {
 }
 
 TEST_CASE("what a recorder on another rank has kept is taken over, with both ends of each message") {
-  Scene here, elsewhere;
+  Told here, elsewhere;
   elsewhere.gauge.height = 3;
   here.sends(0, 1, 10, 4);
   here.span(0, 5, 20, Activity::work, 4);
@@ -341,7 +332,7 @@ TEST_CASE("what a recorder on another rank has kept is taken over, with both end
 }
 
 TEST_CASE("times of another rank are corrected by its clock, which gains") {
-  Scene here, elsewhere;
+  Told here, elsewhere;
   elsewhere.span(1, 0, 1'010'000);
   elsewhere.sends(1, 2, 505'000);
   here.receives(2, 1, 600'000);
@@ -356,7 +347,7 @@ TEST_CASE("times of another rank are corrected by its clock, which gains") {
 }
 
 TEST_CASE("a message that another rank's clock has received too early is received when it is sent, and counted") {
-  Scene here, elsewhere;
+  Told here, elsewhere;
   for (const std::uint64_t sent : {100, 200, 300}) {
     here.sends(0, 1, sent);
   }
@@ -373,7 +364,7 @@ TEST_CASE("a message that another rank's clock has received too early is receive
 }
 
 TEST_CASE("what a full recorder on another rank has lost is counted with what is lost here") {
-  Scene here({.events_max = 2}), elsewhere({.events_max = 2});
+  Told here({.events_max = 2}), elsewhere({.events_max = 2});
   for (std::uint64_t time = 0; time < 50; time += 10) {
     here.span(0, time + 5, time + 6);
     elsewhere.span(1, time, time + 1);
@@ -387,7 +378,7 @@ TEST_CASE("what a full recorder on another rank has lost is counted with what is
 }
 
 TEST_CASE("a node that has told something on two ranks is an error") {
-  Scene here, elsewhere;
+  Told here, elsewhere;
   here.span(1, 0, 1);
   elsewhere.span(1, 2, 3);
   CHECK_THROWS_AS(here.recorder.add(elsewhere.recorder.bytes(), {}), core::InternalError);

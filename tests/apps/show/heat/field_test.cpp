@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "core/base/expect.h"
+#include "core/picture/heat_kind.h"
 #include "tests/apps/show/rendered.h"
 
 namespace dmpc::apps {
 
-using nodes::HeatKind;
+using core::HeatKind;
 
 namespace {
 
@@ -33,7 +34,7 @@ std::vector<std::string> repeatable(const RenderOptions& options) {
   std::vector<std::string> names;
   for (const HeatRequest& request : rendered.options.heat_maps) {
     if (heat_field(request.kind, rendered.record()).is_repeatable) {
-      names.emplace_back(nodes::name_of(request.kind));
+      names.emplace_back(core::name_of(request.kind));
     }
   }
   return names;

@@ -7,12 +7,13 @@
 
 #include "apps/picture/image_file.h"
 #include "apps/show/heat/field.h"
+#include "core/picture/heat_kind.h"
 #include "tests/apps/show/rendered.h"
 #include "tests/support/temporary_folder.h"
 
 namespace dmpc::apps {
 
-using nodes::HeatKind;
+using core::HeatKind;
 using tests::TemporaryFolder;
 using tests::write_text;
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/picture/color_map.h"
+#include "core/picture/heat_kind.h"
 
 namespace dmpc::apps {
 
@@ -12,7 +13,7 @@ namespace {
 
 HeatField field(int width, int height, const std::vector<double>& values) {
   return {
-      .kind = nodes::HeatKind::rays, .width = width, .height = height, .values = values, .meaning = "rays shot", .unit = "rays"};
+      .kind = core::HeatKind::rays, .width = width, .height = height, .values = values, .meaning = "rays shot", .unit = "rays"};
 }
 
 core::Color pixel(const Image& image, int x, int y) {

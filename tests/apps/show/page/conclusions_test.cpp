@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/picture/heat_kind.h"
 #include "tests/apps/show/watched.h"
 
 namespace dmpc::apps::html {
@@ -107,10 +108,10 @@ TEST_CASE("every section of every kind of run has a conclusion, of one node, too
 }
 
 TEST_CASE("a heat map is concluded with the share of its hottest pixels, where its numbers add up") {
-  const HeatField rays{.kind = nodes::HeatKind::rays, .width = 10, .height = 1, .values = {9, 1, 1, 1, 1, 1, 1, 1, 1, 1}};
+  const HeatField rays{.kind = core::HeatKind::rays, .width = 10, .height = 1, .values = {9, 1, 1, 1, 1, 1, 1, 1, 1, 1}};
   CHECK(heat_conclusion(rays) == "The tenth of the pixels with the most rays had 50 % of all.");
-  CHECK(heat_conclusion({.kind = nodes::HeatKind::depth, .width = 1, .height = 1, .values = {2}}).empty());
-  CHECK(heat_conclusion({.kind = nodes::HeatKind::rays, .width = 1, .height = 1, .values = {0}}).empty());
+  CHECK(heat_conclusion({.kind = core::HeatKind::depth, .width = 1, .height = 1, .values = {2}}).empty());
+  CHECK(heat_conclusion({.kind = core::HeatKind::rays, .width = 1, .height = 1, .values = {0}}).empty());
 }
 
 }  // namespace dmpc::apps::html

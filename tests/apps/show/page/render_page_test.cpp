@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 
+#include "core/picture/heat_kind.h"
 #include "tests/apps/show/watched.h"
 
 namespace dmpc::apps::html {
@@ -58,7 +59,7 @@ TEST_CASE("links and the run's hash are shown of modelled machines alone") {
 
 TEST_CASE("heat maps are shown if they are asked for") {
   RenderOptions options = small();
-  options.heat_maps = {{nodes::HeatKind::rays, "r.png"}, {nodes::HeatKind::faults, "f.exr"}};
+  options.heat_maps = {{core::HeatKind::rays, "r.png"}, {core::HeatKind::faults, "f.exr"}};
   const std::string text = page_of(options);
   CHECK(contains(text, "Heat map of rays"));
   CHECK(contains(text, "Heat map of faults"));

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/trace/charge.h"
 #include "tests/apps/show/trace/traced.h"
 #include "tests/support/text.h"
 
@@ -105,11 +106,11 @@ TEST_CASE("a slice says when, how long, of which packet and for which pixel") {
   const std::string text = written({.begin_ns = 1'234'567,
                                     .end_ns = 2'000'000,
                                     .own_ns = 5,
-                                    .pixel = 42,
+                                    .item = 42,
                                     .depth = 3,
                                     .activity = nodes::Activity::receive,
-                                    .doing = nodes::Doing::shade,
                                     .packet = 1,
+                                    .charged = 1U << static_cast<unsigned>(core::Charge::shading),
                                     .is_cut = true});
   CHECK(contains(text, "\"pid\":2,\"tid\":2,\"ts\":1234.567,\"dur\":765.433,\"name\":\"shade\""));
   CHECK(contains(text, "{\"own_us\":0.005,\"packet\":\"page_reply\",\"x\":2,\"y\":4,\"depth\":3,\"cut\":true}"));

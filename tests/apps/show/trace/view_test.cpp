@@ -2,9 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
+#include "core/trace/charge.h"
 #include "svm/packets.h"
 
 namespace dmpc::apps {
@@ -12,10 +14,15 @@ namespace dmpc::apps {
 namespace {
 
 using nodes::Activity;
-using nodes::Doing;
 using nodes::NodeId;
 
-SpanName name(Activity activity, Doing doing) { return name_of({.activity = activity, .doing = doing}); }
+SpanName name(Activity activity, std::initializer_list<core::Charge> charges) {
+  nodes::TraceSpan span{.activity = activity};
+  for (const core::Charge charge : charges) {
+    span.charged = static_cast<nodes::ChargeBits>(span.charged | 1U << static_cast<std::uint32_t>(charge));
+  }
+  return name_of(span);
+}
 
 nodes::TraceMessage message(svm::Kind kind, std::uint32_t from, std::uint32_t to, std::uint32_t page, std::uint64_t sent_ns) {
   return {.source = NodeId{from},
@@ -29,15 +36,15 @@ nodes::TraceMessage message(svm::Kind kind, std::uint32_t from, std::uint32_t to
 }  // namespace
 
 TEST_CASE("what a node does is named by what it was charged, unless it is the computer's") {
-  CHECK(name(Activity::work, Doing::trace) == SpanName::trace);
-  CHECK(name(Activity::receive, Doing::shade) == SpanName::shade);
-  CHECK(name(Activity::receive, Doing::install) == SpanName::install_page);
-  CHECK(name(Activity::work, Doing::pack) == SpanName::pack_rays);
-  CHECK(name(Activity::receive, Doing::pack) == SpanName::unpack_rays);
-  CHECK(name(Activity::work, Doing::other) == SpanName::control);
-  CHECK(name(Activity::serve, Doing::other) == SpanName::serve_page);
-  CHECK(name(Activity::send, Doing::other) == SpanName::send);
-  CHECK(name(Activity::take_over, Doing::other) == SpanName::take_packet);
+  CHECK(name(Activity::work, {core::Charge::cell_step}) == SpanName::trace);
+  CHECK(name(Activity::receive, {core::Charge::shading}) == SpanName::shade);
+  CHECK(name(Activity::receive, {core::Charge::page_install}) == SpanName::install_page);
+  CHECK(name(Activity::work, {core::Charge::ray_packing}) == SpanName::pack_rays);
+  CHECK(name(Activity::receive, {core::Charge::ray_packing}) == SpanName::unpack_rays);
+  CHECK(name(Activity::work, {}) == SpanName::control);
+  CHECK(name(Activity::serve, {}) == SpanName::serve_page);
+  CHECK(name(Activity::send, {}) == SpanName::send);
+  CHECK(name(Activity::take_over, {}) == SpanName::take_packet);
   CHECK(std::string(span_names[static_cast<std::size_t>(SpanName::take_packet)]) == "take packet");
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/study/paper/tables.h"
-#include "nodes/charge.h"
+#include "core/trace/charge.h"
 #include "tests/support/paper_results.h"
 #include "tests/support/table_cells.h"
 
@@ -17,7 +17,7 @@ using namespace apps;
 
 namespace {
 
-std::uint64_t price(const nodes::Machine& machine, nodes::Charge charge) {
+std::uint64_t price(const nodes::Machine& machine, core::Charge charge) {
   return machine.cost_ps[static_cast<std::size_t>(charge)];
 }
 
@@ -26,7 +26,7 @@ std::vector<PaperRun> runs_on(const nodes::Machine& machine, std::uint32_t resol
   PaperRun run{.scene = calibration_scene.scene, .machine = machine, .resolution = resolution};
   std::vector<PaperRun> runs(3, run);
   runs[1].node_count = runs[2].node_count = 2;
-  runs[2].machine.cost_ps[static_cast<std::size_t>(nodes::Charge::cached_lookup)] *= 2;
+  runs[2].machine.cost_ps[static_cast<std::size_t>(core::Charge::cached_lookup)] *= 2;
   return runs;
 }
 
@@ -110,8 +110,8 @@ TEST_CASE("a fit of closed form: 10 s and 6 s that should be 20 s and 16 s") {
 
 TEST_CASE("a fitted machine has all prices scaled and that of a cached look-up once more") {
   const nodes::Machine machine = paper_machine(), after = fitted(machine, {.operations = 2, .cached_lookup = 3});
-  CHECK(price(after, nodes::Charge::shading) == 2 * price(machine, nodes::Charge::shading));
-  CHECK(price(after, nodes::Charge::cached_lookup) == 6 * price(machine, nodes::Charge::cached_lookup));
+  CHECK(price(after, core::Charge::shading) == 2 * price(machine, core::Charge::shading));
+  CHECK(price(after, core::Charge::cached_lookup) == 6 * price(machine, core::Charge::cached_lookup));
   CHECK(after.service_ns == machine.service_ns);
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <variant>
 
-#include "nodes/charge.h"
+#include "core/trace/charge.h"
 #include "tests/support/paper_results.h"
 
 namespace dmpc::tests {
@@ -64,7 +64,7 @@ TEST_CASE("every figure is made a fifth less and more, and nothing else is chang
   for (const Variation& variation : variations) {
     CAPTURE(variation.figure);
     const bool is_of_both_classes = variation.figure == "a byte" || variation.figure.find(" overhead") != std::string::npos;
-    const std::size_t all_prices = nodes::charge_count - 1;  // a home look-up is free
+    const std::size_t all_prices = core::charge_names.size() - 1;  // a home look-up is free
     CHECK(changed_count(machine, variation.machine) == (variation.figure == "all operations" ? all_prices
                                                         : is_of_both_classes                 ? 2
                                                                                              : 1));
@@ -77,10 +77,10 @@ TEST_CASE("every figure is made a fifth less and more, and nothing else is chang
 
 TEST_CASE("a home look-up, which is free, gets a fifth of a cached one's price, and its row says so") {
   const nodes::Machine machine = paper_machine();
-  const auto price = [](const nodes::Machine& of, nodes::Charge charge) { return of.cost_ps[static_cast<std::size_t>(charge)]; };
+  const auto price = [](const nodes::Machine& of, core::Charge charge) { return of.cost_ps[static_cast<std::size_t>(charge)]; };
   const Variation dearer = find(variations_of(machine), "home look-up", "a fifth of a cached one's");
-  CHECK(price(machine, nodes::Charge::home_lookup) == 0);
-  CHECK(price(dearer.machine, nodes::Charge::home_lookup) == price(machine, nodes::Charge::cached_lookup) / 5);
+  CHECK(price(machine, core::Charge::home_lookup) == 0);
+  CHECK(price(dearer.machine, core::Charge::home_lookup) == price(machine, core::Charge::cached_lookup) / 5);
 }
 
 TEST_CASE("no two variations are the same machine") {

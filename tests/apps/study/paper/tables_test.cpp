@@ -11,6 +11,7 @@
 
 #include "apps/study/paper/claims.h"
 #include "core/base/expect.h"
+#include "core/trace/charge.h"
 #include "tests/support/paper_results.h"
 #include "tests/support/table_cells.h"
 
@@ -171,8 +172,8 @@ TEST_CASE("pages of every size have their seconds and traffic, by software and b
   PaperResults results(catalogue.runs.size());
   const PaperRun& run = catalogue.runs[catalogue.paged_by_hardware[0]];
   CHECK(run.page_size_bytes == 512);
-  CHECK(run.machine.cost_ps[static_cast<std::size_t>(nodes::Charge::cached_lookup)] ==
-        run.machine.cost_ps[static_cast<std::size_t>(nodes::Charge::home_lookup)]);
+  CHECK(run.machine.cost_ps[static_cast<std::size_t>(core::Charge::cached_lookup)] ==
+        run.machine.cost_ps[static_cast<std::size_t>(core::Charge::home_lookup)]);
   results[catalogue.paged_by_hardware[0]] = result_of_seconds(300);
   results[catalogue.paged_by_hardware[0]]->faults = 5;
   results[catalogue.paged_by_hardware[0]]->page_bytes = 2600;

@@ -1,0 +1,50 @@
+// What ray tracing asks a price for: its operations by class, and those of strategies, which bring rays and pages together.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "core/trace/operations.h"
+
+namespace dmpc::core {
+
+/// The classes of operations, by which machines give prices.
+enum class Charge : std::uint8_t {
+  ray_setup,      ///< a ray made and its walk begun
+  cell_step,      ///< of the walk through the grid
+  brick_read,     ///< a record of the grid read
+  triangle_test,  ///< one primitive of a block against a ray
+  sphere_test,
+  cone_test,
+  shading,        ///< of a hit: geometry, normals, material, lights
+  home_lookup,    ///< of a record in a page that is at home
+  cached_lookup,  ///< of a record in a page of another home
+  page_install,   ///< a page that has come put into a frame
+  ray_packing,    ///< a ray put into a packet or taken out of one
+  tile_read       ///< a tile of a texture found and read
+};
+inline constexpr std::array<std::string_view, 12> charge_names = {"ray_setup",     "cell_step",    "brick_read",  "triangle_test",
+                                                                  "sphere_test",   "cone_test",    "shading",     "home_lookup",
+                                                                  "cached_lookup", "page_install", "ray_packing", "tile_read"};
+
+/// A number for each Charge.
+using ChargeCounts = std::array<std::uint64_t, charge_names.size()>;
+
+/// What these operations are charged as. Look-ups, pages and packing are the strategies' to add.
+inline ChargeCounts charges_of(const Operations& operations) {
+  ChargeCounts counts{};
+  const auto set = [&counts](Charge charge, std::uint64_t count) { counts[static_cast<std::size_t>(charge)] = count; };
+  set(Charge::ray_setup, operations.traced_ray_count());
+  set(Charge::cell_step, operations.cell_steps);
+  set(Charge::brick_read, operations.brick_reads);
+  set(Charge::triangle_test, operations.primitive_tests[0]);
+  set(Charge::sphere_test, operations.primitive_tests[1]);
+  set(Charge::cone_test, operations.primitive_tests[2]);
+  set(Charge::shading, operations.shadings);
+  set(Charge::tile_read, operations.tile_reads);
+  return counts;
+}
+
+}  // namespace dmpc::core
