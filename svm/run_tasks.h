@@ -14,6 +14,7 @@
 #include "nodes/observer.h"
 #include "nodes/runner.h"
 #include "svm/node_program.h"
+#include "svm/task_heat.h"
 #include "svm/task_kind.h"
 #include "svm/task_plan.h"
 #include "svm/watch/recording_pager.h"
@@ -42,6 +43,7 @@ struct TaskReport : TaskFigures {
 struct TaskWatching {
   nodes::Observer* observer = nullptr;
   std::vector<ReferenceLog>* reference_logs = nullptr;  ///< one for each node, where its references are noted
+  TaskHeat* heat = nullptr;                             ///< of all tasks, to which what each takes is added
 };
 
 /// Tasks for a program that notes references, and for one that does not.

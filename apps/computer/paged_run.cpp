@@ -2,15 +2,17 @@
 #include <algorithm>
 #include <cstring>
 #include <iostream>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "apps/computer/dmpc/pages.h"
 #include "apps/computer/paged_options.h"
+#include "apps/computer/paged_page.h"
 #include "apps/computer/paged_record.h"
+#include "apps/computer/paged_watch.h"
 #include "apps/computer/program_main.h"
+#include "apps/computer/task_heat_file.h"
 #include "apps/line/number_text.h"
 #include "apps/run/option_words.h"
 #include "apps/show/references/reference_file.h"
@@ -19,7 +21,6 @@
 #include "apps/system/output_set.h"
 #include "apps/system/stopwatch.h"
 #include "core/base/units.h"
-#include "nodes/watch/trace.h"
 #include "svm/run_tasks.h"
 
 namespace dmpc::apps {
@@ -116,13 +117,7 @@ class AskedComputer final : public PagedComputer {
   void run_kinds(const svm::TaskKinds& kinds, std::span<const std::byte> data, std::uint32_t count, std::byte* results) {
     const svm::TaskPlan plan(options_.tasks, data.size(), count, kinds.plain.sizes);
     check_room(plan);
-    std::optional<nodes::TraceRecorder> recorder;
-    if (options_.program.trace) {
-      recorder.emplace(plan.node_count() + 1, nodes::TraceChoice{});
-    }
-    record_.references.assign(options_.references ? plan.node_count() : 0, {});
-    const svm::TaskWatching watching = {.observer = recorder ? &*recorder : nullptr,
-                                        .reference_logs = options_.references ? &record_.references : nullptr};
+    PagedWatch watch(options_, plan, count);
     const auto take = [&](std::uint32_t first, std::span<const std::byte> bytes) {
       if (!bytes.empty()) {
         std::memcpy(results + first * kinds.plain.sizes.result_bytes, bytes.data(), bytes.size());
@@ -130,15 +125,13 @@ class AskedComputer final : public PagedComputer {
     };
     Stopwatch stopwatch;
     const svm::TaskFigures figures =
-        svm::run_tasks_of_kind(kinds, data, count, options_.tasks, watching, interrupt_.token(), take);
+        svm::run_tasks_of_kind(kinds, data, count, options_.tasks, watch.watching(), interrupt_.token(), take);
     if (figures.end == nodes::RunEnd::interrupted) {
       throw Interrupted{};
     }
     record_.wall_seconds += stopwatch.lap();
     record_.add(figures, plan, count);
-    if (recorder) {
-      record_.trace = recorder->take();
-    }
+    watch.take(record_);
   }
 
   static void check_room(const svm::TaskPlan& plan) {
@@ -169,12 +162,19 @@ OutputSet<PagedRecord> outputs_of(const PagedOptions& options) {
     outputs.add("--trace", *options.program.trace, check_output_path,
                 [](const PagedRecord& record, std::ostream& stream) { write_trace(record, stream); });
   }
+  if (options.heat) {
+    outputs.add("--heat", *options.heat, check_output_path, write_task_heat);
+  }
+  if (options.program.report) {
+    outputs.add("--report", *options.program.report, check_output_path, html::write_paged_page);
+  }
   return outputs;
 }
 
 int act_on_pages(const std::string& name, PagedOptions& options, const PagedApplication& application, Interrupt& interrupt) {
   const OutputSet<PagedRecord> outputs = outputs_of(options);
   check_outputs(inputs_of(options.program), outputs.names());
+  check_page_room(options.program);
   choose_machine(options, application.operations);
   options.tasks.computer = options.program.computer;
   PagedRecord record{.name = name, .options = options, .operations = application.operations};

@@ -8,12 +8,20 @@
 
 #include "apps/computer/hosted_program.h"
 #include "apps/computer/options.h"
+#include "apps/computer/packet_pairs.h"
 #include "apps/computer/plan.h"
 #include "apps/show/trace/view.h"
 #include "nodes/runner.h"
+#include "nodes/watch/activity_profile.h"
 #include "nodes/watch/trace.h"
 
 namespace dmpc::apps {
+
+/// What a page shows of a run beyond its counters.
+struct ProgramView {
+  nodes::ActivitySteps steps;
+  std::optional<PacketPairs> pairs;  ///< of few enough nodes
+};
 
 /// A view, as far as it has references.
 struct ProgramRecord {
@@ -26,6 +34,7 @@ struct ProgramRecord {
   std::optional<nodes::VirtualReport> virtual_time;
   std::string result;  ///< what it came to
   std::optional<nodes::Trace> trace;
+  std::optional<ProgramView> view;  ///< for a report
 };
 
 /// Of all nodes together.

@@ -1,7 +1,6 @@
 // Runs a program that declares its packets: from its options to what came of it.
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +9,8 @@
 #include "apps/computer/options.h"
 #include "apps/computer/plan.h"
 #include "apps/computer/program_main.h"
+#include "apps/computer/program_page.h"
+#include "apps/computer/program_watch.h"
 #include "apps/computer/record.h"
 #include "apps/line/number_text.h"
 #include "apps/system/attempts.h"
@@ -19,7 +20,6 @@
 #include "apps/system/stopwatch.h"
 #include "nodes/runner.h"
 #include "nodes/standstill.h"
-#include "nodes/watch/trace.h"
 
 namespace dmpc::apps {
 namespace {
@@ -32,6 +32,9 @@ OutputSet<ProgramRecord> outputs_of(const ProgramOptions& options) {
   }
   if (options.trace) {
     outputs.add("--trace", *options.trace, check_output_path, write_trace);
+  }
+  if (options.report) {
+    outputs.add("--report", *options.report, check_output_path, html::write_program_page);
   }
   return outputs;
 }
@@ -98,16 +101,14 @@ bool run_to_end(nodes::Runner& runner, const ProgramPlan& plan, const Interrupt&
 int run_program(const std::string& name, ProgramOptions& options, const AnyApplication& application, Interrupt& interrupt) {
   const OutputSet<ProgramRecord> outputs = outputs_of(options);
   check_outputs(inputs_of(options), outputs.names());
+  check_page_room(options);
   if (!application.needs) {
     throw ProgramError("it declares no needs: Application::needs is a function of the number of nodes");
   }
   const ProgramPlan plan(application.needs(options.computer.node_count), options.computer);
   choose_machine(options, plan.needs().operations);
-  std::optional<nodes::TraceRecorder> recorder;
-  if (options.trace) {
-    recorder.emplace(plan.node_count() + 1, nodes::TraceChoice{});
-  }
-  const auto runner = nodes::make_runner(specifications(plan, application), options.computer, recorder ? &*recorder : nullptr);
+  ProgramWatch watch(options, plan.node_count());
+  const auto runner = nodes::make_runner(specifications(plan, application), options.computer, watch.observer());
   ProgramRecord record{.name = name, .options = options, .plan = plan};
   Stopwatch stopwatch;
   if (!run_to_end(*runner, plan, interrupt)) {
@@ -116,9 +117,7 @@ int run_program(const std::string& name, ProgramOptions& options, const AnyAppli
   record.wall_seconds = stopwatch.lap();
   record.virtual_time = runner->virtual_report();
   take_programs(record, *runner, application);
-  if (recorder) {
-    record.trace = recorder->take();
-  }
+  watch.take(record);
   Attempts attempts(std::cerr, name);
   outputs.write(record, attempts);
   attempts.make([&] { print_result(record.result, summary(record), options); });

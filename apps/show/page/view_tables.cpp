@@ -1,7 +1,7 @@
 #include "apps/show/page/view_tables.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -25,6 +25,17 @@ double microseconds(double ns) { return ns / 1000; }
 
 std::size_t node_count_of(const nodes::ActivitySteps& steps) { return steps.nodes.size() - 1; }  // the host is the last
 std::size_t step_count_of(const nodes::ActivitySteps& steps) { return steps.nodes.front().size(); }
+
+/// Of all nodes but the host.
+std::uint64_t busy_ns(const nodes::ActivitySteps& steps, std::size_t step, const WorkGroup& group) {
+  std::uint64_t sum_ns = 0;
+  for (std::size_t node = 0; node < node_count_of(steps); ++node) {
+    for (const nodes::Work work : group.works) {
+      sum_ns += steps.nodes[node][step][static_cast<std::size_t>(work)];
+    }
+  }
+  return sum_ns;
+}
 
 /// As columns and series: the parts of which any fetch has some.
 std::vector<std::size_t> parts_found(const Fetches& fetches) {
@@ -112,22 +123,26 @@ double total_fetches(const Fetches& fetches) {
 
 }  // namespace
 
-Table step_table(const nodes::ActivitySteps& steps) {
+std::vector<WorkGroup> render_work_groups() {
+  std::vector<WorkGroup> groups;
+  for (std::size_t work = 0; work < nodes::work_names.size(); ++work) {
+    groups.push_back({std::string(nodes::work_names[work]), {static_cast<nodes::Work>(work)}});
+  }
+  return groups;
+}
+
+Table step_table(const nodes::ActivitySteps& steps, std::span<const WorkGroup> groups) {
   const int digits = steps.step_ns < 10'000 ? 3 : steps.step_ns < 100'000 ? 2 : steps.step_ns < 1'000'000 ? 1 : 0;
   std::vector<Column> columns = {{"since the start", "ms", digits}};
-  for (const std::string_view name : nodes::work_names) {
-    columns.push_back({std::string(name), "%", 1});
+  for (const WorkGroup& group : groups) {
+    columns.push_back({group.name, "%", 1});
   }
   Table table("What the nodes were busy with over time", std::move(columns));
   const double whole_ns = static_cast<double>(steps.step_ns) * static_cast<double>(node_count_of(steps));
   for (std::size_t step = 0; step < step_count_of(steps); ++step) {
     std::vector<Cell> row = {static_cast<double>(step * steps.step_ns) / 1e6};
-    for (std::size_t work = 0; work < nodes::work_names.size(); ++work) {
-      std::uint64_t sum_ns = 0;
-      for (std::size_t node = 0; node < node_count_of(steps); ++node) {
-        sum_ns += steps.nodes[node][step][work];
-      }
-      row.emplace_back(percent_of(static_cast<double>(sum_ns), whole_ns));
+    for (const WorkGroup& group : groups) {
+      row.emplace_back(percent_of(static_cast<double>(busy_ns(steps, step, group)), whole_ns));
     }
     table.add_row(std::move(row));
   }
@@ -137,11 +152,11 @@ Table step_table(const nodes::ActivitySteps& steps) {
   return table;
 }
 
-Plot step_plot(const nodes::ActivitySteps& steps) {
+Plot step_plot(const nodes::ActivitySteps& steps, std::span<const WorkGroup> groups) {
   Plot plot = curves("steps", "What the nodes were busy with over time", "since the start", {.label = "since the start"},
                      {.label = "of the nodes' time (%)", .least = 0}, {});
-  for (const std::string_view name : nodes::work_names) {
-    plot.series.push_back({std::string(name), std::string(name), {}, PlotMark::bars, plot.series.size()});
+  for (const WorkGroup& group : groups) {
+    plot.series.push_back({group.name, group.name, {}, PlotMark::bars, plot.series.size()});
   }
   plot.bar_width = static_cast<double>(steps.step_ns) / 1e6;
   plot.is_stacked = true;
@@ -165,6 +180,19 @@ NumberMap step_map(const nodes::ActivitySteps& steps) {
     }
   }
   return map;
+}
+
+NumberMap pair_map(std::span<const std::uint64_t> counts, const std::string& title, const std::string& row_label,
+                   const std::string& column_label, const std::string& value_label) {
+  const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(counts.size())) + 0.5);
+  return {.title = title,
+          .row_label = row_label,
+          .column_label = column_label,
+          .value_label = value_label,
+          .unit = {},
+          .rows = side,
+          .columns = side,
+          .values = std::vector<double>(counts.begin(), counts.end())};
 }
 
 Table fetch_table(const Fetches& fetches) {

@@ -1,0 +1,44 @@
+// What the pages of all programs on the computer have in common.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/computer/options.h"
+#include "apps/show/page/losses.h"
+#include "apps/show/page/origin.h"
+#include "apps/show/page/page.h"
+#include "apps/show/page/view_tables.h"
+#include "apps/table/table.h"
+#include "nodes/machine.h"
+
+namespace dmpc::apps::html {
+
+/// Whose page it is: that of the program `name`.
+PageSpeaker speaker(const std::string& name);
+
+/// Puts where it is from, what it is of and what the program came to at the beginning of a page.
+void begin_page(Page& page, const Origin& origin, const Facts& facts, const std::string& result);
+
+/// Of this process, which is the program `name`.
+Origin program_origin(const std::string& name);
+
+/// The computer, runner and what disturbs it.
+Facts computer_facts(const ProgramOptions& options);
+
+/// How often one of a program's operations was charged.
+struct OperationCount {
+  OperationNeed need;
+  std::uint64_t count = 0;
+  std::uint64_t each_ps = 0;  ///< on the modelled machine
+};
+/// A row for each; on a modelled `machine` with what it takes of the nodes' computing.
+Table operation_table(const std::vector<OperationCount>& operations, const nodes::Machine* machine);
+void add_operations(Page& page, const std::vector<OperationCount>& operations, const nodes::Machine* machine);
+
+void add_losses(Page& page, const Losses& losses);
+/// `remark`: of which run it is, if there were several.
+void add_steps(Page& page, const nodes::ActivitySteps& steps, const std::vector<WorkGroup>& groups, const std::string& remark);
+
+}  // namespace dmpc::apps::html

@@ -1,0 +1,20 @@
+#include "apps/computer/program_watch.h"
+
+#include <utility>
+
+namespace dmpc::apps {
+
+ProgramWatch::ProgramWatch(const ProgramOptions& options, std::uint32_t node_count) : instruments_(options, node_count) {
+  if (options.report && node_count <= paired_nodes_max) {
+    instruments_.add(pairs_.emplace(node_count));
+  }
+}
+
+void ProgramWatch::take(ProgramRecord& record) {
+  record.trace = instruments_.trace();
+  if (auto steps = instruments_.steps()) {
+    record.view = {.steps = std::move(*steps), .pairs = pairs_ ? std::optional(pairs_->pairs()) : std::nullopt};
+  }
+}
+
+}  // namespace dmpc::apps
