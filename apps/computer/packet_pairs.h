@@ -15,9 +15,6 @@ struct PacketPairs {
   std::vector<std::uint64_t> bytes;  ///< headers and payloads
 };
 
-/// With more nodes nobody sees anything in a map of all pairs.
-inline constexpr std::uint32_t paired_nodes_max = 256;
-
 /// Counts what is sent. Thread safety: as an Observer; pairs() when the run is over.
 class PairWatch final : public nodes::Observer {
  public:

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "apps/computer/page_words.h"
+#include "apps/computer/readable_nodes.h"
 #include "apps/computer/record.h"
 #include "apps/line/number_text.h"
 #include "apps/show/page/view_conclusions.h"
@@ -12,12 +13,22 @@ namespace dmpc::apps::html {
 
 PageSpeaker speaker(const std::string& name) { return {.name = name, .words = page_words()}; }
 
-void begin_page(Page& page, const Origin& origin, const Facts& facts, const std::string& result) {
+void begin_page(Page& page, const Origin& origin, const Facts& facts, const std::string& result, std::uint32_t node_count) {
   page.add_text(origin.program + ", " + origin.date);
   page.add_facts(facts);
+  if (node_count > readable_nodes_max) {
+    page.add_text("Bars for each node, and who sends whom how much, are shown of up to " + std::to_string(readable_nodes_max) +
+                  " nodes: the tables have all of them.");
+  }
   if (!result.empty()) {
     page.begin_section("What it came to");
     page.add_code(result);
+  }
+}
+
+void add_node_plot(Page& page, std::size_t node_count, const Plot& plot, const Table& table) {
+  if (node_count <= readable_nodes_max) {
+    page.add_plot(plot, table);
   }
 }
 
@@ -47,8 +58,8 @@ Table operation_table(const std::vector<OperationCount>& operations, const nodes
     columns.insert(columns.end(), {{"each on this machine", "ns", 1}, {"all of them", "ms", 3}});
   }
   Table table("Operations", std::move(columns));
-  for (const auto& [need, count, each_ps] : operations) {
-    std::vector<Cell> row = {need.name, count, need.nanoseconds};
+  for (const auto& [name, count, today_ns, each_ps] : operations) {
+    std::vector<Cell> row = {name, count, today_ns ? Cell(*today_ns) : Cell()};
     if (machine != nullptr) {
       const double each_ns = static_cast<double>(each_ps) / 1000;
       row.insert(row.end(), {each_ns, each_ns * static_cast<double>(count) / 1e6});
@@ -69,7 +80,7 @@ void add_losses(Page& page, const Losses& losses) {
   page.begin_section("Where the time went");
   page.add_conclusion(loss_conclusion(losses));
   const Table table = loss_table(losses);
-  page.add_plot(loss_plot(losses), table);
+  add_node_plot(page, losses.nodes.size(), loss_plot(losses), table);
   page.add_table(table);
 }
 

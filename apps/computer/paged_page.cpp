@@ -3,9 +3,9 @@
 #include <iostream>
 #include <string>
 
-#include "apps/computer/packet_pairs.h"
 #include "apps/computer/page_parts.h"
 #include "apps/computer/paged_tables.h"
+#include "apps/computer/readable_nodes.h"
 #include "apps/line/amount.h"
 #include "apps/line/number_text.h"
 #include "apps/show/page/view_conclusions.h"
@@ -83,7 +83,7 @@ void add_pages(Page& page, const PagedRecord& record) {
   if (record.last_pages.faults == 0) {
     return;
   }
-  if (record.nodes.size() <= paired_nodes_max) {
+  if (record.nodes.size() <= readable_nodes_max) {
     page.add_map(pair_map(fetches.by_pair, "Who fetched pages from whom", "node that asks", "home of the page", "fetches"), "");
   }
   page.add_plot(page_share_plot(), page_share_table(fetches));
@@ -96,7 +96,7 @@ void add_nodes(Page& page, const PagedRecord& record) {
   page.begin_section("Nodes");
   const Table table = node_table(record);
   if (record.sum().pages.faults > 0) {
-    page.add_plot(fault_plot(), table);
+    add_node_plot(page, record.nodes.size(), fault_plot(), table);
   }
   page.add_table(table);
 }
@@ -118,7 +118,7 @@ void write_paged_page(const PagedRecord& record, std::ostream& output) {
   core::expect(record.view.has_value(), "a page that is written was looked on for");
   const Origin origin = program_origin(record.name);
   Page page("Run of " + record.name, std::cerr, speaker(record.name));
-  begin_page(page, origin, facts_of(record), record.result);
+  begin_page(page, origin, facts_of(record), record.result, record.options.program.computer.node_count);
   if (record.run_count > 1) {
     page.add_text("Times and counters are of all " + counted(record.run_count, "run") +
                   " together, where it does not say otherwise.");

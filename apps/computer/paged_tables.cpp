@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "apps/computer/own_name.h"
@@ -87,11 +88,18 @@ std::vector<PacketKindTraffic> packets_of(const PagedRecord& record) {
 std::vector<OperationCount> operations_of(const PagedRecord& record) {
   const nodes::Machine* const machine = machine_of(record);
   const nodes::Charges charges = record.sum().charges;
+  const auto counted_as = [&](std::string name, nodes::Charge charge, std::optional<double> today_ns) -> OperationCount {
+    const std::uint64_t each_ps = machine == nullptr ? 0 : machine->cost_ps[static_cast<std::size_t>(charge)];
+    return {std::move(name), charges[charge], today_ns, each_ps};
+  };
   std::vector<OperationCount> operations;
   for (Index i = 0; i < record.operations.size(); ++i) {
-    const nodes::Charge charge = charge_of(i);
-    operations.push_back(
-        {record.operations[i], charges[charge], machine == nullptr ? 0 : machine->cost_ps[static_cast<std::size_t>(charge)]});
+    operations.push_back(counted_as(record.operations[i].name, charge_of(i), record.operations[i].nanoseconds));
+  }
+  if (machine != nullptr) {
+    operations.push_back(counted_as("look-up of a page at home", nodes::Charge::home_lookup, {}));
+    operations.push_back(counted_as("look-up of another page", nodes::Charge::cached_lookup, {}));
+    operations.push_back(counted_as("page put into the cache", nodes::Charge::page_install, {}));
   }
   return operations;
 }
@@ -143,11 +151,11 @@ std::vector<TaskHeatKind> heat_kinds_of(const PagedRecord& record) {
 
 NumberMap heat_map(const PagedRecord& record, TaskHeatKind kind) {
   const std::vector<double> heat = heat_by_task(record, kind);
-  const std::size_t rows = record.nodes.size(), most_tasks = (heat.size() + rows - 1) / rows;
-  const std::size_t columns = std::min(most_tasks, heat_columns_max);
+  const std::size_t rows = record.nodes.size(), columns = std::clamp(heat.size() / rows, std::size_t{1}, heat_columns_max);
+  const std::string parts = columns * rows < heat.size() ? ", in " + counted(columns, "part") : "";
   NumberMap map{.title = "The " + words_of(kind) + " of each task",
                 .row_label = "node",
-                .column_label = "its tasks in order" + (columns < most_tasks ? ", in " + std::to_string(columns) + " parts" : ""),
+                .column_label = "its tasks in order" + parts,
                 .value_label = words_of(kind),
                 .unit = kind == TaskHeatKind::computing ? "ns" : "",
                 .rows = rows,
@@ -158,7 +166,7 @@ NumberMap heat_map(const PagedRecord& record, TaskHeatKind kind) {
     while (end < heat.size() && record.heat[end].node == node) {
       ++end;
     }
-    append_means(map.values, std::span(heat).subspan(first, end - first), map.columns);
+    append_means(map.values, std::span(heat).subspan(first, end - first), columns);
     first = end;
   }
   return map;

@@ -20,6 +20,7 @@ namespace dmpc::apps::html {
 /// In virtual time by what a node waits for, else by the wall clock.
 Losses losses_of(const PagedRecord& record);
 std::vector<PacketKindTraffic> packets_of(const PagedRecord& record);
+/// The program's, and on a modelled machine what pages take.
 std::vector<OperationCount> operations_of(const PagedRecord& record);
 /// A row for each node: its look-ups and what became of them, the operations of its tasks, and its memory.
 Table node_table(const PagedRecord& record);
@@ -34,7 +35,8 @@ std::vector<WorkGroup> task_work_groups();
 enum class TaskHeatKind : std::uint8_t { faults, references, computing };
 /// The kinds that say something of this run: computing only on a modelled machine, faults only if there are any.
 std::vector<TaskHeatKind> heat_kinds_of(const PagedRecord& record);
-/// A row for each node, its tasks from left to right, as many together as it takes; each place is the mean of its tasks.
+/// A row for each node, its tasks from left to right, as many together as it takes for each row to be full; each place is the
+/// mean of its tasks, of a node without tasks 0.
 NumberMap heat_map(const PagedRecord& record, TaskHeatKind kind);
 /// The share of the hottest tasks.
 std::string heat_conclusion(const PagedRecord& record, TaskHeatKind kind);

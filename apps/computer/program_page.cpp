@@ -23,10 +23,7 @@ Facts facts_of(const ProgramRecord& record) {
 }
 
 void add_pairs(Page& page, const ProgramRecord& record) {
-  const auto& pairs = record.view->pairs;
-  if (!pairs) {
-    page.add_text("Who sends whom how much is shown of up to " + std::to_string(paired_nodes_max) + " nodes.");
-  } else if (record.plan.node_count() > 1) {
+  if (const auto& pairs = record.view->pairs; pairs && record.plan.node_count() > 1) {
     page.add_map(pair_map(pairs->packets, "Who sent packets to whom", "node that sends", "node that receives", "packets"), "");
     NumberMap bytes = pair_map(pairs->bytes, "Who sent bytes to whom", "node that sends", "node that receives", "");
     bytes.unit = "bytes";
@@ -55,7 +52,7 @@ void add_nodes(Page& page, const ProgramRecord& record) {
   page.begin_section("Nodes");
   page.add_conclusion(node_conclusion(record));
   const Table table = node_table(record);
-  page.add_plot(packet_plot(), table);
+  add_node_plot(page, record.counters.size(), packet_plot(), table);
   page.add_table(table);
 }
 
@@ -63,7 +60,7 @@ void add_memory(Page& page, const ProgramRecord& record) {
   page.begin_section("Memory");
   page.add_conclusion(memory_conclusion(record));
   const Table table = memory_table(record);
-  page.add_plot(memory_plot(record), table);
+  add_node_plot(page, record.counters.size(), memory_plot(record), table);
   page.add_table(table);
 }
 
@@ -77,7 +74,7 @@ void write_program_page(const ProgramRecord& record, std::ostream& output) {
   core::expect(record.view.has_value(), "a page that is written was looked on for");
   const Origin origin = program_origin(record.name);
   Page page("Run of " + record.name, std::cerr, speaker(record.name));
-  begin_page(page, origin, facts_of(record), record.result);
+  begin_page(page, origin, facts_of(record), record.result, record.plan.node_count());
   add_losses(page, losses_of(record));
   add_steps(page, record.view->steps, program_work_groups(), "");
   add_packets(page, record);

@@ -78,7 +78,7 @@ std::vector<OperationCount> operations_of(const ProgramRecord& record) {
     for (const HostedProgram* program : record.programs) {
       count += program->charges().count[i];
     }
-    operations.push_back({needs[i], count, machine == nullptr ? 0 : machine->cost_ps[i]});
+    operations.push_back({needs[i].name, count, needs[i].nanoseconds, machine == nullptr ? 0 : machine->cost_ps[i]});
   }
   return operations;
 }
@@ -152,8 +152,8 @@ std::string memory_conclusion(const ProgramRecord& record) {
   const std::size_t fullest = fullest_node(record);
   const auto node = static_cast<std::uint32_t>(fullest);
   const nodes::MemoryPlan plan = record.plan.memory(node);
-  return "The fullest node, node " + std::to_string(fullest) + ", takes " + bytes_text(plan.total()) +
-         ", of which its program's own are " + bytes_text(plan[nodes::Category::constants]) + "; it has allocated " +
+  return "The fullest node, node " + std::to_string(fullest) + ", takes " + bytes_text(plan.total()) + ", of which " +
+         bytes_text(plan[nodes::Category::constants]) + " are what its program declares; it has allocated " +
          bytes_text(used_bytes(record, node)) + " of them.";
 }
 

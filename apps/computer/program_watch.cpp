@@ -2,10 +2,12 @@
 
 #include <utility>
 
+#include "apps/computer/readable_nodes.h"
+
 namespace dmpc::apps {
 
 ProgramWatch::ProgramWatch(const ProgramOptions& options, std::uint32_t node_count) : instruments_(options, node_count) {
-  if (options.report && node_count <= paired_nodes_max) {
+  if (options.report && node_count <= readable_nodes_max) {
     instruments_.add(pairs_.emplace(node_count));
   }
 }

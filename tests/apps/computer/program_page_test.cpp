@@ -63,10 +63,14 @@ TEST_CASE("a node alone sends to itself, and has a page, too") {
   CHECK_FALSE(contains(page, "Who sent packets to whom"));
 }
 
-TEST_CASE("of more nodes than a map can show the page says that it has none") {
-  CHECK(contains(asker_page(asker(1), {"--nodes=257", "--runner=virtual"}),
-                 "Who sends whom how much is shown of up to 256 nodes."));
-  CHECK(contains(asker_page(asker(1), {"--nodes=256", "--runner=virtual"}), "Who sent packets to whom"));
+TEST_CASE("of more nodes than can be told apart a page has tables alone, and says so") {
+  const std::string many = asker_page(asker(1), {"--nodes=257", "--runner=virtual"});
+  check_has(many, {"Bars for each node, and who sends whom how much, are shown of up to 256 nodes", "What each node did"});
+  const std::string few = asker_page(asker(1), {"--nodes=256", "--runner=virtual"});
+  for (const std::string part : {"Who sent packets to whom", "Plot: Where each node", "Plot: Memory of each node"}) {
+    CHECK_MESSAGE(!contains(many, part), part);
+    CHECK_MESSAGE(contains(few, part), part);
+  }
 }
 
 TEST_CASE("names and results are shown as they are, whatever they contain") {
