@@ -23,6 +23,17 @@ class IdleHost final : public nodes::Program {
   std::string describe() const override { return "nothing to do"; }
 };
 
+template <class Records>
+std::unique_ptr<TaskProgram<Records>> make_task_program(nodes::Node& node, const TaskPlan& plan,
+                                                        const nodes::ByteSource& database, const TaskKind<Records>& kind,
+                                                        TaskHeat* heat) {
+  auto program = std::make_unique<TaskProgram<Records>>(node, plan, database, kind);
+  if (heat != nullptr) {
+    program->note_heat(TaskMeter(*heat, nodes::index_of(node.id())));
+  }
+  return program;
+}
+
 std::vector<nodes::NodeSpecification> task_specifications(const TaskPlan& plan, const MakeTaskProgram& make) {
   std::vector<nodes::NodeSpecification> all;
   for (std::uint32_t index = 0; index < plan.node_count(); ++index) {
@@ -103,12 +114,13 @@ TaskFigures run_tasks_of_kind(const TaskKinds& kinds, const TaskPlan& plan, std:
                               const TaskWatching& watching, std::stop_token stop, const TakeResults& take) {
   core::expect(watching.reference_logs == nullptr || watching.reference_logs->size() == plan.node_count(),
                "each node has a log of its references");
+  core::expect(watching.heat == nullptr || watching.heat->size() == plan.first_task(plan.node_count()), "each task has a place for what it takes");
   const nodes::ByteSource source(database);
   const MakeTaskProgram make = [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<AnyTaskProgram> {
     if (watching.reference_logs == nullptr) {
-      return std::make_unique<TaskProgram<Pager>>(node, plan, source, kinds.plain);
+      return make_task_program(node, plan, source, kinds.plain, watching.heat);
     }
-    auto program = std::make_unique<TaskProgram<RecordingPager>>(node, plan, source, kinds.recording);
+    auto program = make_task_program(node, plan, source, kinds.recording, watching.heat);
     program->records().record_into((*watching.reference_logs)[index]);
     return program;
   };

@@ -18,6 +18,7 @@
 #include "nodes/ranks/rank_figures.h"
 #include "nodes/runner.h"
 #include "svm/node_program.h"
+#include "svm/task_heat.h"
 #include "svm/task_kind.h"
 #include "svm/task_plan.h"
 #include "svm/watch/recording_pager.h"
@@ -47,6 +48,7 @@ struct TaskReport : TaskFigures {
 struct TaskWatching {
   nodes::Observer* observer = nullptr;
   std::vector<ReferenceLog>* reference_logs = nullptr;  ///< one for each node, where its references are noted
+  TaskHeat* heat = nullptr;                             ///< of all tasks, to which what each takes is added
   /// On ranks, called when the nodes that are here are made: waits until all ranks have theirs.
   std::function<void()> made = [] {};
   /// Likewise, after a regular end: what was seen here, and, on rank 0, what was seen on another rank.

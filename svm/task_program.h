@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -17,6 +18,7 @@
 #include "nodes/node.h"
 #include "svm/node_program.h"
 #include "svm/packets.h"
+#include "svm/task_heat.h"
 #include "svm/task_kind.h"
 #include "svm/task_plan.h"
 
@@ -51,6 +53,8 @@ class TaskProgram final : public AnyTaskProgram {
   }
 
   Records& records() { return records_; }
+  /// What each task takes is noted from now on. To be called before the start, if at all.
+  void note_heat(TaskMeter meter) { meter_ = meter; }
 
   void receive(const nodes::Packet& packet) override {
     if (packet.kind == number_of(Kind::page_request)) {
@@ -108,7 +112,15 @@ class TaskProgram final : public AnyTaskProgram {
     runnable_[runnable_count_++] = place;
   }
 
+  /// A step of the task there, and what it took.
   void run(std::uint32_t place) {
+    step(place);
+    if (meter_) {
+      meter_->stepped(numbers_[place], records_.counters(), charges());
+    }
+  }
+
+  void step(std::uint32_t place) {
     core::Address absent = core::no_address;
     switch (kind_.run(task_at(place), records_, charges_, absent)) {
       case core::TaskState::more:
@@ -136,6 +148,7 @@ class TaskProgram final : public AnyTaskProgram {
   std::uint32_t runnable_count_ = 0, free_count_ = 0;
   std::span<std::byte> results_;
   nodes::Charges charges_;
+  std::optional<TaskMeter> meter_;
 };
 
 }  // namespace dmpc::svm

@@ -7,6 +7,7 @@
 #include "apps/line/option_values.h"
 #include "apps/machine/machine_file.h"
 #include "apps/machine/machines.h"
+#include "apps/table/table_options.h"
 #include "core/base/expect.h"
 #include "core/trace/charge.h"
 
@@ -99,6 +100,7 @@ void add_closer_look(OptionSet options, ProgramOptions& program) {
   options.add_path("--trace", "FILE", program.trace,
                    "Write what each node did when, and its messages: FILE.json for Perfetto or Chrome, FILE.paje for readers of "
                    "Paje");
+  add_report_option(options, program.report, "with counters, losses, traffic and what each node was busy with over time");
   options.add_flag("--quiet", program.quiet, "No closing lines");
   options.check_in_the_end([options, &program] {
     check_runner(options, program);

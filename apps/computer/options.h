@@ -25,9 +25,10 @@ struct ProgramOptions {
   std::string machine_name = "ipsc2";  ///< to be modelled: a preset's name or a machine file
   std::optional<nodes::TopologyKind> topology;  ///< in place of the machine's
   std::optional<std::uint64_t> chaos_seed;
-  std::optional<std::filesystem::path> stats;  ///< where the counters go, as JSON
-  std::optional<std::filesystem::path> trace;  ///< .json or .paje
-  bool quiet = false;                          ///< no closing lines
+  std::optional<std::filesystem::path> stats;   ///< where the counters go, as JSON
+  std::optional<std::filesystem::path> trace;   ///< .json or .paje
+  std::optional<std::filesystem::path> report;  ///< .html
+  bool quiet = false;                           ///< no closing lines
 
   bool is_modelled() const { return runner == RunnerKind::virtual_time; }
 };

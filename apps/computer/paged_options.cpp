@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "apps/computer/declared.h"
 #include "apps/computer/dmpc/pages.h"
 #include "apps/line/option_values.h"
 #include "core/base/expect.h"
@@ -59,6 +60,9 @@ void add_options(OptionSet options, PagedOptions& paged, const std::vector<Numbe
   add_closer_look(options, paged.program);
   options.add_path("--references", "FILE.csv", paged.references,
                    "Write which pages each node looked up in the last run, one task after the other, for dmpc study references");
+  options.add_path("--heat", "FILE.csv", paged.heat,
+                   "Write what each task of the last run took: its node, steps, look-ups, faults, operations and, on a modelled "
+                   "machine, computing");
   options.check_in_the_end([options, &paged] {
     check_references(options, paged);
     paged.tasks.in_flight = paged.references ? 1 : paged.tasks.in_flight;
@@ -68,10 +72,7 @@ void add_options(OptionSet options, PagedOptions& paged, const std::vector<Numbe
 core::Charge charge_of(Index operation) { return free_charges.at(operation); }
 
 void choose_machine(PagedOptions& options, const std::vector<OperationNeed>& operations) {
-  if (operations.size() > task_operations_max) {
-    throw core::UsageError(std::to_string(operations.size()) + " operations are declared: a program of tasks has at most " +
-                           std::to_string(task_operations_max));
-  }
+  check_operations(operations, task_operations_max, "a program of tasks");
   options.program.computer.machine = asked_machine(options.program);
   if (options.program.computer.machine) {
     nodes::Machine& machine = *options.program.computer.machine;

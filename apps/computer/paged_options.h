@@ -16,6 +16,7 @@ struct PagedOptions {
   ProgramOptions program;
   svm::TaskOptions tasks;                           ///< the computer is the program's
   std::optional<std::filesystem::path> references;  ///< where those of the last run go, as CSV
+  std::optional<std::filesystem::path> heat;        ///< where what each task of the last run took goes, as CSV
 };
 
 /// Declares them, and which go together.

@@ -5,6 +5,7 @@
 
 #include "apps/computer/record.h"
 #include "apps/line/number_text.h"
+#include "apps/run/time_parts.h"
 #include "apps/show/trace/view.h"
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
@@ -19,16 +20,30 @@ constexpr std::array<const char*, span_names.size()> task_activity_names = {
 
 }  // namespace
 
+PagedNode& PagedNode::operator+=(const PagedNode& more) {
+  pages += more.pages;
+  charges += more.charges;
+  requests += more.requests;
+  replies += more.replies;
+  add_times(times, more.times);
+  clock.busy_ns += more.clock.busy_ns;
+  clock.asleep_ns += more.clock.asleep_ns;
+  clock.wall_ns += more.clock.wall_ns;
+  memory_bytes = std::max(memory_bytes, more.memory_bytes);
+  return *this;
+}
+
 void PagedRecord::add(const svm::TaskFigures& figures, const svm::TaskPlan& plan, std::uint32_t tasks) {
   nodes.resize(plan.node_count());
   for (std::uint32_t index = 0; index < plan.node_count(); ++index) {
-    PagedNode& node = nodes[index];
-    node.pages += figures.pages[index];
-    node.charges += figures.charges[index];
-    node.requests += figures.counters[index].sent[number_of(svm::Kind::page_request)];
-    node.replies += figures.counters[index].sent[number_of(svm::Kind::page_reply)];
-    node.computing_ns += figures.virtual_time ? figures.virtual_time->nodes[index].computing_ns : 0;
-    node.memory_bytes = std::max(node.memory_bytes, plan.node_memory(index).total());
+    const nodes::NodeCounters& counters = figures.counters[index];
+    nodes[index] += {.pages = figures.pages[index],
+                     .charges = figures.charges[index],
+                     .requests = counters.sent[number_of(svm::Kind::page_request)],
+                     .replies = counters.sent[number_of(svm::Kind::page_reply)],
+                     .times = figures.virtual_time ? figures.virtual_time->nodes[index] : nodes::VirtualTimes{},
+                     .clock = counters,
+                     .memory_bytes = plan.node_memory(index).total()};
   }
   if (figures.virtual_time) {
     virtual_ns = virtual_ns.value_or(0) + figures.virtual_time->total_ns;
@@ -39,17 +54,13 @@ void PagedRecord::add(const svm::TaskFigures& figures, const svm::TaskPlan& plan
   task_count += tasks;
   page_count = plan.pages().page_count;
   cache_pages = plan.pages().cache.frame_count;
+  last_pages = figures.all_pages();
 }
 
 PagedNode PagedRecord::sum() const {
   PagedNode sum;
   for (const PagedNode& node : nodes) {
-    sum.pages += node.pages;
-    sum.charges += node.charges;
-    sum.requests += node.requests;
-    sum.replies += node.replies;
-    sum.computing_ns += node.computing_ns;
-    sum.memory_bytes = std::max(sum.memory_bytes, node.memory_bytes);
+    sum += node;
   }
   return sum;
 }
@@ -58,8 +69,9 @@ std::string summary(const PagedRecord& record) {
   const PagedNode sum = record.sum();
   const double missed = percent_of(static_cast<double>(sum.pages.faults), static_cast<double>(sum.pages.references));
   return computer_text(record.options.program) + ": " +
-         (record.virtual_ns ? virtual_time_text(*record.virtual_ns, sum.computing_ns, record.options.program.computer.node_count)
-                            : seconds_text(record.wall_seconds)) +
+         (record.virtual_ns
+              ? virtual_time_text(*record.virtual_ns, sum.times.computing_ns, record.options.program.computer.node_count)
+              : seconds_text(record.wall_seconds)) +
          "; " + counted(sum.pages.references, "look-up") + ", " + percent_text(missed) + " of them faults; " +
          counted(record.page_count, "page") + ", " + grouped(record.cache_pages) + " in a cache" + ranks_text(record.ranks) +
          "; " + bytes_text(sum.memory_bytes) + " of memory a node\n";

@@ -9,8 +9,12 @@
 
 #include "apps/computer/dmpc/computer.h"
 #include "apps/computer/paged_options.h"
+#include "apps/run/run_view.h"
+#include "nodes/counters.h"
+#include "nodes/virtual/virtual_times.h"
 #include "nodes/watch/trace.h"
 #include "svm/run_tasks.h"
+#include "svm/task_heat.h"
 #include "svm/task_plan.h"
 #include "svm/watch/reference_log.h"
 
@@ -21,8 +25,11 @@ struct PagedNode {
   svm::PageCounters pages;
   nodes::Charges charges;
   nodes::Traffic requests, replies;  ///< that it sent
-  std::uint64_t computing_ns = 0;    ///< of virtual time
+  nodes::VirtualTimes times;         ///< of a modelled machine
+  nodes::NodeCounters clock;         ///< of threads: busy, asleep and in all
   std::size_t memory_bytes = 0;      ///< in the run that took most
+
+  PagedNode& operator+=(const PagedNode& more);
 };
 
 struct PagedRecord {
@@ -39,6 +46,9 @@ struct PagedRecord {
   std::vector<nodes::RankFigures> ranks;              ///< of the last run, where there are any
   std::vector<svm::ReferenceLog> references;          ///< of the last run, by node, if they are asked for
   std::optional<nodes::Trace> trace;                  ///< likewise
+  svm::TaskHeat heat;                                 ///< likewise, by task
+  std::optional<RunView> view;                        ///< likewise, for a report
+  svm::PageCounters last_pages;                       ///< of the last run
 
   /// Adds a run of `task_count` tasks.
   void add(const svm::TaskFigures& figures, const svm::TaskPlan& plan, std::uint32_t tasks);

@@ -8,10 +8,12 @@
 #include "apps/computer/dmpc/pages.h"
 #include "apps/computer/on_ranks.h"
 #include "apps/computer/paged_options.h"
+#include "apps/computer/paged_page.h"
 #include "apps/computer/paged_record.h"
+#include "apps/computer/paged_watch.h"
 #include "apps/computer/program_main.h"
-#include "apps/computer/program_onlookers.h"
 #include "apps/computer/rank_rounds.h"
+#include "apps/computer/task_heat_file.h"
 #include "apps/line/number_text.h"
 #include "apps/run/computer_room.h"
 #include "apps/run/option_words.h"
@@ -21,7 +23,6 @@
 #include "apps/system/output_set.h"
 #include "apps/system/stopwatch.h"
 #include "core/base/units.h"
-#include "nodes/flat_bytes.h"
 #include "svm/packets.h"
 #include "svm/run_tasks.h"
 
@@ -140,38 +141,20 @@ class AskedComputer final : public PagedComputer {
                  std::span<std::byte> results) {
     const auto plan = with_options_named([&] { return svm::TaskPlan(options_.tasks, data.size(), count, kinds.plain.sizes); });
     check_room(plan);
-    ProgramOnlookers onlookers(options_.program, plan.node_count());
-    record_.references.assign(options_.references ? plan.node_count() : 0, {});
+    PagedWatch watch(options_, plan, count);
     const auto take = [&](std::uint32_t first, std::string_view bytes) {
       std::copy_n(bytes.data(), bytes.size(), reinterpret_cast<char*>(&results[first * kinds.plain.sizes.result_bytes]));
     };
+    svm::TaskWatching watching = watch.watching();
+    watching.made = [this] { rounds_->meet(); };
     Stopwatch stopwatch;
-    const svm::TaskFigures figures = svm::run_tasks_of_kind(kinds, plan, data, watching(onlookers), interrupt_.token(), take);
+    const svm::TaskFigures figures = svm::run_tasks_of_kind(kinds, plan, data, watching, interrupt_.token(), take);
     if (figures.end == nodes::RunEnd::interrupted) {
       throw Interrupted{};
     }
     record_.wall_seconds += stopwatch.lap();
     record_.add(figures, plan, count);
-    record_.trace = onlookers.take_trace();
-  }
-
-  svm::TaskWatching watching(ProgramOnlookers& onlookers) {
-    return {.observer = onlookers.observer(),
-            .reference_logs = options_.references ? &record_.references : nullptr,
-            .made = [this] { rounds_->meet(); },
-            .seen =
-                [&] {
-                  nodes::FlatWriter flat;
-                  flat.put_bytes(onlookers.seen());
-                  svm::put_logs(flat, record_.references);
-                  return flat.take();
-                },
-            .add =
-                [&](std::string_view seen, const nodes::ClockDrift& clock) {
-                  nodes::FlatReader flat(seen);
-                  onlookers.add(flat.take_bytes(), clock);
-                  svm::take_logs(flat, record_.references);
-                }};
+    watch.take(record_);
   }
 
   void check_room(const svm::TaskPlan& plan) const {
@@ -205,6 +188,12 @@ OutputSet<PagedRecord> outputs_of(const PagedOptions& options) {
     outputs.add("--trace", *options.program.trace, check_output_path,
                 [](const PagedRecord& record, std::ostream& stream) { write_trace(record, stream); });
   }
+  if (options.heat) {
+    outputs.add("--heat", *options.heat, check_output_path, write_task_heat);
+  }
+  if (options.program.report) {
+    outputs.add("--report", *options.program.report, check_output_path, html::write_paged_page);
+  }
   return outputs;
 }
 
@@ -233,6 +222,7 @@ int act_on_pages(const ProgramCall& call, PagedOptions& options, const PagedAppl
   const OutputSet<PagedRecord> outputs = outputs_of(options);
   if (rounds == nullptr || rounds->is_first()) {
     check_outputs(inputs_of(options.program), outputs.names());
+    check_page_room(options.program);
   }
   options.tasks.computer = options.program.computer;
   PagedRecord record{.name = call.name, .options = options, .operations = application.operations};

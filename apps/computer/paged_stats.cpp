@@ -32,7 +32,7 @@ Json node_json(const PagedRecord& record, const PagedNode& node) {
           {"packets", {{"page_request", traffic_json(node.requests)}, {"page_reply", traffic_json(node.replies)}}},
           {"operations", operations_json(record, node.charges)},
           {"memory_bytes", node.memory_bytes},
-          {"computing_ns", record.virtual_ns ? Json(node.computing_ns) : Json()}};
+          {"computing_ns", record.virtual_ns ? Json(node.times.computing_ns) : Json()}};
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include "apps/computer/plan.h"
 
 #include <algorithm>
-#include <set>
 #include <string>
 #include <utility>
 
+#include "apps/computer/declared.h"
 #include "apps/line/number_text.h"
 #include "apps/system/digest.h"
 #include "core/base/expect.h"
@@ -26,22 +26,6 @@ constexpr std::size_t packet_bytes_max = std::size_t{1} << 30, memory_bytes_max 
 
 std::string quoted(const std::string& name) { return "'" + name + "'"; }
 
-template <class Need>
-void check_different(const std::vector<Need>& needs, const std::string& what) {
-  std::set<std::string> names;
-  for (const Need& need : needs) {
-    if (need.name.empty() || !names.insert(need.name).second) {
-      throw core::UsageError("two " + what + " are called " + quoted(need.name) + ", or one has no name: give each its own");
-    }
-  }
-}
-
-void check_count(std::size_t count, std::size_t most, const std::string& what) {
-  if (count > most) {
-    throw core::UsageError(std::to_string(count) + " " + what + " are declared: a program has at most " + std::to_string(most));
-  }
-}
-
 }  // namespace
 
 ProgramPlan::ProgramPlan(Needs needs, const nodes::ComputerRequest& computer)
@@ -61,16 +45,9 @@ ProgramPlan::ProgramPlan(Needs needs, const nodes::ComputerRequest& computer)
 
 void ProgramPlan::check_names() const {
   check_different(needs_.packets, "packets");
-  check_different(needs_.operations, "operations");
   check_different(needs_.memory, "pieces of memory");
   check_count(needs_.packets.size(), packets_max, "packets");
-  check_count(needs_.operations.size(), operations_max, "operations");
-  for (const OperationNeed& operation : needs_.operations) {
-    if (!(operation.nanoseconds >= 0 && operation.nanoseconds <= 1e6)) {
-      throw core::UsageError("the operation " + quoted(operation.name) + " takes " + shortest(operation.nanoseconds) +
-                             " ns: expected 0 to 1,000,000");
-    }
-  }
+  check_operations(needs_.operations, operations_max);
 }
 
 void ProgramPlan::check_sizes() const {

@@ -14,6 +14,7 @@
 #include "apps/ranks/rank_group.h"
 #include "apps/system/memory_room.h"
 #include "apps/system/output_set.h"
+#include "apps/system/scratch_folder.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -87,6 +88,12 @@ int run_main(int count, const char* const* words, const ProgramMain& program) {
 std::vector<NamedFile> inputs_of(const ProgramOptions& options) {
   const bool reads_file = options.is_modelled() && find_machine_preset(options.machine_name) == nullptr;
   return reads_file ? std::vector<NamedFile>{{"--machine", options.machine_name}} : std::vector<NamedFile>();
+}
+
+void check_page_room(const ProgramOptions& options) {
+  if (options.report) {
+    const ScratchFolder probe;
+  }
 }
 
 void print_result(const std::string& result, const std::string& summary, const ProgramOptions& options) {

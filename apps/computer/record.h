@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "apps/computer/options.h"
+#include "apps/computer/packet_pairs.h"
 #include "apps/computer/plan.h"
 #include "apps/show/trace/view.h"
 #include "nodes/ranks/rank_figures.h"
 #include "nodes/runner.h"
+#include "nodes/watch/activity_profile.h"
 #include "nodes/watch/trace.h"
 
 namespace dmpc::apps {
@@ -20,6 +22,12 @@ struct ProgramNode {
   nodes::NodeCounters counters;
   nodes::Charges charges;
   std::vector<std::size_t> used_bytes;  ///< of each piece of memory
+};
+
+/// What a page shows of a run beyond its counters.
+struct ProgramView {
+  nodes::ActivitySteps steps;
+  std::optional<PacketPairs> pairs;  ///< of few enough nodes
 };
 
 /// A view, as far as it has references.
@@ -33,6 +41,7 @@ struct ProgramRecord {
   std::optional<nodes::VirtualReport> virtual_time;
   std::string result;  ///< what it came to
   std::optional<nodes::Trace> trace;
+  std::optional<ProgramView> view;  ///< for a report
 };
 
 /// Of all nodes together.

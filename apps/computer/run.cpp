@@ -12,7 +12,8 @@
 #include "apps/computer/options.h"
 #include "apps/computer/plan.h"
 #include "apps/computer/program_main.h"
-#include "apps/computer/program_onlookers.h"
+#include "apps/computer/program_page.h"
+#include "apps/computer/program_watch.h"
 #include "apps/computer/rank_rounds.h"
 #include "apps/computer/record.h"
 #include "apps/line/number_text.h"
@@ -36,6 +37,9 @@ OutputSet<ProgramRecord> outputs_of(const ProgramOptions& options) {
   }
   if (options.trace) {
     outputs.add("--trace", *options.trace, check_output_path, write_trace);
+  }
+  if (options.report) {
+    outputs.add("--report", *options.report, check_output_path, html::write_program_page);
   }
   return outputs;
 }
@@ -63,10 +67,10 @@ const HostedProgram& hosted(nodes::Runner& runner, std::size_t index) {
 
 /// Each node's program is made, on ranks everybody's.
 std::unique_ptr<nodes::Runner> made_runner(const std::vector<nodes::NodeSpecification>& all, const ProgramOptions& options,
-                                           ProgramOnlookers& onlookers, RankRounds* rounds) {
+                                           ProgramWatch& watch, RankRounds* rounds) {
   const nodes::RankLinks* const links = options.computer.ranks;
   check_room(nodes::rank_memory(nodes::peers_of(all), links, links == nullptr ? 0 : links->rank()));
-  const auto make = [&] { return nodes::make_runner(all, options.computer, onlookers.observer()); };
+  const auto make = [&] { return nodes::make_runner(all, options.computer, watch.observer()); };
   if (rounds == nullptr) {
     return make();
   }
@@ -129,11 +133,11 @@ std::vector<std::string> gather_outcomes(ProgramRecord& record, nodes::Runner& r
 }
 
 void gather_from_ranks(ProgramRecord& record, nodes::Runner& runner, std::span<const nodes::PeerMemory> peers,
-                       ProgramOnlookers& onlookers) {
+                       ProgramWatch& watch) {
   if (const nodes::RankLinks* const links = record.options.computer.ranks) {
-    const std::vector<nodes::RankReport> told = runner.gather_ranks(onlookers.seen());
+    const std::vector<nodes::RankReport> told = runner.gather_ranks(watch.seen());
     for (std::size_t rank = 1; rank < told.size(); ++rank) {
-      onlookers.add(told[rank].told, told[rank].clock);
+      watch.add(told[rank].told, told[rank].clock);
     }
     record.ranks = nodes::rank_figures(peers, *links, told);
     nodes::expect_nothing_lost(record.ranks);
@@ -172,10 +176,11 @@ int run_plan(const ProgramCall& call, const ProgramOptions& options, const Progr
   const bool is_first = rounds == nullptr || rounds->is_first();
   if (is_first) {
     check_outputs(inputs_of(options), outputs.names());
+    check_page_room(options);
   }
-  ProgramOnlookers onlookers(options, plan.node_count());
+  ProgramWatch watch(options, plan.node_count());
   const std::vector<nodes::NodeSpecification> all = specifications(plan, application);
-  const auto runner = made_runner(all, options, onlookers, rounds);
+  const auto runner = made_runner(all, options, watch, rounds);
   ProgramRecord record{.name = call.name, .options = options, .plan = plan};
   Stopwatch stopwatch;
   if (!run_to_end(*runner, plan, interrupt, is_first)) {
@@ -184,12 +189,12 @@ int run_plan(const ProgramCall& call, const ProgramOptions& options, const Progr
   record.wall_seconds = stopwatch.lap();
   record.virtual_time = runner->virtual_report();
   const std::vector<std::string> outcomes = gather_outcomes(record, *runner, application);
-  gather_from_ranks(record, *runner, nodes::peers_of(all), onlookers);
+  gather_from_ranks(record, *runner, nodes::peers_of(all), watch);
   if (!is_first) {
     return 0;
   }
   const auto end = [&] {
-    record.trace = onlookers.take_trace();
+    watch.take(record);
     return end_run(record, outcomes, application, outputs);
   };
   return rounds == nullptr ? end() : rounds->apart(end);

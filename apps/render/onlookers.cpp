@@ -11,10 +11,6 @@
 
 namespace dmpc::apps {
 
-double MissEstimate::misses(std::uint32_t cache_pages) const {
-  return static_cast<double>(curve.misses(cache_pages / every)) * every;
-}
-
 Onlookers::Onlookers(const WatchOrder& order) : order_(order) {
   std::vector<nodes::Observer*> members;
   if (!order.heat_kinds.empty()) {
@@ -99,25 +95,12 @@ Sights Onlookers::take() {
     sights.view->fetches = fetches_->take();
   }
   if (sights.view && !reference_logs_.empty()) {
-    sights.view->misses = estimate_misses();
+    sights.view->misses = estimate_misses(reference_logs_);
   }
   if (order_.has_all_references) {
     sights.references = std::move(reference_logs_);
   }
   return sights;
-}
-
-/// Of all nodes together, from the same share of each node's references.
-MissEstimate Onlookers::estimate_misses() {
-  MissEstimate estimate;
-  for (const svm::ReferenceLog& log : reference_logs_) {
-    estimate.every = std::max(estimate.every, log.every());
-  }
-  for (svm::ReferenceLog& log : reference_logs_) {
-    log.thin_out(estimate.every);
-    estimate.curve += svm::MissCurve(log.pages());
-  }
-  return estimate;
 }
 
 }  // namespace dmpc::apps

@@ -49,8 +49,6 @@ class Onlookers {
   Sights take();
 
  private:
-  MissEstimate estimate_misses();
-
   WatchOrder order_;
   std::optional<nodes::HeatMap> heat_;
   std::unique_ptr<nodes::TraceRecorder> recorder_;

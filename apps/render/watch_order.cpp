@@ -12,9 +12,6 @@ namespace dmpc::apps {
 
 namespace {
 
-/// References of one node, however many there are.
-constexpr std::size_t references_least = 1024;
-
 std::uint32_t rank_count_of(const RenderOptions& options) {
   return options.computer.ranks == nullptr ? 1 : options.computer.ranks->rank_count();
 }
@@ -36,7 +33,7 @@ WatchOrder watch_order(const RenderOptions& options, std::uint32_t page_count, s
   if (options.report && options.strategy == Strategy::svm) {
     order.fetches = options.pages.homes;
     if (!counts_pages(options)) {
-      order.references_max = std::max(references_least, references_max / node_count);
+      order.references_max = references_of_node(node_count, references_max);
     }
   }
   if (options.references) {

@@ -8,15 +8,13 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/run/miss_estimate.h"
 #include "apps/run/render_options.h"
 #include "core/picture/heat_kind.h"
 #include "nodes/watch/trace.h"
 #include "svm/home.h"
 
 namespace dmpc::apps {
-
-/// About so many references are kept, of all nodes together.
-inline constexpr std::size_t references_usual = std::size_t{1} << 22U;
 
 struct WatchOrder {
   std::uint32_t node_count = 0, page_count = 0, pixel_count = 0;  ///< of computer, database and picture

@@ -66,17 +66,20 @@ TimeParts parts_of(const nodes::VirtualTimes& times, const WaitKinds& waits) {
   return parts;
 }
 
+void add_times(nodes::VirtualTimes& sum, const nodes::VirtualTimes& more) {
+  sum.computing_ns += more.computing_ns;
+  sum.sending_ns += more.sending_ns;
+  sum.receiving_ns += more.receiving_ns;
+  sum.stolen_ns += more.stolen_ns;
+  sum.lent_ns += more.lent_ns;
+  std::transform(sum.waiting_ns.begin(), sum.waiting_ns.end(), more.waiting_ns.begin(), sum.waiting_ns.begin(), std::plus());
+  sum.end_ns += more.end_ns;
+}
+
 nodes::VirtualTimes sum_of_nodes(const nodes::VirtualReport& report) {
   nodes::VirtualTimes sum;
   for (std::size_t node = 0; node + 1 < report.nodes.size(); ++node) {  // the host is the last
-    const nodes::VirtualTimes& times = report.nodes[node];
-    sum.computing_ns += times.computing_ns;
-    sum.sending_ns += times.sending_ns;
-    sum.receiving_ns += times.receiving_ns;
-    sum.stolen_ns += times.stolen_ns;
-    sum.lent_ns += times.lent_ns;
-    std::transform(sum.waiting_ns.begin(), sum.waiting_ns.end(), times.waiting_ns.begin(), sum.waiting_ns.begin(), std::plus());
-    sum.end_ns += times.end_ns;
+    add_times(sum, report.nodes[node]);
   }
   return sum;
 }

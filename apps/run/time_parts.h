@@ -48,6 +48,8 @@ std::string words_of(TimePart part, const WaitKinds& waits);
 
 TimeParts parts_of(const nodes::VirtualTimes& times, const WaitKinds& waits);
 
+/// Part by part.
+void add_times(nodes::VirtualTimes& sum, const nodes::VirtualTimes& more);
 /// Summed over the nodes without the host: their number times the length of the run.
 nodes::VirtualTimes sum_of_nodes(const nodes::VirtualReport& report);
 

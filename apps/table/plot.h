@@ -59,6 +59,10 @@ struct Plot {
 
 /// Series over one column.
 Plot curves(std::string name, std::string title, std::string place, PlotAxis x, PlotAxis y, std::vector<PlotSeries> series);
+/// A bar or several for each node, by the column `node`: side by side, or upon one another.
+Plot bars_by_node(std::string name, std::string title, PlotAxis y, std::vector<PlotSeries> series, bool is_stacked = false);
+/// All columns but the first upon one another.
+Plot stacked_by_node(std::string name, std::string title, PlotAxis y, const std::vector<Column>& columns);
 /// Numbers of nodes, and percent from 0.
 PlotAxis node_axis();
 PlotAxis percent_axis(const std::string& what);

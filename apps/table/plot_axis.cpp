@@ -38,6 +38,9 @@ std::string gnuplot_number(double number) {
 }
 
 std::string gnuplot_text(const std::string& text) {
+  if (text.starts_with('\'')) {  // gnuplot takes two quotes at the beginning for an empty text
+    return "\"'\"." + gnuplot_text(text.substr(1));
+  }
   std::string safe = "'";
   for (const char character : text) {
     const bool is_control = std::iscntrl(static_cast<unsigned char>(character)) != 0;

@@ -173,17 +173,6 @@ std::string markdown(const Table& table) {
   return text;
 }
 
-std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) {
-    return text;
-  }
-  std::string quoted = "\"";
-  for (const char character : text) {
-    quoted += character == '"' ? "\"\"" : std::string(1, character);
-  }
-  return quoted + "\"";
-}
-
 struct CsvCell {
   std::string operator()(std::monostate) const { return ""; }
   std::string operator()(const std::string& text) const { return csv_text(text); }
@@ -252,6 +241,17 @@ std::string json_lines(const Table& table) {
 }
 
 }  // namespace
+
+std::string csv_text(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) {
+    return text;
+  }
+  std::string quoted = "\"";
+  for (const char character : text) {
+    quoted += character == '"' ? "\"\"" : std::string(1, character);
+  }
+  return quoted + "\"";
+}
 
 std::string header_of(const Column& column) { return column.unit.empty() ? column.name : column.name + " (" + column.unit + ")"; }
 

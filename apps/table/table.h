@@ -65,6 +65,9 @@ std::optional<double> number_in(const Table& table, const std::vector<Cell>& row
 /// The names and cells of a row, "nodes 4, virtual time (s) 3.142", as many as fit a line.
 std::string row_text(const Table& table, const std::vector<Cell>& row);
 
+/// A text as a cell of CSV: in quotes where it has to be (RFC 4180).
+std::string csv_text(const std::string& text);
+
 /// The whole table with a line end.
 ///   markdown   the title in bold, the table with its columns in line, the notes as a list, folded; a table that is wider than
 ///              markdown_width_max stands in pieces, each with the columns on the left that tell the rows apart

@@ -21,7 +21,8 @@ constexpr const char* chart_style =
 
 }  // namespace
 
-Charts::Charts(std::ostream& complaints, std::string program) : complaints_(complaints), program_(std::move(program)) {}
+Charts::Charts(std::ostream& complaints, std::string speaker, std::string program)
+    : complaints_(complaints), speaker_(std::move(speaker)), program_(std::move(program)) {}
 
 Chart Charts::draw(Plot plot, const Table& table) {
   plot.size = PlotSize::small;
@@ -36,7 +37,7 @@ Chart Charts::draw(Plot plot, const Table& table) {
                                      ? "the page has no plots: " + outcome->complaint + " (package gnuplot-nox)"
                                      : outcome->complaint;
     if (told_.insert(sentence).second) {
-      complaints_ << "dmpc: " << sentence << std::endl;
+      complaints_ << speaker_ << ": " << sentence << std::endl;
     }
     return {};
   }

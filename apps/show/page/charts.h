@@ -20,16 +20,16 @@ struct Chart {
 /// Draws one after the other. Not thread-safe.
 class Charts {
  public:
-  /// What cannot be drawn is told to `complaints`, which outlives this, each reason once: a picture is an extra. `program` is
-  /// looked for as draw() does.
-  explicit Charts(std::ostream& complaints, std::string program = "gnuplot");
+  /// What cannot be drawn is told to `complaints`, which outlives this, each reason once, as what `speaker` says: a picture is an
+  /// extra. `program` is looked for as draw() does.
+  explicit Charts(std::ostream& complaints, std::string speaker = "dmpc", std::string program = "gnuplot");
 
   /// Throws core::InputError if no temporary file can be written.
   Chart draw(Plot plot, const Table& table);
 
  private:
   std::ostream& complaints_;
-  std::string program_;
+  std::string speaker_, program_;
   std::set<std::string> told_;
   ScratchFolder folder_;
 };

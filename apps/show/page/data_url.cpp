@@ -33,6 +33,4 @@ std::string data_url(std::string_view type, std::string_view bytes) {
   return url;
 }
 
-std::string data_url(const Image& image) { return data_url("image/png", encoded_picture("picture.png", image)); }
-
 }  // namespace dmpc::apps::html

@@ -1,15 +1,17 @@
 #include "apps/show/page/number_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "apps/line/amount.h"
 #include "apps/line/number_text.h"
 #include "apps/picture/color_map.h"
-#include "apps/picture/glyphs.h"
+#include "apps/picture/indexed_png.h"
 #include "apps/show/page/data_url.h"
 #include "apps/show/page/escaped.h"
 #include "core/base/expect.h"
+#include "core/base/srgb.h"
 
 namespace dmpc::apps::html {
 
@@ -22,7 +24,7 @@ constexpr double row_height_max = field_width / 8, field_height_min = 140, botto
 /// Squares of this size have room for a number.
 constexpr double number_width_min = 34, number_height_min = 16;
 
-constexpr std::size_t ticks_max = 8, scale_steps = 64;
+constexpr std::size_t ticks_max = 8, scale_steps = 64, color_count = 256;
 
 /// Above this share of the scale a square is so light that what is written in it has to be dark.
 constexpr double light_share = 0.55;
@@ -52,8 +54,26 @@ std::string box(const std::string& name, Place at, Place size, const std::string
          " " + attributes + "/>\n";
 }
 
-std::string picture(const Image& image, Place at, Place size) {
-  return box("image", at, size, "preserveAspectRatio=\"none\" href=\"" + data_url(image) + "\"") +
+/// The colours from the least to the largest number.
+const std::vector<PaletteColor>& palette() {
+  static const std::vector<PaletteColor> colors = [] {
+    std::vector<PaletteColor> all;
+    for (std::size_t i = 0; i < color_count; ++i) {
+      const core::Color color = color_map(static_cast<double>(i) / (color_count - 1));
+      PaletteColor& bytes = all.emplace_back();
+      for (std::size_t channel = 0; channel < bytes.size(); ++channel) {
+        bytes[channel] = core::srgb_byte(static_cast<float>(color[static_cast<int>(channel)]));
+      }
+    }
+    return all;
+  }();
+  return colors;
+}
+
+/// A square of colour for each number.
+std::string squares(std::span<const double> values, std::size_t rows, std::size_t columns, double most, Place at, Place size) {
+  const std::string png = indexed_png(static_cast<int>(columns), static_cast<int>(rows), color_numbers(values, most), palette());
+  return box("image", at, size, "preserveAspectRatio=\"none\" href=\"" + data_url("image/png", png) + "\"") +
          box("rect", at, size, "class=\"frame\"");
 }
 
@@ -80,8 +100,8 @@ class Field {
   double height() const { return top + height_ + bottom; }
 
   std::string text() const {
-    return picture(number_picture(map_.values, map_.rows, map_.columns, most_), {left, top}, {field_width, height_}) + numbers() +
-           row_axis() + column_axis() + scale();
+    return squares(map_.values, map_.rows, map_.columns, most_, {left, top}, {field_width, height_}) + numbers() + row_axis() +
+           column_axis() + scale();
   }
 
  private:
@@ -152,8 +172,8 @@ class Field {
     for (std::size_t step = 0; step < scale_steps; ++step) {
       steps[step] = static_cast<double>(scale_steps - 1 - step);
     }
-    std::string text = picture(number_picture(steps, scale_steps, 1, static_cast<double>(scale_steps - 1)), {scale_left, top},
-                               {scale_width, height_});
+    std::string text =
+        squares(steps, scale_steps, 1, static_cast<double>(scale_steps - 1), {scale_left, top}, {scale_width, height_});
     for (const Tick& tick : amount_ticks(0, most_, false, map_.unit)) {
       if (map_.unit.empty() && tick.position != std::floor(tick.position)) {
         continue;  // there is no half of a thing that is counted
@@ -180,14 +200,13 @@ std::string svg_of(const NumberMap& map) {
          text_at({left + field_width / 2, 18}, map.title, "class=\"title\" text-anchor=\"middle\"") + field.text() + "</svg>\n";
 }
 
-Image number_picture(std::span<const double> values, std::size_t rows, std::size_t columns, double most) {
-  core::expect(values.size() == rows * columns, "a picture of numbers has one for each place");
-  Image image(static_cast<int>(columns), static_cast<int>(rows));
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto x = static_cast<int>(i % columns), y = static_cast<int>(i / columns);
-    fill(image, x, y, 1, 1, color_map(most > 0 ? values[i] / most : 0));
+std::vector<std::uint8_t> color_numbers(std::span<const double> values, double most) {
+  std::vector<std::uint8_t> numbers;
+  for (const double value : values) {
+    const double position = most > 0 ? std::clamp(value / most, 0.0, 1.0) : 0;
+    numbers.push_back(static_cast<std::uint8_t>(std::lround(position * (color_count - 1))));
   }
-  return image;
+  return numbers;
 }
 
 }  // namespace dmpc::apps::html

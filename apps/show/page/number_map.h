@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
-
-#include "apps/picture/image_file.h"
 
 namespace dmpc::apps::html {
 
@@ -26,7 +25,7 @@ struct NumberMap {
 /// Requires rows * columns numbers. Few and large squares have their numbers written in them.
 std::string svg_of(const NumberMap& map);
 
-/// A pixel for each number, row by row, from dark (0) to light (`most`).
-Image number_picture(std::span<const double> values, std::size_t rows, std::size_t columns, double most);
+/// The place of each number on a scale of 256 colours, from dark (0) to light (`most`).
+std::vector<std::uint8_t> color_numbers(std::span<const double> values, double most);
 
 }  // namespace dmpc::apps::html

@@ -1,14 +1,10 @@
 #include "apps/show/page/page.h"
 
-#include <algorithm>
 #include <cctype>
 #include <cstddef>
-#include <functional>
 #include <utility>
 
-#include "apps/help/glossary.h"
 #include "apps/line/number_text.h"
-#include "apps/run/render_record.h"
 #include "apps/show/page/data_url.h"
 #include "apps/show/page/escaped.h"
 #include "apps/show/page/style.h"
@@ -39,10 +35,10 @@ std::string heading_of(std::size_t section, const std::string& heading) {
   return "<h2 id=\"" + id_of(section) + "\">" + escaped(heading) + "</h2>\n";
 }
 
-/// What the words of a text mean; empty if it has none that need it.
-std::string meanings(const std::string& words) {
+/// What the words of a text mean; empty if it has none of these.
+std::string meanings(const std::string& words, std::span<const GlossaryEntry> glossary) {
   std::string list;
-  for (const GlossaryEntry& entry : glossary()) {
+  for (const GlossaryEntry& entry : glossary) {
     if (occurs(entry.word, words)) {
       list += "<div>" + element("dt", std::string(entry.word)) + element("dd", std::string(entry.meaning)) + "</div>\n";
     }
@@ -69,7 +65,8 @@ std::string citation(const std::string& title, const Origin& origin, const Facts
 
 }  // namespace
 
-Page::Page(std::string title, std::ostream& complaints) : title_(std::move(title)), charts_(complaints), words_(title_) {}
+Page::Page(std::string title, std::ostream& complaints, PageSpeaker speaker)
+    : title_(std::move(title)), glossary_(speaker.words), charts_(complaints, std::move(speaker.name)), words_(title_) {}
 
 void Page::begin_section(const std::string& heading) {
   headings_.push_back(heading);
@@ -97,19 +94,6 @@ void Page::add_facts(const Facts& facts) {
 }
 
 void Page::add_code(const std::string& text) { body_ += "<pre class=\"copy\">" + escaped(text) + "</pre>\n"; }
-
-void Page::add_picture(const Image& image, const std::string& description, const std::string& caption) {
-  const Image shown = shrunk(image, picture_side_max);
-  const bool is_shrunk = shown.width != image.width;
-  const std::string url = data_url(image);
-  add_figure(is_shrunk ? data_url(shown) : url,
-             "class=\"picture\" width=\"" + std::to_string(shown.width) + "\" height=\"" + std::to_string(shown.height) + "\"",
-             description,
-             caption + (is_shrunk ? " Shown smaller than it is: " + std::to_string(image.width) + "x" +
-                                        std::to_string(image.height) + " pixels."
-                                  : ""),
-             save_link(description, "PNG", url));
-}
 
 void Page::add_map(const NumberMap& map, const std::string& caption) {
   const std::string url = data_url("image/svg+xml", svg_of(map));
@@ -163,7 +147,7 @@ void Page::add_origin(const Origin& origin, const Facts& results) {
 }
 
 std::string Page::text() const {
-  const std::string list = meanings(words_);
+  const std::string list = meanings(words_, glossary_);
   std::vector<std::string> headings = headings_;
   std::string glossary_section;
   if (!list.empty()) {
@@ -180,29 +164,6 @@ std::string Page::text() const {
          escaped(title_) + "</title>\n<style>\n" + style + "</style>\n</head>\n<body>\n<main>\n<h1>" + escaped(title_) +
          "</h1>\n" + (contents.empty() ? "" : "<nav aria-label=\"Contents\">\n" + contents + "</nav>\n") + body_ +
          glossary_section + "</main>\n</body>\n</html>\n";
-}
-
-Image shrunk(const Image& image, int side_max) {
-  const int step = (std::max(image.width, image.height) + side_max - 1) / side_max;
-  if (step <= 1) {
-    return image;
-  }
-  const auto at = [](const Image& of, int x, int y) {
-    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(of.width) + static_cast<std::size_t>(x)) * 3;
-  };
-  Image small((image.width + step - 1) / step, (image.height + step - 1) / step);
-  std::vector<float> count(small.rgb.size());
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const std::size_t from = at(image, x, y), to = at(small, x / step, y / step);
-      for (std::size_t channel = 0; channel < 3; ++channel) {
-        small.rgb[to + channel] += image.rgb[from + channel];
-        count[to + channel] += 1;
-      }
-    }
-  }
-  std::transform(small.rgb.begin(), small.rgb.end(), count.begin(), small.rgb.begin(), std::divides());
-  return small;
 }
 
 }  // namespace dmpc::apps::html

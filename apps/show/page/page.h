@@ -1,14 +1,13 @@
 // One page of HTML that needs no other file and no network: sections of text, tables, pictures and plots.
 #pragma once
 
-#include <cstdint>
 #include <iosfwd>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "apps/picture/image_file.h"
+#include "apps/help/glossary.h"
 #include "apps/show/page/charts.h"
 #include "apps/show/page/number_map.h"
 #include "apps/show/page/origin.h"
@@ -20,12 +19,19 @@ namespace dmpc::apps::html {
 /// Names and what they are.
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
+/// Whose page it is.
+struct PageSpeaker {
+  std::string name = "dmpc";  ///< of the program, before what it complains of
+  /// What words mean that may occur; outlives the page.
+  std::span<const GlossaryEntry> words = glossary();
+};
+
 /// A document under way. All texts are shown as they are, whatever they contain, but for code between backticks in paragraphs,
 /// cells and notes. Pictures, plots and tables have links that save them. Not thread-safe.
 class Page {
  public:
-  /// `complaints`: as Charts.
-  Page(std::string title, std::ostream& complaints);
+  /// `complaints` as Charts.
+  Page(std::string title, std::ostream& complaints, PageSpeaker speaker = {});
 
   /// What follows belongs to it, and the page's list of contents leads there.
   void begin_section(const std::string& heading);
@@ -35,9 +41,10 @@ class Page {
   void add_facts(const Facts& facts);
   /// To be selected whole by one click: a command, a citation.
   void add_code(const std::string& text);
-  /// `description`: for those who do not see it. Larger pictures than picture_side_max a side are shrunk, and the page says so;
-  /// the link saves them whole.
-  void add_picture(const Image& image, const std::string& description, const std::string& caption);
+  /// What is shown from its `url`, with `attributes` of its element. `description`: for those who do not see it. `save`: a link
+  /// that saves it.
+  void add_figure(const std::string& url, const std::string& attributes, const std::string& description,
+                  const std::string& caption, const std::string& save);
   void add_map(const NumberMap& map, const std::string& caption);
   /// With title and notes; a long one is folded.
   void add_table(const Table& table);
@@ -50,20 +57,12 @@ class Page {
   std::string text() const;
 
  private:
-  void add_figure(const std::string& url, const std::string& attributes, const std::string& description,
-                  const std::string& caption, const std::string& save);
-
   std::string title_;
+  std::span<const GlossaryEntry> glossary_;
   Charts charts_;
   std::vector<std::string> headings_;
   std::string body_;
   std::string words_;  ///< all that is shown, without markup
 };
-
-/// Pixels.
-inline constexpr int picture_side_max = 1024;
-
-/// Each pixel the mean of a square of them, so that neither side is longer than `side_max`.
-Image shrunk(const Image& image, int side_max);
 
 }  // namespace dmpc::apps::html

@@ -1,6 +1,5 @@
 #include "apps/show/page/render_page.h"
 
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -10,11 +9,14 @@
 #include "apps/line/number_text.h"
 #include "apps/picture/film_image.h"
 #include "apps/run/render_record.h"
+#include "apps/run/work.h"
 #include "apps/show/heat/field.h"
 #include "apps/show/heat/picture.h"
 #include "apps/show/page/conclusions.h"
 #include "apps/show/page/page.h"
+#include "apps/show/page/pictures.h"
 #include "apps/show/page/render_tables.h"
+#include "apps/show/page/view_conclusions.h"
 #include "apps/show/page/view_tables.h"
 #include "core/picture/heat_kind.h"
 #include "nodes/size_text.h"
@@ -60,7 +62,7 @@ Facts facts_of(const RenderRecord& record, const Account& account) {
 void add_pictures(Page& page, const RenderRecord& record, const Account& account) {
   page.begin_section("Picture");
   const std::string size = std::to_string(account.film.width()) + "x" + std::to_string(account.film.height()) + " pixels";
-  page.add_picture(image_of(account.film), "The picture of " + record.options.picture.scene, size + ".");
+  add_picture(page, image_of(account.film), "The picture of " + record.options.picture.scene, size + ".");
   if (record.heat == nullptr) {
     return;
   }
@@ -70,9 +72,9 @@ void add_pictures(Page& page, const RenderRecord& record, const Account& account
       const HeatField field = heat_field(kind, record);
       const std::string name(core::name_of(kind));
       page.add_conclusion(heat_conclusion(field));
-      page.add_picture(heat_picture(field, record.options.picture.scene + ", " + computer_text(record)), "Heat map of " + name,
-                       name + ": " + field.meaning + ", least " + amount_text(field.least(), field.unit) + ", largest " +
-                           amount_text(field.largest(), field.unit) + ".");
+      add_picture(page, heat_picture(field, record.options.picture.scene + ", " + computer_text(record)), "Heat map of " + name,
+                  name + ": " + field.meaning + ", least " + amount_text(field.least(), field.unit) + ", largest " +
+                      amount_text(field.largest(), field.unit) + ".");
     }
   }
 }
@@ -83,25 +85,10 @@ void add_time(Page& page, const RunView& view) {
   }
   page.begin_section("Over time");
   page.add_conclusion(time_conclusion(view.steps));
-  const Table table = step_table(view.steps);
-  page.add_plot(step_plot(view.steps), table);
+  const Table table = step_table(view.steps, work_names);
+  page.add_plot(step_plot(view.steps, work_names), table);
   page.add_map(step_map(view.steps), "Each row is a node, each column a step of time: the darker, the less it did.");
   page.add_table(table);
-}
-
-/// From the nodes in rows to those in columns.
-template <class Count>
-NumberMap matrix(const std::vector<Count>& counts, const std::string& title, const std::string& row_label,
-                 const std::string& column_label, const std::string& value_label) {
-  const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(counts.size())) + 0.5);
-  return {.title = title,
-          .row_label = row_label,
-          .column_label = column_label,
-          .value_label = value_label,
-          .unit = {},
-          .rows = side,
-          .columns = side,
-          .values = std::vector<double>(counts.begin(), counts.end())};
 }
 
 void add_misses(Page& page, const RenderRecord& record, const MissEstimate& misses) {
@@ -130,7 +117,7 @@ void add_pages(Page& page, const RenderRecord& record, const svm::Fetches& fetch
   if (pages.faults == 0) {
     return;
   }
-  page.add_map(matrix(fetches.by_pair, "Who fetched pages from whom", "node that asks", "home of the page", "fetches"), "");
+  page.add_map(pair_map(fetches.by_pair, "Who fetched pages from whom", "node that asks", "home of the page", "fetches"), "");
   page.add_plot(page_share_plot(), page_share_table(fetches));
   page.add_table(page_table(fetches));
   add_fetches(page, fetches);
@@ -145,7 +132,7 @@ void add_rays(Page& page, const dataflow::Report& report, const Account& account
   const std::vector<std::uint64_t> rays = report.ray_matrix();
   page.add_conclusion(ray_conclusion(rays, account.operations.ray_count()));
   if (account.nodes.size() > 1) {
-    page.add_map(matrix(rays, "Who sent rays to whom", "node that sends", "owner that receives", "rays"), "");
+    page.add_map(pair_map(rays, "Who sent rays to whom", "node that sends", "owner that receives", "rays"), "");
   }
 }
 
@@ -161,26 +148,25 @@ void add_nodes(Page& page, const RenderRecord& record) {
 
 void add_losses(Page& page, const Account& account) {
   page.begin_section("Where the time went");
-  page.add_conclusion(loss_conclusion(account));
-  const Table table = loss_table(account);
-  page.add_plot(loss_plot(account), table);
+  const Losses losses = losses_of(account);
+  page.add_conclusion(loss_conclusion(losses));
+  const Table table = loss_table(losses);
+  page.add_plot(loss_plot(losses), table);
   page.add_table(table);
 }
 
 void add_traffic(Page& page, const Account& account) {
   page.begin_section("Traffic");
-  page.add_conclusion(traffic_conclusion(account));
-  page.add_table(packet_table(account));
+  const std::vector<PacketKindTraffic> packets = packets_of(account);
+  page.add_conclusion(traffic_conclusion(packets, account.virtual_time ? &*account.virtual_time : nullptr));
+  page.add_table(packet_table(packets));
   if (!account.ranks.empty()) {
     page.add_table(rank_table(account));
   }
   if (!account.virtual_time) {
     return;
   }
-  const nodes::LinkTraffic& links = account.virtual_time->links;
-  const double hops = links.messages == 0 ? 0 : static_cast<double>(links.hops) / static_cast<double>(links.messages);
-  page.add_text(counted(links.messages, "message") + " from one node to another passed " + fixed(hops, 2) +
-                " links each, on average.");
+  page.add_text(way_text(account.virtual_time->links));
   const Table table = link_table(*account.virtual_time);
   page.add_plot(link_plot(), table);
   page.add_table(table);

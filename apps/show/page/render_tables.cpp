@@ -1,7 +1,6 @@
 #include "apps/show/page/render_tables.h"
 
 #include <algorithm>
-#include <functional>
 #include <iterator>
 #include <numeric>
 #include <span>
@@ -9,16 +8,11 @@
 #include <utility>
 #include <variant>
 
-#include "apps/line/number_text.h"
 #include "apps/run/memory_categories.h"
-#include "apps/run/time_parts.h"
 
 namespace dmpc::apps::html {
 
 namespace {
-
-/// Of the links of a machine; `--stats` has more.
-constexpr std::size_t link_rows_max = 64;
 
 void append(std::vector<Cell>& row, std::initializer_list<std::uint64_t> numbers) {
   row.insert(row.end(), numbers.begin(), numbers.end());
@@ -52,71 +46,6 @@ void append_own(std::vector<Cell>& row, const svm::NodeReport& node, Strategy st
 void append_own(std::vector<Cell>& row, const dataflow::NodeReport& node, Strategy) {
   const auto sum = [](const auto& by_kind) { return std::accumulate(by_kind.begin(), by_kind.end(), std::uint64_t{0}); };
   append(row, {node.primary_rays, sum(node.program.rays.in), sum(node.program.rays.out), node.program.backlog_high_water});
-}
-
-/// Bars side by side, or upon one another.
-Plot bars_by_node(std::string name, std::string title, PlotAxis y, std::vector<PlotSeries> series, bool is_stacked) {
-  for (PlotSeries& one : series) {
-    one.mark = PlotMark::bars;
-  }
-  Plot plot = curves(std::move(name), std::move(title), "node", {.label = "node"}, std::move(y), std::move(series));
-  plot.is_stacked = is_stacked;
-  return plot;
-}
-
-/// The columns from the second on, upon one another.
-std::vector<PlotSeries> series_of(const std::vector<Column>& columns) {
-  std::vector<PlotSeries> series;
-  for (std::size_t i = 1; i < columns.size(); ++i) {
-    series.push_back({.title = columns[i].name, .column = columns[i].name, .color = (i - 1) % plot_color_count});
-  }
-  return series;
-}
-
-/// Numbers of the parts of which any node has some; computing is always among them.
-std::vector<std::size_t> parts_found(const nodes::VirtualReport& report, const WaitKinds& waits) {
-  const TimeParts all = parts_of(sum_of_nodes(report), waits);
-  std::vector<std::size_t> found;
-  for (std::size_t part = 0; part < time_part_count; ++part) {
-    if (all.ns[part] > 0 || part == static_cast<std::size_t>(TimePart::computing)) {
-      found.push_back(part);
-    }
-  }
-  return found;
-}
-
-/// What nodes' time is made of, in words.
-std::vector<std::string> part_names(const Account& account) {
-  if (!account.virtual_time) {
-    return {"computing", "asleep", "waiting for a core"};
-  }
-  std::vector<std::string> names;
-  for (const std::size_t part : parts_found(*account.virtual_time, account.waits)) {
-    names.push_back(words_of(static_cast<TimePart>(part), account.waits));
-  }
-  return names;
-}
-
-std::vector<std::uint64_t> parts_of_node(const Account& account, std::size_t node) {
-  if (account.virtual_time) {
-    const TimeParts all = parts_of(account.virtual_time->nodes[node], account.waits);
-    std::vector<std::uint64_t> parts;
-    for (const std::size_t part : parts_found(*account.virtual_time, account.waits)) {
-      parts.push_back(all.ns[part]);
-    }
-    return parts;
-  }
-  const nodes::NodeCounters& counters = account.nodes[node].counters;
-  const std::uint64_t known_ns = counters.busy_ns + counters.asleep_ns;
-  return {counters.busy_ns, counters.asleep_ns, counters.wall_ns - std::min(counters.wall_ns, known_ns)};
-}
-
-void add_shares(Table& table, const std::string& name, std::span<const std::uint64_t> parts) {
-  std::vector<Cell> row = {name};
-  for (const double percent : percent_parts(parts)) {
-    row.emplace_back(percent);
-  }
-  table.add_row(std::move(row));
 }
 
 /// Categories of which any node has some bytes.
@@ -177,29 +106,16 @@ std::vector<Plot> node_plots(const RenderRecord& record) {
   return plots;
 }
 
-Table loss_table(const Account& account) {
-  std::vector<Column> columns = {{"node", "", 0}};
-  for (const std::string& name : part_names(account)) {
-    columns.push_back({name, "%", 1});
+Losses losses_of(const Account& account) {
+  if (account.virtual_time) {
+    const std::vector<nodes::VirtualTimes>& times = account.virtual_time->nodes;
+    return virtual_losses(std::span(times).first(account.nodes.size()), account.waits);
   }
-  Table table("Where each node's time went", columns);
-  std::vector<std::uint64_t> sum(columns.size() - 1);
-  for (std::size_t i = 0; i < account.nodes.size(); ++i) {
-    const std::vector<std::uint64_t> parts = parts_of_node(account, i);
-    std::transform(sum.begin(), sum.end(), parts.begin(), sum.begin(), std::plus());
-    add_shares(table, std::to_string(i), parts);
+  std::vector<nodes::NodeCounters> counters;
+  for (const NodeAccount& node : account.nodes) {
+    counters.push_back(node.counters);
   }
-  add_shares(table, "all", sum);
-  table.add_note(account.virtual_time
-                     ? "Virtual time. Stolen and lent: others' requests served while there was something else to do, and while "
-                       "there was not."
-                     : "Wall clock of the nodes' threads. Asleep: for want of packets. They share this computer's cores.");
-  return table;
-}
-
-Plot loss_plot(const Account& account) {
-  return bars_by_node("losses", "Where each node's time went", {.label = "of its time (%)", .least = 0, .most = 100},
-                      series_of(loss_table(account).columns()), true);
+  return wall_losses(counters);
 }
 
 Table memory_table(const Account& account) {
@@ -222,24 +138,17 @@ Table memory_table(const Account& account) {
 }
 
 Plot memory_plot(const Account& account) {
-  return bars_by_node("memory", "Memory of each node", {.label = "", .least = 0}, series_of(memory_columns(account)), true);
+  return stacked_by_node("memory", "Memory of each node", {.label = "", .least = 0}, memory_columns(account));
 }
 
-Table packet_table(const Account& account) {
-  Table table("Packets by kind", {{"kind", "", 0}, {"packets", "", 0}, {"carried", "bytes", 0}, {"of all bytes", "%", 1}});
-  std::vector<std::uint64_t> bytes;
-  for (const nodes::Traffic& traffic : account.sent) {
-    bytes.push_back(traffic.bytes);
-  }
-  const std::vector<double> percent = percent_parts(bytes);
+std::vector<PacketKindTraffic> packets_of(const Account& account) {
+  std::vector<PacketKindTraffic> packets;
   for (std::size_t kind = 0; kind < account.kind_names.size(); ++kind) {
-    if (account.sent[kind].packets > 0) {
-      std::string name = account.kind_names[kind];
-      std::replace(name.begin(), name.end(), '_', ' ');
-      table.add_row({std::move(name), account.sent[kind].packets, account.sent[kind].bytes, percent[kind]});
-    }
+    std::string name = account.kind_names[kind];
+    std::replace(name.begin(), name.end(), '_', ' ');
+    packets.push_back({std::move(name), account.sent[kind]});
   }
-  return table;
+  return packets;
 }
 
 Table rank_table(const Account& account) {
@@ -257,34 +166,6 @@ Table rank_table(const Account& account) {
                    static_cast<double>(rank.clock.error_ns()) / 1000});
   }
   return table;
-}
-
-Table link_table(const nodes::VirtualReport& report) {
-  Table table("The busiest links", {{"link", "", 0},
-                                    {"messages", "", 0},
-                                    {"carried", "bytes", 0},
-                                    {"held", "ms", 3},
-                                    {"held in all", "%", 1},
-                                    {"waited for", "ms", 3}});
-  const std::size_t count = std::min(report.busiest_links.size(), link_rows_max);
-  for (const nodes::LinkUse& link : std::span(report.busiest_links).first(count)) {
-    const auto milliseconds = [](std::uint64_t ns) { return static_cast<double>(ns) / 1e6; };
-    const double share =
-        report.total_ns == 0 ? 0 : 100 * static_cast<double>(link.busy_ns) / static_cast<double>(report.total_ns);
-    table.add_row(
-        {link.from + " to " + link.to, link.messages, link.bytes, milliseconds(link.busy_ns), share, milliseconds(link.wait_ns)});
-  }
-  if (report.links_used > count) {
-    table.add_note(std::to_string(count) + " of " + std::to_string(report.links_used) + " links that carried anything.");
-  }
-  return table;
-}
-
-Plot link_plot() {
-  Plot plot = bars_by_node("links", "Traffic of the busiest links", {.label = "", .least = 0}, {{"carried", "carried"}}, false);
-  plot.places = {"link"};
-  plot.x = {};
-  return plot;
 }
 
 }  // namespace dmpc::apps::html

@@ -1,13 +1,12 @@
 #include "apps/show/page/view_tables.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include "apps/line/number_text.h"
-#include "apps/run/work.h"
 #include "apps/table/geometric_sizes.h"
 
 namespace dmpc::apps::html {
@@ -26,6 +25,15 @@ double microseconds(double ns) { return ns / 1000; }
 
 std::size_t node_count_of(const nodes::ActivitySteps& steps) { return steps.nodes.size() - 1; }  // the host is the last
 std::size_t step_count_of(const nodes::ActivitySteps& steps) { return steps.nodes.front().size(); }
+
+/// Of all nodes but the host.
+std::uint64_t busy_ns(const nodes::ActivitySteps& steps, std::size_t step, std::size_t work) {
+  std::uint64_t sum_ns = 0;
+  for (std::size_t node = 0; node < node_count_of(steps); ++node) {
+    sum_ns += steps.nodes[node][step][work];
+  }
+  return sum_ns;
+}
 
 /// As columns and series: the parts of which any fetch has some.
 std::vector<std::size_t> parts_found(const Fetches& fetches) {
@@ -113,7 +121,7 @@ double total_fetches(const Fetches& fetches) {
 
 }  // namespace
 
-Table step_table(const nodes::ActivitySteps& steps) {
+Table step_table(const nodes::ActivitySteps& steps, std::span<const std::string_view> work_names) {
   const int digits = steps.step_ns < 10'000 ? 3 : steps.step_ns < 100'000 ? 2 : steps.step_ns < 1'000'000 ? 1 : 0;
   std::vector<Column> columns = {{"since the start", "ms", digits}};
   for (const std::string_view name : work_names) {
@@ -124,11 +132,7 @@ Table step_table(const nodes::ActivitySteps& steps) {
   for (std::size_t step = 0; step < step_count_of(steps); ++step) {
     std::vector<Cell> row = {static_cast<double>(step * steps.step_ns) / 1e6};
     for (std::size_t work = 0; work < work_names.size(); ++work) {
-      std::uint64_t sum_ns = 0;
-      for (std::size_t node = 0; node < node_count_of(steps); ++node) {
-        sum_ns += steps.nodes[node][step][work];
-      }
-      row.emplace_back(percent_of(static_cast<double>(sum_ns), whole_ns));
+      row.emplace_back(percent_of(static_cast<double>(busy_ns(steps, step, work)), whole_ns));
     }
     table.add_row(std::move(row));
   }
@@ -138,7 +142,7 @@ Table step_table(const nodes::ActivitySteps& steps) {
   return table;
 }
 
-Plot step_plot(const nodes::ActivitySteps& steps) {
+Plot step_plot(const nodes::ActivitySteps& steps, std::span<const std::string_view> work_names) {
   Plot plot = curves("steps", "What the nodes were busy with over time", "since the start", {.label = "since the start"},
                      {.label = "of the nodes' time (%)", .least = 0}, {});
   for (const std::string_view name : work_names) {
@@ -166,6 +170,19 @@ NumberMap step_map(const nodes::ActivitySteps& steps) {
     }
   }
   return map;
+}
+
+NumberMap pair_map(std::span<const std::uint64_t> counts, const std::string& title, const std::string& row_label,
+                   const std::string& column_label, const std::string& value_label) {
+  const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(counts.size())) + 0.5);
+  return {.title = title,
+          .row_label = row_label,
+          .column_label = column_label,
+          .value_label = value_label,
+          .unit = {},
+          .rows = side,
+          .columns = side,
+          .values = std::vector<double>(counts.begin(), counts.end())};
 }
 
 Table fetch_table(const Fetches& fetches) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "apps/run/run_view.h"
 #include "apps/show/page/number_map.h"
@@ -11,11 +13,15 @@
 
 namespace dmpc::apps::html {
 
-/// A row for each step of time: what all nodes but the host were busy with, in percent of their time.
-Table step_table(const nodes::ActivitySteps& steps);
-Plot step_plot(const nodes::ActivitySteps& steps);
+/// A row for each step of time: what all nodes but the host were busy with, in percent of their time. `work_names`: by number.
+Table step_table(const nodes::ActivitySteps& steps, std::span<const std::string_view> work_names);
+Plot step_plot(const nodes::ActivitySteps& steps, std::span<const std::string_view> work_names);
 /// A row for each node but the host, a column for each step: its share of the time in which it was busy.
 NumberMap step_map(const nodes::ActivitySteps& steps);
+
+/// `counts`: from each node, a row, to each, a column.
+NumberMap pair_map(std::span<const std::uint64_t> counts, const std::string& title, const std::string& row_label,
+                   const std::string& column_label, const std::string& value_label);
 
 /// Fetches as long as half of all, as one of twenty and as one of a hundred, and all of them on average: each with its parts,
 /// which add up to the whole.

@@ -50,6 +50,8 @@ TEST_CASE("the examples are built from an installed prefix with all warnings, an
   CHECK(has(ring("1"), "as expected\n1 node of hdr: 1.05 ms"));
   CHECK(has(ring("16"), "as expected\n16 nodes of hdr: 83.5 us"));
   CHECK(has(ring("64"), "as expected\n64 nodes of hdr: 219 us"));
+  CHECK(run({build + "/ring_product", "--size=64", "--report=" + (folder / "ring.html").string()}).errors.empty());
+  CHECK(file_text(folder / "ring.html").find("Who sent packets to whom") != std::string::npos);
 
   const auto sorted = [&](const std::string& nodes, const std::string& keys) {
     return run({build + "/sample_sort", "--runner=virtual", "--machine=gigabit", "--nodes=" + nodes, "--keys=" + keys});

@@ -36,10 +36,10 @@ TEST_CASE("a plot becomes an address with its own bytes") {
 
 TEST_CASE("without the program there is no plot, and one complaint") {
   std::ostringstream complaints;
-  Charts charts(complaints, "/none/gnuplot");
+  Charts charts(complaints, "asker", "/none/gnuplot");
   CHECK(charts.draw(line(), numbers()).url.empty());
   CHECK(charts.draw(line(), numbers()).url.empty());
-  CHECK(contains(complaints.str(), "the page has no plots: /none/gnuplot cannot be started"));
+  CHECK(complaints.str().starts_with("asker: the page has no plots: /none/gnuplot cannot be started"));
   CHECK(complaints.str().find('\n') == complaints.str().size() - 1);
 }
 

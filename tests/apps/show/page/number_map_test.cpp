@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "apps/picture/color_map.h"
 #include "core/base/expect.h"
 #include "tests/support/text.h"
 
@@ -30,14 +29,9 @@ NumberMap map_of(std::size_t rows, std::size_t columns) {
 
 }  // namespace
 
-TEST_CASE("a picture of numbers goes from dark to light") {
-  const Image image = number_picture(std::vector<double>{0, 1, 2, 4}, 2, 2, 4);
-  CHECK(image.width == 2);
-  CHECK(image.height == 2);
-  CHECK(image.rgb[0] == static_cast<float>(color_map(0)[0]));
-  CHECK(image.rgb[3] == static_cast<float>(color_map(0.25)[0]));
-  CHECK(image.rgb.back() == static_cast<float>(color_map(1)[2]));
-  CHECK(number_picture(std::vector<double>{0}, 1, 1, 0).rgb[0] == static_cast<float>(color_map(0)[0]));
+TEST_CASE("numbers go from dark to light, and what lies beyond the scale has its last colour") {
+  CHECK(color_numbers(std::vector<double>{0, 1, 2, 4, 5}, 4) == std::vector<std::uint8_t>{0, 64, 128, 255, 255});
+  CHECK(color_numbers(std::vector<double>{0}, 0) == std::vector<std::uint8_t>{0});
 }
 
 TEST_CASE("a map has names on its axes, ticks, and a scale with numbers") {

@@ -52,7 +52,7 @@ TEST_CASE("an empty page is a document with a title") {
 
 TEST_CASE("a page asks for nothing from elsewhere") {
   const std::string text = page_with([](Page& page) {
-    page.add_picture(Image(2, 2), "black", "Black.");
+    page.add_figure("data:image/png;base64,", "", "black", "Black.", "");
     page.add_table(table_of(1));
   });
   CHECK_FALSE(contains(text, "http"));
@@ -75,12 +75,9 @@ TEST_CASE("texts are shown as they are") {
   const std::string text = page_with([](Page& page) {
     page.add_text("1 < 2");
     page.add_facts({{"na<me", "va>lue"}});
-    page.add_picture(Image(1, 1), "a \"picture\"", "<i>");
   });
   CHECK(contains(text, "<p>1 &lt; 2</p>"));
   CHECK(contains(text, "<dt>na&lt;me</dt>\n<dd>va&gt;lue</dd>"));
-  CHECK(contains(text, "alt=\"a &quot;picture&quot;\""));
-  CHECK(contains(text, "<figcaption>&lt;i&gt; <a "));
 }
 
 TEST_CASE("a table has its numbers as people read them") {
@@ -118,7 +115,7 @@ TEST_CASE("elements that are opened are closed") {
   const std::string text = page_with([](Page& page) {
     page.begin_section("One");
     page.add_facts({{"a", "b"}});
-    page.add_picture(Image(1, 1), "", "c");
+    page.add_figure("data:image/png;base64,", "", "", "c", "");
     page.add_table(table_of(20));
     page.add_conclusion("d");
     page.add_origin({.command = "dmpc", .program = "dmpc 1", .date = "2026-11-22", .computer = "one"}, {{"film", "e"}});
@@ -127,26 +124,6 @@ TEST_CASE("elements that are opened are closed") {
        {"main", "nav", "dl", "div", "figure", "table", "details", "summary", "thead", "tbody", "tr", "style", "pre", "a", "p"}) {
     CHECK_MESSAGE(count_of(text, "<" + name + " ") + count_of(text, "<" + name + ">") == count_of(text, "</" + name + ">"), name);
   }
-}
-
-TEST_CASE("a picture that is too large is shrunk to means of squares") {
-  Image image(5, 2);
-  for (std::size_t i = 0; i < image.rgb.size(); ++i) {
-    image.rgb[i] = static_cast<float>(i);
-  }
-  const Image small = shrunk(image, 3);
-  CHECK(small.width == 3);
-  CHECK(small.height == 1);
-  CHECK(small.rgb[0] == (0 + 3 + 15 + 18) / 4.0F);
-  CHECK(small.rgb[8] == (14 + 29) / 2.0F);  // the last column is half a square
-  CHECK(shrunk(image, 5).rgb == image.rgb);
-}
-
-TEST_CASE("a page says that it shows a picture smaller than it is") {
-  const auto with_side = [](int side) { return page_with([&](Page& page) { page.add_picture(Image(side, 1), "", "Black."); }); };
-  CHECK(contains(with_side(1024), "width=\"1024\" height=\"1\""));
-  CHECK(contains(with_side(1025), "width=\"513\" height=\"1\""));
-  CHECK(contains(with_side(1025), "Black. Shown smaller than it is: 1025x1 pixels."));
 }
 
 TEST_CASE("what is between backticks is code, in paragraphs, cells and notes") {
@@ -163,12 +140,8 @@ TEST_CASE("what is between backticks is code, in paragraphs, cells and notes") {
   CHECK_FALSE(contains(text, "`"));
 }
 
-TEST_CASE("pictures and tables can be saved, whole and without a script") {
-  const std::string text = page_with([](Page& page) {
-    page.add_picture(Image(1025, 1), "The picture of <x>", "Black.");
-    page.add_table(table_of(1));
-  });
-  CHECK(contains(text, "download=\"the-picture-of-x.png\" href=\"" + data_url(Image(1025, 1)) + "\""));
+TEST_CASE("tables can be saved without a script") {
+  const std::string text = page_with([](Page& page) { page.add_table(table_of(1)); });
   CHECK(contains(text, "download=\"ta-ble.csv\" href=\"data:text/csv;base64,"));
   CHECK(contains(text, data_url("text/csv", "na<me,time (s),count\na<b,0.125,1234567\n")));
 }

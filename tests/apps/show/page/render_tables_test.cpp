@@ -64,7 +64,7 @@ TEST_CASE("each strategy has columns of its own") {
 TEST_CASE("losses add up to a hundred percent, node by node and in all") {
   for (const Strategy strategy : {Strategy::svm, Strategy::dataflow}) {
     const Rendered rendered(modelled(strategy));
-    const Table table = loss_table(account_of(*rendered.report));
+    const Table table = loss_table(losses_of(account_of(*rendered.report)));
     CHECK(table.rows().size() == 4);
     CHECK(std::get<std::string>(table.rows().back()[0]) == "all");
     check_hundreds(table);
@@ -73,7 +73,7 @@ TEST_CASE("losses add up to a hundred percent, node by node and in all") {
 
 TEST_CASE("losses of threads add up, too") {
   const Rendered rendered(small());
-  const Table table = loss_table(account_of(*rendered.report));
+  const Table table = loss_table(losses_of(account_of(*rendered.report)));
   CHECK(table.columns()[3].name == "waiting for a core");
   check_hundreds(table);
 }
@@ -94,7 +94,7 @@ TEST_CASE("the categories of a node's memory add up to what it uses") {
 TEST_CASE("each part of a stack has a look of its own") {
   const Rendered rendered(starved(modelled()));
   const Account account = account_of(*rendered.report);
-  for (const Plot& plot : {memory_plot(account), loss_plot(account)}) {
+  for (const Plot& plot : {memory_plot(account), loss_plot(losses_of(account))}) {
     std::set<std::size_t> looks;
     for (const PlotSeries& series : plot.series) {
       looks.insert(series.color);
@@ -114,7 +114,7 @@ TEST_CASE("what no node has is not plotted") {
 TEST_CASE("packets of all kinds that were sent are listed") {
   const Rendered rendered(small());
   const Account account = account_of(*rendered.report);
-  CHECK(sum(packet_table(account), "packets") == nodes::total(account.sent).packets);
+  CHECK(sum(packet_table(packets_of(account)), "packets") == nodes::total(account.sent).packets);
 }
 
 TEST_CASE("links are listed, the busiest first, with what they carried") {

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "apps/run/work.h"
 #include "tests/apps/show/watched.h"
 
 namespace dmpc::apps::html {
@@ -74,7 +75,7 @@ TEST_CASE("the hottest pages come first, with their share") {
 
 TEST_CASE("steps have the nodes' time without the host's") {
   nodes::ActivitySteps steps{.step_ns = 1000, .nodes = {{{500, 0, 0, 0, 0, 0}}, {{0, 250, 0, 0, 0, 0}}, {{9, 9, 9, 9, 9, 9}}}};
-  const Table table = step_table(steps);
+  const Table table = step_table(steps, work_names);
   REQUIRE(table.rows().size() == 1);
   CHECK(real(table.rows()[0][1]) == 25);
   CHECK(real(table.rows()[0][2]) == 12.5);
@@ -82,8 +83,11 @@ TEST_CASE("steps have the nodes' time without the host's") {
   CHECK(real(table.rows()[0][0]) == 0);
   const NumberMap map = step_map(steps);
   CHECK(map.values == std::vector<double>{50, 25});
+  const std::vector<std::string_view> first = {"busy"};
+  CHECK(real(step_table(steps, first).rows()[0][1]) == 25);
+  CHECK(step_table(steps, first).columns()[1].name == "busy");
   CHECK(map.most == 100);
-  CHECK(step_plot(steps).bar_width == 0.001);
+  CHECK(step_plot(steps, work_names).bar_width == 0.001);
 }
 
 TEST_CASE("a sample tells nothing of caches that would hold next to nothing of it") {

@@ -1,0 +1,31 @@
+// Whether what programs declare can be: names of their own, not too many of them, prices.
+#pragma once
+
+#include <cstddef>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "apps/computer/dmpc/computer.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+
+/// Throws core::UsageError for a need without a name of its own. `what` they are, in the plural.
+template <class Need>
+void check_different(const std::vector<Need>& needs, const std::string& what) {
+  std::set<std::string> names;
+  for (const Need& need : needs) {
+    if (need.name.empty() || !names.insert(need.name).second) {
+      throw core::UsageError("two " + what + " are called '" + need.name + "', or one has no name: give each its own");
+    }
+  }
+}
+
+/// Throws core::UsageError for more than `most`, which is how many `program` has at most.
+void check_count(std::size_t count, std::size_t most, const std::string& what, const std::string& program = "a program");
+
+/// Both of operations, and of prices beyond a millisecond.
+void check_operations(const std::vector<OperationNeed>& operations, std::size_t most, const std::string& program = "a program");
+
+}  // namespace dmpc::apps

@@ -1,0 +1,40 @@
+// Who sends whom how much: an instrument beside the computer, whose memory is no node's.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "nodes/flat_bytes.h"
+#include "nodes/observer.h"
+
+namespace dmpc::apps {
+
+/// By pair of nodes: what node a sent to node b stands at a * node_count + b.
+struct PacketPairs {
+  std::vector<std::uint64_t> packets;
+  std::vector<std::uint64_t> bytes;  ///< headers and payloads
+};
+
+/// Counts what is sent. Thread safety: as an Observer; pairs() when the run is over.
+class PairWatch final : public nodes::Observer {
+ public:
+  explicit PairWatch(std::uint32_t node_count);
+
+  void ended(const nodes::Span&, const nodes::Program&) override {}
+  void sent(const nodes::Passing& packet) override;
+  void received(const nodes::Passing&) override {}
+  void worked(const nodes::Worked&) override {}
+
+  /// What was counted here, and what was on another rank.
+  void put(nodes::FlatWriter& flat) const;
+  void add(nodes::FlatReader& flat);
+
+  const PacketPairs& pairs() const { return pairs_; }
+
+ private:
+  std::uint32_t node_count_;
+  PacketPairs pairs_;
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,53 @@
+// What the pages of all programs on the computer have in common.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/computer/options.h"
+#include "apps/show/page/losses.h"
+#include "apps/show/page/origin.h"
+#include "apps/show/page/page.h"
+#include "apps/show/page/view_tables.h"
+#include "apps/table/plot.h"
+#include "apps/table/table.h"
+#include "nodes/machine.h"
+
+namespace dmpc::apps::html {
+
+/// Whose page it is: that of the program `name`.
+PageSpeaker speaker(const std::string& name);
+
+/// Puts where it is from, what it is of and what the program came to at the beginning of a page.
+void begin_page(Page& page, const Origin& origin, const Facts& facts, const std::string& result, std::uint32_t node_count);
+
+/// Bars of each of so many nodes; nothing of more than readable_nodes_max.
+void add_node_plot(Page& page, std::size_t node_count, const Plot& plot, const Table& table);
+
+/// Of this process, which is the program `name`.
+Origin program_origin(const std::string& name);
+
+/// The computer, runner and what disturbs it.
+Facts computer_facts(const ProgramOptions& options);
+
+/// How often an operation was charged.
+struct OperationCount {
+  std::string name;
+  std::uint64_t count = 0;
+  std::optional<double> today_ns;  ///< as the program declares it
+  std::uint64_t each_ps = 0;       ///< on the modelled machine
+};
+/// A row for each; on a modelled `machine` with what it takes of the nodes' computing.
+Table operation_table(const std::vector<OperationCount>& operations, const nodes::Machine* machine);
+void add_operations(Page& page, const std::vector<OperationCount>& operations, const nodes::Machine* machine);
+
+void add_losses(Page& page, const Losses& losses);
+/// `remark`: of which run it is, if there were several.
+void add_steps(Page& page, const nodes::ActivitySteps& steps, std::span<const std::string_view> work_names, const std::string& remark);
+
+}  // namespace dmpc::apps::html

@@ -1,0 +1,18 @@
+// What each task of a run took, as a file.
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+
+#include "apps/computer/paged_record.h"
+
+namespace dmpc::apps {
+
+/// As CSV, a line a task. What adds up over tasks is called like the counter of --stats that it adds up to, as far as there is
+/// one; operations are the program's, and computing is empty on threads. Of the last run.
+void write_task_heat(const PagedRecord& record, std::ostream& output);
+
+/// What a task's operations, look-ups and pages take on the machine.
+std::uint64_t computing_ps(const svm::TaskTaken& taken, const nodes::Machine& machine);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,24 @@
+// Pictures of many colours within a page.
+#pragma once
+
+#include <string>
+
+#include "apps/picture/image_file.h"
+#include "apps/show/page/page.h"
+
+namespace dmpc::apps::html {
+
+/// Pixels.
+inline constexpr int picture_side_max = 1024;
+
+/// `description`: for those who do not see it. Larger pictures than picture_side_max a side are shrunk, and the page says so; the
+/// link saves them whole.
+void add_picture(Page& page, const Image& image, const std::string& description, const std::string& caption);
+
+/// The picture as a PNG within its own address. Throws core::InputError if no temporary file can be written.
+std::string picture_url(const Image& image);
+
+/// Each pixel the mean of a square of them, so that neither side is longer than `side_max`.
+Image shrunk(const Image& image, int side_max);
+
+}  // namespace dmpc::apps::html

@@ -1,0 +1,62 @@
+// A page in a real browser: headless Chromium, Debian's package chromium, which tests/run installs.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
+
+namespace dmpc::tests {
+
+inline constexpr const char* chromium = "/usr/bin/chromium";
+
+/// Tells the frame around the page how wide the page is, and how many of its pictures the browser shows.
+inline constexpr const char* telling_script =
+    "<script>addEventListener('load',()=>{const all=[...document.images];"
+    "parent.postMessage(`width ${document.documentElement.scrollWidth} of ${innerWidth}, shown "
+    "${all.filter(i=>i.complete&&i.naturalWidth>0).length} of ${all.length}, asked for "
+    "${performance.getEntriesByType('resource').filter(e=>!e.name.startsWith('data:')).length}, tables cut "
+    "${[...document.querySelectorAll('.scroll')].filter(e=>e.scrollWidth>e.clientWidth).length}, dark "
+    "${matchMedia('(prefers-color-scheme:dark)').matches}`,'*')})</script>";
+
+/// A window with a page so many pixels wide, since no window of the browser's is as narrow as a telephone. Its title says what
+/// the page has told.
+inline std::string window_around(const std::string& file, int width) {
+  return "<!DOCTYPE html><meta name=\"color-scheme\" content=\"light dark\"><script>addEventListener('message',"
+         "e=>{document.title=e.data})</script><style>body{margin:0}iframe{border:0;height:900px;width:" +
+         std::to_string(width) + "px}</style><iframe src=\"" + file + "\"></iframe>";
+}
+
+/// What the browser tells of the page in a window of so many pixels, of which it puts a picture into the file `shot`.
+inline std::string told_by_browser(const std::string& page, int width, bool is_dark, const std::filesystem::path& shot) {
+  const TemporaryFolder folder;
+  write_text(folder / "page.html", page + telling_script);
+  write_text(folder / "window.html", window_around("page.html", width));
+  ChildProcess browser({chromium, "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run",
+                        "--user-data-dir=" + (folder / "profile").string(), "--window-size=" + std::to_string(width) + ",900",
+                        std::string("--blink-settings=preferredColorScheme=") + (is_dark ? "0" : "1"),
+                        "--virtual-time-budget=5000", "--screenshot=" + shot.string(), "--dump-dom",
+                        "file://" + (folder / "window.html").string()});
+  const int status = browser.status();
+  REQUIRE_MESSAGE(status == 0,
+                  "chromium ends with status " << status << ": is the package chromium installed? " << browser.errors());
+  const std::string dom = browser.output();
+  const std::size_t begin = dom.find("<title>") + 7;
+  return dom.substr(begin, dom.find("</title>") - begin);
+}
+
+/// Nothing sticks out of a page of that width, all its pictures show, and it asked for nothing; on a screen no table is cut.
+inline void check_shown_whole(const std::string& told, const std::string& page, int width, bool is_dark) {
+  INFO(told);
+  const std::string wide = std::to_string(width), pictures = std::to_string(count(page, "<img "));
+  CHECK(contains(told, "width " + wide + " of " + wide));
+  CHECK(contains(told, "shown " + pictures + " of " + pictures + ", asked for 0"));
+  CHECK((width < 1280 || contains(told, "tables cut 0,")));
+  CHECK(contains(told, is_dark ? "dark true" : "dark false"));
+}
+
+}  // namespace dmpc::tests
