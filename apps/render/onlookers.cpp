@@ -11,30 +11,6 @@
 
 namespace dmpc::apps {
 
-namespace {
-
-/// Those of the nodes that are here.
-void put_logs(nodes::FlatWriter& flat, const std::vector<svm::ReferenceLog>& logs) {
-  for (std::uint32_t index = 0; index < logs.size(); ++index) {
-    const bool is_here = !logs[index].pages().empty();
-    flat.put(is_here);
-    if (is_here) {
-      logs[index].put(flat);
-    }
-  }
-}
-
-void take_logs(nodes::FlatReader& flat, std::vector<svm::ReferenceLog>& logs) {
-  for (svm::ReferenceLog& log : logs) {
-    if (flat.take<bool>()) {
-      core::expect(log.pages().empty(), "a node is on one rank");
-      log.take(flat);
-    }
-  }
-}
-
-}  // namespace
-
 double MissEstimate::misses(std::uint32_t cache_pages) const {
   return static_cast<double>(curve.misses(cache_pages / every)) * every;
 }
@@ -89,7 +65,7 @@ std::string Onlookers::seen() const {
   if (fetches_) {
     flat.put_bytes(fetches_->bytes());
   }
-  put_logs(flat, reference_logs_);
+  svm::put_logs(flat, reference_logs_);
   return flat.take();
 }
 
@@ -107,7 +83,7 @@ void Onlookers::add(std::string_view seen, const nodes::ClockDrift& clock) {
   if (fetches_) {
     fetches_->add(flat.take_bytes(), clock);
   }
-  take_logs(flat, reference_logs_);
+  svm::take_logs(flat, reference_logs_);
   core::expect(flat.is_at_end(), "all that was seen was asked for");
 }
 
