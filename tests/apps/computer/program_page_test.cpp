@@ -106,6 +106,7 @@ TEST_CASE("a report changes nothing of the run, and goes with a trace") {
   CHECK(hash({page}) == hash({}));
   CHECK(hash({page, trace}) == hash({}));
   CHECK(contains(file_text(folder / "t.json"), "multiplication"));
+  check_has(file_text(folder / "page.html"), {"Over time</h2>", "Who sent packets to whom"});
 }
 
 TEST_CASE("a report that is no page, or cannot be written, is refused before the run") {
