@@ -97,8 +97,9 @@ struct PagedApplication {
   std::function<std::string(PagedComputer&)> act;
 };
 
-/// Reads the command line (nodes, runner, machine, chaos, pages, caches, counters, references, trace, and the program's own
-/// options), acts, prints what came of it, and returns the exit status as dmpc::run() does. Call it once, from main().
+/// Reads the command line (nodes, runner, machine, chaos, pages, caches, counters, references, heat, trace, report, and the
+/// program's own options), acts, prints what came of it, and returns the exit status as dmpc::run() does. Call it once, from
+/// main().
 int run_tasks(int count, const char* const* words, const PagedApplication& application);
 
 template <class T, class Make>

@@ -137,8 +137,8 @@ Table step_table(const nodes::ActivitySteps& steps, std::span<const std::string_
     table.add_row(std::move(row));
   }
   table.add_note(
-      "Of all nodes' time, without the host. What is left they waited. With threads a quantum counts as long as it took by "
-      "the wall clock, even where it waited for a core.");
+      "Of all nodes' time. What is left they waited. With threads a call counts as long as it took by the wall clock, even where "
+      "it waited for a core.");
   return table;
 }
 

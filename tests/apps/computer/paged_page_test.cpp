@@ -27,6 +27,7 @@ TEST_CASE("the page of tasks has their heat, what pages travelled, what a fetch 
                    "page reply", "<dt>Run</dt>"});
   CHECK(contains(page, "page faults in 1,000 look-ups"));
   CHECK_FALSE(contains(page, "Of the last of"));
+  check_knows_no_rays(page);
 }
 
 TEST_CASE("of several runs the counters are of all of them, and what was watched is of the last, as the page says") {

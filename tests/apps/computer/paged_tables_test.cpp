@@ -73,9 +73,9 @@ TEST_CASE("all operations together are the nodes' computing, those of pages incl
   heated.operations = {{"addition", 2}};
   nodes::Machine& machine = heated.options.program.computer.machine.emplace();
   machine.cost_ps[static_cast<std::size_t>(charge_of(0))] = 4000;
-  machine.cost_ps[static_cast<std::size_t>(nodes::Charge::page_install)] = 1000;
+  machine.cost_ps[static_cast<std::size_t>(core::Charge::page_install)] = 1000;
   heated.record.nodes[0].charges[charge_of(0)] = 10;
-  heated.record.nodes[0].charges[nodes::Charge::page_install] = 5;
+  heated.record.nodes[0].charges[core::Charge::page_install] = 5;
   const Table table = operation_table(operations_of(heated.record), &machine);
   REQUIRE(table.rows().size() == 4);
   double sum_ms = 0;

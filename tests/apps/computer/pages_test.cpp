@@ -129,8 +129,14 @@ TEST_CASE("pages and caches that cannot be are refused in the words of the optio
   PagedApplication greedy = adding();
   greedy.operations.assign(9, {"addition", 1});
   CHECK(run_adding(greedy, {}).complains("9 operations are declared: a program of tasks has at most 8"));
+  PagedApplication unclear = adding();
+  unclear.operations = {{"addition", 1}, {"addition", 2}};
+  CHECK(run_adding(unclear, {}).complains("two operations are called 'addition'"));
+  unclear.operations = {{"addition", -1}};
+  CHECK(run_adding(unclear, {}).complains("the operation 'addition' takes -1 ns: expected 0 to 1,000,000"));
   const std::string help = run_adding(adding(), {"--help"}).output;
-  for (const char* part : {"Usage: adder [options]", "--cache-pages", "--replacement", "--references", "Add entries"}) {
+  for (const char* part :
+       {"Usage: adder [options]", "--cache-pages", "--replacement", "--references", "--heat", "--report", "Add entries"}) {
     CHECK_MESSAGE(help.find(part) != std::string::npos, part);
   }
 }

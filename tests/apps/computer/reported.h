@@ -31,4 +31,13 @@ inline void check_has(const std::string& page, const std::vector<std::string>& p
   }
 }
 
+/// A page of a program speaks of neither rays nor pictures.
+inline void check_knows_no_rays(const std::string& page) {
+  for (const std::string word : {"ray", "rays", "pixel", "pixels", "scene", "film", "shading", "tracing", "quantum", "host"}) {
+    for (const std::string after : {" ", ".", "<", ","}) {
+      CHECK_MESSAGE(!contains(page, " " + word + after), word);
+    }
+  }
+}
+
 }  // namespace dmpc::tests
