@@ -147,7 +147,7 @@ class Commands {
     rows_[(group_ ? group_->first : "") + name] = [options, run] {
       return Command(*options, is_quiet(*options), [options, run](Interrupt& interrupt, std::ostream& output) {
         if (!runs_on_ranks(*options)) {
-          expect_one_process();
+          expect_one_process("render together: dmpc render --runner=mpi");
         }
         if constexpr (std::is_invocable_v<Run, const Options&, std::ostream&>) {
           return run(*options, output);

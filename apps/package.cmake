@@ -36,7 +36,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "g++ (>= 4:12)")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libhwy-dev, libtbb-dev")
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake (>= 3.25), dmpc (= ${PROJECT_VERSION}), gnuplot-nox")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS
+  "cmake (>= 3.25), dmpc (= ${PROJECT_VERSION}), dmpc-mpi (= ${PROJECT_VERSION}), gnuplot-nox")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "dmpc's computer for programs of one's own
 Headers, libraries and examples: programs for nodes with bounded memories that talk
 only through mailboxes, run on threads or on the model of a machine in virtual time.")

@@ -71,7 +71,7 @@ void hand_out(const Plan& plan, const Distribution& distribution, const core::Re
 nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const nodes::Following& following) {
   nodes::StreamFromHost stream(links);
   const Job job = job_from(nodes::read_counted(stream), links);
-  following.check_room(nodes::rank_memory(job.plan, &links, links.rank()));
+  following.check_room(nodes::rank_memory(nodes::peers_of(job.plan), &links, links.rank()));
   const std::string order = nodes::read_counted(stream);
   const nodes::Watching watching = order.empty() ? nodes::Watching() : following.watch(order);
   const MakeProgram make_program = [&](std::uint32_t, nodes::Node& node) {

@@ -194,7 +194,7 @@ void fill(Report& report, nodes::Runner& runner, const Distribution& distributio
   GatheredReports gathered = gather_reports(runner, report.plan);
   if (nodes::RankLinks* const ranks = report.plan.request.computer.ranks) {
     const std::vector<nodes::RankReport> told = runner.gather_ranks({});
-    report.ranks = nodes::rank_figures(report.plan, *ranks, told);
+    report.ranks = nodes::rank_figures(nodes::peers_of(report.plan), *ranks, told);
     nodes::add_seen(watching, told);
   }
   const std::vector<std::vector<std::uint32_t>> regions = distribution.regions.by_node();

@@ -5,8 +5,8 @@
 
 namespace dmpc::nodes {
 
-/// Has what each node says of itself. After it a runner's programs can be looked at. Of several ranks it is a plain
-/// InternalError.
+/// Has what each node says of itself; of several ranks all have it. After it a runner's programs can be looked at, and what they
+/// say be gathered.
 struct StandstillError : core::InternalError {
   using InternalError::InternalError;
 };

@@ -115,6 +115,9 @@ struct PageReplyHeader {
 static_assert(sizeof(PageReplyHeader) == 8 && std::is_trivially_copyable_v<PageReplyHeader>);
 static_assert(sizeof(PageReplyHeader) + page_size_min_bytes > nodes::small_payload_bytes, "every page reply is bulk");
 
+/// A page of this size on its way.
+constexpr std::size_t page_reply_bytes(std::size_t page_size_bytes) { return sizeof(PageReplyHeader) + page_size_bytes; }
+
 /// The node `asker` has no pixels left. Hops from node to node along the ring until one answers or `visits_left` have been
 /// asked or passed over.
 struct WorkRequest {

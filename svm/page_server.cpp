@@ -8,7 +8,7 @@ namespace {
 using nodes::Category;
 
 std::size_t reply_bytes(const PageCapacity& capacity, std::uint32_t index) {
-  return capacity.is_asked(index) ? sizeof(PageReplyHeader) + capacity.page_size_bytes() : 0;
+  return capacity.is_asked(index) ? page_reply_bytes(capacity.page_size_bytes()) : 0;
 }
 
 }  // namespace

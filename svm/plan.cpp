@@ -145,7 +145,7 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   }
   if (pages_travel(request)) {
     capacity.bulk_slots += faults_max;  // page replies: one for each fault under way
-    capacity.bulk_payload_bytes = std::max(capacity.bulk_payload_bytes, sizeof(PageReplyHeader) + request.page_size_bytes);
+    capacity.bulk_payload_bytes = std::max(capacity.bulk_payload_bytes, page_reply_bytes(request.page_size_bytes));
   }
   if (questions_travel(request)) {
     const std::uint32_t answers = std::min(plan.task_count(), others * request_credits);  // one for each packet of questions

@@ -38,7 +38,7 @@ void hand_out(const Plan& plan, const core::RenderSettings& settings, const core
 nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const Following& following) {
   nodes::StreamFromHost stream(links);
   const std::unique_ptr<Job> job = job_from(nodes::read_counted(stream), links);
-  following.check_room(nodes::rank_memory(job->plan, &links, links.rank()));
+  following.check_room(nodes::rank_memory(nodes::peers_of(job->plan), &links, links.rank()));
   const std::string order = nodes::read_counted(stream);
   const nodes::Watching watching = order.empty() ? nodes::Watching() : following.watch(order);
   const nodes::ByteSource pages(stream, job->plan.pages().database_bytes());

@@ -238,7 +238,7 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
   report.nodes = gather_reports(*runner, plan);
   if (options.computer.ranks != nullptr) {
     const std::vector<nodes::RankReport> told = runner->gather_ranks({});
-    report.ranks = nodes::rank_figures(plan, *options.computer.ranks, told);
+    report.ranks = nodes::rank_figures(nodes::peers_of(plan), *options.computer.ranks, told);
     nodes::add_seen(options.watching, told);
   }
   report.host = runner->node(host_index).counters();

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "core/base/expect.h"
+#include "nodes/flat_bytes.h"
+#include "nodes/ranks/rank_memory.h"
 #include "svm/packets.h"
 #include "svm/task_program.h"
 
@@ -48,6 +50,49 @@ std::vector<nodes::NodeSpecification> task_specifications(const TaskPlan& plan, 
   return all;
 }
 
+/// What a node tells of its run, before its results.
+struct ToldTasks {
+  PageCounters pages;
+  nodes::NodeCounters counters;
+  nodes::Charges charges;
+};
+
+std::string told_tasks(nodes::Runner& runner, std::size_t index) {
+  const auto& program = dynamic_cast<const AnyTaskProgram&>(runner.program(index));
+  const std::span<const std::byte> results = program.results();
+  nodes::FlatWriter flat;
+  flat.put(ToldTasks{program.report().pages, runner.node(index).counters(), program.charges()});
+  flat.put_bytes({reinterpret_cast<const char*>(results.data()), results.size()});
+  return flat.take();
+}
+
+/// Of the nodes that are here and, on rank 0, of all.
+void gather_tasks(nodes::Runner& runner, const TaskPlan& plan, const TakeResults& take, TaskFigures& figures) {
+  const std::vector<std::string> told =
+      runner.gather([&](std::size_t index) { return index == plan.node_count() ? std::string() : told_tasks(runner, index); });
+  for (std::uint32_t index = 0; index < plan.node_count(); ++index) {
+    if (told[index].empty()) {
+      continue;  // on another rank
+    }
+    nodes::FlatReader flat(told[index]);
+    const auto node = flat.take<ToldTasks>();
+    figures.pages[index] = node.pages;
+    figures.counters[index] = node.counters;
+    figures.charges[index] = node.charges;
+    take(plan.first_task(index), flat.take_bytes());
+  }
+}
+
+void gather_from_ranks(nodes::Runner& runner, std::span<const nodes::PeerMemory> peers, const nodes::RankLinks& links,
+                       const TaskWatching& watching, TaskFigures& figures) {
+  const std::vector<nodes::RankReport> told = runner.gather_ranks(watching.seen());
+  for (std::size_t rank = 1; rank < told.size() && watching.add; ++rank) {
+    watching.add(told[rank].told, told[rank].clock);
+  }
+  figures.ranks = nodes::rank_figures(peers, links, told);
+  nodes::expect_nothing_lost(figures.ranks);
+}
+
 void check_pages(const TaskFigures& figures) {
   const PageCounters pages = figures.all_pages();
   core::expect(pages.references == pages.home_hits + pages.cache_hits + pages.misses && pages.misses >= pages.faults,
@@ -65,15 +110,14 @@ PageCounters TaskFigures::all_pages() const {
   return sum;
 }
 
-TaskFigures run_tasks_of_kind(const TaskKinds& kinds, std::span<const std::byte> database, std::uint32_t count,
-                              const TaskOptions& options, const TaskWatching& watching, std::stop_token stop,
-                              const TakeResults& take) {
-  const TaskPlan plan(options, database.size(), count, kinds.plain.sizes);
+TaskFigures run_tasks_of_kind(const TaskKinds& kinds, const TaskPlan& plan, std::span<const std::byte> database,
+                              const TaskWatching& watching, std::stop_token stop, const TakeResults& take) {
   core::expect(watching.reference_logs == nullptr || watching.reference_logs->size() == plan.node_count(),
                "each node has a log of its references");
-  core::expect(watching.heat == nullptr || watching.heat->size() == count, "each task has a place for what it takes");
+  core::expect(watching.heat == nullptr || watching.heat->size() == plan.first_task(plan.node_count()),
+               "each task has a place for what it takes");
   const nodes::ByteSource source(database);
-  const auto make = [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<AnyTaskProgram> {
+  const MakeTaskProgram make = [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<AnyTaskProgram> {
     if (watching.reference_logs == nullptr) {
       return make_task_program(node, plan, source, kinds.plain, watching.heat);
     }
@@ -81,20 +125,27 @@ TaskFigures run_tasks_of_kind(const TaskKinds& kinds, std::span<const std::byte>
     program->records().record_into((*watching.reference_logs)[index]);
     return program;
   };
-  const auto runner = nodes::make_runner(task_specifications(plan, make), options.computer, watching.observer);
-  TaskFigures figures;
+  const std::vector<nodes::NodeSpecification> specifications = task_specifications(plan, make);
+  const auto runner = nodes::make_runner(specifications, plan.computer(), watching.observer);
+  const nodes::RankLinks* const links = plan.computer().ranks;
+  if (links != nullptr) {
+    watching.made();
+  }
+  TaskFigures figures{.pages = std::vector<PageCounters>(plan.node_count()),
+                      .counters = std::vector<nodes::NodeCounters>(plan.node_count()),
+                      .charges = std::vector<nodes::Charges>(plan.node_count())};
   figures.end = runner->run(std::move(stop));
-  for (std::uint32_t index = 0; index < plan.node_count(); ++index) {
-    const auto& program = dynamic_cast<const AnyTaskProgram&>(runner->program(index));
-    figures.pages.push_back(program.report().pages);
-    figures.counters.push_back(runner->node(index).counters());
-    figures.charges.push_back(program.charges());
-    take(plan.first_task(index), program.results());
+  if (figures.end == nodes::RunEnd::interrupted) {
+    return figures;
   }
-  if (figures.end == nodes::RunEnd::finished) {
+  gather_tasks(*runner, plan, take, figures);
+  if (links != nullptr) {
+    gather_from_ranks(*runner, nodes::peers_of(specifications), *links, watching, figures);
+  }
+  if (links == nullptr || links->rank() == 0) {
     check_pages(figures);
-    figures.virtual_time = runner->virtual_report();
   }
+  figures.virtual_time = runner->virtual_report();
   return figures;
 }
 

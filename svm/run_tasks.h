@@ -8,10 +8,14 @@
 #include <optional>
 #include <span>
 #include <stop_token>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "nodes/observer.h"
+#include "nodes/ranks/clock_drift.h"
+#include "nodes/ranks/rank_figures.h"
 #include "nodes/runner.h"
 #include "svm/node_program.h"
 #include "svm/task_heat.h"
@@ -22,13 +26,14 @@
 
 namespace dmpc::svm {
 
-/// What became of a run, beside results.
+/// What became of a run, beside results. Of nodes on other ranks nothing is known but on rank 0.
 struct TaskFigures {
   nodes::RunEnd end = nodes::RunEnd::finished;
   std::vector<PageCounters> pages;                   ///< by node
   std::vector<nodes::NodeCounters> counters;         ///< by node
   std::vector<nodes::Charges> charges;               ///< by node
   std::optional<nodes::VirtualReport> virtual_time;  ///< of a modelled machine
+  std::vector<nodes::RankFigures> ranks;             ///< of rank 0, where there are any
 
   /// Of all nodes.
   PageCounters all_pages() const;
@@ -39,11 +44,16 @@ struct TaskReport : TaskFigures {
   std::vector<Result> results;  ///< by task; those of an interrupted run mean nothing
 };
 
-/// Who looks on.
+/// Who looks on. Of ranks, each has the same.
 struct TaskWatching {
   nodes::Observer* observer = nullptr;
   std::vector<ReferenceLog>* reference_logs = nullptr;  ///< one for each node, where its references are noted
   TaskHeat* heat = nullptr;                             ///< of all tasks, to which what each takes is added
+  /// On ranks, called when the nodes that are here are made: waits until all ranks have theirs.
+  std::function<void()> made = [] {};
+  /// Likewise, after a regular end: what was seen here, and, on rank 0, what was seen on another rank.
+  std::function<std::string()> seen = [] { return std::string(); };
+  std::function<void(std::string_view seen, const nodes::ClockDrift& clock)> add = {};
 };
 
 /// Tasks for a program that notes references, and for one that does not.
@@ -52,13 +62,12 @@ struct TaskKinds {
   TaskKind<RecordingPager> recording;
 };
 
-/// Where a node's results go: those of tasks `first` on, as bytes.
-using TakeResults = std::function<void(std::uint32_t first, std::span<const std::byte> results)>;
+/// Where a node's results go: those of tasks `first` on, as bytes. Of nodes on other ranks rank 0 alone has them.
+using TakeResults = std::function<void(std::uint32_t first, std::string_view results)>;
 
-/// run_tasks() of tasks whose type is not known here.
-TaskFigures run_tasks_of_kind(const TaskKinds& kinds, std::span<const std::byte> database, std::uint32_t count,
-                              const TaskOptions& options, const TaskWatching& watching, std::stop_token stop,
-                              const TakeResults& take);
+/// run_tasks() of tasks whose type is not known here, and for which there is a plan.
+TaskFigures run_tasks_of_kind(const TaskKinds& kinds, const TaskPlan& plan, std::span<const std::byte> database,
+                              const TaskWatching& watching, std::stop_token stop, const TakeResults& take);
 
 /// Runs tasks 0 .. count - 1 over `database`, whole pages that are spread over the nodes and do not change. Results are the same
 /// for every computer, cache and schedule, if each task's depend on its number and what it reads alone. With in_flight = 1 so is
@@ -69,13 +78,14 @@ TaskReport<typename Task::Result> run_tasks(std::span<const std::byte> database,
                                             const TaskWatching& watching = {}, std::stop_token stop = {}) {
   TaskReport<typename Task::Result> report;
   report.results.resize(count);
-  const auto take = [&](std::uint32_t first, std::span<const std::byte> results) {
+  const auto take = [&](std::uint32_t first, std::string_view results) {
     if (!results.empty()) {
       std::memcpy(report.results.data() + first, results.data(), results.size());
     }
   };
   const TaskKinds kinds = {task_kind<Pager, Task>(), task_kind<RecordingPager, Task>()};
-  static_cast<TaskFigures&>(report) = run_tasks_of_kind(kinds, database, count, options, watching, std::move(stop), take);
+  const TaskPlan plan(options, database.size(), count, kinds.plain.sizes);
+  static_cast<TaskFigures&>(report) = run_tasks_of_kind(kinds, plan, database, watching, std::move(stop), take);
   return report;
 }
 

@@ -6,6 +6,7 @@
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "nodes/node.h"
+#include "nodes/runner.h"
 #include "nodes/size_text.h"
 #include "nodes/threads/held_packets.h"
 #include "svm/packets.h"
@@ -62,7 +63,7 @@ TaskPlan::TaskPlan(const TaskOptions& options, std::size_t database_bytes, std::
       .request_credits = credits};
   mailbox_ = {.small_slots = (node_count() - 1) * credits,  // page requests: each other node's credits
               .bulk_slots = faults_max,                     // page replies: one for each fault under way
-              .bulk_payload_bytes = sizeof(PageReplyHeader) + options.page_size_bytes};
+              .bulk_payload_bytes = page_reply_bytes(options.page_size_bytes)};
   if (options.computer.chaos) {
     pages_.request_credits = nodes::shrunk_credits(*options.computer.chaos, credits, request_channel);
     held_bytes_ = nodes::HeldPackets::room_bytes(mailbox_.bulk_payload_bytes);
@@ -79,9 +80,7 @@ void TaskPlan::check() const {
     throw core::UsageError("page_size_bytes=" + std::to_string(options_.page_size_bytes) +
                            ": a page is a power of two from 512B to 64KiB");
   }
-  if (options_.computer.ranks != nullptr) {
-    throw core::UsageError("tasks run in one process, not on ranks");
-  }
+  nodes::check_ranks(options_.computer);
 }
 
 nodes::MemoryPlan TaskPlan::node_memory(std::uint32_t node) const {

@@ -15,7 +15,7 @@ namespace dmpc::svm {
 
 /// What tasks may choose. `optional` without a value means: choose.
 struct TaskOptions {
-  nodes::ComputerRequest computer = {};                     ///< without ranks
+  nodes::ComputerRequest computer = {};
   std::size_t page_size_bytes = 1024;                       ///< a power of two, 512 B to 64 KiB
   std::optional<std::uint32_t> cache_pages = std::nullopt;  ///< frames of each node; else a quarter of the pages
   Replacement replacement = Replacement::lru;               ///< which page of the cache makes room
@@ -35,6 +35,7 @@ class TaskPlan {
   /// are not whole pages, core::RoomError for less memory than a node takes, naming that.
   TaskPlan(const TaskOptions& options, std::size_t database_bytes, std::uint32_t task_count, const Sizes& sizes);
 
+  const nodes::ComputerRequest& computer() const { return options_.computer; }
   std::uint32_t node_count() const { return options_.computer.node_count; }
   /// The first task of a node; of the one behind the last node the number of all.
   std::uint32_t first_task(std::uint32_t node) const {

@@ -16,8 +16,6 @@ namespace {
 
 using core::UsageError;
 
-constexpr std::uint32_t program_nodes_max = 4096;
-
 OptionSet::Choices<nodes::TopologyKind> topologies() {
   using nodes::TopologyKind;
   OptionSet::Choices<TopologyKind> choices;
@@ -30,32 +28,47 @@ OptionSet::Choices<nodes::TopologyKind> topologies() {
 
 void add_computer_group(OptionSet& options, ProgramOptions& program) {
   options.begin_group("The computer");
-  options.add_number("--nodes", program.computer.node_count, 1, program_nodes_max, "8", "Nodes, each with a memory of its own");
+  options.add_number("--nodes", program.computer.node_count, 1, program_nodes_max, "8; of ranks as their processors",
+                     "Nodes, each with a memory of its own");
   options.add_text(
       "--node-memory", "SIZE [what it takes]",
       [&program](const std::string& text) { program.computer.node_memory_bytes = parse_size_bytes(text, "--node-memory"); },
       "The bound of each node's memory, such as 256KiB: refused if the program takes more");
-  options.add_choice<bool>("--runner", program.is_modelled, {{"threads", false}, {"virtual", true}},
-                           "threads: a thread for each node. virtual: the model of a machine, in its own time, the same whenever "
-                           "it is repeated");
+  options.add_choice<RunnerKind>(
+      "--runner", program.runner,
+      {{"threads", RunnerKind::threads}, {"virtual", RunnerKind::virtual_time}, {"mpi", RunnerKind::mpi}},
+      "threads: a thread for each node. virtual: the model of a machine, in its own time, the same whenever it is repeated. mpi: "
+      "threads of all the processes that mpirun or srun has started");
   options.add_text(
       "--machine", "MACHINE|FILE.json [ipsc2]", [&program](const std::string& name) { program.machine_name = name; },
       "The machine that is modelled (virtual): " + machine_preset_names() + " or a file such as dmpc machine prints");
   options.add_choice<nodes::TopologyKind>("--topology", program.topology, topologies(), "the machine's",
                                           "How its nodes are wired, in place of its own wiring (virtual)");
+  options.add_choice<std::optional<nodes::Idle>>(
+      "--idle", program.idle, {{"auto", std::nullopt}, {"spin", nodes::Idle::spin}, {"sleep", nodes::Idle::sleep}},
+      "What the thread of each process that sends and receives does while nothing comes (mpi): keep its processor, leave it to "
+      "the "
+      "nodes, or keep it where there are more processors than nodes");
   options.add_text(
       "--chaos", "SEED [calm]", [&program](const std::string& text) { program.chaos_seed = parse_seed(text, "--chaos"); },
       "Disturb the computer by this seed (threads): packets late and out of order, slow nodes and links, few credits");
 }
 
 void check_runner(const OptionSet& options, const ProgramOptions& program) {
-  for (const char* option : {"--machine", "--topology"}) {
-    if (!program.is_modelled && options.is_given(option)) {
-      throw UsageError(std::string(option) + " does not go with --runner=threads: threads model no machine");
+  const auto refuse = [&](const char* option, const std::string& reason) {
+    if (options.is_given(option)) {
+      throw UsageError(std::string(option) + " does not go with --runner=" + name_of(program.runner) + ": " + reason);
     }
+  };
+  if (program.is_modelled()) {
+    refuse("--chaos", "chaos disturbs threads only");
+  } else {
+    const std::string reason = program.runner == RunnerKind::mpi ? "what ranks run on is no model" : "threads model no machine";
+    refuse("--machine", reason);
+    refuse("--topology", reason);
   }
-  if (program.is_modelled && program.chaos_seed) {
-    throw UsageError("--chaos does not go with --runner=virtual: chaos disturbs threads only");
+  if (program.runner != RunnerKind::mpi) {
+    refuse("--idle", "only ranks have a thread that sends and receives for others");
   }
   if (program.trace && program.trace->extension() != ".json" && program.trace->extension() != ".paje") {
     throw UsageError("--trace=" + program.trace->string() +
@@ -91,6 +104,7 @@ void add_closer_look(OptionSet options, ProgramOptions& program) {
   options.add_flag("--quiet", program.quiet, "No closing lines");
   options.check_in_the_end([options, &program] {
     check_runner(options, program);
+    program.is_node_count_given = options.is_given("--nodes");
     if (program.chaos_seed) {
       program.computer.chaos = nodes::chaos_of(*program.chaos_seed);
     }
@@ -108,7 +122,7 @@ std::uint64_t price_ps(const OperationNeed& operation, double slowdown) {
 }
 
 std::optional<nodes::Machine> asked_machine(const ProgramOptions& options) {
-  if (!options.is_modelled) {
+  if (!options.is_modelled()) {
     return std::nullopt;
   }
   nodes::Machine machine = load_machine(options.machine_name).machine;

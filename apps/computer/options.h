@@ -9,20 +9,30 @@
 
 #include "apps/computer/dmpc/computer.h"
 #include "apps/line/command_line.h"
+#include "apps/run/runner_kind.h"
 #include "nodes/computer_request.h"
+#include "nodes/ranks/nap.h"
 
 namespace dmpc::apps {
 
+inline constexpr std::uint32_t program_nodes_max = 4096;
+
 struct ProgramOptions {
   nodes::ComputerRequest computer;  ///< with the machine, once it is read
-  bool is_modelled = false;
-  std::string machine_name = "ipsc2";           ///< to be modelled: a preset's name or a machine file
+  bool is_node_count_given = false;
+  RunnerKind runner = RunnerKind::threads;
+  std::optional<nodes::Idle> idle;     ///< what ranks' communicating threads do meanwhile; else it follows from their processors
+  std::string machine_name = "ipsc2";  ///< to be modelled: a preset's name or a machine file
   std::optional<nodes::TopologyKind> topology;  ///< in place of the machine's
   std::optional<std::uint64_t> chaos_seed;
   std::optional<std::filesystem::path> stats;   ///< where the counters go, as JSON
   std::optional<std::filesystem::path> trace;   ///< .json or .paje
   std::optional<std::filesystem::path> report;  ///< .html
   bool quiet = false;                           ///< no closing lines
+
+  /// Somebody sees the run happen.
+  bool is_observed() const { return trace || report; }
+  bool is_modelled() const { return runner == RunnerKind::virtual_time; }
 };
 
 /// Declares them, and which go together.

@@ -1,6 +1,10 @@
 #include "apps/computer/packet_pairs.h"
 
+#include <algorithm>
+#include <functional>
+
 #include "nodes/counters.h"
+#include "nodes/flat_bytes.h"
 
 namespace dmpc::apps {
 
@@ -15,6 +19,21 @@ void PairWatch::sent(const nodes::Passing& packet) {
   one.add(packet.payload_bytes());
   pairs_.packets[pair] += one.packets;
   pairs_.bytes[pair] += one.bytes;
+}
+
+std::string PairWatch::bytes() const {
+  nodes::FlatWriter flat;
+  flat.put_all(pairs_.packets);
+  flat.put_all(pairs_.bytes);
+  return flat.take();
+}
+
+void PairWatch::add(std::string_view bytes) {
+  nodes::FlatReader flat(bytes);
+  for (std::vector<std::uint64_t>* const counts : {&pairs_.packets, &pairs_.bytes}) {
+    const auto more = flat.take_all<std::uint64_t>();
+    std::transform(more.begin(), more.end(), counts->begin(), counts->begin(), std::plus());
+  }
 }
 
 }  // namespace dmpc::apps

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "nodes/observer.h"
@@ -24,6 +26,10 @@ class PairWatch final : public nodes::Observer {
   void sent(const nodes::Passing& packet) override;
   void received(const nodes::Passing&) override {}
   void worked(const nodes::Worked&) override {}
+
+  /// What nodes that are here have sent, for add() of another rank's.
+  std::string bytes() const;
+  void add(std::string_view bytes);
 
   const PacketPairs& pairs() const { return pairs_; }
 

@@ -15,6 +15,7 @@
 #include "apps/table/plot.h"
 #include "apps/table/table.h"
 #include "nodes/machine.h"
+#include "nodes/ranks/rank_figures.h"
 
 namespace dmpc::apps::html {
 
@@ -43,6 +44,9 @@ struct OperationCount {
 /// A row for each; on a modelled `machine` with what it takes of the nodes' computing.
 Table operation_table(const std::vector<OperationCount>& operations, const nodes::Machine* machine);
 void add_operations(Page& page, const std::vector<OperationCount>& operations, const nodes::Machine* machine);
+
+/// Nothing where nodes are in one process.
+void add_ranks(Page& page, const std::vector<nodes::RankFigures>& ranks);
 
 void add_losses(Page& page, const Losses& losses);
 /// `remark`: of which run it is, if there were several.

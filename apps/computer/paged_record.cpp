@@ -60,6 +60,7 @@ void PagedRecord::add(const svm::TaskFigures& figures, const svm::TaskPlan& plan
     virtual_ns = virtual_ns.value_or(0) + figures.virtual_time->total_ns;
     run_hash = figures.virtual_time->run_hash(run_hash.value_or(0));
   }
+  ranks = figures.ranks;
   ++run_count;
   task_count += tasks;
   page_count = plan.pages().page_count;
@@ -83,8 +84,8 @@ std::string summary(const PagedRecord& record) {
               ? virtual_time_text(*record.virtual_ns, sum.times.computing_ns, record.options.program.computer.node_count)
               : seconds_text(record.wall_seconds)) +
          "; " + counted(sum.pages.references, "look-up") + ", " + percent_text(missed) + " of them faults; " +
-         counted(record.page_count, "page") + ", " + grouped(record.cache_pages) + " in a cache; " +
-         bytes_text(sum.memory_bytes) + " of memory a node\n";
+         counted(record.page_count, "page") + ", " + grouped(record.cache_pages) + " in a cache" + ranks_text(record.ranks) +
+         "; " + bytes_text(sum.memory_bytes) + " of memory a node\n";
 }
 
 void write_trace(const PagedRecord& record, std::ostream& output) {

@@ -1,26 +1,29 @@
 // Runs a program of tasks over pages: from its options to what came of it.
 #include <algorithm>
-#include <cstring>
 #include <iostream>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "apps/computer/dmpc/pages.h"
+#include "apps/computer/on_ranks.h"
 #include "apps/computer/paged_options.h"
 #include "apps/computer/paged_page.h"
 #include "apps/computer/paged_record.h"
 #include "apps/computer/paged_watch.h"
 #include "apps/computer/program_main.h"
+#include "apps/computer/rank_rounds.h"
 #include "apps/computer/task_heat_file.h"
 #include "apps/line/number_text.h"
+#include "apps/run/computer_room.h"
 #include "apps/run/option_words.h"
 #include "apps/show/references/reference_file.h"
 #include "apps/system/attempts.h"
-#include "apps/system/memory_room.h"
+#include "apps/system/digest.h"
 #include "apps/system/output_set.h"
 #include "apps/system/stopwatch.h"
 #include "core/base/units.h"
+#include "svm/packets.h"
 #include "svm/run_tasks.h"
 
 namespace dmpc::apps {
@@ -92,10 +95,20 @@ svm::TaskKind<Records> kind_of(const AnyTask& task, const PagesBounds& bounds) {
           .put_result = task.put_result};
 }
 
+/// What all ranks must agree on before they run tasks.
+std::string words_of_run(std::uint32_t number, std::uint32_t count, const svm::TaskKinds& kinds,
+                         std::span<const std::byte> data) {
+  Digest digest;
+  digest.add(data);
+  return "run " + std::to_string(number) + " of " + counted(count, "task") + " of " + bytes_text(kinds.plain.sizes.task_bytes) +
+         " over data " + hash_text(digest.value());
+}
+
 class AskedComputer final : public PagedComputer {
  public:
-  AskedComputer(const PagedOptions& options, PagedRecord& record, const Interrupt& interrupt)
-      : options_(options), record_(record), interrupt_(interrupt) {}
+  /// `rounds`: where there are ranks, this one's.
+  AskedComputer(const PagedOptions& options, PagedRecord& record, const Interrupt& interrupt, RankRounds* rounds)
+      : options_(options), record_(record), interrupt_(interrupt), rounds_(rounds) {}
 
   std::uint32_t node_count() const override { return options_.tasks.computer.node_count; }
   std::size_t page_bytes() const override { return options_.tasks.page_size_bytes; }
@@ -105,7 +118,16 @@ class AskedComputer final : public PagedComputer {
     const std::vector<std::byte> whole_pages = padded(data);
     const PagesBounds bounds = {whole_pages.size(), record_.operations.size()};
     const svm::TaskKinds kinds = {kind_of<svm::Pager>(task, bounds), kind_of<svm::RecordingPager>(task, bounds)};
-    with_options_named([&] { run_kinds(kinds, whole_pages, count, results); });
+    const std::span<std::byte> all_results(results, count * task.result_bytes);
+    if (rounds_ == nullptr) {
+      return run_kinds(kinds, whole_pages, count, all_results);
+    }
+    const std::string next = words_of_run(record_.run_count + 1, count, kinds, whole_pages);
+    rounds_->here([&] {
+      rounds_->agree(next);
+      run_kinds(kinds, whole_pages, count, all_results);
+      rounds_->share(all_results);
+    });
   }
 
   std::vector<std::byte> padded(std::span<const std::byte> data) const {
@@ -114,18 +136,19 @@ class AskedComputer final : public PagedComputer {
     return whole_pages;
   }
 
-  void run_kinds(const svm::TaskKinds& kinds, std::span<const std::byte> data, std::uint32_t count, std::byte* results) {
-    const svm::TaskPlan plan(options_.tasks, data.size(), count, kinds.plain.sizes);
+  /// On ranks rank 0 alone gets all results.
+  void run_kinds(const svm::TaskKinds& kinds, std::span<const std::byte> data, std::uint32_t count,
+                 std::span<std::byte> results) {
+    const auto plan = with_options_named([&] { return svm::TaskPlan(options_.tasks, data.size(), count, kinds.plain.sizes); });
     check_room(plan);
     PagedWatch watch(options_, plan, count);
-    const auto take = [&](std::uint32_t first, std::span<const std::byte> bytes) {
-      if (!bytes.empty()) {
-        std::memcpy(results + first * kinds.plain.sizes.result_bytes, bytes.data(), bytes.size());
-      }
+    svm::TaskWatching watching = watch.watching();
+    watching.made = [this] { rounds_->meet(); };
+    const auto take = [&](std::uint32_t first, std::string_view bytes) {
+      std::copy_n(bytes.data(), bytes.size(), reinterpret_cast<char*>(&results[first * kinds.plain.sizes.result_bytes]));
     };
     Stopwatch stopwatch;
-    const svm::TaskFigures figures =
-        svm::run_tasks_of_kind(kinds, data, count, options_.tasks, watch.watching(), interrupt_.token(), take);
+    const svm::TaskFigures figures = svm::run_tasks_of_kind(kinds, plan, data, watching, interrupt_.token(), take);
     if (figures.end == nodes::RunEnd::interrupted) {
       throw Interrupted{};
     }
@@ -134,17 +157,20 @@ class AskedComputer final : public PagedComputer {
     watch.take(record_);
   }
 
-  static void check_room(const svm::TaskPlan& plan) {
-    std::uint64_t bytes = plan.host_memory().total();
+  void check_room(const svm::TaskPlan& plan) const {
+    std::vector<nodes::PeerMemory> peers;
     for (std::uint32_t node = 0; node < plan.node_count(); ++node) {
-      bytes += plan.node_memory(node).total();
+      peers.push_back({plan.mailbox(), plan.node_memory(node).total()});
     }
-    check_memory_room(bytes, counted(plan.node_count(), "node"));
+    peers.push_back({{}, plan.host_memory().total()});
+    const nodes::RankLinks* const links = plan.computer().ranks;
+    apps::check_room(nodes::rank_memory(peers, links, links == nullptr ? 0 : links->rank()));
   }
 
   const PagedOptions& options_;
   PagedRecord& record_;
   const Interrupt& interrupt_;
+  RankRounds* rounds_;
 };
 
 OutputSet<PagedRecord> outputs_of(const PagedOptions& options) {
@@ -171,22 +197,54 @@ OutputSet<PagedRecord> outputs_of(const PagedOptions& options) {
   return outputs;
 }
 
-int act_on_pages(const std::string& name, PagedOptions& options, const PagedApplication& application, Interrupt& interrupt) {
-  const OutputSet<PagedRecord> outputs = outputs_of(options);
-  check_outputs(inputs_of(options.program), outputs.names());
-  check_page_room(options.program);
-  choose_machine(options, application.operations);
-  options.tasks.computer = options.program.computer;
-  PagedRecord record{.name = name, .options = options, .operations = application.operations};
-  AskedComputer computer(options, record, interrupt);
-  record.result = application.act(computer);
+/// What it came to. On ranks all of them act, and have the same results.
+std::string acted(AskedComputer& computer, const PagedApplication& application) {
+  try {
+    return application.act(computer);
+  } catch (const dmpc::UsageError& error) {
+    throw core::UsageError(error.what());
+  }
+}
+
+int end_tasks(PagedRecord& record, const OutputSet<PagedRecord>& outputs) {
   if (record.run_count == 0) {
     throw ProgramError("no tasks were run");
   }
-  Attempts attempts(std::cerr, name);
+  Attempts attempts(std::cerr, record.name);
   outputs.write(record, attempts);
-  attempts.make([&] { print_result(record.result, summary(record), options.program); });
+  attempts.make([&] { print_result(record.result, summary(record), record.options.program); });
   return attempts.status();
+}
+
+/// On ranks, this one's part.
+int act_on_pages(const ProgramCall& call, PagedOptions& options, const PagedApplication& application, const Interrupt& interrupt,
+                 RankRounds* rounds) {
+  const OutputSet<PagedRecord> outputs = outputs_of(options);
+  if (rounds == nullptr || rounds->is_first()) {
+    check_outputs(inputs_of(options.program), outputs.names());
+    check_page_room(options.program);
+  }
+  options.tasks.computer = options.program.computer;
+  PagedRecord record{.name = call.name, .options = options, .operations = application.operations};
+  AskedComputer computer(options, record, interrupt, rounds);
+  if (rounds == nullptr) {
+    record.result = acted(computer, application);
+    return end_tasks(record, outputs);
+  }
+  record.result = rounds->apart([&] { return acted(computer, application); });
+  rounds->agree("the end");
+  rounds->meet();
+  return rounds->is_first() ? rounds->apart([&] { return end_tasks(record, outputs); }) : 0;
+}
+
+int run_paged(const ProgramCall& call, PagedOptions& options, const PagedApplication& application, const Interrupt& interrupt) {
+  choose_machine(options, application.operations);
+  if (options.program.runner != RunnerKind::mpi) {
+    return act_on_pages(call, options, application, interrupt, nullptr);
+  }
+  const auto needs = [&]() -> RankNeeds { return {.payload_bytes_max = svm::page_reply_bytes(options.tasks.page_size_bytes)}; };
+  return run_on_ranks(options.program, call, needs,
+                      [&](RankRounds& rounds) { return act_on_pages(call, options, application, interrupt, &rounds); });
 }
 
 }  // namespace
@@ -200,8 +258,9 @@ int run_tasks(int count, const char* const* words, const PagedApplication& appli
       count, words,
       {.description = application.description,
        .declare = [&](apps::OptionSet set) { apps::add_options(set, options, application.options); },
-       .act = [&](const std::string& name,
-                  apps::Interrupt& interrupt) { return apps::act_on_pages(name, options, application, interrupt); }});
+       .runner = options.program.runner,
+       .act = [&](const apps::ProgramCall& call,
+                  apps::Interrupt& interrupt) { return apps::run_paged(call, options, application, interrupt); }});
 }
 
 }  // namespace dmpc

@@ -4,6 +4,7 @@
 #include "apps/computer/paged_record.h"
 #include "apps/line/json_format.h"
 #include "apps/line/number_text.h"
+#include "apps/show/stats/ranks.h"
 
 namespace dmpc::apps {
 namespace {
@@ -43,7 +44,7 @@ std::string stats_json(const PagedRecord& record) {
                {"program", record.name},
                {"result", record.result},
                {"nodes", options.computer.node_count},
-               {"runner", machine == nullptr ? "threads" : "virtual"},
+               {"runner", name_of(options.runner)},
                {"machine", machine == nullptr ? Json() : Json(machine->name)},
                {"chaos", options.chaos_seed ? Json(*options.chaos_seed) : Json()},
                {"page_size_bytes", record.options.tasks.page_size_bytes},
@@ -55,7 +56,8 @@ std::string stats_json(const PagedRecord& record) {
                {"tasks", record.task_count},
                {"wall_seconds", record.wall_seconds},
                {"virtual_seconds", record.virtual_ns ? Json(1e-9 * static_cast<double>(*record.virtual_ns)) : Json()},
-               {"run_hash", record.run_hash ? Json(hash_text(*record.run_hash)) : Json()}};
+               {"run_hash", record.run_hash ? Json(hash_text(*record.run_hash)) : Json()},
+               {"ranks", ranks_json(record.ranks, options.is_observed())}};
   json.update(node_json(record, record.sum()));
   json["per_node"] = Json::array();
   for (const PagedNode& node : record.nodes) {

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/computer/instruments.h"
@@ -20,12 +22,15 @@ class PagedWatch {
  public:
   PagedWatch(const PagedOptions& options, const svm::TaskPlan& plan, std::uint32_t task_count);
 
-  /// For the run, where nobody has a pointer who wants to know nothing.
+  /// For the run, on every rank; nobody has a pointer who wants to know nothing.
   svm::TaskWatching watching();
   /// Puts what was seen into the record, in place of what another run showed. Call it once, when the run is over.
   void take(PagedRecord& record);
 
  private:
+  std::string seen() const;
+  void add(std::string_view seen, const nodes::ClockDrift& clock);
+
   Instruments instruments_;
   std::optional<svm::FetchWatch> fetches_;
   std::vector<svm::ReferenceLog> reference_logs_;

@@ -6,6 +6,7 @@
 
 #include "apps/computer/declared.h"
 #include "apps/line/number_text.h"
+#include "apps/system/digest.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "nodes/node.h"
@@ -120,16 +121,41 @@ void ProgramPlan::count_places() {
       }
     }
   }
-  std::size_t longest = small_bytes_max;
-  for (const PacketNeed& packet : needs_.packets) {
-    longest = std::max(longest, packet.bytes_max);
-  }
+  const std::size_t longest = payload_bytes_max();
   for (std::uint32_t node = 0; node < node_count_; ++node) {
     mailboxes_[node] = {.small_slots = static_cast<std::uint32_t>(small[node]),
                         .bulk_slots = static_cast<std::uint32_t>(bulk[node]),
                         .bulk_payload_bytes = longest};
   }
   held_bytes_ = chaos_ ? nodes::HeldPackets::room_bytes(longest) : 0;
+}
+
+std::size_t ProgramPlan::payload_bytes_max() const {
+  std::size_t longest = small_bytes_max;
+  for (const PacketNeed& packet : needs_.packets) {
+    longest = std::max(longest, packet.bytes_max);
+  }
+  return longest;
+}
+
+std::uint64_t ProgramPlan::digest() const {
+  Digest digest;
+  for (const PacketNeed& packet : needs_.packets) {
+    digest.add(packet.name);
+    digest.add(std::uint64_t{packet.bytes_max});
+    digest.add(packet.answers);
+  }
+  for (const OperationNeed& operation : needs_.operations) {
+    digest.add(operation.name);
+  }
+  for (const MemoryNeed& memory : needs_.memory) {
+    digest.add(memory.name);
+    digest.add(std::uint64_t{memory.bytes});
+  }
+  for (const nodes::MailboxCapacity& mailbox : mailboxes_) {
+    digest.add(std::uint64_t{mailbox.small_slots} << 32U | mailbox.bulk_slots);
+  }
+  return digest.value();
 }
 
 /// What comes back with an answer may be fewer; what does not is all that there is.

@@ -29,6 +29,11 @@ class ProgramPlan {
   /// How many of them `source` may have under way to `target`; fewer than there is room for under chaos.
   std::uint32_t credits(std::uint32_t source, std::uint32_t target, Index packet) const;
 
+  /// Of all packets.
+  std::size_t payload_bytes_max() const;
+  /// Equal plans, equal digests.
+  std::uint64_t digest() const;
+
   const nodes::MailboxCapacity& mailbox(std::uint32_t node) const { return mailboxes_[node]; }
   /// Of a node, all of its program's memory included.
   nodes::MemoryPlan memory(std::uint32_t node) const;

@@ -10,6 +10,8 @@
 
 #include "apps/line/exit_status.h"
 #include "apps/machine/machines.h"
+#include "apps/ranks/launcher.h"
+#include "apps/ranks/rank_group.h"
 #include "apps/system/memory_room.h"
 #include "apps/system/output_set.h"
 #include "apps/system/scratch_folder.h"
@@ -18,29 +20,41 @@
 namespace dmpc::apps {
 namespace {
 
+std::variant<HelpText, std::string> read(CommandLine& line, const std::vector<std::string>& words) {
+  try {
+    return line.parse(words);
+  } catch (const core::UsageError&) {
+    leave_errors_to_first();
+    throw;
+  }
+}
+
 /// What to do, from the line; nothing if help was printed.
-int read_and_act(const std::string& name, const std::vector<std::string>& words, const ProgramMain& program,
-                 Interrupt& interrupt) {
-  CommandLine line(program.description, DMPC_VERSION, "", name);
+int read_and_act(const ProgramCall& call, const ProgramMain& program, Interrupt& interrupt) {
+  CommandLine line(program.description, DMPC_VERSION, "", call.name);
   program.declare(line.own_options());
-  const auto read = line.parse(words);
-  if (const HelpText* const help = std::get_if<HelpText>(&read)) {
+  const auto what = read(line, call.words);
+  if (const HelpText* const help = std::get_if<HelpText>(&what)) {
     std::cout << help->text;
     finish_output(std::cout, "the help");
     return 0;
   }
-  return program.act(name, interrupt);
+  if (program.runner != RunnerKind::mpi) {
+    expect_one_process("run it together: --runner=mpi");
+  }
+  return program.act(call, interrupt);
 }
 
 int complain(const std::string& name, const std::string& message, int status) {
-  std::cerr << name << ": " << message << std::endl;
+  std::cerr << name + ": " + message + "\n" << std::flush;  // whole, where several processes share it
   return status;
 }
 
-int status_of(const std::string& name, const std::vector<std::string>& words, const ProgramMain& program) {
+int status_of(const ProgramCall& call, const ProgramMain& program) {
+  const std::string& name = call.name;
   Interrupt interrupt;
   try {
-    return read_and_act(name, words, program, interrupt);
+    return read_and_act(call, program, interrupt);
   } catch (const Interrupted&) {
     return complain(name, std::string("interrupted, ") + interrupt.consequence(), interrupted_status);
   } catch (const core::RoomError& error) {
@@ -66,11 +80,13 @@ int status_of(const std::string& name, const std::vector<std::string>& words, co
 
 int run_main(int count, const char* const* words, const ProgramMain& program) {
   const std::string name = count > 0 ? std::filesystem::path(words[0]).filename().string() : "program";
-  return status_of(name, {words + (count > 0 ? 1 : 0), words + count}, program);
+  const int status = status_of({name, {words + (count > 0 ? 1 : 0), words + count}}, program);
+  end_ranks(status);
+  return status;
 }
 
 std::vector<NamedFile> inputs_of(const ProgramOptions& options) {
-  const bool reads_file = options.is_modelled && find_machine_preset(options.machine_name) == nullptr;
+  const bool reads_file = options.is_modelled() && find_machine_preset(options.machine_name) == nullptr;
   return reads_file ? std::vector<NamedFile>{{"--machine", options.machine_name}} : std::vector<NamedFile>();
 }
 

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "apps/computer/options.h"
 #include "apps/line/command_line.h"
@@ -11,11 +12,18 @@
 
 namespace dmpc::apps {
 
+/// How a program was called.
+struct ProgramCall {
+  std::string name;                ///< of its file
+  std::vector<std::string> words;  ///< behind it
+};
+
 struct ProgramMain {
   std::string description;
   std::function<void(OptionSet options)> declare;  ///< its options
-  /// What it does once they are read; returns the exit status. `name` is the program's.
-  std::function<int(const std::string& name, Interrupt& interrupt)> act;
+  const RunnerKind& runner;                        ///< as they say
+  /// What it does once they are read; returns the exit status.
+  std::function<int(const ProgramCall& call, Interrupt& interrupt)> act;
 };
 
 /// Call it once, from main().

@@ -40,6 +40,7 @@ void add_packets(Page& page, const ProgramRecord& record) {
   }
   page.add_table(packet_table(packets));
   add_pairs(page, record);
+  add_ranks(page, record.ranks);
   if (record.virtual_time) {
     page.add_text(way_text(record.virtual_time->links));
     const Table table = link_table(*record.virtual_time);
@@ -52,7 +53,7 @@ void add_nodes(Page& page, const ProgramRecord& record) {
   page.begin_section("Nodes");
   page.add_conclusion(node_conclusion(record));
   const Table table = node_table(record);
-  add_node_plot(page, record.counters.size(), packet_plot(), table);
+  add_node_plot(page, record.nodes.size(), packet_plot(), table);
   page.add_table(table);
 }
 
@@ -60,7 +61,7 @@ void add_memory(Page& page, const ProgramRecord& record) {
   page.begin_section("Memory");
   page.add_conclusion(memory_conclusion(record));
   const Table table = memory_table(record);
-  add_node_plot(page, record.counters.size(), memory_plot(record), table);
+  add_node_plot(page, record.nodes.size(), memory_plot(record), table);
   page.add_table(table);
 }
 

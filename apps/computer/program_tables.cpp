@@ -7,13 +7,12 @@
 #include <utility>
 
 #include "apps/computer/own_name.h"
+#include "apps/line/amount.h"
 #include "apps/line/number_text.h"
 #include "apps/show/page/shares.h"
 
 namespace dmpc::apps::html {
 namespace {
-
-double kibibytes(std::size_t bytes) { return static_cast<double>(bytes) / 1024; }
 
 std::uint32_t node_count_of(const ProgramRecord& record) { return record.plan.node_count(); }
 
@@ -36,7 +35,7 @@ Losses virtual_losses_of(const ProgramRecord& record) {
 
 /// Of the program's own pieces of memory.
 std::size_t used_bytes(const ProgramRecord& record, std::uint32_t node) {
-  const std::vector<std::size_t>& used = record.programs[node]->node().used_bytes();
+  const std::vector<std::size_t>& used = record.nodes[node].used_bytes;
   return std::accumulate(used.begin(), used.end(), std::size_t{0});
 }
 
@@ -55,8 +54,8 @@ Losses losses_of(const ProgramRecord& record) {
     return virtual_losses_of(record);
   }
   std::vector<nodes::NodeCounters> counters;
-  for (const nodes::NodeCounters* node : record.counters) {
-    counters.push_back(*node);
+  for (const ProgramNode& node : record.nodes) {
+    counters.push_back(node.counters);
   }
   return wall_losses(counters);
 }
@@ -75,8 +74,8 @@ std::vector<OperationCount> operations_of(const ProgramRecord& record) {
   std::vector<OperationCount> operations;
   for (Index i = 0; i < needs.size(); ++i) {
     std::uint64_t count = 0;
-    for (const HostedProgram* program : record.programs) {
-      count += program->charges().count[i];
+    for (const ProgramNode& node : record.nodes) {
+      count += node.charges.count[i];
     }
     operations.push_back({needs[i].name, count, needs[i].nanoseconds, machine == nullptr ? 0 : machine->cost_ps[i]});
   }
@@ -92,11 +91,11 @@ Table node_table(const ProgramRecord& record) {
   }
   Table table("What each node did", std::move(columns));
   for (std::uint32_t node = 0; node < node_count_of(record); ++node) {
-    const nodes::NodeCounters& counters = *record.counters[node];
+    const nodes::NodeCounters& counters = record.nodes[node].counters;
     const nodes::Traffic out = total(counters.sent), in = total(counters.received);
     std::vector<Cell> row = {std::uint64_t{node}, out.packets,    out.bytes, in.packets, in.bytes,
                              counters.refused,    counters.quanta};
-    const nodes::Charges charges = record.programs[node]->charges();
+    const nodes::Charges charges = record.nodes[node].charges;
     for (Index i = 0; i < record.plan.needs().operations.size(); ++i) {
       row.emplace_back(charges.count[i]);
     }
@@ -113,8 +112,8 @@ Plot packet_plot() {
 
 std::string node_conclusion(const ProgramRecord& record) {
   std::vector<double> sent_bytes;
-  for (const nodes::NodeCounters* node : record.counters) {
-    sent_bytes.push_back(static_cast<double>(total(node->sent).bytes));
+  for (const ProgramNode& node : record.nodes) {
+    sent_bytes.push_back(static_cast<double>(total(node.counters.sent).bytes));
   }
   const std::string even = evenness(sent_bytes, "sent");
   return even.empty() ? "" : even + " number of bytes.";
@@ -132,7 +131,7 @@ Table memory_table(const ProgramRecord& record) {
     const nodes::MemoryPlan plan = record.plan.memory(node);
     std::vector<Cell> row = {std::uint64_t{node}, kibibytes(plan[nodes::Category::mailbox]),
                              kibibytes(plan[nodes::Category::queues]), kibibytes(plan[nodes::Category::reserve])};
-    for (const std::size_t bytes : record.programs[node]->node().used_bytes()) {
+    for (const std::size_t bytes : record.nodes[node].used_bytes) {
       row.emplace_back(kibibytes(bytes));
     }
     const std::size_t unused = plan[nodes::Category::constants] - used_bytes(record, node);

@@ -36,9 +36,9 @@ std::uint64_t computing_ns(const nodes::VirtualReport& report, std::uint32_t nod
 
 nodes::Traffic sent(const ProgramRecord& record, Index packet) {
   nodes::Traffic sum;
-  for (const nodes::NodeCounters* counters : record.counters) {
-    sum.packets += counters->sent[packet].packets;
-    sum.bytes += counters->sent[packet].bytes;
+  for (const ProgramNode& node : record.nodes) {
+    sum.packets += node.counters.sent[packet].packets;
+    sum.bytes += node.counters.sent[packet].bytes;
   }
   return sum;
 }
@@ -54,7 +54,18 @@ nodes::Traffic sent(const ProgramRecord& record) {
 
 std::string computer_text(const ProgramOptions& options) {
   const nodes::Machine* const machine = options.computer.model();
-  return counted(options.computer.node_count, "node") + (machine == nullptr ? " on threads" : " of " + machine->name);
+  const std::string kind = options.runner == RunnerKind::mpi ? " on ranks"
+                           : machine == nullptr              ? " on threads"
+                                                             : " of " + machine->name;
+  return counted(options.computer.node_count, "node") + kind;
+}
+
+std::string ranks_text(const std::vector<nodes::RankFigures>& ranks) {
+  std::uint64_t packets = 0;
+  for (const nodes::RankFigures& rank : ranks) {
+    packets += rank.traffic.packets_sent;
+  }
+  return ranks.empty() ? "" : "; " + counted(packets, "packet") + " between " + counted(ranks.size(), "rank");
 }
 
 std::string virtual_time_text(std::uint64_t total_ns, std::uint64_t computing_ns, std::uint32_t node_count) {
@@ -69,7 +80,7 @@ std::string summary(const ProgramRecord& record) {
               ? virtual_time_text(record.virtual_time->total_ns, computing_ns(*record.virtual_time, node_count), node_count)
               : seconds_text(record.wall_seconds);
   const nodes::Traffic traffic = sent(record);
-  return text + "; " + counted(traffic.packets, "packet") + ", " + bytes_text(traffic.bytes) + "; " +
+  return text + "; " + counted(traffic.packets, "packet") + ", " + bytes_text(traffic.bytes) + ranks_text(record.ranks) + "; " +
          bytes_text(memory_max_bytes(record)) + " of memory a node\n";
 }
 
@@ -89,7 +100,7 @@ void write_trace(const ProgramRecord& record, std::ostream& output) {
 }
 
 void write_view(TraceView view, const std::string& name, const ProgramOptions& options, std::ostream& output) {
-  view.clock = options.is_modelled ? "virtual time" : "wall clock";
+  view.clock = options.is_modelled() ? "virtual time" : "wall clock";
   view.remarks = {
       {"program", name},
       {"computer", computer_text(options)},

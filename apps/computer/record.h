@@ -6,16 +6,23 @@
 #include <string>
 #include <vector>
 
-#include "apps/computer/hosted_program.h"
 #include "apps/computer/options.h"
 #include "apps/computer/packet_pairs.h"
 #include "apps/computer/plan.h"
 #include "apps/show/trace/view.h"
+#include "nodes/ranks/rank_figures.h"
 #include "nodes/runner.h"
 #include "nodes/watch/activity_profile.h"
 #include "nodes/watch/trace.h"
 
 namespace dmpc::apps {
+
+/// A node when all is over.
+struct ProgramNode {
+  nodes::NodeCounters counters;
+  nodes::Charges charges;
+  std::vector<std::size_t> used_bytes;  ///< of each piece of memory
+};
 
 /// What a page shows of a run beyond its counters.
 struct ProgramView {
@@ -28,8 +35,8 @@ struct ProgramRecord {
   std::string name;  ///< of the program
   const ProgramOptions& options;
   const ProgramPlan& plan;
-  std::vector<const HostedProgram*> programs;        ///< by node
-  std::vector<const nodes::NodeCounters*> counters;  ///< by node
+  std::vector<ProgramNode> nodes;
+  std::vector<nodes::RankFigures> ranks;  ///< where there are any
   double wall_seconds = 0;
   std::optional<nodes::VirtualReport> virtual_time;
   std::string result;  ///< what it came to
@@ -43,6 +50,8 @@ nodes::Traffic sent(const ProgramRecord& record);
 
 /// "8 nodes" or "8 nodes of ipsc2".
 std::string computer_text(const ProgramOptions& options);
+/// "; 1,200 packets between 3 ranks"; empty where there are none.
+std::string ranks_text(const std::vector<nodes::RankFigures>& ranks);
 
 /// "83.5 us of virtual time, 12.0 % of it computing", of so many nodes together.
 std::string virtual_time_text(std::uint64_t total_ns, std::uint64_t computing_ns, std::uint32_t node_count);

@@ -1,23 +1,28 @@
 // Runs a program that declares its packets: from its options to what came of it.
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "apps/computer/dmpc/computer.h"
 #include "apps/computer/hosted_program.h"
+#include "apps/computer/on_ranks.h"
 #include "apps/computer/options.h"
 #include "apps/computer/plan.h"
 #include "apps/computer/program_main.h"
 #include "apps/computer/program_page.h"
 #include "apps/computer/program_watch.h"
+#include "apps/computer/rank_rounds.h"
 #include "apps/computer/record.h"
 #include "apps/line/number_text.h"
+#include "apps/run/computer_room.h"
 #include "apps/system/attempts.h"
 #include "apps/system/interrupt.h"
-#include "apps/system/memory_room.h"
 #include "apps/system/output_set.h"
 #include "apps/system/stopwatch.h"
+#include "nodes/flat_bytes.h"
 #include "nodes/runner.h"
 #include "nodes/standstill.h"
 
@@ -41,7 +46,6 @@ OutputSet<ProgramRecord> outputs_of(const ProgramOptions& options) {
 
 std::vector<nodes::NodeSpecification> specifications(const ProgramPlan& plan, const AnyApplication& application) {
   std::vector<nodes::NodeSpecification> all;
-  std::uint64_t bytes = plan.host_memory().total();
   for (std::uint32_t node = 0; node < plan.node_count(); ++node) {
     all.push_back({.plan = plan.memory(node),
                    .mailbox = plan.mailbox(node),
@@ -49,14 +53,95 @@ std::vector<nodes::NodeSpecification> specifications(const ProgramPlan& plan, co
                      return std::make_unique<HostedProgram>(own, plan, application.make);
                    },
                    .held_bytes = plan.held_bytes()});
-    bytes += all.back().plan.total();
   }
-  check_memory_room(bytes, counted(plan.node_count(), "node"));
   all.push_back({.plan = plan.host_memory(),
                  .mailbox = {},
                  .make_program = [](nodes::Node&) { return std::make_unique<IdleProgram>(); },
                  .held_bytes = plan.held_bytes()});
   return all;
+}
+
+const HostedProgram& hosted(nodes::Runner& runner, std::size_t index) {
+  return static_cast<const HostedProgram&>(runner.program(index));
+}
+
+/// Each node's program is made, on ranks everybody's.
+std::unique_ptr<nodes::Runner> made_runner(const std::vector<nodes::NodeSpecification>& all, const ProgramOptions& options,
+                                           ProgramWatch& watch, RankRounds* rounds) {
+  const nodes::RankLinks* const links = options.computer.ranks;
+  check_room(nodes::rank_memory(nodes::peers_of(all), links, links == nullptr ? 0 : links->rank()));
+  const auto make = [&] { return nodes::make_runner(all, options.computer, watch.observer()); };
+  if (rounds == nullptr) {
+    return make();
+  }
+  std::unique_ptr<nodes::Runner> runner = rounds->apart(make);
+  rounds->meet();
+  return runner;
+}
+
+/// Who waits for whom, if all nodes stand still. To be called on all ranks.
+std::vector<std::vector<Unanswered>> awaited_of_all(nodes::Runner& runner, const ProgramPlan& plan) {
+  const auto told = runner.gather([&](std::size_t index) {
+    return index == plan.node_count() ? std::string() : flat_bytes(hosted(runner, index).node().awaited());
+  });
+  std::vector<std::vector<Unanswered>> awaited;
+  for (std::uint32_t node = 0; node < plan.node_count(); ++node) {
+    awaited.push_back(told[node].empty() ? std::vector<Unanswered>() : unanswered_from(told[node]));
+  }
+  return awaited;
+}
+
+/// Whether it came to its end. If all stand still, throws what each node says, and who waits for whom; on other ranks than the
+/// first, which says it, that is no end.
+bool run_to_end(nodes::Runner& runner, const ProgramPlan& plan, const Interrupt& interrupt, bool is_first) {
+  try {
+    if (runner.run(interrupt.token()) == nodes::RunEnd::interrupted) {
+      throw Interrupted{};
+    }
+    return true;
+  } catch (const nodes::StandstillError& error) {
+    const std::string circle = circle_text(awaited_of_all(runner, plan));
+    return is_first ? throw nodes::StandstillError(error.what() + circle) : false;
+  }
+}
+
+std::string told_by_program(nodes::Runner& runner, std::size_t index, const AnyApplication& application) {
+  const HostedProgram& hosted_program = hosted(runner, index);
+  nodes::FlatWriter flat;
+  flat.put(runner.node(index).counters());
+  flat.put(hosted_program.charges());
+  flat.put_all(hosted_program.node().used_bytes());
+  flat.put_bytes(application.outcome(hosted_program.program()));
+  return flat.take();
+}
+
+/// What the programs leave, on rank 0. To be called on all ranks.
+std::vector<std::string> gather_outcomes(ProgramRecord& record, nodes::Runner& runner, const AnyApplication& application) {
+  const std::uint32_t node_count = record.plan.node_count();
+  const auto told = runner.gather(
+      [&](std::size_t index) { return index == node_count ? std::string() : told_by_program(runner, index, application); });
+  std::vector<std::string> outcomes;
+  for (std::uint32_t node = 0; node < node_count && !told[node].empty(); ++node) {
+    nodes::FlatReader flat(told[node]);
+    ProgramNode& own = record.nodes.emplace_back();
+    own.counters = flat.take<nodes::NodeCounters>();
+    own.charges = flat.take<nodes::Charges>();
+    own.used_bytes = flat.take_all<std::size_t>();
+    outcomes.emplace_back(flat.take_bytes());
+  }
+  return outcomes;
+}
+
+void gather_from_ranks(ProgramRecord& record, nodes::Runner& runner, std::span<const nodes::PeerMemory> peers,
+                       ProgramWatch& watch) {
+  if (const nodes::RankLinks* const links = record.options.computer.ranks) {
+    const std::vector<nodes::RankReport> told = runner.gather_ranks(watch.seen());
+    for (std::size_t rank = 1; rank < told.size(); ++rank) {
+      watch.add(told[rank].told, told[rank].clock);
+    }
+    record.ranks = nodes::rank_figures(peers, *links, told);
+    nodes::expect_nothing_lost(record.ranks);
+  }
 }
 
 /// Each packet that has an answer was answered, by the end.
@@ -73,55 +158,73 @@ void check_answers(const ProgramRecord& record) {
   }
 }
 
-void take_programs(ProgramRecord& record, nodes::Runner& runner, const AnyApplication& application) {
-  std::vector<const dmpc::Program*> own;
-  for (std::uint32_t node = 0; node < record.plan.node_count(); ++node) {
-    const auto& program = static_cast<const HostedProgram&>(runner.program(node));
-    record.programs.push_back(&program);
-    record.counters.push_back(&runner.node(node).counters());
-    own.push_back(&program.program());
-  }
+/// What the run came to; on other ranks than the first nothing.
+int end_run(ProgramRecord& record, const std::vector<std::string>& outcomes, const AnyApplication& application,
+            const OutputSet<ProgramRecord>& outputs) {
   check_answers(record);
-  record.result = application.result(own);
+  record.result = application.result(outcomes);
+  Attempts attempts(std::cerr, record.name);
+  outputs.write(record, attempts);
+  attempts.make([&] { print_result(record.result, summary(record), record.options); });
+  return attempts.status();
 }
 
-/// Whether it came to its end. If all stand still, throws what each node says, and who waits for whom.
-bool run_to_end(nodes::Runner& runner, const ProgramPlan& plan, const Interrupt& interrupt) {
-  try {
-    return runner.run(interrupt.token()) == nodes::RunEnd::finished;
-  } catch (const nodes::StandstillError& error) {
-    std::vector<std::vector<Unanswered>> awaited;
-    for (std::uint32_t node = 0; node < plan.node_count(); ++node) {
-      awaited.push_back(static_cast<const HostedProgram&>(runner.program(node)).node().awaited());
-    }
-    throw nodes::StandstillError(error.what() + circle_text(awaited));
-  }
-}
-
-int run_program(const std::string& name, ProgramOptions& options, const AnyApplication& application, Interrupt& interrupt) {
+/// On ranks, this one's part.
+int run_plan(const ProgramCall& call, const ProgramOptions& options, const ProgramPlan& plan, const AnyApplication& application,
+             const Interrupt& interrupt, RankRounds* rounds) {
   const OutputSet<ProgramRecord> outputs = outputs_of(options);
-  check_outputs(inputs_of(options), outputs.names());
-  check_page_room(options);
-  if (!application.needs) {
-    throw ProgramError("it declares no needs: Application::needs is a function of the number of nodes");
+  const bool is_first = rounds == nullptr || rounds->is_first();
+  if (is_first) {
+    check_outputs(inputs_of(options), outputs.names());
+    check_page_room(options);
   }
-  const ProgramPlan plan(application.needs(options.computer.node_count), options.computer);
-  choose_machine(options, plan.needs().operations);
   ProgramWatch watch(options, plan.node_count());
-  const auto runner = nodes::make_runner(specifications(plan, application), options.computer, watch.observer());
-  ProgramRecord record{.name = name, .options = options, .plan = plan};
+  const std::vector<nodes::NodeSpecification> all = specifications(plan, application);
+  const auto runner = made_runner(all, options, watch, rounds);
+  ProgramRecord record{.name = call.name, .options = options, .plan = plan};
   Stopwatch stopwatch;
-  if (!run_to_end(*runner, plan, interrupt)) {
-    throw Interrupted{};
+  if (!run_to_end(*runner, plan, interrupt, is_first)) {
+    return 0;
   }
   record.wall_seconds = stopwatch.lap();
   record.virtual_time = runner->virtual_report();
-  take_programs(record, *runner, application);
-  watch.take(record);
-  Attempts attempts(std::cerr, name);
-  outputs.write(record, attempts);
-  attempts.make([&] { print_result(record.result, summary(record), options); });
-  return attempts.status();
+  const std::vector<std::string> outcomes = gather_outcomes(record, *runner, application);
+  gather_from_ranks(record, *runner, nodes::peers_of(all), watch);
+  if (!is_first) {
+    return 0;
+  }
+  const auto end = [&] {
+    watch.take(record);
+    return end_run(record, outcomes, application, outputs);
+  };
+  return rounds == nullptr ? end() : rounds->apart(end);
+}
+
+ProgramPlan plan_of(const AnyApplication& application, const ProgramOptions& options) {
+  if (!application.needs) {
+    throw ProgramError("it declares no needs: Application::needs is a function of the number of nodes");
+  }
+  return {application.needs(options.computer.node_count), options.computer};
+}
+
+int run_program_on_ranks(const ProgramCall& call, ProgramOptions& options, const AnyApplication& application,
+                         const Interrupt& interrupt) {
+  std::optional<ProgramPlan> plan;
+  const auto needs = [&]() -> RankNeeds {
+    plan.emplace(plan_of(application, options));
+    return {.payload_bytes_max = plan->payload_bytes_max(), .alike = {{"needs of the program", hash_text(plan->digest())}}};
+  };
+  return run_on_ranks(options, call, needs,
+                      [&](RankRounds& rounds) { return run_plan(call, options, *plan, application, interrupt, &rounds); });
+}
+
+int run_program(const ProgramCall& call, ProgramOptions& options, const AnyApplication& application, const Interrupt& interrupt) {
+  if (options.runner == RunnerKind::mpi) {
+    return run_program_on_ranks(call, options, application, interrupt);
+  }
+  const ProgramPlan plan = plan_of(application, options);
+  choose_machine(options, plan.needs().operations);
+  return run_plan(call, options, plan, application, interrupt, nullptr);
 }
 
 }  // namespace
@@ -135,8 +238,9 @@ int run_any(int count, const char* const* words, const AnyApplication& applicati
       count, words,
       {.description = application.description,
        .declare = [&](apps::OptionSet set) { apps::add_options(set, options, application.options); },
-       .act = [&](const std::string& name,
-                  apps::Interrupt& interrupt) { return apps::run_program(name, options, application, interrupt); }});
+       .runner = options.runner,
+       .act = [&](const apps::ProgramCall& call,
+                  apps::Interrupt& interrupt) { return apps::run_program(call, options, application, interrupt); }});
 }
 
 }  // namespace dmpc

@@ -4,6 +4,7 @@
 #include "apps/computer/record.h"
 #include "apps/line/json_format.h"
 #include "apps/line/number_text.h"
+#include "apps/show/stats/ranks.h"
 
 namespace dmpc::apps {
 namespace {
@@ -31,10 +32,9 @@ Json operations_json(const ProgramRecord& record, const nodes::Charges& charges)
 
 nodes::Charges charges_of_all(const ProgramRecord& record) {
   nodes::Charges sum;
-  for (const HostedProgram* program : record.programs) {
-    const nodes::Charges charges = program->charges();
+  for (const ProgramNode& node : record.nodes) {
     for (Index i = 0; i < nodes::charge_count; ++i) {
-      sum.count[i] += charges.count[i];
+      sum.count[i] += node.charges.count[i];
     }
   }
   return sum;
@@ -48,7 +48,7 @@ Json memory_json(const ProgramRecord& record, std::uint32_t node) {
                 {"total", plan.total()}};
   const std::vector<MemoryNeed>& memory = record.plan.needs().memory;
   for (Index i = 0; i < memory.size(); ++i) {
-    bytes["of_program"][memory[i].name] = record.programs[node]->node().used_bytes()[i];
+    bytes["of_program"][memory[i].name] = record.nodes[node].used_bytes[i];
   }
   return bytes;
 }
@@ -67,7 +67,7 @@ Json times_json(const ProgramRecord& record, const nodes::VirtualTimes& times) {
 }
 
 Json node_json(const ProgramRecord& record, std::uint32_t node) {
-  const nodes::NodeCounters& counters = *record.counters[node];
+  const nodes::NodeCounters& counters = record.nodes[node].counters;
   const nodes::Traffic out = total(counters.sent), in = total(counters.received);
   return {{"packets_sent", out.packets},
           {"bytes_sent", out.bytes},
@@ -75,7 +75,7 @@ Json node_json(const ProgramRecord& record, std::uint32_t node) {
           {"bytes_received", in.bytes},
           {"refused", counters.refused},
           {"quanta", counters.quanta},
-          {"operations", operations_json(record, record.programs[node]->charges())},
+          {"operations", operations_json(record, record.nodes[node].charges)},
           {"memory_bytes", memory_json(record, node)},
           {"virtual_time", record.virtual_time ? times_json(record, record.virtual_time->nodes[node]) : Json()}};
 }
@@ -89,7 +89,7 @@ std::string stats_json(const ProgramRecord& record) {
       {"program", record.name},
       {"result", record.result},
       {"nodes", record.plan.node_count()},
-      {"runner", machine == nullptr ? "threads" : "virtual"},
+      {"runner", name_of(record.options.runner)},
       {"machine", machine == nullptr ? Json() : Json(machine->name)},
       {"chaos", record.options.chaos_seed ? Json(*record.options.chaos_seed) : Json()},
       {"wall_seconds", record.wall_seconds},
@@ -97,6 +97,7 @@ std::string stats_json(const ProgramRecord& record) {
       {"run_hash", record.virtual_time ? Json(hash_text(record.virtual_time->run_hash(0))) : Json()},
       {"packets", packets_json(record)},
       {"operations", operations_json(record, charges_of_all(record))},
+      {"ranks", ranks_json(record.ranks, record.options.is_observed())},
       {"per_node", Json::array()}};
   for (std::uint32_t node = 0; node < record.plan.node_count(); ++node) {
     json["per_node"].push_back(node_json(record, node));

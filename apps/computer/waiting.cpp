@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "nodes/flat_bytes.h"
+
 namespace dmpc::apps {
 namespace {
 
@@ -85,6 +87,28 @@ class CircleSearch {
 };
 
 }  // namespace
+
+std::string flat_bytes(const std::vector<Unanswered>& list) {
+  nodes::FlatWriter flat;
+  flat.put(list.size());
+  for (const Unanswered& one : list) {
+    flat.put(one.node);
+    flat.put_bytes(one.answer);
+    flat.put(one.count);
+  }
+  return flat.take();
+}
+
+std::vector<Unanswered> unanswered_from(const std::string& bytes) {
+  nodes::FlatReader flat(bytes);
+  std::vector<Unanswered> list(flat.take<std::size_t>());
+  for (Unanswered& one : list) {
+    one.node = flat.take<std::uint32_t>();
+    one.answer = flat.take_bytes();
+    one.count = flat.take<std::uint32_t>();
+  }
+  return list;
+}
 
 std::string waiting_text(const std::vector<Unanswered>& awaited, const std::vector<Unanswered>& owed) {
   return list_text(awaited, "waits for", "of") + list_text(owed, "owes", "to");

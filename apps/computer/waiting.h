@@ -16,6 +16,10 @@ struct Unanswered {
   std::uint32_t count = 0;
 };
 
+/// As they travel between ranks; there is always a byte.
+std::string flat_bytes(const std::vector<Unanswered>& list);
+std::vector<Unanswered> unanswered_from(const std::string& bytes);
+
 /// "; waits for 2 'taken' of node 3; owes 1 'taken' to node 1", of at most a few nodes each; empty if there is nothing.
 std::string waiting_text(const std::vector<Unanswered>& awaited, const std::vector<Unanswered>& owed);
 

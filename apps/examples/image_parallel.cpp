@@ -144,19 +144,13 @@ class ImageParallel final : public dmpc::Program, private dmpc::Pages {
       is_under_way_ = false;
     } else if (step == dmpc::Step::absent) {
       is_waiting_ = node_.try_send(map_.home(wanted_), page_request, std::span<const PageNumber>(&wanted_, 1));
-      ++asked_;
     }
     return !is_waiting_ && !finished();
   }
 
   bool finished() const override { return done_ == count_; }
   std::string describe() const override { return std::to_string(done_) + " pixels done"; }
-  std::uint64_t asked() const { return asked_; }
-  void add_to(dmpc::Picture& picture) const {
-    for (std::uint32_t i = 0; i < done_; ++i) {
-      picture.put(first_ + i, light_[i]);
-    }
-  }
+  std::span<const dmpc::Light> outcome() const { return light_.first(count_); }
 
  private:
   const std::byte* find(std::uint64_t offset) override {
@@ -185,7 +179,6 @@ class ImageParallel final : public dmpc::Program, private dmpc::Pages {
   dmpc::PixelTask task_;
   std::span<dmpc::Light> light_;  ///< of the pixels done
   std::uint32_t slot_count_ = 0, done_ = 0;
-  std::uint64_t asked_ = 0;
   PageNumber wanted_ = 0;
   std::optional<PageNumber> passing_page_;  ///< in the last slot
   bool is_waiting_ = false, is_under_way_ = false;
@@ -206,14 +199,15 @@ int main(int count, char** words) {
                        {"pixel", dmpc::bytes_of<std::byte>(dmpc::PixelTask::memory_bytes(map->scene()))},
                        {"light", dmpc::bytes_of<dmpc::Light>(map->most_pixels())}}};
   };
-  const auto result = [&](const std::vector<const ImageParallel*>& programs) {
+  const auto result = [&](const std::vector<std::vector<dmpc::Light>>& of_nodes) {
     dmpc::Picture picture(map->scene());
-    std::uint64_t asked = 0;
-    for (const ImageParallel* program : programs) {
-      program->add_to(picture);
-      asked += program->asked();
+    std::uint32_t pixel = 0;
+    for (const std::vector<dmpc::Light>& of_node : of_nodes) {
+      for (const dmpc::Light& light : of_node) {
+        picture.put(pixel++, light);
+      }
     }
-    return "film " + picture.hash() + "; " + std::to_string(asked) + " pages asked for";
+    return "film " + picture.hash();
   };
   return dmpc::run<ImageParallel>(
       count, words,

@@ -11,6 +11,7 @@
 #include <dmpc/computer.h>
 
 #include <array>
+#include <numeric>
 #include <string>
 
 /// Of each lane.
@@ -81,7 +82,7 @@ class PassingRing final : public dmpc::Program {
     return std::to_string(sent_) + " sent, " + std::to_string(lanes_[0].count + lanes_[1].count) + " here that pass, " +
            std::to_string(arrived_) + " have come";
   }
-  std::uint32_t arrived() const { return arrived_; }
+  std::uint32_t outcome() const { return arrived_; }
 
  private:
   /// To the next node, by the last lane if that is node 0.
@@ -107,12 +108,8 @@ int main(int count, char** words) {
     }
     return {.packets = packets, .memory = {{"passing", 2 * dmpc::bytes_of<Item>(ring.places)}}};
   };
-  const auto result = [](const std::vector<const PassingRing*>& programs) {
-    std::uint32_t arrived = 0;
-    for (const PassingRing* program : programs) {
-      arrived += program->arrived();
-    }
-    return std::to_string(arrived) + " items have come";
+  const auto result = [](const std::vector<std::uint32_t>& arrived) {
+    return std::to_string(std::accumulate(arrived.begin(), arrived.end(), 0U)) + " items have come";
   };
   return dmpc::run<PassingRing>(
       count, words,

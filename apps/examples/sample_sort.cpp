@@ -85,7 +85,7 @@ class SampleSort final : public dmpc::Program {
   std::string describe() const override {
     return std::to_string(sent_count_) + " nodes have their keys, " + std::to_string(sorted_count_) + " keys are here";
   }
-  std::span<const Key> sorted() const { return sorted_.first(sorted_count_); }
+  std::span<const Key> outcome() const { return sorted_.first(sorted_count_); }
 
  private:
   void sort(std::span<Key> keys) {
@@ -178,14 +178,14 @@ class SampleSort final : public dmpc::Program {
 };
 
 /// What all nodes' keys come to in order: how many there are, and how far the fullest node is above the mean.
-std::string judged(const std::vector<const SampleSort*>& programs, std::uint32_t keys) {
+std::string judged(const std::vector<std::vector<Key>>& of_nodes, std::uint32_t keys) {
   std::vector<Key> all, expected;
   std::size_t most = 0;
-  for (const SampleSort* program : programs) {
-    all.insert(all.end(), program->sorted().begin(), program->sorted().end());
-    most = std::max(most, program->sorted().size());
+  for (const std::vector<Key>& of_node : of_nodes) {
+    all.insert(all.end(), of_node.begin(), of_node.end());
+    most = std::max(most, of_node.size());
   }
-  for (std::uint32_t i = 0; i < keys * programs.size(); ++i) {
+  for (std::uint32_t i = 0; i < keys * of_nodes.size(); ++i) {
     expected.push_back(key_at(i));
   }
   std::sort(expected.begin(), expected.end());
@@ -216,5 +216,5 @@ int main(int count, char** words) {
                                 .options = {{"--keys", &keys, 1, 1'000'000, "Keys of each node, at least as many as nodes"}},
                                 .needs = needs,
                                 .make = [&keys](dmpc::Node& node) { return std::make_unique<SampleSort>(node, keys); },
-                                .result = [&keys](const auto& programs) { return judged(programs, keys); }});
+                                .result = [&keys](const auto& of_nodes) { return judged(of_nodes, keys); }});
 }

@@ -57,15 +57,15 @@ std::optional<Launcher> launcher(const Variable& variable) {
 
 std::optional<Launcher> launcher() { return launcher(std::getenv); }
 
-void expect_one_process() {
+void expect_one_process(const std::string& advice) {
   const std::optional<Launcher> started_by = launcher();
   if (!started_by || started_by->rank_count < 2) {
     return;
   }
   leave_errors_to_first();
   throw core::UsageError(started_by->name + " has started " + std::to_string(started_by->rank_count) +
-                         " processes, and each of them would do all of this: call dmpc without " + started_by->name +
-                         ", or let them render together: dmpc render --runner=mpi");
+                         " processes, and each of them would do all of this: call it without " + started_by->name +
+                         ", or let them " + advice);
 }
 
 void leave_errors_to_first() {

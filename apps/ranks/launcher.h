@@ -23,9 +23,9 @@ std::optional<Launcher> launcher(const Variable& variable);
 /// Of this process's environment.
 std::optional<Launcher> launcher();
 
-/// For commands that know nothing of ranks: throws core::UsageError if a launcher has started several processes, each of which
-/// would do all. The first of them says it.
-void expect_one_process();
+/// For what knows nothing of ranks: throws core::UsageError if a launcher has started several processes, each of which would do
+/// all, with `advice` on how they would work together. The first of them says it.
+void expect_one_process(const std::string& advice);
 
 /// Before an error that all processes of a launcher come to, each by itself: the first one is to say it.
 void leave_errors_to_first();

@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <sstream>
 
-#include "apps/line/number_text.h"
-#include "apps/ranks/self_test.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -33,13 +31,10 @@ std::string first_difference(const std::string& text, const std::string& other) 
 
 }  // namespace
 
-Likeness own_likeness() {
-  const SelfTest test = self_test();
+Likeness build_likeness() {
   return {{"version of dmpc", DMPC_VERSION},
           {"build", DMPC_MODULES_BUILD},
-          {"byte order", std::endian::native == std::endian::little ? "little" : "big"},
-          {"digest of databases", hash_text(test.databases)},
-          {"digest of self-test rays", hash_text(test.pictures)}};
+          {"byte order", std::endian::native == std::endian::little ? "little" : "big"}};
 }
 
 std::string text_of(const Likeness& likeness) {
@@ -56,9 +51,9 @@ std::string text_of(const Likeness& likeness) {
 void expect_alike(std::span<const std::string> texts, std::span<const std::string> names) {
   for (std::size_t rank = 1; rank < texts.size(); ++rank) {
     if (texts[rank] != texts[0]) {
-      throw core::InputError("the ranks are not alike, so no one picture would come of them: " + names[rank] + " has " +
+      throw core::InputError("the ranks are not alike, so no one result would come of them: " + names[rank] + " has " +
                              first_difference(texts[rank], texts[0]) + ", " + names[0] + " has " +
-                             first_difference(texts[0], texts[rank]) + ": start the same build of dmpc on all of them");
+                             first_difference(texts[0], texts[rank]) + ": start the same on all of them");
     }
   }
 }

@@ -1,4 +1,4 @@
-// What all ranks must have in common, so that one picture comes of them.
+// What all ranks must have in common, so that one result comes of them.
 #pragma once
 
 #include <span>
@@ -11,8 +11,8 @@ namespace dmpc::apps {
 /// What is compared, and what one rank has of it, as text.
 using Likeness = std::vector<std::pair<std::string, std::string>>;
 
-/// This process's: version, build, byte order, page format, arithmetic.
-Likeness own_likeness();
+/// This process's, whatever it runs: version, build, byte order.
+Likeness build_likeness();
 
 /// As it travels: a line for each.
 std::string text_of(const Likeness& likeness);

@@ -1,12 +1,10 @@
 #include "apps/ranks/mpi_library.h"
 
-#include "apps/system/module.h"
-
 namespace dmpc::apps {
 
-const MpiLibrary& mpi_library() {
+const MpiLibrary& mpi_library(ModulePlace place) {
   static const auto* const library =
-      static_cast<const MpiLibrary*>(open_module("mpi", "runs on several ranks (Debian's package is dmpc-mpi)", 0));
+      static_cast<const MpiLibrary*>(open_module("mpi", "runs on several ranks (Debian's package is dmpc-mpi)", 0, place));
   return *library;
 }
 

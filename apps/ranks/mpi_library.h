@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/system/module.h"
 #include "nodes/ranks/fabric.h"
 
 namespace dmpc::apps {
@@ -33,7 +34,7 @@ struct MpiLibrary {
   void (*abort)(int status);
 };
 
-/// Opened at the first call, as open_module() says.
-const MpiLibrary& mpi_library();
+/// Opened at the first call, whose place counts, as open_module() says.
+const MpiLibrary& mpi_library(ModulePlace place = ModulePlace::companion);
 
 }  // namespace dmpc::apps

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "apps/ranks/launcher.h"
-#include "apps/ranks/likeness.h"
 #include "apps/ranks/mpi_library.h"
 #include "core/base/expect.h"
 #include "nodes/node_id.h"
@@ -69,11 +68,11 @@ bool is_first(const MpiLibrary& library) {
 
 }  // namespace
 
-RankGroup::RankGroup(const MpiLibrary& library)
+RankGroup::RankGroup(const MpiLibrary& library, const Likeness& own)
     : library_(library),
       rank_(library.rank()),
       names_(library.exchange("rank " + std::to_string(rank_) + " on host " + library.host())) {
-  expect_alike(library_.exchange(text_of(own_likeness())), names_);
+  expect_alike(library_.exchange(text_of(own)), names_);
   for (const std::string& text : library_.exchange(text_of(own_processors(library.host())))) {
     processors_.push_back(parse_processors(text));
   }
@@ -91,21 +90,22 @@ nodes::Idle RankGroup::default_idle(std::uint32_t node_count) const {
   return apps::default_idle(share_of_processors(processors_, rank_), (node_count + rank_count() - 1) / rank_count());
 }
 
-nodes::Fabric& RankGroup::connect(std::size_t payload_bytes_max) {
+nodes::Fabric& RankGroup::connect(std::size_t payload_bytes_max, Likeness more) {
   const std::size_t frame_bytes = nodes::frame_bytes_for(payload_bytes_max);
-  expect_alike(library_.exchange(text_of({{"frames in bytes", std::to_string(frame_bytes)}})), names_);
+  more.emplace_back("frames in bytes", std::to_string(frame_bytes));
+  expect_alike(library_.exchange(text_of(more)), names_);
   return library_.make_fabric(frame_bytes, names_);
 }
 
-int run_as_rank(const std::function<int(RankGroup&)>& run) {
-  const MpiLibrary& library = mpi_library();
+int run_as_rank(const RankStart& start, const std::function<int(RankGroup&)>& run) {
+  const MpiLibrary& library = mpi_library(start.module_place);
   expect_to_be_told(library);
   library.start();
   started = &library;
   const bool says_errors = is_first(library);
   try {
     expect_all_known(library, library.rank_count());
-    RankGroup group(library);
+    RankGroup group(library, start.own);
     const int status = run(group);
     return finish(patience_at_the_end) ? status : throw nodes::LostRank("not all ranks have come to the end");
   } catch (const nodes::LostRank&) {

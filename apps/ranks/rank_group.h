@@ -7,12 +7,20 @@
 #include <string>
 #include <vector>
 
+#include "apps/ranks/likeness.h"
 #include "apps/ranks/processors.h"
+#include "apps/system/module.h"
 #include "nodes/ranks/fabric.h"
 
 namespace dmpc::apps {
 
 struct MpiLibrary;
+
+/// What a program brings along to be a rank.
+struct RankStart {
+  Likeness own;  ///< what it must have in common with all others
+  ModulePlace module_place = ModulePlace::companion;
+};
 
 /// One rank's part in it. All ranks make the same calls in the same order: what is said to wait for all would wait for ever else.
 /// Made by run_as_rank(), once in a process. Thread safety: belongs to the thread that made it, the communicating thread.
@@ -34,12 +42,13 @@ class RankGroup {
   nodes::Idle default_idle(std::uint32_t node_count) const;
 
   /// Waits for all. Makes the fabric, for packets of up to so many bytes; it lives as long as this. Once. Throws
-  /// core::InputError, alike on all ranks, if they want frames of different sizes.
-  nodes::Fabric& connect(std::size_t payload_bytes_max);
+  /// core::InputError, alike on all ranks, if they want frames of different sizes, or differ in `more` that they must have in
+  /// common.
+  nodes::Fabric& connect(std::size_t payload_bytes_max, Likeness more = {});
 
  private:
-  friend int run_as_rank(const std::function<int(RankGroup&)>& run);
-  explicit RankGroup(const MpiLibrary& library);
+  friend int run_as_rank(const RankStart& start, const std::function<int(RankGroup&)>& run);
+  RankGroup(const MpiLibrary& library, const Likeness& own);
 
   const MpiLibrary& library_;
   std::uint32_t rank_;
@@ -47,14 +56,14 @@ class RankGroup {
   std::vector<RankProcessors> processors_;  ///< likewise
 };
 
-/// Starts MPI, calls run(group), ends MPI, and returns what run() has. Before it calls, it makes sure that all ranks are of one
-/// build and that their arithmetic is the same. Throws core::UsageError if MPI knows of fewer processes than were started,
+/// Starts MPI, calls run(group), ends MPI, and returns what run() has. Before it calls, it makes sure that all ranks are alike.
+/// Throws core::UsageError if MPI knows of fewer processes than were started,
 /// core::InputError if they are not alike (on all ranks), InstallationError if the module dmpc_mpi.so is not there, and what
 /// run() throws.
 ///
 /// What all ranks throw, each for itself or by agreement, rank 0 is to say: on the others nothing more is said on stderr. What
 /// only some throw, each of them says, and end_ranks() then ends the others.
-int run_as_rank(const std::function<int(RankGroup&)>& run);
+int run_as_rank(const RankStart& start, const std::function<int(RankGroup&)>& run);
 
 /// To be called last: where MPI could not be ended, as not all ranks have come to that, it is aborted, and all of them end.
 void end_ranks(int status);

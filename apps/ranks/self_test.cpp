@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "apps/line/number_text.h"
 #include "apps/system/digest.h"
 #include "core/build/database.h"
 #include "core/families/scenes.h"
@@ -60,6 +61,14 @@ SelfTest self_test() {
   add_scene("mount-3", databases, pictures);  // triangles, and spheres of glass
   add_scene("rings-1", databases, pictures);  // spheres and cylinders that mirror
   return {databases.value(), pictures.value()};
+}
+
+Likeness renderer_likeness() {
+  const SelfTest test = self_test();
+  Likeness likeness = build_likeness();
+  likeness.emplace_back("digest of databases", hash_text(test.databases));
+  likeness.emplace_back("digest of self-test rays", hash_text(test.pictures));
+  return likeness;
 }
 
 }  // namespace dmpc::apps

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "apps/ranks/likeness.h"
+
 namespace dmpc::apps {
 
 /// The bytes of two small databases and the light that some 10^4 rays find there, one by one and in bundles, by the kernels that
@@ -11,5 +13,8 @@ struct SelfTest {
   std::uint64_t databases = 0, pictures = 0;
 };
 SelfTest self_test();
+
+/// What ranks that render must have in common: the build, and what the test came to.
+Likeness renderer_likeness();
 
 }  // namespace dmpc::apps

@@ -14,6 +14,7 @@
 #include "apps/oracle/oracle.h"
 #include "apps/picture/film_image.h"
 #include "apps/ranks/rank_group.h"
+#include "apps/ranks/self_test.h"
 #include "apps/render/checkpoints.h"
 #include "apps/render/onlookers.h"
 #include "apps/render/outputs.h"
@@ -284,7 +285,8 @@ int render_command(const RenderOptions& options, Interrupt& interrupt, std::ostr
     interrupt.take_usr1_for_keep();
   }
   if (options.runner.kind == RunnerKind::mpi) {
-    return run_as_rank([&](RankGroup& group) { return render_by_mpi(options, group, interrupt, output, files); });
+    return run_as_rank({.own = renderer_likeness()},
+                       [&](RankGroup& group) { return render_by_mpi(options, group, interrupt, output, files); });
   }
   return render(options, interrupt, output, files);
 }

@@ -10,30 +10,6 @@
 
 namespace dmpc::apps {
 
-namespace {
-
-/// Those of the nodes that are here.
-void put_logs(nodes::FlatWriter& flat, const std::vector<svm::ReferenceLog>& logs) {
-  for (std::uint32_t index = 0; index < logs.size(); ++index) {
-    const bool is_here = !logs[index].pages().empty();
-    flat.put(is_here);
-    if (is_here) {
-      logs[index].put(flat);
-    }
-  }
-}
-
-void take_logs(nodes::FlatReader& flat, std::vector<svm::ReferenceLog>& logs) {
-  for (svm::ReferenceLog& log : logs) {
-    if (flat.take<bool>()) {
-      core::expect(log.pages().empty(), "a node is on one rank");
-      log.take(flat);
-    }
-  }
-}
-
-}  // namespace
-
 Onlookers::Onlookers(const WatchOrder& order) : order_(order) {
   std::vector<nodes::Observer*> members;
   if (!order.heat_kinds.empty()) {
@@ -84,7 +60,7 @@ std::string Onlookers::seen() const {
   if (fetches_) {
     flat.put_bytes(fetches_->bytes());
   }
-  put_logs(flat, reference_logs_);
+  svm::put_logs(flat, reference_logs_);
   return flat.take();
 }
 
@@ -102,7 +78,7 @@ void Onlookers::add(std::string_view seen, const nodes::ClockDrift& clock) {
   if (fetches_) {
     fetches_->add(flat.take_bytes(), clock);
   }
-  take_logs(flat, reference_logs_);
+  svm::take_logs(flat, reference_logs_);
   core::expect(flat.is_at_end(), "all that was seen was asked for");
 }
 

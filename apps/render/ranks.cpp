@@ -1,22 +1,16 @@
 #include "apps/render/ranks.h"
 
 #include <algorithm>
-#include <exception>
-#include <new>
 #include <optional>
 #include <string_view>
 
-#include "apps/line/exit_status.h"
+#include "apps/ranks/parts.h"
 #include "apps/render/onlookers.h"
 #include "apps/render/watch_order.h"
 #include "apps/run/computer_room.h"
 #include "apps/run/option_words.h"
-#include "apps/system/interrupt.h"
-#include "core/base/expect.h"
 #include "dataflow/packets.h"
 #include "dataflow/ranks.h"
-#include "nodes/ranks/dismissal.h"
-#include "nodes/ranks/failure.h"
 #include "nodes/ranks/following.h"
 #include "nodes/runner.h"
 #include "svm/packets.h"
@@ -25,39 +19,6 @@
 namespace dmpc::apps {
 
 namespace {
-
-/// With which main() will end.
-int status_of(const std::exception_ptr& failure) {
-  try {
-    std::rethrow_exception(failure);
-  } catch (const Interrupted&) {
-    return interrupted_status;
-  } catch (const core::RoomError&) {
-    return no_room_status;
-  } catch (const core::InputError&) {
-    return input_status;
-  } catch (const core::UsageError&) {
-    return usage_status;
-  } catch (const std::bad_alloc&) {
-    return no_room_status;
-  } catch (...) {
-    return internal_status;
-  }
-}
-
-/// Rank 0. It says what has failed when the others know that all is over.
-int lead(nodes::RankLinks& links, const RenderOnRanks& render) {
-  try {
-    const int status = render(links);
-    nodes::dismiss(links, status);
-    return status;
-  } catch (const nodes::LostRank&) {
-    throw;  // the others find it out, too
-  } catch (...) {
-    nodes::dismiss(links, status_of(std::current_exception()));
-    throw;
-  }
-}
 
 /// What another rank has for its part of a run, in which `onlookers` are as soon as rank 0 has said what they are to see.
 svm::Following following_for(std::optional<Onlookers>& onlookers) {
@@ -69,25 +30,15 @@ svm::Following following_for(std::optional<Onlookers>& onlookers) {
   return following;
 }
 
-/// Any other rank. Rank 0 knows of what fails in a run, and is told of what fails before.
-int follow(nodes::RankLinks& links, Strategy strategy, const std::stop_token& stop) {
+/// Any other rank's part of a run.
+void take_part(nodes::RankLinks& links, Strategy strategy, const std::stop_token& stop) {
   std::optional<Onlookers> onlookers;
   const svm::Following following = following_for(onlookers);
-  try {
-    if (strategy == Strategy::dataflow) {
-      dataflow::follow(links, stop, following);
-    } else {
-      svm::follow(links, stop, following);
-    }
-  } catch (const nodes::Dismissed& dismissed) {
-    return dismissed.status;
-  } catch (const nodes::LostRank&) {
-    nodes::let_rank_0_speak();
-    throw;
-  } catch (...) {
-    nodes::say_failure(links, nodes::failure_of(std::current_exception()));
+  if (strategy == Strategy::dataflow) {
+    dataflow::follow(links, stop, following);
+  } else {
+    svm::follow(links, stop, following);
   }
-  return nodes::wait_for_dismissal(links);
 }
 
 }  // namespace
@@ -95,7 +46,7 @@ int follow(nodes::RankLinks& links, Strategy strategy, const std::stop_token& st
 std::size_t payload_bytes_max(const RenderOptions& options) {
   const std::size_t page_bytes = options.database.build.page_size_bytes;
   if (options.strategy != Strategy::dataflow) {
-    return sizeof(svm::PageReplyHeader) + page_bytes;
+    return svm::page_reply_bytes(page_bytes);
   }
   const std::size_t ray_bytes = dataflow::ray_packet_bytes(options.rays.ray_batch.value_or(1), options.rays.tested_objects);
   const bool is_moving = options.rays.balance.balance == dataflow::Balance::moving;
@@ -109,7 +60,8 @@ void check_nodes_on_ranks(const RenderOptions& options, std::uint32_t rank_count
 int render_as_rank(nodes::Fabric& fabric, const RenderOptions& options, const RenderOnRanks& render,
                    const std::stop_token& stop) {
   nodes::RankLinks links(fabric, {}, options.runner.idle.value_or(nodes::Idle::sleep));
-  return links.rank() == 0 ? lead(links, render) : follow(links, options.strategy, stop);
+  return links.rank() == 0 ? lead(links, [&] { return render(links); })
+                           : follow(links, [&] { take_part(links, options.strategy, stop); });
 }
 
 }  // namespace dmpc::apps

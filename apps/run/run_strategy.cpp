@@ -34,7 +34,7 @@ svm::Report run_with_embree(const core::Database& database, const core::RenderSe
 /// Here, which is rank 0 if there are several: the others look for themselves.
 template <class Plan>
 void check_room_for(const Plan& plan) {
-  check_room(nodes::rank_memory(plan, plan.request.computer.ranks, 0));
+  check_room(nodes::rank_memory(nodes::peers_of(plan), plan.request.computer.ranks, 0));
 }
 
 /// Of the rank that has most.
@@ -42,7 +42,7 @@ template <class Plan>
 nodes::NetworkMemory network_memory_max(const Plan& plan, const nodes::RankLinks& links) {
   nodes::NetworkMemory most;
   for (std::uint32_t rank = 0; rank < links.rank_count(); ++rank) {
-    const nodes::NetworkMemory network = nodes::rank_memory(plan, &links, rank).network;
+    const nodes::NetworkMemory network = nodes::rank_memory(nodes::peers_of(plan), &links, rank).network;
     most = network.total() > most.total() ? network : most;
   }
   return most;

@@ -90,10 +90,6 @@ const char* name_of(Strategy strategy) {
   return "";
 }
 
-const char* name_of(RunnerKind runner) {
-  return runner == RunnerKind::threads ? "threads" : runner == RunnerKind::virtual_time ? "virtual" : "mpi";
-}
-
 void add_strategy_option(OptionSet options, Strategy& strategy) {
   options.add_choice<Strategy>(
       "--strategy", strategy,

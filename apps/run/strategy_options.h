@@ -8,6 +8,7 @@
 
 #include "apps/line/command_line.h"
 #include "apps/scene/database_options.h"
+#include "apps/run/runner_kind.h"
 #include "dataflow/ray_options.h"
 #include "nodes/computer_request.h"
 #include "nodes/ranks/nap.h"
@@ -23,12 +24,6 @@ const char* name_of(Strategy strategy);
 
 /// Who finds what a ray hits: our grid, or Embree (with strategy replicated only).
 enum class TracerChoice : std::uint8_t { grid, embree };
-
-/// What calls the nodes' programs: threads, by the wall clock, of one process or of the ranks that MPI has started, or the model
-/// of a machine, in virtual time.
-enum class RunnerKind : std::uint8_t { threads, virtual_time, mpi };
-/// As the command line calls it.
-const char* name_of(RunnerKind runner);
 
 /// What calls the nodes' programs, and which machine is modelled if one is.
 struct RunnerOptions {

@@ -48,6 +48,18 @@ void check_thread_room(const std::string& what, std::size_t count) {
   over.count_down();
 }
 
+/// A file name alone is looked for by the dynamic loader.
+std::string path_of(const std::string& file, const std::string& what, ModulePlace place) {
+  try {
+    return companion_path(file, "../lib/dmpc", what).lexically_normal().string();
+  } catch (const InstallationError&) {
+    if (place == ModulePlace::companion) {
+      throw;
+    }
+    return file;
+  }
+}
+
 /// Its libraries may start threads as they are loaded, and change the arithmetic.
 void* load(const std::string& path) {
   const LoadsLibrary loads_library;
@@ -61,9 +73,9 @@ void* load(const std::string& path) {
 
 }  // namespace
 
-const void* open_module(const std::string& name, const std::string& purpose, std::size_t threads_at_once) {
+const void* open_module(const std::string& name, const std::string& purpose, std::size_t threads_at_once, ModulePlace place) {
   const std::string file = "dmpc_" + name + ".so", what = "the module " + file + ", with which dmpc " + purpose + ",";
-  const std::string path = companion_path(file, "../lib/dmpc", what).lexically_normal().string();
+  const std::string path = path_of(file, what, place);
   check_thread_room(what, threads_at_once);
   void* const opened = load(path);
   if (opened == nullptr) {

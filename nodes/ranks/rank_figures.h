@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,12 +23,12 @@ struct RankFigures {
   ClockDrift clock;  ///< of an observed run
 };
 
-/// Of all ranks, by number: of the plan that they have followed, and what has come from each.
-template <class Plan>
-std::vector<RankFigures> rank_figures(const Plan& plan, const RankLinks& links, const std::vector<RankReport>& reports) {
+/// Of all ranks, by number: what their nodes and the host took, and what has come from each.
+inline std::vector<RankFigures> rank_figures(std::span<const PeerMemory> peers, const RankLinks& links,
+                                             const std::vector<RankReport>& reports) {
   std::vector<RankFigures> figures;
   for (std::uint32_t rank = 0; rank < reports.size(); ++rank) {
-    figures.push_back({links.name_of(rank), rank_memory(plan, &links, rank), reports[rank].traffic, reports[rank].clock});
+    figures.push_back({links.name_of(rank), rank_memory(peers, &links, rank), reports[rank].traffic, reports[rank].clock});
   }
   return figures;
 }

@@ -3,11 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "nodes/ranks/outbox.h"
 #include "nodes/ranks/placement.h"
 #include "nodes/ranks/rank_links.h"
 #include "nodes/ranks/streams_to_ranks.h"
+#include "nodes/runner.h"
 
 namespace dmpc::nodes {
 
@@ -31,19 +34,45 @@ struct RankMemory {
   std::uint64_t total() const { return nodes_bytes + network.total(); }
 };
 
-/// What a rank sets aside for a strategy's plan. Without links there is one, which has all nodes and no network.
+/// What a node takes, or the host.
+struct PeerMemory {
+  MailboxCapacity mailbox;
+  std::size_t bytes = 0;  ///< all of its local memory, the mailbox included
+};
+
+/// Of all nodes of a strategy's plan, then the host.
 template <class Plan>
-RankMemory rank_memory(const Plan& plan, const RankLinks* links, std::uint32_t rank) {
-  const std::uint32_t node_count = plan.request.computer.node_count, rank_count = links == nullptr ? 1 : links->rank_count();
+requires requires(const Plan& plan) { plan.node_mailbox; }
+std::vector<PeerMemory> peers_of(const Plan& plan) {
+  std::vector<PeerMemory> peers;
+  for (std::uint32_t node = 0; node < plan.request.computer.node_count; ++node) {
+    peers.push_back({plan.node_mailbox, plan.node_memory(node).total()});
+  }
+  peers.push_back({plan.host_mailbox, plan.host_memory().total()});
+  return peers;
+}
+/// Of all nodes as a runner is given them, then the host.
+inline std::vector<PeerMemory> peers_of(std::span<const NodeSpecification> specifications) {
+  std::vector<PeerMemory> peers;
+  for (const NodeSpecification& specification : specifications) {
+    peers.push_back({specification.mailbox, specification.plan.total()});
+  }
+  return peers;
+}
+
+/// What a rank sets aside. Without links there is one, which has all nodes and no network.
+inline RankMemory rank_memory(std::span<const PeerMemory> peers, const RankLinks* links, std::uint32_t rank) {
+  const auto node_count = static_cast<std::uint32_t>(peers.size() - 1);
+  const std::uint32_t rank_count = links == nullptr ? 1 : links->rank_count();
   RankMemory memory;
   MailboxCapacity outbox = empty_outbox();
   for (std::uint32_t index = 0; index <= node_count; ++index) {
-    const bool is_host = index == node_count;
     if (rank_of(index, node_count, rank_count) != rank) {
-      add_target(outbox, is_host ? plan.host_mailbox : plan.node_mailbox);
+      add_target(outbox, peers[index].mailbox);
       continue;
     }
-    memory.nodes_bytes += (is_host ? plan.host_memory() : plan.node_memory(index)).total();
+    const bool is_host = index == node_count;
+    memory.nodes_bytes += peers[index].bytes;
     memory.node_count += is_host ? 0 : 1;
     memory.has_host = memory.has_host || is_host;
   }

@@ -19,6 +19,7 @@
 #include "nodes/ranks/frame.h"
 #include "nodes/ranks/nap.h"
 #include "nodes/ranks/outbox.h"
+#include "nodes/standstill.h"
 #include "nodes/threads/clock.h"
 #include "nodes/threads/node_threads.h"
 #include "nodes/threads/promptness.h"
@@ -387,7 +388,7 @@ struct RanksRunner::Implementation {
         }
         fail_as(gravest->kind, links.name_of(static_cast<std::uint32_t>(gravest - last_words.begin())) + ": " + gravest->text);
       case Ending::stalled:
-        throw core::InternalError(stall_text(disturbance) + nodes.describe() + texts());
+        throw StandstillError(stall_text(disturbance) + nodes.describe() + texts());
       case Ending::interrupted:
         return RunEnd::interrupted;
       default:

@@ -51,6 +51,10 @@ void StreamFromHost::say_ready() {
   links_->say(0, Item::ready, {});
 }
 
+void StreamFromHost::look_after() {
+  exchange_.turn([this](auto&&... item) { receive(item...); });
+}
+
 void StreamFromHost::receive(std::uint32_t rank, const ItemHeader& header, std::span<const std::byte> bytes) {
   if (header.item == Item::dismissal) {
     throw Dismissed{value_of<int>(bytes)};

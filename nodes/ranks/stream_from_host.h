@@ -23,6 +23,8 @@ class StreamFromHost final : public ByteStream {
   void read(std::span<std::byte> into) override;
   /// All is read and all nodes are made.
   void say_ready();
+  /// As StreamsToRanks::look_after(). Throws as read() does.
+  void look_after();
 
   /// So far.
   std::uint64_t bytes_read() const { return bytes_read_; }

@@ -46,6 +46,11 @@ void StreamsToRanks::finish() {
     return std::all_of(streams_.begin() + 1, streams_.end(), [](const Stream& stream) { return stream.is_ready; });
   };
   exchange_.turn_until(is_done, [this](auto&&... item) { receive(item...); });
+  std::for_each(streams_.begin(), streams_.end(), [](Stream& stream) { stream.is_ready = false; });
+}
+
+void StreamsToRanks::look_after() {
+  exchange_.turn([this](auto&&... item) { receive(item...); });
 }
 
 void StreamsToRanks::receive(std::uint32_t rank, const ItemHeader& header, std::span<const std::byte> bytes) {

@@ -33,8 +33,12 @@ class StreamsToRanks {
   void write_counted(std::uint32_t rank, std::span<const std::byte> bytes);
   /// The piece of `whole` from `offset_bytes` on: for a ByteSource.
   void write_piece(std::uint32_t rank, std::span<const std::byte> whole, std::size_t offset_bytes, std::size_t bytes);
-  /// Waits until all ranks have read what is for them, and are ready. Throws as write() does.
+  /// Waits until all ranks have read what is for them, and are ready; then streams can be written for another run. Throws as
+  /// write() does.
   void finish();
+  /// Takes what has come, and shows that this rank lives: to be called again and again while it does something else. Throws as
+  /// write() does.
+  void look_after();
 
  private:
   /// What one rank's stream has come to.

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/expect.h"
 #include "nodes/flat_bytes.h"
 #include "svm/page.h"
 #include "svm/share.h"
@@ -71,5 +72,25 @@ class ReferenceLog {
   std::size_t references_max_ = std::numeric_limits<std::size_t>::max();
   std::vector<PageId> pages_;
 };
+
+/// Those of the nodes that are here, for take_logs() of another rank.
+inline void put_logs(nodes::FlatWriter& flat, const std::vector<ReferenceLog>& logs) {
+  for (const ReferenceLog& log : logs) {
+    const bool is_here = !log.pages().empty();
+    flat.put(is_here);
+    if (is_here) {
+      log.put(flat);
+    }
+  }
+}
+/// As many.
+inline void take_logs(nodes::FlatReader& flat, std::vector<ReferenceLog>& logs) {
+  for (ReferenceLog& log : logs) {
+    if (flat.take<bool>()) {
+      core::expect(log.pages().empty(), "a node is on one rank");
+      log.take(flat);
+    }
+  }
+}
 
 }  // namespace dmpc::svm

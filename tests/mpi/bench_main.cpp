@@ -120,7 +120,8 @@ int main(int count, char** values) {
   int status = 1;
   try {
     const double seconds = count > 1 ? std::strtod(values[1], nullptr) : 3;
-    status = apps::run_as_rank([seconds](apps::RankGroup& group) { return tests::measure(group, seconds); });
+    status = apps::run_as_rank({.own = apps::build_likeness()},
+                               [seconds](apps::RankGroup& group) { return tests::measure(group, seconds); });
   } catch (const std::exception& error) {
     std::cerr << "mpi_bench: " << error.what() << std::endl;
   }

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "apps/ranks/rank_group.h"
+#include "apps/ranks/self_test.h"
 #include "tests/mpi/here.h"
 
 namespace {
@@ -15,7 +16,7 @@ constexpr std::size_t payload_bytes_max = 40'000;
 
 int run_tests(doctest::Context& context) {
   using namespace dmpc;
-  return apps::run_as_rank([&](apps::RankGroup& group) {
+  return apps::run_as_rank({.own = apps::renderer_likeness()}, [&](apps::RankGroup& group) {
     const tests::Here here{group, group.connect(payload_bytes_max)};
     tests::here_now = &here;
     const int status = context.run();

@@ -5,6 +5,7 @@
 // other packets. What is called here is plain sequential code: calls of one node's program never overlap.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -14,6 +15,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace dmpc {
@@ -163,17 +165,40 @@ struct NumberOption {
   std::string description;
 };
 
+/// What programs leave behind in the end: P::outcome() const, a value, or a span of values, without pointers. Of a program
+/// without it: nothing.
+template <class T>
+struct OutcomeType {
+  using Kept = T;
+};
+template <class T>
+struct OutcomeType<std::span<T>> {
+  using Kept = std::vector<std::remove_const_t<T>>;
+};
+struct NoOutcome {};
+template <class P>
+auto outcome_of(const P& program) {
+  if constexpr (requires { program.outcome(); }) {
+    return program.outcome();
+  } else {
+    return NoOutcome{};
+  }
+}
+template <class P>
+using Outcome = typename OutcomeType<decltype(dmpc::outcome_of(std::declval<const P&>()))>::Kept;
+
 /// A program as its user meets it.
 template <class P>
 struct Application {
   std::string description;  ///< what it does, a sentence
   std::vector<NumberOption> options = {};
-  /// Of so many nodes. Called once the options are read. Throws UsageError for options that do not go together.
+  /// Of so many nodes. Called once the options are read, on every rank. Throws UsageError for options that do not go together.
   std::function<Needs(std::uint32_t node_count)> needs;
-  /// A node's program.
+  /// A node's program, on the rank where the node is.
   std::function<std::unique_ptr<P>(Node&)> make = [](Node& node) { return std::make_unique<P>(node); };
-  /// What the run came to, a line or several: printed, and a text in the file of --stats. The nodes' programs in order.
-  std::function<std::string(const std::vector<const P*>& programs)> result = {};
+  /// What the run came to, a line or several: printed, and a text in the file of --stats. What the nodes' programs left, in
+  /// order, wherever they were.
+  std::function<std::string(const std::vector<Outcome<P>>& outcomes)> result = {};
 };
 
 /// Options that do not go together, or not with the number of nodes.
@@ -181,13 +206,14 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The same whatever the programs' type.
+/// The same whatever the programs' type; what they leave as bytes.
 struct AnyApplication {
   std::string description;
   std::vector<NumberOption> options;
   std::function<Needs(std::uint32_t)> needs;
   std::function<std::unique_ptr<Program>(Node&)> make;
-  std::function<std::string(const std::vector<const Program*>&)> result;
+  std::function<std::string(const Program&)> outcome;
+  std::function<std::string(const std::vector<std::string>&)> result;
 };
 int run_any(int count, const char* const* words, const AnyApplication& application);
 
@@ -196,16 +222,44 @@ int run_any(int count, const char* const* words, const AnyApplication& applicati
 /// output that cannot be written, 2 wrong usage, 3 an error of the program's or of dmpc's own, 4 no room, 130 interrupted. Call
 /// it once, from main().
 template <class P>
+int run(int count, const char* const* words, const Application<P>& application);
+
+template <class T>
+std::string bytes_of_outcome(std::span<T> values) {
+  static_assert(std::is_trivially_copyable_v<T>, "an outcome travels as bytes");
+  return std::string(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+}
+template <class T>
+std::string bytes_of_outcome(const T& value) {
+  return bytes_of_outcome(std::span<const T>(&value, 1));
+}
+template <class T>
+void take_outcome(const std::string& bytes, T& value) {
+  std::memcpy(&value, bytes.data(), sizeof(T));
+}
+template <class T>
+void take_outcome(const std::string& bytes, std::vector<T>& values) {
+  values.resize(bytes.size() / sizeof(T));
+  std::copy_n(bytes.data(), bytes.size(), reinterpret_cast<char*>(values.data()));
+}
+
+template <class P>
 int run(int count, const char* const* words, const Application<P>& application) {
   static_assert(std::is_base_of_v<Program, P>);
-  const auto result = [&](const std::vector<const Program*>& programs) {
-    std::vector<const P*> own;
-    for (const Program* program : programs) {
-      own.push_back(static_cast<const P*>(program));
-    }
-    return application.result ? application.result(own) : std::string();
+  const auto outcome = [](const Program& program) {
+    return dmpc::bytes_of_outcome(dmpc::outcome_of(static_cast<const P&>(program)));
   };
-  return run_any(count, words, {application.description, application.options, application.needs, application.make, result});
+  const auto result = [&](const std::vector<std::string>& all) {
+    std::vector<Outcome<P>> outcomes;
+    for (const std::string& bytes : all) {
+      Outcome<P> of_node{};
+      dmpc::take_outcome(bytes, of_node);
+      outcomes.push_back(std::move(of_node));
+    }
+    return application.result ? application.result(outcomes) : std::string();
+  };
+  return run_any(count, words,
+                 {application.description, application.options, application.needs, application.make, outcome, result});
 }
 
 template <class T>

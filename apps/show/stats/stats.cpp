@@ -12,6 +12,7 @@
 #include "apps/line/number_text.h"
 #include "apps/machine/machine_file.h"
 #include "apps/show/heat/field.h"
+#include "apps/show/stats/ranks.h"
 #include "apps/show/stats/strategy.h"
 #include "apps/show/stats/virtual.h"
 #include "core/base/expect.h"
@@ -186,30 +187,6 @@ Json node_json(const NodeAccount& node, const Json& special, const Json& timed) 
   return result;
 }
 
-/// Null where nodes are in one process.
-Json ranks_json(const RenderRecord& record, const Account& account) {
-  const bool is_observed = record.options.trace.path || record.options.report;
-  Json result;
-  for (const nodes::RankFigures& rank : account.ranks) {
-    const nodes::NetworkMemory& network = rank.memory.network;
-    result.push_back({{"name", rank.name},
-                      {"nodes", rank.memory.node_count},
-                      {"node_memory", rank.memory.nodes_bytes},
-                      {"network_memory",
-                       {{"outbox", network.outbox_bytes},
-                        {"frames_sent", network.sent_bytes},
-                        {"frames_arrived", network.arrived_bytes},
-                        {"stream", network.stream_bytes},
-                        {"total", network.total()}}},
-                      {"packets", {{"sent", rank.traffic.packets_sent}, {"received", rank.traffic.packets_received}}},
-                      {"frames_sent", rank.traffic.frames_sent},
-                      {"bytes_sent", rank.traffic.bytes_sent},
-                      {"waves", rank.traffic.waves},
-                      {"clock_error", is_observed ? Json(static_cast<double>(rank.clock.error_ns()) * nanosecond) : Json()}});
-  }
-  return result;
-}
-
 Json nodes_json(const Account& account, const StrategyStats& special, const VirtualStats& timed) {
   Json result = Json::array();
   for (std::size_t i = 0; i < account.nodes.size(); ++i) {
@@ -357,7 +334,7 @@ std::string stats_json(const RenderRecord& record) {
   all["skips"] = skips_json(record, account);
   all["heat_maps"] = heat_maps_json(record);
   all["nodes"] = nodes_json(account, special, timed);
-  all["ranks"] = ranks_json(record, account);
+  all["ranks"] = ranks_json(account.ranks, record.options.trace.path || record.options.report);
   all["host"] = host_json(record, account, special.host, timed.host);
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names of files may be no UTF-8
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -83,7 +84,7 @@ class Asker final : public Program {
 
   bool finished() const override { return fault_ == Fault::leaves_unanswered ? asked_ == 1 : answers_ == questions_; }
   std::string describe() const override { return std::to_string(asked_) + " asked"; }
-  std::uint64_t sum() const { return is_consistent_ ? sums_[0] : 0; }
+  std::uint64_t outcome() const { return is_consistent_ ? sums_[0] : 0; }
 
  private:
   Node& node_;
@@ -104,12 +105,8 @@ inline Application<Asker> asker(std::uint32_t questions, Fault fault = Fault::no
           },
           .make = [questions, fault](Node& node) { return std::make_unique<Asker>(node, questions, fault); },
           .result =
-              [](const std::vector<const Asker*>& programs) {
-                std::uint64_t sum = 0;
-                for (const Asker* program : programs) {
-                  sum += program->sum();
-                }
-                return "sum " + std::to_string(sum);
+              [](const std::vector<std::uint64_t>& sums) {
+                return "sum " + std::to_string(std::accumulate(sums.begin(), sums.end(), std::uint64_t{0}));
               }};
 }
 

@@ -9,7 +9,7 @@ namespace dmpc::apps {
 TEST_CASE("a machine takes as many times as long for a program's operations as for its other arithmetic") {
   for (const MachineDescription& preset : machine_presets()) {
     ProgramOptions options;
-    options.is_modelled = true;
+    options.runner = RunnerKind::virtual_time;
     options.machine_name = preset.machine.name;
     choose_machine(options, {{"cheap", 1}, {"dear", 40}, {"free", 0}});
     const auto tested = static_cast<std::size_t>(nodes::Charge::triangle_test);
@@ -27,7 +27,7 @@ TEST_CASE("a machine takes as many times as long for a program's operations as f
 
 TEST_CASE("a machine is wired otherwise where that is asked for, and says so") {
   ProgramOptions options;
-  options.is_modelled = true;
+  options.runner = RunnerKind::virtual_time;
   options.machine_name = "hdr";
   options.topology = nodes::TopologyKind::torus;
   choose_machine(options, {});

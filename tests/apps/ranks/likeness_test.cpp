@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/ranks/self_test.h"
 #include "core/base/expect.h"
 
 namespace dmpc::tests {
@@ -36,15 +37,15 @@ const Likeness usual = {{"version of dmpc", "0.1.0"}, {"byte order", "little"}};
 TEST_CASE("ranks that are alike, or one alone, are let pass") {
   CHECK(complaint_of({usual}) == "");
   CHECK(complaint_of({usual, usual, usual}) == "");
-  const Likeness own = apps::own_likeness();
+  const Likeness own = apps::renderer_likeness();
   CHECK(own.size() == 5);
-  CHECK(complaint_of({own, apps::own_likeness()}) == "");
+  CHECK(complaint_of({own, apps::renderer_likeness()}) == "");
 }
 
 TEST_CASE("the first that differs is named with its host, what it has, and what rank 0 has") {
   CHECK(complaint_of({usual, usual, {{"version of dmpc", "0.1.0"}, {"byte order", "big"}}}) ==
-        "the ranks are not alike, so no one picture would come of them: rank 2 on host c has byte order big, rank 0 on host a "
-        "has byte order little: start the same build of dmpc on all of them");
+        "the ranks are not alike, so no one result would come of them: rank 2 on host c has byte order big, rank 0 on host a "
+        "has byte order little: start the same on all of them");
   CHECK(complaint_of({usual, {{"version of dmpc", "0.2.0"}, {"byte order", "big"}}, usual})
             .find("rank 1 on host b has version of dmpc 0.2.0, rank 0 on host a has version of dmpc 0.1.0:") !=
         std::string::npos);

@@ -1,4 +1,4 @@
-// dmpc as mpirun starts it, on one computer.
+// dmpc, or another program, as mpirun starts it, on one computer.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@ namespace dmpc::tests {
 /// How frames travel: Open MPI's names.
 inline const std::string shared_memory = "vader,self", tcp = "tcp,self";
 
-/// `ranks` times dmpc with these arguments. Root may do so, and more than there are processors, none bound to one of them.
-inline std::vector<std::string> mpirun(int ranks, const std::vector<std::string>& arguments,
-                                       const std::string& way = shared_memory) {
+/// `ranks` times a program with these arguments. Root may do so, and more than there are processors, none bound to one of them.
+inline std::vector<std::string> mpirun_of(int ranks, const std::string& program, const std::vector<std::string>& arguments,
+                                          const std::string& way = shared_memory) {
   std::vector<std::string> command = {"/usr/bin/env",
                                       "OMPI_ALLOW_RUN_AS_ROOT=1",
                                       "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
@@ -23,9 +23,14 @@ inline std::vector<std::string> mpirun(int ranks, const std::vector<std::string>
                                       "mpirun",
                                       "-n",
                                       std::to_string(ranks),
-                                      DMPC_PROGRAM};
+                                      program};
   command.insert(command.end(), arguments.begin(), arguments.end());
   return command;
+}
+/// The same of dmpc.
+inline std::vector<std::string> mpirun(int ranks, const std::vector<std::string>& arguments,
+                                       const std::string& way = shared_memory) {
+  return mpirun_of(ranks, DMPC_PROGRAM, arguments, way);
 }
 
 struct Ended {

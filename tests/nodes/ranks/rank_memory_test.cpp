@@ -34,7 +34,7 @@ ToyPlan plan_of(std::uint32_t node_count) { return {.request = {{.node_count = n
 }  // namespace
 
 TEST_CASE("one process alone has all nodes and the host, and no network") {
-  const RankMemory memory = rank_memory(plan_of(3), nullptr, 0);
+  const RankMemory memory = rank_memory(peers_of(plan_of(3)), nullptr, 0);
   CHECK(memory.node_count == 3);
   CHECK(memory.has_host);
   CHECK(memory.nodes_bytes == 3 * 1000 + 0 + 1 + 2 + 50);
@@ -46,8 +46,8 @@ TEST_CASE("each rank has the memories of its own nodes, and together they have a
   Loopback loopback(3);
   const RankLinks links(loopback.rank(0));
   const ToyPlan plan = plan_of(5);  // nodes 0 and 1, 2 and 3, 4
-  const RankMemory first = rank_memory(plan, &links, 0), second = rank_memory(plan, &links, 1),
-                   third = rank_memory(plan, &links, 2);
+  const RankMemory first = rank_memory(peers_of(plan), &links, 0), second = rank_memory(peers_of(plan), &links, 1),
+                   third = rank_memory(peers_of(plan), &links, 2);
   CHECK(first.nodes_bytes == 1000 + 1001 + 50);
   CHECK(second.nodes_bytes == 1002 + 1003);
   CHECK(third.nodes_bytes == 1004);
@@ -62,7 +62,9 @@ TEST_CASE("each rank has the memories of its own nodes, and together they have a
 TEST_CASE("an outbox has the places of all mailboxes elsewhere, each large enough for the longest packet and its target") {
   Loopback loopback(3);
   const RankLinks links(loopback.rank(0));
-  const auto outbox_bytes = [&](std::uint32_t rank) { return rank_memory(plan_of(5), &links, rank).network.outbox_bytes; };
+  const auto outbox_bytes = [&](std::uint32_t rank) {
+    return rank_memory(peers_of(plan_of(5)), &links, rank).network.outbox_bytes;
+  };
   const auto bytes_of_places = [](std::uint32_t small, std::uint32_t bulk, std::size_t bulk_bytes) {
     return MailboxCapacity{small, bulk, bulk_bytes + sizeof(TargetIndex), sizeof(TargetIndex)}.bytes();
   };
@@ -74,7 +76,8 @@ TEST_CASE("an outbox has the places of all mailboxes elsewhere, each large enoug
 TEST_CASE("frames and the stream before the run are a rank's, too, but rank 0 is sent no stream") {
   Loopback loopback(3, {}, 20'000);
   const RankLinks links(loopback.rank(0));
-  const NetworkMemory first = rank_memory(plan_of(5), &links, 0).network, second = rank_memory(plan_of(5), &links, 1).network;
+  const NetworkMemory first = rank_memory(peers_of(plan_of(5)), &links, 0).network,
+                      second = rank_memory(peers_of(plan_of(5)), &links, 1).network;
   CHECK(first.sent_bytes == 2 * 2 * 20'000);
   CHECK(first.arrived_bytes == loopback.rank(0).arrival_bytes());
   CHECK(first.stream_bytes == 0);

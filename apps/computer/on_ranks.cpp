@@ -1,0 +1,64 @@
+#include "apps/computer/on_ranks.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "apps/line/number_text.h"
+#include "apps/ranks/parts.h"
+#include "apps/ranks/rank_group.h"
+#include "apps/run/option_words.h"
+#include "apps/system/digest.h"
+#include "nodes/runner.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// The file that this process runs.
+std::uint64_t program_digest() {
+  std::ifstream file("/proc/self/exe", std::ios::binary);
+  std::ostringstream bytes;
+  bytes << file.rdbuf();
+  Digest digest;
+  digest.add(bytes.view());
+  return digest.value();
+}
+
+Likeness likeness_of(const ProgramCall& call) {
+  Likeness likeness = build_likeness();
+  std::string words;
+  for (const std::string& word : call.words) {
+    words += (words.empty() ? "" : " ") + word;
+  }
+  likeness.emplace_back("the program", hash_text(program_digest()));
+  likeness.emplace_back("the words", words.empty() ? "(none)" : words);
+  return likeness;
+}
+
+void choose_nodes(ProgramOptions& options, const RankGroup& group) {
+  if (!options.is_node_count_given) {
+    options.computer.node_count = std::min(group.default_node_count(), program_nodes_max);
+  }
+  with_options_named([&] { nodes::check_nodes_for(options.computer.node_count, group.rank_count()); });
+  if (!options.idle) {
+    options.idle = group.default_idle(options.computer.node_count);
+  }
+}
+
+}  // namespace
+
+int run_on_ranks(ProgramOptions& options, const ProgramCall& call, const std::function<RankNeeds()>& needs,
+                 const std::function<int(RankRounds&)>& act) {
+  const RankStart start = {.own = likeness_of(call), .module_place = ModulePlace::companion_or_linked};
+  return run_as_rank(start, [&](RankGroup& group) {
+    choose_nodes(options, group);
+    const RankNeeds own = needs();
+    nodes::RankLinks links(group.connect(own.payload_bytes_max, own.alike), {}, *options.idle);
+    options.computer.ranks = &links;
+    RankRounds rounds(links);
+    return rounds.is_first() ? lead(links, [&] { return act(rounds); }) : follow(links, [&] { act(rounds); });
+  });
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,51 @@
+// What ranks that all run one program tell each other between its runs.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "nodes/ranks/errands.h"
+#include "nodes/ranks/rank_links.h"
+#include "nodes/ranks/stream_from_host.h"
+#include "nodes/ranks/streams_to_ranks.h"
+
+namespace dmpc::apps {
+
+/// All ranks call agree(), meet() and share() in the same order, as far as agree() does not find that they do not. Throws what
+/// has failed on another rank, on rank 0; nodes::Dismissed, on others, if rank 0 has ended; nodes::LostRank. Thread safety:
+/// belongs to the communicating thread, but for here().
+class RankRounds {
+ public:
+  /// `links` outlive this.
+  explicit RankRounds(nodes::RankLinks& links);
+
+  nodes::RankLinks& links() { return links_; }
+  bool is_first() const { return links_.rank() == 0; }
+
+  /// What work() returns or throws, on a thread of its own: others know meanwhile that this rank lives.
+  template <class Work>
+  auto apart(const Work& work) {
+    return errands_.while_working(work, [this] { look_after(); });
+  }
+  /// From work apart: what is to be done on the communicating thread.
+  void here(const std::function<void()>& errand) { errands_.send(errand); }
+
+  /// What comes next is the same on all ranks: throws ProgramError where it is not rank 0's.
+  void agree(const std::string& next);
+  /// Waits until all have come here.
+  void meet();
+  /// Rank 0's bytes, of which there are as many everywhere, are everybody's.
+  void share(std::span<std::byte> bytes);
+
+ private:
+  void look_after();
+
+  nodes::RankLinks& links_;
+  nodes::Errands errands_;
+  std::optional<nodes::StreamsToRanks> to_others_;
+  std::optional<nodes::StreamFromHost> from_first_;
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,97 @@
+// Work on a thread of its own, for which this thread does errands.
+#include "nodes/ranks/errands.h"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+namespace {
+
+using namespace dmpc;
+using nodes::Errands;
+
+const std::function<void()> nothing = [] {};
+
+void wait_a_little() { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }
+
+/// What it throws.
+std::string complaint_of(const std::function<void()>& act) {
+  try {
+    act();
+    return "";
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
+TEST_CASE("work returns what it comes to, on another thread, while this one looks after something") {
+  int looks = 0;
+  const std::thread::id here = std::this_thread::get_id();
+  const std::thread::id there = Errands().while_working(
+      [] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        return std::this_thread::get_id();
+      },
+      [&] {
+        ++looks;
+        wait_a_little();
+      });
+  CHECK(there != here);
+  CHECK(looks > 0);
+}
+
+TEST_CASE("errands are done on this thread, one after the other, as many as work sends") {
+  Errands errands;
+  const std::thread::id here = std::this_thread::get_id();
+  for (const int count : {0, 1, 1000}) {
+    int done_here = 0;
+    const int sent = errands.while_working(
+        [&] {
+          for (int i = 0; i < count; ++i) {
+            errands.send([&] { done_here += std::this_thread::get_id() == here ? 1 : 0; });
+          }
+          return count;
+        },
+        nothing);
+    CHECK(sent == count);
+    CHECK(done_here == count);
+  }
+}
+
+TEST_CASE("what an errand throws is thrown where it was sent, and work may go on") {
+  Errands errands;
+  std::string caught;
+  CHECK(errands.while_working(
+            [&] {
+              caught = complaint_of([&] { errands.send([] { throw std::runtime_error("no way"); }); });
+              return 7;
+            },
+            nothing) == 7);
+  CHECK(caught == "no way");
+}
+
+TEST_CASE("what work throws is thrown here") {
+  CHECK(complaint_of([] { Errands().while_working([]() -> int { throw std::runtime_error("no use"); }, nothing); }) == "no use");
+}
+
+TEST_CASE("when looking after fails, errands fail so, those that wait and those to come, and work is waited for") {
+  Errands errands;
+  bool is_over = false;
+  std::string first, second;
+  const auto work = [&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    first = complaint_of([&] { errands.send(nothing); });
+    second = complaint_of([&] { errands.send(nothing); });
+    is_over = true;
+    return 0;
+  };
+  CHECK(complaint_of([&] { errands.while_working(work, [] { throw std::runtime_error("lost"); }); }) == "lost");
+  CHECK(is_over);
+  CHECK(first == "lost");
+  CHECK(second == "lost");
+}
+
+}  // namespace
