@@ -114,7 +114,8 @@ TaskFigures run_tasks_of_kind(const TaskKinds& kinds, const TaskPlan& plan, std:
                               const TaskWatching& watching, std::stop_token stop, const TakeResults& take) {
   core::expect(watching.reference_logs == nullptr || watching.reference_logs->size() == plan.node_count(),
                "each node has a log of its references");
-  core::expect(watching.heat == nullptr || watching.heat->size() == plan.first_task(plan.node_count()), "each task has a place for what it takes");
+  core::expect(watching.heat == nullptr || watching.heat->size() == plan.first_task(plan.node_count()),
+               "each task has a place for what it takes");
   const nodes::ByteSource source(database);
   const MakeTaskProgram make = [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<AnyTaskProgram> {
     if (watching.reference_logs == nullptr) {

@@ -1,36 +1,37 @@
 #include "apps/computer/instruments.h"
 
 #include "apps/computer/program_work.h"
+#include "nodes/flat_bytes.h"
 
 namespace dmpc::apps {
 
 Instruments::Instruments(const ProgramOptions& options, std::uint32_t node_count, bool has_pages) {
   const std::uint32_t peer_count = node_count + 1;  // and the host
   if (options.trace) {
-    add(recorder_.emplace(peer_count, nodes::TraceChoice{}));
+    join(recorder_.emplace(peer_count, nodes::TraceChoice{}));
   }
   if (options.report) {
-    add(profile_.emplace(peer_count, [has_pages](const nodes::Span& span) { return program_work_of(span, has_pages); }));
+    join(profile_.emplace(peer_count, [has_pages](const nodes::Span& span) { return program_work_of(span, has_pages); }));
   }
 }
 
 nodes::Observer* Instruments::observer() { return members_.empty() ? nullptr : &group_.emplace(members_); }
 
-void Instruments::put(nodes::FlatWriter& flat) const {
-  if (recorder_) {
-    flat.put_bytes(recorder_->bytes());
-  }
-  if (profile_) {
-    flat.put_bytes(profile_->bytes());
-  }
+std::string Instruments::seen() const {
+  nodes::FlatWriter flat;
+  flat.put_bytes(recorder_ ? recorder_->bytes() : std::string());
+  flat.put_bytes(profile_ ? profile_->bytes() : std::string());
+  return flat.take();
 }
 
-void Instruments::add(nodes::FlatReader& flat, const nodes::ClockDrift& clock) {
+void Instruments::add(std::string_view seen, const nodes::ClockDrift& clock) {
+  nodes::FlatReader flat(seen);
+  const std::string_view trace = flat.take_bytes(), profile = flat.take_bytes();
   if (recorder_) {
-    recorder_->add(flat.take_bytes(), clock);
+    recorder_->add(trace, clock);
   }
   if (profile_) {
-    profile_->add(flat.take_bytes());
+    profile_->add(profile);
   }
 }
 

@@ -3,10 +3,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/computer/options.h"
-#include "nodes/flat_bytes.h"
 #include "nodes/ranks/clock_drift.h"
 #include "nodes/watch/activity_profile.h"
 #include "nodes/watch/observer_group.h"
@@ -22,13 +23,14 @@ class Instruments {
   Instruments& operator=(const Instruments&) = delete;
 
   /// `another`, which outlives this, looks on, too. To be called before observer().
-  void add(nodes::Observer& another) { members_.push_back(&another); }
+  void join(nodes::Observer& another) { members_.push_back(&another); }
   /// For the run; nullptr if nobody looks on.
   nodes::Observer* observer();
 
-  /// What was seen here, and for rank 0 what was seen on another rank.
-  void put(nodes::FlatWriter& flat) const;
-  void add(nodes::FlatReader& flat, const nodes::ClockDrift& clock);
+  /// What was seen of nodes that are here, for add() on rank 0.
+  std::string seen() const;
+  /// Takes over what was seen on another rank.
+  void add(std::string_view seen, const nodes::ClockDrift& clock);
 
   /// What was seen, where a trace or a report is asked for. Call each once, when the run is over.
   std::optional<nodes::Trace> trace();

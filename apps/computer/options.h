@@ -30,6 +30,8 @@ struct ProgramOptions {
   std::optional<std::filesystem::path> report;  ///< .html
   bool quiet = false;                           ///< no closing lines
 
+  /// Somebody sees the run happen.
+  bool is_observed() const { return trace || report; }
   bool is_modelled() const { return runner == RunnerKind::virtual_time; }
 };
 

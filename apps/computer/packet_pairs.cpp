@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "nodes/counters.h"
+#include "nodes/flat_bytes.h"
 
 namespace dmpc::apps {
 
@@ -20,15 +21,18 @@ void PairWatch::sent(const nodes::Passing& packet) {
   pairs_.bytes[pair] += one.bytes;
 }
 
-void PairWatch::put(nodes::FlatWriter& flat) const {
+std::string PairWatch::bytes() const {
+  nodes::FlatWriter flat;
   flat.put_all(pairs_.packets);
   flat.put_all(pairs_.bytes);
+  return flat.take();
 }
 
-void PairWatch::add(nodes::FlatReader& flat) {
+void PairWatch::add(std::string_view bytes) {
+  nodes::FlatReader flat(bytes);
   for (std::vector<std::uint64_t>* const counts : {&pairs_.packets, &pairs_.bytes}) {
-    const std::vector<std::uint64_t> more = flat.take_all<std::uint64_t>();
-    std::transform(counts->begin(), counts->end(), more.begin(), counts->begin(), std::plus<>());
+    const auto more = flat.take_all<std::uint64_t>();
+    std::transform(more.begin(), more.end(), counts->begin(), counts->begin(), std::plus());
   }
 }
 

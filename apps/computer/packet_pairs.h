@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "nodes/flat_bytes.h"
@@ -26,9 +28,9 @@ class PairWatch final : public nodes::Observer {
   void received(const nodes::Passing&) override {}
   void worked(const nodes::Worked&) override {}
 
-  /// What was counted here, and what was on another rank.
-  void put(nodes::FlatWriter& flat) const;
-  void add(nodes::FlatReader& flat);
+  /// What nodes that are here have sent, for add() of another rank's.
+  std::string bytes() const;
+  void add(std::string_view bytes);
 
   const PacketPairs& pairs() const { return pairs_; }
 

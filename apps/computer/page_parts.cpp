@@ -6,6 +6,7 @@
 #include "apps/computer/readable_nodes.h"
 #include "apps/computer/record.h"
 #include "apps/line/number_text.h"
+#include "apps/show/page/traffic.h"
 #include "apps/show/page/view_conclusions.h"
 #include "nodes/size_text.h"
 
@@ -38,11 +39,19 @@ Origin program_origin(const std::string& name) {
   return origin;
 }
 
+namespace {
+
+std::string runner_text(const ProgramOptions& options) {
+  if (const nodes::Machine* const machine = options.computer.model()) {
+    return "virtual, in the time of a modelled " + machine->name;
+  }
+  return std::string("threads") + (options.runner == RunnerKind::mpi ? " on ranks" : "") + ", one a node, by the wall clock";
+}
+
+}  // namespace
+
 Facts computer_facts(const ProgramOptions& options) {
-  const nodes::Machine* const machine = options.computer.model();
-  Facts facts = {{"Computer", computer_text(options)},
-                 {"Runner", machine != nullptr ? "virtual, in the time of a modelled " + machine->name
-                                               : "threads, one a node, by the wall clock"}};
+  Facts facts = {{"Computer", computer_text(options)}, {"Runner", runner_text(options)}};
   if (options.chaos_seed) {
     facts.emplace_back("Chaos", "disturbed by seed " + std::to_string(*options.chaos_seed));
   }
@@ -76,6 +85,12 @@ void add_operations(Page& page, const std::vector<OperationCount>& operations, c
   }
 }
 
+void add_ranks(Page& page, const std::vector<nodes::RankFigures>& ranks) {
+  if (!ranks.empty()) {
+    page.add_table(rank_table(ranks));
+  }
+}
+
 void add_losses(Page& page, const Losses& losses) {
   page.begin_section("Where the time went");
   page.add_conclusion(loss_conclusion(losses));
@@ -84,7 +99,8 @@ void add_losses(Page& page, const Losses& losses) {
   page.add_table(table);
 }
 
-void add_steps(Page& page, const nodes::ActivitySteps& steps, std::span<const std::string_view> work_names, const std::string& remark) {
+void add_steps(Page& page, const nodes::ActivitySteps& steps, std::span<const std::string_view> work_names,
+               const std::string& remark) {
   if (steps.nodes.front().empty()) {
     return;
   }

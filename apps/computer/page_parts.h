@@ -17,6 +17,7 @@
 #include "apps/table/plot.h"
 #include "apps/table/table.h"
 #include "nodes/machine.h"
+#include "nodes/ranks/rank_figures.h"
 
 namespace dmpc::apps::html {
 
@@ -46,8 +47,12 @@ struct OperationCount {
 Table operation_table(const std::vector<OperationCount>& operations, const nodes::Machine* machine);
 void add_operations(Page& page, const std::vector<OperationCount>& operations, const nodes::Machine* machine);
 
+/// Nothing where nodes are in one process.
+void add_ranks(Page& page, const std::vector<nodes::RankFigures>& ranks);
+
 void add_losses(Page& page, const Losses& losses);
 /// `remark`: of which run it is, if there were several.
-void add_steps(Page& page, const nodes::ActivitySteps& steps, std::span<const std::string_view> work_names, const std::string& remark);
+void add_steps(Page& page, const nodes::ActivitySteps& steps, std::span<const std::string_view> work_names,
+               const std::string& remark);
 
 }  // namespace dmpc::apps::html

@@ -109,6 +109,7 @@ void add_packets(Page& page, const PagedRecord& record) {
   if (record.sum().pages.faults > 0) {
     page.add_table(packet_table(packets));
   }
+  add_ranks(page, record.ranks);
 }
 
 Facts results_of(const PagedRecord& record) { return record.run_hash ? Facts{{"run", hash_text(*record.run_hash)}} : Facts(); }

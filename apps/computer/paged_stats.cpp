@@ -57,7 +57,7 @@ std::string stats_json(const PagedRecord& record) {
                {"wall_seconds", record.wall_seconds},
                {"virtual_seconds", record.virtual_ns ? Json(1e-9 * static_cast<double>(*record.virtual_ns)) : Json()},
                {"run_hash", record.run_hash ? Json(hash_text(*record.run_hash)) : Json()},
-               {"ranks", ranks_json(record.ranks, options.trace.has_value())}};
+               {"ranks", ranks_json(record.ranks, options.is_observed())}};
   json.update(node_json(record, record.sum()));
   json["per_node"] = Json::array();
   for (const PagedNode& node : record.nodes) {

@@ -9,6 +9,7 @@
 
 #include "apps/computer/own_name.h"
 #include "apps/computer/task_heat_file.h"
+#include "apps/line/amount.h"
 #include "apps/line/number_text.h"
 #include "apps/show/page/shares.h"
 #include "svm/packets.h"
@@ -59,8 +60,6 @@ void append_means(std::vector<double>& means, std::span<const double> tasks, std
     means.push_back(part.empty() ? 0 : sum_of(part) / static_cast<double>(part.size()));
   }
 }
-
-double kibibytes_of(std::size_t bytes) { return static_cast<double>(bytes) / 1024; }
 
 }  // namespace
 
@@ -120,7 +119,7 @@ Table node_table(const PagedRecord& record) {
     for (Index i = 0; i < record.operations.size(); ++i) {
       row.emplace_back(node.charges[charge_of(i)]);
     }
-    row.emplace_back(kibibytes_of(node.memory_bytes));
+    row.emplace_back(kibibytes(node.memory_bytes));
     table.add_row(std::move(row));
   }
   return table;

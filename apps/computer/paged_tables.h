@@ -28,7 +28,6 @@ Plot fault_plot();
 
 // Of the last run.
 
-
 /// What is shown of a task's heat.
 enum class TaskHeatKind : std::uint8_t { faults, references, computing };
 /// The kinds that say something of this run: computing only on a modelled machine, faults only if there are any.

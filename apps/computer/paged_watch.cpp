@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "apps/run/miss_estimate.h"
+#include "nodes/flat_bytes.h"
 
 namespace dmpc::apps {
 
@@ -10,7 +11,7 @@ PagedWatch::PagedWatch(const PagedOptions& options, const svm::TaskPlan& plan, s
     : instruments_(options.program, plan.node_count(), true) {
   const bool has_report = options.program.report.has_value();
   if (has_report) {
-    instruments_.add(fetches_.emplace(plan.node_count(), plan.pages().page_count));
+    instruments_.join(fetches_.emplace(plan.node_count(), plan.pages().page_count));
   }
   if (options.references) {
     reference_logs_.resize(plan.node_count());
@@ -27,15 +28,13 @@ svm::TaskWatching PagedWatch::watching() {
           .reference_logs = reference_logs_.empty() ? nullptr : &reference_logs_,
           .heat = heat_.empty() ? nullptr : &heat_,
           .seen = [this] { return seen(); },
-          .add = [this](std::string_view seen, const nodes::ClockDrift& clock) { add(seen, clock); }};
+          .add = [this](std::string_view told, const nodes::ClockDrift& clock) { add(told, clock); }};
 }
 
 std::string PagedWatch::seen() const {
   nodes::FlatWriter flat;
-  instruments_.put(flat);
-  if (fetches_) {
-    flat.put_bytes(fetches_->bytes());
-  }
+  flat.put_bytes(instruments_.seen());
+  flat.put_bytes(fetches_ ? fetches_->bytes() : std::string());
   svm::put_logs(flat, reference_logs_);
   svm::put_heat(flat, heat_);
   return flat.take();
@@ -43,9 +42,10 @@ std::string PagedWatch::seen() const {
 
 void PagedWatch::add(std::string_view seen, const nodes::ClockDrift& clock) {
   nodes::FlatReader flat(seen);
-  instruments_.add(flat, clock);
+  instruments_.add(flat.take_bytes(), clock);
+  const std::string_view fetches = flat.take_bytes();
   if (fetches_) {
-    fetches_->add(flat.take_bytes(), clock);
+    fetches_->add(fetches, clock);
   }
   svm::take_logs(flat, reference_logs_);
   svm::add_heat(flat, heat_);

@@ -22,7 +22,7 @@ class PagedWatch {
  public:
   PagedWatch(const PagedOptions& options, const svm::TaskPlan& plan, std::uint32_t task_count);
 
-  /// For the run, where nobody has a pointer who wants to know nothing; on ranks what they saw is added up.
+  /// For the run, on every rank, where nobody has a pointer who wants to know nothing; what ranks saw is added up.
   svm::TaskWatching watching();
   /// Puts what was seen into the record, in place of what another run showed. Call it once, when the run is over.
   void take(PagedRecord& record);

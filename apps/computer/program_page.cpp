@@ -42,6 +42,7 @@ void add_packets(Page& page, const ProgramRecord& record) {
   }
   page.add_table(packet_table(packets));
   add_pairs(page, record);
+  add_ranks(page, record.ranks);
   if (record.virtual_time) {
     page.add_text(way_text(record.virtual_time->links));
     const Table table = link_table(*record.virtual_time);

@@ -7,13 +7,12 @@
 #include <utility>
 
 #include "apps/computer/own_name.h"
+#include "apps/line/amount.h"
 #include "apps/line/number_text.h"
 #include "apps/show/page/shares.h"
 
 namespace dmpc::apps::html {
 namespace {
-
-double kibibytes(std::size_t bytes) { return static_cast<double>(bytes) / 1024; }
 
 std::uint32_t node_count_of(const ProgramRecord& record) { return record.plan.node_count(); }
 

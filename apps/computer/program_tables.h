@@ -33,5 +33,4 @@ Table memory_table(const ProgramRecord& record);
 Plot memory_plot(const ProgramRecord& record);
 std::string memory_conclusion(const ProgramRecord& record);
 
-
 }  // namespace dmpc::apps::html

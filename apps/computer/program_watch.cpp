@@ -3,29 +3,28 @@
 #include <utility>
 
 #include "apps/computer/readable_nodes.h"
+#include "nodes/flat_bytes.h"
 
 namespace dmpc::apps {
 
 ProgramWatch::ProgramWatch(const ProgramOptions& options, std::uint32_t node_count) : instruments_(options, node_count, false) {
   if (options.report && node_count <= readable_nodes_max) {
-    instruments_.add(pairs_.emplace(node_count));
+    instruments_.join(pairs_.emplace(node_count));
   }
 }
 
 std::string ProgramWatch::seen() const {
   nodes::FlatWriter flat;
-  instruments_.put(flat);
-  if (pairs_) {
-    pairs_->put(flat);
-  }
+  flat.put_bytes(instruments_.seen());
+  flat.put_bytes(pairs_ ? pairs_->bytes() : std::string());
   return flat.take();
 }
 
 void ProgramWatch::add(std::string_view seen, const nodes::ClockDrift& clock) {
   nodes::FlatReader flat(seen);
-  instruments_.add(flat, clock);
+  instruments_.add(flat.take_bytes(), clock);
   if (pairs_) {
-    pairs_->add(flat);
+    pairs_->add(flat.take_bytes());
   }
 }
 

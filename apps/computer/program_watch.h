@@ -19,8 +19,9 @@ class ProgramWatch {
 
   /// For the run; nullptr if nobody looks on.
   nodes::Observer* observer() { return instruments_.observer(); }
-  /// What was seen here, for add() on rank 0.
+  /// What was seen of nodes that are here, for add() on rank 0.
   std::string seen() const;
+  /// Takes over what was seen on another rank.
   void add(std::string_view seen, const nodes::ClockDrift& clock);
   /// Puts what was seen into the record. Call it once, when the run is over.
   void take(ProgramRecord& record);

@@ -25,9 +25,7 @@ inline std::size_t program_work_of(const nodes::Span& span, bool has_pages) {
   constexpr auto install = nodes::ChargeBits{1U << static_cast<std::uint32_t>(core::Charge::page_install)};
   const bool is_message = span.activity == nodes::Activity::send || span.activity == nodes::Activity::take_over;
   const bool is_page = has_pages && (span.activity == nodes::Activity::serve || span.charged() == install);
-  return static_cast<std::size_t>(is_message ? ProgramWork::messages
-                                  : is_page  ? ProgramWork::pages
-                                             : ProgramWork::computing);
+  return static_cast<std::size_t>(is_message ? ProgramWork::messages : is_page ? ProgramWork::pages : ProgramWork::computing);
 }
 
 }  // namespace dmpc::apps

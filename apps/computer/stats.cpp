@@ -95,7 +95,7 @@ std::string stats_json(const ProgramRecord& record) {
       {"run_hash", record.virtual_time ? Json(hash_text(record.virtual_time->run_hash(0))) : Json()},
       {"packets", packets_json(record)},
       {"operations", operations_json(record, charges_of_all(record))},
-      {"ranks", ranks_json(record.ranks, record.options.trace.has_value())},
+      {"ranks", ranks_json(record.ranks, record.options.is_observed())},
       {"per_node", Json::array()}};
   for (std::uint32_t node = 0; node < record.plan.node_count(); ++node) {
     json["per_node"].push_back(node_json(record, node));

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "apps/line/command_line.h"
-#include "apps/scene/database_options.h"
 #include "apps/run/runner_kind.h"
+#include "apps/scene/database_options.h"
 #include "dataflow/ray_options.h"
 #include "nodes/computer_request.h"
 #include "nodes/ranks/nap.h"

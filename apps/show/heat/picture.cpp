@@ -29,7 +29,7 @@ std::string mean_of(const HeatField& field) {
                                             : ", mean " + legend_number(field.sum() / static_cast<double>(field.values.size()));
 }
 
-std::string scale_name(const NumberScale& scale, const HeatField& field) {
+std::string scale_text(const NumberScale& scale, const HeatField& field) {
   return !scale.is_logarithmic ? "linear scale" : field.least() > 0 ? "logarithmic scale" : "logarithmic scale (0: black)";
 }
 
@@ -37,7 +37,7 @@ std::array<std::string, 3> lines_of(const HeatField& field, const NumberScale& s
   return {std::string(core::name_of(field.kind)) + ": " + field.meaning + ", " + (field.clock.empty() ? "" : field.clock + ", ") +
               "unit " + field.unit,
           "least " + legend_number(field.least()) + ", largest " + legend_number(field.largest()) + mean_of(field) + ", " +
-              scale_name(scale, field),
+              scale_text(scale, field),
           source};
 }
 

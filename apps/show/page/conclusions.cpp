@@ -8,8 +8,8 @@
 #include "apps/line/amount.h"
 #include "apps/line/number_text.h"
 #include "apps/run/memory_categories.h"
-#include "core/picture/heat_kind.h"
 #include "apps/show/page/shares.h"
+#include "core/picture/heat_kind.h"
 
 namespace dmpc::apps::html {
 

@@ -162,7 +162,7 @@ void add_traffic(Page& page, const Account& account) {
   page.add_conclusion(traffic_conclusion(packets, account.virtual_time ? &*account.virtual_time : nullptr));
   page.add_table(packet_table(packets));
   if (!account.ranks.empty()) {
-    page.add_table(rank_table(account));
+    page.add_table(rank_table(account.ranks));
   }
   if (!account.virtual_time) {
     return;

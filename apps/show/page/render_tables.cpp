@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "apps/line/amount.h"
 #include "apps/run/memory_categories.h"
 
 namespace dmpc::apps::html {
@@ -66,8 +67,6 @@ std::vector<Column> memory_columns(const Account& account) {
   }
   return columns;
 }
-
-double kibibytes(std::size_t bytes) { return static_cast<double>(bytes) / 1024; }
 
 }  // namespace
 
@@ -149,23 +148,6 @@ std::vector<PacketKindTraffic> packets_of(const Account& account) {
     packets.push_back({std::move(name), account.sent[kind]});
   }
   return packets;
-}
-
-Table rank_table(const Account& account) {
-  Table table("Ranks", {{"rank", "", 0},
-                        {"nodes", "", 0},
-                        {"network memory", "KiB", 1},
-                        {"packets sent", "", 0},
-                        {"packets received", "", 0},
-                        {"frames sent", "", 0},
-                        {"sent", "bytes", 0},
-                        {"clock wrong by at most", "us", 1}});
-  for (const nodes::RankFigures& rank : account.ranks) {
-    table.add_row({rank.name, std::uint64_t{rank.memory.node_count}, kibibytes(rank.memory.network.total()),
-                   rank.traffic.packets_sent, rank.traffic.packets_received, rank.traffic.frames_sent, rank.traffic.bytes_sent,
-                   static_cast<double>(rank.clock.error_ns()) / 1000});
-  }
-  return table;
 }
 
 }  // namespace dmpc::apps::html

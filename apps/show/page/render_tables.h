@@ -25,7 +25,4 @@ Plot memory_plot(const Account& account);
 /// Of all nodes together.
 std::vector<PacketKindTraffic> packets_of(const Account& account);
 
-/// A row for each rank: its nodes, what is set aside beside their memories, and what went between it and others.
-Table rank_table(const Account& account);
-
 }  // namespace dmpc::apps::html

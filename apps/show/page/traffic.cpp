@@ -37,6 +37,23 @@ Table packet_table(std::span<const PacketKindTraffic> packets) {
   return table;
 }
 
+Table rank_table(std::span<const nodes::RankFigures> ranks) {
+  Table table("Ranks", {{"rank", "", 0},
+                        {"nodes", "", 0},
+                        {"network memory", "KiB", 1},
+                        {"packets sent", "", 0},
+                        {"packets received", "", 0},
+                        {"frames sent", "", 0},
+                        {"sent", "bytes", 0},
+                        {"clock wrong by at most", "us", 1}});
+  for (const nodes::RankFigures& rank : ranks) {
+    table.add_row({rank.name, std::uint64_t{rank.memory.node_count}, kibibytes(rank.memory.network.total()),
+                   rank.traffic.packets_sent, rank.traffic.packets_received, rank.traffic.frames_sent, rank.traffic.bytes_sent,
+                   static_cast<double>(rank.clock.error_ns()) / 1000});
+  }
+  return table;
+}
+
 Table link_table(const nodes::VirtualReport& report) {
   Table table("The busiest links", {{"link", "", 0},
                                     {"messages", "", 0},

@@ -8,6 +8,7 @@
 #include "apps/table/plot.h"
 #include "apps/table/table.h"
 #include "nodes/counters.h"
+#include "nodes/ranks/rank_figures.h"
 #include "nodes/virtual/virtual_times.h"
 
 namespace dmpc::apps::html {
@@ -20,6 +21,9 @@ struct PacketKindTraffic {
 
 /// A row for each kind that was sent.
 Table packet_table(std::span<const PacketKindTraffic> packets);
+
+/// A row for each rank: its nodes, what is set aside beside their memories, and what went between it and others.
+Table rank_table(std::span<const nodes::RankFigures> ranks);
 
 /// A row for each of the busiest links of a modelled machine.
 Table link_table(const nodes::VirtualReport& report);

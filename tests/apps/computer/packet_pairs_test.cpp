@@ -30,4 +30,14 @@ TEST_CASE("packets and bytes are counted from node to node, with their heads") {
   CHECK(watch.pairs().bytes == std::vector<std::uint64_t>{0, 2 * head + 10, 0, head + 64});
 }
 
+TEST_CASE("what another rank has counted is added") {
+  PairWatch here(2), there(2);
+  send(here, 0, 1, 8);
+  send(there, 1, 0, 16);
+  send(there, 0, 1, 0);
+  here.add(there.bytes());
+  CHECK(here.pairs().packets == std::vector<std::uint64_t>{0, 2, 1, 0});
+  CHECK(here.pairs().bytes[2] == sizeof(nodes::PacketHeader) + 16);
+}
+
 }  // namespace dmpc::apps

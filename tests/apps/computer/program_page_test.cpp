@@ -74,7 +74,7 @@ TEST_CASE("names and results are shown as they are, whatever they contain") {
     hostile.memory[0].name = "<script>";
     return hostile;
   };
-  program.result = [](const std::vector<const Asker*>&) { return std::string("<script>alert(1)</script>\n\xff"); };
+  program.result = [](const std::vector<std::uint64_t>&) { return std::string("<script>alert(1)</script>\n\xff"); };
   const std::string page = asker_page(program, {"--nodes=3", "--runner=virtual"});
   CHECK_FALSE(contains(page, "<script"));
   CHECK_FALSE(contains(page, "<b>"));

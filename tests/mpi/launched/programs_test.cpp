@@ -122,6 +122,28 @@ TEST_CASE("a trace of ranks has the spans and messages of all nodes") {
   }
 }
 
+TEST_CASE("pages for a browser have the nodes of all ranks, and the heat of tasks is that of one process") {
+  const TemporaryFolder folder;
+  for (const std::string name : {"asker", "tasks"}) {
+    const std::string file = folder / (name + ".html");
+    const Ended ended = on_ranks(3, name, {"--nodes=6", "--report=" + file});
+    REQUIRE_MESSAGE(ended.status == 0, ended.errors);
+    const std::string page = file_text(file);
+    for (const std::string part :
+         {"threads on ranks, one a node", "How busy each node was over time", "<caption>Ranks</caption>", "rank 2 on host "}) {
+      CHECK_MESSAGE(contains(page, part), name);
+    }
+  }
+  CHECK(contains(file_text(folder / "asker.html"), "Who sent packets to whom"));
+  CHECK(contains(file_text(folder / "tasks.html"), "Who fetched pages from whom"));
+  const auto heat = [&](const std::string& name) -> Words {
+    return {"--nodes=6", "--in-flight=1", "--cache-pages=1", "--heat=" + (folder / name).string()};
+  };
+  REQUIRE(alone("tasks", heat("here.csv")).status == 0);
+  REQUIRE(on_ranks(3, "tasks", heat("there.csv")).status == 0);
+  CHECK(file_text(folder / "here.csv") == file_text(folder / "there.csv"));
+}
+
 TEST_CASE("what a program does wrong on ranks is said once, and ends all of them") {
   check_program_fault("asker", {"--fault=13"}, 3, "what it threw is no std::exception");
   check_program_fault("asker", {"--fault=5"}, 3, "a packet 'question' of 80 bytes");

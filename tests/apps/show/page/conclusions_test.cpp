@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "core/picture/heat_kind.h"
 #include "apps/show/page/render_tables.h"
+#include "core/picture/heat_kind.h"
 #include "tests/apps/show/watched.h"
 
 namespace dmpc::apps::html {

@@ -128,13 +128,13 @@ TEST_CASE("links are listed, the busiest first, with what they carried") {
 
 TEST_CASE("each rank has a row, with what is its own beside its nodes' memories") {
   Rendered rendered(small());
-  CHECK(rank_table(account_of(*rendered.report)).rows().empty());
+  CHECK(rank_table(account_of(*rendered.report).ranks).rows().empty());
   std::get<svm::Report>(*rendered.report).ranks = {
       {.name = "rank 0 on host a", .memory = {.node_count = 2}, .traffic = {.packets_sent = 5, .packets_received = 7}},
       {.name = "rank 1 on host b",
        .memory = {.node_count = 1, .network = {.outbox_bytes = 2048}},
        .traffic = {.packets_sent = 7, .packets_received = 5, .frames_sent = 3, .bytes_sent = 900}}};
-  const Table table = rank_table(account_of(*rendered.report));
+  const Table table = rank_table(account_of(*rendered.report).ranks);
   REQUIRE(table.rows().size() == 2);
   CHECK(std::get<std::string>(cell(table, 1, "rank")) == "rank 1 on host b");
   CHECK(sum(table, "nodes") == 3);
