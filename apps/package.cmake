@@ -40,7 +40,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS
   "cmake (>= 3.25), dmpc (= ${PROJECT_VERSION}), dmpc-mpi (= ${PROJECT_VERSION}), gnuplot-nox")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "dmpc's computer for programs of one's own
 Headers, libraries and examples: programs for nodes with bounded memories that talk
-only through mailboxes, run on threads or on the model of a machine in virtual time.")
+only through mailboxes, run on threads, of one process or several, or on the model of
+a machine in virtual time.")
 set(CPACK_DEBIAN_MPI_PACKAGE_NAME dmpc-mpi)
 set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "dmpc (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS openmpi-bin)

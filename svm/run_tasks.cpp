@@ -83,6 +83,15 @@ void gather_tasks(nodes::Runner& runner, const TaskPlan& plan, const TakeResults
   }
 }
 
+void run_and_gather(nodes::Runner& runner, const TaskPlan& plan, std::stop_token stop, const TakeResults& take,
+                    TaskFigures& figures) {
+  figures.end = runner.run(std::move(stop));
+  if (figures.end == nodes::RunEnd::finished) {
+    gather_tasks(runner, plan, take, figures);
+    figures.virtual_time = runner.virtual_report();
+  }
+}
+
 void gather_from_ranks(nodes::Runner& runner, std::span<const nodes::PeerMemory> peers, const nodes::RankLinks& links,
                        const TaskWatching& watching, TaskFigures& figures) {
   const std::vector<nodes::RankReport> told = runner.gather_ranks(watching.seen());
@@ -128,24 +137,22 @@ TaskFigures run_tasks_of_kind(const TaskKinds& kinds, const TaskPlan& plan, std:
   const std::vector<nodes::NodeSpecification> specifications = task_specifications(plan, make);
   const auto runner = nodes::make_runner(specifications, plan.computer(), watching.observer);
   const nodes::RankLinks* const links = plan.computer().ranks;
-  if (links != nullptr) {
-    watching.made();
-  }
   TaskFigures figures{.pages = std::vector<PageCounters>(plan.node_count()),
                       .counters = std::vector<nodes::NodeCounters>(plan.node_count()),
                       .charges = std::vector<nodes::Charges>(plan.node_count())};
-  figures.end = runner->run(std::move(stop));
-  if (figures.end == nodes::RunEnd::interrupted) {
-    return figures;
+  if (links == nullptr) {
+    run_and_gather(*runner, plan, std::move(stop), take, figures);
+  } else {
+    watching.communicate([&] {
+      run_and_gather(*runner, plan, std::move(stop), take, figures);
+      if (figures.end == nodes::RunEnd::finished) {
+        gather_from_ranks(*runner, nodes::peers_of(specifications), *links, watching, figures);
+      }
+    });
   }
-  gather_tasks(*runner, plan, take, figures);
-  if (links != nullptr) {
-    gather_from_ranks(*runner, nodes::peers_of(specifications), *links, watching, figures);
-  }
-  if (links == nullptr || links->rank() == 0) {
+  if (figures.end == nodes::RunEnd::finished && (links == nullptr || links->rank() == 0)) {
     check_pages(figures);
   }
-  figures.virtual_time = runner->virtual_report();
   return figures;
 }
 

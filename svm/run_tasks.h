@@ -49,8 +49,9 @@ struct TaskWatching {
   nodes::Observer* observer = nullptr;
   std::vector<ReferenceLog>* reference_logs = nullptr;  ///< one for each node, where its references are noted
   TaskHeat* heat = nullptr;                             ///< of all tasks, to which what each takes is added
-  /// On ranks, called when the nodes that are here are made: waits until all ranks have theirs.
-  std::function<void()> made = [] {};
+  /// On ranks, when the nodes that are here are made: calls `run`, in which ranks talk to each other, on the thread that
+  /// communicates, as soon as all ranks have theirs.
+  std::function<void(const std::function<void()>& run)> communicate = [](const auto& run) { run(); };
   /// Likewise, after a regular end: what was seen here, and, on rank 0, what was seen on another rank.
   std::function<std::string()> seen = [] { return std::string(); };
   std::function<void(std::string_view seen, const nodes::ClockDrift& clock)> add = {};

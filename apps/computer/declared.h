@@ -1,6 +1,7 @@
 // Whether what programs declare can be: names of their own, not too many of them, prices.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <set>
 #include <string>
@@ -11,13 +12,16 @@
 
 namespace dmpc::apps {
 
-/// Throws core::UsageError for a need without a name of its own. `what` they are, in the plural.
+/// Throws core::UsageError for a need without a name of its own, in one line. `what` they are, in the plural.
 template <class Need>
 void check_different(const std::vector<Need>& needs, const std::string& what) {
   std::set<std::string> names;
   for (const Need& need : needs) {
     if (need.name.empty() || !names.insert(need.name).second) {
       throw core::UsageError("two " + what + " are called '" + need.name + "', or one has no name: give each its own");
+    }
+    if (std::any_of(need.name.begin(), need.name.end(), [](unsigned char letter) { return letter < ' ' || letter == 0x7f; })) {
+      throw core::UsageError("one of the " + what + " has a name with a control character: expected one line of text");
     }
   }
 }

@@ -20,6 +20,22 @@ constexpr std::array<const char*, span_names.size()> task_activity_names = {
 
 }  // namespace
 
+namespace {
+
+/// Links count frames and their bytes from the beginning, runners the rest in each run.
+void add_ranks(std::vector<nodes::RankFigures>& sums, const std::vector<nodes::RankFigures>& more) {
+  for (std::size_t rank = 0; rank < more.size(); ++rank) {
+    const nodes::RankTraffic before = rank < sums.size() ? sums[rank].traffic : nodes::RankTraffic{};
+    sums.resize(more.size());
+    sums[rank] = more[rank];
+    sums[rank].traffic.packets_sent += before.packets_sent;
+    sums[rank].traffic.packets_received += before.packets_received;
+    sums[rank].traffic.waves += before.waves;
+  }
+}
+
+}  // namespace
+
 PagedNode& PagedNode::operator+=(const PagedNode& more) {
   pages += more.pages;
   charges += more.charges;
@@ -49,7 +65,7 @@ void PagedRecord::add(const svm::TaskFigures& figures, const svm::TaskPlan& plan
     virtual_ns = virtual_ns.value_or(0) + figures.virtual_time->total_ns;
     run_hash = figures.virtual_time->run_hash(run_hash.value_or(0));
   }
-  ranks = figures.ranks;
+  add_ranks(ranks, figures.ranks);
   ++run_count;
   task_count += tasks;
   page_count = plan.pages().page_count;

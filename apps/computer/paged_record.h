@@ -43,7 +43,7 @@ struct PagedRecord {
   std::uint32_t page_count = 0, cache_pages = 0;  ///< of the last run
   double wall_seconds = 0;
   std::optional<std::uint64_t> virtual_ns, run_hash;  ///< of a modelled machine
-  std::vector<nodes::RankFigures> ranks;              ///< of the last run, where there are any
+  std::vector<nodes::RankFigures> ranks;              ///< where there are any: traffic of all runs, the rest of the last one
   std::vector<svm::ReferenceLog> references;          ///< of the last run, by node, if they are asked for
   std::optional<nodes::Trace> trace;                  ///< likewise
   svm::TaskHeat heat;                                 ///< likewise, by task

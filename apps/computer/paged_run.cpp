@@ -1,6 +1,8 @@
 // Runs a program of tasks over pages: from its options to what came of it.
 #include <algorithm>
+#include <functional>
 #include <iostream>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -96,12 +98,12 @@ svm::TaskKind<Records> kind_of(const AnyTask& task, const PagesBounds& bounds) {
 }
 
 /// What all ranks must agree on before they run tasks.
-std::string words_of_run(std::uint32_t number, std::uint32_t count, const svm::TaskKinds& kinds,
-                         std::span<const std::byte> data) {
+std::string words_of_run(std::uint32_t number, std::uint32_t count, const svm::TaskKinds& kinds, std::span<const std::byte> data,
+                         bool has_unique_bytes) {
   Digest digest;
   digest.add(data);
   return "run " + std::to_string(number) + " of " + counted(count, "task") + " of " + bytes_text(kinds.plain.sizes.task_bytes) +
-         " over data " + hash_text(digest.value());
+         " over " + bytes_text(data.size()) + (has_unique_bytes ? " of data " + hash_text(digest.value()) : "");
 }
 
 class AskedComputer final : public PagedComputer {
@@ -112,9 +114,16 @@ class AskedComputer final : public PagedComputer {
 
   std::uint32_t node_count() const override { return options_.tasks.computer.node_count; }
   std::size_t page_bytes() const override { return options_.tasks.page_size_bytes; }
+  /// Puts what was seen of the last run into the record. Call it once, in the end.
+  void take_sights() {
+    if (last_watch_) {
+      last_watch_->take(record_);
+    }
+  }
 
  private:
-  void run_any(std::span<const std::byte> data, std::uint32_t count, const AnyTask& task, std::byte* results) override {
+  void run_any(std::span<const std::byte> data, bool has_unique_bytes, std::uint32_t count, const AnyTask& task,
+               std::byte* results) override {
     const std::vector<std::byte> whole_pages = padded(data);
     const PagesBounds bounds = {whole_pages.size(), record_.operations.size()};
     const svm::TaskKinds kinds = {kind_of<svm::Pager>(task, bounds), kind_of<svm::RecordingPager>(task, bounds)};
@@ -122,12 +131,10 @@ class AskedComputer final : public PagedComputer {
     if (rounds_ == nullptr) {
       return run_kinds(kinds, whole_pages, count, all_results);
     }
-    const std::string next = words_of_run(record_.run_count + 1, count, kinds, whole_pages);
-    rounds_->here([&] {
-      rounds_->agree(next);
-      run_kinds(kinds, whole_pages, count, all_results);
-      rounds_->share(all_results);
-    });
+    const std::string next = words_of_run(record_.run_count + 1, count, kinds, whole_pages, has_unique_bytes);
+    rounds_->here([&] { rounds_->agree(next); });
+    run_kinds(kinds, whole_pages, count, all_results);
+    rounds_->here([&] { rounds_->share(all_results); });
   }
 
   std::vector<std::byte> padded(std::span<const std::byte> data) const {
@@ -141,12 +148,17 @@ class AskedComputer final : public PagedComputer {
                  std::span<std::byte> results) {
     const auto plan = with_options_named([&] { return svm::TaskPlan(options_.tasks, data.size(), count, kinds.plain.sizes); });
     check_room(plan);
-    PagedWatch watch(options_, plan, count);
+    last_watch_ = std::make_unique<PagedWatch>(options_, plan, count);
     const auto take = [&](std::uint32_t first, std::string_view bytes) {
       std::copy_n(bytes.data(), bytes.size(), reinterpret_cast<char*>(&results[first * kinds.plain.sizes.result_bytes]));
     };
-    svm::TaskWatching watching = watch.watching();
-    watching.made = [this] { rounds_->meet(); };
+    svm::TaskWatching watching = last_watch_->watching();
+    watching.communicate = [this](const std::function<void()>& run) {
+      rounds_->here([&] {
+        rounds_->meet();
+        run();
+      });
+    };
     Stopwatch stopwatch;
     const svm::TaskFigures figures = svm::run_tasks_of_kind(kinds, plan, data, watching, interrupt_.token(), take);
     if (figures.end == nodes::RunEnd::interrupted) {
@@ -154,7 +166,6 @@ class AskedComputer final : public PagedComputer {
     }
     record_.wall_seconds += stopwatch.lap();
     record_.add(figures, plan, count);
-    watch.take(record_);
   }
 
   void check_room(const svm::TaskPlan& plan) const {
@@ -171,6 +182,7 @@ class AskedComputer final : public PagedComputer {
   PagedRecord& record_;
   const Interrupt& interrupt_;
   RankRounds* rounds_;
+  std::unique_ptr<PagedWatch> last_watch_;
 };
 
 OutputSet<PagedRecord> outputs_of(const PagedOptions& options) {
@@ -206,10 +218,11 @@ std::string acted(AskedComputer& computer, const PagedApplication& application) 
   }
 }
 
-int end_tasks(PagedRecord& record, const OutputSet<PagedRecord>& outputs) {
+int end_tasks(AskedComputer& computer, PagedRecord& record, const OutputSet<PagedRecord>& outputs) {
   if (record.run_count == 0) {
     throw ProgramError("no tasks were run");
   }
+  computer.take_sights();
   Attempts attempts(std::cerr, record.name);
   outputs.write(record, attempts);
   attempts.make([&] { print_result(record.result, summary(record), record.options.program); });
@@ -229,12 +242,12 @@ int act_on_pages(const ProgramCall& call, PagedOptions& options, const PagedAppl
   AskedComputer computer(options, record, interrupt, rounds);
   if (rounds == nullptr) {
     record.result = acted(computer, application);
-    return end_tasks(record, outputs);
+    return end_tasks(computer, record, outputs);
   }
   record.result = rounds->apart([&] { return acted(computer, application); });
   rounds->agree("the end");
   rounds->meet();
-  return rounds->is_first() ? rounds->apart([&] { return end_tasks(record, outputs); }) : 0;
+  return rounds->is_first() ? rounds->apart([&] { return end_tasks(computer, record, outputs); }) : 0;
 }
 
 int run_paged(const ProgramCall& call, PagedOptions& options, const PagedApplication& application, const Interrupt& interrupt) {

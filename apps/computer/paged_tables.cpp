@@ -31,7 +31,7 @@ double heat_of(const PagedRecord& record, const svm::TaskTaken& taken, TaskHeatK
     case TaskHeatKind::references:
       return static_cast<double>(taken.references);
     case TaskHeatKind::computing:
-      return static_cast<double>(computing_ps(taken, *machine_of(record))) / 1000;
+      return static_cast<double>(machine_of(record)->price_ps(taken.charges)) / 1000;
   }
   return 0;
 }

@@ -152,8 +152,12 @@ std::uint64_t ProgramPlan::digest() const {
     digest.add(memory.name);
     digest.add(std::uint64_t{memory.bytes});
   }
-  for (const nodes::MailboxCapacity& mailbox : mailboxes_) {
-    digest.add(std::uint64_t{mailbox.small_slots} << 32U | mailbox.bulk_slots);
+  for (std::uint32_t source = 0; source < node_count_; ++source) {
+    for (std::uint32_t target = 0; target < node_count_; ++target) {
+      for (Index packet = 0; packet < needs_.packets.size(); ++packet) {
+        digest.add(std::uint64_t{requests_[packet] ? 0 : places(source, target, packet)});
+      }
+    }
   }
   return digest.value();
 }

@@ -15,7 +15,26 @@ RankRounds::RankRounds(nodes::RankLinks& links) : links_(links) {
   }
 }
 
+void RankRounds::here(const std::function<void()>& errand) {
+  errands_.send([&] {
+    expect_no_failure();
+    try {
+      errand();
+    } catch (...) {
+      failed_errand_ = std::current_exception();
+      throw;
+    }
+  });
+}
+
+void RankRounds::expect_no_failure() const {
+  if (failed_errand_) {
+    std::rethrow_exception(failed_errand_);
+  }
+}
+
 void RankRounds::agree(const std::string& next) {
+  expect_no_failure();
   if (is_first()) {
     for (std::uint32_t rank = 1; rank < links_.rank_count(); ++rank) {
       to_others_->write_counted(rank, std::as_bytes(std::span(next)));

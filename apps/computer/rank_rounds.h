@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <exception>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 
 #include "nodes/ranks/errands.h"
+#include "nodes/ranks/life_signs.h"
 #include "nodes/ranks/rank_links.h"
 #include "nodes/ranks/stream_from_host.h"
 #include "nodes/ranks/streams_to_ranks.h"
@@ -27,10 +30,12 @@ class RankRounds {
   /// What work() returns or throws, on a thread of its own: others know meanwhile that this rank lives.
   template <class Work>
   auto apart(const Work& work) {
-    return errands_.while_working(work, [this] { look_after(); });
+    return errands_.while_working(
+        work, [this] { look_after(); }, [this] { nodes::show_life(links_); });
   }
-  /// From work apart: what is to be done on the communicating thread.
-  void here(const std::function<void()>& errand) { errands_.send(errand); }
+  /// From work apart: what is to be done on the communicating thread. After one that fails none is done any more, and all fail
+  /// so: this rank and others would not know of each other where they are.
+  void here(const std::function<void()>& errand);
 
   /// What comes next is the same on all ranks: throws ProgramError where it is not rank 0's.
   void agree(const std::string& next);
@@ -40,10 +45,12 @@ class RankRounds {
   void share(std::span<std::byte> bytes);
 
  private:
+  void expect_no_failure() const;
   void look_after();
 
   nodes::RankLinks& links_;
   nodes::Errands errands_;
+  std::exception_ptr failed_errand_;
   std::optional<nodes::StreamsToRanks> to_others_;
   std::optional<nodes::StreamFromHost> from_first_;
 };

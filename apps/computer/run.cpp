@@ -162,7 +162,11 @@ void check_answers(const ProgramRecord& record) {
 int end_run(ProgramRecord& record, const std::vector<std::string>& outcomes, const AnyApplication& application,
             const OutputSet<ProgramRecord>& outputs) {
   check_answers(record);
-  record.result = application.result(outcomes);
+  try {
+    record.result = application.result(outcomes);
+  } catch (const dmpc::UsageError& error) {
+    throw core::UsageError(error.what());
+  }
   Attempts attempts(std::cerr, record.name);
   outputs.write(record, attempts);
   attempts.make([&] { print_result(record.result, summary(record), record.options); });

@@ -18,7 +18,7 @@ std::string heat_line(const PagedRecord& record, std::size_t task) {
     line += "," + std::to_string(taken.charges[charge_of(i)]);
   }
   const nodes::Machine* const machine = record.options.program.computer.model();
-  return line + "," + (machine == nullptr ? "" : std::to_string(computing_ps(taken, *machine))) + "\n";
+  return line + "," + (machine == nullptr ? "" : std::to_string(machine->price_ps(taken.charges))) + "\n";
 }
 
 }  // namespace
@@ -33,7 +33,5 @@ void write_task_heat(const PagedRecord& record, std::ostream& output) {
     output << heat_line(record, task);
   }
 }
-
-std::uint64_t computing_ps(const svm::TaskTaken& taken, const nodes::Machine& machine) { return machine.price_ps(taken.charges); }
 
 }  // namespace dmpc::apps

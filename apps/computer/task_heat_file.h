@@ -12,7 +12,4 @@ namespace dmpc::apps {
 /// one; operations are the program's, and computing is empty on threads. Of the last run.
 void write_task_heat(const PagedRecord& record, std::ostream& output);
 
-/// What a task's operations, look-ups and pages take on the machine.
-std::uint64_t computing_ps(const svm::TaskTaken& taken, const nodes::Machine& machine);
-
 }  // namespace dmpc::apps

@@ -55,6 +55,7 @@ int follow(nodes::RankLinks& links, const std::function<void()>& work) {
   } catch (const nodes::LostRank&) {
     nodes::let_rank_0_speak();
     throw;
+  } catch (const Interrupted&) {  // as all are
   } catch (...) {
     nodes::say_failure(links, nodes::failure_of(std::current_exception()));
   }

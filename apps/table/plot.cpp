@@ -222,9 +222,11 @@ class Script {
     return plot_.bar_width ? *plot_.bar_width : (1 - gap) / static_cast<double>(plot_.is_stacked ? 1 : drawn_.size());
   }
 
+  /// By its head, unless gnuplot would not find that: it takes two quotes in a file for two.
   std::string column(const std::string& name) const {
-    const Column& column = table_.columns()[number_of_column(table_, name)];
-    return gnuplot_text(header_of(column));
+    const std::size_t number = number_of_column(table_, name);
+    const std::string head = header_of(table_.columns()[number]);
+    return head.find('"') == std::string::npos ? gnuplot_text(head) : std::to_string(number + 1);
   }
 
   std::string x_of(std::size_t series) const {

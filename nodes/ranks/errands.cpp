@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "nodes/ranks/dismissal.h"
+#include "nodes/ranks/fabric.h"
+
 namespace dmpc::nodes {
 
 void Errands::send(const std::function<void()>& errand) {
@@ -16,6 +19,18 @@ void Errands::send(const std::function<void()>& errand) {
   }
   news_.notify_one();
   done.get();
+}
+
+bool Errands::is_end_of_all(const std::exception_ptr& failure) {
+  try {
+    std::rethrow_exception(failure);
+  } catch (const Dismissed&) {
+    return true;
+  } catch (const LostRank&) {
+    return true;
+  } catch (...) {
+    return false;
+  }
 }
 
 bool Errands::do_one(std::chrono::milliseconds patience) {
@@ -44,7 +59,7 @@ void Errands::fail(const std::exception_ptr& failure) {
   std::packaged_task<void()> errand;
   {
     const std::lock_guard lock(mutex_);
-    failure_ = failure;
+    failure_ = failure_ ? failure_ : failure;
     errand = std::exchange(pending_, {});
   }
   if (errand.valid()) {

@@ -16,10 +16,11 @@ namespace dmpc::nodes {
 /// Thread safety: while_working() from the thread to which it belongs, send() from that of the work.
 class Errands {
  public:
-  /// What work() returns or throws. Meanwhile look_after() is called again and again; what that throws is thrown when the work is
-  /// done, and by every errand before.
+  /// What work() returns or throws. Meanwhile look_after() is called again and again. If that throws, so does every errand from
+  /// then on, and show_life() is called until the work is done. Then what it throws itself is thrown, unless ranks are lost or
+  /// all is over, else what look_after() has thrown.
   template <class Work>
-  auto while_working(const Work& work, const std::function<void()>& look_after) {
+  auto while_working(const Work& work, const std::function<void()>& look_after, const std::function<void()>& show_life) {
     constexpr std::chrono::milliseconds look{10};
     is_over_ = false;
     auto result = std::async(std::launch::async, [&] {
@@ -29,14 +30,19 @@ class Errands {
     });
     while (!do_one(look)) {
       try {
-        look_after();
+        failure_ ? show_life() : look_after();
       } catch (...) {
         fail(std::current_exception());
-        result.wait();
-        throw;
       }
     }
-    return result.get();
+    if (!failure_) {
+      return result.get();
+    }
+    result.wait();
+    if (!is_end_of_all(failure_)) {
+      result.get();
+    }
+    std::rethrow_exception(failure_);
   }
 
   /// Has it done there, and returns or throws as it does.
@@ -49,10 +55,12 @@ class Errands {
     ~Over() { errands.end(); }
   };
 
+  /// Dismissed, or LostRank.
+  static bool is_end_of_all(const std::exception_ptr& failure);
   /// Waits so long for an errand, and does it. Whether the work is over.
   bool do_one(std::chrono::milliseconds patience);
   void end();
-  /// Every errand that waits or comes fails so.
+  /// Every errand that waits or comes fails as the first failure says.
   void fail(const std::exception_ptr& failure);
 
   std::mutex mutex_;

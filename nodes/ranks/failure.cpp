@@ -1,5 +1,7 @@
 #include "nodes/ranks/failure.h"
 
+#include <new>
+
 #include "core/base/expect.h"
 #include "nodes/ranks/fabric.h"
 #include "nodes/ranks/frame.h"
@@ -11,6 +13,8 @@ Failure failure_of(const std::exception_ptr& exception) {
     std::rethrow_exception(exception);
   } catch (const core::RoomError& error) {
     return {FailureKind::room, error.what()};
+  } catch (const std::bad_alloc&) {
+    return {FailureKind::room, "there is no more memory: ask for fewer nodes"};
   } catch (const FabricError& error) {
     return {FailureKind::fabric, error.what()};
   } catch (const std::exception& error) {

@@ -11,15 +11,19 @@
 
 namespace dmpc::nodes {
 
+/// Takes what comes and drops it, and shows that this rank lives. Throws LostRank as RankLinks do.
+inline void show_life(RankLinks& links) {
+  while (links.take([](std::uint32_t, const ItemHeader&, std::span<const std::byte>) {})) {
+  }
+  links.look_after();
+}
+
 /// What work() returns or throws. It runs on a thread of its own, while the calling one, which communicates, shows that it lives.
 /// Others say nothing meanwhile. Throws LostRank as RankLinks do, when the work is done.
 template <class Work>
 auto with_life_signs(RankLinks& links, const Work& work) {
-  return Errands().while_working(work, [&links] {
-    while (links.take([](std::uint32_t, const ItemHeader&, std::span<const std::byte>) {})) {
-    }
-    links.look_after();
-  });
+  const auto show = [&links] { show_life(links); };
+  return Errands().while_working(work, show, show);
 }
 
 }  // namespace dmpc::nodes

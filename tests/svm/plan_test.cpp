@@ -8,6 +8,8 @@
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "core/picture/memory_use.h"
+#include "nodes/ranks/loopback.h"
+#include "nodes/ranks/rank_links.h"
 #include "nodes/size_text.h"
 
 using namespace dmpc;
@@ -78,6 +80,23 @@ TEST_CASE(
   check_plan(16, 16, 4);
   request.bundles = false;
   check_plan(1, 1, 3);
+}
+
+TEST_CASE("over ranks 256 pixels are in flight where memory is not bounded, of strategies whose pages travel") {
+  nodes::Loopback loopback(1);
+  nodes::RankLinks links(loopback.rank(0));
+  PlanRequest request = request_with(4, 100);
+  request.bundles = true;
+  request.computer.ranks = &links;
+  CHECK(make_plan(request).in_flight == 256);
+  request.pages.in_flight = 32;
+  CHECK(make_plan(request).in_flight == 32);
+  request.pages.in_flight.reset();
+  request.computer.node_memory_bytes = 100_MiB;
+  CHECK(make_plan(request).in_flight == 64);
+  request.computer.node_memory_bytes.reset();
+  request.strategy = svm::Strategy::replicated;
+  CHECK(make_plan(request).in_flight == 16);
 }
 
 TEST_CASE("with too little memory for its bundles a node has fewer, and at last its rays walk alone") {

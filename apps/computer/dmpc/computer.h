@@ -14,6 +14,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -166,13 +167,13 @@ struct NumberOption {
 };
 
 /// What programs leave behind in the end: P::outcome() const, a value, or a span of values, without pointers. Of a program
-/// without it: nothing.
+/// without it: nothing. Asked for when other ranks wait: it is to be there, not to be worked out for long.
 template <class T>
 struct OutcomeType {
   using Kept = T;
 };
-template <class T>
-struct OutcomeType<std::span<T>> {
+template <class T, std::size_t extent>
+struct OutcomeType<std::span<T, extent>> {
   using Kept = std::vector<std::remove_const_t<T>>;
 };
 struct NoOutcome {};
@@ -224,9 +225,10 @@ int run_any(int count, const char* const* words, const AnyApplication& applicati
 template <class P>
 int run(int count, const char* const* words, const Application<P>& application);
 
-template <class T>
-std::string bytes_of_outcome(std::span<T> values) {
-  static_assert(std::is_trivially_copyable_v<T>, "an outcome travels as bytes");
+template <class T, std::size_t extent>
+std::string bytes_of_outcome(std::span<T, extent> values) {
+  static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> && !std::is_same_v<T, std::string_view>,
+                "an outcome travels as bytes, perhaps to another process");
   return std::string(reinterpret_cast<const char*>(values.data()), values.size_bytes());
 }
 template <class T>

@@ -84,7 +84,9 @@ class PagedComputer {
   ~PagedComputer() = default;
 
  private:
-  virtual void run_any(std::span<const std::byte> data, std::uint32_t count, const AnyTask& task, std::byte* results) = 0;
+  /// `has_unique_bytes`: equal values have equal bytes, without padding between them.
+  virtual void run_any(std::span<const std::byte> data, bool has_unique_bytes, std::uint32_t count, const AnyTask& task,
+                       std::byte* results) = 0;
 };
 
 /// A program of tasks as its user meets it.
@@ -119,7 +121,8 @@ auto PagedComputer::run(std::span<const T> data, std::uint32_t count, const Make
             const Result value = std::launder(reinterpret_cast<const Task*>(place))->result();
             std::memcpy(result, &value, sizeof(value));
           }};
-  run_any(std::as_bytes(data), count, task, reinterpret_cast<std::byte*>(results.data()));
+  constexpr bool has_unique_bytes = std::has_unique_object_representations_v<T> || std::is_floating_point_v<T>;
+  run_any(std::as_bytes(data), has_unique_bytes, count, task, reinterpret_cast<std::byte*>(results.data()));
   return results;
 }
 

@@ -56,7 +56,7 @@ std::string capitalized(std::string text) {
 /// One sentence with all that tells this run from others.
 std::string citation(const std::string& title, const Origin& origin, const Facts& results) {
   std::string text =
-      title + ". " + origin.program.substr(0, origin.program.find(" (")) + ", " + origin.date.substr(0, origin.date.find(' '));
+      title + ". " + origin.program.substr(0, origin.program.rfind(" (")) + ", " + origin.date.substr(0, origin.date.find(' '));
   for (const auto& [name, value] : results) {
     text += ", " + name + " " + value;
   }

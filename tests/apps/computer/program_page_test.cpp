@@ -69,14 +69,18 @@ TEST_CASE("names and results are shown as they are, whatever they contain") {
     Needs hostile = needs(nodes);
     hostile.packets[0].name = "<b>'quest\"ion', & co";
     hostile.packets[1].answers = hostile.packets[0].name;
-    hostile.packets[1].name = "'square'";
+    hostile.packets[1].name = "'squ\"are'";  // for which nodes wait
     hostile.operations[0].name = "node";
     hostile.memory[0].name = "<script>";
+    hostile.memory[1].name = "a \"late\" one";
     return hostile;
   };
   program.result = [](const std::vector<std::uint64_t>&) { return std::string("<script>alert(1)</script>\n\xff"); };
   const std::string page = asker_page(program, {"--nodes=3", "--runner=virtual"});
   CHECK_FALSE(contains(page, "<script"));
+  for (const std::string plot : {"Plot: Where each node", "Plot: Memory of each node"}) {
+    CHECK_MESSAGE(contains(page, plot), plot);
+  }
   CHECK_FALSE(contains(page, "<b>"));
   check_has(page, {"&lt;b&gt;&#39;quest&quot;ion&#39;, &amp; co", "&lt;script&gt;alert(1)", "&#39;node&#39;", "\xef\xbf\xbd"});
 }

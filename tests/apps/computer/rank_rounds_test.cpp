@@ -92,6 +92,46 @@ TEST_CASE("a rank that works apart for longer than silence may last is not taken
   }
 }
 
+TEST_CASE("an errand that fails on one rank ends all, though its work goes on as if nothing was") {
+  const auto results = on_ranks(2, {}, [&](nodes::Fabric& fabric) {
+    return play(fabric, [&](RankRounds& rounds) {
+      rounds.apart([&] {
+        rounds.here([&] { rounds.agree("round 1"); });
+        try {
+          rounds.here([&] {
+            core::expect(rounds.is_first(), "there is no room here");
+            rounds.meet();
+          });
+        } catch (const core::InternalError&) {
+        }
+        rounds.here([&] { rounds.agree("round 2"); });
+        return 0;
+      });
+    });
+  });
+  CHECK(results[0].failure_text().find("there is no room here") != std::string::npos);
+  CHECK(results[1].value == 3);
+}
+
+TEST_CASE("what has failed on a rank is told, though rank 0 works on for longer than silence may last") {
+  const nodes::RankSilence impatient{.life_sign = std::chrono::milliseconds{10}, .longest = std::chrono::milliseconds{400}};
+  const auto results = on_ranks(2, {}, [&](nodes::Fabric& fabric) {
+    return play(
+        fabric,
+        [&](RankRounds& rounds) {
+          rounds.apart([&] {
+            core::expect(rounds.is_first(), "this rank cannot go on");
+            std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+            return 0;
+          });
+        },
+        impatient);
+  });
+  CHECK(results[0].failure_text().find("this rank cannot go on") != std::string::npos);
+  CHECK(results[1].failure_text() == "");
+  CHECK(results[1].value == 3);
+}
+
 TEST_CASE("one rank alone agrees with itself") {
   const auto results = on_ranks(1, {}, [&](nodes::Fabric& fabric) {
     return play(fabric, [&](RankRounds& rounds) {

@@ -2,10 +2,13 @@
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/mpi/launched/mpirun.h"
+#include "tests/mpi/launched/trace_messages.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -111,14 +114,23 @@ TEST_CASE("pages, references and results of tasks on ranks are those of one proc
 
 TEST_CASE("a trace of ranks has the spans and messages of all nodes") {
   const TemporaryFolder folder;
-  for (const std::string name : {"asker", "tasks"}) {
-    const std::string file = folder / (name + ".json");
-    const Ended ended = on_ranks(3, name, {"--nodes=6", "--trace=" + file});
+  for (const auto& [name, once] : {std::pair<std::string, std::string>{"asker", "--questions=10"}, {"tasks", "--rounds=1"}}) {
+    const std::string file = folder / (name + ".json"), stats = folder / (name + "-stats.json");
+    const Ended ended = on_ranks(3, name, {"--nodes=6", once, "--trace=" + file, "--stats=" + stats});
     REQUIRE_MESSAGE(ended.status == 0, ended.errors);
-    const std::string text = file_text(file);
-    for (int node = 0; node < 6; ++node) {
-      CHECK_MESSAGE(contains(text, "node " + std::to_string(node)), name);
+    const nlohmann::json trace = json_in(file);
+    std::set<int> nodes;
+    for (const nlohmann::json& event : trace["traceEvents"]) {
+      if (event["ph"] == "X") {
+        nodes.insert(event["pid"].get<int>());
+      }
     }
+    CHECK_MESSAGE(nodes.size() == 6, name);
+    std::size_t packets = 0;
+    for (const nlohmann::json& kind : json_in(stats)["packets"]) {
+      packets += kind["packets"].get<std::size_t>();
+    }
+    CHECK_MESSAGE(messages_in_order(trace) == packets, name);
   }
 }
 
@@ -151,6 +163,7 @@ TEST_CASE("what a program does wrong on ranks is said once, and ends all of them
   check_program_fault("asker", {"--fewer=1"}, 1, "needs of the program");
   check_program_fault("asker", {"--node-memory=1KiB"}, 4, "--node-memory=1024");
   check_program_fault("asker", {"--questions=x"}, 2, "--questions");
+  check_program_fault("tasks", {"--fault=7"}, 2, "--fault=7: no such use");
 }
 
 TEST_CASE("nodes of several ranks that stand still are found out, with the circle in which they wait") {
@@ -164,8 +177,8 @@ TEST_CASE("nodes of several ranks that stand still are found out, with the circl
 TEST_CASE("ranks whose acts part are found out before anything waits for ever") {
   const std::string parted = ": the ranks have parted: here comes ";
   check_program_fault("tasks", {"--fault=1"}, 3, parted + "the end, on rank 0 on host ");
-  check_program_fault("tasks", {"--fault=2"}, 3, parted + "run 4 of 1,000 tasks of 64 B over data ");
-  check_program_fault("tasks", {"--fault=3"}, 3, parted + "run 2 of 1,000 tasks of 64 B over data ");
+  check_program_fault("tasks", {"--fault=2"}, 3, parted + "run 4 of 1,000 tasks of 64 B over 4.00 KiB of data ");
+  check_program_fault("tasks", {"--fault=3"}, 3, parted + "run 2 of 1,000 tasks of 64 B over 4.00 KiB of data ");
   check_program_fault("tasks", {"--fault=4"}, 3, "rank 1 on host ");
   check_program_fault("tasks", {"--fault=4"}, 3, ": this rank cannot go on");
   check_program_fault("tasks", {"--fault=5"}, 3, "task 500 fails");

@@ -2,12 +2,12 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "tests/mpi/launched/mpirun.h"
+#include "tests/mpi/launched/trace_messages.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -30,21 +30,6 @@ std::vector<std::string> with_outputs(const TemporaryFolder& folder) {
 }
 
 Json json_in(const std::filesystem::path& file) { return Json::parse(file_text(file)); }
-
-/// Messages whose beginning and end stand in the file, in that order of time.
-std::size_t messages_in_order(const Json& trace) {
-  std::map<std::uint64_t, double> sent_us;
-  std::size_t count = 0;
-  for (const Json& event : trace["traceEvents"]) {
-    if (event["ph"] == "s") {
-      sent_us[event["id"].get<std::uint64_t>()] = event["ts"].get<double>();
-    } else if (event["ph"] == "f") {
-      const auto sent = sent_us.find(event["id"].get<std::uint64_t>());
-      count += sent != sent_us.end() && sent->second <= event["ts"].get<double>() ? 1 : 0;
-    }
-  }
-  return count;
-}
 
 double last_us(const Json& trace) {
   double last = 0;

@@ -11,7 +11,16 @@
 
 namespace {
 
-enum Fault : std::uint32_t { none, runs_less, runs_more, has_other_data, acts_badly, fails_in_task, takes_its_time };
+enum Fault : std::uint32_t {
+  none,
+  runs_less,
+  runs_more,
+  has_other_data,
+  acts_badly,
+  fails_in_task,
+  takes_its_time,
+  is_used_wrongly
+};
 
 /// The number at its own place.
 struct LookUp {
@@ -27,9 +36,9 @@ struct LookUp {
   std::uint32_t result() const { return value; }
 };
 
-bool is_on_rank_1() {
+bool is_on_rank(int number) {
   const char* const rank = std::getenv("OMPI_COMM_WORLD_RANK");
-  return rank != nullptr && rank == std::string("1");
+  return rank != nullptr && rank == std::to_string(number);
 }
 
 }  // namespace
@@ -37,11 +46,15 @@ bool is_on_rank_1() {
 int main(int count, char** words) {
   std::uint32_t tasks = 1000, rounds = 3, fault = none;
   const auto act = [&](dmpc::PagedComputer& computer) {
-    const bool is_faulty = is_on_rank_1();
+    const bool is_faulty = is_on_rank(1);
     const std::uint32_t own_rounds =
         rounds - (is_faulty && fault == runs_less ? 1 : 0) + (is_faulty && fault == runs_more ? 1 : 0);
     if (is_faulty && fault == acts_badly) {
       throw std::runtime_error("this rank cannot go on");
+    }
+    if (fault == is_used_wrongly) {  // on rank 0 last
+      std::this_thread::sleep_for(std::chrono::milliseconds(is_on_rank(0) ? 300 : 0));
+      throw dmpc::UsageError("--fault=7: no such use");
     }
     std::vector<std::uint32_t> values(tasks, 1);
     for (std::uint32_t round = 0; round < own_rounds; ++round) {
@@ -57,6 +70,6 @@ int main(int count, char** words) {
                          {.description = "Look up numbers, and double them",
                           .options = {{"--tasks", &tasks, 1, 10'000'000, "A number each"},
                                       {"--rounds", &rounds, 1, 1000, "How often"},
-                                      {"--fault", &fault, none, takes_its_time, "What rank 1 does otherwise"}},
+                                      {"--fault", &fault, none, is_used_wrongly, "What rank 1 does otherwise"}},
                           .act = act});
 }

@@ -4,9 +4,13 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <thread>
+
+#include "nodes/ranks/dismissal.h"
+#include "nodes/ranks/fabric.h"
 
 namespace {
 
@@ -38,7 +42,8 @@ TEST_CASE("work returns what it comes to, on another thread, while this one look
       [&] {
         ++looks;
         wait_a_little();
-      });
+      },
+      nothing);
   CHECK(there != here);
   CHECK(looks > 0);
 }
@@ -55,7 +60,7 @@ TEST_CASE("errands are done on this thread, one after the other, as many as work
           }
           return count;
         },
-        nothing);
+        nothing, nothing);
     CHECK(sent == count);
     CHECK(done_here == count);
   }
@@ -69,12 +74,13 @@ TEST_CASE("what an errand throws is thrown where it was sent, and work may go on
               caught = complaint_of([&] { errands.send([] { throw std::runtime_error("no way"); }); });
               return 7;
             },
-            nothing) == 7);
+            nothing, nothing) == 7);
   CHECK(caught == "no way");
 }
 
 TEST_CASE("what work throws is thrown here") {
-  CHECK(complaint_of([] { Errands().while_working([]() -> int { throw std::runtime_error("no use"); }, nothing); }) == "no use");
+  CHECK(complaint_of([] { Errands().while_working([]() -> int { throw std::runtime_error("no use"); }, nothing, nothing); }) ==
+        "no use");
 }
 
 TEST_CASE("when looking after fails, errands fail so, those that wait and those to come, and work is waited for") {
@@ -92,10 +98,31 @@ TEST_CASE("when looking after fails, errands fail so, those that wait and those 
     std::this_thread::sleep_for(std::chrono::milliseconds(100));  // the first errand waits meanwhile
     throw std::runtime_error("lost");
   };
-  CHECK(complaint_of([&] { errands.while_working(work, look_after); }) == "lost");
+  int shown = 0;
+  CHECK(complaint_of([&] { errands.while_working(work, look_after, [&] { ++shown; }); }) == "lost");
   CHECK(is_over);
   CHECK(first == "lost");
   CHECK(second == "lost");
+}
+
+TEST_CASE("when looking after fails, life is shown until the work is done, and what that throws itself comes first") {
+  int shown = 0;
+  const auto work = []() -> int {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    throw std::runtime_error("no use");
+  };
+  const auto count_life = [&] { ++shown; };
+  CHECK(complaint_of([&] {
+          Errands().while_working(
+              work, [] { throw std::runtime_error("bad news"); }, count_life);
+        }) == "no use");
+  CHECK(shown > 1);
+  CHECK_THROWS_AS(Errands().while_working(
+                      work, [] { throw nodes::Dismissed{3}; }, nothing),
+                  nodes::Dismissed);
+  CHECK_THROWS_AS(Errands().while_working(
+                      work, [] { throw nodes::LostRank("gone"); }, nothing),
+                  nodes::LostRank);
 }
 
 }  // namespace
