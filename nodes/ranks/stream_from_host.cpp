@@ -53,6 +53,7 @@ void StreamFromHost::say_ready() {
 
 void StreamFromHost::look_after() {
   exchange_.turn([this](auto&&... item) { receive(item...); });
+  links_->look_after();  // though others' signs of life have just come
 }
 
 void StreamFromHost::receive(std::uint32_t rank, const ItemHeader& header, std::span<const std::byte> bytes) {

@@ -51,6 +51,7 @@ void StreamsToRanks::finish() {
 
 void StreamsToRanks::look_after() {
   exchange_.turn([this](auto&&... item) { receive(item...); });
+  links_->look_after();  // though others' signs of life have just come
 }
 
 void StreamsToRanks::receive(std::uint32_t rank, const ItemHeader& header, std::span<const std::byte> bytes) {
